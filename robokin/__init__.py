@@ -3,14 +3,32 @@
 Metres and radians inside; `352 * mm` and `90 * deg` on the way in. Figures and players come from `robokin.show`.
 """
 
-from .arms import IRB140, Arm, Link, explain, follow, nearest, spherical_wrist, within
+from .arms import (
+    IRB140,
+    ITMO6R,
+    PUMA560,
+    SCARA,
+    Arm,
+    Link,
+    Target,
+    dh_links,
+    elbow_arm,
+    explain,
+    follow,
+    itmo_arm,
+    nearest,
+    scara,
+    spbu_arm,
+    spherical_wrist,
+    within,
+)
 from .motion import TimeLaw, blend, differentiate, lin, lin_lin, linear, ptp, quintic, trapezoidal
 from .quaternion import Quaternion
 from .transform import Transform
 from .units import deg, mm
 
 __all__ = [
-    "IRB140", "Arm", "Link", "Quaternion", "TimeLaw", "Transform", "blend", "deg", "differentiate", "explain",
-    "follow", "lin", "lin_lin", "linear", "mm", "nearest", "ptp", "quintic", "spherical_wrist", "trapezoidal",
-    "within",
+    "IRB140", "ITMO6R", "PUMA560", "SCARA", "Arm", "Link", "Quaternion", "Target", "TimeLaw", "Transform", "blend",
+    "deg", "dh_links", "differentiate", "elbow_arm", "explain", "follow", "itmo_arm", "lin", "lin_lin", "linear", "mm",
+    "nearest", "ptp", "quintic", "scara", "spbu_arm", "spherical_wrist", "trapezoidal", "within",
 ]

@@ -30,7 +30,7 @@ class Transform(Batch):
         shape = broadcast("rotation and translation", self.rotation.shape, translation.shape[:-1])
         whole = Quaternion._of(np.broadcast_to(self.rotation.wxyz, (*shape, 4)))
         object.__setattr__(self, "rotation", whole)
-        object.__setattr__(self, "translation", np.broadcast_to(translation, (*shape, 3)))
+        object.__setattr__(self, "translation", np.broadcast_to(translation, (*shape, 3)).copy())
 
     @classmethod
     def _of(cls, rotation, translation):

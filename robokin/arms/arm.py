@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._validate import floats
+from .._validate import broadcast, floats, instance
 from ..quaternion import Quaternion
 from ..transform import Transform
 
@@ -22,12 +22,34 @@ class Link:
     after: Transform = Transform()
     prismatic: bool = False
 
+    def __post_init__(self):
+        instance(self.before, Transform, "before")
+        instance(self.after, Transform, "after")
+        axis = floats(self.axis, "axis", 3)
+        if axis.ndim != 1 or abs(np.linalg.norm(axis) - 1) > 1e-9:
+            raise ValueError(f"axis: wanted one unit vector, got {axis} of length {np.linalg.norm(axis):.6g}")
+
     def motion(self, q):
         """The joint's own transform at q (...): radians, or metres if prismatic. NaN gives NaN."""
         axis = np.asarray(self.axis, dtype=float)
         if self.prismatic:
             return Transform._of(Quaternion.identity(q.shape), q[..., None] * axis)
         return Transform._of(Quaternion._turn(q, axis), np.zeros((*q.shape, 3)))
+
+
+def dh_links(a, alpha, d, theta=0.0):
+    """Revolute links from a table of standard Denavit-Hartenberg parameters, each (n,): A = Rot(z, theta + q)
+    Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha). Metres and radians; `theta` is the offset of the joint.
+
+    Source: 000, "Обзор источников"; 004, table 1. ValueError: columns of different length.
+    """
+    table = [floats(column, name) for column, name in ((a, "a"), (alpha, "alpha"), (d, "d"), (theta, "theta"))]
+    broadcast("a, alpha, d and theta", *(column.shape for column in table))
+    return tuple(
+        Link(before=Transform(Quaternion.from_angle_axis(theta, (0, 0, 1))),
+             after=Transform(Quaternion.from_angle_axis(alpha, (1, 0, 0)), (a, 0, d)))
+        for a, alpha, d, theta in zip(*np.broadcast_arrays(*table), strict=True)
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,14 +1,21 @@
 """Choosing among the solutions of the inverse kinematics: `within`, `nearest`, `follow`, `explain`."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from .._validate import broadcast, floats, instance
 from ..transform import Transform
-from ..units import deg
+from ..units import deg, mm
 from .arm import Arm
 
 TURN = 2 * np.pi
 SLACK = 1e-9  # a joint this little past its limit stands at it
+SINGULAR = {
+    "shoulder": "the wrist centre is in line with axis 1 (shoulder singularity), where the front and back rows meet",
+    "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows are one",
+    "wrist": "axes 4 and 6 are in one line (wrist singularity), so that only their joints' common turn is fixed",
+}
 
 
 def within(arm, q):
@@ -38,8 +45,9 @@ def follow(arm, rows, row):
 
     It starts on `row` (at the first sample where that row exists), with each joint inside its limits if it can; after
     that every sample takes the row nearest to the one before, with angles unwrapped (they may pass the limits:
-    `within` tells). Where a wrist singularity leaves joints 4 and 6 free they share the turn. NaN where no row
-    exists, then on from the last finite sample. ValueError: a row that the arm does not have, no samples.
+    `within` tells). Where a wrist singularity leaves joints 4 and 6 free they share the turn; for joint 1 free in a
+    shoulder singularity nothing is chosen, it is where `ik` puts it. NaN where no row exists, then on from the last
+    finite sample. ValueError: a row that the arm does not have, no samples.
     """
     rows = _rows(arm, rows)
     if rows.ndim < 3 or rows.shape[-3] == 0:
@@ -68,27 +76,22 @@ def explain(arm, pose, row):
     Out of reach: by how much, and whether metres were meant to be millimetres. Else every joint past its limit, with
     the excess, and every singularity that holds.
     """
-    instance(pose, Transform, "pose")
-    if pose.shape:
-        raise ValueError(f"pose: wanted one single pose, got a batch of shape {pose.shape}")
-    if not 0 <= row < len(arm.branches):
-        raise ValueError(f"row: wanted a whole number from 0 to {len(arm.branches) - 1}, got {row!r}")
-    flags = ", ".join(f"{flag:+d}" for flag in arm.branches[row])
-    what = f"Row {row} ({flags})"
-    q = arm.ik(pose)[row]
+    rows = instance(arm, Arm, "arm").ik(pose)
+    if rows.ndim != 2:
+        raise ValueError(f"pose: wanted one single pose, got a batch of shape {rows.shape[:-2]}")
+    if not (isinstance(row, (int, np.integer)) and 0 <= row < len(rows)):
+        raise ValueError(f"row: wanted a whole number from 0 to {len(rows) - 1}, got {row!r}")
+    what, q = f"Row {row} ({', '.join(f'{flag:+d}' for flag in arm.branches[row])})", rows[row]
     if np.isnan(q).any():
         reason, gap = arm.geometry.unreached(pose, row)
-        shrunk = Transform(pose.rotation, pose.translation / 1000)
-        meant = gap > 10 and not np.isnan(arm.ik(shrunk)).all()
-        hint = "; lengths are in metres: were millimetres meant (350 * mm)?" if meant else ""
-        return f"{what} does not exist: {reason}{hint}."
+        meant = gap > 10 and not np.isnan(arm.ik(_shrunk(pose))).all()
+        hint = "; lengths are in metres, were millimetres meant (350 * mm)?" if meant else "."
+        return f"{what} does not exist: {reason}{hint}"
     facts = [_excess(arm, q, i) for i in np.flatnonzero(~within(arm, q))]
-    singular = [name for name, holds in arm.geometry.singular(q).items() if holds]
-    facts += [f"the arm is in its {name} singularity" for name in singular]
+    facts += [SINGULAR[name] for name, holds in arm.geometry.singular(q).items() if holds]
     if not facts:
         return f"{what} is usable: it is inside every limit and not singular."
-    usable = "is usable, but" if within(arm, q).all() else "exists, but"
-    return f"{what} {usable} {' and '.join(facts)}."
+    return f"{what} {'is usable, but' if within(arm, q).all() else 'is not usable:'} {', and '.join(facts)}."
 
 
 def _rows(arm, rows):
@@ -135,11 +138,20 @@ def _start(arm, track):
     sample that fixes them.
     """
     exists = ~np.isnan(track).any(axis=-1)
-    singular = np.isclose(arm.geometry.settle(track, track + 1.0), track, atol=1e-12).all(axis=-1)
-    first = np.where((exists & singular).any(-1), (exists & singular).argmax(-1), exists.argmax(-1))
-    q = np.take_along_axis(track, first[..., None, None], axis=-2)[..., 0, :]
+    elsewhere = track + np.arange(track.shape[-1])  # each joint by another amount, so that no two shifts cancel
+    fixed = np.isclose(arm.geometry.settle(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
+    begin = exists.argmax(axis=-1)
+    ahead = np.where(fixed.any(axis=-1), fixed.argmax(axis=-1), begin)
+    begin, ahead = (np.take_along_axis(track, i[..., None, None], axis=-2)[..., 0, :] for i in (begin, ahead))
+    q = arm.geometry.settle(begin, ahead)
     q = np.where(np.isnan(q), 0.0, q)
     return _inside(arm, q, q)
+
+
+def _shrunk(pose):
+    """The pose as if its lengths had been millimetres."""
+    part = "translation" if isinstance(pose, Transform) else "position"
+    return replace(pose, **{part: getattr(pose, part) / 1000})
 
 
 def _excess(arm, q, i):
@@ -151,8 +163,7 @@ def _excess(arm, q, i):
     over = np.where(value > high, value - high, low - value)
     best = np.argmin(over)
     value, over = np.ravel(value)[best], np.ravel(over)[best]
-    unit, size = ("mm", 1e-3) if arm.prismatic[i] else ("°", deg)
+    unit, size = (" mm", mm) if arm.prismatic[i] else ("°", deg)
     limit = high if value > high else low
-    space = " " if unit == "mm" else ""
-    return (f"joint {i + 1} stands at {value / size:.1f}{space}{unit}, {over / size:.1f}{space}{unit} past its limit of "
-            f"{limit / size:g}{space}{unit}")
+    value, over, limit = f"{value / size:.1f}{unit}", f"{over / size:.1f}{unit}", f"{limit / size:g}{unit}"
+    return f"joint {i + 1} stands at {value}, {over} past its limit of {limit}"

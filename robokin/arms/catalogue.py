@@ -5,7 +5,9 @@ import numpy as np
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .arm import Link
+from .arm import Link, dh_links
+from .elbow import elbow_arm
+from .scara import scara
 from .spherical_wrist import spherical_wrist
 
 X, Y, Z = np.eye(3)
@@ -33,3 +35,54 @@ IRB140 = spherical_wrist(
     limits=np.array([(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)]) * deg,
     speed_limits=np.array([200, 200, 245, 348, 360, 450]) * deg,
 )
+
+
+# SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds are not stated.
+SCARA = scara(
+    "SCARA", height=220.2 * mm, upper=200 * mm, fore=250 * mm,
+    limits=np.array([(-140 * deg, 140 * deg), (-150 * deg, 150 * deg), (-400 * deg, 400 * deg), (0, 180 * mm)]),
+)
+
+# PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model (Robotics Toolbox,
+# `puma560`), the base raised by 26.45 inches.
+PUMA560 = spherical_wrist(
+    "PUMA 560",
+    links=dh_links(
+        a=np.array([0, 431.8, 20.3, 0, 0, 0]) * mm,
+        alpha=np.array([90, 0, -90, 90, -90, 0]) * deg,
+        d=np.array([671.83, 0, 150.05, 431.8, 0, 0]) * mm,
+    ),
+    limits=np.array([(-160, 160), (-45, 225), (-225, 45), (-110, 170), (-100, 100), (-266, 266)]) * deg,
+)
+
+
+def itmo_arm(d1, a2, d4, d6):
+    """The six-axis arm of source 004, table 1, for lengths in metres. It states no limits: here one turn each way."""
+    return spherical_wrist(
+        "DH arm (004)",
+        links=dh_links(
+            a=[0, a2, 0, 0, 0, 0],
+            alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
+            d=[d1, 0, 0, d4, 0, d6],
+            theta=np.array([0, 0, 90, 0, 0, 0]) * deg,
+        ),
+        limits=np.array([(-180, 180)] * 6) * deg,
+    )
+
+
+# Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 + a2 = 20, of which we
+# take the equal halves, in centimetres (errata S4-j).
+ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
+
+
+def spbu_arm(l1, l2):
+    """The positioning arm of source 000 (figure 2) for lengths in metres: joint 1 turns about the vertical, joint 2
+    tilts link 1 away from it, and at joint 3 = 0 link 2 stands square to link 1. Limits: the document's domain.
+
+    Its first matrix has alpha = -90 degrees; the text's +90 puts the tool below the floor (errata S0-a).
+    """
+    return elbow_arm(
+        "Arm (000)",
+        links=dh_links(a=[0, l1, l2], alpha=np.array([-90, 0, 0]) * deg, d=0, theta=np.array([0, -90, 90]) * deg),
+        limits=np.array([(-180, 180), (-90, 90), (-90, 90)]) * deg,
+    )

@@ -23,5 +23,6 @@ def differentiate(values, t, order=1):
     if not (isinstance(order, (int, np.integer)) and order >= 1):
         raise ValueError(f"order: wanted 1, 2, ..., got {order!r}")
     for _ in range(order):
-        values = np.gradient(values, t, axis=axis, edge_order=2)
+        slopes = np.gradient(values, t, axis=axis, edge_order=2)
+        values = np.where(np.isnan(values), np.nan, slopes)  # a missing sample has no slope, though its neighbours have
     return values

@@ -19,13 +19,14 @@ class TimeLaw:
         duration = floats(self.duration, "duration")
         if duration.shape or duration <= 0:
             raise ValueError(f"duration: wanted one positive number of seconds, got {self.duration!r}")
+        object.__setattr__(self, "duration", float(duration))
 
     def __call__(self, t):
         """s at the times t (...) in seconds. ValueError: no times, not finite."""
         t = floats(t, "t")
         if not t.size:
             raise ValueError("t: wanted times, got an empty array")
-        return self.progress(np.clip(t / self.duration, 0, 1))
+        return np.clip(self.progress(np.clip(t / self.duration, 0, 1)), 0, 1)  # a polynomial near 1 rounds beyond it
 
 
 def linear(duration):
@@ -40,6 +41,7 @@ def trapezoidal(duration, ramp=0.25):
     share = floats(ramp, "ramp")
     if share.shape or not 0 < share <= 0.5:
         raise ValueError(f"ramp: wanted a number above 0 and at most 0.5, got {ramp!r}")
+    ramp = float(share)
     peak = 1 / (1 - ramp)  # the cruising speed, so that the area is 1
 
     def progress(x):

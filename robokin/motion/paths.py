@@ -44,9 +44,10 @@ def blend(start, via, goal, fraction, s, corner="parabola"):
 
     fraction  the blend (zone), in [0, 0.5], a number or an array broadcast with s; 0 is `lin_lin`
     corner    "parabola": a quadratic Bezier curve from the first line to the second with `via` as its middle control
-              pose; the velocity is continuous in s (C1). It passes `via` at half of the corner's sagitta.
+              pose; the velocity is continuous in s (C1). It passes `via` at 1/2 of the distance from `via` to the
+              middle of the corner's two ends.
               "quintic": a Bezier curve of degree 5 with control poses 0, 0.4 and 0.8 of the way to `via` from both
-              ends; the acceleration is continuous too (C2), and the path passes nearer to `via`.
+              ends; the acceleration is continuous too (C2). It passes at 3/8 of that distance, 3/4 of the parabola's.
     Source: 001, listing 12 (parabola), with errata S1-j: beyond 0.5 the printed law leaves both end poses.
     ValueError: a fraction outside [0, 0.5], s outside [0, 1], another corner, values without `lerp`.
     """

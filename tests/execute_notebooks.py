@@ -1,0 +1,117 @@
+"""Re-execute notebooks from top to bottom and store them in one fixed form.
+
+    python tests/execute_notebooks.py                          all of notebooks/
+    python tests/execute_notebooks.py notebooks/00_start_here.ipynb ...
+
+Each notebook runs in a fresh kernel. What is stored depends on its cells alone: no widget state, no times, no Python
+version, streams in one piece, and a picture whose pixels are unchanged keeps its old bytes (another zlib packs the same
+pixels otherwise). So a diff shows what changed, and a second run changes no byte. A notebook that fails is
+named and left as it was, the others go on, and the exit status is 1.
+"""
+
+import argparse
+import base64
+import hashlib
+import io
+import os
+import re
+import sys
+import time
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parent.parent
+KEPT_CELL_METADATA = ("tags", "reason")
+METADATA = {
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"file_extension": ".py", "mimetype": "text/x-python", "name": "python",
+                      "pygments_lexer": "ipython3"},
+}
+WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+ANSI = re.compile("\x1b\\[[0-9;]*m")  # colours of a traceback
+PNG = re.compile("iVBORw0KGgo[A-Za-z0-9+/]+=*")  # base64 of the eight bytes that begin every PNG
+
+
+def execute(path, timeout=120):
+    """Run the notebook at `path` and store it; True if its bytes changed. Raises what a cell raised."""
+    before = path.read_bytes()
+    notebook = nbformat.reads(before.decode(), as_version=4)
+    pictures = dict(_pictures(notebook))
+    client = NotebookClient(notebook, timeout=timeout, kernel_name="python3", coalesce_streams=True,
+                            record_timing=False, store_widget_state=False,
+                            resources={"metadata": {"path": str(path.parent)}})
+    client.execute()
+    after = (normalised(notebook, pictures) + "\n").encode()
+    if after != before:
+        path.write_bytes(after)
+    return after != before
+
+
+def normalised(notebook, pictures):
+    """The text of an executed notebook in the stored form; `pictures` (pixels -> base64) keep their old bytes."""
+    notebook.metadata = nbformat.from_dict(METADATA)
+    notebook.nbformat, notebook.nbformat_minor = 4, 5
+    count, views = 0, 0
+    for cell in notebook.cells:
+        cell.metadata = nbformat.from_dict({k: v for k, v in cell.metadata.items() if k in KEPT_CELL_METADATA})
+        if cell.cell_type != "code":
+            continue
+        cell.execution_count = None
+        if cell.source.strip():
+            count += 1
+            cell.execution_count = count
+        for output in cell.outputs:
+            if output.output_type == "execute_result":
+                output.execution_count = count
+            for kind, value in output.get("data", {}).items():
+                if kind == WIDGET_VIEW:  # its number is drawn by lot, and without the kernel it is nobody's
+                    views += 1
+                    value["model_id"] = f"{views:032x}"
+                elif isinstance(value, str):
+                    output.data[kind] = PNG.sub(lambda m: pictures.get(_pixels(m[0]), m[0]), value)
+    return nbformat.writes(notebook, version=4).rstrip("\n")
+
+
+def _pictures(notebook):
+    for cell in notebook.cells:
+        for output in cell.get("outputs", ()):
+            for value in output.get("data", {}).values():
+                for text in PNG.findall(value) if isinstance(value, str) else ():
+                    yield _pixels(text), text
+
+
+def _pixels(text):
+    """What a PNG (base64) shows, and how many pixels an inch it says it has."""
+    try:
+        image = Image.open(io.BytesIO(base64.b64decode(text)))
+        shown = image.convert("RGBA")
+    except Exception:  # base64 that only looks like a picture stays as it is
+        return text
+    return shown.size, image.info.get("dpi"), hashlib.sha256(shown.tobytes()).hexdigest()
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("notebooks", nargs="*", type=Path)
+    paths = parser.parse_args(arguments).notebooks or sorted((ROOT / "notebooks").glob("*.ipynb"))
+    os.environ.setdefault("PYDEVD_DISABLE_FILE_VALIDATION", "1")  # a warning that would land in the outputs
+    failed = []
+    for path in paths:
+        start = time.perf_counter()
+        try:
+            what = "stored" if execute(path.resolve()) else "unchanged"
+        except (CellExecutionError, CellTimeoutError, DeadKernelError, OSError, ValueError) as error:
+            failed.append(path.name)
+            what = f"FAILED, left as it was\n{ANSI.sub('', str(error))}"
+        print(f"{path.name}: {time.perf_counter() - start:.1f} s, {what}", flush=True)
+    if failed:
+        print(f"{len(failed)} of {len(paths)} notebooks failed: {', '.join(failed)}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,133 @@
+"""Chains of links: forward kinematics, frames, the Jacobian and the data of an arm."""
+
+import numpy as np
+import pytest
+from machines import MACHINES, SHAPES, position_gap, random_joints, reach, rot, rotation_gap, shift
+
+from robokin import IRB140, Arm, Link, Quaternion, Transform, deg, dh_links
+
+RNG = np.random.default_rng(3)
+machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
+
+
+@machines
+@pytest.mark.parametrize("shape", SHAPES)
+def test_fk_is_the_documents_chain_of_matrices(machine, shape):
+    q = random_joints(machine.arm, RNG, shape)
+    T = machine.arm.fk(q)
+    assert T.shape == shape
+    for i in np.ndindex(*shape):
+        assert np.allclose(T[i].as_matrix() if i else T.as_matrix(), machine.chain(q[i]), rtol=0, atol=4e-15)
+
+
+@machines
+def test_fk_at_home(machine):
+    n = len(machine.arm.links)
+    assert np.allclose(machine.arm.fk([0] * n).as_matrix(), machine.chain([0] * n), rtol=0, atol=2e-16)
+
+
+def test_the_irb140_at_home():
+    """By hand from the lengths of listing 1: 70 + 380 + 65 ahead, 352 + 350 up; the flange's z axis points ahead."""
+    T = IRB140.fk(np.zeros(6))
+    assert np.allclose(T.translation, [0.515, 0, 0.702], rtol=0, atol=1e-15)
+    assert np.allclose(T.rotation @ [0, 0, 1], [1, 0, 0], rtol=0, atol=1e-15)
+
+
+@machines
+@pytest.mark.parametrize("shape", SHAPES)
+def test_frames_lead_from_the_base_to_the_flange(machine, shape):
+    arm = machine.arm
+    q = random_joints(arm, RNG, shape)
+    frames = arm.frames(q)
+    assert frames.shape == (*shape, len(arm.links) + 1)
+    assert (frames[..., 0].as_matrix() == np.eye(4)).all()
+    assert (frames[..., -1].as_matrix() == arm.fk(q).as_matrix()).all()
+    for i in range(len(arm.links)):  # joint i moves the frames after it and no other
+        moved = q.copy()
+        moved[..., i] += 0.1
+        change = abs(arm.frames(moved).as_matrix() - frames.as_matrix()).max((-1, -2))
+        assert (change[..., : i + 1] == 0).all() and (change[..., i + 1:] > 1e-3).all()
+
+
+@machines
+@pytest.mark.parametrize("shape", SHAPES)
+def test_jacobian_is_the_derivative_of_fk(machine, shape):
+    arm, h = machine.arm, 1e-5
+    n = len(arm.links)
+    q = random_joints(arm, RNG, shape)
+    J = arm.jacobian(q)
+    assert J.shape == (*shape, 6, n)
+    ahead, back = arm.fk(q[..., None, :] + h * np.eye(n)), arm.fk(q[..., None, :] - h * np.eye(n))
+    linear = (ahead.translation - back.translation) / (2 * h)
+    angle, axis = (ahead.rotation @ back.rotation.inverse()).as_angle_axis()  # the turn, in base coordinates
+    angular = axis * angle[..., None] / (2 * h)
+    assert np.allclose(J[..., :3, :], np.moveaxis(linear, -2, -1), rtol=0, atol=1e-9)
+    assert np.allclose(J[..., 3:, :], np.moveaxis(angular, -2, -1), rtol=0, atol=1e-9)
+
+
+@machines
+def test_jacobian_loses_rank_where_the_arm_says_it_is_singular(machine):
+    arm = machine.arm
+    size = np.array([1 / reach(arm)] * 3 + [1] * 3)[:, None]
+
+    def smallest(q):
+        values = np.linalg.svd(arm.jacobian(q) * size, compute_uv=False)
+        return values[..., min(len(arm.links), 6) - 1]
+
+    q = random_joints(arm, RNG, (200,))
+    near = np.stack(list(arm.geometry.singular(q).values())).any(axis=0)
+    assert not near.any() and (smallest(q) > 1e-8).all()
+    if "wrist" in arm.geometry.singular(q):
+        for wrist in (0, np.pi):
+            q[:, 4] = wrist
+            assert arm.geometry.singular(q)["wrist"].all() and (smallest(q) < 1e-15 / 1e-2).all()
+
+
+@machines
+def test_a_missing_joint_value_makes_its_frames_missing(machine):
+    arm = machine.arm
+    q = random_joints(arm, RNG, (2,))
+    q[1, 2] = np.nan
+    frames = arm.frames(q)
+    assert np.isfinite(frames.as_matrix()[0]).all()
+    assert np.isfinite(frames.translation[1, :3]).all()
+    assert np.isnan(frames.rotation.wxyz[1, 3:]).any(-1).all() or np.isnan(frames.translation[1, 3:]).any(-1).all()
+    assert np.isfinite(arm.fk(q)[0].translation).all() and np.isnan(arm.fk(q)[1].translation).any()
+
+
+@machines
+def test_every_row_has_its_own_flags(machine):
+    arm = machine.arm
+    assert abs(arm.branches).tolist() == np.ones_like(arm.branches).tolist()
+    assert len(arm.branches) == 2 ** arm.branches.shape[1]
+    for row, flags in enumerate(arm.branches.tolist()):
+        assert arm.branch(*flags) == row
+    for wrong in ((1,) * (arm.branches.shape[1] + 1), (0,) * arm.branches.shape[1], ()):
+        with pytest.raises(ValueError, match="flags"):
+            arm.branch(*wrong)
+
+
+def test_dh_links_are_the_product_of_four_matrices():
+    a, alpha, d, theta, q = RNG.normal(size=(5, 4))
+    frame = Transform()
+    for link, q_i in zip(dh_links(a, alpha, d, theta), q, strict=True):
+        frame = frame @ link.before @ link.motion(q_i) @ link.after
+    m = np.eye(4)
+    for i in range(4):
+        m = m @ rot("z", theta[i] + q[i]) @ shift(0, 0, d[i]) @ shift(a[i], 0, 0) @ rot("x", alpha[i])
+    assert np.allclose(frame.as_matrix(), m, rtol=0, atol=1e-14)
+    assert all(np.allclose(x.before.as_matrix(), np.eye(4)) for x in dh_links(a, alpha, d))
+
+
+def test_a_prismatic_joint_shifts_along_its_axis():
+    link = Link(Transform(Quaternion.from_angle_axis(90 * deg, (0, 0, 1)), (1, 0, 0)), (1, 0, 0), prismatic=True)
+    arm = Arm("slide", (link,), None, [(0, 1)])
+    assert np.allclose(arm.fk([0.3]).translation, [1, 0.3, 0], rtol=0, atol=1e-16)
+    assert np.allclose(arm.jacobian([0.3])[:, 0], [0, 1, 0, 0, 0, 0], rtol=0, atol=1e-15)
+    assert arm.prismatic.tolist() == [True]
+
+
+def test_whole_turns_change_nothing():
+    q = RNG.uniform(-np.pi, np.pi, (50, 6))
+    a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-3, 4, q.shape))
+    assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13

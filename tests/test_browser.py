@@ -1,0 +1,277 @@
+"""The players in a real browser: live in JupyterLab, trusted and untrusted, exported, saved.
+
+What a player shows is read as a person would see it: the pixels of its canvases and the words of its table.
+"""
+
+import html
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from urllib.parse import urlsplit
+
+import nbformat
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS, until
+
+from robokin import IRB140, Transform, deg, mm, ptp
+from robokin.show import animate
+
+PLAYER = "div.robokin-player"
+LIVE = ("00_start_here", "03_irb140_motion")
+LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb")) if "robokin-player" in path.read_text(encoding="utf-8")]
+# Pages that nbconvert writes ask for these two by themselves, for formulas and for widgets. No player needs them.
+OF_NBCONVERT = re.compile(r"/(mathjax|require\.js)/", re.I)
+NEXT_FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+
+
+@pytest.fixture
+def page(browser):
+    """A page that keeps account: `page.errors` from its console, `page.outside` the addresses not on this machine."""
+    context = browser.new_context(viewport={"width": 1280, "height": 1000})
+    page = context.new_page()
+    page.errors, page.outside = [], []
+
+    def answer(route):
+        page.outside.append(route.request.url)
+        route.abort()
+
+    context.route(lambda url: urlsplit(url).scheme in ("http", "https", "ws", "wss")
+                  and urlsplit(url).hostname not in ("127.0.0.1", "localhost"), answer)
+    page.on("console", lambda message: message.type == "error" and page.errors.append(
+        f"{message.text} ({message.location.get('url', '')})"))
+    page.on("pageerror", lambda error: page.errors.append(str(error)))
+    yield page
+    context.close()
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    """Every lab with a player as nbconvert exports it: name -> path."""
+    folder = tmp_path_factory.mktemp("exported")
+    subprocess.run([sys.executable, "-m", "nbconvert", "--to", "html", "--output-dir", folder, "--log-level", "ERROR",
+                    *(NOTEBOOKS / f"{name}.ipynb" for name in LABS)], check=True)
+    return {name: folder / f"{name}.html" for name in LABS}
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory):
+    """A player with a slider and a switch as `save` writes it."""
+    path = tmp_path_factory.mktemp("saved") / "player.html"
+    t = np.linspace(0, 4, 401)
+    q = [[ptp(np.zeros(6), goal * deg * np.array([90, 30, -60, 45, 60, 120]), (t / 4) ** power)
+          for goal in (0.25, 0.5, 0.75, 1)] for power in (1, 2)]
+    target = Transform(translation=(400 * mm, 100 * mm, 600 * mm))
+    animate(IRB140, t, np.array(q), targets=[target], slider=("share", [0.25, 0.5, 0.75, 1.0]),
+            switch=("law", ["even", "rising"]), title="A turn of every joint").save(path)
+    return path
+
+
+@pytest.mark.parametrize("lab", LIVE)
+def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
+    jupyter.open(page, f"{lab}.ipynb")
+    jupyter.run_all(page, f"{lab}.ipynb")
+    players = page.locator(PLAYER)
+    until(lambda: players.count() == _stored_players(lab), 30, f"{lab}: the players did not appear", page)
+    player = players.filter(has=page.locator("table")).first
+    player.scroll_into_view_if_needed()
+    assert player.locator("img").count() == 0, "the still picture gives way"
+    for slider in _sliders(player):
+        _moves(page, player, slider)
+    _plays(page, player)
+    assert page.outside == [] and page.errors == []
+
+
+def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
+    jupyter.open(page, "03_irb140_motion.ipynb")
+    jupyter.run_all(page, "03_irb140_motion.ipynb")
+    player = page.locator(PLAYER).filter(has=page.get_by_label("blend", exact=True)).first
+    player.scroll_into_view_if_needed()
+    slider = _slider(player, "blend")
+    slider.focus()
+    active = "() => [...document.querySelectorAll('.jp-Cell')].findIndex(cell => cell.matches('.jp-mod-active'))"
+    cell, before, seen = page.evaluate(active), slider.input_value(), _seen(player)
+    for key in ("ArrowRight", "ArrowUp", "ArrowRight"):
+        slider.press(key)
+    page.evaluate(NEXT_FRAME)
+    after = _seen(player)
+    assert float(slider.input_value()) == float(before) + 3 * float(slider.get_attribute("step") or 1)
+    assert after.pixels != seen.pixels and after.numbers != seen.numbers
+    for key in ("ArrowDown", "ArrowLeft", "ArrowLeft"):
+        slider.press(key)
+    page.evaluate(NEXT_FRAME)
+    assert _seen(player) == seen, "the same value shows the same"
+    assert page.evaluate(active) == cell and page.evaluate("() => document.activeElement.type") == "range"
+
+
+def test_a_trusted_notebook_plays_without_running(jupyter, page):
+    name = _variant(jupyter, "trusted.ipynb")
+    jupyter.trust(name)
+    jupyter.open(page, name)
+    player = page.locator(PLAYER).first
+    player.locator("canvas").first.wait_for(timeout=30_000)
+    assert player.locator("img").count() == 0
+    for slider in _sliders(player):
+        _moves(page, player, slider)
+    assert page.outside == [] and page.errors == []
+
+
+def test_an_untrusted_notebook_shows_a_still_picture(jupyter, page):
+    jupyter.open(page, _variant(jupyter, "untrusted.ipynb"))
+    stored = re.findall(r'<div class="robokin-player"[^>]*><img alt="([^"]*)"', _html_outputs("03_irb140_motion"))
+    for alt in stored:
+        still = page.get_by_alt_text(html.unescape(alt), exact=True).first
+        still.wait_for(timeout=30_000)
+        still.scroll_into_view_if_needed()
+        until(still.is_visible, 10, "the still picture is not visible", page)
+        box = still.bounding_box()
+        assert box["width"] > 300 and still.evaluate("image => image.naturalWidth") > 300
+    assert stored and page.locator("canvas").count() == 0, "a script of an untrusted notebook ran"
+    assert page.outside == [] and page.errors == []
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_every_player_of_an_exported_lab_works_without_a_network(page, exported, lab):
+    page.goto(exported[lab].as_uri())
+    players = page.locator(PLAYER)
+    assert players.count() == _stored_players(lab) > 0
+    for player in players.all():
+        player.locator("canvas").first.wait_for(timeout=10_000)
+        for slider in _sliders(player):
+            _moves(page, player, slider)
+        _plays(page, player)
+    assert not [url for url in page.outside if not OF_NBCONVERT.search(url)]
+    assert not [error for error in page.errors if not OF_NBCONVERT.search(error)
+                and not error.startswith(("require is not defined", "MathJax is not defined"))]
+
+
+def test_a_saved_player_asks_for_nothing(page, saved):
+    requests = []
+    page.on("request", lambda request: requests.append(request.url))
+    page.goto(saved.as_uri())
+    player = page.locator(PLAYER)
+    for slider in _sliders(player):
+        _moves(page, player, slider)
+    menu = player.get_by_label("law", exact=True)
+    seen = _seen(player)
+    menu.select_option("rising")
+    page.evaluate(NEXT_FRAME)
+    after = _seen(player)
+    assert after.pixels != seen.pixels and after.numbers != seen.numbers
+    _plays(page, player)
+    assert [url for url in requests if not url.startswith(("data:", "blob:"))] == [saved.as_uri()]
+    assert page.errors == []
+
+
+def test_the_keyboard_reaches_every_control(page, saved):
+    page.goto(saved.as_uri())
+    controls = page.locator(PLAYER).locator("button, input, select, .rk-scene")
+    assert controls.count() == 6  # view, play, time, speed, slider, switch
+    reached = set()
+    for _ in range(controls.count() + 1):
+        page.keyboard.press("Tab")
+        reached |= {i for i, control in enumerate(controls.all())
+                    if control.evaluate("element => element === document.activeElement")}
+    assert len(reached) == controls.count()
+    for name in ("play", "time", "playing speed", "share", "law"):
+        assert page.get_by_label(name, exact=True).count() == 1, f"no control is called {name}"
+
+
+def test_the_keyboard_turns_the_view(page, saved):
+    page.goto(saved.as_uri())
+    player, scene = page.locator(PLAYER), page.locator(".rk-scene")
+    first = _seen(player)
+    scene.press("ArrowLeft")
+    page.evaluate(NEXT_FRAME)
+    assert _seen(player).pixels[0] != first.pixels[0]
+    scene.press("Home")
+    page.evaluate(NEXT_FRAME)
+    assert _seen(player) == first
+
+
+def test_nothing_moves_by_itself(page, saved):
+    page.goto(saved.as_uri())
+    player = page.locator(PLAYER)
+    seen = _seen(player)
+    page.wait_for_timeout(500)
+    assert _seen(player) == seen
+
+
+# --- What a person does and sees --------------------------------------------------------------------------------------
+
+
+def _seen(player):
+    """The pixels of all canvases and the words of the table."""
+    pixels = player.evaluate("e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())")
+    assert pixels and all(len(one) > 2000 for one in pixels), "a canvas is empty"
+    return SimpleNamespace(pixels=pixels, numbers=player.locator("table").inner_text())
+
+
+def _sliders(player):
+    player.locator("canvas").first.wait_for(timeout=10_000)
+    sliders = player.locator("input[type=range]").all()
+    assert sliders, "a player has at least its time"
+    return sliders
+
+
+def _slider(player, label):
+    return player.get_by_role("slider", name=re.compile(label, re.I)).first
+
+
+def _moves(page, player, slider):
+    """Keys and mouse change the value and what is drawn; what is shown depends on the value alone."""
+    slider.scroll_into_view_if_needed()
+    slider.focus()
+    slider.press("Home")
+    page.evaluate(NEXT_FRAME)
+    first, value = _seen(player), slider.input_value()
+    slider.press("End")
+    page.evaluate(NEXT_FRAME)
+    last = _seen(player)
+    assert slider.input_value() != value and last.pixels != first.pixels
+    box = slider.bounding_box()
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + 0.9 * box["width"], middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], middle, steps=4)
+    page.mouse.up()
+    page.evaluate(NEXT_FRAME)
+    between = float(slider.input_value())
+    assert float(value) < between < float(slider.get_attribute("max"))
+    slider.press("Home")
+    page.evaluate(NEXT_FRAME)
+    assert _seen(player) == first
+
+
+def _plays(page, player):
+    """The play button sets the arm in motion and stops it."""
+    button = player.get_by_role("button", name=re.compile("play|pause", re.I)).first
+    seen = _seen(player)
+    button.click()
+    until(lambda: _seen(player).pixels != seen.pixels, 5, "play moves nothing", page)
+    button.click()
+    page.evaluate(NEXT_FRAME)
+    seen = _seen(player)
+    page.wait_for_timeout(200)
+    assert _seen(player) == seen, "pause does not stop it"
+
+
+def _html_outputs(lab):
+    """All HTML outputs stored in a lab."""
+    cells = nbformat.read(NOTEBOOKS / f"{lab}.ipynb", as_version=4).cells
+    return "\n".join(o.get("data", {}).get("text/html", "") for cell in cells for o in cell.get("outputs", ()))
+
+
+def _stored_players(lab):
+    return len(re.findall('<div class="robokin-player"', _html_outputs(lab)))
+
+
+def _variant(jupyter, name):
+    """A copy of lab 3 with a cell more, so that its signature is its own; the name, for `jupyter.open`."""
+    notebook = json.loads(Path(jupyter.labs, "03_irb140_motion.ipynb").read_text(encoding="utf-8"))
+    notebook["cells"].append({"cell_type": "markdown", "id": "variant", "metadata": {}, "source": [name]})
+    Path(jupyter.labs, name).write_text(json.dumps(notebook), encoding="utf-8")
+    return name

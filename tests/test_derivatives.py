@@ -1,0 +1,73 @@
+"""`differentiate` against polynomials, whose derivatives are known."""
+
+import numpy as np
+import pytest
+
+from robokin import differentiate
+
+RNG = np.random.default_rng(31)
+
+
+def uneven(n):
+    return np.cumsum(RNG.uniform(0.5, 1.5, n)) * 0.1
+
+
+@pytest.mark.parametrize("t", [np.linspace(-1, 2, 40), uneven(40), np.array([0.0, 0.5, 2.0])],
+                         ids=["even", "uneven", "three"])
+def test_quadratics_are_exact_ends_included(t):
+    a, b, c = RNG.normal(size=(3, 6))
+    values = a + b * t[:, None] + c * t[:, None] ** 2
+    assert np.allclose(differentiate(values, t), b + 2 * c * t[:, None], rtol=0, atol=1e-12)
+    assert np.allclose(differentiate(values, t, 2), np.broadcast_to(2 * c, values.shape), rtol=0, atol=1e-9)
+    assert np.allclose(differentiate(values, t, order=3), 0, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("order, exact", [(1, np.cos), (2, lambda t: -np.sin(t))])
+def test_the_error_falls_with_the_square_of_the_step(order, exact):
+    errors = []
+    for n in (101, 201, 401):
+        t = np.linspace(0, 3, n)
+        error = abs(differentiate(np.sin(t), t, order) - exact(t))
+        errors.append([error[3:-3].max(), error.max()])
+    inner = [errors[i][0] / errors[i + 1][0] for i in (0, 1)]
+    outer = [errors[i][1] / errors[i + 1][1] for i in (0, 1)]
+    assert all(abs(ratio - 4) < 0.2 for ratio in inner)
+    assert all(ratio > (3.8 if order == 1 else 1.8) for ratio in outer)  # one order less for the second, at the ends
+
+
+@pytest.mark.parametrize("shape", [(), (3,), (2, 1, 3)])
+def test_batches_are_differentiated_along_their_samples(shape):
+    t = uneven(30)
+    values = RNG.normal(size=(*shape, 30, 4))
+    v = differentiate(values, t)
+    assert v.shape == values.shape
+    for i in np.ndindex(*shape):
+        for j in range(4):
+            assert np.allclose(v[i][:, j], differentiate(values[i][:, j], t), rtol=0, atol=1e-12)
+    assert differentiate(values[..., 0].reshape(-1, 30)[0], t).shape == (30,)
+
+
+@pytest.mark.parametrize("t", [np.arange(20.0), np.linspace(0, 1, 20), uneven(20)], ids=["whole", "even", "uneven"])
+def test_a_missing_sample_spreads_to_its_neighbours_and_no_further(t):
+    values = np.stack([t**2, 3 * t], axis=-1)
+    values[10, 0] = np.nan
+    for order, missing in ((1, [9, 10, 11]), (2, [8, 9, 10, 11, 12])):
+        v = differentiate(values, t, order)
+        assert np.flatnonzero(np.isnan(v[:, 0])).tolist() == missing
+        assert np.isfinite(v[:, 1]).all()
+        rest = np.delete(np.arange(20), missing)
+        assert np.allclose(v[rest, 0], 2 * t[rest] if order == 1 else 2, rtol=0, atol=1e-9)
+
+
+def test_it_takes_what_it_gets():
+    """A wrapped angle gives a spike: unwrapping is `follow`'s work (errata S1-e)."""
+    t = np.linspace(0, 1, 101)
+    wrapped = (6 * t + np.pi) % (2 * np.pi) - np.pi
+    assert abs(differentiate(wrapped, t)).max() > 250
+    assert np.allclose(differentiate(np.unwrap(wrapped), t), 6, rtol=0, atol=1e-9)
+
+
+def test_leaves_its_input_alone():
+    values, t = np.arange(5.0), np.arange(5.0)
+    differentiate(values, t)
+    assert values.tolist() == t.tolist() == [0, 1, 2, 3, 4]

@@ -1,0 +1,165 @@
+"""The house rules of the repository: who imports whom, what `import robokin` costs, what the README promises."""
+
+import ast
+import importlib
+import inspect
+import re
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import version
+
+import pytest
+from conftest import ROOT
+from packaging.requirements import Requirement
+
+TOP = {"notebooks", "robokin", "environment.txt", "tests", "README.md", "pyproject.toml"}
+MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"}
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+# Each module may import what stands beside the longest entry that it begins with (itself and its own parts besides).
+BASE = ("robokin._validate", "robokin.units", "robokin.quaternion", "robokin.transform")
+DRAWN = (*BASE, "robokin.arms.arm", "robokin.motion.derivatives")  # an arm's data, and arrays
+LAYERS = {
+    "robokin": ("robokin.units", "robokin.quaternion", "robokin.transform", "robokin.arms", "robokin.motion"),
+    "robokin._validate": (),
+    "robokin.units": (),
+    "robokin.quaternion": ("robokin._validate",),
+    "robokin.transform": ("robokin._validate", "robokin.quaternion"),
+    "robokin.arms": BASE,
+    "robokin.motion": ("robokin._validate", "robokin.units"),  # values with `lerp`, and no arms
+    "robokin.jobs": (*BASE, "robokin.arms", "robokin.motion"),
+    "robokin.show": DRAWN,
+    "robokin.show.live": ("robokin",),
+}
+DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
+HEAVY = DRAWING | {"scipy", "sympy", "pandas", "jupyterlab", "hypothesis", "pytest", "asyncio", "importlib.resources"}
+
+MODULES = {".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): p
+           for p in sorted((ROOT / "robokin").rglob("*.py"))}
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_layers(module):
+    rule = max((name for name in LAYERS if module == name or module.startswith(f"{name}.")), key=len)
+    allowed = (*LAYERS[rule], *([rule] if rule != "robokin" else []))
+    for name in _imports(module):
+        if name.split(".")[0] == "robokin":
+            assert any(name == a or name.startswith(f"{a}.") for a in allowed), f"{module} must not import {name}"
+        elif name.split(".")[0] in DRAWING:
+            assert module.startswith("robokin.show"), f"{module} imports {name}: only robokin.show draws"
+        else:
+            assert name.split(".")[0] in {"numpy", *sys.stdlib_module_names}, f"{module} imports {name}"
+        assert "pyplot" not in name, f"{module}: no pyplot, a figure is a value"
+
+
+def test_layers_see_what_they_should():
+    # The rule above is only as good as the reading: relative imports and names passed on by a package resolve.
+    assert "robokin.arms.catalogue" in _imports("robokin.arms")
+    assert {"numpy", "robokin.transform", "robokin.arms.arm"} <= _imports("robokin.arms.branches")
+    assert "robokin.arms.spherical_wrist" in _imports("robokin.arms.catalogue")
+
+
+def test_import_loads_nothing_heavy():
+    code = "import sys, numpy; before = set(sys.modules); import robokin; print(*sorted(set(sys.modules) - before))"
+    loaded = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, check=True).stdout.split()
+    assert "robokin.transform" in loaded
+    assert not [name for name in loaded if name in HEAVY or name.split(".")[0] in HEAVY]
+    outside = {name.split(".")[0] for name in loaded} - {"robokin"} - set(sys.stdlib_module_names)
+    assert outside <= {"numpy"}, outside
+
+
+def test_top_level_holds_what_the_design_names():
+    found = {entry.name for entry in ROOT.iterdir() if not entry.name.startswith((".", "__pycache__"))}
+    assert found - MADE_BY_TOOLS == TOP
+
+
+def test_ci_runs_the_test_command_of_the_readme():
+    commands = re.findall(r"^python3 -m venv .*pytest$", README, re.M)
+    assert len(commands) == 1
+    assert "-r environment.txt" in commands[0] and '-e ".[test]"' in commands[0]
+    script = (ROOT / ".ci" / "run").read_text()
+    assert "grep '^python3 -m venv .*pytest$' README.md" in script and 'eval "$command"' in script
+    assert "pip install" not in script
+    windows = [line for line in README.splitlines() if line.startswith("py -m venv") and line.endswith("pytest")]
+    assert [_arguments(windows[0])] == [_arguments(commands[0])], "Windows installs something else"
+
+
+def test_readme_names_every_lab_and_its_links_resolve():
+    links = re.findall(r"\]\(([^)\s]+)\)", README)
+    for link in links:
+        assert link.startswith(("https:", "#")) or (ROOT / link).exists(), link
+    for lab in (ROOT / "notebooks").glob("*.ipynb"):
+        assert f"notebooks/{lab.name}" in links, f"{lab.name} is not in the README"
+
+
+def test_pins_are_exact_installed_and_within_the_ranges():
+    lines = (ROOT / "environment.txt").read_text().splitlines()
+    pins = dict(line.split("==") for line in lines if line and not line.startswith(("#", "-")))
+    assert "-e ." in lines
+    assert {"numpy", "matplotlib", "ipywidgets", "jupyterlab", "nbval"} <= set(pins)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    for text in project["dependencies"] + project["optional-dependencies"]["test"]:
+        wanted = Requirement(text)
+        assert wanted.specifier.contains(version(wanted.name)), f"{wanted}: {version(wanted.name)} is installed"
+        assert wanted.name not in pins or wanted.specifier.contains(pins[wanted.name])
+    wrong = {name: version(name) for name, pin in pins.items() if version(name) != pin}
+    assert not wrong, f"the stored outputs were made with other versions: {wrong}"
+
+
+def test_ruff_finds_nothing():
+    run = subprocess.run([sys.executable, "-m", "ruff", "check", "--no-cache", "--output-format=concise", ROOT],
+                         text=True, capture_output=True)
+    assert run.returncode == 0, run.stdout
+
+
+@pytest.mark.parametrize("package", ["robokin", "robokin.arms", "robokin.motion", "robokin.show"])
+def test_public_names_are_listed_and_explained(package):
+    module = importlib.import_module(package)
+    assert len(module.__doc__) > 30 and len(set(module.__all__)) == len(module.__all__)
+    passed_on = {name for name, _ in _passed_on(MODULES[package]) if not name.startswith("_")}
+    assert set(module.__all__) == passed_on
+    for name in module.__all__:
+        value = getattr(module, name)
+        if inspect.isclass(value) or inspect.isfunction(value):
+            assert value.__doc__ and len(value.__doc__) > 30, f"{name} has no docstring"
+            for attribute, member in vars(value).items() if inspect.isclass(value) else ():
+                if not attribute.startswith("_") and inspect.isfunction(member):
+                    assert member.__doc__, f"{name}.{attribute} has no docstring"
+
+
+def _arguments(command):
+    """What a command asks pip to install."""
+    return re.search(r"pip install (.*?)(?:;| &&)", command)[1]
+
+
+def _imports(module):
+    """Every module that `module` imports, names that a package passes on counted as where they come from."""
+    found = set()
+    package = module if MODULES[module].name == "__init__.py" else module.rpartition(".")[0]
+    for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            source = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            found |= {_origin(source, alias.name) for alias in node.names}
+    return found - {module}
+
+
+def _origin(source, name):
+    """The module that defines `name`, which `source` may pass on."""
+    if f"{source}.{name}" in MODULES:
+        return f"{source}.{name}"
+    if source in MODULES and MODULES[source].name == "__init__.py":
+        for passed, origin in _passed_on(MODULES[source]):
+            if passed == name:
+                return _origin(importlib.util.resolve_name(origin, source), name)
+    return source
+
+
+def _passed_on(init):
+    """The names that an __init__.py imports from its own package: (name, relative module)."""
+    for node in ast.parse(init.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.ImportFrom) and node.level:
+            for alias in node.names:
+                yield alias.asname or alias.name, "." * node.level + (node.module or "")

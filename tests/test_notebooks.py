@@ -1,0 +1,229 @@
+"""What every stored lab promises, read from its file; nbval runs the cells and compares their outputs.
+
+Also: the script that re-executes the labs does so without needless changes.
+"""
+
+import ast
+import base64
+import io
+import json
+import re
+import subprocess
+import sys
+import tokenize
+import unicodedata
+
+import nbformat
+import pytest
+from conftest import NOTEBOOKS, ROOT
+from PIL import Image
+
+# Not recursively: JupyterLab keeps checkpoints in a folder below.
+PATHS = sorted(NOTEBOOKS.glob("*.ipynb"))
+IMPORTS = {"numpy", "robokin"} | set(sys.stdlib_module_names)
+LONGEST_CELL = 35
+UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
+HEADINGS = ("You will be able to", "Your turn", "In short", "Next")
+
+
+@pytest.fixture(params=PATHS, ids=lambda path: path.stem)
+def path(request):
+    return request.param
+
+
+@pytest.fixture
+def cells(path):
+    return nbformat.read(path, as_version=4).cells
+
+
+@pytest.fixture
+def code(cells):
+    return [cell for cell in cells if cell.cell_type == "code"]
+
+
+@pytest.fixture
+def prose(cells):
+    return [cell.source for cell in cells if cell.cell_type == "markdown"]
+
+
+def test_there_are_labs():
+    assert PATHS
+
+
+def test_labs_are_numbered_without_gaps():
+    assert [int(path.stem[:2]) for path in PATHS] == list(range(len(PATHS)))
+
+
+def test_cells_were_executed_from_top_to_bottom(code):
+    # nbval compares nothing in a cell without a count: a stripped notebook would pass it.
+    assert all(cell.source.strip() for cell in code), "a code cell is empty"
+    assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
+
+
+def test_something_is_compared(code):
+    assert sum(output.output_type == "stream" for cell in code for output in cell.outputs) >= 2
+    assert not [output for cell in code for output in cell.outputs
+                if output.output_type == "error" and "raises-exception" not in cell.metadata.get("tags", ())]
+
+
+def test_no_warning_is_stored(code):
+    assert not [output.text for cell in code for output in cell.outputs if output.get("name") == "stderr"]
+
+
+def test_the_file_is_small(path):
+    assert path.stat().st_size < 1_000_000
+
+
+def test_no_state_of_a_session_is_stored(path):
+    notebook = json.loads(path.read_text(encoding="utf-8"))
+    assert set(notebook["metadata"]) == {"kernelspec", "language_info"}, "run tests/execute_notebooks.py"
+    for cell in notebook["cells"]:
+        assert set(cell["metadata"]) <= {"tags", "reason"}
+    ids = [cell["id"] for cell in notebook["cells"]]
+    assert len(set(ids)) == len(ids)
+
+
+def test_an_output_left_uncompared_has_its_reason(cells):
+    for cell in cells:
+        if UNCOMPARED & set(cell.metadata.get("tags", ())):
+            assert len(cell.metadata.get("reason", "")) > 20, cell.source
+        assert "NBVAL" not in cell.source.upper(), "use a tag and a reason"
+
+
+def test_a_cell_fits_on_a_screen(code):
+    too_long = {cell.source.splitlines()[0]: n for cell in code if (n := cell.source.count("\n") + 1) > LONGEST_CELL}
+    assert not too_long
+
+
+def test_cells_are_plain_python_and_import_what_command_one_installs(code):
+    for cell in code:
+        for node in ast.walk(ast.parse(cell.source)):  # a SyntaxError: a magic, which no lab needs
+            names = [node.module] if isinstance(node, ast.ImportFrom) else [a.name for a in getattr(node, "names", ())
+                                                                            if isinstance(node, ast.Import)]
+            for name in names:
+                assert name.split(".")[0] in IMPORTS, f"{name} in: {cell.source[:60]}"
+
+
+def test_names_in_code_can_be_typed(code):
+    # A Cyrillic letter that looks like a Latin one is another name; an invisible character is a riddle.
+    for cell in code:
+        for token in tokenize.generate_tokens(io.StringIO(cell.source).readline):
+            assert token.type in (tokenize.STRING, tokenize.COMMENT) or token.string.isascii() \
+                or "FSTRING" in tokenize.tok_name[token.type], token
+
+
+def test_no_invisible_or_broken_characters(cells):
+    for cell in cells:
+        odd = {char for char in cell.source if char != "\n" and unicodedata.category(char) in ("Cc", "Cf", "Cn", "Co")}
+        assert not odd | ({"\ufffd"} & set(cell.source)), f"{odd} in: {cell.source[:60]}"
+
+
+def test_every_picture_has_words(cells):
+    for cell in cells:
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {})
+            # JupyterLab and nbconvert drop the alt text of an image/png output; they keep an <img> in HTML.
+            assert not [kind for kind in data if kind.startswith("image/")], cell.source
+            _assert_alt_texts(data.get("text/html", ""))
+        if cell.cell_type == "markdown":
+            _assert_alt_texts(cell.source)
+            assert all(len(alt) > 20 for alt in re.findall(r"!\[(.*?)\]\(", cell.source, re.S))
+
+
+def test_a_lab_has_its_parts(prose):
+    text = "\n".join(prose)
+    assert re.match(r"# \S", prose[0]) and len(re.findall(r"^# ", text, re.M)) == 1
+    for heading in HEADINGS:
+        assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"no '{heading}'"
+    places = [text.index(heading) for heading in HEADINGS[1:]]
+    assert places == sorted(places), "the parts stand in another order"
+
+
+def test_joints_are_counted_from_one(prose):
+    titles = re.findall(r"^#+ .*$", "\n".join(prose), re.M)
+    assert not [title for title in titles if re.search(r"\bq_?\{?0|q₀|[Jj]oint 0", title)]
+
+
+def test_links_lead_somewhere(prose):
+    for text in prose:
+        for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            if not re.match(r"https?:|#|attachment:", target):
+                assert (NOTEBOOKS / target.split("#")[0]).exists(), target
+
+
+# --- tests/execute_notebooks.py ---------------------------------------------------------------------------------------
+
+PICTURE = """\
+import base64, io
+from IPython.display import HTML
+from matplotlib.figure import Figure
+fig = Figure()
+fig.subplots().plot([1, 3, 2])
+file = io.BytesIO()
+fig.savefig(file, format="png")
+HTML(f'<img alt="three" src="data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}">')
+"""
+
+
+def test_executing_again_changes_no_byte(tmp_path):
+    path = _notebook(tmp_path / "a.ipynb", "print(1, flush=True)\nprint(2)",
+                     "import ipywidgets\nipywidgets.IntSlider(5)", PICTURE)
+    assert _execute(path).returncode == 0
+    once = path.read_bytes()
+    notebook = nbformat.reads(once.decode(), as_version=4)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert [cell.execution_count for cell in code] == [1, 2, 3]
+    assert [len(cell.outputs) for cell in code] == [1, 1, 1] and code[0].outputs[0].text == "1\n2\n"
+    assert set(notebook.metadata) == {"kernelspec", "language_info"}
+    assert "version" not in notebook.metadata.language_info
+    assert notebook.cells[0].metadata == {"tags": ["intro"]}
+    assert "unchanged" in _execute(path).stdout
+    assert path.read_bytes() == once
+
+
+def test_a_picture_packed_by_another_zlib_keeps_its_bytes(tmp_path):
+    path = _notebook(tmp_path / "a.ipynb", PICTURE)
+    _execute(path)
+    first = _png(path)
+    image, file = Image.open(io.BytesIO(base64.b64decode(first))), io.BytesIO()
+    image.save(file, "PNG", compress_level=1, dpi=image.info["dpi"])
+    other = base64.b64encode(file.getvalue()).decode()
+    assert len(other) > 1.05 * len(first)
+    path.write_text(path.read_text().replace(first, other))
+    assert "unchanged" in _execute(path).stdout and _png(path) == other
+    path.write_text(path.read_text().replace("[1, 3, 2]", "[1, 3, 1]"))
+    _execute(path)
+    assert _png(path) not in (first, other), "a changed picture must be stored"
+
+
+def test_one_failing_notebook_is_named_and_the_others_go_on(tmp_path):
+    bad, good = _notebook(tmp_path / "bad.ipynb", "1 / 0"), _notebook(tmp_path / "good.ipynb", "6 * 7")
+    before = bad.read_bytes()
+    run = _execute(bad, good)
+    assert run.returncode == 1
+    assert "1 of 2 notebooks failed: bad.ipynb" in run.stdout and "ZeroDivisionError" in run.stdout
+    assert bad.read_bytes() == before and '"42"' in good.read_text()
+
+
+def _assert_alt_texts(source):
+    for image in re.findall(r"<img\b[^>]*>", source):
+        alt = re.search(r'\balt="([^"]*)"', image)
+        assert alt and len(alt[1]) > 20, image[:200]
+
+
+def _png(path):
+    return re.search("iVBOR[A-Za-z0-9+/=]+", path.read_text())[0]
+
+
+def _notebook(path, *sources):
+    """Write a notebook with these code cells."""
+    v4 = nbformat.v4
+    cells = [v4.new_markdown_cell("# A lab", id="title", metadata={"tags": ["intro"], "scrolled": True})]
+    cells += [v4.new_code_cell(source, id=f"cell-{i}") for i, source in enumerate(sources)]
+    nbformat.write(v4.new_notebook(cells=cells, metadata={"widgets": {}}), path)
+    return path
+
+
+def _execute(*paths):
+    return subprocess.run([sys.executable, ROOT / "tests" / "execute_notebooks.py", *paths], text=True,
+                          capture_output=True, timeout=120)

@@ -1,0 +1,495 @@
+"""The player: what the page gets is what the arrays say, and what the browser draws follows it."""
+
+import base64
+import json
+import re
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from robokin import (
+    IRB140,
+    Arm,
+    Link,
+    Quaternion,
+    Transform,
+    blend,
+    deg,
+    differentiate,
+    follow,
+    lin,
+    linear,
+    mm,
+    ptp,
+    quintic,
+    trapezoidal,
+)
+from robokin.show import animate
+from robokin.show.samples import samples
+
+X, Y, Z = np.eye(3)
+ROW = IRB140.branch(+1, +1, -1)
+# The chain of 001, tasks 3 and 4, and what errata S1 says of it.
+START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
+VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
+GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
+T = np.linspace(0, 20, 2001)
+CORNER_JUMP = np.array([0.107946862582, 0.457852830604, 0.920011415539,
+                        0.030116525407, -0.456073919364, -0.216939050457])
+GREATEST_SPEED = {0: [0.167925134190, 0.254172899579, 0.546579628640, 0.184156326854, 0.377072039796, 0.254664472000],
+                  0.1: [0.167925134190, 0.189357070983, 0.268949725020, 0.184156326854, 0.214674566952, 0.254664472000]}
+GREATEST_ACCELERATION = {0.1: [0.049798, 0.073271, 0.152951, 0.048029, 0.077924, 0.091649]}
+FRACTIONS = np.array([0, 0.1, 0.25, 0.5])
+
+PLANAR = Arm("Two links", (Link(axis=Z), Link(Transform(translation=(0.5, 0, 0)), Z,
+                                              after=Transform(translation=(0.4, 0, 0)))), None, [[-3, 3], [-2, 2]])
+SCARA = Arm("Four axes", (Link(Transform(translation=(0, 0, 0.4)), Z), Link(Transform(translation=(0.25, 0, 0)), Z),
+                          Link(Transform(translation=(0.2, 0, 0)), -Z, prismatic=True), Link(axis=Z)), None,
+            [[-3, 3], [-2, 2], [0, 0.18], [-6, 6]])
+
+
+def chain(fraction, t=T, corner="parabola"):
+    s = linear(t[-1])(t)
+    return follow(IRB140, IRB140.ik(blend(START, VIA, GOAL, fraction, s, corner=corner)), ROW)
+
+
+@pytest.fixture(scope="module")
+def motions():
+    return chain(FRACTIONS[:, None])
+
+
+@pytest.fixture(scope="module")
+def blended(motions):
+    return animate(IRB140, T, motions, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
+
+
+def decoded(player, arm=0):
+    """Joint values, speeds, accelerations (motions, samples, n) in the shown units."""
+    data = player.data["arms"][arm]
+    shape = (-1, len(player.data["times"]), len(data["chain"]))
+    out = []
+    for blob, steps in zip(data["data"], data["steps"], strict=True):
+        whole = np.frombuffer(base64.b64decode(blob), "<i2").reshape(shape)
+        out.append(np.where(whole == -32768, np.nan, whole * np.array(steps)))
+    return out
+
+
+def kept(player, t=T):
+    return np.abs(t[:, None] - player.data["times"]).argmin(axis=0)
+
+
+# --- The data of the page ---------------------------------------------------------------------------------------------
+
+
+def test_page_holds_the_motion_within_its_step(blended, motions):
+    q, v, a = decoded(blended)
+    steps = [np.array(s) for s in blended.data["arms"][0]["steps"]]
+    at = kept(blended)
+    assert at[0] == 0 and at[-1] == 2000 and len(at) <= 121 and (np.diff(at) > 0).all()
+    assert abs(q - motions[:, at] / deg).max() <= 0.5001 * steps[0].max() <= 0.005
+    speeds = np.gradient(motions, T, axis=1, edge_order=2)
+    assert abs(v - speeds[:, at] / deg).max() <= 0.5001 * steps[1].max() <= 0.005
+    inner = (at > 2) & (at < 1998)
+    accelerations = np.gradient(speeds, T, axis=1)[:, at] / deg
+    error = abs(a - accelerations)[:, inner]
+    assert error[1:].max() <= 0.5001 * steps[2].max() <= 0.005
+    assert np.nanmax(error[0]) <= 0.5001 * steps[2].max()
+    assert set(at[np.isnan(a[0]).any(axis=-1)]) <= {999, 1000, 1001} and np.isnan(a[0]).any()
+
+
+def test_steps_are_of_the_series_1_2_5(blended):
+    for steps in blended.data["arms"][0]["steps"]:
+        assert all(re.fullmatch(r"[125]e[-+]\d\d", f"{step:.0e}") for step in steps)
+
+
+def test_greatest_speeds_and_accelerations_are_those_of_the_errata(blended):
+    arm = blended.data["arms"][0]
+    for fraction, wanted in GREATEST_SPEED.items():
+        got = arm["speed"][FRACTIONS.tolist().index(fraction)]
+        # Differences forward (errata) and central, and the digit shown, differ by less than a tenth of a degree.
+        assert np.allclose(got, np.array(wanted) / deg, rtol=0, atol=0.1)
+        share = arm["share"][FRACTIONS.tolist().index(fraction)]
+        assert np.allclose(share, 100 * np.array(wanted) / IRB140.speed_limits, rtol=0, atol=0.6)
+    for fraction, wanted in GREATEST_ACCELERATION.items():
+        assert np.allclose(arm["acceleration"][FRACTIONS.tolist().index(fraction)], np.array(wanted) / deg, atol=0.08)
+
+
+def test_an_unblended_corner_is_a_speed_jump_and_no_acceleration(blended):
+    arm = blended.data["arms"][0]
+    assert arm["acceleration"][0] == [f"jump {x:.1f} °/s" for x in abs(CORNER_JUMP) / deg]
+    assert arm["jumps"] == {"0": [[10.0, "speed jumps by 52.7 °/s"]]}
+    assert all(isinstance(x, float) for row in arm["acceleration"][1:] for x in row)
+    # With the spike in, the scale would reach thousands of degrees per second squared.
+    panel = blended.data["panels"][2]["turn"]
+    for low, step, count, _ in panel["scales"]:
+        assert -100 < low < 0 < low + step * (count - 1) < 100
+
+
+@pytest.mark.parametrize("count, tolerance", [(2001, 1e-4), (2000, 2e-3), (100, 0.03)])
+def test_the_jump_does_not_depend_on_the_step(count, tolerance):
+    t = np.linspace(0, 20, count)
+    [(_, first, last, before, after)] = samples(chain(0.0, t)[None], t, IRB140.prismatic).jumps
+    assert t[first] <= 10 + 1e-9 and t[last] >= 10 - 1e-9 and last - first <= 1
+    assert np.allclose(after - before, CORNER_JUMP, atol=tolerance)
+
+
+@pytest.mark.parametrize("count", [100, 2001])
+def test_a_smooth_motion_has_no_jump(count):
+    t = np.linspace(0, 20, count)
+    q0, q1 = chain(0.0, np.array([0, 10.0, 20]))[[0, 2]]
+    for law in (linear(20), quintic(20), trapezoidal(20)):
+        s = law(t)
+        for q in (ptp(q0, q1, s), follow(IRB140, IRB140.ik(lin(START, GOAL, s)), ROW)):
+            found = samples(q[None], t, IRB140.prismatic)
+            assert found.jumps == [] and found.leaps == [] and not found.breaks.any()
+            assert np.isfinite(found.a).all()
+    assert samples(chain(0.1, t)[None], t, IRB140.prismatic).jumps == []
+
+
+def test_accelerations_have_no_artefact_at_the_ends():
+    t = np.linspace(0, 4, 101)
+    q = np.stack([np.sin(3 * t), t**4 / 100, np.exp(t / 2)], axis=-1)
+    exact = np.stack([-9 * np.sin(3 * t), 0.12 * t**2, np.exp(t / 2) / 4], axis=-1)
+    a = samples(q[None], t, np.zeros(3, bool)).a[0]
+    error, plain = abs(a - exact), abs(differentiate(q, t, 2) - exact)
+    ends = [0, 1, -2, -1]
+    assert (error[ends].max(axis=0) <= 0.5 * plain[ends].max(axis=0)).all()
+
+
+def test_the_distance_to_via_is_the_smallest_of_the_path(blended, motions):
+    path = IRB140.fk(motions).translation
+    wanted = np.linalg.norm(path - VIA.translation, axis=-1).min(axis=-1)
+    for (distance, *place), least in zip(blended.data["arms"][0]["via"], wanted, strict=True):
+        assert distance == pytest.approx(least / mm, abs=0.051)
+        assert np.linalg.norm(place - VIA.translation) == pytest.approx(least, abs=2e-4)
+    assert wanted[0] < 1e-9 < 0.03 < wanted[1]  # the unblended path passes the via point, the blended one does not
+
+
+def test_where_there_is_no_solution_the_curves_have_a_gap(motions):
+    q = motions[1].copy()
+    q[600:900] = np.nan
+    player = animate(IRB140, T, q)
+    at = kept(player)
+    for values in decoded(player):
+        assert (np.isnan(values[0]).all(axis=-1) == ((at >= 600) & (at < 900))).all()
+    arm = player.data["arms"][0]
+    assert arm["notes"]["0"] == ["No solution in 300 of 2001 samples."] and not arm["leaps"]
+    # The speeds right beside the gap are one-sided and right, not spread NaN.
+    speeds = samples(q[None], T, IRB140.prismatic).v[0]
+    clean = samples(motions[1:2], T, IRB140.prismatic).v[0]
+    assert np.allclose(speeds[[599, 900]], clean[[599, 900]], atol=1e-5)
+
+
+def test_a_motion_that_does_not_exist_at_all_still_shows(motions):
+    player = animate(IRB140, T, np.full((2001, 6), np.nan), targets=[START, VIA, GOAL])
+    assert player.data["arms"][0]["notes"]["0"] == ["No solution in 2001 of 2001 samples."]
+    assert player.data["arms"][0]["via"] == [None] and "<img" in player.html
+
+
+def test_a_turn_by_two_pi_is_a_break_and_not_a_speed(motions):
+    q = motions[1].copy()
+    q[1200:, 3] += 2 * np.pi
+    player = animate(IRB140, T, q)
+    arm = player.data["arms"][0]
+    [[when, words]] = arm["leaps"]["0"]
+    assert when == pytest.approx(11.995) and words.startswith("q4 jumps by 36") and words.endswith("°")
+    assert arm["speed"][0] == animate(IRB140, T, motions[1]).data["arms"][0]["speed"][0]
+    [gap] = arm["gaps"]["0"]
+    times = player.data["times"]
+    assert times[gap] <= 11.99 < 12.0 <= times[gap + 1] <= 12.001
+
+
+def test_samples_past_a_limit_are_counted(motions):
+    q = motions[1].copy()
+    q[:, 1] += 130 * deg
+    over = int((q[:, 1] > IRB140.limits[1, 1]).sum())
+    most = (q[:, 1].max() - IRB140.limits[1, 1]) / deg
+    assert 0 < over < 2001
+    [note] = animate(IRB140, T, q).data["arms"][0]["notes"]["0"]
+    assert note == f"q2 is past its limit in {over} of 2001 samples, by up to {most:.1f}°."
+    fast = animate(IRB140, T / 25, motions[1]).data["arms"][0]["notes"]["0"]
+    assert any("past its speed limit" in note for note in fast)
+
+
+def test_joints_that_shift_have_their_own_scale_and_millimetres():
+    q = np.stack([np.sin(T / 3), np.cos(T / 4), 0.09 + 0.05 * np.sin(T), 0.1 * T], axis=-1)
+    player = animate(SCARA, T, q)
+    panel = player.data["panels"][1]
+    assert (panel["turn"]["unit"], panel["shift"]["unit"]) == ("°/s", "mm/s")
+    assert decoded(player)[0][0, 0, 2] == pytest.approx(90, abs=0.01)
+    assert player.data["arms"][0]["speed"][0][2] == pytest.approx(50, abs=0.1)
+    assert player.data["scene"]["flat"] is None
+
+
+def test_a_planar_arm_is_seen_straight_on():
+    q = np.stack([np.sin(T / 3), np.cos(T / 4)], axis=-1)
+    assert animate(PLANAR, T, q).data["scene"]["flat"] == 2
+    assert animate(IRB140, T, 0.1 * np.ones((2001, 6))).data["scene"]["flat"] is None
+
+
+def test_everything_drawn_lies_inside_what_the_camera_sees(blended, motions):
+    """The few points handed over span, from any side, all postures (to the 5 mm they are rounded to)."""
+    seen = np.array(blended.data["scene"]["seen"])
+    points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
+    for k in range(24):
+        side = np.array([np.cos(k), np.sin(k), np.sin(3 * k)])
+        assert (points @ side).max() <= (seen @ side).max() + 0.06 * np.linalg.norm(side)
+    assert len(seen) <= 100
+
+
+def test_several_arms_share_clock_and_scales(motions):
+    player = animate([IRB140, IRB140], T, [motions[1], motions[3]], names=["near", "far"])
+    assert [arm["name"] for arm in player.data["arms"]] == ["near", "far"]
+    for k in (0, 1):
+        assert abs(decoded(player, k)[0] - motions[[1, 3][k], kept(player)] / deg).max() < 0.01
+
+
+# --- Size and sameness ------------------------------------------------------------------------------------------------
+
+
+def test_the_same_data_gives_the_same_page_whatever_the_noise(blended, motions):
+    again = animate(IRB140, T, motions, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
+    assert again.html == blended.html
+    noise = 1 + 1e-15 * np.random.default_rng(1).standard_normal(motions.shape)
+    other = animate(IRB140, T, motions * noise, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
+    assert other.text == blended.text and repr(other) == repr(blended)
+    assert animate(IRB140, T, motions[1]).id != animate(IRB140, T, motions[2]).id
+
+
+def test_the_id_is_not_of_the_picture(blended):
+    assert blended.id in blended.html and "iVBOR" not in blended.text
+
+
+def test_the_page_stays_small(motions):
+    q = np.broadcast_to(motions[1], (2, 51, *motions[1].shape))
+    values = np.linspace(0, 0.5, 51)
+    player = animate(IRB140, T, q, targets=[START, VIA, GOAL], slider=("blend", values), switch=("corner", ["a", "b"]))
+    assert 110 <= len(player.data["times"]) <= 121
+    assert len(player.html.encode()) < 650_000
+    assert len(animate(IRB140, T, motions[1]).html.encode()) < 75_000
+
+
+def test_words_for_the_notebook(blended):
+    bundle = blended._repr_mimebundle_()
+    assert set(bundle) == {"text/html", "text/plain"}
+    farthest = blended.data["arms"][0]["via"][3][0]
+    assert bundle["text/plain"] == ("Player of IRB-140: 20 s, blend 0 to 0.5 in 4 values, greatest speed 31.4 °/s "
+                                    f"(joint 3), smallest distance from the via point 0 to {farthest:g} mm.")
+    picture = r'<img alt="IRB-140 in the first and the last posture[^"]*" [^>]*src="data:image/png;base64,'
+    assert re.search(picture, bundle["text/html"])
+
+
+def test_nothing_in_the_data_ends_the_script(motions):
+    player = animate(IRB140, T, motions[1], title="</script><b>", points={"<!--": (0.1, 0.2, 0.3)})
+    script = player.html.split("<script>")[1]
+    assert script.count("</script>") == 1 and "<!--" not in script and "<b>" not in script
+    assert json.loads(player.text)["title"] == "</script><b>"
+
+
+# --- Saving and wrong calls -------------------------------------------------------------------------------------------
+
+
+def test_save_writes_one_page_and_spares_what_is_not_its_own(tmp_path, blended):
+    page = tmp_path / "player.html"
+    blended.save(page)
+    blended.save(str(page))  # a saved player may be replaced
+    text = page.read_text(encoding="utf-8")
+    assert blended.html in text and not re.search(r"(src|href)=.?(https?:)?//", text)
+    other = tmp_path / "notes.html"
+    other.write_text("my notes")
+    with pytest.raises(ValueError, match="nothing is overwritten"):
+        blended.save(other)
+    assert other.read_text() == "my notes"
+    with pytest.raises(ValueError, match="ends in .html"):
+        blended.save(tmp_path / "player.txt")
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"arm": "IRB140"}, "arm: wanted a Arm"),
+    ({"t": []}, "at least three times"),
+    ({"t": T[:2], "q": np.zeros((2, 6))}, "at least three times"),
+    ({"t": T[::-1]}, "rising times"),
+    ({"t": np.full(2001, np.nan)}, "t: wanted finite"),
+    ({"q": np.zeros((2001, 5))}, r"wanted shape \(2001, 6\)"),
+    ({"q": np.zeros((2000, 6))}, r"wanted shape \(2001, 6\)"),
+    ({"q": np.full((2001, 6), np.inf)}, "finite"),
+    ({"q": "no"}, "wanted numbers"),
+    ({"slider": ("blend", [0, 0.1])}, r"wanted shape \(2, 2001, 6\)"),
+    ({"slider": ("blend", [0.1])}, "at least two"),
+    ({"slider": ("blend", [0.1, 0.1])}, "rising"),
+    ({"slider": "blend"}, r"slider: wanted \(name, values\)"),
+    ({"switch": ("corner", ["one"])}, "at least two words"),
+    ({"switch": ("corner", ["one", "two"])}, r"wanted shape \(2, 2001, 6\)"),
+    ({"names": ["x"]}, "names: wanted only with a list"),
+    ({"arm": [IRB140, IRB140]}, "one array for each of 2 arms"),
+    ({"arm": [IRB140], "q": [np.zeros((2001, 6))], "names": ["a", "b"]}, "wanted 1 names"),
+    ({"targets": [(1, 2, 3)]}, "target"),
+    ({"points": [(1, 2, 3, 4)]}, "points: wanted places"),
+    ({"circles": [((0, 0, 0), -1)]}, "radius"),
+])
+def test_a_wrong_call_says_what_is_wanted(change, message):
+    call = {"arm": IRB140, "t": T, "q": np.zeros((2001, 6))} | change
+    arm, t, q = call.pop("arm"), call.pop("t"), call.pop("q")
+    with pytest.raises(ValueError, match=message):
+        animate(arm, t, q, **call)
+
+
+# --- In a browser -----------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def page(browser):
+    """A page that must not complain and must not ask the network for anything."""
+    page = browser.new_page(viewport={"width": 900, "height": 900})
+    complaints = []
+    page.on("console", lambda m: complaints.append(m.text) if m.type in ("error", "warning") else None)
+    page.on("pageerror", lambda e: complaints.append(str(e)))
+    page.on("request", lambda r: None if r.url.startswith(("file:", "data:", "about:")) else complaints.append(r.url))
+    yield page
+    page.close()
+    assert complaints == []
+
+
+def show(page, player, tmp_path):
+    player.save(tmp_path / "player.html")
+    page.goto((tmp_path / "player.html").as_uri())
+    page.get_by_role("button", name="play").wait_for()
+    return page
+
+
+def ink(page, selector):
+    """A fingerprint of what a canvas shows, after the next picture."""
+    return page.evaluate("""selector => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() =>
+        done(document.querySelector(selector).toDataURL()))))""", selector)
+
+
+@pytest.mark.parametrize("arm", [IRB140, SCARA, PLANAR], ids=lambda arm: arm.name)
+def test_the_page_computes_the_frames_of_the_arm(page, arm):
+    q = np.random.default_rng(7).uniform(arm.limits[:, 0], arm.limits[:, 1], (50, len(arm.links)))
+    player = animate(arm, T, np.linspace(q[0], q[1], 2001))
+    script = files("robokin.show").joinpath("player.js").read_text(encoding="utf-8")
+    got = page.evaluate("([script, chain, q]) => q.map(row => new Function(script + 'return frames')()(chain, row))",
+                        [script, player.data["arms"][0]["chain"], q.tolist()])
+    assert np.allclose(np.reshape(got, (50, -1, 3, 4)), arm.frames(q).as_matrix()[..., :3, :], rtol=0, atol=2e-8)
+
+
+def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
+    show(page, blended, tmp_path)
+    assert page.locator("img").count() == 0  # the still picture has gone
+    page.get_by_label("time", exact=True).fill("200")
+    seen = [(ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text())]
+    assert "jump 52.7" in seen[0][2] and "speed jumps at 10.00 s" in page.locator(".rk-notes").inner_text()
+    slider = page.get_by_label("blend", exact=True)
+    slider.focus()
+    for _ in FRACTIONS[1:]:
+        page.keyboard.press("ArrowRight")
+        seen.append((ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text()))
+    for part in zip(*seen, strict=True):
+        assert len(set(part)) == len(FRACTIONS)
+    assert page.locator(".rk-value").last.inner_text() == "0.50"
+    arm = blended.data["arms"][0]
+    for j in range(6):
+        assert f"{arm['speed'][3][j]:.1f} ({arm['share'][3][j]}\u00a0%)" in seen[3][2]
+        assert f"{arm['acceleration'][3][j]:.1f}" in seen[3][2]
+    assert f"{arm['via'][3][0]:.1f} mm" in seen[3][2] and page.locator(".rk-notes").inner_text() == ""
+
+
+def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
+    show(page, blended, tmp_path)
+    time = page.get_by_label("time", exact=True)
+    assert time.input_value() == "0"
+    page.wait_for_timeout(200)
+    assert time.input_value() == "0"  # no autoplay
+    page.keyboard.press("Tab")  # the scene
+    assert page.evaluate("document.activeElement.className") == "rk-scene"
+    before = ink(page, ".rk-scene")
+    page.keyboard.press("ArrowRight")
+    turned = ink(page, ".rk-scene")
+    page.keyboard.press("Home")
+    assert turned != before == ink(page, ".rk-scene")
+    page.keyboard.press("Space")
+    page.wait_for_timeout(700)
+    assert page.get_by_role("button", name="pause").count() == 1
+    page.keyboard.press("Space")
+    stopped = time.input_value()
+    assert 5 <= int(stopped) <= 60  # 400 ticks are 20 s: between a quarter of a second and three
+    page.wait_for_timeout(200)
+    assert time.input_value() == stopped
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    page.keyboard.press("ArrowRight")
+    assert time.input_value() == str(int(stopped) + 1)
+    page.keyboard.press("End")
+    ink(page, ".rk-scene")
+    assert page.get_by_text("20.00 s").count() == 1
+
+
+def test_every_control_keeps_its_keys_and_has_a_name(page, blended, tmp_path):
+    show(page, blended, tmp_path)
+    controls = page.locator("input, select, button, canvas[tabindex]")
+    assert controls.count() >= 5
+    for i in range(controls.count()):
+        assert controls.nth(i).get_attribute("data-lm-suppress-shortcuts") == "true"
+        assert controls.nth(i).get_attribute("aria-label")
+    assert page.locator("canvas[role=img][aria-label]").count() == 2
+    assert page.locator("[aria-live], [role=status], output").count() == 0
+
+
+def test_dragging_turns_the_arm_and_sets_the_time(page, blended, tmp_path):
+    show(page, blended, tmp_path)
+    before = ink(page, ".rk-scene")
+    box = page.locator(".rk-scene").bounding_box()
+    page.mouse.move(box["x"] + 100, box["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 160, box["y"] + 120)
+    page.mouse.up()
+    assert ink(page, ".rk-scene") != before
+    page.locator(".rk-scene").dblclick()
+    assert ink(page, ".rk-scene") == before
+    box = page.locator(".rk-curves").bounding_box()
+    page.mouse.click(box["x"] + box["width"] - 16, box["y"] + 100)  # the right end of the time axis
+    ink(page, ".rk-curves")
+    assert int(page.get_by_label("time", exact=True).input_value()) > 390
+
+
+def test_two_copies_of_one_player_do_not_disturb_each_other(page, blended, tmp_path):
+    page.set_content(blended.html + blended.html)
+    assert page.get_by_role("button", name="play").count() == 2
+    page.get_by_label("blend", exact=True).nth(1).fill("3")
+    ink(page, ".rk-scene")
+    assert [v.inner_text() for v in page.locator(".rk-row:nth-of-type(n+4) .rk-value").all()] == ["0.00", "0.50"]
+
+
+def test_a_removed_player_asks_for_no_more_pictures(page, blended, tmp_path):
+    page.add_init_script("""window.asked = 0; const ask = window.requestAnimationFrame;
+        window.requestAnimationFrame = f => { window.asked++; return ask.call(window, f); };""")
+    show(page, blended, tmp_path)
+    page.get_by_role("button", name="play").click()
+    page.wait_for_timeout(300)
+    assert page.evaluate("asked") > 3
+    page.evaluate("document.querySelector('.robokin-player').remove()")
+    page.wait_for_timeout(150)
+    asked = page.evaluate("asked")
+    page.wait_for_timeout(300)
+    assert page.evaluate("asked") == asked
+
+
+@pytest.mark.parametrize("width", [360, 500, 900, 1400])
+def test_nothing_is_cut_off_at_any_width(page, blended, tmp_path, width):
+    page.set_viewport_size({"width": width, "height": 900})
+    show(page, blended, tmp_path)
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    boxes = [page.locator(s).bounding_box() for s in (".rk-scene", ".rk-curves")]
+    assert (boxes[0]["y"] == boxes[1]["y"]) == (width >= 900)  # side by side, or one above the other
+    assert all(box["width"] > 250 and box["height"] > 250 for box in boxes)
+
+
+def test_without_scripts_the_picture_stays(browser, blended, tmp_path):
+    blended.save(tmp_path / "player.html")
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto((tmp_path / "player.html").as_uri())
+    box = page.get_by_role("img", name="IRB-140 in the first and the last posture").bounding_box()
+    assert box["width"] > 400 and box["height"] > 200
+    context.close()

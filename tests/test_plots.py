@@ -1,0 +1,410 @@
+"""What the figures draw, read back from their lines, and what reaches a notebook: the alt text and a small picture."""
+
+import io
+import json
+import math
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+
+import matplotlib
+import matplotlib.colors
+import nbformat
+import numpy as np
+import pytest
+from machines import MACHINES, oracle
+from matplotlib.text import Text
+from nbconvert import HTMLExporter
+from PIL import Image
+
+from robokin import IRB140, Arm, Link, Quaternion, Transform, blend, deg, differentiate, follow, lin_lin, linear, mm
+from robokin.show import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+from robokin.show.plots import palette_png
+from robokin.show.scene import arm_points, named_targets, number, project
+
+X, Y, Z = np.eye(3)
+DOWN = Quaternion.from_angle_axis(np.pi / 2, -X)
+START = Transform(DOWN, np.array([200, 400, 200]) * mm)
+VIA = Transform(Quaternion.from_angle_axis(np.pi / 4, Y), np.array([650, -100, 800]) * mm)
+GOAL = Transform(Quaternion.from_angle_axis(np.pi / 2, Y), np.array([300, 300, 500]) * mm)
+T = np.linspace(0, 20, 2001)
+ROW = IRB140.branch(+1, +1, -1)
+PLANAR = Arm("two links", tuple(Link(axis=Z, after=Transform(translation=(length, 0, 0))) for length in (1.5, 1.2)),
+             None, [(-np.pi, np.pi)] * 2)
+
+
+def law_of_listing_1(t, total=20.0):
+    """001, listing 1: along y, then along x, while the tool turns about y."""
+    share = t / total
+    x = np.where(share < 0.5, 200, 200 + (share - 0.5) * 500)
+    y = np.where(share < 0.5, 50 + 1000 * share, 550)
+    return Transform(Quaternion.from_angle_axis(share * np.pi / 2, Y),
+                     np.stack([x, y, 500 + 0 * t], axis=-1) * mm)
+
+
+def curves(ax):
+    """Name -> (samples, 2) of a panel's joint curves."""
+    return {line.get_label(): np.column_stack(line.get_data()) for line in ax.lines
+            if re.fullmatch(r"q\d", line.get_label())}
+
+
+def words(ax):
+    return " ".join(text.get_text() for text in ax.texts).replace("\n", " ")
+
+
+@pytest.fixture(scope="module")
+def corner():
+    return follow(IRB140, IRB140.ik(lin_lin(START, VIA, GOAL, linear(20.0)(T))), ROW)
+
+
+@pytest.fixture(scope="module")
+def rounded():
+    return follow(IRB140, IRB140.ik(blend(START, VIA, GOAL, 0.1, linear(20.0)(T))), ROW)
+
+
+@pytest.fixture(scope="module")
+def figures(rounded):
+    v, a = differentiate(rounded, T), differentiate(rounded, T, 2)
+    return {
+        "joints": plot_joints(IRB140, T, rounded, v, a, title="Joint 3 brakes hardest at the corner"),
+        "postures": plot_postures(IRB140, rounded, targets=[START, VIA, GOAL], title="The path misses the via point"),
+        "frames": plot_frames(IRB140.frames(rounded[0]), names=list("abcdefg"), chain=True, title="A chain"),
+        "own": figure("Nothing to see & nothing <said>"),
+    }
+
+
+# --- Joint curves -----------------------------------------------------------------------------------------------------
+
+
+def test_curves_are_the_given_numbers_in_degrees(rounded):
+    v, a = differentiate(rounded, T), differentiate(rounded, T, 2)
+    panels = plot_joints(IRB140, T, rounded, v, a).axes
+    assert len(panels) == 3
+    for ax, values in zip(panels, (rounded, v, a), strict=True):
+        drawn = curves(ax)
+        assert list(drawn) == [f"q{i}" for i in range(1, 7)]
+        for i, curve in enumerate(drawn.values()):
+            np.testing.assert_array_equal(curve[:, 0], T)
+            np.testing.assert_allclose(curve[:, 1], [math.degrees(x) for x in values[:, i]], rtol=1e-12, atol=1e-12)
+    assert all(ax.get_xlim() == (0, 20) for ax in panels)
+
+
+def test_prismatic_joints_have_panels_of_their_own_in_millimetres():
+    arm = MACHINES[[m.arm.name for m in MACHINES].index("SCARA")].arm
+    t = np.linspace(0, 1, 50)
+    q = arm.limits[:, 0] + np.sin(3 * t)[:, None] * np.ptp(arm.limits, axis=1) * 0.9
+    left, right = plot_joints(arm, t, q).axes
+    shifting = int(np.flatnonzero(arm.prismatic)[0])
+    assert set(curves(right)) == {f"q{shifting + 1}"} and len(curves(left)) == 3
+    np.testing.assert_allclose(curves(right)[f"q{shifting + 1}"][:, 1], q[:, shifting] * 1000, rtol=1e-12)
+    assert "mm" in right.get_ylabel() and "°" in left.get_ylabel()
+
+
+def test_colour_and_dash_tell_the_joints_apart(rounded):
+    lines = [line for line in plot_joints(IRB140, T, rounded).axes[0].lines if line.get_label().startswith("q")]
+    assert [matplotlib.colors.to_hex(line.get_color()).upper() for line in lines] == [
+        "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+    assert len({style["dash"] for style in JOINT_STYLES}) == 6 and JOINT_STYLES[0]["dash"] == ()
+
+
+def test_violations_of_task_1_are_counted_and_marked():
+    """Errata S1-h: in 673 of the document's 2000 samples a limit is passed, until t = 6.72."""
+    t = np.arange(0, 20, 0.01)
+    q = follow(IRB140, IRB140.ik(law_of_listing_1(t)), IRB140.branch(1, 1, 1))
+    case = oracle("trajectories_irb140")["cases"][0]
+    np.testing.assert_allclose(q[::100][1:], [s["q"] for s in case["samples"]][1:20], atol=1e-9)
+    assert case["law"] == "task1" and case["limit_violation_count"] == 673
+    # Counted once more, in whole degrees from listing 1 and by the document's own formula for the wrist angle:
+    past3, past5 = np.degrees(q[:, 2]) > 50, np.degrees(q[:, 4]) > 115
+    assert (past3 | past5).sum() == 673 and t[past3 | past5].max() == pytest.approx(6.72)
+    fig = plot_joints(IRB140, t, q)
+    ax = fig.axes[0]
+    for text in (words(ax), fig.alt.lower()):
+        assert f"joint 5 past its limit in 673 of 2000 samples, joint 3 in {past3.sum()}" in text
+        assert "inside its limits" not in text
+    marked = [line.get_ydata() for line in ax.lines if line.get_linewidth() > 4]
+    for values, past in zip(marked, (past3, past5), strict=True):
+        np.testing.assert_array_equal(np.isfinite(values), past)
+    assert "limit of q5: 115°" in words(ax) and "limit of q3: 50°" in words(ax)
+
+
+def test_a_motion_inside_its_limits_says_so_and_marks_nothing(rounded):
+    ax = plot_joints(IRB140, T, rounded).axes[0]
+    assert "every joint inside its limits" in words(ax)
+    assert not [line for line in ax.lines if line.get_linewidth() > 4]
+
+
+def test_far_limits_do_not_flatten_the_curves(rounded):
+    for ax, values in zip(plot_joints(IRB140, T, rounded, differentiate(rounded, T)).axes,
+                          (rounded, differentiate(rounded, T)), strict=True):
+        low, high = ax.get_ylim()
+        assert np.ptp(values / deg) > 0.8 * (high - low)
+
+
+def test_speeds_past_the_limit_are_counted():
+    t = np.linspace(0, 2, 401)
+    q = np.zeros((401, 6))
+    q[:, 1] = np.sin(4 * t)  # its speed passes 200 deg/s where 4 |cos 4 t| > 3.49
+    v = np.zeros_like(q)
+    v[:, 1] = 4 * np.cos(4 * t)
+    count = sum(abs(4 * math.cos(4 * x)) > math.radians(200) for x in t)
+    assert 0 < count < 401
+    ax = plot_joints(IRB140, t, q, v).axes[1]
+    assert f"joint 2 past its speed limit in {count} of 401 samples" in words(ax)
+    assert "limit of q2: 200 °/s" in words(ax) and "limit of q2: −200 °/s" in words(ax)
+
+
+def test_a_share_of_the_speed_limit_is_said(rounded):
+    v = differentiate(rounded, T)
+    share = max(abs(v[k, i]) / IRB140.speed_limits[i] for k in range(len(T)) for i in range(6))
+    assert f"at most {100 * share:.2g} % of the speed limit (q3)" in words(plot_joints(IRB140, T, rounded, v).axes[1])
+
+
+def test_a_corner_does_not_flatten_the_accelerations(corner):
+    """Errata S1-m: there the acceleration is the speed's jump divided by the step."""
+    a = differentiate(corner, T, 2)
+    fig = plot_joints(IRB140, T, corner, differentiate(corner, T), a)
+    ax = fig.axes[2]
+    greatest = abs(a).max() / deg
+    away = abs(T - 10) > 0.05
+    assert greatest > 2000
+    assert ax.get_ylim()[1] - ax.get_ylim()[0] < 3 * np.ptp(a[away] / deg)
+    assert f"spike at 10 s: speed jump / step, up to {greatest:.0f} °/s² (q3)" in words(ax) and "Spike" in fig.alt
+    assert max(abs(curve[:, 1]).max() for curve in curves(ax).values()) == pytest.approx(greatest)  # still drawn
+    assert "spike" not in words(fig.axes[1])  # a jump of the speed is no spike
+
+
+def test_a_long_burst_is_no_spike(rounded):
+    a = differentiate(rounded, T, 2)
+    ax = plot_joints(IRB140, T, rounded, None, a).axes[1]
+    low, high = ax.get_ylim()
+    assert low < a.min() / deg and a.max() / deg < high and "spike" not in words(ax)
+
+
+def test_rest_is_drawn_as_rest():
+    """Rounding noise of a constant speed must not fill the panel."""
+    t = np.linspace(0, 1, 101)
+    noise = 1e-13 * np.random.default_rng(1).normal(size=(101, 6))
+    fig = plot_joints(IRB140, t, np.zeros((101, 6)), None, noise)
+    low, high = fig.axes[1].get_ylim()
+    assert high - low > 1e-3
+    assert "Greatest acceleration 0 °/s²." in fig.alt  # and no joint is named by noise
+
+
+def test_a_whole_turn_is_drawn_and_named():
+    raw = IRB140.ik(lin_lin(START, VIA, GOAL, linear(20.0)(T)))[:, IRB140.branch(1, 1, 1)]
+    fig = plot_joints(IRB140, T, raw, differentiate(raw, T))
+    at = T[1:][abs(np.diff(raw[:, 3])) > 6]
+    assert len(at) == 1  # errata S1-e: at 12.50
+    assert f"q4 jumps by 360° at {at[0]:.1f} s" in words(fig.axes[0])
+    np.testing.assert_array_equal(curves(fig.axes[0])["q4"][:, 1], raw[:, 3] / deg)
+    assert "angle jump / step" in words(fig.axes[1])
+    low, high = fig.axes[1].get_ylim()
+    assert high - low < 100  # the spike has 18 000 deg/s
+
+
+def test_gaps_stay_gaps(rounded):
+    q = rounded.copy()
+    q[600:800] = np.nan
+    q[1500:] = np.nan
+    fig = plot_joints(IRB140, T, q, differentiate(q, T))
+    drawn = curves(fig.axes[0])["q1"][:, 1]
+    np.testing.assert_array_equal(np.isnan(drawn), np.isnan(q[:, 0]))
+    assert fig.axes[0].get_legend() is not None  # the curves do not reach the edge, where their names would stand
+    assert "nan" not in fig.alt.lower()
+
+
+def test_names_at_the_ends_do_not_touch(rounded):
+    fig = plot_joints(IRB140, T, rounded, differentiate(rounded, T) * 0)  # six curves that end in one point
+    fig.canvas.draw()
+    renderer = fig.canvas.get_renderer()
+    for ax in fig.axes:
+        boxes = sorted((box.y0, box.y1) for text in ax.texts if re.fullmatch(r"q\d", text.get_text())
+                       for box in [Text.get_window_extent(text, renderer)])  # without its leader line
+        assert len(boxes) == 6 and all(low[1] <= high[0] + 1 for low, high in zip(boxes, boxes[1:], strict=False))
+
+
+@pytest.mark.parametrize("bad", [
+    lambda q: plot_joints(IRB140, T[:-1], q),
+    lambda q: plot_joints(IRB140, T[::-1], q),
+    lambda q: plot_joints(IRB140, T[:1], q[:1]),
+    lambda q: plot_joints(IRB140, T, q[:, :5]),
+    lambda q: plot_joints(IRB140, T, q, q[:-1]),
+    lambda q: plot_joints("IRB140", T, q),
+    lambda q: plot_postures(IRB140, q[:, :5]),
+    lambda q: plot_postures(IRB140, q * np.nan),
+    lambda q: plot_postures(IRB140, q, targets=[START.as_matrix()]),
+    lambda q: plot_frames([]),
+    lambda q: plot_frames(START.as_matrix()),
+    lambda q: plot_frames([START, GOAL], names=["one"]),
+    lambda q: plot_frames(START, size=-1),
+    lambda q: figure(""),
+])
+def test_wrong_calls_say_what_they_got(bad, rounded):
+    with pytest.raises(ValueError, match="wanted .*got"):
+        bad(rounded)
+
+
+# --- Spatial views ----------------------------------------------------------------------------------------------------
+
+
+def test_a_cube_keeps_its_proportions(figures):
+    """Pixels of the corners of a cube: what a true view maps to a scaled orthographic projection, by Gauss's theorem
+    of axonometry: with the axes' images as complex numbers, a^2 + b^2 + c^2 = 0.
+    """
+    for name in ("postures", "frames"):
+        ax = figures[name].axes[0]
+        figures[name].canvas.draw()
+        pixels = ax.transData.transform(project(np.array([[0, 0, 0], X, Y, Z]) * 0.3))
+        edges = (pixels[1:] - pixels[0]) @ [1, 1j]
+        assert abs((edges**2).sum()) < 1e-9 * (abs(edges) ** 2).sum()
+        assert edges[2].real == pytest.approx(0, abs=1e-6) and edges[2].imag > 0  # z is up
+
+
+def test_postures_draw_the_path_and_the_arm(figures, rounded):
+    lines = [np.column_stack(line.get_data()) for line in figures["postures"].axes[0].lines]
+    flange = project(IRB140.fk(rounded).translation)
+    assert any(line.shape == flange.shape and np.allclose(line, flange, atol=1e-12) for line in lines)
+    for k in (0, -1):
+        posture = project(arm_points(IRB140, rounded[k]))
+        assert any(line.shape == posture.shape and np.allclose(line, posture, atol=1e-12) for line in lines)
+    assert {"start", "via", "goal", "first", "last", "x", "y", "z"} <= {
+        text.get_text() for text in figures["postures"].axes[0].texts}
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=repr)
+def test_links_join_the_frames_of_every_arm(machine):
+    q = np.random.default_rng(3).uniform(-1, 1, (4, len(machine.arm.links)))
+    points = arm_points(machine.arm, q)
+    np.testing.assert_allclose(points[:, ::2], machine.arm.frames(q).translation, atol=1e-12)
+    for i, link in enumerate(machine.arm.links):  # a joint's own turn does not move the joint
+        if not link.prismatic:
+            turned = q.copy()
+            turned[:, i] += 1
+            np.testing.assert_allclose(arm_points(machine.arm, turned)[:, 2 * i + 1], points[:, 2 * i + 1], atol=1e-12)
+
+
+@pytest.mark.parametrize("arm", [*(m.arm for m in MACHINES), PLANAR], ids=lambda arm: arm.name)
+def test_nothing_is_cut_off_and_little_is_empty(arm):
+    q = np.linspace(0.1, 0.9, 40)[:, None] * np.where(arm.prismatic, arm.limits[:, 1], 1.0)
+    fig = plot_postures(arm, q, targets=[arm.fk(q[0]), arm.fk(q[-1])], title="A title")
+    ink = np.asarray(Image.open(io.BytesIO(palette_png(fig))).convert("L")) < 250
+    assert not ink[:, :2].any() and not ink[:, -2:].any() and not ink[:2].any() and not ink[-2:].any()
+    rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
+    assert len(rows) > 0.9 * ink.shape[0] - 40 and np.ptp(columns) > 0.8 * ink.shape[1]
+    renderer = fig.canvas.get_renderer()
+    for text in fig.axes[0].texts:
+        box = text.get_window_extent(renderer)
+        assert box.x0 >= 0 and box.y0 >= 0 and box.x1 <= ink.shape[1] and box.y1 <= ink.shape[0], text
+
+
+def test_scale_is_in_metres_for_a_large_arm(figures):
+    q = np.linspace(0, 1, 20)[:, None] * [1, -0.5]
+    large = words(plot_postures(PLANAR, q).axes[0])
+    assert re.search(r"grid 0\.\d+ m\b", large) and "mm" not in large
+    assert re.search(r"floor grid \d+ mm", words(figures["postures"].axes[0]))
+    # A plane arm is seen from above: x to the right, y up.
+    lines = [np.column_stack(line.get_data()) for line in plot_postures(PLANAR, q).axes[0].lines]
+    tip = np.column_stack([1.5 * np.cos(q[:, 0]) + 1.2 * np.cos(q.sum(1)),
+                           1.5 * np.sin(q[:, 0]) + 1.2 * np.sin(q.sum(1))])
+    assert any(line.shape == tip.shape and np.allclose(line, tip) for line in lines)
+
+
+def test_frames_are_drawn_where_they_are():
+    fig = plot_frames([START, VIA], names=["start", "via"], size=0.1)
+    lines = [np.column_stack(line.get_data()) for line in fig.axes[0].lines]
+    for pose in (Transform(), START, VIA):  # the base too
+        for axis in np.eye(3):
+            edge = project(np.stack([pose.translation, pose.translation + 0.1 * (pose.rotation @ axis)]))
+            assert any(line.shape == (2, 2) and np.allclose(line, edge, atol=1e-12) for line in lines)
+    assert {"base", "start", "via"} <= {text.get_text() for text in fig.axes[0].texts}
+    assert "start at (200, 400, 200) mm" in fig.alt and "via at (650, −100, 800) mm" in fig.alt
+
+
+def test_frames_with_one_origin_are_named_at_their_axes():
+    turns = Transform(Quaternion.from_angle_axis(np.arange(0, 91, 30) * deg, Z))
+    texts = {text.get_text() for text in plot_frames(turns, names=["0°", "30°", "60°", "90°"]).axes[0].texts}
+    assert {"x 0°", "x 30°", "x 60°", "x 90°"} <= texts
+
+
+@pytest.mark.parametrize("value, text", [(0.0, "0"), (-1e-13, "0"), (-12.345, "−12.3"), (999.96, "1000"),
+                                         (17993.2, "17993"), (0.05, "0.05"), (62.5, "62.5")])
+def test_numbers_for_people(value, text):
+    assert number(value) == text
+
+
+def test_targets_have_names():
+    assert list(named_targets([START])) == ["target"] and list(named_targets(START)) == ["target"]
+    assert list(named_targets([START, GOAL])) == ["start", "goal"]
+    assert list(named_targets((START, VIA, GOAL))) == ["start", "via", "goal"]
+    assert named_targets({"bin": GOAL}) == {"bin": GOAL} and named_targets(()) == {}
+    assert len(named_targets([START] * 5)) == 5
+
+
+# --- In a notebook ----------------------------------------------------------------------------------------------------
+
+
+class Images(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attributes):
+        if tag == "img":
+            self.found.append(dict(attributes))
+
+
+def test_alt_text_reaches_the_exported_page(figures):
+    outputs = [nbformat.v4.new_output("execute_result", data=fig._repr_mimebundle_(), execution_count=1)
+               for fig in figures.values()]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("fig", outputs=outputs)])
+    page = Images()
+    page.feed(HTMLExporter().from_notebook_node(notebook)[0])
+    assert [image["alt"] for image in page.found] == [fig.alt for fig in figures.values()]
+    for image, fig in zip(page.found, figures.values(), strict=True):
+        assert image["src"].startswith("data:image/png;base64,") and int(image["width"]) <= 900
+        assert fig._repr_mimebundle_()["text/plain"] == fig.alt == repr(fig)
+
+
+def test_alt_text_reaches_the_page_of_an_untrusted_notebook(figures, browser):
+    """What JupyterLab's sanitizer leaves is tested in test_browser; here: that a browser reads the alt text back."""
+    page = browser.new_page()
+    page.set_content(figures["own"]._repr_mimebundle_()["text/html"])
+    assert page.get_by_role("img", name="Nothing to see & nothing <said>").evaluate("i => i.naturalWidth") == 900
+    page.close()
+
+
+def test_pictures_are_small_and_have_a_palette(figures):
+    for name, fig in figures.items():
+        data = palette_png(fig)
+        image = Image.open(io.BytesIO(data))
+        assert image.format == "PNG" and image.mode == "P" and len(data) < 60_000, (name, len(data))
+        assert image.size == tuple(np.round(fig.get_size_inches() * 100).astype(int)) and image.width <= 900
+        colours = np.asarray(image.convert("RGB")).reshape(-1, 3).astype(int)
+        if name == "postures":  # thin lines keep their colours
+            for want in ((0xC6, 0x28, 0x28), (0x2E, 0x7D, 0x32), (0x1F, 0x55, 0xC4)):
+                assert abs(colours - want).max(axis=1).min() <= 4
+
+
+def test_alt_text_does_not_depend_on_the_last_bit(rounded):
+    v = differentiate(rounded, T)
+    moved = rounded + 1e-14 * np.random.default_rng(5).normal(size=rounded.shape)
+    assert plot_joints(IRB140, T, rounded, v).alt == plot_joints(IRB140, T, moved, differentiate(moved, T)).alt
+    assert plot_postures(IRB140, rounded).alt == plot_postures(IRB140, moved).alt
+    home = IRB140.frames(np.zeros(6))
+    assert plot_frames(home).alt == plot_frames(IRB140.frames(np.full(6, 1e-15))).alt
+    assert "−0" not in plot_frames(home).alt
+
+
+def test_a_caller_can_say_more(rounded):
+    assert plot_joints(IRB140, T, rounded, alt="All calm.").alt == "All calm."
+    assert plot_postures(IRB140, rounded, alt="All calm.").alt == plot_frames(START, alt="All calm.").alt == "All calm."
+
+
+def test_nothing_here_needs_pyplot():
+    code = ("import sys, numpy as np, robokin.show.plots as p; from robokin import IRB140; "
+            "t = np.linspace(0, 1, 50); p.plot_joints(IRB140, t, np.zeros((50, 6)))._repr_mimebundle_(); "
+            "p.plot_postures(IRB140, np.zeros(6)); import json; print(json.dumps(sorted(sys.modules)))")
+    loaded = json.loads(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+    assert "matplotlib.figure" in loaded and "matplotlib.pyplot" not in loaded

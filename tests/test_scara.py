@@ -1,0 +1,120 @@
+"""The SCARA arm and its Target against the reference cases of the documents' own motions (oracle, errata S1)."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robokin import SCARA, Quaternion, Target, Transform, blend, deg, explain, follow, lin, lin_lin, mm, within
+
+DATA = Path(__file__).parent / "data"
+CASES = json.loads((DATA / "scara.json").read_text())["cases"]
+MOTIONS = json.loads((DATA / "trajectories_scara.json").read_text())["cases"]
+UNITS = np.array([1, 1, 1, mm])
+START, VIA, GOAL = (Target(np.array(p) * mm, a) for p, a in (
+    ((200, 300, 120), 0.0), ((400, 100, 0), np.pi), ((200, -200, 200), np.pi / 2)))
+
+
+def turned(a, b):
+    """The greatest difference of two joint rows, angles modulo a turn."""
+    difference = a - b
+    difference[:3] -= 2 * np.pi * np.round(difference[:3] / (2 * np.pi))
+    return abs(difference).max()
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case["kind"])
+def test_every_reference_case_has_its_rows_in_their_places(case):
+    *position, angle = case["target"]
+    target = Target(np.array(position) * mm, angle)
+    rows = SCARA.ik(target)
+    matrix = np.array(case["T"])
+    matrix[:3, 3] *= mm
+    np.testing.assert_allclose(SCARA.ik(Transform.from_matrix(matrix)), rows, atol=1e-9)
+    assert np.isnan(rows).all() != case["reachable"]
+    for solution in case["solutions"]:
+        wanted = np.array(solution["q"]) * UNITS
+        row = rows[SCARA.branch(solution["elbow"])]
+        assert turned(row, wanted) < (1e-4 if case["singular"]["elbow"] else 1e-6)
+        assert (within(SCARA, wanted) == solution["in_limits_per_joint"]).all()
+        np.testing.assert_allclose(SCARA.fk(row).as_matrix(), matrix, atol=1e-12)
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (3, 1, 2)])
+def test_ik_returns_the_drawn_joints(shape):
+    rng = np.random.default_rng(4)
+    q = rng.uniform(-np.pi, np.pi, (*shape, 4)) * [1, 1, 1, 0.05]
+    rows = SCARA.ik(SCARA.fk(q))
+    assert rows.shape == (*shape, 2, 4)
+    away = rows - q[..., None, :]
+    away[..., :3] -= 2 * np.pi * np.round(away[..., :3] / (2 * np.pi))
+    assert (abs(away).max(-1).min(-1) < 1e-9).all()
+    assert (np.sign(rows[..., 1]) == [1, -1]).all()
+
+
+def test_a_tilted_tool_is_out_of_reach():
+    tilted = Transform(Quaternion.from_angle_axis(1 * deg, (1, 0, 0)), (0.3, 0, 0.1))
+    assert np.isnan(SCARA.ik(tilted)).all()
+    assert "tilted by 1.0°" in explain(SCARA, tilted, 0)
+
+
+def law(name, total, t):
+    """The target laws of 001, written out: listings 4 and 6, and the motions of task 5."""
+    omega = 2 * np.pi * t / total
+    if name == "listing4 target":
+        circle = np.stack([np.cos(omega), np.sin(omega), 0 * t], axis=-1)
+        return Target((np.array([200, 0, 100]) + 100 * circle) * mm, 4 * omega)
+    if name == "listing6 target":
+        x, y, z = 200 + 50 * np.cos(omega), 30 + 200 * np.sin(omega), 100 + 50 * np.sin(omega)
+        return Target(np.stack([x, y, z], axis=-1) * mm, np.pi)
+    if name == "LIN":
+        return lin(START, GOAL, t / total)
+    if name == "LIN-LIN":
+        return lin_lin(START, VIA, GOAL, t / total)
+    return blend(START, VIA, GOAL, float(name.split()[1]), t / total)
+
+
+@pytest.mark.parametrize("case", MOTIONS, ids=lambda case: f"{case['law']} elbow {case['elbow']}")
+def test_the_documents_motions(case):
+    total, step = case["total"], case["step"]
+    t = np.arange(0, total, step)
+    if case["law"] == "blend 0.55":  # errata S1-j: the printed law leaves the end poses; robokin refuses
+        with pytest.raises(ValueError, match=r"0\.55"):
+            law(case["law"], total, t)
+        return
+    targets = law(case["law"], total, t)
+    q = follow(SCARA, SCARA.ik(targets), SCARA.branch(case["elbow"]))
+    for sample in case["samples"]:
+        i = round(sample["t"] / step)
+        if i < len(t):
+            np.testing.assert_allclose(targets.position[i] / mm, sample["target"][:3], atol=1e-9)
+            assert abs(targets.angle[i] - sample["target"][3]) < 1e-9
+            assert turned(q[i].copy(), np.array(sample["q"]) * UNITS) < 1e-9
+    speed = np.diff(q, axis=0) / step
+    np.testing.assert_allclose(abs(speed).max(0) / UNITS, case["max_abs_speed"], atol=1e-8)
+    acceleration = np.diff(speed, axis=0) / step
+    np.testing.assert_allclose(abs(acceleration).max(0) / UNITS, case["max_abs_acc"], rtol=1e-5, atol=1e-6)
+    assert within(SCARA, q).all() == case["limits_ok"]
+
+
+def test_the_angle_of_a_target_is_not_wrapped():
+    half, more = lin(START, Target(VIA.position, 3 * np.pi), np.array([0.5, 1.0])).angle
+    assert half == pytest.approx(1.5 * np.pi) and more == pytest.approx(3 * np.pi)
+    assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
+
+
+def test_wrong_targets_are_refused():
+    with pytest.raises(ValueError, match=r"\(\.\.\., 3\)"):
+        Target((1.0, 2.0), 0.0)
+    with pytest.raises(ValueError, match="nan"):
+        Target((0.1, 0.2, np.nan), 0.0)
+    with pytest.raises(ValueError, match="Target or a Transform"):
+        SCARA.ik(np.eye(4))
+    with pytest.raises(ValueError, match="wanted a Target"):
+        START.lerp(Transform(), 0.5)
+
+
+def test_explain_names_the_stroke_in_millimetres():
+    assert "joint 4 stands at 220.2 mm, 40.2 mm past its limit of 180 mm" in explain(SCARA, VIA, 0)
+    assert "100.0 mm beyond the stretched arm" in explain(SCARA, Target((0.55, 0, 0.1), 0.0), 0)
+    assert "40.0 mm too near to axis 1" in explain(SCARA, Target((0.01, 0, 0.1), 0.0), 1)
