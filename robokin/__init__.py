@@ -16,10 +16,13 @@ from .arms import (
     explain,
     follow,
     itmo_arm,
+    loader_arm,
     nearest,
     scara,
     spbu_arm,
     spherical_wrist,
+    three_lever,
+    two_link,
     within,
 )
 from .motion import TimeLaw, blend, differentiate, lin, lin_lin, linear, ptp, quintic, trapezoidal
@@ -29,6 +32,7 @@ from .units import deg, mm
 
 __all__ = [
     "IRB140", "ITMO6R", "PUMA560", "SCARA", "Arm", "Link", "Quaternion", "Target", "TimeLaw", "Transform", "blend",
-    "deg", "dh_links", "differentiate", "elbow_arm", "explain", "follow", "itmo_arm", "lin", "lin_lin", "linear", "mm",
-    "nearest", "ptp", "quintic", "scara", "spbu_arm", "spherical_wrist", "trapezoidal", "within",
+    "deg", "dh_links", "differentiate", "elbow_arm", "explain", "follow", "itmo_arm", "lin", "lin_lin", "linear",
+    "loader_arm", "mm", "nearest", "ptp", "quintic", "scara", "spbu_arm", "spherical_wrist", "three_lever",
+    "trapezoidal", "two_link", "within",
 ]

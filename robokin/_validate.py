@@ -21,8 +21,18 @@ def floats(value, name, last=None, finite=True):
     return array
 
 
+def length(value, name):
+    """`value` as a float, if it is one positive number (of metres); ValueError otherwise."""
+    array = floats(value, name)
+    if array.ndim or array <= 0:
+        raise ValueError(f"{name}: wanted one positive length in metres, got {_short(value)}")
+    return float(array)
+
+
 def broadcast(name, *shapes):
     """The common batch shape; ValueError where the shapes do not fit."""
+    if all(shape == shapes[0] for shape in shapes):
+        return shapes[0]
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError:

@@ -48,7 +48,7 @@ class Quaternion(Batch):
     def _of(cls, *wxyz):
         """From components already known to be of unit length: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
-        object.__setattr__(self, "wxyz", wxyz[0] if len(wxyz) == 1 else _stack(wxyz))
+        object.__setattr__(self, "wxyz", wxyz[0] if len(wxyz) == 1 else stack(wxyz))
         return self
 
     @classmethod
@@ -93,24 +93,27 @@ class Quaternion(Batch):
         xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
         wx, wy, wz = m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0], m[..., 1, 0] - m[..., 0, 1]
         xy, xz, yz = m[..., 1, 0] + m[..., 0, 1], m[..., 0, 2] + m[..., 2, 0], m[..., 2, 1] + m[..., 1, 2]
-        rows = np.stack([_stack([1 + xx + yy + zz, wx, wy, wz]),  # row k is 4 * component k * quaternion
-                         _stack([wx, 1 + xx - yy - zz, xy, xz]),
-                         _stack([wy, xy, 1 - xx + yy - zz, yz]),
-                         _stack([wz, xz, yz, 1 - xx - yy + zz])], axis=-2)
+        rows = np.stack([stack([1 + xx + yy + zz, wx, wy, wz]),  # row k is 4 * component k * quaternion
+                         stack([wx, 1 + xx - yy - zz, xy, xz]),
+                         stack([wy, xy, 1 - xx + yy - zz, yz]),
+                         stack([wz, xz, yz, 1 - xx - yy + zz])], axis=-2)
         largest = np.diagonal(rows, axis1=-2, axis2=-1).argmax(axis=-1)
         row = np.take_along_axis(rows, largest[..., None, None], axis=-2)[..., 0, :]
         return cls._of(row / np.linalg.norm(row, axis=-1, keepdims=True))
 
     def as_matrix(self):
         """Rotation matrices (..., 3, 3)."""
-        return np.stack([_stack(row) for row in self._rows()], axis=-2)
+        return np.stack([stack(row) for row in self._rows()], axis=-2)
 
     def _rows(self):
         """The nine elements of the matrix, each an array of the batch shape."""
         w, x, y, z = _components(self.wxyz)
-        return ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-                (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-                (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+        x2, y2, z2 = 2 * x, 2 * y, 2 * z
+        wx, wy, wz = w * x2, w * y2, w * z2
+        xx, xy, xz, yy, yz, zz = x * x2, x * y2, x * z2, y * y2, y * z2, z * z2
+        return ((1 - (yy + zz), xy - wz, xz + wy),
+                (xy + wz, 1 - (xx + zz), yz - wx),
+                (xz - wy, yz + wx, 1 - (xx + yy)))
 
     def as_angle_axis(self):
         """The angle in [0, pi] and the unit axis (..., 3). The axis of no rotation is z, by agreement."""
@@ -143,7 +146,7 @@ class Quaternion(Batch):
         w, *u = _components(self.wxyz)
         v = _components(points)
         t = [2 * c for c in _cross(u, v)]  # v + w t + u x t, which is q v q* written out
-        return _stack([v_ + w * t_ + c for v_, t_, c in zip(v, t, _cross(u, t), strict=True)])
+        return stack([v_ + w * t_ + c for v_, t_, c in zip(v, t, _cross(u, t), strict=True)])
 
     def inverse(self):
         """The rotation back."""
@@ -163,10 +166,11 @@ class Quaternion(Batch):
         # The margin keeps rounding noise from choosing the direction of a half turn.
         b = np.where(((a * b).sum(-1) < -1e-14)[..., None], -b, b)
         angle = 2 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
-        whole = np.sinc(angle / np.pi)  # sin(angle) / angle: at least 2/pi, as the angle is at most pi/2
-        of_a = (1 - s) * np.sinc((1 - s) * angle / np.pi) / whole
-        of_b = s * np.sinc(s * angle / np.pi) / whole
-        return Quaternion._of(of_a[..., None] * a + of_b[..., None] * b)
+        none = angle == 0
+        whole = np.where(none, 1.0, np.sin(angle))
+        of_a = np.where(none, 1 - s, np.sin((1 - s) * angle) / whole)
+        of_b = np.where(none, s, np.sin(s * angle) / whole)
+        return Quaternion._of(*(of_a * a_ + of_b * b_ for a_, b_ in zip(_components(a), _components(b), strict=True)))
 
     def __repr__(self):
         return f"Quaternion(wxyz={rounded(self.wxyz)})" if not self.shape else f"Quaternion(shape={self.shape})"
@@ -181,9 +185,8 @@ def _components(array):
     return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
-def _stack(components):
-    components = np.broadcast_arrays(*components)
-    out = np.empty((*components[0].shape, len(components)))
+def stack(components):
+    out = np.empty((*np.broadcast(*components).shape, len(components)), order="F")  # components in one long run each
     for i, component in enumerate(components):
         out[..., i] = component
     return out

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ._validate import broadcast, floats, instance
-from .quaternion import Batch, Quaternion, rounded
+from .quaternion import Batch, Quaternion, rounded, stack
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +95,8 @@ class Transform(Batch):
         instance(goal, Transform, "goal")
         s = floats(s, "s")
         rotation = self.rotation.slerp(goal.rotation, s)
-        return Transform._of(rotation, self.translation + (goal.translation - self.translation) * s[..., None])
+        here, there = np.moveaxis(self.translation, -1, 0), np.moveaxis(goal.translation, -1, 0)
+        return Transform._of(rotation, stack([a + (b - a) * s for a, b in zip(here, there, strict=True)]))
 
     def __repr__(self):
         if self.shape:

@@ -126,7 +126,16 @@ class JupyterLab:
             page.get_by_role("menuitem", name=menu, exact=True).click()
             page.get_by_role("menuitem", name=item, exact=True).click()
         last = page.locator(".jp-CodeCell .jp-InputPrompt", has_text=f"[{count}]:")
-        until(lambda: last.count() and self._kernels_idle(), 120, f"{name}: Run All did not end", page)
+        complaint = page.locator(".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.stderr']")
+
+        def ended():
+            if last.count():
+                return self._kernels_idle()
+            if complaint.count() and self._kernels_idle() and not last.count():  # after an error the rest does not run
+                pytest.fail(f"{name}: {complaint.first.inner_text()[-1000:]}")
+            return False
+
+        until(ended, 120, f"{name}: Run All did not end", page)
 
     def _kernels_idle(self):
         kernels = [session["kernel"] for session in self.api("sessions") or ()]

@@ -180,26 +180,6 @@ def test_the_keyboard_reaches_every_control(page, saved):
         assert page.get_by_label(name, exact=True).count() == 1, f"no control is called {name}"
 
 
-def test_the_keyboard_turns_the_view(page, saved):
-    page.goto(saved.as_uri())
-    player, scene = page.locator(PLAYER), page.locator(".rk-scene")
-    first = _seen(player)
-    scene.press("ArrowLeft")
-    page.evaluate(NEXT_FRAME)
-    assert _seen(player).pixels[0] != first.pixels[0]
-    scene.press("Home")
-    page.evaluate(NEXT_FRAME)
-    assert _seen(player) == first
-
-
-def test_nothing_moves_by_itself(page, saved):
-    page.goto(saved.as_uri())
-    player = page.locator(PLAYER)
-    seen = _seen(player)
-    page.wait_for_timeout(500)
-    assert _seen(player) == seen
-
-
 # --- What a person does and sees --------------------------------------------------------------------------------------
 
 

@@ -27,6 +27,7 @@ from robokin import (
 )
 from robokin.show import animate
 from robokin.show.samples import samples
+from robokin.show.scene import arm_points
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
@@ -212,6 +213,37 @@ def test_samples_past_a_limit_are_counted(motions):
     assert any("past its speed limit" in note for note in fast)
 
 
+@pytest.mark.parametrize("past, words", [(0.02, "0.020°"), (0.25, "0.25°"), (1.0, "1.0°"), (12.34, "12.3°")])
+def test_how_far_past_a_limit_has_two_significant_digits(past, words):
+    q = np.zeros((2001, 6))
+    q[:, 1] = np.linspace(0, IRB140.limits[1, 1] + past * deg, 2001)
+    [note] = animate(IRB140, T, q).data["arms"][0]["notes"]["0"]
+    assert note.endswith(f"by up to {words}.")
+
+
+def test_limits_are_shown_for_the_joints_that_come_near_them():
+    q = np.zeros((3, 2001, 6))
+    q[:, :, 0] = np.linspace(0, 1, 2001) * np.array([[100], [120], [130]]) * deg  # its limit is 180 degrees
+    q[1, :, 1] = np.linspace(0, -89, 2001) * deg  # limit -90
+    q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # limit 50, passed
+    slow, fast = (animate(IRB140, t, q, slider=("x", [0, 1, 2])).data["panels"]
+                  for t in (T, np.linspace(0, 130 / 195, 2001)))  # joint 1 turns at 195 of at most 200 degrees/s
+    assert [panel["near"] for panel in slow] == [[[[1, 0], [2, 1]]], [[]], [[]]]
+    assert [panel["near"] for panel in fast] == [[[[1, 0], [2, 1]]], [[[0, 1]]], [[]]]
+
+
+@pytest.mark.parametrize("stroke", [(0.0, 0.18), (0.05, 0.06), (-0.03, 0.2), (0.1, 0.1)])
+def test_two_scales_in_one_panel_share_their_zero_and_their_ticks(stroke):
+    q = np.stack([np.sin(T / 3), 2 * np.cos(T / 4), np.linspace(*stroke, len(T)) + 0.01 * np.sin(T), 0.1 * T], axis=-1)
+    for panel, unit in zip(animate(SCARA, T, q).data["panels"], ("", "/s", "/s²"), strict=True):
+        [(low, step, count, _)], [(low2, step2, count2, _)] = panel["turn"]["scales"], panel["shift"]["scales"]
+        assert (panel["turn"]["unit"], panel["shift"]["unit"]) == (f"°{unit}", f"mm{unit}")
+        assert count == count2 and low / step == pytest.approx(low2 / step2) and low <= 0 <= low + step * (count - 1)
+    [angles], [places] = (animate(SCARA, T, q).data["panels"][0][kind]["scales"] for kind in ("turn", "shift"))
+    for values, (low, step, count, _) in ((q[:, [0, 1, 3]] / deg, angles), (q[:, 2] / mm, places)):
+        assert low <= values.min() + 1e-6 and values.max() <= low + step * (count - 1) + 1e-6
+
+
 def test_joints_that_shift_have_their_own_scale_and_millimetres():
     q = np.stack([np.sin(T / 3), np.cos(T / 4), 0.09 + 0.05 * np.sin(T), 0.1 * T], axis=-1)
     player = animate(SCARA, T, q)
@@ -232,10 +264,30 @@ def test_everything_drawn_lies_inside_what_the_camera_sees(blended, motions):
     """The few points handed over span, from any side, all postures (to the 5 mm they are rounded to)."""
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
+    flange = IRB140.fk(motions[:, ::20])  # with its axes, as long as the page draws them
+    tips = [(flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation for axis in (X, Y, Z)]
+    points = np.concatenate([points, np.reshape(tips, (-1, 3))])
     for k in range(24):
         side = np.array([np.cos(k), np.sin(k), np.sin(3 * k)])
         assert (points @ side).max() <= (seen @ side).max() + 0.06 * np.linalg.norm(side)
     assert len(seen) <= 100
+
+
+def test_the_still_picture_is_seen_as_the_scene_and_at_one_scale(motions):
+    """First and last posture of both arms, projected as player.js does, are lines of the picture."""
+    player = animate([IRB140, IRB140], T, [motions[1], motions[3]], names=["near", "far"], targets=[START, VIA, GOAL])
+    (azimuth, elevation), ends = player.data["scene"]["view"], []
+    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
+    up = np.array([-np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)])
+    for ax, q in zip(player.still.axes, (motions[1], motions[3]), strict=True):
+        drawn = [np.column_stack(line.get_data()) for line in ax.lines]
+        for posture in (q[0], q[-1]):
+            points = arm_points(IRB140, posture)
+            wanted = np.stack([points @ right, points @ up], axis=-1)
+            assert any(line.shape == wanted.shape and np.allclose(line, wanted, atol=1e-3) for line in drawn)
+        assert max(map(len, drawn)) > 500  # the path, from more samples than the page gets
+        ends.append([*ax.get_xlim(), *ax.get_ylim()])
+    assert np.allclose(*ends)
 
 
 def test_several_arms_share_clock_and_scales(motions):
@@ -473,6 +525,27 @@ def test_a_removed_player_asks_for_no_more_pictures(page, blended, tmp_path):
     asked = page.evaluate("asked")
     page.wait_for_timeout(300)
     assert page.evaluate("asked") == asked
+
+
+@pytest.mark.parametrize("width", [360, 800, 1400])
+def test_the_words_of_limits_keep_apart(page, tmp_path, width):
+    """Six joints go from limit to limit: at most three labels a panel, with units, none over another."""
+    s = np.sin(np.outer(T, np.arange(1, 7)) / 4)
+    q = IRB140.limits.mean(axis=-1) + s * np.diff(IRB140.limits, axis=-1).T / 2 * 0.99
+    page.add_init_script("""window.written = []; const write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            if (/limit/.test(text)) window.written.push([text, x, y, this.measureText(text).width]);
+            return write.call(this, text, x, y); };""")
+    page.set_viewport_size({"width": width, "height": 900})
+    show(page, animate(IRB140, T, q), tmp_path)
+    page.evaluate("written.length = 0")
+    page.get_by_label("time", exact=True).fill("10")
+    ink(page, ".rk-curves")
+    written = page.evaluate("written")
+    assert len(written) <= 6 and (written or width == 360)
+    for k, (text, x, y, w) in enumerate(written):
+        assert re.fullmatch("q[1-6] limit −?[0-9.]+°(/s)?", text)
+        assert not any(x < x2 + w2 and x2 < x + w and abs(y - y2) < 10 for _, x2, y2, w2 in written[:k])
 
 
 @pytest.mark.parametrize("width", [360, 500, 900, 1400])

@@ -103,6 +103,44 @@ def test_the_angle_of_a_target_is_not_wrapped():
     assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
 
 
+def test_half_a_turn_has_a_direction_as_a_target_only():
+    """Errata S1-t: 0.01 degrees to either side of START turn the rotation the one or the other way to VIA."""
+    middles = []
+    for off in (-0.01 * deg, 0.01 * deg):
+        near = Target(START.position, off)
+        assert near.lerp(VIA, 0.5).angle == pytest.approx(np.pi / 2, abs=1e-3)
+        middles.append(near.as_transform().lerp(VIA.as_transform(), 0.5).rotation.as_matrix()[1, 0])
+    assert middles == pytest.approx([-1, 1], abs=1e-6)
+
+
+def test_the_zone_inside_the_limits_has_the_area_of_the_errata():
+    step = 4.0  # mm
+    x, y = np.meshgrid(*[np.arange(-460 + step / 2, 460, step)] * 2)
+    ways = within(SCARA, SCARA.ik(Target(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm))).all(-1)
+    r = np.hypot(x, y)[ways.any(-1)]
+    assert 126.085128473 <= r.min() < 129 and 447 < r.max() <= 450
+    assert ways.any(-1).sum() * step**2 == pytest.approx(569508.156, rel=2e-3)
+    for elbow in range(2):
+        assert ways[..., elbow].sum() * step**2 == pytest.approx(455956.021, rel=2e-3)
+
+
+def test_the_determinant_vanishes_with_the_sine_of_joint_2():
+    q = np.random.default_rng(5).uniform(*SCARA.limits.T, (200, 4))
+    q[0, 1] = 0
+    determinant = np.linalg.det(SCARA.jacobian(q)[:, :2, :2])
+    np.testing.assert_allclose(determinant, 0.2 * 0.25 * np.sin(q[:, 1]), atol=1e-15)
+
+
+def test_at_full_reach_both_rows_exist_and_are_one():
+    q = np.zeros((3600, 4))
+    q[:, 0] = np.arange(-1800, 1800) * 0.1 * deg
+    rows = SCARA.ik(SCARA.fk(q))
+    np.testing.assert_allclose(rows[:, 0], rows[:, 1], atol=1e-6)
+    np.testing.assert_allclose(SCARA.fk(rows).translation, SCARA.fk(q).translation[:, None] + np.zeros((1, 2, 1)),
+                               atol=1e-13)
+    assert "elbow singularity" in explain(SCARA, Target((0.45, 0, 0.1)), 0)
+
+
 def test_wrong_targets_are_refused():
     with pytest.raises(ValueError, match=r"\(\.\.\., 3\)"):
         Target((1.0, 2.0), 0.0)

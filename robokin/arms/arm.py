@@ -1,6 +1,7 @@
 """An arm as data: a chain of links, a geometry that inverts it, and the limits of its joints."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ..transform import Transform
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """One joint between two fixed transforms: the frame after it is `before @ motion(q) @ after`.
+    """One joint between two fixed transforms: the frame after it is `frame @ before @ motion @ after`.
 
     The motion is a turn about the unit vector `axis` or, if `prismatic`, a shift along it. A Denavit-Hartenberg
     row has its fixed part after the joint; listing 1 of source 001 has it before.
@@ -29,12 +30,14 @@ class Link:
         if axis.ndim != 1 or abs(np.linalg.norm(axis) - 1) > 1e-9:
             raise ValueError(f"axis: wanted one unit vector, got {axis} of length {np.linalg.norm(axis):.6g}")
 
-    def motion(self, q):
-        """The joint's own transform at q (...): radians, or metres if prismatic. NaN gives NaN."""
-        axis = np.asarray(self.axis, dtype=float)
+    def carry(self, frame, q):
+        """The frame after this link, from the frame before it and q (...) in radians, metres if prismatic."""
+        joint, axis = frame @ self.before, np.asarray(self.axis, dtype=float)
         if self.prismatic:
-            return Transform._of(Quaternion.identity(q.shape), q[..., None] * axis)
-        return Transform._of(Quaternion._turn(q, axis), np.zeros((*q.shape, 3)))
+            moved = Transform._of(joint.rotation, joint.translation + q[..., None] * (joint.rotation @ axis))
+        else:
+            moved = Transform._of(joint.rotation @ Quaternion._turn(q, axis), joint.translation)
+        return moved @ self.after
 
 
 def dh_links(a, alpha, d, theta=0.0):
@@ -45,11 +48,10 @@ def dh_links(a, alpha, d, theta=0.0):
     """
     table = [floats(column, name) for column, name in ((a, "a"), (alpha, "alpha"), (d, "d"), (theta, "theta"))]
     broadcast("a, alpha, d and theta", *(column.shape for column in table))
-    return tuple(
-        Link(before=Transform(Quaternion.from_angle_axis(theta, (0, 0, 1))),
-             after=Transform(Quaternion.from_angle_axis(alpha, (1, 0, 0)), (a, 0, d)))
-        for a, alpha, d, theta in zip(*np.broadcast_arrays(*table), strict=True)
-    )
+    a, alpha, d, theta = np.broadcast_arrays(*table)
+    turn = Transform(Quaternion.from_angle_axis(theta, (0, 0, 1)))
+    rest = Transform(Quaternion.from_angle_axis(alpha, (1, 0, 0)), np.stack([a, np.zeros_like(a), d], axis=-1))
+    return tuple(Link(before=before, after=after) for before, after in zip(turn, rest, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +82,7 @@ class Arm:
                 raise ValueError(f"speed_limits: wanted positive numbers, got {speeds.tolist()}")
             object.__setattr__(self, "speed_limits", speeds)
 
-    @property
+    @cached_property
     def prismatic(self):
         """(n,) bool: which joints shift and do not turn."""
         return np.array([link.prismatic for link in self.links])
@@ -102,15 +104,14 @@ class Arm:
 
         q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes that frame and those after it NaN.
         """
-        frames = [Transform.identity(np.shape(q)[:-1])]
-        for link, q_i in zip(self.links, np.moveaxis(self._joints(q), -1, 0), strict=True):
-            frames.append(frames[-1] @ link.before @ link.motion(q_i) @ link.after)
+        frames = list(self._walk(q))
         return Transform._of(Quaternion._of(np.stack([f.rotation.wxyz for f in frames], axis=-2)),
                              np.stack([f.translation for f in frames], axis=-2))
 
     def fk(self, q):
         """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN poses."""
-        return self.frames(q)[..., -1]
+        *_, flange = self._walk(q)
+        return flange
 
     def jacobian(self, q):
         """The geometric Jacobian at the flange in base coordinates: q (..., n) -> (..., 6, n).
@@ -137,6 +138,14 @@ class Arm:
         [-pi, pi]; limits are ignored (see `within`, `nearest`). Where branches coincide the row is repeated.
         """
         return self.geometry.ik(pose)
+
+    def _walk(self, q):
+        """The frames one by one, base to flange."""
+        frame = Transform.identity(np.shape(q)[:-1])
+        yield frame
+        for link, q_i in zip(self.links, np.moveaxis(self._joints(q), -1, 0), strict=True):
+            frame = link.carry(frame, q_i)
+            yield frame
 
     def _joints(self, q):
         return floats(q, "q", len(self.links), finite=False)

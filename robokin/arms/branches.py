@@ -151,6 +151,8 @@ def _start(arm, track):
 def _shrunk(pose):
     """The pose as if its lengths had been millimetres."""
     part = "translation" if isinstance(pose, Transform) else "position"
+    if not hasattr(pose, part):  # a point
+        return np.asarray(pose) / 1000
     return replace(pose, **{part: getattr(pose, part) / 1000})
 
 

@@ -2,13 +2,14 @@
 
 import numpy as np
 
+from .._validate import length
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .arm import Link, dh_links
+from .arm import Arm, Link, dh_links
 from .elbow import elbow_arm
 from .scara import scara
-from .spherical_wrist import spherical_wrist
+from .spherical_wrist import SphericalWrist, spherical_wrist
 
 X, Y, Z = np.eye(3)
 
@@ -17,12 +18,17 @@ def _at(x, y, z):
     return Transform(translation=(x, y, z))
 
 
+def _six_axis(name, links, **limits):
+    """As `spherical_wrist`, but measured when first used: `import robokin` stays fast."""
+    return Arm(name, links, SphericalWrist(name, links), **limits)
+
+
 # ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the document's, its
 # frame `wrist` split in two (joints 4 and 5). Its joint 2 turns about -y, so a positive angle leans the arm back, and
 # its upper arm is 350 mm where other models of this robot have 360 mm (errata S1-g): we keep the document's numbers.
 # Speeds: public models of the robot differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not
 # checked against the maker's data sheet.
-IRB140 = spherical_wrist(
+IRB140 = _six_axis(
     "IRB-140",
     links=(
         Link(_at(0, 0, 352 * mm), Z),
@@ -45,7 +51,7 @@ SCARA = scara(
 
 # PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model (Robotics Toolbox,
 # `puma560`), the base raised by 26.45 inches.
-PUMA560 = spherical_wrist(
+PUMA560 = _six_axis(
     "PUMA 560",
     links=dh_links(
         a=np.array([0, 431.8, 20.3, 0, 0, 0]) * mm,
@@ -66,7 +72,7 @@ def itmo_arm(d1, a2, d4, d6):
             d=[d1, 0, 0, d4, 0, d6],
             theta=np.array([0, 0, 90, 0, 0, 0]) * deg,
         ),
-        limits=np.array([(-180, 180)] * 6) * deg,
+        limits=np.array([(-360, 360)] * 6) * deg,
     )
 
 
@@ -85,4 +91,28 @@ def spbu_arm(l1, l2):
         "Arm (000)",
         links=dh_links(a=[0, l1, l2], alpha=np.array([-90, 0, 0]) * deg, d=0, theta=np.array([0, -90, 90]) * deg),
         limits=np.array([(-180, 180), (-90, 90), (-90, 90)]) * deg,
+    )
+
+
+def loader_arm(A, B):
+    """The log loader of source 003 for levers of lengths A and B in metres, q = (alpha, gamma, beta) from the base out.
+
+    alpha  the turn about the vertical, counter-clockwise from the +x axis
+    gamma  lever A above the horizon
+    beta   the interior angle between the levers: lever B stands gamma + beta - 180 degrees above the horizon
+
+    The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. There alpha is
+    atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x = y = 0, it is free and `ik` gives 0),
+    and beta and gamma are (3) and (4). Limits: alpha as in the document, beta and gamma as (3) and (4) give them for
+    z >= 0. At alpha's limits there is no stop: the shortest turn (errata S3-q) passes them. What the document asks of
+    the gripper's point is `robokin.jobs.steppers.refusal`.
+
+    Source: 003, paper 1, (1) to (4), table 1, figure 3.
+    """
+    A, B = length(A, "A"), length(B, "B")
+    forearm = Transform(Quaternion.from_angle_axis(-180 * deg, -Y))  # an interior angle of 0 lays B back upon A
+    return elbow_arm(
+        "Log loader",
+        links=(Link(axis=Z), Link(axis=-Y, after=_at(A, 0, 0)), Link(forearm, -Y, after=_at(B, 0, 0))),
+        limits=np.array([(-180, 180), (0, 270), (0, 180)]) * deg,
     )

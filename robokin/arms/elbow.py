@@ -3,7 +3,6 @@
 The same three joints carry the wrist of a six-axis arm: there the point to be placed is the wrist centre.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -26,10 +25,11 @@ def elbow_arm(name, links, limits, speed_limits=None):
     of the joints follow from the links. `ik` takes points (..., 3) in metres, or Transforms, of which it takes the
     translation. ValueError otherwise, naming the axis.
     """
-    return Arm(name, tuple(links), ElbowArm(name, tuple(links)), limits, speed_limits)
+    geometry = ElbowArm(name, links)
+    geometry.elbow  # noqa: B018  (measured now, so that a wrong chain is reported here)
+    return Arm(name, geometry.links, geometry, limits, speed_limits)
 
 
-@dataclass(frozen=True, eq=False)
 class ElbowArm:
     """The inverse of three links that place a point (see `elbow_arm`).
 
@@ -37,17 +37,14 @@ class ElbowArm:
     on the positive or negative side of the stretched arm. Source: 000, "Решение обратной задачи".
     """
 
-    name: str
-    links: tuple
-
     branches = np.array([(i, j) for i in (1, -1) for j in (1, -1)])
 
-    def __post_init__(self):
-        self.elbow  # noqa: B018  (a wrong chain is reported when the arm is built)
+    def __init__(self, name, links):
+        self.name, self.links = name, tuple(links)
 
     @cached_property
     def elbow(self):
-        """The measured geometry."""
+        """The geometry, measured when it is first asked for."""
         if len(self.links) != 3:
             raise ValueError(f"{self.name}: wanted three revolute links, got {len(self.links)}")
         points, axes, flange = home(self.links)
@@ -116,7 +113,7 @@ class Elbow:
         r = front * np.sqrt(np.where(r2 >= -2 * ROUNDING * abs(b) * self.reach, np.maximum(r2, 0), np.nan))
         free = rho2 <= (FREE * self.reach) ** 2
         cos1 = np.where(free, front, (x * r + y * b) / rho2)
-        sin1 = np.where(free, 0.0, (y * r - x * b) / rho2)
+        sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0  # no minus zero: half a turn is +pi
 
         # Joints 2 and 3: a triangle of upper arm, forearm and the line from shoulder to point.
         elbow = self.sign3 * np.array([1.0, -1.0])[:, None]

@@ -72,18 +72,16 @@ def scara(name, height, upper, fore, limits, speed_limits=None):
     return Arm(name, links, Scara(height, upper, fore), limits, speed_limits)
 
 
-@dataclass(frozen=True, eq=False)
 class Scara:
     """The inverse of a SCARA arm (see `scara`). Configuration flag: the sign of joint 2. Angles in [-pi, pi].
 
     Source: 001, listing 4, with errata S1-o (the other elbow, rounding) put right.
     """
 
-    height: float
-    upper: float
-    fore: float
-
     branches = np.array([(1,), (-1,)])
+
+    def __init__(self, height, upper, fore):
+        self.height, self.upper, self.fore = height, upper, fore
 
     def ik(self, pose):
         """See `Arm.ik`: Target or Transform of shape (...) -> (..., 2, 4). A tilted tool is out of reach."""

@@ -4,7 +4,6 @@ The three wrist axes meet in one point, the wrist centre. It does not move when 
 falls apart in two: bring the wrist centre to its place with joints 1 to 3, then turn the tool with joints 4 to 6.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -27,10 +26,11 @@ def spherical_wrist(name, links, limits, speed_limits=None):
     meeting in one point, 4 parallel to 6. Signs and offsets of the joints follow from the links. ValueError
     otherwise, naming the axis.
     """
-    return Arm(name, tuple(links), SphericalWrist(name, tuple(links)), limits, speed_limits)
+    geometry = SphericalWrist(name, links)
+    geometry.wrist  # noqa: B018  (measured now, so that a wrong chain is reported here)
+    return Arm(name, geometry.links, geometry, limits, speed_limits)
 
 
-@dataclass(frozen=True, eq=False)
 class SphericalWrist:
     """The inverse of six links with a spherical wrist (see `spherical_wrist`).
 
@@ -39,23 +39,21 @@ class SphericalWrist:
     Source: 001, listing 1, with errata S1-c (obtuse shoulder) and S1-d (singular wrist) put right; 004, section 3.
     """
 
-    name: str
-    links: tuple
-
     branches = np.array([(i, j, k) for i in (1, -1) for j in (1, -1) for k in (1, -1)])
 
-    def __post_init__(self):
-        self.wrist  # noqa: B018  (a wrong chain is reported when the arm is built)
+    def __init__(self, name, links):
+        self.name, self.links = name, tuple(links)
 
     @cached_property
     def wrist(self):
-        """The measured geometry of the wrist; that of the three joints before it is `wrist.elbow`."""
+        """The geometry, measured when it is first asked for; that of the first three joints is `wrist.elbow`."""
         return Wrist(self.name, self.links)
 
     def ik(self, pose):
         """See `Arm.ik`: Transform of shape (...) -> (..., 8, 6)."""
         instance(pose, Transform, "pose", hint=" (Transform.from_matrix takes a 4 x 4 array)")
-        wxyz, translation = pose.rotation.wxyz.reshape(-1, 4), pose.translation.reshape(-1, 3)
+        wxyz = np.asfortranarray(pose.rotation.wxyz.reshape(-1, 4))  # each component in one long run in memory
+        translation = np.asfortranarray(pose.translation.reshape(-1, 3))
         q = np.empty((6, 2, 2, 2, len(translation)))  # joint, front/back, elbow, wrist, pose: long runs in memory
         with np.errstate(invalid="ignore", divide="ignore"):
             for i in range(0, len(translation), BLOCK):
@@ -69,7 +67,8 @@ class SphericalWrist:
 
         # The wrist centre lies at a fixed place in the flange: step back to it. Joints 1 to 3 bring it to its place.
         tool = (pose.rotation @ wrist.from_flange)._rows()
-        x, y, z = np.moveaxis(pose.translation + pose.rotation @ wrist.centre_in_flange, -1, 0)
+        cx, cy, cz = wrist.centre_from_flange
+        x, y, z = (pose.translation[:, i] + row[0] * cx + row[1] * cy + row[2] * cz for i, row in enumerate(tool))
         (cos1, sin1), fore = wrist.elbow.solve(x, y, z, q[:3, :, :, 0])
         q[:3, :, :, 1] = q[:3, :, :, 0]
 
@@ -98,7 +97,7 @@ class SphericalWrist:
 
     def unreached(self, pose, row):
         """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0) if it exists."""
-        centre = pose.translation + pose.rotation @ self.wrist.centre_in_flange
+        centre = pose.translation + pose.rotation @ self.wrist.from_flange @ self.wrist.centre_from_flange
         return self.wrist.elbow.unreached(centre, self.branches[row][0])
 
     def singular(self, q):
@@ -113,6 +112,8 @@ class SphericalWrist:
         There only the sum of joints 4 and 6 counts (the difference where joint 5 is pi); each takes half of the turn.
         """
         stuck = abs(np.sin(q[..., 4])) < NOISY
+        if not stuck.any():
+            return q
         sense = self.wrist.sign6 * np.where(np.cos(q[..., 4]) > 0, 1.0, -1.0)
         turn = q[..., 3] - previous[..., 3] + sense * (q[..., 5] - previous[..., 5])
         half = (turn - 2 * np.pi * np.round(turn / (2 * np.pi))) / 2
@@ -145,4 +146,4 @@ class Wrist:
         self.axis4_from_fore = np.arctan2(e4[2], e4[0]) - self.elbow.fore_angle
         frame = Quaternion.from_matrix(np.stack([np.cross(e5, e4), e5, e4], axis=-1))  # axis 5 is y, axis 4 is z
         self.from_flange = flange.rotation.inverse() @ frame
-        self.centre_in_flange = flange.rotation.inverse() @ (centre - flange.translation)
+        self.centre_from_flange = frame.inverse() @ (centre - flange.translation)  # in the wrist's own frame

@@ -23,6 +23,7 @@ JOINT_STYLES = (
 )
 ALARM = "#B3261E"
 SLACK = 1e-9  # a joint this little past its limit stands at it
+STRIP = 0.08  # height of the shaded strip beyond a limit, as a share of its panel
 WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleration", "acceleration")}
 PER = {"q": "", "v": "/s", "a": "/s²"}
 
@@ -119,16 +120,27 @@ def _spikes(values, longest=6):
     return high
 
 
+def near_limits(limits, least, greatest, low, high):
+    """Which limits a panel from low to high shows: those in view that their joint passes or comes near, measured by
+    the height of the panel and by the room between the joint's limits.
+
+    limits (..., 2), the joint's least and greatest value (...), low and high (...) -> bool (..., 2).
+    """
+    away = np.stack([least - limits[..., 0], limits[..., 1] - greatest], axis=-1)
+    low, high = np.expand_dims(low, -1), np.expand_dims(high, -1)
+    near = np.minimum(1.2 * STRIP * (high - low), 0.1 * np.diff(limits, axis=-1))
+    return (low <= limits) & (limits <= high) & (away < near)
+
+
 def _band(ax, limits, values, joint, unit, color):
-    """Shade the near side of what lies beyond a limit, if the limit is in view and this joint comes near it. Only a
-    strip: with six joints in one panel, what is beyond one joint's limit is inside another's.
+    """Shade the near side of what lies beyond a limit. Only a strip: with six joints in one panel, what is beyond one
+    joint's limit is inside another's.
     """
     low, high = ax.get_ylim()
-    strip = 0.08 * (high - low)
-    greatest, least = np.nanmax(values, initial=-np.inf), np.nanmin(values, initial=np.inf)
-    for bound, away, outward in ((limits[0], least - limits[0], -1), (limits[1], limits[1] - greatest, 1)):
-        if low < bound < high and away < 1.2 * strip:
-            beyond = np.clip(bound + outward * strip, low, high)
+    near = near_limits(limits, np.nanmin(values, initial=np.inf), np.nanmax(values, initial=-np.inf), low, high)
+    for bound, shown, outward in zip(limits, near, (-1, 1), strict=True):
+        if shown:
+            beyond = np.clip(bound + outward * STRIP * (high - low), low, high)
             ax.axhspan(bound, beyond, color=color, alpha=0.22, linewidth=0, zorder=0)
             ax.axhline(bound, color=color, linewidth=0.9, zorder=1)
             ax.limit_labels.append((f"limit of q{joint + 1}: {number(bound)}{_space(unit)}{unit}", bound, outward))

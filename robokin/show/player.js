@@ -4,8 +4,10 @@
 // Three parts that know nothing of each other's source: sceneView and curvesView draw what they are given; play
 // decodes the recorded motions, owns time, slider and buttons, and asks both views to draw. Metres and radians in the
 // scene; degrees and mm (or m) in the curves. A rigid transform is 12 numbers: the rows of [R | p].
+// The live views (live.js, behind this file in one module) draw with the same parts.
 
-const INK = "#1F2933", SOFT = "#5F6B76", LINE = "#C9D0D6", GRID = "#E4E8EB", ALARM = "#B3261E", PATH = "#1B2A41";
+const INK = "#1F2933", SOFT = "#5F6B76", LINE = "#C9D0D6", GRID = "#E4E8EB", ALARM = "#B3261E", PATH = "#1B2A41",
+      EDGE = "#27323C";
 const AXES = ["#C62828", "#2E7D32", "#1F55C4"]; // x, y, z: red, green, blue
 const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sans-serif";
 const MINUS = "\u2212";
@@ -80,15 +82,22 @@ function stroke(g, points, color, width, dash = []) {
   g.setLineDash([]);
 }
 
-function dot2(g, [x, y], radius, fill, edge = "white", width = 1.5) {
+// Fills and outlines what `draw` traces.
+function shape(g, draw, fill, edge, width) {
   g.beginPath();
-  g.arc(x, y, radius, 0, 2 * Math.PI);
+  draw();
+  g.closePath();
   g.fillStyle = fill;
   g.fill();
+  if (!width) return;
   g.strokeStyle = edge;
   g.lineWidth = width;
   g.stroke();
 }
+
+const polygon = (g, points, ...look) => shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
+const dot2 = (g, [x, y], radius, fill, edge = "white", width = 1.5) =>
+  shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 
 // Words with a white seam, readable over lines.
 function words(g, text, x, y, color = INK, size = 12, align = "left", weight = "") {
@@ -99,6 +108,12 @@ function words(g, text, x, y, color = INK, size = 12, align = "left", weight = "
   g.strokeText(text, x, y);
   g.fillStyle = color;
   g.fillText(text, x, y);
+}
+
+// How many columns and rows several arms take in a width.
+function tiled(count, width) {
+  const rows = Math.ceil(count / Math.max(1, Math.min(count, Math.floor(width / 260))));
+  return [Math.ceil(count / rows), rows];
 }
 
 const number = (x, decimals) => x.toFixed(decimals).replace(/^-(?=0\.?0*$)/, "").replace("-", MINUS);
@@ -118,8 +133,10 @@ function camera([azimuth, elevation], corners, [left, top, width, height]) {
 }
 
 // Draws arms in space. scene: what stands still (targets, marks, floor, box to be seen, size, unit, joint colours).
-// draw(view, arms, clock): view [azimuth, elevation]; arms [{name, chain, q, trace, done, faded, near}]: q in
-// radians and metres, trace the tool's places, done how many of them are behind it, near where it passes "via".
+// With `grows` the picture shrinks where an arm or a target leaves it.
+// draw(view, arms, clock): view [azimuth, elevation]; arms [{name, chain, q, trace, tail, faded, near}]: q in
+// radians and metres, trace the tool's places, tail those behind it, near where it passes "via"; and
+// where given, ghosts [{q, past}]: other postures, faint, broken lines where `past` a limit; framed: show every frame.
 function sceneView(canvas, scene) {
   const flat = scene.flat !== null, size = scene.size;
   const [a, b] = flat ? [0, 1, 2].filter(i => i !== scene.flat) : [0, 1]; // the axes of the grid
@@ -131,8 +148,7 @@ function sceneView(canvas, scene) {
 
   function draw(view, arms, clock) {
     const [g, w, h] = prepared(canvas);
-    const columns = arms.length > 2 && w < 700 ? Math.ceil(arms.length / 2) : arms.length;
-    const rows = Math.ceil(arms.length / columns), cw = w / columns, ch = h / rows;
+    const [columns, rows] = tiled(arms.length, w), cw = w / columns, ch = h / rows;
     arms.forEach((arm, i) => {
       const x = (i % columns) * cw, y = Math.floor(i / columns) * ch;
       g.save();
@@ -149,26 +165,28 @@ function sceneView(canvas, scene) {
   }
 
   function drawOne(g, view, arm, [x, y, w, h], named) {
-    const cam = camera(view, corners, [x + 26, y + 30, w - 52, h - 62]);
-    const {to} = cam;
-    drawFloor(g, to);
-    const sunk = p => { const s = [...p]; s[2] = floor[2]; return to(s); };
     const joints = [], moved = [];
     const all = frames(arm.chain, arm.q, joints, moved);
     const exists = arm.q.every(Number.isFinite);
+    const cam = camera(view, scene.grows ? [...corners, ...reached(arm, all)] : corners, [x + 26, y + 30, w - 52, h - 62]);
+    const {to} = cam;
+    drawFloor(g, to);
+    const sunk = p => { const s = [...p]; s[2] = floor[2]; return to(s); };
     const rods = exists ? limbs(all, joints, moved) : [];
     const thick = Math.min(15, Math.max(5, 0.045 * size * cam.scale));
     if (!flat) {
       stroke(g, arm.trace.map(p => p && sunk(p)), "rgba(95,107,118,.16)", 1.5);
       for (const [p, q] of rods) stroke(g, [sunk(p), sunk(q)], "rgba(95,107,118,.13)", thick);
     }
-    g.globalAlpha = 1;
     for (const mark of scene.marks) if (mark.radius) disc(g, to(mark.at), mark.radius * cam.scale);
     drawRoute(g, to);
     stroke(g, arm.trace.map(p => p && to(p)), "rgba(27,42,65,.45)", 1.4, [1, 4]);
     drawFoot(g, cam, rods.length ? 1 : 0.4);
+    for (const {q, past} of arm.ghosts || []) stroke(g, frames(arm.chain, q).map(f => to(origin(f))), "rgba(71,85,99,.42)",
+      Math.max(2, 0.3 * thick), past ? [3, 7] : []);
     g.globalAlpha = arm.faded ? 0.3 : 1;
     drawArm(g, cam, arm, rods, joints, thick);
+    if (arm.framed) for (const frame of all) triad(g, cam, frame, 0.08 * size, 1.8, 1);
     g.globalAlpha = 1;
     if (arm.tail.length > 1) {
       stroke(g, arm.tail.map(p => p && to(p)), "rgba(255,255,255,.85)", 4.5);
@@ -206,16 +224,15 @@ function sceneView(canvas, scene) {
   }
 
   function drawFloor(g, to) {
-    const nx = Math.round((ceiling[a] - floor[a]) / grid), ny = Math.round((ceiling[b] - floor[b]) / grid);
-    for (let i = 0; i <= nx; i++) {
-      const x = floor[a] + i * grid;
-      stroke(g, [to(at(x, floor[b])), to(at(x, ceiling[b]))], Math.abs(x) < grid / 9 ? LINE : GRID, 1);
-    }
-    for (let i = 0; i <= ny; i++) {
-      const y = floor[b] + i * grid;
-      stroke(g, [to(at(floor[a], y)), to(at(ceiling[a], y))], Math.abs(y) < grid / 9 ? LINE : GRID, 1);
-    }
+    const line = (p, q, value) => stroke(g, [to(p), to(q)], Math.abs(value) < grid / 9 ? LINE : GRID, 1);
+    for (let x = floor[a]; x < ceiling[a] + grid / 9; x += grid) line(at(x, floor[b]), at(x, ceiling[b]), x);
+    for (let y = floor[b]; y < ceiling[b] + grid / 9; y += grid) line(at(floor[a], y), at(ceiling[a], y), y);
   }
+
+  // What a scene that grows has to hold besides.
+  const reached = (arm, all) => [...[...all, ...scene.targets.map(target => target.pose),
+    ...(arm.ghosts || []).flatMap(({q}) => frames(arm.chain, q))].map(origin), ...scene.marks.map(mark => mark.at)]
+    .filter(p => p.every(Number.isFinite));
 
   // The straight way from target to target, where they are stations of one path.
   function drawRoute(g, to) {
@@ -224,20 +241,15 @@ function sceneView(canvas, scene) {
   }
 
   function drawFoot(g, cam, alpha) {
-    const ring = [], r = 0.06 * size;
-    for (let i = 0; i <= 40; i++) {
+    const ring = Array.from({length: 40}, (_, i) => {
       const p = [0, 0, 0], t = i * Math.PI / 20;
-      p[a] = r * Math.cos(t);
-      p[b] = r * Math.sin(t);
-      ring.push(cam.to(p));
-    }
+      p[a] = 0.06 * size * Math.cos(t);
+      p[b] = 0.06 * size * Math.sin(t);
+      return cam.to(p);
+    });
     g.globalAlpha = alpha;
     if (!flat && floor[2] < -1e-9) stroke(g, [cam.to([0, 0, 0]), cam.to([0, 0, floor[2]])], LINE, 6);
-    g.beginPath();
-    ring.forEach(([x, y], i) => i ? g.lineTo(x, y) : g.moveTo(x, y));
-    g.fillStyle = "#D3D9DE";
-    g.fill();
-    stroke(g, ring, "#8A96A1", 1.2);
+    polygon(g, ring, "#D3D9DE", "#8A96A1", 1.2);
     g.globalAlpha = 1;
   }
 
@@ -273,7 +285,7 @@ function sceneView(canvas, scene) {
 const middle = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
 
 function limb(g, p, q, width, rod) {
-  const [edge, body, light] = rod ? ["#5F6B76", "#AEB8C1", "#D5DCE2"] : ["#27323C", "#4B5966", "#7D8B98"];
+  const [edge, body, light] = rod ? ["#5F6B76", "#AEB8C1", "#D5DCE2"] : [EDGE, "#4B5966", "#7D8B98"];
   const lift = [-0.16 * width, -0.2 * width], up = ([x, y]) => [x + lift[0], y + lift[1]];
   stroke(g, [p, q], "rgba(255,255,255,.9)", width + 3);
   stroke(g, [p, q], edge, width);
@@ -289,59 +301,28 @@ function drum(g, cam, p, axis, radius, color) {
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);
-  const body = (l, r) => {
-    g.beginPath();
-    g.ellipse(side * l, 0, r * facing + 1e-6, r, 0, -Math.PI / 2, Math.PI / 2, side < 0);
-    g.ellipse(-side * l, 0, r * facing + 1e-6, r, 0, Math.PI / 2, -Math.PI / 2, side < 0);
-    g.closePath();
-  };
-  body(half, radius);
-  g.fillStyle = color;
-  g.fill();
-  g.strokeStyle = "white";
-  g.lineWidth = 3;
-  g.stroke();
-  g.strokeStyle = "#27323C";
-  g.lineWidth = 1.2;
-  g.stroke();
-  g.fill();
-  g.beginPath();
-  g.ellipse(side * half, 0, radius * facing + 1e-6, radius, 0, 0, 2 * Math.PI);
-  g.fill();
-  g.lineWidth = 1;
-  g.stroke();
-  g.beginPath();
-  g.ellipse(side * half, 0, 0.45 * radius * facing + 1e-6, 0.45 * radius, 0, 0, 2 * Math.PI);
-  g.fillStyle = "#fff";
-  g.fill();
+  const arc = (place, r, from, to) => g.ellipse(side * place, 0, r * facing + 1e-6, r, 0, from, to, side < 0);
+  const body = () => { arc(half, radius, -Math.PI / 2, Math.PI / 2); arc(-half, radius, Math.PI / 2, -Math.PI / 2); };
+  const face = r => () => g.ellipse(side * half, 0, r * facing + 1e-6, r, 0, 0, 2 * Math.PI);
+  shape(g, body, color, "white", 3);
+  shape(g, body, color, EDGE, 1.2);
+  shape(g, face(radius), color, EDGE, 1);
+  shape(g, face(0.45 * radius), "white");
   g.restore();
 }
 
 // A joint that shifts, as a square guide.
 function box(g, cam, p, axis, radius, color) {
-  const [x, y] = cam.to(p), [dx, dy] = cam.along(axis);
-  g.save();
-  g.translate(x, y);
-  g.rotate(Math.atan2(dy, dx));
-  g.fillStyle = color;
-  g.strokeStyle = "#27323C";
-  g.lineWidth = 1.2;
-  g.fillRect(-radius, -radius, 2 * radius, 2 * radius);
-  g.strokeRect(-radius, -radius, 2 * radius, 2 * radius);
-  g.restore();
+  const [x, y] = cam.to(p), [dx, dy] = cam.along(axis), angle = Math.atan2(dy, dx) + Math.PI / 4, r = Math.SQRT2 * radius;
+  const corners = [0, 1, 2, 3].map(k => angle + k * Math.PI / 2).map(t => [x + r * Math.cos(t), y + r * Math.sin(t)]);
+  polygon(g, corners, color, EDGE, 1.2);
 }
 
 function disc(g, [x, y], radius) {
   const shade = g.createRadialGradient(x - radius / 3, y - radius / 3, radius / 8, x, y, radius);
   shade.addColorStop(0, "rgba(226,189,140,.75)");
   shade.addColorStop(1, "rgba(176,124,62,.75)");
-  g.beginPath();
-  g.arc(x, y, radius, 0, 2 * Math.PI);
-  g.fillStyle = shade;
-  g.fill();
-  g.strokeStyle = "#7A5426";
-  g.lineWidth = 1.2;
-  g.stroke();
+  dot2(g, [x, y], radius, shade, "#7A5426", 1.2);
 }
 
 // The axes of a frame; returns their tips on the screen.
@@ -402,24 +383,28 @@ function place(g, labels, taken, [left, top, width, height]) {
 
 // Draws columns of panels over one time axis. draw(columns, times, ticks, now): a column is {title, panels}, a panel
 // {label, axes: [{unit, scale: [low, step, count, decimals], joints}], curves (per joint an array over times),
-// gaps (Set of samples after which the line breaks), limits [low, high] (per joint), over (per joint: flags),
-// marks [{time, text}], now (per joint)}. timeAt(x) tells which time a place of the canvas stands for.
+// gaps (Set of samples after which the line breaks), limits [low, high] (per joint), near [[joint, 0 low or 1 high]]:
+// the limits to show, marks [{time, text}], now (per joint)}. timeAt(x, y): which time a place stands for.
 function curvesView(canvas, styles) {
   let spans = [];
+  const style = j => styles[j % styles.length];
+  const shade = ({color}) => `color-mix(in srgb, ${color} 60%, ${INK})`; // fit for words
 
   function draw(columns, times, ticks, now) {
     const [g, w, h] = prepared(canvas);
     const t0 = times[0], t1 = times[times.length - 1];
     spans = [];
+    const [across, rows] = tiled(columns.length, w);
     columns.forEach((column, c) => {
-      const left = c * w / columns.length, width = w / columns.length, titled = columns.length > 1;
+      const width = w / across, height = h / rows, titled = columns.length > 1;
+      const left = (c % across) * width, above = Math.floor(c / across) * height;
       const right = column.panels.some(p => p.axes.length > 1) ? 46 : 16;
       const area = [left + 48, width - 48 - right];
-      const below = legend(g, column, left + 48, width - 48 - right, titled ? 36 : 14);
-      if (titled) words(g, column.title, left + 48, 14, INK, 13, "left", "600");
-      const bottom = h - 24, count = column.panels.length, tall = (bottom - below) / count;
+      const below = legend(g, column, left + 48, width - 48 - right, above + (titled ? 36 : 14));
+      if (titled) words(g, column.title, left + 48, above + 14, INK, 13, "left", "600");
+      const bottom = above + height - 24, count = column.panels.length, tall = (bottom - below) / count;
       const x = t => area[0] + area[1] * (t - t0) / (t1 - t0);
-      spans.push([area[0], area[1], t0, t1]);
+      spans.push([area[0], area[1], t0, t1, left, above]);
       column.panels.forEach((panel, k) => {
         const top = below + k * tall + 26;
         drawPanel(g, panel, x, area, top, below + (k + 1) * tall - top - 4, times, ticks, now);
@@ -434,114 +419,116 @@ function curvesView(canvas, styles) {
     });
   }
 
-  // Names with their lines, above the panels; returns where the panels may begin.
+  // Names with their lines, above the panels, evenly in as many rows as it takes; returns where the panels may begin.
   function legend(g, column, left, width, y) {
-    const joints = column.panels[0].curves.length, each = 56, inRow = Math.max(1, Math.floor(width / each));
+    const joints = column.panels[0].curves.length, rows = Math.ceil(joints * 38 / width), inRow = Math.ceil(joints / rows);
+    const each = Math.min(56, width / inRow), long = each - 30;
     for (let j = 0; j < joints; j++) {
-      const x = left + (j % inRow) * each, row = y + 16 * Math.floor(j / inRow), style = styles[j % styles.length];
-      stroke(g, [[x, row - 4], [x + 26, row - 4]], style.color, 2.2, dashes(style, 2.2));
-      words(g, `q${j + 1}`, x + 31, row, INK, 12);
+      const x = left + (j % inRow) * each, row = y + 16 * Math.floor(j / inRow);
+      stroke(g, [[x, row - 4], [x + long, row - 4]], style(j).color, 2.2, dashes(style(j), 2.2));
+      words(g, `q${j + 1}`, x + long + 4, row, INK, 12);
     }
-    return y + 16 * Math.floor((joints - 1) / inRow) + 2;
+    return y + 16 * (rows - 1) + 2;
   }
 
   function drawPanel(g, panel, x, [left, width], top, height, times, ticks, now) {
-    const right = left + width, bottom = top + height;
-    const scales = panel.axes.map(({scale: [low, step, count]}) => v =>
-      bottom - height * (v - low) / (step * (count - 1)));
+    const right = left + width, bottom = top + height, ys = [], units = [];
+    const scales = panel.axes.map(({scale: [low, step, count], unit, joints}) => {
+      const y = v => bottom - height * (v - low) / (step * (count - 1));
+      for (const j of joints) { ys[j] = y; units[j] = unit; }
+      return y;
+    });
     words(g, panel.label, left - 40, top - 8, INK, 12, "left", "600");
     g.save();
     g.beginPath();
-    g.rect(left, top, width, height);
-    g.fillStyle = "white";
-    g.fill();
+    g.rect(left, top - 1, width, height + 2);
     g.clip();
     const [low, step, count] = panel.axes[0].scale;
     for (let i = 0; i < count; i++) {
       const y = scales[0](low + i * step);
       stroke(g, [[left, y], [right, y]], Math.abs(low + i * step) < step / 9 ? LINE : GRID, 1);
     }
-    for (let i = 0; i < ticks[2]; i++) stroke(g, [[x(ticks[0] + i * ticks[1]), top], [x(ticks[0] + i * ticks[1]), bottom]], GRID, 1);
-    const rect = [left, right, top, bottom], taken = [], notes = noted(g, panel.marks, x, rect, taken);
-    panel.axes.forEach((axis, k) => axis.joints.forEach(j => band(g, panel, j, times, x, scales[k], rect, taken)));
-    for (const {time, alarm} of panel.marks) stroke(g, [[x(time), top], [x(time), bottom]], alarm ? ALARM : SOFT, 1.2, [3, 3]);
-    panel.axes.forEach((axis, k) => axis.joints.forEach(j => curve(g, panel, j, times, x, scales[k])));
+    for (let i = 0; i < ticks[2]; i++) upright(g, x(ticks[0] + i * ticks[1]), top, bottom, GRID, 1);
+    for (const [j, side] of panel.near) band(g, ys[j](panel.limits[side][j]), side ? 1 : -1, left, right, style(j).color);
+    for (const {time} of panel.marks) upright(g, x(time), top, bottom, ALARM, 1.2, [3, 3]);
+    ys.forEach((y, j) => curve(g, panel, j, times, x, y));
     g.restore();
     g.lineWidth = 1;
     g.strokeStyle = "#9AA5AF";
     g.strokeRect(left, top, width, height);
-    panel.axes.forEach(({scale: [low, step, count, decimals], unit}, k) => {
+    panel.axes.forEach(({scale: [low, step, count, decimals], unit, joints}, k) => {
+      const color = k && joints.length === 1 ? shade(style(joints[0])) : SOFT;
       for (let i = 0; i < count; i++) {
         const y = scales[k](low + i * step) + 4;
-        words(g, number(low + i * step, decimals), k ? right + 6 : left - 6, y, SOFT, 11, k ? "left" : "right");
+        words(g, number(low + i * step, decimals), k ? right + 6 : left - 6, y, color, 11, k ? "left" : "right");
       }
-      if (k) words(g, unit, right + 30, top - 8, INK, 12, "right", "600");
+      if (k) words(g, `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`, right + 42, top - 8, color, 12, "right", "600");
     });
-    stroke(g, [[x(now), top], [x(now), bottom]], INK, 1.4);
-    panel.axes.forEach((axis, k) => axis.joints.forEach(j => {
-      const y = scales[k](panel.now[j]);
-      if (y > top - 3 && y < bottom + 3) dot2(g, [x(now), y], 4, styles[j % styles.length].color);
-    }));
-    for (const [text, px, py] of notes) words(g, text, px, py, ALARM, 11, "left", "600");
-    for (const {time, text} of panel.marks) if (text) for (const [y, s] of [[top, 1], [bottom, -1]]) {
-      g.beginPath();
-      g.moveTo(x(time) - 5, y);
-      g.lineTo(x(time) + 5, y);
-      g.lineTo(x(time), y + 7 * s);
-      g.fillStyle = ALARM;
-      g.fill();
+    // The places of words are looked for once, not in every picture.
+    const where = [left, top, width, height].join();
+    if (panel.where !== where) {
+      const rect = [left, right, top, bottom], notes = noted(g, panel.marks, x, rect);
+      Object.assign(panel, {where, words: [...notes, ...limitWords(g, panel, ys, units, times, x, rect, notes)]});
     }
+    for (const [text, [px, py, , h], color, size, weight] of panel.words) words(g, text, px, py + h - 2, color, size, "left", weight);
+    upright(g, x(now), top, bottom, INK, 1.4);
+    ys.forEach((y, j) => {
+      const at = y(panel.now[j]);
+      if (at > top - 3 && at < bottom + 3) dot2(g, [x(now), at], 4, style(j).color);
+    });
+    for (const {time, text} of panel.marks) if (text) for (const [y, tip] of [[top, top + 7], [bottom, bottom - 7]])
+      polygon(g, [[x(time) - 5, y], [x(time) + 5, y], [x(time), tip]], ALARM);
   }
 
-  // Where the words of the marks go: [text, left, base line], at most three lines of them; the boxes go to `taken`.
-  function noted(g, marks, x, [, right, top], taken) {
+  // The words of the marks, in at most three lines: [text, [left, top, width, height], color, size, weight].
+  function noted(g, marks, x, [left, right, top]) {
     const notes = [];
     g.font = `600 11px ${FONT}`;
     for (const {time, text} of marks) {
       if (!text) continue;
-      const w = g.measureText(text).width, px = x(time) + w + 12 > right ? x(time) - 6 - w : x(time) + 6;
-      const line = [0, 1, 2].find(k => !hit([px, top + 14 * k + 4, w, 12], taken));
-      if (line === undefined) continue;
-      notes.push([text, px, top + 14 + 14 * line]);
-      taken.push([px, top + 14 * line + 4, w, 12]);
+      const w = g.measureText(text).width;
+      const px = x(time) + w + 12 > right ? Math.max(left + 3, x(time) - 6 - w) : x(time) + 6;
+      const spot = [0, 1, 2].map(k => [px, top + 14 * k + 4, w, 12]).find(spot => !hit(spot, notes.map(note => note[1])));
+      if (spot) notes.push([text, spot, ALARM, 11, "600"]);
     }
     return notes;
   }
 
-  // What lies beyond a limit of joint j, where it comes into view: a strip along the forbidden side, and its words
-  // where fewest curves run.
-  function band(g, panel, j, times, x, y, [left, right, top, bottom], taken) {
-    if (!panel.limits) return;
-    const {color} = styles[j % styles.length];
-    [-1, 1].forEach((side, k) => {
-      const limit = panel.limits[k][j], at = y(limit), strip = Math.min(16, side > 0 ? at - top : bottom - at);
-      if (strip < 1 || at < top || at > bottom) return;
-      const fade = g.createLinearGradient(0, at, 0, at - 16 * side);
-      fade.addColorStop(0, color + "66");
-      fade.addColorStop(1, color + "0C");
-      g.fillStyle = fade;
-      g.fillRect(left, Math.min(at, at - strip * side), right - left, strip);
-      stroke(g, [[left, at], [right, at]], color, 1);
-      g.font = `10px ${FONT}`;
-      const text = `limit of q${j + 1}: ${number(limit, 0)}`, w = g.measureText(text).width + 6;
-      const base = side > 0 ? Math.max(at - 4, top + 10) : Math.min(at + 11, bottom - 3);
-      let best = null;
-      for (let place = right - w; place > left; place -= w / 2) {
-        let hits = hit([place, base - 9, w, 11], taken) ? 1000 : 0;
-        for (const curve of panel.curves) curve.forEach((value, i) => {
-          const px = x(times[i]), py = y(value);
-          if (px > place - 4 && px < place + w && py > base - 13 && py < base + 4) hits++;
-        });
-        if (!best || hits < best[0]) best = [hits, place];
+  // The words of the limits, as above: beside their lines, off other words and, nearly, off the curves. At most three;
+  // where there is no such place, the band alone has to do.
+  function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], notes) {
+    const found = [], curves = panel.curves.flatMap((curve, j) => Array.from(curve, (v, i) => [x(times[i]), ys[j](v)]));
+    const each = (right - left) / times.length, lines = panel.near.map(([j, side]) => ys[j](panel.limits[side][j]));
+    g.font = `10px ${FONT}`;
+    panel.near.forEach(([j, side], k) => {
+      const limit = panel.limits[side][j], at = lines[k], unit = units[j];
+      const text = `q${j + 1} limit ${number(limit, +!Number.isInteger(limit))}${unit[0] === "\u00B0" ? "" : " "}${unit}`;
+      const w = g.measureText(text).width, taken = [...notes, ...found].map(([, spot]) => spot);
+      let best = null, least = 16; // pixels of curves that the words may cover
+      for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) for (let px = left + 5; px + w + 5 < right; px += 6) {
+        const spot = [px, y, w, 11];
+        if (y < top + 1 || y + 11 > bottom - 1 || hit([px - 4, y, w + 8, 11], taken)) continue;
+        const cost = each * curves.filter(([cx, cy]) => cx > px - 3 && cx < px + w + 3 && cy > y - 1 && cy < y + 12).length
+          + 20 * lines.filter(line => line > y && line < y + 11).length;
+        if (cost < least) [best, least] = [spot, cost];
       }
-      if (!best) return;
-      taken.push([best[1], base - 9, w, 11]);
-      words(g, text, best[1], base, SOFT, 10);
+      if (best && found.length < 3) found.push([text, best, shade(style(j)), 10]);
     });
+    return found;
+  }
+
+  // The near side of what lies beyond a limit, a strip above (side 1) or below it.
+  function band(g, at, side, left, right, color) {
+    const fade = g.createLinearGradient(0, at, 0, at - 12 * side);
+    fade.addColorStop(0, color + "59");
+    fade.addColorStop(1, color + "0C");
+    g.fillStyle = fade;
+    g.fillRect(left, at, right - left, -12 * side);
+    stroke(g, [[left, at], [right, at]], color, 1);
   }
 
   function curve(g, panel, j, times, x, y) {
-    const style = styles[j % styles.length], points = [], beyond = [];
+    const {color} = style(j), points = [], beyond = [];
     panel.curves[j].forEach((value, i) => {
       const p = Number.isNaN(value) ? null : [x(times[i]), y(value)];
       const over = p && panel.limits && (value < panel.limits[0][j] - 1e-3 || value > panel.limits[1][j] + 1e-3);
@@ -551,27 +538,29 @@ function curvesView(canvas, styles) {
     });
     if (beyond.some(p => p)) stroke(g, beyond, "rgba(179,38,30,.35)", 7);
     g.lineCap = "butt";
-    stroke(g, points, style.color, 2, dashes(style, 2));
+    stroke(g, points, color, 2, dashes(style(j), 2));
     g.lineCap = "round";
   }
 
-  // The time of a place on the canvas, in the column under it or, with `held`, in that column whatever the place.
-  function timeAt(px, held) {
-    const k = held ?? Math.max(0, spans.findLastIndex(([left]) => px >= left - 48));
-    const [left, width, t0, t1] = spans[k];
-    return [t0 + (t1 - t0) * Math.min(1, Math.max(0, (px - left) / width)), k];
+  // The time of a place on the canvas, in the column under it or, with `held`, in that column whatever the place;
+  // and the number of the column.
+  function timeAt(px, py, held = spans.findLastIndex(([, , , , left, above]) => px >= left && py >= above)) {
+    const [left, width, t0, t1] = spans[Math.max(0, held)];
+    return [t0 + (t1 - t0) * Math.min(1, Math.max(0, (px - left) / width)), Math.max(0, held)];
   }
 
   return {draw, timeAt};
 }
 
+const upright = (g, x, top, bottom, ...look) => stroke(g, [[x, top], [x, bottom]], ...look);
 const hit = ([x, y, w, h], boxes) => boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);
 const dashes = (style, width) => style.dash.map(x => x * width);
 
 // --- Recorded motions -----------------------------------------------------------------------------------------------
 
-// base64 -> whole numbers of 16 bits.
+// base64 -> whole numbers of 16 bits; what is such numbers already stays.
 function integers(text) {
+  if (typeof text !== "string") return text;
   const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0));
   return new Int16Array(bytes.buffer);
 }
@@ -622,10 +611,10 @@ const STYLE = `
   & .rk-table { overflow-x: auto; margin-top: 10px; }
   & table { border-collapse: collapse; width: 100%; margin: 0; font: inherit; color: ${INK}; border: 0; table-layout: auto; }
   & tr { background: none; border: 0; }
-  & th, & td { padding: 4px 8px; text-align: right; border: 0; border-top: 1px solid #E4E8EB; font-weight: 400;
-    font-variant-numeric: tabular-nums; white-space: nowrap; background: none; max-width: none; }
+  & th, & td { padding: 4px 5px; text-align: right; border: 0; border-top: 1px solid #E4E8EB; font-weight: 400;
+    font-variant-numeric: tabular-nums; white-space: nowrap; background: none; max-width: none; line-height: 1.3; }
   & thead th { border-top: 0; color: ${SOFT}; }
-  & th:first-child { text-align: left; color: ${SOFT}; white-space: normal; min-width: 9em; }
+  & th:first-child { text-align: left; color: ${SOFT}; white-space: normal; min-width: 14.5em; padding-left: 0; }
   & .rk-jump { color: ${ALARM}; }
   & .rk-notes { margin: 6px 0 0; padding: 0; list-style: none; color: ${ALARM}; min-height: 0; }
   & .rk-notes li { margin: 2px 0; padding: 0; }
@@ -635,7 +624,13 @@ const STYLE = `
     & th, & td { padding: 3px 4px; font-size: 11.5px; white-space: normal; }
     & th:first-child { min-width: 6.5em; }
   }
-  @media print { & .rk-row { display: none; } & { border: 0; } }
+  @media print {
+    & { border: 0; break-inside: avoid; }
+    & .rk-views + .rk-row, & input { display: none; }
+    & .rk-row label.rk-long { flex: none; }
+    & .rk-value { min-width: 0; }
+    & select { appearance: none; background: none; border: 0; padding: 0; }
+  }
 }`;
 
 const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
@@ -655,6 +650,37 @@ const control = (tag, attributes, ...children) =>
 const choice = (name, texts) => control("select", {"aria-label": name},
   ...texts.map((text, i) => element("option", {value: i}, text)));
 
+const seenIn = (scene, alt) => alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : "");
+const sceneCanvasOf = (scene, alt) => control("canvas", {class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
+  role: "img", tabindex: 0, "aria-label": seenIn(scene, alt)});
+
+// Dragging, arrow keys, Home and a double click turn state.view; `ask` gets it drawn.
+function orbit(canvas, scene, state, ask) {
+  if (scene.flat !== null) return;
+  const turn = (dx, dy) => {
+    state.view = [state.view[0] - dx, Math.min(1.57, Math.max(-0.3, state.view[1] + dy))];
+    ask();
+  };
+  const reset = () => { state.view = [...scene.view]; ask(); };
+  let grip = null;
+  canvas.addEventListener("pointerdown", event => {
+    canvas.setPointerCapture(event.pointerId);
+    grip = [event.clientX, event.clientY];
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (!canvas.hasPointerCapture(event.pointerId)) return;
+    turn((event.clientX - grip[0]) / 120, (event.clientY - grip[1]) / 120);
+    grip = [event.clientX, event.clientY];
+  });
+  canvas.addEventListener("dblclick", reset);
+  canvas.addEventListener("keydown", event => {
+    if (event.key in KEYS) turn(-KEYS[event.key][0] * 0.08, KEYS[event.key][1] * 0.08);
+    else if (event.key === "Home") reset();
+    else return;
+    event.preventDefault();
+  });
+}
+
 // Fills every waiting place with this id; the same player may stand twice in a page.
 function play(id, data) {
   for (const root of document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)) {
@@ -663,21 +689,27 @@ function play(id, data) {
   }
 }
 
+// Returns the function that takes other motions of the same arms, in the same scene: view and time stay.
 function start(root, data) {
-  const {times, slider, switch: menu, unit, scene} = data, last = times.length - 1;
-  const recordings = data.arms.map(arm => recording(arm, times.length, unit));
-  const begin = times[0], end = times[last];
+  const {slider, switch: menu, unit} = data, scene = {...data.scene, unit, styles: data.styles};
+  let times, last, recordings, begin, end, tick;
+  function take() {
+    ({times} = data);
+    last = times.length - 1;
+    recordings = data.arms.map(arm => recording(arm, times.length, unit));
+    [begin, end] = [times[0], times[last]];
+    tick = (end - begin) / 400;
+  }
+  take();
   const state = {time: begin, value: 0, choice: 0, view: [...scene.view], playing: false};
 
   // What is on the page
-  const sceneCanvas = control("canvas", {class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`, role: "img",
-    tabindex: 0, "aria-label": `${data.alt}${scene.flat === null ? " Arrow keys turn the view, Home resets it." : ""}`});
+  const sceneCanvas = sceneCanvasOf(scene, data.alt);
   const curvesCanvas = element("canvas", {class: "rk-curves", role: "img", "aria-label":
     `Curves over time of ${data.arms.map(a => a.name).join(" and ")}: joint values, speeds, accelerations. ` +
     "The greatest values stand in the table."});
   const icon = element("span");
   const button = control("button", {type: "button", "aria-label": "play", title: "play or pause (Space)"}, icon);
-  const tick = (end - begin) / 400;
   const scrub = control("input", {type: "range", min: 0, max: 400, step: 1, value: 0, "aria-label": "time"});
   const clock = element("span", {class: "rk-value"});
   const speeds = [0.25, 0.5, 1, 2, 4], speed = choice("playing speed", speeds.map(s => `${s}\u00D7`));
@@ -702,7 +734,7 @@ function start(root, data) {
     element("style", {}, STYLE), element("div", {class: "rk-title"}, data.title), views, ...rows, table, notes);
   root.replaceChildren(frame);
 
-  const inSpace = sceneView(sceneCanvas, {...scene, unit, styles: data.styles});
+  const inSpace = sceneView(sceneCanvas, scene);
   const overTime = curvesView(curvesCanvas, data.styles);
 
   // A motion: everything that changes with slider and switch
@@ -729,8 +761,9 @@ function start(root, data) {
       gaps: arms[k].gaps,
       limits: order === 0 ? arm.limits
         : order === 1 && arm.speedLimits ? [arm.speedLimits.map(x => -x), arm.speedLimits] : null,
-      marks: [...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text, alarm: true})),
-              ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : "", alarm: true}))],
+      near: panel.near[k],
+      marks: [...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
+              ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""}))],
     }))}));
     tell();
   }
@@ -746,7 +779,7 @@ function start(root, data) {
       const whose = data.arms.length > 1 ? `${arm.name}: ` : "";
       const units = [...new Set(arm.chain.map(link => link.prismatic ? unit.name : "\u00B0"))];
       const line = (name, per, cell) => element("tr", {}, element("th", {scope: "row"},
-        `${whose}${name}, ${units.map(u => `${u}/${per}`).join(" or ")}${arm.share && per === "s" ? " (share of the limit)" : ""}`), ...arm.chain.map((_, j) => cell(j)));
+        `${whose}${name}, ${units.map(u => `${u}/${per}`).join(" or ")}${arm.share && per === "s" ? " (of limit)" : ""}`), ...arm.chain.map((_, j) => cell(j)));
       return [
         line("greatest speed", "s", j => element("td", {}, number(arm.speed[motion][j], data.decimals[0]) +
           (arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : ""))),
@@ -766,6 +799,10 @@ function start(root, data) {
 
   // One picture
   function draw() {
+    for (const canvas of [sceneCanvas, curvesCanvas]) {
+      const [, rows] = tiled(data.arms.length, canvas.clientWidth);
+      canvas.style.height = rows > 1 ? `${rows * 330}px` : "";
+    }
     let i = 0;
     for (let step = 1 << 10; step; step >>= 1) if (i + step <= last && times[i + step] <= state.time) i += step;
     const share = i < last ? (state.time - times[i]) / (times[i + 1] - times[i]) : 0;
@@ -824,34 +861,10 @@ function start(root, data) {
     }
   });
 
-  // The view
-  const turn = (dx, dy) => {
-    state.view = [state.view[0] - dx, Math.min(1.57, Math.max(-0.3, state.view[1] + dy))];
-    ask();
-  };
-  const reset = () => { state.view = [...scene.view]; ask(); };
-  if (scene.flat === null) {
-    let grip = null;
-    sceneCanvas.addEventListener("pointerdown", event => {
-      sceneCanvas.setPointerCapture(event.pointerId);
-      grip = [event.clientX, event.clientY];
-    });
-    sceneCanvas.addEventListener("pointermove", event => {
-      if (!sceneCanvas.hasPointerCapture(event.pointerId)) return;
-      turn((event.clientX - grip[0]) / 120, (event.clientY - grip[1]) / 120);
-      grip = [event.clientX, event.clientY];
-    });
-    sceneCanvas.addEventListener("dblclick", reset);
-    sceneCanvas.addEventListener("keydown", event => {
-      if (event.key in KEYS) turn(-KEYS[event.key][0] * 0.08, KEYS[event.key][1] * 0.08);
-      else if (event.key === "Home") reset();
-      else return;
-      event.preventDefault();
-    });
-  }
+  orbit(sceneCanvas, scene, state, ask);
   let held = null;
   const scrubbed = event => {
-    [state.time, held] = overTime.timeAt(event.offsetX, held ?? undefined);
+    [state.time, held] = overTime.timeAt(event.offsetX, event.offsetY, held ?? undefined);
     ask();
   };
   curvesCanvas.addEventListener("pointerdown", event => {
@@ -867,4 +880,13 @@ function start(root, data) {
   new ResizeObserver(ask).observe(frame); // also draws the first picture
   run(false);
   choose();
+  return next => {
+    data = next;
+    scene.targets = data.scene.targets;
+    take();
+    state.time = Math.min(end, Math.max(begin, state.time));
+    sceneCanvas.setAttribute("aria-label", seenIn(scene, data.alt));
+    choose();
+    ask();
+  };
 }

@@ -16,8 +16,9 @@ from .._validate import floats, instance
 from ..arms import Arm
 from ..units import deg, mm
 from . import plots
+from .panels import near_limits
 from .samples import samples
-from .scene import AZIMUTH, ELEVATION, SOFT, Scene, arm_points, named_targets, reach
+from .scene import INK, SOFT, STRAIGHT, VIEW, Scene, arm_points, named_targets, project, reach
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
 DATA_BYTES = 570_000  # what joint values, speeds and accelerations of all motions may take; at least 41 samples
@@ -49,6 +50,8 @@ def animate(arm, t, q, *, targets=(), slider=None, switch=None, title=None, poin
     marks = _marks(points, circles)
     tracks = [samples(m, t, a.prismatic) for a, m in zip(arms, motions, strict=True)]
     data = _page(arms, names, t, tracks, targets, marks, slider, switch, title)
+    for page in data["arms"]:
+        page["data"] = [base64.b64encode(values).decode() for values in page["data"]]
     still = _still(arms, names, [track.q[0] for track in tracks], targets, marks, data)
     return Player(data, still)
 
@@ -190,19 +193,21 @@ def _place(point, name):
 # --- What the page gets ----------------------------------------------------------------------------------------------
 
 
-def _page(arms, names, t, tracks, targets, marks, slider, switch, title):
+def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=None):
+    """What the page draws; joint values, speeds, accelerations as bytes. `scene`: the one of `_scene`, if at hand."""
     motions, size = len(tracks[0].q), max(reach(arm) for arm in arms)
     unit = {"name": "mm", "size": mm} if size <= 2 else {"name": "m", "size": 1}
     units = [np.where(arm.prismatic, unit["size"], deg) for arm in arms]
-    kept = _thin(len(t), tracks, SAMPLES if motions == 1 else SAMPLES_UNDER_SLIDER)
+    alone = motions == 1 and scene is None  # else what is drawn changes while a slider moves
+    kept = _thin(len(t), tracks, SAMPLES if alone else SAMPLES_UNDER_SLIDER)
     curves = [[x / u for x in (track.q, track.v, track.a)] for track, u in zip(tracks, units, strict=True)]
     via = targets.get("via")
     page = {
         "title": title if title is not None else " and ".join(dict.fromkeys(names)),
         "times": [_tidy(x, 6) for x in t[kept]],
         "slider": slider, "switch": switch, "unit": unit, "styles": plots.JOINT_STYLES,
-        "scene": _scene(arms, [track.q[:, kept] for track in tracks], targets, marks, size),
-        "panels": [_panel(arms, [c[k] for c in curves], unit["name"], k) for k in range(3)],
+        "scene": scene or _scene(arms, [track.q[:, kept] for track in tracks], targets, marks, size),
+        "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
         "decimals": [_decimals(arms, curves, k) for k in (1, 2)],
         "arms": [],
     }
@@ -210,8 +215,7 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title):
         steps, blobs = zip(*(_encoded(x[:, kept], arm.prismatic) for x in curve), strict=True)
         page["arms"].append({
             "name": name,
-            "chain": [{"before": _matrix(link.before), "axis": _rounded(link.axis), "after": _matrix(link.after),
-                       "prismatic": link.prismatic} for link in arm.links],
+            "chain": _chain(arm),
             "limits": [_rounded(arm.limits.T[i] / u, 3) for i in (0, 1)],
             "speedLimits": None if arm.speed_limits is None else _rounded(arm.speed_limits / u, 3),
             "steps": steps, "data": blobs,
@@ -222,6 +226,11 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title):
     page["ticks"] = _scale(t[0], t[-1])
     page["summary"], page["alt"] = _words(page, t, targets)
     return page
+
+
+def _chain(arm):
+    return [{"before": _matrix(link.before), "axis": _rounded(link.axis), "after": _matrix(link.after),
+             "prismatic": link.prismatic} for link in arm.links]
 
 
 def _thin(count, tracks, wanted):
@@ -243,7 +252,7 @@ def _thin(count, tracks, wanted):
 
 
 def _encoded(values, prismatic):
-    """(motions, samples, n) as whole numbers of 16 bits in base64, little-endian, and the step of each joint."""
+    """(motions, samples, n) as whole numbers of 16 bits, little-endian, and the step of each joint."""
     steps = np.ones(values.shape[-1])
     for kind in (prismatic, ~prismatic):
         if kind.any():
@@ -251,7 +260,7 @@ def _encoded(values, prismatic):
             steps[kind] = _step(greatest * (1 + TIE) / 32000)
     whole = np.floor(values / steps + 0.5 + TIE)
     whole = np.where(np.isnan(whole), NOTHING, whole).astype("<i2")
-    return [float(f"{step:.0e}") for step in steps], base64.b64encode(whole.tobytes()).decode()
+    return [float(f"{step:.0e}") for step in steps], whole.tobytes()
 
 
 def _step(least):
@@ -262,29 +271,59 @@ def _step(least):
 
 
 def _panel(arms, curves, unit, order):
-    """Scales of one panel: [lowest tick, step, number of ticks, decimals] for turning ("turn") and shifting joints.
+    """Scales of one panel: [lowest tick, step, number of ticks, decimals] for turning ("turn") and shifting joints, and
+    for each arm the limits [joint, 0 lower or 1 upper] that the panel shows ("near").
 
-    All motions share one scale, unless most of them would fill less than a third of it: then each has its own.
+    All motions share one scale, unless most of them would fill less than a third of it: then each has its own. The
+    limits are those that come near in any motion, so that they stay while a slider moves.
     """
-    words = [["angle", "position", "angle and position"][(shifts := {x for a in arms for x in a.prismatic.tolist()})
-                                                         == {True} or 2 * (len(shifts) > 1)], "speed", "acceleration"]
-    panel = {"own": False}
-    for key, name in (("turn", "°"), ("shift", unit)):
-        chosen = [c[..., arm.prismatic == (key == "shift")] for arm, c in zip(arms, curves, strict=True)]
-        chosen = [c for c in chosen if c.shape[-1]]
-        if not chosen:
-            continue
-        low = np.min([np.nanmin(c, axis=(1, 2), initial=np.inf, where=~np.isnan(c)) for c in chosen], axis=0)
-        high = np.max([np.nanmax(c, axis=(1, 2), initial=-np.inf, where=~np.isnan(c)) for c in chosen], axis=0)
-        low, high = np.where(np.isfinite(low), low, 0), np.where(np.isfinite(high), high, 0)
-        own = np.median(high - low) < (high.max() - low.min()) / 3
-        scales = [_scale(*pair) for pair in zip(low, high, strict=True)] if own else [_scale(low.min(), high.max())]
-        panel["own"] |= bool(own)
-        panel["label"] = f"{words[order]}, {name}{('', '/s', '/s²')[order]}" if "label" not in panel else panel["label"]
-        unique = sorted(set(scales))
-        panel[key] = {"unit": name + ("", "/s", "/s²")[order], "scales": unique,
-                      "of": [unique.index(s) for s in scales] if own else None}
+    per = ("", "/s", "/s²")[order]
+    ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]  # (motions, n) each
+    ranges, own = {}, False
+    for key in ("turn", "shift"):
+        low, high = (np.concatenate([pair[k][:, arm.prismatic == (key == "shift")]
+                                     for arm, pair in zip(arms, ends, strict=True)], axis=1) for k in (0, 1))
+        if low.shape[1]:
+            low, high = np.nan_to_num(np.fmin.reduce(low, axis=1)), np.nan_to_num(np.fmax.reduce(high, axis=1))
+            own |= bool(np.median(high - low) < (high.max() - low.min()) / 3)
+            ranges[key] = low, high
+    if not own:
+        ranges = {key: ([low.min()], [high.max()]) for key, (low, high) in ranges.items()}
+    scales = [_scales(both) for both in zip(*(zip(*pair, strict=True) for pair in ranges.values()), strict=True)]
+    word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
+    panel = {"own": own, "near": []}
+    for key, of in zip(ranges, zip(*scales, strict=True), strict=True):
+        unique = sorted(set(of))
+        panel[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scales": unique,
+                      "of": [unique.index(scale) for scale in of] if own else None}
+        panel.setdefault("label", f"{word}, {panel[key]['unit']}")
+        ranges[key] = np.array([(low, low + step * (count - 1)) for low, step, count, _ in of])
+    for arm, pair in zip(arms, ends, strict=True):
+        limits = arm.limits if order == 0 else arm.speed_limits if order == 1 else None
+        shown = np.zeros((len(arm.links), 2), dtype=bool)
+        if limits is not None:
+            limits = limits if order == 0 else limits[:, None] * [-1, 1]
+            limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
+            seen = np.stack([ranges["shift" if shifts else "turn"] for shifts in arm.prismatic], axis=1)
+            shown = near_limits(limits, *pair, seen[..., 0], seen[..., 1]).any(axis=0)
+        panel["near"].append(np.argwhere(shown).tolist())
     return panel
+
+
+def _scales(ranges):
+    """The scale for one range (low, high); or for two in one panel, with zeros and ticks at the same heights."""
+    ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
+    if len(ranges) == 1:
+        return [_scale(*ranges[0])]
+    best, most = None, 0.0
+    for below, above in ((i, n - i) for n in range(2, 6) for i in range(n + 1)):
+        if all((below or low >= 0) and (above or high <= 0) for low, high in ranges):
+            least = [max(high / (above or 1), -low / (below or 1)) for low, high in ranges]
+            steps = [float(f"{_step(x):.6g}") if x else 1.0 for x in least]
+            filled = sum((max(high, 0) - min(low, 0)) / step for (low, high), step in zip(ranges, steps, strict=True))
+            if filled / (below + above) > most * 1.001 or best is None:
+                best, most = [_ticks(-below * x, x, below + above + 1) for x in steps], filled / (below + above)
+    return best
 
 
 def _scale(low, high):
@@ -294,9 +333,12 @@ def _scale(low, high):
         pad = 0.5 * max(abs(low), 1.0)
         low, high = low - pad, high + pad
     ticks = MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-    step = float(f"{ticks[1] - ticks[0]:.6g}")
-    decimals = next(d for d in range(12) if abs(step - round(step, d)) < 1e-9 * step)
-    return float(f"{ticks[0]:.6g}"), step, len(ticks), decimals
+    return _ticks(float(f"{ticks[0]:.6g}"), float(f"{ticks[1] - ticks[0]:.6g}"), len(ticks))
+
+
+def _ticks(low, step, count):
+    """(lowest tick, step, number of ticks, decimals to write them with)"""
+    return low + 0.0, step, count, next(d for d in range(12) if abs(step - round(step, d)) < 1e-9 * step)
 
 
 def _decimals(arms, curves, k):
@@ -354,8 +396,10 @@ def _flaws(arm, t, kept, track, units, length):
     joints = range(len(arm.links))
 
     def amount(values, j, per=""):
-        space = "" if not arm.prismatic[j] and not per else " "
-        return f"{_tidy(abs(values[j]) / units[j], 1):.1f}{space}{length if arm.prismatic[j] else '°'}{per}"
+        space, value = "" if not arm.prismatic[j] and not per else " ", abs(values[j]) / units[j]
+        # One decimal, or two significant digits.
+        decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
+        return f"{_tidy(value, decimals):.{decimals}f}{space}{length if arm.prismatic[j] else '°'}{per}"
 
     for c, breaks in enumerate(track.breaks):
         inside = np.add.reduceat(breaks, kept[:-1]) if breaks.any() else np.zeros(1)
@@ -404,7 +448,9 @@ def _scene(arms, postures, targets, marks, size):
     """Where the camera stands, what it has to see, the floor and what lies in the space."""
     flat, foot = _plane(arms), 0.08 * size * np.array([[-1], [1]])
     seen = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
-    seen += [pose @ (0.1 * size * np.eye(3)) for pose in targets.values()]
+    tools = [arm.fk(q) for arm, q in zip(arms, postures, strict=True)]
+    tips = [(pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3) for pose in (*tools, *targets.values())]
+    seen += [pose.translation[None] for pose in targets.values()]
     seen += [centre + radius * sign * np.eye(3) for _, centre, radius in marks for sign in (1, -1)]
     seen = np.concatenate([foot * np.eye(3)[k] for k in range(3) if k != (2 if flat is None else flat)] + seen)
     low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
@@ -413,13 +459,17 @@ def _scene(arms, postures, targets, marks, size):
     low[across] = np.floor(low[across] / step + 0.1) * step
     high[across] = np.ceil(high[across] / step - 0.1) * step
     low[2] = min(low[2], 0.0) if flat is None and low[2] < -0.01 * size else 0.0
-    tools = np.concatenate([arm.fk(q).translation.reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)])
+    places = np.concatenate([pose.translation.reshape(-1, 3) for pose in tools])
     return {
-        "size": _tidy(size, 4), "flat": flat, "grid": _tidy(step, 6), "seen": _outermost(seen),
-        "floor": [_rounded(low, 4), _rounded(high, 4)], "view": _rounded(_view(tools, flat), 4),
-        "targets": [{"name": name, "pose": _matrix(pose)} for name, pose in targets.items()],
+        "size": _tidy(size, 4), "flat": flat, "grid": _tidy(step, 6), "seen": _outermost(np.concatenate([seen, *tips])),
+        "floor": [_rounded(low, 4), _rounded(high, 4)], "view": _rounded(_view(places, flat), 4),
+        "targets": _stations(targets),
         "marks": [{"name": name, "at": _rounded(centre), "radius": radius} for name, centre, radius in marks],
     }
+
+
+def _stations(targets):
+    return [{"name": name, "pose": _matrix(pose)} for name, pose in targets.items()]
 
 
 def _outermost(points):
@@ -427,7 +477,10 @@ def _outermost(points):
 
     Rounded first, so that which of two equal ones is taken does not depend on noise.
     """
-    points = np.unique(np.floor(points[np.isfinite(points).all(axis=-1)] * 200 + 0.5 + TIE) / 200, axis=0)
+    points = np.floor(points[np.isfinite(points).all(axis=-1)] * 200 + 0.5 + TIE).astype(np.int64)
+    x, y, z = (points - points.min(axis=0)).T
+    # One number for each place: a hundred times faster to sort than rows.
+    points = points[np.unique((x << 40) + (y << 20) + z, return_index=True)[1]] / 200
     k = np.arange(100) + 0.5
     z, turn = 1 - 2 * k / 100, k * np.pi * (1 + 5**0.5)
     across = np.sqrt(1 - z**2)
@@ -440,20 +493,20 @@ def _view(tools, flat):
     the tool's side of the base.
     """
     if flat is not None:
-        return ((0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg))[flat]
+        return STRAIGHT[flat]
     tools = tools[np.isfinite(tools).all(axis=-1)]
     if not len(tools):
-        return AZIMUTH, ELEVATION
+        return VIEW
     spread, centre = np.cov(tools.T) if len(tools) > 1 else np.eye(3), tools.mean(axis=0)
-    best, most = (AZIMUTH, ELEVATION), 0.0
+    best, most = VIEW, 0.0
     # In these steps no side of the floor ever lies along the line of sight.
-    for azimuth in AZIMUTH + np.array([0, 30, 90, 120, 180, 210, 270, 300]) * deg:
-        c, s, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(ELEVATION), np.sin(ELEVATION)
-        screen = np.array([[-s, c, 0], [-se * c, -se * s, ce]])
+    for azimuth in VIEW[0] + np.array([0, 30, 90, 120, 180, 210, 270, 300]) * deg:
+        screen = project(np.eye(3), (azimuth, VIEW[1])).T
         area = np.sqrt(max(np.linalg.det(screen @ spread @ screen.T), 0)) + 0.05 * (screen[0] @ spread @ screen[0])
-        area *= 1 + 0.3 * np.tanh(5 * (centre @ [c, s, 0]) / (np.linalg.norm(centre) + 1e-9))
+        toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
+        area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
         if area > 1.05 * most:  # the small margin keeps noise from choosing between two equal ones
-            best, most = (azimuth, ELEVATION), area
+            best, most = (azimuth, VIEW[1]), area
     return best
 
 
@@ -500,9 +553,9 @@ def _still(arms, names, postures, targets, marks, page):
     figure.text(0.016, 0.985, page["title"], fontsize=11, fontweight="bold", va="top")
     for k, (arm, q) in enumerate(zip(arms, postures, strict=True)):
         ax = figure.add_axes((k / len(arms), 0, 1 / len(arms), 0.93))
-        scene = Scene(ax, size=reach(arm), flat=_plane([arm]) == 2)
+        scene = Scene(ax, size=page["scene"]["size"], like=page["scene"])
         exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
-        path = arm.fk(q[np.linspace(0, len(q) - 1, min(len(q), 121)).astype(int)]).translation
+        path = arm.fk(q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
         scene.base()
         if len(exists):
             scene.arm(arm, q[exists[0]], "first")
@@ -516,7 +569,9 @@ def _still(arms, names, postures, targets, marks, page):
             scene.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
             if name:
                 scene.label(name, centre)
-        scene.finish(names[k] if len(arms) > 1 else "")
+        scene.finish()
+        if len(arms) > 1:
+            ax.text(0.03, 1, names[k], transform=ax.transAxes, fontsize=10, fontweight="bold", color=INK, va="top")
     return figure
 
 
@@ -538,8 +593,8 @@ def _matrix(pose):
     return _rounded(pose.as_matrix()[:3])
 
 
-def _script():
-    """player.js without the lines that only people read, as it stands in every output."""
+def _script(name="player.js"):
+    """A script of this folder without the lines that only people read, as it stands in every output."""
     from importlib.resources import files
-    lines = files(__package__).joinpath("player.js").read_text(encoding="utf-8").splitlines()
+    lines = files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()
     return "\n".join(line for line in map(str.strip, lines) if line and not line.startswith("//"))

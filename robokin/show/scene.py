@@ -12,17 +12,15 @@ from ..units import deg, mm
 
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
 INK, SOFT, FAINT, GRID, TRACE = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7", "#0072B2"
-AZIMUTH, ELEVATION = -60 * deg, 22 * deg  # where the camera of a spatial view stands
+VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
+STRAIGHT = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)  # the views straight at the planes x = 0, y = 0 and z = 0
 
 
-def project(points, flat=False):
-    """Parallel projection of points (..., 3) onto the picture: (..., 2), in metres, x to the right and z up.
-
-    `flat` looks straight down, for arms that move in the plane z = 0.
+def project(points, view=VIEW):
+    """Parallel projection of points (..., 3) onto the picture: (..., 2), in metres, to the right and up, as it is seen
+    from `view`: azimuth about the base's z axis, counted from its x axis, and elevation, in radians.
     """
-    if flat:
-        return np.asarray(points)[..., :2]
-    ca, sa, ce, se = np.cos(AZIMUTH), np.sin(AZIMUTH), np.cos(ELEVATION), np.sin(ELEVATION)
+    (ca, ce), (sa, se) = np.cos(view), np.sin(view)
     return np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
 
 
@@ -75,22 +73,30 @@ class Scene:
 
     size  metres; what the scene is about, the measure of triads and of the base
     flat  look straight down
+    like  where given, the scene of a player's page (`player._scene`): the same view, floor and scale
     Matplotlib's own 3-D axes leave wide margins, cut off what stands out and need equal limits forced; a parallel
     projection is one matrix product, and `set_aspect("equal")` keeps the proportions.
     """
 
-    def __init__(self, ax, size, flat=False):
-        self.ax, self.size, self.flat = ax, size, flat
+    def __init__(self, ax, size, flat=False, like=None):
+        like = like or {"flat": 2 if flat else None, "view": STRAIGHT[2] if flat else VIEW}
+        self.ax, self.size, self.like, self.view, self.flat = ax, size, like, like["view"], like["flat"] is not None
+        self.across = [k for k in range(3) if k != (like["flat"] if self.flat else 2)]  # the axes of the grid
+        self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
         self.corners = [np.zeros((1, 3))]  # what the floor has to lie under
         self.labels = []  # text, where, colour
         self.drawn = []  # projected lines and their widths, which labels keep off
         ax.set_axis_off()
         ax.set_aspect("equal")
 
+    def project(self, points):
+        """Points (..., 3) as they are seen: (..., 2), in metres."""
+        return project(points, self.view)
+
     def line(self, points, corner=True, **style):
         """A polyline through points (..., 3); NaN interrupts it."""
         points = np.asarray(points, dtype=float).reshape(-1, 3)
-        flat = project(points, self.flat)
+        flat = self.project(points)
         if corner:
             self.corners.append(points[np.isfinite(points).all(axis=-1)])
         if corner and len(flat) > 1:
@@ -107,17 +113,19 @@ class Scene:
         if strength == "between":
             return
         if not self.flat:
-            self.line(points * [1, 1, 0], corner=False, color="#EDEFF2", linewidth=width, zorder=0.5)
+            self.line(points * [1, 1, 0] + [0, 0, self.ground], corner=False, color="#EDEFF2", linewidth=width,
+                      zorder=0.5)
         self.line(points[1::2], linestyle="none", marker="o", markersize=width + 3, markerfacecolor="white",
                   markeredgecolor=color, markeredgewidth=1.8, zorder=z + 0.1)
 
     def base(self):
         """The foot of the arm at the origin."""
         angle = np.linspace(0, 2 * np.pi, 60)
-        ring = 0.07 * self.size * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)
-        self.ax.add_patch(Polygon(project(ring, self.flat), facecolor="#D5DAE0", edgecolor=SOFT, zorder=1))
+        ring = 0.07 * self.size * (np.cos(angle)[:, None] * np.eye(3)[self.across[0]]
+                                   + np.sin(angle)[:, None] * np.eye(3)[self.across[1]])
+        self.ax.add_patch(Polygon(self.project(ring), facecolor="#D5DAE0", edgecolor=SOFT, zorder=1))
         self.corners.append(ring)
-        self.drawn.append((project(ring, self.flat), 1))
+        self.drawn.append((self.project(ring), 1))
 
     def trace(self, points):
         """The path of the tool: points (samples, 3); NaN is a gap."""
@@ -138,7 +146,7 @@ class Scene:
         tips = pose @ (length * np.eye(3))
         for i, (tip, axis_color, letter) in enumerate(zip(tips, AXIS_COLORS, "xyz", strict=True)):
             self.line([pose.translation, tip], color=axis_color, linewidth=width, zorder=7)
-            along = project(tip - pose.translation, self.flat)
+            along = self.project(tip - pose.translation)
             if name and i == at:
                 self.label(f"{letter} {name}", tip, axis_color)
             elif letters and np.linalg.norm(along) > 0.3 * length:
@@ -149,7 +157,7 @@ class Scene:
 
     def label(self, text, point, color=INK, size=9.5):
         """Words beside a point (3,); `finish` finds them a free place."""
-        where = project(point, self.flat)
+        where = self.project(point)
         if not any(text == other and np.allclose(where, there, rtol=0, atol=1e-6) for other, there, *_ in self.labels):
             self.labels.append((text, where, color, size))
 
@@ -159,7 +167,9 @@ class Scene:
         unit, name = (1, "m") if self.size > 2 else (mm, "mm")
         self._grid(low, high, step, unit)
         words = f"floor grid {number(step / unit)} {name}" if not self.flat else f"grid {number(step / unit)} {name}"
-        seen = np.concatenate([*(line for line, _ in self.drawn), project(_box(low, high), self.flat)])
+        seen = [self.project(self.like["seen"])] if "seen" in self.like else [line for line, _ in self.drawn]
+        seen.append(self.project([self._at(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]))
+        seen = np.concatenate(seen)
         seen = seen[np.isfinite(seen).all(axis=-1)]
         (x0, y0), (x1, y1) = seen.min(axis=0), seen.max(axis=0)
         self._fit(x0, x1, y0, y1, fit)
@@ -182,7 +192,9 @@ class Scene:
 
     def _floor(self):
         """Corners (2,), (2,) of the floor and the step of its grid: under all that is drawn, in whole steps."""
-        points = np.concatenate(self.corners)[:, :2]
+        if "floor" in self.like:
+            return *np.array(self.like["floor"])[:, self.across], self.like["grid"]
+        points = np.concatenate(self.corners)[:, self.across]
         low, high = points.min(axis=0), points.max(axis=0)
         rough = max(*(high - low), self.size / 3) / 8
         step = next(s for s in 10.0 ** np.floor(np.log10(rough)) * np.array([1, 2, 5, 10]) if s >= rough * 0.999)
@@ -190,23 +202,32 @@ class Scene:
         return low * step, high * step, step
 
     def _grid(self, low, high, step, unit):
-        """The lines of the floor, with coordinates along its two front edges."""
+        """The lines of the floor, with coordinates along its two front edges (left and lower ones, seen flat)."""
         count = np.round((high - low) / step).astype(int)
         values = [low[i] + step * np.arange(count[i] + 1) for i in range(2)]
         for x in values[0]:
-            self.line([(x, low[1], 0), (x, high[1], 0)], corner=False, color=GRID, linewidth=0.9, zorder=0)
+            self.line([self._at(x, low[1]), self._at(x, high[1])], corner=False, color=GRID, linewidth=0.9, zorder=0)
         for y in values[1]:
-            self.line([(low[0], y, 0), (high[0], y, 0)], corner=False, color=GRID, linewidth=0.9, zorder=0)
-        edge = low[0] if self.flat else high[0]
-        sides = (([(x, low[1], 0) for x in values[0]], values[0], "x", "center" if self.flat else "right", "top"),
-                 ([(edge, y, 0) for y in values[1]], values[1], "y", "right" if self.flat else "left",
-                  "center" if self.flat else "top"))
-        for points, numbers, letter, ha, va in sides:
+            self.line([self._at(low[0], y), self._at(high[0], y)], corner=False, color=GRID, linewidth=0.9, zorder=0)
+        c, s = np.cos(self.view[0]), np.sin(self.view[0])  # the horizontal direction to the camera
+        x_edge = low[0] if self.flat or c < 0 else high[0]
+        y_edge = low[1] if self.flat or s < 0 else high[1]
+        sides = (([self._at(x, y_edge) for x in values[0]], values[0], self.across[0],
+                  "center" if self.flat else "left" if c * s > 0 else "right", "top"),
+                 ([self._at(x_edge, y) for y in values[1]], values[1], self.across[1],
+                  "right" if self.flat or c * s > 0 else "left", "bottom" if self.flat else "top"))
+        for points, numbers, axis, ha, va in sides:
             every = 1 if len(numbers) <= 4 else 2
             for point, value in zip(points, numbers, strict=True):
                 if round(value / step) % every == 0:
-                    text = number(value / unit) if abs(value) > step / 2 else f"{letter} = 0"
-                    self.ax.text(*project(point, self.flat), f" {text} ", fontsize=8, color="#6B7681", ha=ha, va=va)
+                    text = number(value / unit) if abs(value) > step / 2 else f"{'xyz'[axis]} = 0"
+                    self.ax.text(*self.project(point), f" {text} ", fontsize=8, color="#6B7681", ha=ha, va=va)
+
+    def _at(self, x, y):
+        """The point (3,) of the floor with these two coordinates."""
+        point = np.array([0.0, 0.0, self.ground])
+        point[self.across] = x, y
+        return point
 
     def _place_labels(self):
         """Each label at the free place nearest to its point: off the lines, off other labels, inside the picture."""
@@ -242,10 +263,6 @@ def number(value, digits=3):
     if "e+" in text:
         text = f"{value:.0f}"
     return text.replace("-", "\N{MINUS SIGN}") if float(text) else "0"
-
-
-def _box(low, high):
-    return np.array([(x, y, 0) for x in (low[0], high[0]) for y in (low[1], high[1])])
 
 
 def dense(line, step=4):
