@@ -1,0 +1,156 @@
+"""The log loader of source 003, paper 1: its angles against the reference cases, table 1, and errata S3-p to S3-r."""
+
+import numpy as np
+import pytest
+from machines import SHAPES, oracle, rot, shift, turns
+
+from robokin import Transform, deg, explain, loader_arm, within
+from robokin.jobs.steppers import postures, refusal, shortest_turn
+
+CASES = oracle("loader_arm")["cases"]
+LENGTHS = [(1.2, 1.0), (1.0, 1.2), (1.0, 1.0), (2.0, 0.1)]
+cases = pytest.mark.parametrize("case", CASES, ids=[str(i) for i in range(len(CASES))])
+lengths = pytest.mark.parametrize("A, B", LENGTHS)
+
+
+def joints_of(case):
+    return np.array([case["alpha_deg"], case["gamma_deg"], case["beta_deg"]]) * deg
+
+
+@cases
+def test_every_reference_case(case):
+    arm = loader_arm(case["A"], case["B"])
+    row = arm.ik(case["p"])[arm.branch(+1, -1)]
+    q = postures(arm, [case["p"]])[0]
+    if not case["reachable"]:
+        assert np.isnan(row).all() and np.isnan(q).all() and refusal(arm, case["p"])
+        return
+    assert abs(q - joints_of(case)).max() < 1e-9
+    assert turns(row, q).max() < 1e-12 and within(arm, row).all()
+    np.testing.assert_allclose(arm.fk(q).translation, case["p"], atol=1e-12)
+    assert refusal(arm, case["p"]) == []
+
+
+@lengths
+def test_fk_is_the_documents_figure(A, B):
+    rng = np.random.default_rng(1)
+    for alpha, gamma, beta in rng.uniform(-np.pi, np.pi, (20, 3)):
+        chain = (rot("z", alpha) @ rot("y", -gamma) @ shift(A, 0, 0) @ rot("y", np.pi - beta) @ shift(B, 0, 0))
+        np.testing.assert_allclose(loader_arm(A, B).fk([alpha, gamma, beta]).as_matrix(), chain, atol=1e-12)
+        # and the triangle: beta is the angle at the elbow between the levers
+        shoulder, elbow, tip = loader_arm(A, B).frames([alpha, gamma, beta]).translation[1:]
+        cosine = (shoulder - elbow) @ (tip - elbow) / (A * B)
+        assert cosine == pytest.approx(np.cos(beta), abs=1e-12)
+        assert elbow[2] == pytest.approx(A * np.sin(gamma))
+
+
+@lengths
+@pytest.mark.parametrize("shape", SHAPES)
+def test_ik_returns_the_drawn_joints(A, B, shape):
+    arm = loader_arm(A, B)
+    q = np.random.default_rng(2).uniform((-np.pi, 0, 0.01), (np.pi, np.pi / 2, 3.13), (*shape, 3))
+    pose = arm.fk(q)
+    rows = arm.ik(pose)
+    assert rows.shape == (*shape, 4, 3)
+    assert turns(rows, q[..., None, :]).max(-1).min(-1).max() < 1e-9
+    back = arm.fk(rows).translation - pose.translation[..., None, :]
+    assert abs(back).max() < 1e-12
+    np.testing.assert_array_equal(rows, arm.ik(pose.translation))
+
+
+@pytest.mark.parametrize("x", [-1.0, 0.0, 1.0])
+@pytest.mark.parametrize("y", [-2.0, -0.0, 0.0, 2.0])
+def test_alpha_in_the_nine_cells_of_table_1(x, y):
+    alpha = postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
+    steep = np.degrees(np.arctan(2.0))
+    table = {(-1, -1): -180 + steep, (0, -1): -90, (1, -1): -steep, (-1, 0): 180, (1, 0): 0, (0, 0): 0,
+             (-1, 1): 180 - steep, (0, 1): 90, (1, 1): steep}  # the corner (-1, 1) as errata S3-p has it
+    assert alpha == pytest.approx(table[np.sign(x), np.sign(y)], abs=1e-12)
+
+
+def test_the_printed_corner_of_table_1_is_wrong():
+    alpha = postures(loader_arm(2, 1.5), [(-1, 2, 0), (-1, 1e-4, 0)])[:, 0] / deg
+    assert alpha == pytest.approx([116.565051, 179.994270], abs=1e-6)
+    printed = np.degrees(np.arctan([2.0, 1e-4])) + 90
+    assert printed == pytest.approx([153.434949, 90.005730], abs=1e-6)
+
+
+def test_on_the_axis_alpha_stays_as_it_was():
+    arm = loader_arm(1.2, 1.0)
+    q = postures(arm, [(0, 0, 1.5), (0.5, 0.5, 1), (0, 0, 1.5), (0, 1e-16, 2.2), (-0.5, 0.5, 1)])
+    assert q[:, 0] / deg == pytest.approx([0, 45, 45, 45, 135])
+    assert np.isfinite(q).all() and q[3, 2] == pytest.approx(np.pi)
+
+
+def test_alpha_goes_on_by_the_shortest_turn():
+    angle = np.array([170, -170, -20, 170, -100, 79]) * deg
+    points = np.stack([np.cos(angle), np.sin(angle), 0 * angle + 0.3], axis=-1)
+    alpha = postures(loader_arm(1.2, 1.0), points)[:, 0]
+    assert alpha / deg == pytest.approx([170, 190, 340, 170, 260, 439], abs=1e-9)
+    assert abs(np.diff(alpha)).max() <= np.pi + 1e-12
+    assert alpha == pytest.approx(np.unwrap(angle))
+    lost = np.insert(points, 2, [9, 9, 9], axis=0)
+    q = postures(loader_arm(1.2, 1.0), lost)
+    assert np.isnan(q[2]).all() and q[[0, 1, 3, 4, 5, 6], 0] == pytest.approx(alpha)
+
+
+@pytest.mark.parametrize("start, goal, turn", [
+    (170, -170, 20), (-170, 170, -20), (0, 180, 180), (180, 0, -180), (10, 30, 20), (-90, 91, -179), (0, 0, 0)])
+def test_the_shortest_turn(start, goal, turn):
+    assert shortest_turn(start * deg, goal * deg) / deg == pytest.approx(turn)
+
+
+def test_the_printed_shortest_turn_is_wrong():
+    printed = -(360 - abs(-170 - 170))  # errata S3-q
+    assert printed == -20 and shortest_turn(170 * deg, -170 * deg) / deg == pytest.approx(20)
+
+
+@lengths
+def test_stretched_and_folded(A, B):
+    arm = loader_arm(A, B)
+    direction = np.array([0.6, 0.48, 0.64])
+    stretched, folded = postures(arm, [(A + B) * direction, abs(A - B) * direction + [1e-9 * (A == B), 0, 0]])
+    assert stretched[2] == pytest.approx(np.pi, abs=1e-6) and stretched[1] == pytest.approx(np.arcsin(0.64), abs=1e-6)
+    assert folded[2] == pytest.approx(0, abs=1e-6) and folded[2] >= 0
+    assert np.isnan(postures(arm, [(A + B) * 1.0001 * direction])).all()
+    if A != B:
+        assert np.isnan(postures(arm, [abs(A - B) * 0.999 * direction])).all()
+
+
+@lengths
+def test_the_angles_are_the_documents_formulas(A, B):
+    rng = np.random.default_rng(5)
+    p = rng.normal(size=(300, 3)) * [1, 1, 0.7]
+    p[:, 2] = abs(p[:, 2])
+    p *= (abs(A - B) + rng.uniform(0.001, 0.999, 300) * (A + B - abs(A - B)))[:, None] / np.linalg.norm(
+        p, axis=1, keepdims=True)
+    h2 = (p**2).sum(axis=1)
+    beta = np.arccos((B**2 + A**2 - h2) / (2 * A * B))  # (3)
+    gamma = np.arccos((A**2 - B**2 + h2) / (2 * A * np.sqrt(h2))) + np.arcsin(p[:, 2] / np.sqrt(h2))  # (4)
+    q = postures(loader_arm(A, B), p)
+    np.testing.assert_allclose(q[:, 1:], np.stack([gamma, beta], axis=1), atol=1e-8)
+    assert within(loader_arm(A, B), q).all()
+    assert gamma.max() > np.pi or A >= B  # the range above 180 degrees is used
+
+
+def test_the_check_of_the_coordinates():
+    arm = loader_arm(1.2, 0.7)
+    assert refusal(arm, (1, 0.5, 0.4)) == []
+    assert refusal(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
+    assert refusal(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the stretched arm"]
+    assert refusal(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]  # the inner bound, S3-r
+    assert len(refusal(arm, (2, 0, -1))) == 2
+    assert refusal(arm, (1.9, 0, 0)) == [] and refusal(arm, (0, 0, 0.5)) == []
+    assert "were millimetres meant" in explain(arm, (1200, 0, 300), 1)
+    assert "183.8 mm too near" in explain(arm, Transform(translation=(0.3, 0, 0.1)), 1)
+
+
+def test_wrong_calls_are_refused():
+    for A, B in ((0, 1), (-1, 1), (1, np.nan), ("a", 1), ([1, 2], 1)):
+        with pytest.raises(ValueError, match="A: |B: "):
+            loader_arm(A, B)
+    with pytest.raises(ValueError, match="stations"):
+        postures(loader_arm(1, 1), (1, 0, 0))
+    with pytest.raises(ValueError, match="loader_arm"):
+        from robokin import SCARA
+        postures(SCARA, [(1, 0, 0)])

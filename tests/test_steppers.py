@@ -1,0 +1,265 @@
+"""Pulses, frequencies, pulse trains and phases of the log loader's motors (003, II.3, paper 1; errata S3-s, S3-t)."""
+
+import numpy as np
+import pytest
+from machines import oracle
+from scipy.optimize import linprog
+
+from robokin import deg, loader_arm
+from robokin.jobs.steppers import (
+    COLUMNS,
+    LIMIT,
+    counts,
+    energised,
+    frequencies,
+    joints,
+    phases,
+    postures,
+    straight,
+    synchronised,
+    unsynchronised,
+)
+
+CASES = [case for case in oracle("loader_arm")["cases"] if case["reachable"]]
+ARM = loader_arm(1.2, 1.0)
+PER_DEGREE = np.array([10.0, 20.0, 20.0])
+B = ((1.3, -0.9, 1.2), (-0.1, -0.2, 0.9))  # straight, and no motor turns back
+C = ((1.2, -1.0, 0.3), (0.4, 1.2, 0.3))  # straight, and two motors do
+RANDOM = np.random.default_rng(8).integers(-3000, 3000, (40, 2, 3))
+PAIRS = [*RANDOM, np.array([(0, 0, 0), (1000, 500, 250)]), np.array([(7, 7, 7), (7, 7, 7)]),
+         np.array([(0, 0, 0), (-1, 1999, 0)]), np.array([(5, -4, 3), (4, -4, 3)])]
+
+
+def moves():
+    for start, goal in PAIRS:
+        yield "synchronised", synchronised(start, goal)
+        yield "unsynchronised", unsynchronised(start, goal)
+    for points in (B, C):
+        yield "straight", straight(ARM, *points, PER_DEGREE)
+    rng = np.random.default_rng(9)
+    for _ in range(20):  # above the hole round joint 2
+        start, goal = rng.uniform((-1.1, -1.1, 0.5), (1.1, 1.1, 1.2), (2, 3))
+        yield "straight", straight(ARM, start, goal, PER_DEGREE)
+
+
+MOVES = list(moves())
+every_move = pytest.mark.parametrize("kind, move", MOVES, ids=[f"{i}-{kind}" for i, (kind, _) in enumerate(MOVES)])
+
+
+# ---- whole pulses
+
+def test_no_rounding_adds_up_over_10_000_moves():
+    rng = np.random.default_rng(1)
+    q = np.cumsum(rng.uniform(-20 * deg, 20 * deg, (10_001, 3)), axis=0)
+    per_degree = np.array([10 / 3, 7.77, 0.1])
+    pulses = np.diff(counts(q, per_degree), axis=0)
+    assert pulses.dtype.kind == "i"
+    exact = (q - q[0]) / deg * per_degree
+    assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1  # half a pulse at the start, half at the station
+    there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
+    assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
+    steps = np.arange(10_001)[:, None] * 0.37 * deg  # each move alone is 0.37 pulses, and rounds to none
+    assert np.diff(counts(steps, 1.0), axis=0).sum() == 3700
+
+
+def test_counts_and_joints_are_inverse():
+    n = np.random.default_rng(2).integers(-100_000, 100_000, (50, 3))
+    assert (counts(joints(n, PER_DEGREE), PER_DEGREE) == n).all()
+    assert counts([90 * deg], 10.0).tolist() == [900]
+    q = np.random.default_rng(3).uniform(-3, 3, (50, 3))
+    assert (abs(joints(counts(q, PER_DEGREE), PER_DEGREE) - q) <= 0.5 / PER_DEGREE * deg + 1e-12).all()
+
+
+# ---- frequencies
+
+@pytest.mark.parametrize("case", CASES, ids=[str(i) for i in range(len(CASES))])
+def test_frequencies_and_times_of_the_reference_cases(case):
+    assert frequencies(case["pulses"]) == pytest.approx(case["frequencies"], rel=1e-12)
+    move = synchronised(np.zeros(3), case["pulses"])
+    assert move.duration == pytest.approx(case["time"], rel=1e-12)
+    assert move.frequencies[0] == pytest.approx(case["frequencies"], rel=1e-12)
+
+
+@pytest.mark.parametrize("phi", [(1000, 500, 250), (3, 3, 3), (1, 1999, 77), (0, 400, 100), (0, 0, 9)])
+def test_the_corrected_linear_program_has_this_solution(phi):
+    p1, p2, p3 = phi
+    same_time = [[p2, -p1, 0], [p3, 0, -p1], [0, p3, -p2]]  # omega1 phi2 = omega2 phi1, and so on
+    best = linprog(-np.array(phi, float), A_eq=same_time, b_eq=[0, 0, 0], bounds=[(0, LIMIT)] * 3)
+    assert best.success
+    moving = np.array(phi) > 0
+    assert frequencies(phi)[moving] == pytest.approx(best.x[moving], rel=1e-6)
+    assert (frequencies(phi)[~moving] == 0).all()
+
+
+def test_the_printed_conditions_make_the_longest_motor_the_slowest():
+    phi = np.array([1000.0, 500, 250])
+    printed = linprog(-phi, A_eq=[[1000, -500, 0], [1000, 0, -250]], b_eq=[0, 0], bounds=[(0, LIMIT)] * 3).x
+    assert printed == pytest.approx([125, 250, 500]) and phi / printed == pytest.approx([8, 2, 0.5])
+    assert frequencies(phi) == pytest.approx([500, 250, 125]) and phi / frequencies(phi) == pytest.approx([2, 2, 2])
+
+
+def test_frequencies_of_a_batch_and_of_nothing():
+    batch = frequencies([[[100, -50]], [[0, 0]]], limit=200)
+    assert batch.tolist() == [[[200, 100]], [[0, 0]]]
+
+
+# ---- moves and their pulse trains
+
+@every_move
+def test_the_pulses_are_exactly_those_of_the_move(kind, move):
+    wanted = move.positions[-1] - move.positions[0]
+    for (times, signs), n in zip(move.pulses(), wanted, strict=True):
+        assert signs.sum() == n and len(times) == len(signs)
+        assert (np.diff(times) > 0).all()
+        if kind != "straight":
+            assert len(times) == abs(n)
+
+
+@every_move
+def test_the_frequency_limit_is_kept(kind, move):
+    for times, _ in move.pulses():
+        assert (np.diff(times) >= (1 - 1e-6) / LIMIT).all()
+        assert (times >= (1 - 1e-6) / LIMIT).all()  # and so from one move to the next
+    if len(move.t) > 1:
+        assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)  # and always used
+
+
+@every_move
+def test_a_motor_lags_by_less_than_a_pulse(kind, move):
+    for (times, signs), due in zip(move.pulses(), move.positions.T, strict=True):
+        t = np.linspace(0, move.duration, 997)
+        stands = due[0] + np.concatenate([[0], np.cumsum(signs)])[np.searchsorted(times, t + 1e-9, side="right")]
+        assert abs(stands - np.interp(t, move.t, due)).max() < 1 + 1e-5
+        assert stands[-1] == due[-1]
+
+
+@pytest.mark.parametrize("start, goal", PAIRS)
+def test_synchronised_motors_start_and_stop_together_within_one_pulse(start, goal):
+    move = synchronised(start, goal)
+    for (times, _), rate in zip(move.pulses(), abs(move.frequencies).T if len(move.t) > 1 else (), strict=False):
+        if len(times):
+            assert times[0] <= (1 + 1e-9) / rate[0]
+            assert times[-1] == pytest.approx(move.duration, rel=1e-12)
+
+
+@pytest.mark.parametrize("start, goal", PAIRS)
+def test_unsynchronised_motors_stop_one_by_one(start, goal):
+    move, together = unsynchronised(start, goal), synchronised(start, goal)
+    for (times, _), n in zip(move.pulses(), abs(goal - start), strict=True):
+        if n:
+            assert times[0] == pytest.approx(1 / LIMIT) and times[-1] == pytest.approx(n / LIMIT)
+    assert move.duration == pytest.approx(together.duration)
+    assert (move.positions[-1] == goal).all() and (move(1e9) == goal).all() and (move(-1) == start).all()
+
+
+@pytest.mark.parametrize("points", [B, C])
+def test_the_straight_line_is_straight_and_the_others_are_not(points):
+    n = counts(postures(ARM, points), PER_DEGREE)
+    b = straight(ARM, *points, PER_DEGREE)
+    a, d = unsynchronised(*n), synchronised(*n)
+    assert (b.positions[0] == n[0]).all() and (b.positions[-1] == n[1]).all()
+    off = {}
+    for name, move in (("a", a), ("b", b), ("d", d)):
+        path = ARM.fk(joints(move(np.linspace(0, move.duration, 400)), PER_DEGREE)).translation
+        way = np.subtract(points[1], points[0]) / np.linalg.norm(np.subtract(points[1], points[0]))
+        across = np.cross(path - points[0], way)
+        off[name] = np.linalg.norm(across, axis=1).max()
+        assert np.linalg.norm(path[-1] - points[1]) < 2e-3
+    step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of each motor at full reach
+    assert off["b"] < step < min(off["a"], off["d"]) / 5
+    assert b.duration >= d.duration - 1e-12  # nothing that keeps the limit is faster than d
+
+
+def test_in_c_motors_turn_back_and_in_b_none_does():
+    for points, turning in ((B, [0, 0, 0]), (C, [0, 1, 1])):
+        trains = straight(ARM, *points, PER_DEGREE).pulses()
+        assert [(np.diff(signs) != 0).sum() for _, signs in trains] == turning
+        made, needed = sum(len(t) for t, _ in trains), sum(abs(s.sum()) for _, s in trains)
+        assert (made > needed) == any(turning)
+
+
+def test_a_train_with_many_turns():
+    t = np.array([0, 1, 2, 3, 4, 5, 6, 7.0])
+    due = np.array([0, 2.6, 2.6, 2.4, 3.2, -0.5, -0.5, 0])
+    from robokin.jobs.steppers import Move
+    times, signs = Move(t, due[:, None]).pulses()[0]
+    assert signs.tolist() == [1, 1, 1, -1, -1, -1]
+    assert times == pytest.approx([1 / 2.6, 2 / 2.6, 3 + 0.6 / 0.8, 4 + 1.2 / 3.7, 4 + 2.2 / 3.7, 4 + 3.2 / 3.7])
+
+
+def test_a_line_that_leaves_the_workspace_is_refused():
+    with pytest.raises(ValueError, match=r"too near to joint 2"):
+        straight(ARM, (1.2, 0, 0.1), (-1.2, 0.1, 0.1), PER_DEGREE)
+    with pytest.raises(ValueError, match=r"100% of it the point is under the floor"):
+        straight(ARM, (1.2, 0, 0.5), (1.2, 0.1, -0.1), PER_DEGREE)
+    with pytest.raises(ValueError, match=r"beyond the stretched arm"):
+        straight(ARM, (1.2, 0, 0.5), (3, 0.1, 0.5), PER_DEGREE)
+
+
+def test_wrong_calls_are_refused():
+    for call, complaint in (
+        (lambda: synchronised([0, 0], [1, 2, 3]), "one position for each motor"),
+        (lambda: synchronised([0.5], [1]), "whole pulses"),
+        (lambda: unsynchronised([0], [1], limit=0), "positive number of pulses per second"),
+        (lambda: counts([1.0], -3), "positive numbers of pulses"),
+        (lambda: counts([np.nan], 3), "finite"),
+        (lambda: counts([1.0, 2.0], [1, 2, 3]), "do not fit"),
+        (lambda: frequencies(3.0), "one number for each motor"),
+        (lambda: phases("full", "bipolar"), "drive: wanted one of"),
+        (lambda: phases("wave", "tripolar"), "motor: wanted one of"),
+        (lambda: energised(phases("wave", "bipolar"), [1, 0]), r"\+1 and -1"),
+    ):
+        with pytest.raises(ValueError, match=complaint):
+            call()
+
+
+# ---- phases
+
+def printed(text):
+    """A table of the document: + where it has one."""
+    return np.array([[mark == "+" for mark in line] for line in text.split()])
+
+
+def test_the_documents_two_tables():
+    assert (phases("wave", "unipolar") == printed("+... .+.. ..+. ...+")).all()
+    bipolar = phases("two-phase", "bipolar")
+    assert ((bipolar == 1) == printed("+.+. .++. .+.+ +..+")).all()
+    assert (bipolar == -1).sum(axis=1).tolist() == [2, 2, 2, 2]  # each + has its - at the winding's other end
+
+
+@pytest.mark.parametrize("motor", COLUMNS)
+@pytest.mark.parametrize("drive, angle, windings",
+                         [("wave", 90, {1}), ("two-phase", 90, {2}), ("half-step", 45, {1, 2})])
+def test_the_field_turns_on_by_equal_angles(motor, drive, angle, windings):
+    table = phases(drive, motor)
+    # Unipolar: four half windings a quarter of a turn apart, in the order of table 1. Bipolar: two windings at right
+    # angles, the current from the positive end to the negative one.
+    places = np.exp(1j * np.array([0, 90, 180, 270]) * deg)
+    if motor == "unipolar":
+        assert set(table.ravel()) == {0, 1} and set(table.sum(axis=1)) == windings
+        field = table @ places
+    else:
+        assert (table[:, 0] == -table[:, 1]).all() and (table[:, 2] == -table[:, 3]).all()
+        assert set(abs(table[:, ::2]).sum(axis=1)) == windings
+        field = table[:, 0] * places[0] + table[:, 2] * places[1]
+    turn = np.angle(np.roll(field, -1) / field) / deg
+    assert turn == pytest.approx(angle) and len(table) == 360 / angle
+    assert abs(field) == pytest.approx(np.sqrt(abs(table).sum(axis=1) / (2 if motor == "bipolar" else 1)))
+
+
+def test_table_2_with_the_names_of_table_1_would_cancel():
+    places = np.exp(1j * np.array([0, 90, 180, 270]) * deg)
+    field = printed("+.+. .++. .+.+ +..+") @ places
+    assert abs(field) == pytest.approx([0, np.sqrt(2), 0, np.sqrt(2)])  # a1 with a2, and b1 with b2
+
+
+def test_the_order_of_the_rows_is_the_direction():
+    table = phases("wave", "unipolar")
+    assert (energised(table, [1, 1, 1, 1]) == table[[0, 1, 2, 3, 0]]).all()
+    assert (energised(table, [-1, -1, 1]) == table[[0, 3, 2, 3]]).all()
+    assert (energised(table, [1], row=3) == table[[3, 0]]).all()
+    assert (energised(table, []) == table[[0]]).all()
+    signs = straight(ARM, *C, PER_DEGREE).pulses()[2][1]
+    states = energised(phases("half-step", "bipolar"), signs)
+    assert states.shape == (len(signs) + 1, 4)
+    assert (abs(np.diff(states[:, ::2], axis=0)).sum(axis=1) == 1).all()  # one winding changes at a time
