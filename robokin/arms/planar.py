@@ -297,10 +297,17 @@ def _angle(a, b, c):
     arccos, as the document has it, loses half of the digits where the triangle is flat. NaN if there is no triangle.
     """
     with np.errstate(invalid="ignore"):
-        beside, around = (c - a + b) * (c + a - b), (a + b - c) * (a + b + c)
+        beside, around = _spare(c, b, a) * _spare(c, a, b), _spare(a, b, c) * (a + b + c)
         flat = 4 * ROUNDING * (a + b) ** 2
         beside, around = (np.where((part < 0) & (part > -flat), 0.0, part) for part in (beside, around))
         return 2 * np.arctan2(np.sqrt(beside), np.sqrt(around))
+
+
+def _spare(a, b, c):
+    """By how much two sides are longer than the third, rounded alike whichever angle asks: then all angles of a nearly
+    flat triangle belong to one triangle, and the chain closes.
+    """
+    return np.maximum(a, b) - c + np.minimum(a, b)
 
 
 def _plane(point):
