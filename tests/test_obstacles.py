@@ -14,7 +14,17 @@ import numpy as np
 import pytest
 
 from robokin import deg, three_lever
-from robokin.jobs.obstacles import along, clearance, distances, in_quadrilateral, keeps, plan, swept, via_path, via_points
+from robokin.jobs.obstacles import (
+    along,
+    clearance,
+    distances,
+    in_quadrilateral,
+    keeps,
+    plan,
+    swept,
+    via_path,
+    via_points,
+)
 
 ARM = three_lever(1.0)
 CASES = json.loads((Path(__file__).parent / "data" / "planar_obstacle.json").read_text())["cases"]
@@ -91,7 +101,8 @@ def test_via_points_are_square_to_the_line_and_on_the_side_of_the_base():
     np.testing.assert_allclose(K2, [1.368693567, 0.943725814], atol=1e-9)
     np.testing.assert_allclose(K3, [1.375965265, 0.929123009], atol=1e-9)
     printed = np.array([1.556274, 1.131306])
-    assert abs((printed - H) @ (K - H)) / np.hypot(*(printed - H)) / np.hypot(*(K - H)) == pytest.approx(0.690, abs=1e-3)
+    cosine = (printed - H) @ (K - H) / np.hypot(*(printed - H)) / np.hypot(*(K - H))
+    assert abs(cosine) == pytest.approx(0.690, abs=1e-3)
     for via, end in ((K2, K), (K3, K1)):
         assert abs((via - H) @ (end - H)) < 1e-15 and np.hypot(*via) < np.hypot(*H)
 

@@ -1,0 +1,538 @@
+"""Explorers: sliders that ask the kernel, and an arm that answers at once.
+
+`joint_explorer` moves the joints, `target_explorer` the target (every branch of `ik` drawn, with a verdict each), and
+`motion_explorer` a via point with its blend, time law and branch. Ordinary ipywidgets sliders stand above one anywidget
+view, which draws with the code of the player (`live.js` behind `player.js`).
+
+A notebook without a kernel shows a still picture and one sentence. They are an output of their own, because a stored
+widget view shows nothing and hides what else is in its output; the live view covers them.
+"""
+
+import hashlib
+import html
+import itertools
+import threading
+
+import anywidget
+import ipywidgets
+import numpy as np
+import traitlets
+
+from .. import Arm, Quaternion, Target, Transform, blend, explain, follow, linear, nearest, quintic, trapezoidal, within
+from .._validate import instance
+from ..arms.elbow import ElbowArm
+from ..arms.scara import Scara
+from ..arms.spherical_wrist import SphericalWrist
+from ..units import deg, mm
+from . import plots
+from .player import _chain, _matrix, _page, _scene, _script, _stations, _still
+from .samples import samples
+from .scene import Scene, arm_points, named_targets, reach
+
+SAMPLES = 241  # of a motion: enough for its speeds, few enough to answer while the slider moves
+LAWS = {"quintic": quintic, "trapezoidal": trapezoidal, "linear": linear}
+CORNERS = {"parabola (C1)": "parabola", "quintic (C2)": "quintic"}
+RUN = "Run this cell to move the sliders."
+NEAREST = "nearest"
+MEANT = ("Distance from singularity: the smallest singular value of the Jacobian, lengths divided by the arm's reach "
+         "so that it has no unit. It says how little the tool moves in its worst direction; 0 is a singularity.")
+TURNS = "Roll, pitch and yaw turn about the base's x, then y, then z axis."
+
+
+def joint_explorer(arm):
+    """A slider per joint within its limits; the arm with all its frames, the flange in numbers, and how near it is to a
+    singularity. Starts at zero, or at the limit nearest to it. Returns an `Explorer`; at the end of a cell it shows
+    itself. ValueError: not an Arm.
+
+    Roll, pitch and yaw are turns about the fixed x, y and z axes of the base, in this order: R = Rz Ry Rx (at a pitch
+    of +-90 degrees roll and yaw turn about the same line, and roll is given as zero).
+    """
+    return JointExplorer(arm)
+
+
+def target_explorer(arm):
+    """Sliders for the target; every branch of `ik` drawn, the chosen one strongly, with a row of a table for each.
+
+    Six-axis arms: x, y, z in mm and roll, pitch, yaw in degrees as in `joint_explorer`. SCARA: x, y, z and the tool's
+    angle. Positioning arms: x, y, z. The menu chooses a branch, or the usable one nearest to the last posture.
+    Returns an `Explorer`. ValueError: an arm without `ik`.
+    """
+    return TargetExplorer(arm)
+
+
+def motion_explorer(arm, start, via, goal):
+    """A blended motion past `via`: sliders for the via point, the blend and the duration, menus for the time law, the
+    corner and the branch; arm, curves and numbers follow. Poses are what `arm.ik` takes (Transform, or Target for a
+    SCARA), one of each. Returns an `Explorer`. ValueError: other poses, an arm without `ik`.
+    """
+    return MotionExplorer(arm, start, via, goal)
+
+
+class View(anywidget.AnyWidget):
+    """The picture in the page. `stage` stands still; `picture` changes as a whole, so no view shows half of an answer.
+
+    `still` is the id of the still picture that it covers.
+    """
+
+    _esm = f"{_script()}\n{_script('live.js')}\nexport default {{render}};\n"
+    stage = traitlets.Dict().tag(sync=True)
+    picture = traitlets.Dict().tag(sync=True)
+    still = traitlets.Unicode().tag(sync=True)
+
+
+class Explorer(ipywidgets.VBox):
+    """Sliders above a view; what they show is worked out by `_answer` in the subclass.
+
+    groups    names of controls that stand below each other
+    controls  dict of name -> ipywidgets slider or menu: `explorer.controls["q1"].value = 30` moves the arm, too
+    """
+
+    controls = {}  # of one that was refused
+
+    def __init__(self, controls, stage, groups):
+        self.controls = controls
+        self._lock, self._tickets = threading.RLock(), itertools.count(1)
+        self._asked = self._answered = 0
+        self._view = View(stage=stage)
+        column = {"flex": "1 1 300px", "max_width": "460px"}
+        columns = [ipywidgets.VBox([controls[name] for name in group], layout=column) for group in groups]
+        rows = {"display": "flex", "flex_flow": "row wrap", "grid_gap": "0 18px"}
+        super().__init__([ipywidgets.Box(columns, layout=rows), self._view])
+        self.add_class("robokin-explorer")
+        self._answer_now()
+        self._view.still = hashlib.sha256(self._words().encode()).hexdigest()[:12]
+        for control in controls.values():
+            control.observe(self._changed, "value")
+
+    def close(self):
+        """Take every view of it from the page. The sliders can still be moved by code; nobody sees it."""
+        for widget in (*self.controls.values(), *self.children):
+            widget.close()
+        super().close()
+
+    def _changed(self, _):
+        # Messages of the page come in another thread than the cells run in. Whoever gets the lock answers to the
+        # newest values of all sliders; who waited meanwhile finds that done, and the last value is never left out.
+        ticket = self._asked = next(self._tickets)
+        with self._lock:
+            if self._answered < ticket:
+                self._answer_now()
+
+    def _answer_now(self):
+        asked = self._asked  # before the sliders are read: what changes from here on is answered by the next
+        # The page compares bytes badly: the number tells one picture from the next.
+        self._view.picture = {**self._answer(), "serial": asked}
+        self._answered = asked
+
+    def _answer(self):
+        """The picture for the values of the sliders: a dict of bytes, words and numbers."""
+        raise NotImplementedError
+
+    def _draw_still(self):
+        """The figure for a reader without a kernel; its `alt` says what it shows."""
+        raise NotImplementedError
+
+    def _words(self):
+        """What the still picture shows, rounded: the alternative text."""
+        raise NotImplementedError
+
+    def _ipython_display_(self):
+        from IPython.display import display
+        with self._lock:
+            still, words = self._draw_still(), self._words()
+        image = still._repr_mimebundle_()["text/html"]
+        page = f'<div data-robokin-still="{self._view.still}">{image}<p>{html.escape(RUN)}</p></div>'
+        display({"text/html": page, "text/plain": f"{words} {RUN}"}, raw=True)
+        # No text beside the view: a notebook is stored without it, and its tests compare the still picture's words.
+        view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
+        display({"application/vnd.jupyter.widget-view+json": view}, raw=True)
+
+    def __repr__(self):
+        return f"{type(self).__name__}({', '.join(f'{k}={c.value!r}' for k, c in self.controls.items())})"
+
+
+class JointExplorer(Explorer):
+    """See `joint_explorer`. `q` (n,) is the posture shown."""
+
+    def __init__(self, arm):
+        self.arm = instance(arm, Arm, "arm")
+        self._near = Nearness(arm)
+        controls = {}
+        for i, (low, high) in enumerate(arm.limits / _units(arm)[:, None]):
+            low, high = np.ceil(low - 1e-6), np.floor(high + 1e-6)
+            unit = "mm" if arm.prismatic[i] and reach(arm) <= 2 else "m" if arm.prismatic[i] else "°"
+            controls[f"q{i + 1}"] = _slider(f"q{i + 1}, {unit}", low, high, min(max(0, low), high))
+        rows = [(f"position, {_length(arm)[0]}", "xyz", 1 if _length(arm)[1] == mm else 3),
+                ("orientation, °", ("roll", "pitch", "yaw"), 1), ("quaternion", "wxyz", 4),
+                ("distance from singularity", [""], 3)]
+        stage = _stage(arm, "joint", f"{arm.name}: move the joints", "The arm with the frames of its joints.")
+        stage |= {"rows": [[name, list(heads), decimals] for name, heads, decimals in rows],
+                  "meant": f"{TURNS} {MEANT}"}
+        names, half = list(controls), (len(controls) + 1) // 2
+        super().__init__(controls, stage, [names[:half], names[half:]])
+
+    @property
+    def q(self):
+        """The posture of the sliders (n,), in radians and metres."""
+        return np.array([control.value for control in self.controls.values()]) * _units(self.arm)
+
+    def _answer(self):
+        q = self.q
+        pose, near = self.arm.fk(q), self._near(q)
+        numbers = [*pose.translation / _length(self.arm)[1], *roll_pitch_yaw(pose.rotation) / deg,
+                   *_one_sign(pose.rotation.wxyz), near]
+        return {"q": _bytes(q), "numbers": _bytes(numbers), "faded": False, "says": self._says(q)}
+
+    def _says(self, q):
+        names = _singular(self.arm, q)
+        return f"Singular: {' and '.join(names)}." if names else "Not singular."
+
+    def _words(self):
+        q = self.q
+        values = ", ".join(f"{c.description.split(',')[0]} {_number(c.value, 0)}" for c in self.controls.values())
+        place = ", ".join(_number(x / _length(self.arm)[1], 1 if _length(self.arm)[1] == mm else 3)
+                          for x in self.arm.fk(q).translation)
+        return (f"{self.arm.name} with a slider for each joint, at {values}: the flange is at ({place}) "
+                f"{_length(self.arm)[0]}. {self._says(q)}")
+
+    def _draw_still(self):
+        frames = self.arm.frames(self.q)
+        return _picture(self._words(), self.arm, self.q, frames=[frames[i] for i in range(len(self.arm.links))])
+
+
+class TargetExplorer(Explorer):
+    """See `target_explorer`. After every change:
+
+    target   Transform or Target of the sliders
+    rows     (branches, n): each branch with its joints inside their limits where they can be, NaN where none exists
+    q        (n,): the posture shown; where the chosen branch does not exist, the one before
+    """
+
+    def __init__(self, arm):
+        self.arm, self._near = instance(arm, Arm, "arm"), Nearness(arm)
+        self._kind = _target_kind(arm)
+        place, turns, self.q = _showcase(arm, self._kind)
+        name, size = _length(arm)
+        most = np.ceil(1.05 * reach(arm) / (50 * mm)) * 50 * mm / size
+        step = 5 if size == mm else 0.005
+        controls = {letter: _slider(f"{letter}, {name}", -most, most, x / size, step)
+                    for letter, x in zip("xyz", place, strict=True)}
+        controls |= {turn: _slider(f"{turn}, °", -180, 180, angle / deg)
+                     for turn, angle in zip(_turns(self._kind), turns, strict=True)}
+        self._names = [_flags(arm, k) for k in range(len(arm.branches))]
+        controls["branch"] = _menu("branch", [NEAREST, *self._names])
+        turning = not arm.prismatic.any()
+        units = ["°" if not shifts else name for shifts in arm.prismatic]
+        alt = "The arm in every posture that reaches the target."
+        stage = _stage(arm, "target", f"{arm.name}: move the target", alt)
+        stage |= {
+            "oriented": self._kind is not np.ndarray, "branches": self._names,
+            "meant": (f"{TURNS} " if self._kind is Transform else "") + MEANT,
+            "heads": ["branch", "verdict", *(f"q{i + 1} {unit}" for i, unit in enumerate(units)),
+                      "distance from singularity", f"travel, {'°' if turning else 'rad + m'}"],
+        }
+        self._travel_unit = deg if turning else 1.0
+        turns = [*_turns(self._kind)]
+        rest = [turns, ["branch"]] if self._kind is Transform else [[*turns, "branch"]]
+        super().__init__(controls, stage, [["x", "y", "z"], *rest])
+
+    @property
+    def target(self):
+        """What the sliders ask for."""
+        value = {name: control.value for name, control in self.controls.items()}
+        place = np.array([value[letter] for letter in "xyz"]) * _length(self.arm)[1]
+        if self._kind is Target:
+            return Target(place, value["angle"] * deg)
+        if self._kind is np.ndarray:
+            return Transform(translation=place)
+        return Transform(from_roll_pitch_yaw(*(value[turn] * deg for turn in _turns(Transform))), place)
+
+    def _answer(self):
+        arm, last, target = self.arm, self.q, self.target
+        # One row at a time: each takes its own values q + 2 pi k, inside the limits where it can.
+        self.rows = rows = nearest(arm, arm.ik(target)[:, None, :], last)
+        exists, inside = ~np.isnan(rows[:, 0]), within(arm, rows)
+        usable = exists & inside.all(axis=-1)
+        travel = abs(rows - last).sum(axis=-1)
+        wanted = self.controls["branch"].value
+        among = usable if usable.any() else exists
+        chosen = self._names.index(wanted) if wanted != NEAREST else int(np.where(among, travel, np.inf).argmin())
+        if exists[chosen]:
+            self.q = rows[chosen]
+        self._chosen, self._exists, self._usable = chosen, exists, usable
+        pose = target.as_transform() if self._kind is Target else target
+        return {
+            "q": _bytes(self.q), "rows": _bytes(rows), "past": _bytes(exists[:, None] & ~inside),
+            "near": _bytes(self._near(rows)), "travel": _bytes(travel / self._travel_unit),
+            "pose": _bytes(_matrix(pose)), "chosen": chosen if exists[chosen] else -1, "faded": not exists[chosen],
+            "verdicts": [self._verdict(k, inside[k]) for k in range(len(rows))], "says": self._says(target),
+        }
+
+    def _verdict(self, k, inside):
+        if not self._exists[k]:
+            return "does not exist"
+        if not inside.all():
+            return f"past limit: {', '.join(f'q{i + 1}' for i in np.flatnonzero(~inside))}"
+        return "usable, singular" if _singular(self.arm, self.rows[k]) else "usable"
+
+    def _says(self, target):
+        """How many are usable, and the reason in words: of the chosen row or, if none is usable, of the one that is
+        nearest to it.
+        """
+        count, row = int(self._usable.sum()), self._chosen
+        if count:
+            return (f"{count} of {len(self.rows)} branches {'is' if count == 1 else 'are'} usable. "
+                    f"{explain(self.arm, target, row)}")
+        if self.controls["branch"].value == NEAREST and not self._exists.any():
+            gaps = [self.arm.geometry.unreached(target, k)[1] for k in range(len(self.rows))]
+            row = int(np.argmin(np.round(gaps, 9)))
+        return f"No branch is usable. {explain(self.arm, target, row)}"
+
+    def _words(self):
+        values = ", ".join(f"{c.description} {_number(c.value, 0 if _length(self.arm)[1] == mm else 3)}"
+                           for name, c in self.controls.items() if name != "branch")
+        return (f"{self.arm.name} with sliders for its target, at {values}: {int(self._exists.sum())} of "
+                f"{len(self.rows)} branches exist, {int(self._usable.sum())} are usable.")
+
+    def _draw_still(self):
+        others = [q for k, q in enumerate(self.rows) if self._exists[k] and k != self._chosen]
+        target = self.target.as_transform() if self._kind is Target else self.target
+        return _picture(self._words(), self.arm, self.q, others, targets={"target": target})
+
+
+class MotionExplorer(Explorer):
+    """See `motion_explorer`. `t` (241,) and `q` (241, n) are the motion shown, NaN where there is none."""
+
+    def __init__(self, arm, start, via, goal):
+        self.arm, kind = instance(arm, Arm, "arm"), _target_kind(arm)
+        wanted = Target if kind is Target else Transform
+        for name, pose in (("start", start), ("via", via), ("goal", goal)):
+            if instance(pose, wanted, name).shape:
+                raise ValueError(f"{name}: wanted one single pose, got a batch of shape {pose.shape}")
+        self._ends, self._via = (start, goal), via
+        name, size = _length(arm)
+        most = np.ceil(1.05 * reach(arm) / (50 * mm)) * 50 * mm / size
+        step = 5 if size == mm else 0.005
+        place = (via.position if kind is Target else via.translation) / size
+        controls = {f"via {letter}": _slider(f"via {letter}, {name}", -most, most, x, step)
+                    for letter, x in zip("xyz", place, strict=True)}
+        self._names = [_flags(arm, k) for k in range(len(arm.branches))]
+        controls |= {
+            "blend": _slider("blend", 0, 0.5, 0.1, 0.01, ".2f"),
+            "duration": _slider("duration, s", 0.5, 20, 5, 0.5, ".1f"),
+            "law": _menu("time law", list(LAWS)), "corner": _menu("corner", list(CORNERS)),
+            "branch": _menu("branch", self._names),
+        }
+        self.controls = controls
+        motions = [self._motion(row)[1] for row in range(len(self._names))]
+        # The first branch with the most samples that are usable.
+        controls["branch"].value = self._names[int(np.argmax([within(arm, q).all(axis=-1).sum() for q in motions]))]
+        alt = f"{arm.name} moves from start past via to goal."
+        stage = _stage(arm, "motion", f"{arm.name}: a blended motion", alt,
+                       [pose.as_transform() if kind is Target else pose for pose in (start, via, goal)])
+        groups = [["via x", "via y", "via z", "blend"], ["duration", "law", "corner", "branch"]]
+        super().__init__(controls, stage, groups)
+
+    def _motion(self, row):
+        value = {name: control.value for name, control in self.controls.items()}
+        place = np.array([value[f"via {letter}"] for letter in "xyz"]) * _length(self.arm)[1]
+        via = Target(place, self._via.angle) if isinstance(self._via, Target) else Transform(self._via.rotation, place)
+        law = LAWS[value["law"]](value["duration"])
+        t = np.linspace(0, law.duration, SAMPLES)
+        poses = blend(self._ends[0], via, self._ends[1], value["blend"], law(t), corner=CORNERS[value["corner"]])
+        return t, follow(self.arm, self.arm.ik(poses), row), via
+
+    def _answer(self):
+        arm = self.arm
+        self.t, self.q, via = self._motion(self._names.index(self.controls["branch"].value))
+        poses = [p.as_transform() if isinstance(p, Target) else p for p in (self._ends[0], via, self._ends[1])]
+        self._targets = named_targets(poses)
+        track = samples(self.q[None], self.t, arm.prismatic)
+        page = _page([arm], [arm.name], self.t, [track], self._targets, [], None, None, self._view.stage["title"],
+                     scene={"targets": _stations(self._targets)})
+        for key in ("unit", "styles"):
+            del page[key]  # the stage has them
+        del page["arms"][0]["chain"]
+        self._page = page
+        return {"page": page}
+
+    def _words(self):
+        summary = self._page["summary"].removeprefix("Player of ")
+        return f"A blended motion with sliders for via point, blend and duration. {summary}"
+
+    def _draw_still(self):
+        words = {**self._page, "alt": self._words(), **{key: self._view.stage[key] for key in ("unit", "scene")}}
+        return _still([self.arm], [self.arm.name], [self.q], self._targets, [], words)
+
+
+class Nearness:
+    """How far a posture is from a singularity: q (..., n) -> the smallest singular value of the Jacobian (...).
+
+    Lengths count in reaches of the arm, so that it has no unit; NaN for NaN. Only what the arm is asked for counts: the
+    tool's place for up to three joints, else place and orientation, and of these what the arm can move at all.
+    Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability, its smallest semi-axis).
+    """
+
+    def __init__(self, arm):
+        self.arm, self.size = arm, reach(arm)
+        moved = abs(self._scaled(_spread(arm, 64))).max(axis=(0, 2)) > 1e-9
+        self.rows = np.flatnonzero(moved[:3] if len(arm.links) <= 3 else moved)
+
+    def __call__(self, q):
+        jacobian = self._scaled(q)[..., self.rows, :]
+        exists = np.isfinite(jacobian).all(axis=(-1, -2))
+        values = np.linalg.svd(np.where(exists[..., None, None], jacobian, 0.0), compute_uv=False)
+        return np.where(exists, values[..., -1], np.nan)
+
+    def _scaled(self, q):
+        jacobian = self.arm.jacobian(q)
+        jacobian[..., :3, :] /= self.size
+        jacobian[..., self.arm.prismatic] *= self.size
+        return jacobian
+
+
+def roll_pitch_yaw(rotation):
+    """Turns about the base's x, then y, then z axis, in radians, of one rotation: R = Rz(yaw) Ry(pitch) Rx(roll).
+
+    At a pitch of +-90 degrees roll and yaw turn about the same line; roll is then zero.
+    """
+    m = rotation.as_matrix()
+    level = np.hypot(m[0, 0], m[1, 0])
+    pitch = np.arctan2(-m[2, 0], level)
+    if level < 1e-9:
+        return np.array([0.0, pitch, np.arctan2(-m[0, 1], m[1, 1])])
+    return np.array([np.arctan2(m[2, 1], m[2, 2]), pitch, np.arctan2(m[1, 0], m[0, 0])])
+
+
+def from_roll_pitch_yaw(roll, pitch, yaw):
+    """The Quaternion of these turns in radians (see `roll_pitch_yaw`)."""
+    axes = zip((roll, pitch, yaw), np.eye(3), strict=True)
+    x, y, z = (Quaternion.from_angle_axis(angle, axis) for angle, axis in axes)
+    return z @ y @ x
+
+
+# --- What an arm can be asked for ------------------------------------------------------------------------------------
+
+
+def _target_kind(arm):
+    """Transform: place and orientation; Target: place and angle; np.ndarray: a place."""
+    for geometry, kind in ((SphericalWrist, Transform), (Scara, Target), (ElbowArm, np.ndarray)):
+        if isinstance(arm.geometry, geometry):
+            return kind
+    raise ValueError(f"arm: wanted one with an inverse (ik), got {arm!r}")
+
+
+def _turns(kind):
+    return {Transform: ("roll", "pitch", "yaw"), Target: ("angle",)}.get(kind, ())
+
+
+def _showcase(arm, kind):
+    """A target that shows much: most branches usable, far from singularities, in front of the arm and above the floor.
+
+    Place (3,), turns in radians, and the posture (n,) that it was made of; all on the grid of the sliders.
+    """
+    near = Nearness(arm)
+    best, most = None, -1.0
+    for q in _spread(arm, 160):
+        pose = arm.fk(q)
+        place = np.round(pose.translation / (50 * mm)) * 50 * mm
+        if place[0] < 0.2 * near.size or (kind is Transform and place[2] < 0.1 * near.size):
+            continue
+        turns = np.round(roll_pitch_yaw(pose.rotation) / (15 * deg)) * 15 * deg
+        if kind is Transform:
+            target, turns = Transform(from_roll_pitch_yaw(*turns), place), turns
+        elif kind is Target:
+            target, turns = Target(place, turns[2]), turns[2:]
+        else:
+            target, turns = Transform(translation=place), ()
+        rows = arm.ik(target)
+        usable = within(arm, rows).all(axis=-1)
+        if usable.any():
+            score = usable.sum() + float(np.round(np.nanmin(near(rows)), 6))
+            if score > most:
+                best, most = (place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))), score
+    return best
+
+
+def _spread(arm, count):
+    """Postures (count, n) spread evenly between the limits: Weyl's sequence of square roots."""
+    shares = (np.arange(1, count + 1)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13][:len(arm.links)])) % 1
+    return arm.limits[:, 0] + shares * (arm.limits[:, 1] - arm.limits[:, 0])
+
+
+def _singular(arm, q):
+    """The names of the singularities at one posture."""
+    tells = getattr(arm.geometry, "singular", None)  # an arm without an inverse has no names for them
+    return [f"{name} singularity" for name, holds in tells(q).items() if holds] if tells else []
+
+
+def _flags(arm, k):
+    flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
+    return f"{k}: {flags}"
+
+
+# --- What the page gets ----------------------------------------------------------------------------------------------
+
+
+def _stage(arm, kind, title, alt, poses=()):
+    """What stands still: the chain, and a scene that holds what the arm reaches above the floor and not too far out.
+    (The page shrinks the picture for what leaves it.)
+    """
+    name, size = _length(arm)
+    postures = _spread(arm, 2000)
+    points = arm_points(arm, postures)
+    near = (points[..., 2] > -0.01 * reach(arm)) & (np.hypot(points[..., 0], points[..., 1]) < 0.5 * reach(arm))
+    scene = _scene([arm], [postures[near.all(axis=-1)][None]], named_targets(poses), [], reach(arm)) | {"grows": True}
+    return {"kind": kind, "title": title, "alt": alt, "name": arm.name, "chain": _chain(arm), "scene": scene,
+            "styles": list(plots.JOINT_STYLES), "unit": {"name": name, "size": size}}
+
+
+def _slider(name, low, high, value, step=1, form=None):
+    form = form or (".0f" if step >= 1 else ".3f")
+    return ipywidgets.FloatSlider(round(value, 9), min=low, max=high, step=step, description=name, readout_format=form,
+                                  style={"description_width": "74px"}, layout={"width": "auto"})
+
+
+def _menu(name, words):
+    return ipywidgets.Dropdown(options=words, description=name, style={"description_width": "74px"},
+                               layout={"width": "auto"})
+
+
+def _length(arm):
+    """The unit of lengths: its name, and its size in metres."""
+    return ("mm", mm) if reach(arm) <= 2 else ("m", 1.0)
+
+
+def _units(arm):
+    """The unit of each joint, in radians or metres."""
+    return np.where(arm.prismatic, _length(arm)[1], deg)
+
+
+def _bytes(values):
+    return np.asarray(values, dtype="<f8").tobytes()
+
+
+def _one_sign(wxyz):
+    return -wxyz if wxyz[0] < 0 else wxyz
+
+
+def _number(value, decimals):
+    text = f"{np.floor(value * 10**decimals + 0.5 + 1e-7) / 10**decimals + 0.0:.{decimals}f}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _picture(alt, arm, q, others=(), targets=None, frames=()):
+    """One posture, strongly, and others faintly."""
+    fig = plots.figure(alt, width=6.4, height=4.5)
+    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=reach(arm))
+    scene.base()
+    for other in others:
+        scene.arm(arm, other, "between")
+    scene.arm(arm, q, "last")
+    for frame in frames:
+        scene.triad(frame, length=0.08 * reach(arm))
+    scene.triad(arm.fk(q), width=2.4)
+    for name, pose in (targets or {}).items():
+        scene.triad(pose, name)
+    scene.finish()
+    return fig
