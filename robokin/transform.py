@@ -12,7 +12,7 @@ from ._validate import broadcast, floats, instance
 from .quaternion import Batch, Quaternion, rounded, stack
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Transform(Batch):
     """A pose or a change of frame: first `rotation`, then `translation` (..., 3) in metres.
 

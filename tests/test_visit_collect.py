@@ -3,7 +3,6 @@
 import itertools
 import json
 import re
-import time
 
 import numpy as np
 import pytest
@@ -309,22 +308,6 @@ def test_the_exact_method_says_its_limit():
     with pytest.raises(ValueError, match=r"at most 16 points for the exact optimum, got 17.*visit\(\) takes any"):
         best_visit(many)
     visit(many)
-
-
-def test_times():
-    rng = np.random.default_rng(9)
-    assert quickest(visit, drawn(rng, 100, T=1e6)) < 0.1, "wanted: milliseconds"
-    twelve = drawn(rng, 12, T=60)
-    assert quickest(best_visit, twelve) < 1.0
-
-
-def quickest(method, task, repeats=3):
-    spans = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        method(task)
-        spans.append(time.perf_counter() - begin)
-    return min(spans)
 
 
 # ---- The way there

@@ -54,7 +54,7 @@ def dh_links(a, alpha, d, theta=0.0):
     return tuple(Link(before=before, after=after) for before, after in zip(turn, rest, strict=True))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Arm:
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 

@@ -62,23 +62,27 @@ PUMA560 = _six_axis(
 )
 
 
-def itmo_arm(d1, a2, d4, d6):
-    """The six-axis arm of source 004, table 1, for lengths in metres. It states no limits: here one turn each way."""
-    return spherical_wrist(
-        "DH arm (004)",
-        links=dh_links(
+def _itmo(d1, a2, d4, d6):
+    return {
+        "name": "DH arm (004)",
+        "links": dh_links(
             a=[0, a2, 0, 0, 0, 0],
             alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
             d=[d1, 0, 0, d4, 0, d6],
             theta=np.array([0, 0, 90, 0, 0, 0]) * deg,
         ),
-        limits=np.array([(-360, 360)] * 6) * deg,
-    )
+        "limits": np.array([(-360, 360)] * 6) * deg,
+    }
+
+
+def itmo_arm(d1, a2, d4, d6):
+    """The six-axis arm of source 004, table 1, for lengths in metres. It states no limits: here one turn each way."""
+    return spherical_wrist(**_itmo(d1, a2, d4, d6))
 
 
 # Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 + a2 = 20, of which we
 # take the equal halves, in centimetres (errata S4-j).
-ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
+ITMO6R = _six_axis(**_itmo(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm))
 
 
 def spbu_arm(l1, l2):

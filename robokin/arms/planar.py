@@ -4,8 +4,6 @@
 `three_lever` is the arm of source 003: three equal levers OB, BA, AK, one joint more than a point of the plane needs.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from .._validate import broadcast, floats, length
@@ -38,7 +36,6 @@ def two_link(l1, l2, base=(0, 0)):
     return Arm("Two links", links, TwoLink(l1, l2, base), np.array([(-180, 180)] * 2) * deg)
 
 
-@dataclass(frozen=True, eq=False)
 class TwoLink:
     """The inverse of two links in the plane (see `two_link`). Configuration flag: the sign of q2; at +1 link 2 turns
     counter-clockwise away from link 1, and the elbow lies to the right of the line from base to tip.
@@ -48,11 +45,10 @@ class TwoLink:
     lengths.
     """
 
-    l1: float
-    l2: float
-    base: np.ndarray
-
     branches = np.array([(1,), (-1,)])
+
+    def __init__(self, l1, l2, base):
+        self.l1, self.l2, self.base = l1, l2, base
 
     def ik(self, pose):
         """See `Arm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal links fold and bring the tip to
@@ -118,7 +114,6 @@ def three_lever(L):
     return ThreeLever("Three levers", links, NoInverse(), np.array([(0, 180)] * 3) * deg)
 
 
-@dataclass(frozen=True, eq=False)
 class ThreeLever(Arm):
     """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of postures, one for every
     value of the free angle alpha: `family` takes the place of `ik`.
@@ -229,11 +224,11 @@ class ThreeLever(Arm):
         x, y, z = _plane(_single(point))
         KO, L = np.hypot(x, y), self.lever
         if abs(z) > ROUNDING * L:
-            return f"it lies {abs(z):.4g} m beside the plane z = 0 of the levers"
+            return f"it lies {in_words(abs(z))} beside the plane z = 0 of the levers"
         if KO <= L:
-            return f"it lies {KO:.4g} m from the base, not farther than one lever ({L:.4g} m)"
+            return f"it lies {in_words(KO)} from the base, not farther than one lever ({in_words(L)})"
         if KO > 3 * L * (1 + ROUNDING):
-            return f"it lies {KO:.4g} m from the base, farther than three levers ({3 * L:.4g} m)"
+            return f"it lies {in_words(KO)} from the base, farther than three levers ({in_words(3 * L)})"
         if np.isnan(self.alpha_range((x, y))[0]):
             return "every posture that reaches it has gamma outside 0 to 180 degrees"
         return ""

@@ -13,7 +13,7 @@ from .elbow import ROUNDING, in_words
 X, Y, Z = np.eye(3)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Target(Batch):
     """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...) about the vertical.
 
