@@ -16,7 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._validate import floats, instance
+from .._validate import floats, instance, length
+from ..arms.elbow import in_words
 from ..arms.planar import ThreeLever
 from ..units import deg
 
@@ -38,7 +39,7 @@ def in_quadrilateral(arm, q0, q1, H):
     sides it crosses. Straight sides are not what the levers sweep: see `swept`.
     """
     (_, B, A, K), (_, B1, A1, K1) = arm.joints(q0), arm.joints(q1)
-    H = _point(H, "H")
+    H = _points(H, "H")
     return {"BA": _inside(np.stack([B, A, A1, B1]), H), "AK": _inside(np.stack([A, K, K1, A1]), H)}
 
 
@@ -53,7 +54,7 @@ def swept(arm, q0, q1, H):
 def distances(arm, q, H):
     """The distances of H (..., 2) from the levers OB, BA, AK in the postures q (..., 3): (..., 3), in metres."""
     gamma, beta, alpha = np.moveaxis(floats(q, "q", 3, finite=False), -1, 0)
-    return np.stack(np.broadcast_arrays(*_beside(arm, gamma, beta, alpha, _point(H, "H"))[0]), axis=-1)
+    return np.stack(np.broadcast_arrays(*_beside(arm, gamma, beta, alpha, _points(H, "H"))[0]), axis=-1)
 
 
 def clearance(arm, path, H):
@@ -83,7 +84,7 @@ def keeps(arm, a, b, H, distance):
     shape, a, b, H = a.shape[:-1], a.reshape(-1, 3), b.reshape(-1, 3), _point(H, "H")
     good = (distances(arm, a, H) >= distance).all(axis=-1) & (distances(arm, b, H) >= distance).all(axis=-1)
     part, middle, half = _stretches(len(a), 4)
-    for _ in range(20):  # after that a stretch is shorter than a millionth: it touches the circle, and counts as near
+    for _ in range(24):  # after that a stretch is shorter than 1e-7: it touches the circle, and counts as near
         part, middle, half = part[good[part]], middle[good[part]], half[good[part]]
         here, bound = _bounds(arm, a[part], b[part], middle, half, H)
         good[part[(here < distance).any(axis=-1)]] = False
@@ -203,7 +204,7 @@ def plan(arm, posture, target, obstacle=None, distance=None):
     """
     instance(arm, ThreeLever, "arm")
     start, K1 = _posture(arm, posture), _point(target, "target")
-    distance = arm.lever / 7 if distance is None else _distance(distance)
+    distance = arm.lever / 7 if distance is None else length(distance, "distance")
     unreached = arm.unreached(K1)
     if unreached:
         return _none(start, f"The target is out of reach: {unreached}.")
@@ -214,7 +215,8 @@ def plan(arm, posture, target, obstacle=None, distance=None):
     H = _point(obstacle, "obstacle")
     too_near = _too_near(arm, start, K1, H, distance)
     if too_near:
-        return _none(start, f"{too_near} No path keeps {distance:.4g} m; a smaller distance may be asked for.", least)
+        hint = f"No path keeps {in_words(distance)}; a smaller distance may be asked for."
+        return _none(start, f"{too_near} {hint}", least)
     clear = clearance(arm, direct, H)
     if clear.min() >= distance:
         return _found("direct", "The way is direct: the obstacle is not in it.", direct, clear, least)
@@ -232,7 +234,7 @@ def plan(arm, posture, target, obstacle=None, distance=None):
         clear = clearance(arm, by_search, H)
         return _found("search", f"{words} A search among postures finds a way.", by_search, clear, least)
     return _none(start, f"{words} A search among postures in steps of {STEP / deg:.0f}° finds no way that keeps "
-                        f"{distance:.4g} m.", least)
+                        f"{in_words(distance)}.", least)
 
 
 def along(path, s):
@@ -257,17 +259,17 @@ def _too_near(arm, start, K1, H, distance):
     """Why no path can keep the distance, in a sentence; "" if one could."""
     O_H, K1_H, q_H = np.hypot(*H), np.hypot(*(K1 - H)), distances(arm, start, H)
     if O_H < distance:
-        return f"The obstacle lies on the base or {O_H:.4g} m beside it."
+        return f"The obstacle lies on the base or {in_words(O_H)} beside it."
     if q_H.min() < distance:
-        return f"At the start lever {LEVERS[q_H.argmin()]} is already {q_H.min():.4g} m from the obstacle."
+        return f"At the start lever {LEVERS[q_H.argmin()]} is already {in_words(q_H.min())} from the obstacle."
     if K1_H < distance:
-        return f"The target lies {K1_H:.4g} m from the obstacle."
+        return f"The target lies {in_words(K1_H)} from the obstacle."
     return ""
 
 
 def _nearest(clear):
     lever, near = LEVERS[clear.min(axis=0).argmin()], clear.min()
-    return f"lever {lever} sweeps the obstacle" if near == 0 else f"lever {lever} comes as near as {near:.4g} m"
+    return f"lever {lever} sweeps the obstacle" if near == 0 else f"lever {lever} comes as near as {in_words(near)}"
 
 
 def _inside(corners, point):
@@ -422,12 +424,20 @@ def _taut(arm, path, goals, H, distance):
     return path
 
 
-def _point(value, name):
+def _points(value, name):
     """x, y of points (..., 2), or (..., 3) in the plane z = 0."""
     point = floats(value, name)
     if point.ndim == 0 or point.shape[-1] not in (2, 3) or (point.shape[-1] == 3 and point[..., 2].any()):
         raise ValueError(f"{name}: wanted points (..., 2), or (..., 3) with z = 0, got {np.asarray(value).tolist()}")
     return point[..., :2]
+
+
+def _point(value, name):
+    """x, y of one single point."""
+    point = _points(value, name)
+    if point.ndim != 1:
+        raise ValueError(f"{name}: wanted one single point, got a batch of shape {point.shape[:-1]}")
+    return point
 
 
 def _path(path):
@@ -443,10 +453,3 @@ def _posture(arm, q):
     if q.ndim != 1 or (q < arm.limits[:, 0] - slack).any() or (q > arm.limits[:, 1] + slack).any():
         raise ValueError(f"posture: wanted three angles from 0 to 180 degrees, got {(q / deg).round(3).tolist()}")
     return q
-
-
-def _distance(value):
-    value = floats(value, "distance")
-    if value.ndim or value < 0:
-        raise ValueError(f"distance: wanted one length in metres, 0 or more, got {value.tolist()}")
-    return float(value)
