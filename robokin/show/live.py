@@ -81,7 +81,8 @@ class View(anywidget.AnyWidget):
 
 
 class Explorer(ipywidgets.VBox):
-    """Sliders above a view; what they show is worked out by `_answer` in the subclass.
+    """Sliders above a view. Each kind has `_answer`, the picture for the values of its sliders (a dict of bytes, words
+    and numbers), `_words`, the same in rounded words, and `_draw_still`, the figure for a reader without a kernel.
 
     groups    names of controls that stand below each other
     controls  dict of name -> ipywidgets slider or menu: `explorer.controls["q1"].value = 30` moves the arm, too
@@ -123,18 +124,6 @@ class Explorer(ipywidgets.VBox):
         # The page compares bytes badly: the number tells one picture from the next.
         self._view.picture = {**self._answer(), "serial": asked}
         self._answered = asked
-
-    def _answer(self):
-        """The picture for the values of the sliders: a dict of bytes, words and numbers."""
-        raise NotImplementedError
-
-    def _draw_still(self):
-        """The figure for a reader without a kernel; its `alt` says what it shows."""
-        raise NotImplementedError
-
-    def _words(self):
-        """What the still picture shows, rounded: the alternative text."""
-        raise NotImplementedError
 
     def _ipython_display_(self):
         from IPython.display import display
