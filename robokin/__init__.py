@@ -1,6 +1,7 @@
 """robokin: the kinematics of robot arms, to read, run and drag.
 
-Metres and radians inside; `352 * mm` and `90 * deg` on the way in. Figures and players come from `robokin.show`.
+Metres and radians inside; `352 * mm` and `90 * deg` on the way in. Figures and players come from
+`robokin.show`.
 """
 
 from .arms import (
@@ -31,8 +32,37 @@ from .transform import Transform
 from .units import deg, mm
 
 __all__ = [
-    "IRB140", "ITMO6R", "PUMA560", "SCARA", "Arm", "Link", "Quaternion", "Target", "TimeLaw", "Transform", "blend",
-    "deg", "dh_links", "differentiate", "elbow_arm", "explain", "follow", "itmo_arm", "lin", "lin_lin", "linear",
-    "loader_arm", "mm", "nearest", "ptp", "quintic", "scara", "spbu_arm", "spherical_wrist", "three_lever",
-    "trapezoidal", "two_link", "within",
+    "IRB140",
+    "ITMO6R",
+    "PUMA560",
+    "SCARA",
+    "Arm",
+    "Link",
+    "Quaternion",
+    "Target",
+    "TimeLaw",
+    "Transform",
+    "blend",
+    "deg",
+    "dh_links",
+    "differentiate",
+    "elbow_arm",
+    "explain",
+    "follow",
+    "itmo_arm",
+    "lin",
+    "lin_lin",
+    "linear",
+    "loader_arm",
+    "mm",
+    "nearest",
+    "ptp",
+    "quintic",
+    "scara",
+    "spbu_arm",
+    "spherical_wrist",
+    "three_lever",
+    "trapezoidal",
+    "two_link",
+    "within",
 ]

@@ -4,7 +4,8 @@ import numpy as np
 
 
 def floats(value, name, last=None, finite=True):
-    """`value` as a float array; `last` is the length that its last axis must have. ValueError otherwise.
+    """`value` as a float array; `last` is the length that its last axis must have. ValueError
+    otherwise.
 
     With `finite=False` a NaN passes (a row that does not exist) and an infinite number does not.
     """
@@ -36,7 +37,9 @@ def broadcast(name, *shapes):
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError:
-        raise ValueError(f"{name}: batch shapes {' and '.join(map(str, shapes))} do not fit together") from None
+        raise ValueError(
+            f"{name}: batch shapes {' and '.join(map(str, shapes))} do not fit together"
+        ) from None
 
 
 def instance(value, kind, name, hint=""):

@@ -1,7 +1,8 @@
 """Rigid transforms: a rotation and a translation, one or a whole batch of them.
 
 `T_base_tool` gives the tool's frame in base coordinates. `T_base_tool @ T_tool_part` composes, and
-`T_base_tool @ points` takes points (..., 3) from tool coordinates to base coordinates. Metres and radians.
+`T_base_tool @ points` takes points (..., 3) from tool coordinates to base coordinates. Metres and
+radians.
 """
 
 from dataclasses import dataclass
@@ -47,14 +48,16 @@ class Transform(Batch):
 
     @classmethod
     def from_matrix(cls, matrix):
-        """From homogeneous matrices (..., 4, 4). ValueError: the upper left part is no rotation within 1e-6, or
-        the last row is not 0 0 0 1.
+        """From homogeneous matrices (..., 4, 4). ValueError: the upper left part is no rotation
+        within 1e-6, or the last row is not 0 0 0 1.
         """
         m = floats(matrix, "matrix", 4)
         if m.ndim < 2 or m.shape[-2] != 4:
             raise ValueError(f"matrix: wanted shape (..., 4, 4), got {m.shape}")
         if (abs(m[..., 3, :] - [0, 0, 0, 1]) > 1e-9).any():
-            raise ValueError(f"matrix: wanted 0 0 0 1 as the last row, got {m[..., 3, :].reshape(-1, 4)[0]}")
+            raise ValueError(
+                f"matrix: wanted 0 0 0 1 as the last row, got {m[..., 3, :].reshape(-1, 4)[0]}"
+            )
         return cls._of(Quaternion.from_matrix(m[..., :3, :3]), m[..., :3, 3].copy())
 
     def as_matrix(self):
@@ -88,17 +91,23 @@ class Transform(Batch):
         return Transform._of(back, -(back @ self.translation))
 
     def lerp(self, goal, s):
-        """On the way from here (s = 0) to `goal` (s = 1): the origin on a straight line, the rotation by
-        `Quaternion.slerp`. `s` (...) is broadcast against both; beyond [0, 1] the motion goes on.
+        """On the way from here (s = 0) to `goal` (s = 1): the origin on a straight line, the
+        rotation by `Quaternion.slerp`. `s` (...) is broadcast against both; beyond [0, 1] the
+        motion goes on.
         Source: 001, listing 7 (`Transform.lerp`).
         """
         instance(goal, Transform, "goal")
         s = floats(s, "s")
         rotation = self.rotation.slerp(goal.rotation, s)
         here, there = np.moveaxis(self.translation, -1, 0), np.moveaxis(goal.translation, -1, 0)
-        return Transform._of(rotation, stack([a + (b - a) * s for a, b in zip(here, there, strict=True)]))
+        return Transform._of(
+            rotation, stack([a + (b - a) * s for a, b in zip(here, there, strict=True)])
+        )
 
     def __repr__(self):
         if self.shape:
             return f"Transform(shape={self.shape})"
-        return f"Transform(rotation={rounded(self.rotation.wxyz)}, translation={rounded(self.translation)})"
+        return (
+            f"Transform(rotation={rounded(self.rotation.wxyz)}, "
+            f"translation={rounded(self.translation)})"
+        )

@@ -1,8 +1,11 @@
-"""What several test modules share: a real browser, a real JupyterLab, and how the one is driven in the other.
+"""What several test modules share: a real browser, a real JupyterLab, and how the one is driven in
+the other.
 
-`browser`  headless Chromium through Playwright. Where there is none its tests skip and the summary says so loudly;
+`browser`  headless Chromium through Playwright. Where there is none its tests skip and the summary
+says so loudly;
            under CI (the environment variable CI is set) they fail.
-`jupyter`  a JupyterLab server on a copy of notebooks/, with settings, trust and runtime files of its own.
+`jupyter`  a JupyterLab server on a copy of notebooks/, with settings, trust and runtime files of
+its own.
 """
 
 import json
@@ -19,9 +22,23 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]
+BROWSERS = (
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+    "msedge",
+)
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 NO_BROWSER = "no Chromium on this machine"
 
 
@@ -33,6 +50,7 @@ def browser():
         report = pytest.fail if os.environ.get("CI") else pytest.skip
         report(f"{NO_BROWSER}: looked for {', '.join(BROWSERS)}")
     from playwright.sync_api import sync_playwright
+
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
         yield chromium
@@ -55,11 +73,20 @@ class JupyterLab:
         self.home, self.labs = home, labs
         self.token = os.urandom(12).hex()
         self.environment = os.environ | {
-            "JUPYTER_CONFIG_DIR": str(home / "config"), "JUPYTER_DATA_DIR": str(home / "data"),
-            "JUPYTER_RUNTIME_DIR": str(home / "runtime"), "IPYTHONDIR": str(home / "ipython"),
-            "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"), "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
+            "JUPYTER_CONFIG_DIR": str(home / "config"),
+            "JUPYTER_DATA_DIR": str(home / "data"),
+            "JUPYTER_RUNTIME_DIR": str(home / "runtime"),
+            "IPYTHONDIR": str(home / "ipython"),
+            "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"),
+            "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
         }
-        news = home / "settings" / "@jupyterlab" / "apputils-extension" / "notification.jupyterlab-settings"
+        news = (
+            home
+            / "settings"
+            / "@jupyterlab"
+            / "apputils-extension"
+            / "notification.jupyterlab-settings"
+        )
         news.parent.mkdir(parents=True)
         news.write_text('{"fetchNews": "false", "checkForUpdates": false}')
 
@@ -68,14 +95,27 @@ class JupyterLab:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
         self.url = f"http://127.0.0.1:{port}"
-        command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--ServerApp.ip=127.0.0.1",
-                   f"--ServerApp.port={port}", "--ServerApp.port_retries=0", f"--IdentityProvider.token={self.token}",
-                   f"--ServerApp.root_dir={self.labs}"]
+        command = [
+            sys.executable,
+            "-m",
+            "jupyterlab",
+            "--no-browser",
+            "--ServerApp.ip=127.0.0.1",
+            f"--ServerApp.port={port}",
+            "--ServerApp.port_retries=0",
+            f"--IdentityProvider.token={self.token}",
+            f"--ServerApp.root_dir={self.labs}",
+        ]
         if hasattr(os, "geteuid") and os.geteuid() == 0:
             command.append("--allow-root")
         self.log = open(self.home / "server.log", "wb")
-        self.process = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=self.log,
-                                        stderr=subprocess.STDOUT)
+        self.process = subprocess.Popen(
+            command,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=self.log,
+            stderr=subprocess.STDOUT,
+        )
         until(lambda: self.api("status") is not None, 60, "JupyterLab did not answer")
         return self
 
@@ -89,8 +129,11 @@ class JupyterLab:
 
     def api(self, path, method="GET"):
         """The server's answer as JSON ({} if empty), or None where it does not answer."""
-        request = urllib.request.Request(f"{self.url}/api/{path}", method=method,
-                                         headers={"Authorization": f"token {self.token}"})
+        request = urllib.request.Request(
+            f"{self.url}/api/{path}",
+            method=method,
+            headers={"Authorization": f"token {self.token}"},
+        )
         try:
             with urllib.request.urlopen(request, timeout=5) as answer:
                 return json.loads(answer.read() or b"{}")
@@ -101,11 +144,17 @@ class JupyterLab:
 
     def trust(self, name):
         """Sign the stored outputs of a notebook, as `jupyter trust` does for a student."""
-        subprocess.run([sys.executable, "-m", "jupyter", "trust", str(self.labs / name)], env=self.environment,
-                       check=True, capture_output=True)
+        subprocess.run(
+            [sys.executable, "-m", "jupyter", "trust", str(self.labs / name)],
+            env=self.environment,
+            check=True,
+            capture_output=True,
+        )
 
     def open(self, page, name):
-        """Open a notebook in the page, with a new kernel, and wait until its first cells are drawn."""
+        """Open a notebook in the page, with a new kernel, and wait until its first cells are
+        drawn.
+        """
         for session in self.api("sessions") or ():
             self.api(f"sessions/{session['id']}", "DELETE")
         page.goto(f"{self.url}/lab/tree/{name}?reset&token={self.token}")
@@ -114,24 +163,29 @@ class JupyterLab:
     def run_all(self, page, name):
         """Run every cell of the open notebook and wait for the last one.
 
-        JupyterLab drops the command while the kernel still connects, so this waits until the server counts a connection
-        to an idle kernel and the status bar says the same. Stored outputs and counts are cleared first: what is there
-        afterwards is new.
+        JupyterLab drops the command while the kernel still connects, so this waits until the server
+        counts a connection to an idle kernel and the status bar says the same. Stored outputs and
+        counts are cleared first: what is there afterwards is new.
         """
         cells = json.loads((self.labs / name).read_text())["cells"]
-        count = sum(cell["cell_type"] == "code" and bool("".join(cell["source"]).strip()) for cell in cells)
+        count = sum(
+            cell["cell_type"] == "code" and bool("".join(cell["source"]).strip()) for cell in cells
+        )
         until(self._kernels_idle, 60, f"{name}: the kernel did not become idle", page)
         page.get_by_text("| Idle").first.wait_for(timeout=30_000)
         for menu, item in (("Edit", "Clear Outputs of All Cells"), ("Run", "Run All Cells")):
             page.get_by_role("menuitem", name=menu, exact=True).click()
             page.get_by_role("menuitem", name=item, exact=True).click()
         last = page.locator(".jp-CodeCell .jp-InputPrompt", has_text=f"[{count}]:")
-        complaint = page.locator(".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.stderr']")
+        complaint = page.locator(
+            ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.stderr']"
+        )
 
         def ended():
             if last.count():
                 return self._kernels_idle()
-            if complaint.count() and self._kernels_idle() and not last.count():  # after an error the rest does not run
+            # after an error the rest does not run
+            if complaint.count() and self._kernels_idle() and not last.count():
                 pytest.fail(f"{name}: {complaint.first.inner_text()[-1000:]}")
             return False
 
@@ -139,11 +193,15 @@ class JupyterLab:
 
     def _kernels_idle(self):
         kernels = [session["kernel"] for session in self.api("sessions") or ()]
-        return bool(kernels) and all(k["execution_state"] == "idle" and k["connections"] > 0 for k in kernels)
+        return bool(kernels) and all(
+            k["execution_state"] == "idle" and k["connections"] > 0 for k in kernels
+        )
 
 
 def until(true, seconds, complaint, page=None):
-    """Wait until `true()`; fail with `complaint` after so many seconds. With a page, its events go on meanwhile."""
+    """Wait until `true()`; fail with `complaint` after so many seconds. With a page, its events go
+    on meanwhile.
+    """
     end = time.monotonic() + seconds
     while not true():
         if time.monotonic() > end:
@@ -155,7 +213,9 @@ def pytest_terminal_summary(terminalreporter):
     skipped = [r for r in terminalreporter.getreports("skipped") if NO_BROWSER in str(r.longrepr)]
     if skipped:
         terminalreporter.section("BROWSER TESTS DID NOT RUN", sep="!", red=True, bold=True)
-        terminalreporter.line(f"{len(skipped)} tests skipped: {NO_BROWSER}. Players and sliders are NOT tested.",
-                              red=True, bold=True)
+        terminalreporter.line(
+            f"{len(skipped)} tests skipped: {NO_BROWSER}. Players and sliders are NOT tested.",
+            red=True,
+            bold=True,
+        )
         terminalreporter.line("Install one (Debian: apt-get install chromium) and run again.")
-

@@ -3,10 +3,11 @@
     python tests/execute_notebooks.py                          all of notebooks/
     python tests/execute_notebooks.py notebooks/00_start_here.ipynb ...
 
-Each notebook runs in a fresh kernel. What is stored depends on its cells alone: no widget state, no times, no Python
-version, streams in one piece, and a picture whose pixels are unchanged keeps its old bytes (another zlib packs the same
-pixels otherwise). So a diff shows what changed, and a second run changes no byte. A notebook that fails is
-named and left as it was, the others go on, and the exit status is 1.
+Each notebook runs in a fresh kernel. What is stored depends on its cells alone: no widget state, no
+times, no Python version, streams in one piece, and a picture whose pixels are unchanged keeps its
+old bytes (another zlib packs the same pixels otherwise). So a diff shows what changed, and a second
+run changes no byte. A notebook that fails is named and left as it was, the others go on, and the
+exit status is 1.
 """
 
 import argparse
@@ -28,8 +29,12 @@ ROOT = Path(__file__).resolve().parent.parent
 KEPT_CELL_METADATA = ("tags", "reason")
 METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-    "language_info": {"file_extension": ".py", "mimetype": "text/x-python", "name": "python",
-                      "pygments_lexer": "ipython3"},
+    "language_info": {
+        "file_extension": ".py",
+        "mimetype": "text/x-python",
+        "name": "python",
+        "pygments_lexer": "ipython3",
+    },
 }
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 ANSI = re.compile("\x1b\\[[0-9;]*m")  # colours of a traceback
@@ -37,17 +42,29 @@ PNG = re.compile("iVBORw0KGgo[A-Za-z0-9+/]+=*")  # base64 of the eight bytes tha
 
 
 def execute(path, timeout=120):
-    """Run the notebook at `path` and store it; True if its bytes changed. Raises what a cell raised."""
+    """Run the notebook at `path` and store it; True if its bytes changed. Raises what a cell
+    raised.
+    """
     before = path.read_bytes()
     notebook = nbformat.reads(before.decode(), as_version=4)
     pictures = dict(_pictures(notebook))
-    ignored = {cell.id: (cell.source, cell.outputs) for cell in notebook.cells
-               if cell.get("outputs") and "nbval-ignore-output" in cell.metadata.get("tags", ())}
-    client = NotebookClient(notebook, timeout=timeout, kernel_name="python3", coalesce_streams=True,
-                            record_timing=False, store_widget_state=False,
-                            resources={"metadata": {"path": str(path.parent)}})
+    ignored = {
+        cell.id: (cell.source, cell.outputs)
+        for cell in notebook.cells
+        if cell.get("outputs") and "nbval-ignore-output" in cell.metadata.get("tags", ())
+    }
+    client = NotebookClient(
+        notebook,
+        timeout=timeout,
+        kernel_name="python3",
+        coalesce_streams=True,
+        record_timing=False,
+        store_widget_state=False,
+        resources={"metadata": {"path": str(path.parent)}},
+    )
     client.execute()
-    for cell in notebook.cells:  # an output that no test compares, a timing, is news only where its cell has changed
+    # an output that no test compares, a timing, is news only where its cell has changed
+    for cell in notebook.cells:
         if cell.id in ignored and ignored[cell.id][0] == cell.source:
             cell.outputs = ignored[cell.id][1]
     after = (normalised(notebook, pictures) + "\n").encode()
@@ -57,25 +74,33 @@ def execute(path, timeout=120):
 
 
 def normalised(notebook, pictures):
-    """The text of an executed notebook in the stored form; `pictures` (pixels -> base64) keep their old bytes."""
+    """The text of an executed notebook in the stored form; `pictures` (pixels -> base64) keep their
+    old bytes.
+    """
     notebook.metadata = nbformat.from_dict(METADATA)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
     count, views = 0, 0
     for cell in notebook.cells:
-        cell.metadata = nbformat.from_dict({k: v for k, v in cell.metadata.items() if k in KEPT_CELL_METADATA})
+        cell.metadata = nbformat.from_dict(
+            {k: v for k, v in cell.metadata.items() if k in KEPT_CELL_METADATA}
+        )
         if cell.cell_type != "code":
             continue
         cell.execution_count = None
         if cell.source.strip():
             count += 1
             cell.execution_count = count
-        # A view alone is of no use without its kernel; an explorer's still picture is an output of its own.
-        cell.outputs = [output for output in cell.outputs if set(output.get("data", ())) != {WIDGET_VIEW}]
+        # A view alone is of no use without its kernel; an explorer's still picture is an output of
+        # its own.
+        cell.outputs = [
+            output for output in cell.outputs if set(output.get("data", ())) != {WIDGET_VIEW}
+        ]
         for output in cell.outputs:
             if output.output_type == "execute_result":
                 output.execution_count = count
             for kind, value in output.get("data", {}).items():
-                if kind == WIDGET_VIEW:  # its number is drawn by lot, and without the kernel it is nobody's
+                # its number is drawn by lot, and without the kernel it is nobody's
+                if kind == WIDGET_VIEW:
                     views += 1
                     value["model_id"] = f"{views:032x}"
                 elif isinstance(value, str):
@@ -105,13 +130,20 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("notebooks", nargs="*", type=Path)
     paths = parser.parse_args(arguments).notebooks or sorted((ROOT / "notebooks").glob("*.ipynb"))
-    os.environ.setdefault("PYDEVD_DISABLE_FILE_VALIDATION", "1")  # a warning that would land in the outputs
+    # a warning that would land in the outputs
+    os.environ.setdefault("PYDEVD_DISABLE_FILE_VALIDATION", "1")
     failed = []
     for path in paths:
         start = time.perf_counter()
         try:
             what = "stored" if execute(path.resolve()) else "unchanged"
-        except (CellExecutionError, CellTimeoutError, DeadKernelError, OSError, ValueError) as error:
+        except (
+            CellExecutionError,
+            CellTimeoutError,
+            DeadKernelError,
+            OSError,
+            ValueError,
+        ) as error:
             failed.append(path.name)
             what = f"FAILED, left as it was\n{ANSI.sub('', str(error))}"
         print(f"{path.name}: {time.perf_counter() - start:.1f} s, {what}", flush=True)

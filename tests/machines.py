@@ -1,7 +1,7 @@
 """The arms that every law runs over, each with a second description that owes nothing to robokin.
 
-An arm is added by one line of `MACHINES`. `chain(q)` is its forward kinematics as a product of 4 x 4 matrices written
-from its document; `wrist` is what an independent count of solutions needs.
+An arm is added by one line of `MACHINES`. `chain(q)` is its forward kinematics as a product of 4 x
+4 matrices written from its document; `wrist` is what an independent count of solutions needs.
 """
 
 import json
@@ -18,7 +18,9 @@ DATA = Path(__file__).parent / "data"
 
 @dataclass(frozen=True)
 class Machine:
-    """An arm, its chain as matrices, and for a spherical wrist the distances that decide what is reachable."""
+    """An arm, its chain as matrices, and for a spherical wrist the distances that decide what is
+    reachable.
+    """
 
     arm: object
     chain: object  # q (n,) -> 4 x 4 matrix
@@ -67,7 +69,9 @@ def position_gap(a, b):
 
 def reach(arm):
     """The lengths of all links together."""
-    return sum(np.linalg.norm(part.translation) for link in arm.links for part in (link.before, link.after))
+    return sum(
+        np.linalg.norm(part.translation) for link in arm.links for part in (link.before, link.after)
+    )
 
 
 def rot(axis, angle):
@@ -96,34 +100,73 @@ def dh(q, a, alpha, d, theta):
 
 def irb140_chain(q):
     """Source: 001, listing 1."""
-    return (shift(0, 0, .352) @ rot("z", q[0]) @ shift(.07, 0, 0) @ rot("y", -q[1]) @ shift(0, 0, .35) @ rot("y", q[2])
-            @ shift(.38, 0, 0) @ rot("x", q[3]) @ rot("y", q[4]) @ shift(.065, 0, 0) @ rot("x", q[5])
-            @ rot("y", np.pi / 2))
+    return (
+        shift(0, 0, 0.352)
+        @ rot("z", q[0])
+        @ shift(0.07, 0, 0)
+        @ rot("y", -q[1])
+        @ shift(0, 0, 0.35)
+        @ rot("y", q[2])
+        @ shift(0.38, 0, 0)
+        @ rot("x", q[3])
+        @ rot("y", q[4])
+        @ shift(0.065, 0, 0)
+        @ rot("x", q[5])
+        @ rot("y", np.pi / 2)
+    )
 
 
 def puma_chain(q):
     """Source: oracle/README.md, standard DH."""
     r = np.pi / 2
-    return dh(q, (0, .4318, .0203, 0, 0, 0), (r, 0, -r, r, -r, 0), (.67183, 0, .15005, .4318, 0, 0), (0,) * 6)
+    return dh(
+        q,
+        (0, 0.4318, 0.0203, 0, 0, 0),
+        (r, 0, -r, r, -r, 0),
+        (0.67183, 0, 0.15005, 0.4318, 0, 0),
+        (0,) * 6,
+    )
 
 
-def itmo_chain(q, d1=.1, a2=.1, d4=.2, d6=.2):
+def itmo_chain(q, d1=0.1, a2=0.1, d4=0.2, d6=0.2):
     """Source: oracle/itmo6r.json, key "arm"."""
     r = np.pi / 2
-    return dh(q, (0, a2, 0, 0, 0, 0), (r, 0, r, -r, r, 0), (d1, 0, 0, d4, 0, d6), (0, 0, r, 0, 0, 0))
+    return dh(
+        q, (0, a2, 0, 0, 0, 0), (r, 0, r, -r, r, 0), (d1, 0, 0, d4, 0, d6), (0, 0, r, 0, 0, 0)
+    )
 
 
 def scara_chain(q):
     """Source: 001, listing 4."""
-    return (shift(0, 0, .2202) @ rot("z", q[0]) @ shift(.2, 0, 0) @ rot("z", q[1]) @ shift(.25, 0, 0) @ rot("z", q[2])
-            @ shift(0, 0, -q[3]))
+    return (
+        shift(0, 0, 0.2202)
+        @ rot("z", q[0])
+        @ shift(0.2, 0, 0)
+        @ rot("z", q[1])
+        @ shift(0.25, 0, 0)
+        @ rot("z", q[2])
+        @ shift(0, 0, -q[3])
+    )
 
 
 MACHINES = [
-    Machine(IRB140, irb140_chain, dict(tool=.065, shoulder=(.07, .352), lateral=0, upper=.35, fore=.38)),
-    Machine(PUMA560, puma_chain,
-            dict(tool=0, shoulder=(0, .67183), lateral=.15005, upper=.4318, fore=np.hypot(.4318, .0203))),
-    Machine(ITMO6R, itmo_chain, dict(tool=.2, shoulder=(0, .1), lateral=0, upper=.1, fore=.2)),
+    Machine(
+        IRB140,
+        irb140_chain,
+        dict(tool=0.065, shoulder=(0.07, 0.352), lateral=0, upper=0.35, fore=0.38),
+    ),
+    Machine(
+        PUMA560,
+        puma_chain,
+        dict(
+            tool=0,
+            shoulder=(0, 0.67183),
+            lateral=0.15005,
+            upper=0.4318,
+            fore=np.hypot(0.4318, 0.0203),
+        ),
+    ),
+    Machine(ITMO6R, itmo_chain, dict(tool=0.2, shoulder=(0, 0.1), lateral=0, upper=0.1, fore=0.2)),
     Machine(SCARA, scara_chain),
 ]
 SIX = [m for m in MACHINES if m.wrist]

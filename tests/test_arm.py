@@ -17,17 +17,23 @@ def test_fk_is_the_documents_chain_of_matrices(machine, shape):
     T = machine.arm.fk(q)
     assert T.shape == shape
     for i in np.ndindex(*shape):
-        assert np.allclose(T[i].as_matrix() if i else T.as_matrix(), machine.chain(q[i]), rtol=0, atol=4e-15)
+        assert np.allclose(
+            T[i].as_matrix() if i else T.as_matrix(), machine.chain(q[i]), rtol=0, atol=4e-15
+        )
 
 
 @machines
 def test_fk_at_home(machine):
     n = len(machine.arm.links)
-    assert np.allclose(machine.arm.fk([0] * n).as_matrix(), machine.chain([0] * n), rtol=0, atol=2e-16)
+    assert np.allclose(
+        machine.arm.fk([0] * n).as_matrix(), machine.chain([0] * n), rtol=0, atol=2e-16
+    )
 
 
 def test_the_irb140_at_home():
-    """By hand from the lengths of listing 1: 70 + 380 + 65 ahead, 352 + 350 up; the flange's z axis points ahead."""
+    """By hand from the lengths of listing 1: 70 + 380 + 65 ahead, 352 + 350 up; the flange's z axis
+    points ahead.
+    """
     T = IRB140.fk(np.zeros(6))
     assert np.allclose(T.translation, [0.515, 0, 0.702], rtol=0, atol=1e-15)
     assert np.allclose(T.rotation @ [0, 0, 1], [1, 0, 0], rtol=0, atol=1e-15)
@@ -46,7 +52,7 @@ def test_frames_lead_from_the_base_to_the_flange(machine, shape):
         moved = q.copy()
         moved[..., i] += 0.1
         change = abs(arm.frames(moved).as_matrix() - frames.as_matrix()).max((-1, -2))
-        assert (change[..., : i + 1] == 0).all() and (change[..., i + 1:] > 1e-3).all()
+        assert (change[..., : i + 1] == 0).all() and (change[..., i + 1 :] > 1e-3).all()
 
 
 @machines
@@ -59,7 +65,8 @@ def test_jacobian_is_the_derivative_of_fk(machine, shape):
     assert J.shape == (*shape, 6, n)
     ahead, back = arm.fk(q[..., None, :] + h * np.eye(n)), arm.fk(q[..., None, :] - h * np.eye(n))
     linear = (ahead.translation - back.translation) / (2 * h)
-    angle, axis = (ahead.rotation @ back.rotation.inverse()).as_angle_axis()  # the turn, in base coordinates
+    # the turn, in base coordinates
+    angle, axis = (ahead.rotation @ back.rotation.inverse()).as_angle_axis()
     angular = axis * angle[..., None] / (2 * h)
     assert np.allclose(J[..., :3, :], np.moveaxis(linear, -2, -1), rtol=0, atol=1e-9)
     assert np.allclose(J[..., 3:, :], np.moveaxis(angular, -2, -1), rtol=0, atol=1e-9)
@@ -93,7 +100,9 @@ def test_a_missing_joint_value_makes_its_frames_missing(machine):
         assert np.isnan(frames.translation[i, i + 1 :]).any(-1).all()
     flange = machine.arm.fk(q)
     turning = ~machine.arm.prismatic
-    assert np.isnan(flange.translation).any(-1).all() and np.isnan(flange.rotation.wxyz[turning]).all()
+    assert (
+        np.isnan(flange.translation).any(-1).all() and np.isnan(flange.rotation.wxyz[turning]).all()
+    )
 
 
 @machines
@@ -115,13 +124,23 @@ def test_dh_links_are_the_product_of_four_matrices():
         frame = link.carry(frame, q_i)
     m = np.eye(4)
     for i in range(4):
-        m = m @ rot("z", theta[i] + q[i]) @ shift(0, 0, d[i]) @ shift(a[i], 0, 0) @ rot("x", alpha[i])
+        m = (
+            m
+            @ rot("z", theta[i] + q[i])
+            @ shift(0, 0, d[i])
+            @ shift(a[i], 0, 0)
+            @ rot("x", alpha[i])
+        )
     assert np.allclose(frame.as_matrix(), m, rtol=0, atol=1e-14)
     assert all(np.allclose(x.before.as_matrix(), np.eye(4)) for x in dh_links(a, alpha, d))
 
 
 def test_a_prismatic_joint_shifts_along_its_axis():
-    link = Link(Transform(Quaternion.from_angle_axis(90 * deg, (0, 0, 1)), (1, 0, 0)), (1, 0, 0), prismatic=True)
+    link = Link(
+        Transform(Quaternion.from_angle_axis(90 * deg, (0, 0, 1)), (1, 0, 0)),
+        (1, 0, 0),
+        prismatic=True,
+    )
     arm = Arm("slide", (link,), None, [(0, 1)])
     assert np.allclose(arm.fk([0.3]).translation, [1, 0.3, 0], rtol=0, atol=1e-16)
     assert np.allclose(arm.jacobian([0.3])[:, 0], [0, 1, 0, 0, 0, 0], rtol=0, atol=1e-15)
@@ -132,4 +151,3 @@ def test_whole_turns_change_nothing():
     q = RNG.uniform(-np.pi, np.pi, (50, 6))
     a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-3, 4, q.shape))
     assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13
-

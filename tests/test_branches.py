@@ -29,12 +29,20 @@ machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
 six = pytest.mark.parametrize("machine", SIX, ids=repr)
 HOME = np.zeros(6)
 
-# One joint that turns, one that slides: limits past half a turn, and a stroke longer than 2 pi metres.
-MIXED = Arm("mixed", (Link(), Link(axis=(1, 0, 0), prismatic=True)), None, [(-250 * deg, 100 * deg), (-0.5, 7.0)])
+# One joint that turns, one that slides: limits past half a turn, and a stroke longer than 2 pi
+# metres.
+MIXED = Arm(
+    "mixed",
+    (Link(), Link(axis=(1, 0, 0), prismatic=True)),
+    None,
+    [(-250 * deg, 100 * deg), (-0.5, 7.0)],
+)
 
 
 def representatives(arm, q):
-    """All values q + 2 pi k of each joint that lie inside its limits, by trial; k = 0 alone for a prismatic joint."""
+    """All values q + 2 pi k of each joint that lie inside its limits, by trial; k = 0 alone for a
+    prismatic joint.
+    """
     out = []
     for value, (low, high), slides in zip(q, arm.limits, arm.prismatic, strict=True):
         values = value + 2 * np.pi * np.arange(-4, 5) * (not slides)
@@ -42,7 +50,9 @@ def representatives(arm, q):
     return out
 
 
-# within ---------------------------------------------------------------------------------------------------------------
+# within
+# --------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 @pytest.mark.parametrize("shape", SHAPES)
@@ -59,8 +69,16 @@ def test_within_counts_a_joint_at_its_limit_and_not_a_missing_one():
     assert within(IRB140, IRB140.limits.T).all()
     assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
     past = IRB140.limits[:, 1] + 1e-6
-    assert within(IRB140, past).tolist() == [True, False, False, True, False, True]  # their circles leave no gap
-    assert within(IRB140, [0, np.nan, 0, 0, 0, np.nan]).tolist() == [True, False, True, True, True, False]
+    # their circles leave no gap
+    assert within(IRB140, past).tolist() == [True, False, False, True, False, True]
+    assert within(IRB140, [0, np.nan, 0, 0, 0, np.nan]).tolist() == [
+        True,
+        False,
+        True,
+        True,
+        True,
+        False,
+    ]
 
 
 def test_a_sliding_joint_has_no_other_turn():
@@ -71,7 +89,9 @@ def test_a_sliding_joint_has_no_other_turn():
 
 
 def test_a_joint_beyond_half_a_turn_is_inside_though_its_wrapped_value_is_not():
-    """Errata S1-f: the listing sees 160 degrees for joint 3, past its 50, and rejects; it stands at -200."""
+    """Errata S1-f: the listing sees 160 degrees for joint 3, past its 50, and rejects; it stands at
+    -200.
+    """
     drawn = np.array([10, 20, -200, 30, 40, 50]) * deg
     rows = IRB140.ik(IRB140.fk(drawn))
     row = np.nanargmin(turns(rows, drawn).max(-1))
@@ -80,10 +100,14 @@ def test_a_joint_beyond_half_a_turn_is_inside_though_its_wrapped_value_is_not():
     assert np.allclose(nearest(IRB140, rows, HOME + drawn * 0.9), drawn, rtol=0, atol=1e-12)
 
 
-# nearest --------------------------------------------------------------------------------------------------------------
+# nearest
+# --------------------------------------------------------------------------------------------------
+
 
 def nearest_by_trial(arm, rows, q):
-    """Every row with every combination of whole turns: inside the limits joint by joint where it can be."""
+    """Every row with every combination of whole turns: inside the limits joint by joint where it
+    can be.
+    """
     best = np.full(len(arm.links), np.nan)
     for row in rows[~np.isnan(rows).any(-1)]:
         choice = []
@@ -112,16 +136,26 @@ def test_nearest_broadcasts_and_says_where_nothing_is():
     rng = np.random.default_rng(22)
     q = rng.uniform(-1, 1, (5, 6))
     rows = IRB140.ik(IRB140.fk(q[0]))
-    assert np.allclose(nearest(IRB140, rows, q), [nearest_by_trial(IRB140, rows, one) for one in q], rtol=0, atol=1e-12)
+    assert np.allclose(
+        nearest(IRB140, rows, q),
+        [nearest_by_trial(IRB140, rows, one) for one in q],
+        rtol=0,
+        atol=1e-12,
+    )
     many = IRB140.ik(IRB140.fk(q))
     many[2] = np.nan
     chosen = nearest(IRB140, many, q[0])
-    assert chosen.shape == (5, 6) and np.isnan(chosen[2]).all() and np.isfinite(np.delete(chosen, 2, 0)).all()
+    assert (
+        chosen.shape == (5, 6)
+        and np.isnan(chosen[2]).all()
+        and np.isfinite(np.delete(chosen, 2, 0)).all()
+    )
 
 
 def test_nearest_of_a_sliding_joint_takes_its_value_as_it_is():
     rows = np.array([[3.0, 6.5], [-3.0, 0.1]])
-    assert np.allclose(nearest(MIXED, rows, [0.0, 6.4]), [3.0 - 2 * np.pi, 6.5])  # 172 degrees are past the limit
+    # 172 degrees are past the limit
+    assert np.allclose(nearest(MIXED, rows, [0.0, 6.4]), [3.0 - 2 * np.pi, 6.5])
     assert np.allclose(nearest(MIXED, rows, [0.0, 0.0]), [-3.0, 0.1])
     beyond = np.array([[0.0, 7.5]])
     assert np.allclose(nearest(MIXED, beyond, [0.0, 0.0]), [0.0, 7.5])
@@ -133,14 +167,18 @@ def test_nearest_at_the_pose_it_stands_in_is_no_travel():
     assert abs(nearest(IRB140, IRB140.ik(IRB140.fk(q)), q) - q).max() < 1e-9
 
 
-# follow ---------------------------------------------------------------------------------------------------------------
+# follow
+# --------------------------------------------------------------------------------------------------
+
 
 def joint_path(arm, q0, q1, samples=201):
     """A motion in joint space, its rows, and the row it starts on."""
     s = np.linspace(0, 1, samples)[:, None]
     q = q0 + s * (np.asarray(q1) - q0)
     rows = arm.ik(arm.fk(q))
-    start = next(i for i in range(samples) if abs(np.sin(q[i, 4])) > 1e-6) if len(arm.links) == 6 else 0
+    start = (
+        next(i for i in range(samples) if abs(np.sin(q[i, 4])) > 1e-6) if len(arm.links) == 6 else 0
+    )
     row = int(np.nanargmin(gap(arm, rows[start], q[start]).max(-1)))
     return q, rows, row
 
@@ -148,7 +186,9 @@ def joint_path(arm, q0, q1, samples=201):
 @six
 @pytest.mark.parametrize("middle", [0.0, np.pi])
 def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
-    """q5 crosses 0 (or pi) while q4 and q6 stand still: a fixed row turns both by half a turn, follow by nothing."""
+    """q5 crosses 0 (or pi) while q4 and q6 stand still: a fixed row turns both by half a turn,
+    follow by nothing.
+    """
     arm = machine.arm
     rng = np.random.default_rng(24)
     crossed = 0
@@ -183,9 +223,14 @@ def test_rounding_noise_at_the_wrist_singularity_turns_nothing(machine, sine):
 
 
 def test_follow_moves_off_from_home_without_a_jump():
-    """The IRB-140's home pose is a wrist singularity: the motion begins with the joints that its second sample has."""
-    goal = Transform(Quaternion.from_angle_axis(90 * deg, (0, 1, 0)) @ Quaternion.from_angle_axis(0.4, (0.6, 0.8, 0)),
-                     (0.4, 0.2, 0.6))
+    """The IRB-140's home pose is a wrist singularity: the motion begins with the joints that its
+    second sample has.
+    """
+    goal = Transform(
+        Quaternion.from_angle_axis(90 * deg, (0, 1, 0))
+        @ Quaternion.from_angle_axis(0.4, (0.6, 0.8, 0)),
+        (0.4, 0.2, 0.6),
+    )
     poses = lin(IRB140.fk(HOME), goal, np.linspace(0, 1, 401))
     rows = IRB140.ik(poses)
     for row in range(8):
@@ -194,8 +239,14 @@ def test_follow_moves_off_from_home_without_a_jump():
             continue
         assert abs(np.diff(path, axis=0)).max() < 0.1
         assert np.allclose(turns(path[1], rows[1, row]), 0, atol=1e-8)
-        assert turns(path[0, [3, 5]].sum(), rows[0, row, [3, 5]].sum()) < 1e-12 or abs(rows[0, row, 4]) > 1e-3
-        assert rotation_gap(IRB140.fk(path), poses).max() < 1e-9 and position_gap(IRB140.fk(path), poses).max() < 1e-12
+        assert (
+            turns(path[0, [3, 5]].sum(), rows[0, row, [3, 5]].sum()) < 1e-12
+            or abs(rows[0, row, 4]) > 1e-3
+        )
+        assert (
+            rotation_gap(IRB140.fk(path), poses).max() < 1e-9
+            and position_gap(IRB140.fk(path), poses).max() < 1e-12
+        )
     back = follow(IRB140, rows[::-1], IRB140.branch(1, 1, 1))  # and into it
     assert abs(np.diff(back, axis=0)).max() < 0.1
     assert rotation_gap(IRB140.fk(back[-1]), IRB140.fk(HOME)) < 1e-12
@@ -219,7 +270,9 @@ def test_in_the_singularity_joints_4_and_6_share_the_turn():
 
 
 def test_a_singular_start_keeps_the_fixed_joints_inside_their_limits():
-    """Only the free joints may look ahead to where they are fixed: joint 1 crosses 180 degrees in between."""
+    """Only the free joints may look ahead to where they are fixed: joint 1 crosses 180 degrees in
+    between.
+    """
     q = np.zeros((60, 6)) + [0, 0.2, -0.1, 0.3, 0, 0.4]
     q[:, 0] = 3.0 + np.linspace(0, 0.5, 60)
     q[40:, 4] = np.linspace(0, 0.5, 20)
@@ -230,12 +283,24 @@ def test_a_singular_start_keeps_the_fixed_joints_inside_their_limits():
 
 @machines
 def test_follow_returns_the_motion_it_is_given(machine):
-    """Joint paths over several turns, through +-pi, past every limit: the same motion comes back, unwrapped."""
+    """Joint paths over several turns, through +-pi, past every limit: the same motion comes back,
+    unwrapped.
+    """
     arm = machine.arm
     rng = np.random.default_rng(26)
-    low, high = np.where(arm.prismatic, arm.limits[:, 0], -7), np.where(arm.prismatic, arm.limits[:, 1], 7)
-    # Where two rows meet (a stretched arm, the PUMA's d3) no sample tells passing through from turning back.
-    meet = slice(0, 1) if len(arm.links) == 4 else slice(0, 2) if machine.wrist["lateral"] else slice(1, 2)
+    low, high = (
+        np.where(arm.prismatic, arm.limits[:, 0], -7),
+        np.where(arm.prismatic, arm.limits[:, 1], 7),
+    )
+    # Where two rows meet (a stretched arm, the PUMA's d3) no sample tells passing through from
+    # turning back.
+    meet = (
+        slice(0, 1)
+        if len(arm.links) == 4
+        else slice(0, 2)
+        if machine.wrist["lateral"]
+        else slice(1, 2)
+    )
     done = 0
     while done < 5:
         q0 = random_joints(arm, rng, ())
@@ -270,7 +335,9 @@ def test_follow_starts_inside_the_limits_where_it_can():
 
 
 def out_and_back():
-    """A straight line that leaves the workspace and comes back into it, at a constant orientation."""
+    """A straight line that leaves the workspace and comes back into it, at a constant
+    orientation.
+    """
     T = IRB140.fk(np.array([0.3, -0.4, 0.2, 0.5, 0.8, -0.3]))
     s = np.linspace(0, 1, 301)
     out = T.translation + np.sin(np.pi * s)[:, None] * np.array([0.6, 0.1, 0.1])
@@ -330,7 +397,10 @@ def test_follow_gives_solutions_of_the_poses(machine):
     path = follow(arm, arm.ik(T), 0)
     some = np.isfinite(path).all(-1)
     assert some.any()
-    assert position_gap(arm.fk(path), T)[some].max() < 1e-12 and rotation_gap(arm.fk(path), T)[some].max() < 1e-9
+    assert (
+        position_gap(arm.fk(path), T)[some].max() < 1e-12
+        and rotation_gap(arm.fk(path), T)[some].max() < 1e-9
+    )
 
 
 def test_one_sample_is_a_motion_too():
@@ -338,33 +408,44 @@ def test_one_sample_is_a_motion_too():
     assert np.allclose(follow(IRB140, rows, 0), [[0.2] * 6], rtol=0, atol=1e-12)
 
 
-# explain --------------------------------------------------------------------------------------------------------------
+# explain
+# --------------------------------------------------------------------------------------------------
 
 TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis ahead, as at home
 
 
 def test_explain_a_usable_row():
     text = explain(IRB140, IRB140.fk([0.1, 0.2, 0.1, 0.3, 0.5, 0.2]), 0)
-    assert text.startswith("Row 0 (+1, +1, +1) is usable") and "singular" in text and text.endswith(".")
+    assert (
+        text.startswith("Row 0 (+1, +1, +1) is usable")
+        and "singular" in text
+        and text.endswith(".")
+    )
 
 
 def test_explain_how_far_out_of_reach():
-    centre = np.array([0.07 + 0.73 + 0.0123, 0, 0.352])  # 12.3 mm beyond the stretched arm, ahead of the shoulder
+    # 12.3 mm beyond the stretched arm, ahead of the shoulder
+    centre = np.array([0.07 + 0.73 + 0.0123, 0, 0.352])
     pose = Transform(TURNED, centre + [0.065, 0, 0])
     for row in range(4):
         assert "12.3 mm beyond the stretched arm" in explain(IRB140, pose, row)
-        assert "does not exist" in explain(IRB140, pose, row) and "metres" not in explain(IRB140, pose, row)
-    assert "152.3 mm beyond" in explain(IRB140, pose, 4)  # reaching back over the shoulder: 140 mm more
+        assert "does not exist" in explain(IRB140, pose, row) and "metres" not in explain(
+            IRB140, pose, row
+        )
+    # reaching back over the shoulder: 140 mm more
+    assert "152.3 mm beyond" in explain(IRB140, pose, 4)
     near = Transform(TURNED, np.array([0.07 + 0.02, 0, 0.352]) + [0.065, 0, 0])
     assert "10.0 mm too near" in explain(IRB140, near, 0)
     assert "too near to axis 1" in explain(PUMA560, Transform(translation=(0.1, 0.1, 0.9)), 0)
-    assert "8.6 mm" in explain(PUMA560, Transform(translation=(0.1, 0.1, 0.9)), 0)  # 150.05 - 141.42
+    # 150.05 - 141.42
+    assert "8.6 mm" in explain(PUMA560, Transform(translation=(0.1, 0.1, 0.9)), 0)
 
 
 def test_explain_suspects_millimetres():
     text = explain(IRB140, Transform(TURNED, (515, 0, 702)), 0)
     assert "does not exist" in text and "millimetres" in text and "mm" in text
-    assert "millimetres" not in explain(IRB140, Transform(TURNED, (515e3, 0, 702e3)), 0)  # no sense in mm either
+    # no sense in mm either
+    assert "millimetres" not in explain(IRB140, Transform(TURNED, (515e3, 0, 702e3)), 0)
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (2, 0, 0.7)), 0)
 
 
@@ -385,13 +466,21 @@ def test_explain_names_every_joint_past_its_limit():
 def test_explain_a_sliding_joint_in_millimetres():
     pose = SCARA.fk([0.2, 0.5, 0.1, 200 * mm])
     text = explain(SCARA, pose, 0)
-    assert "joint 4" in text and "200.0 mm" in text and "20.0 mm" in text and "180 mm" in text and "°" not in text
+    assert (
+        "joint 4" in text
+        and "200.0 mm" in text
+        and "20.0 mm" in text
+        and "180 mm" in text
+        and "°" not in text
+    )
 
 
 def test_explain_names_the_singularity():
     assert "wrist" in explain(IRB140, IRB140.fk(HOME), 0)
     stretched = IRB140.fk([0.2, -0.3, -90 * deg, 0.2, 0.7, 0.1])
-    assert "elbow" in explain(IRB140, stretched, 0) and "wrist singularity" not in explain(IRB140, stretched, 0)
+    assert "elbow" in explain(IRB140, stretched, 0) and "wrist singularity" not in explain(
+        IRB140, stretched, 0
+    )
     above = Transform(TURNED, (0.065, 0, 0.9))  # the wrist centre on axis 1
     assert "shoulder" in explain(IRB140, above, 0)
     zero = explain(ITMO6R, ITMO6R.fk(HOME), 0)
@@ -418,35 +507,39 @@ def test_explain_says_of_every_row_what_ik_and_within_say(machine):
     assert {(True, False), (False, True)} <= seen
 
 
-# wrong calls ----------------------------------------------------------------------------------------------------------
+# wrong calls
+# --------------------------------------------------------------------------------------------------
 
 ROWS = IRB140.ik(IRB140.fk(np.full((4, 6), 0.2)))
 
 
-@pytest.mark.parametrize("call, evidence", [
-    (lambda: within(IRB140, np.zeros(5)), r"\(5,\)"),
-    (lambda: within(IRB140, [0, 0, np.inf, 0, 0, 0]), "inf"),
-    (lambda: within("IRB140", np.zeros(6)), "IRB140"),
-    (lambda: nearest(IRB140, ROWS[0], np.zeros(5)), r"\(5,\)"),
-    (lambda: nearest(IRB140, ROWS, np.zeros((3, 6))), r"\(4, 6\).*\(3, 6\)"),
-    (lambda: nearest(IRB140, np.zeros(6), np.zeros(6)), r"\(6,\)"),
-    (lambda: nearest(IRB140, ROWS[0], [0, np.nan, 0, 0, 0, 0]), "nan"),
-    (lambda: nearest(None, ROWS[0], np.zeros(6)), "None"),
-    (lambda: follow(IRB140, ROWS[0], 0), r"\(8, 6\)"),
-    (lambda: follow(IRB140, ROWS[:0], 0), r"\(0, 8, 6\)"),
-    (lambda: follow(IRB140, ROWS, 8), "0 to 7, got 8"),
-    (lambda: follow(IRB140, ROWS, -1), "0 to 7, got -1"),
-    (lambda: follow(IRB140, ROWS, (1, 1, -1)), r"\(1, 1, -1\)"),
-    (lambda: follow(IRB140, ROWS, 1.0), "1.0"),
-    (lambda: follow(IRB140, ROWS[..., :5], 0), r"\(4, 8, 5\)"),
-    (lambda: follow(ROWS, IRB140, 0), "Arm"),
-    (lambda: explain(IRB140, IRB140.fk(np.zeros((2, 6))), 0), r"\(2,\)"),
-    (lambda: explain(IRB140, np.eye(4), 0), r"\(4, 4\)"),
-    (lambda: explain(IRB140, IRB140.fk(HOME), 8), "0 to 7, got 8"),
-    (lambda: explain(IRB140, IRB140.fk(HOME), 1.5), "1.5"),
-    (lambda: explain(IRB140, IRB140.fk(HOME), "front"), "front"),
-    (lambda: explain(None, IRB140.fk(HOME), 0), "None"),
-])
+@pytest.mark.parametrize(
+    "call, evidence",
+    [
+        (lambda: within(IRB140, np.zeros(5)), r"\(5,\)"),
+        (lambda: within(IRB140, [0, 0, np.inf, 0, 0, 0]), "inf"),
+        (lambda: within("IRB140", np.zeros(6)), "IRB140"),
+        (lambda: nearest(IRB140, ROWS[0], np.zeros(5)), r"\(5,\)"),
+        (lambda: nearest(IRB140, ROWS, np.zeros((3, 6))), r"\(4, 6\).*\(3, 6\)"),
+        (lambda: nearest(IRB140, np.zeros(6), np.zeros(6)), r"\(6,\)"),
+        (lambda: nearest(IRB140, ROWS[0], [0, np.nan, 0, 0, 0, 0]), "nan"),
+        (lambda: nearest(None, ROWS[0], np.zeros(6)), "None"),
+        (lambda: follow(IRB140, ROWS[0], 0), r"\(8, 6\)"),
+        (lambda: follow(IRB140, ROWS[:0], 0), r"\(0, 8, 6\)"),
+        (lambda: follow(IRB140, ROWS, 8), "0 to 7, got 8"),
+        (lambda: follow(IRB140, ROWS, -1), "0 to 7, got -1"),
+        (lambda: follow(IRB140, ROWS, (1, 1, -1)), r"\(1, 1, -1\)"),
+        (lambda: follow(IRB140, ROWS, 1.0), "1.0"),
+        (lambda: follow(IRB140, ROWS[..., :5], 0), r"\(4, 8, 5\)"),
+        (lambda: follow(ROWS, IRB140, 0), "Arm"),
+        (lambda: explain(IRB140, IRB140.fk(np.zeros((2, 6))), 0), r"\(2,\)"),
+        (lambda: explain(IRB140, np.eye(4), 0), r"\(4, 4\)"),
+        (lambda: explain(IRB140, IRB140.fk(HOME), 8), "0 to 7, got 8"),
+        (lambda: explain(IRB140, IRB140.fk(HOME), 1.5), "1.5"),
+        (lambda: explain(IRB140, IRB140.fk(HOME), "front"), "front"),
+        (lambda: explain(None, IRB140.fk(HOME), 0), "None"),
+    ],
+)
 def test_wrong_calls_say_what_they_got(call, evidence):
     with pytest.raises(ValueError, match=evidence):
         call()
@@ -458,7 +551,9 @@ def test_the_blend_stays_on_one_row():
     via = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
     goal = Transform(TURNED, (0.3, 0.3, 0.5))
     rows = IRB140.ik(blend(start, via, goal, np.array([[0], [0.1], [0.5]]), np.linspace(0, 1, 301)))
-    for corner, row in itertools.product(range(3), (IRB140.branch(1, 1, -1), IRB140.branch(1, 1, 1))):
+    for corner, row in itertools.product(
+        range(3), (IRB140.branch(1, 1, -1), IRB140.branch(1, 1, 1))
+    ):
         path = follow(IRB140, rows[corner], row)
         assert turns(path, rows[corner, :, row]).max() < 1e-12
         assert abs(np.diff(path, axis=0)).max() < 0.05

@@ -1,6 +1,7 @@
 """The players in a real browser: live in JupyterLab, trusted and untrusted, exported, saved.
 
-What a player shows is read as a person would see it: the pixels of its canvases and the words of its table.
+What a player shows is read as a person would see it: the pixels of its canvases and the words of
+its table.
 """
 
 import html
@@ -22,15 +23,22 @@ from robokin.show import animate
 
 PLAYER = "div.robokin-player"
 LIVE = ("00_start_here", "03_irb140_motion")
-LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb")) if "robokin-player" in path.read_text(encoding="utf-8")]
-# Pages that nbconvert writes ask for these two by themselves, for formulas and for widgets. No player needs them.
+LABS = [
+    path.stem
+    for path in sorted(NOTEBOOKS.glob("*.ipynb"))
+    if "robokin-player" in path.read_text(encoding="utf-8")
+]
+# Pages that nbconvert writes ask for these two by themselves, for formulas and for widgets. No
+# player needs them.
 OF_NBCONVERT = re.compile(r"/(mathjax|require\.js)/", re.I)
 NEXT_FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
 @pytest.fixture
 def page(browser):
-    """A page that keeps account: `page.errors` from its console, `page.outside` the addresses not on this machine."""
+    """A page that keeps account: `page.errors` from its console, `page.outside` the addresses not
+    on this machine.
+    """
     context = browser.new_context(viewport={"width": 1280, "height": 1000})
     page = context.new_page()
     page.errors, page.outside = [], []
@@ -39,10 +47,20 @@ def page(browser):
         page.outside.append(route.request.url)
         route.abort()
 
-    context.route(lambda url: urlsplit(url).scheme in ("http", "https", "ws", "wss")
-                  and urlsplit(url).hostname not in ("127.0.0.1", "localhost"), answer)
-    page.on("console", lambda message: message.type == "error" and page.errors.append(
-        f"{message.text} ({message.location.get('url', '')})"))
+    context.route(
+        lambda url: (
+            urlsplit(url).scheme in ("http", "https", "ws", "wss")
+            and urlsplit(url).hostname not in ("127.0.0.1", "localhost")
+        ),
+        answer,
+    )
+    page.on(
+        "console",
+        lambda message: (
+            message.type == "error"
+            and page.errors.append(f"{message.text} ({message.location.get('url', '')})")
+        ),
+    )
     page.on("pageerror", lambda error: page.errors.append(str(error)))
     yield page
     context.close()
@@ -52,8 +70,21 @@ def page(browser):
 def exported(tmp_path_factory):
     """Every lab with a player as nbconvert exports it: name -> path."""
     folder = tmp_path_factory.mktemp("exported")
-    subprocess.run([sys.executable, "-m", "nbconvert", "--to", "html", "--output-dir", folder, "--log-level", "ERROR",
-                    *(NOTEBOOKS / f"{name}.ipynb" for name in LABS)], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "nbconvert",
+            "--to",
+            "html",
+            "--output-dir",
+            folder,
+            "--log-level",
+            "ERROR",
+            *(NOTEBOOKS / f"{name}.ipynb" for name in LABS),
+        ],
+        check=True,
+    )
     return {name: folder / f"{name}.html" for name in LABS}
 
 
@@ -62,11 +93,23 @@ def saved(tmp_path_factory):
     """A player with a slider and a switch as `save` writes it."""
     path = tmp_path_factory.mktemp("saved") / "player.html"
     t = np.linspace(0, 4, 401)
-    q = [[ptp(np.zeros(6), goal * deg * np.array([90, 30, -60, 45, 60, 120]), (t / 4) ** power)
-          for goal in (0.25, 0.5, 0.75, 1)] for power in (1, 2)]
+    q = [
+        [
+            ptp(np.zeros(6), goal * deg * np.array([90, 30, -60, 45, 60, 120]), (t / 4) ** power)
+            for goal in (0.25, 0.5, 0.75, 1)
+        ]
+        for power in (1, 2)
+    ]
     target = Transform(translation=(400 * mm, 100 * mm, 600 * mm))
-    animate(IRB140, t, np.array(q), targets=[target], slider=("share", [0.25, 0.5, 0.75, 1.0]),
-            switch=("law", ["even", "rising"]), title="A turn of every joint").save(path)
+    animate(
+        IRB140,
+        t,
+        np.array(q),
+        targets=[target],
+        slider=("share", [0.25, 0.5, 0.75, 1.0]),
+        switch=("law", ["even", "rising"]),
+        title="A turn of every joint",
+    ).save(path)
     return path
 
 
@@ -75,7 +118,12 @@ def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
     jupyter.open(page, f"{lab}.ipynb")
     jupyter.run_all(page, f"{lab}.ipynb")
     players = page.locator(PLAYER)
-    until(lambda: players.count() == _stored_players(lab), 30, f"{lab}: the players did not appear", page)
+    until(
+        lambda: players.count() == _stored_players(lab),
+        30,
+        f"{lab}: the players did not appear",
+        page,
+    )
     player = players.filter(has=page.locator("table")).first
     player.scroll_into_view_if_needed()
     assert player.locator("img").count() == 0, "the still picture gives way"
@@ -92,19 +140,27 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     player.scroll_into_view_if_needed()
     slider = _slider(player, "blend")
     slider.focus()
-    active = "() => [...document.querySelectorAll('.jp-Cell')].findIndex(cell => cell.matches('.jp-mod-active'))"
+    active = (
+        "() => [...document.querySelectorAll('.jp-Cell')].findIndex(cell => "
+        "cell.matches('.jp-mod-active'))"
+    )
     cell, before, seen = page.evaluate(active), slider.input_value(), _seen(player)
     for key in ("ArrowRight", "ArrowUp", "ArrowRight"):
         slider.press(key)
     page.evaluate(NEXT_FRAME)
     after = _seen(player)
-    assert float(slider.input_value()) == float(before) + 3 * float(slider.get_attribute("step") or 1)
+    assert float(slider.input_value()) == float(before) + 3 * float(
+        slider.get_attribute("step") or 1
+    )
     assert after.pixels != seen.pixels and after.numbers != seen.numbers
     for key in ("ArrowDown", "ArrowLeft", "ArrowLeft"):
         slider.press(key)
     page.evaluate(NEXT_FRAME)
     assert _seen(player) == seen, "the same value shows the same"
-    assert page.evaluate(active) == cell and page.evaluate("() => document.activeElement.type") == "range"
+    assert (
+        page.evaluate(active) == cell
+        and page.evaluate("() => document.activeElement.type") == "range"
+    )
 
 
 def test_a_trusted_notebook_plays_without_running(jupyter, page):
@@ -121,7 +177,9 @@ def test_a_trusted_notebook_plays_without_running(jupyter, page):
 
 def test_an_untrusted_notebook_shows_a_still_picture(jupyter, page):
     jupyter.open(page, _variant(jupyter, "untrusted.ipynb"))
-    stored = re.findall(r'<div class="robokin-player"[^>]*><img alt="([^"]*)"', _html_outputs("03_irb140_motion"))
+    stored = re.findall(
+        r'<div class="robokin-player"[^>]*><img alt="([^"]*)"', _html_outputs("03_irb140_motion")
+    )
     for alt in stored:
         still = page.get_by_alt_text(html.unescape(alt), exact=True).first
         still.wait_for(timeout=30_000)
@@ -144,8 +202,12 @@ def test_every_player_of_an_exported_lab_works_without_a_network(page, exported,
             _moves(page, player, slider)
         _plays(page, player)
     assert not [url for url in page.outside if not OF_NBCONVERT.search(url)]
-    assert not [error for error in page.errors if not OF_NBCONVERT.search(error)
-                and not error.startswith(("require is not defined", "MathJax is not defined"))]
+    assert not [
+        error
+        for error in page.errors
+        if not OF_NBCONVERT.search(error)
+        and not error.startswith(("require is not defined", "MathJax is not defined"))
+    ]
 
 
 def test_a_saved_player_asks_for_nothing(page, saved):
@@ -173,19 +235,24 @@ def test_the_keyboard_reaches_every_control(page, saved):
     reached = set()
     for _ in range(controls.count() + 1):
         page.keyboard.press("Tab")
-        reached |= {i for i, control in enumerate(controls.all())
-                    if control.evaluate("element => element === document.activeElement")}
+        reached |= {
+            i
+            for i, control in enumerate(controls.all())
+            if control.evaluate("element => element === document.activeElement")
+        }
     assert len(reached) == controls.count()
     for name in ("play", "time", "playing speed", "share", "law"):
         assert page.get_by_label(name, exact=True).count() == 1, f"no control is called {name}"
 
 
-# --- What a person does and sees --------------------------------------------------------------------------------------
+# --- What a person does and sees ------------------------------------------------------------------
 
 
 def _seen(player):
     """The pixels of all canvases and the words of the table."""
-    pixels = player.evaluate("e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())")
+    pixels = player.evaluate(
+        "e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())"
+    )
     assert pixels and all(len(one) > 2000 for one in pixels), "a canvas is empty"
     return SimpleNamespace(pixels=pixels, numbers=player.locator("table").inner_text())
 
@@ -202,7 +269,9 @@ def _slider(player, label):
 
 
 def _moves(page, player, slider):
-    """Keys and mouse change the value and what is drawn; what is shown depends on the value alone."""
+    """Keys and mouse change the value and what is drawn; what is shown depends on the value
+    alone.
+    """
     slider.scroll_into_view_if_needed()
     slider.focus()
     slider.press("Home")
@@ -242,7 +311,9 @@ def _plays(page, player):
 def _html_outputs(lab):
     """All HTML outputs stored in a lab."""
     cells = nbformat.read(NOTEBOOKS / f"{lab}.ipynb", as_version=4).cells
-    return "\n".join(o.get("data", {}).get("text/html", "") for cell in cells for o in cell.get("outputs", ()))
+    return "\n".join(
+        o.get("data", {}).get("text/html", "") for cell in cells for o in cell.get("outputs", ())
+    )
 
 
 def _stored_players(lab):
@@ -250,8 +321,12 @@ def _stored_players(lab):
 
 
 def _variant(jupyter, name):
-    """A copy of lab 3 with a cell more, so that its signature is its own; the name, for `jupyter.open`."""
+    """A copy of lab 3 with a cell more, so that its signature is its own; the name, for
+    `jupyter.open`.
+    """
     notebook = json.loads(Path(jupyter.labs, "03_irb140_motion.ipynb").read_text(encoding="utf-8"))
-    notebook["cells"].append({"cell_type": "markdown", "id": "variant", "metadata": {}, "source": [name]})
+    notebook["cells"].append(
+        {"cell_type": "markdown", "id": "variant", "metadata": {}, "source": [name]}
+    )
     Path(jupyter.labs, name).write_text(json.dumps(notebook), encoding="utf-8")
     return name

@@ -12,13 +12,18 @@ def uneven(n):
     return np.cumsum(RNG.uniform(0.5, 1.5, n)) * 0.1
 
 
-@pytest.mark.parametrize("t", [np.linspace(-1, 2, 40), uneven(40), np.array([0.0, 0.5, 2.0])],
-                         ids=["even", "uneven", "three"])
+@pytest.mark.parametrize(
+    "t",
+    [np.linspace(-1, 2, 40), uneven(40), np.array([0.0, 0.5, 2.0])],
+    ids=["even", "uneven", "three"],
+)
 def test_quadratics_are_exact_ends_included(t):
     a, b, c = RNG.normal(size=(3, 6))
     values = a + b * t[:, None] + c * t[:, None] ** 2
     assert np.allclose(differentiate(values, t), b + 2 * c * t[:, None], rtol=0, atol=1e-12)
-    assert np.allclose(differentiate(values, t, 2), np.broadcast_to(2 * c, values.shape), rtol=0, atol=1e-9)
+    assert np.allclose(
+        differentiate(values, t, 2), np.broadcast_to(2 * c, values.shape), rtol=0, atol=1e-9
+    )
     assert np.allclose(differentiate(values, t, order=3), 0, rtol=0, atol=1e-6)
 
 
@@ -32,7 +37,8 @@ def test_the_error_falls_with_the_square_of_the_step(order, exact):
     inner = [errors[i][0] / errors[i + 1][0] for i in (0, 1)]
     outer = [errors[i][1] / errors[i + 1][1] for i in (0, 1)]
     assert all(abs(ratio - 4) < 0.2 for ratio in inner)
-    assert all(ratio > (3.8 if order == 1 else 1.8) for ratio in outer)  # one order less for the second, at the ends
+    # one order less for the second, at the ends
+    assert all(ratio > (3.8 if order == 1 else 1.8) for ratio in outer)
 
 
 @pytest.mark.parametrize("shape", [(), (3,), (2, 1, 3)])
@@ -47,7 +53,9 @@ def test_batches_are_differentiated_along_their_samples(shape):
     assert differentiate(values[..., 0].reshape(-1, 30)[0], t).shape == (30,)
 
 
-@pytest.mark.parametrize("t", [np.arange(20.0), np.linspace(0, 1, 20), uneven(20)], ids=["whole", "even", "uneven"])
+@pytest.mark.parametrize(
+    "t", [np.arange(20.0), np.linspace(0, 1, 20), uneven(20)], ids=["whole", "even", "uneven"]
+)
 def test_a_missing_sample_spreads_to_its_neighbours_and_no_further(t):
     values = np.stack([t**2, 3 * t], axis=-1)
     values[10, 0] = np.nan

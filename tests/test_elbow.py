@@ -1,4 +1,6 @@
-"""The positioning arm of source 000 against its reference cases, its own matrices, and errata S0."""
+"""The positioning arm of source 000 against its reference cases, its own matrices, and errata
+S0.
+"""
 
 import numpy as np
 import pytest
@@ -11,7 +13,9 @@ CASES = oracle("spbu3")["cases"]
 VERDICTS = ("outer", "floor", "inner_l1_gt_l2", "inner_l1_lt_l2")
 LENGTHS = [(5, 4), (4, 5), (4, 4), (1, 1.7), (0.3, 0.05), (0.05, 0.3)]
 RIGHT = np.pi / 2
-cases = pytest.mark.parametrize("case", CASES, ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES)])
+cases = pytest.mark.parametrize(
+    "case", CASES, ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES)]
+)
 lengths = pytest.mark.parametrize("l1, l2", LENGTHS)
 
 
@@ -32,9 +36,15 @@ def test_every_solution_in_its_place_and_none_more(case):
     assert np.any(found, axis=0).all(), "a row that is no solution"
     assert np.any(found, axis=1).all(), "a solution without a row"
     for solution, places in zip(case["solutions"], found, strict=True):
-        assert within(arm, rows[places]).all(axis=-1).tolist() == [solution["in_domain"]] * places.sum()
-        np.testing.assert_allclose(arm.fk(solution["q"]).as_matrix(), solution["T"], rtol=0, atol=1e-9)
-    # front and back by the side of the point at joint 1; the two elbow rows lie on both sides of the stretched arm
+        assert (
+            within(arm, rows[places]).all(axis=-1).tolist()
+            == [solution["in_domain"]] * places.sum()
+        )
+        np.testing.assert_allclose(
+            arm.fk(solution["q"]).as_matrix(), solution["T"], rtol=0, atol=1e-9
+        )
+    # front and back by the side of the point at joint 1; the two elbow rows lie on both sides of
+    # the stretched arm
     heading = np.array(case["p"])[:2] @ [np.cos(rows[:, 0]), np.sin(rows[:, 0])]
     if not case["singular"]["axis"]:
         assert (np.sign(heading) == [1, 1, -1, -1]).all()
@@ -90,17 +100,28 @@ def test_ik_returns_to_the_point_and_holds_the_drawn_joints(l1, l2, shape):
     rows = arm.ik(points)
     assert rows.shape == (*shape, 4, 3)
     assert turns(rows, q[..., None, :]).max(axis=-1).min(axis=-1).max() < 1e-7
-    np.testing.assert_allclose(arm.fk(rows).translation, np.broadcast_to(points[..., None, :], rows.shape),
-                               rtol=0, atol=1e-13 * (l1 + l2))
+    np.testing.assert_allclose(
+        arm.fk(rows).translation,
+        np.broadcast_to(points[..., None, :], rows.shape),
+        rtol=0,
+        atol=1e-13 * (l1 + l2),
+    )
     turned = Transform(Quaternion.from_angle_axis(0.7, (1, 0, 0)), points)
-    np.testing.assert_array_equal(arm.ik(turned), rows)  # the orientation is not this arm's to choose
+    # the orientation is not this arm's to choose
+    np.testing.assert_array_equal(arm.ik(turned), rows)
 
 
 @lengths
 def test_the_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
-    """Errata S0-b, S0-c: the inequalities are exact, and the one for l1 < l2 says that q2 >= -90 degrees."""
+    """Errata S0-b, S0-c: the inequalities are exact, and the one for l1 < l2 says that q2 >= -90
+    degrees.
+    """
     arm, reach = spbu_arm(l1, l2), l1 + l2
-    points = np.random.default_rng(3).uniform(-1.05 * reach, 1.05 * reach, (20_000, 3)) * [1, 1, 0.8]
+    points = np.random.default_rng(3).uniform(-1.05 * reach, 1.05 * reach, (20_000, 3)) * [
+        1,
+        1,
+        0.8,
+    ]
     near = np.random.default_rng(4).normal(0, max(abs(l1 - l2), 0.1 * reach), (20_000, 3))
     points = np.concatenate([points, near])
     q = arm.ik(points)[:, 0]
@@ -109,8 +130,9 @@ def test_the_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2
     assert 1000 < wanted.sum() < 39_000
     assert (holds.all(axis=-1) == wanted).all()
     assert (holds[:, 0] == (np.linalg.norm(points, axis=-1) <= reach)).all()
-    printed = points[:, 0]**2 + points[:, 1]**2 + points[:, 2]**2 >= (
-        l2**2 - l1**2 - 2 * l1 * np.hypot(points[:, 0], points[:, 1]))
+    printed = points[:, 0] ** 2 + points[:, 1] ** 2 + points[:, 2] ** 2 >= (
+        l2**2 - l1**2 - 2 * l1 * np.hypot(points[:, 0], points[:, 1])
+    )
     assert (holds[:, 3] == (printed | (l1 >= l2))).all()
     flat = np.arctan2(points[:, 1], points[:, 0])
     np.testing.assert_allclose(q[wanted, 0], flat[wanted], rtol=0, atol=1e-12)
@@ -118,19 +140,35 @@ def test_the_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2
     np.testing.assert_allclose(np.sin(q[wanted, 2]), sine[wanted], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("l1, l2, point, words", [
-    (5, 4, (9, 0.1, 0), "is too far: 0.0005555 m beyond the stretched arm, l1 + l2 = 9 m"),
-    (5, 4, (1, 1, -0.25), "is under floor: z = -0.25 m"),
-    (5, 4, (0.5, 0, 0.5), "is too close to origin: |p| = 0.707106781 m is less than l1 - l2 = 1 m"),
-    (4, 5, (0, 0.7071, 0.7071), "is too close to origin: |p|^2 = 0.99998082 m^2 is less than "
-                                "l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2"),
-])
+@pytest.mark.parametrize(
+    "l1, l2, point, words",
+    [
+        (5, 4, (9, 0.1, 0), "is too far: 0.0005555 m beyond the stretched arm, l1 + l2 = 9 m"),
+        (5, 4, (1, 1, -0.25), "is under floor: z = -0.25 m"),
+        (
+            5,
+            4,
+            (0.5, 0, 0.5),
+            "is too close to origin: |p| = 0.707106781 m is less than l1 - l2 = 1 m",
+        ),
+        (
+            4,
+            5,
+            (0, 0.7071, 0.7071),
+            "is too close to origin: |p|^2 = 0.99998082 m^2 is less than "
+            "l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
+        ),
+    ],
+)
 def test_the_reason_of_a_refusal(l1, l2, point, words):
     assert refusal(l1, l2, point) == [words]
 
 
 def test_two_reasons_at_once():
-    assert [text.split(":")[0] for text in refusal(5, 4, (0, 0, -20))] == ["is too far", "is under floor"]
+    assert [text.split(":")[0] for text in refusal(5, 4, (0, 0, -20))] == [
+        "is too far",
+        "is under floor",
+    ]
     assert refusal(5, 4, (2, 3, 2)) == []
 
 
@@ -143,11 +181,23 @@ def test_two_solutions_inside_the_domain():
     assert turns(rows[2], (np.pi, -0.842943734330, 0.411244089936)).max() < 1e-12
 
 
-@pytest.mark.parametrize("l1, l2, point", [
-    (0.1, 0.2, (0.1, 0.2, 0.2)), (5, 4, (9, 0, 0)), (5, 4, (0, 0, 9)), (5, 4, (0, 0, 1)), (4, 5, (0, 0, 3)),
-    (4, 4, (0, 0, 0)), (5, 4, (0.6, 0.8, 0)), (1, 1.7, (0, -2.7, 0))])
+@pytest.mark.parametrize(
+    "l1, l2, point",
+    [
+        (0.1, 0.2, (0.1, 0.2, 0.2)),
+        (5, 4, (9, 0, 0)),
+        (5, 4, (0, 0, 9)),
+        (5, 4, (0, 0, 1)),
+        (4, 5, (0, 0, 3)),
+        (4, 4, (0, 0, 0)),
+        (5, 4, (0.6, 0.8, 0)),
+        (1, 1.7, (0, -2.7, 0)),
+    ],
+)
 def test_the_border_is_reached(l1, l2, point):
-    """Errata S0-l: the printed program refuses a stretched arm by rounding, and fails at the origin (S0-k)."""
+    """Errata S0-l: the printed program refuses a stretched arm by rounding, and fails at the origin
+    (S0-k).
+    """
     assert workspace(l1, l2, point).all()
     arm = spbu_arm(l1, l2)
     rows = arm.ik(point)

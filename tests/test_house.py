@@ -1,4 +1,6 @@
-"""The house rules of the repository: who imports whom, what `import robokin` costs, what the README promises."""
+"""The house rules of the repository: who imports whom, what `import robokin` costs, what the README
+promises.
+"""
 
 import ast
 import importlib
@@ -17,11 +19,18 @@ TOP = {"notebooks", "robokin", "environment.txt", "tests", "README.md", "pyproje
 MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"}
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
-# Each module may import what stands beside the longest entry that it begins with (itself and its own parts besides).
+# Each module may import what stands beside the longest entry that it begins with (itself and its
+# own parts besides).
 BASE = ("robokin._validate", "robokin.units", "robokin.quaternion", "robokin.transform")
 DRAWN = (*BASE, "robokin.arms.arm", "robokin.motion.derivatives")  # an arm's data, and arrays
 LAYERS = {
-    "robokin": ("robokin.units", "robokin.quaternion", "robokin.transform", "robokin.arms", "robokin.motion"),
+    "robokin": (
+        "robokin.units",
+        "robokin.quaternion",
+        "robokin.transform",
+        "robokin.arms",
+        "robokin.motion",
+    ),
     "robokin._validate": (),
     "robokin.units": (),
     "robokin.quaternion": ("robokin._validate",),
@@ -33,36 +42,61 @@ LAYERS = {
     "robokin.show.live": ("robokin",),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
-HEAVY = DRAWING | {"scipy", "sympy", "pandas", "jupyterlab", "hypothesis", "pytest", "asyncio", "importlib.resources"}
+HEAVY = DRAWING | {
+    "scipy",
+    "sympy",
+    "pandas",
+    "jupyterlab",
+    "hypothesis",
+    "pytest",
+    "asyncio",
+    "importlib.resources",
+}
 
-MODULES = {".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): p
-           for p in sorted((ROOT / "robokin").rglob("*.py"))}
+MODULES = {
+    ".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): p
+    for p in sorted((ROOT / "robokin").rglob("*.py"))
+}
 
 
 @pytest.mark.parametrize("module", MODULES)
 def test_layers(module):
-    rule = max((name for name in LAYERS if module == name or module.startswith(f"{name}.")), key=len)
+    rule = max(
+        (name for name in LAYERS if module == name or module.startswith(f"{name}.")), key=len
+    )
     allowed = (*LAYERS[rule], *([rule] if rule != "robokin" else []))
     for name in _imports(module):
         if name.split(".")[0] == "robokin":
-            assert any(name == a or name.startswith(f"{a}.") for a in allowed), f"{module} must not import {name}"
+            assert any(name == a or name.startswith(f"{a}.") for a in allowed), (
+                f"{module} must not import {name}"
+            )
         elif name.split(".")[0] in DRAWING:
-            assert module.startswith("robokin.show"), f"{module} imports {name}: only robokin.show draws"
+            assert module.startswith("robokin.show"), (
+                f"{module} imports {name}: only robokin.show draws"
+            )
         else:
-            assert name.split(".")[0] in {"numpy", *sys.stdlib_module_names}, f"{module} imports {name}"
+            assert name.split(".")[0] in {"numpy", *sys.stdlib_module_names}, (
+                f"{module} imports {name}"
+            )
         assert "pyplot" not in name, f"{module}: no pyplot, a figure is a value"
 
 
 def test_layers_see_what_they_should():
-    # The rule above is only as good as the reading: relative imports and names passed on by a package resolve.
+    # The rule above is only as good as the reading: relative imports and names passed on by a
+    # package resolve.
     assert "robokin.arms.catalogue" in _imports("robokin.arms")
     assert {"numpy", "robokin.transform", "robokin.arms.arm"} <= _imports("robokin.arms.branches")
     assert "robokin.arms.spherical_wrist" in _imports("robokin.arms.catalogue")
 
 
 def test_import_loads_nothing_heavy():
-    code = "import sys, numpy; before = set(sys.modules); import robokin; print(*sorted(set(sys.modules) - before))"
-    loaded = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, check=True).stdout.split()
+    code = (
+        "import sys, numpy; before = set(sys.modules); import robokin; "
+        "print(*sorted(set(sys.modules) - before))"
+    )
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], text=True, capture_output=True, check=True
+    ).stdout.split()
     assert "robokin.transform" in loaded
     assert not [name for name in loaded if name in HEAVY or name.split(".")[0] in HEAVY]
     outside = {name.split(".")[0] for name in loaded} - {"robokin"} - set(sys.stdlib_module_names)
@@ -70,7 +104,9 @@ def test_import_loads_nothing_heavy():
 
 
 def test_top_level_holds_what_the_design_names():
-    found = {entry.name for entry in ROOT.iterdir() if not entry.name.startswith((".", "__pycache__"))}
+    found = {
+        entry.name for entry in ROOT.iterdir() if not entry.name.startswith((".", "__pycache__"))
+    }
     assert found - MADE_BY_TOOLS == TOP
 
 
@@ -81,7 +117,11 @@ def test_ci_runs_the_test_command_of_the_readme():
     script = (ROOT / ".ci" / "run").read_text()
     assert "grep '^python3 -m venv .*pytest$' README.md" in script and 'eval "$command"' in script
     assert "pip install" not in script
-    windows = [line for line in README.splitlines() if line.startswith("py -m venv") and line.endswith("pytest")]
+    windows = [
+        line
+        for line in README.splitlines()
+        if line.startswith("py -m venv") and line.endswith("pytest")
+    ]
     assert [_arguments(windows[0])] == [_arguments(commands[0])], "Windows installs something else"
 
 
@@ -101,15 +141,21 @@ def test_pins_are_exact_installed_and_within_the_ranges():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     for text in project["dependencies"] + project["optional-dependencies"]["test"]:
         wanted = Requirement(text)
-        assert wanted.specifier.contains(version(wanted.name)), f"{wanted}: {version(wanted.name)} is installed"
+        assert wanted.specifier.contains(version(wanted.name)), (
+            f"{wanted}: {version(wanted.name)} is installed"
+        )
         assert wanted.name not in pins or wanted.specifier.contains(pins[wanted.name])
     wrong = {name: version(name) for name, pin in pins.items() if version(name) != pin}
     assert not wrong, f"the stored outputs were made with other versions: {wrong}"
 
 
-def test_ruff_finds_nothing():
-    run = subprocess.run([sys.executable, "-m", "ruff", "check", "--no-cache", "--output-format=concise", ROOT],
-                         text=True, capture_output=True)
+@pytest.mark.parametrize("command", [["check", "--output-format=concise"], ["format", "--check"]])
+def test_ruff_finds_nothing(command):
+    run = subprocess.run(
+        [sys.executable, "-m", "ruff", *command, "--no-cache", ROOT],
+        text=True,
+        capture_output=True,
+    )
     assert run.returncode == 0, run.stdout
 
 
@@ -134,7 +180,9 @@ def _arguments(command):
 
 
 def _imports(module):
-    """Every module that `module` imports, names that a package passes on counted as where they come from."""
+    """Every module that `module` imports, names that a package passes on counted as where they come
+    from.
+    """
     found = set()
     package = module if MODULES[module].name == "__init__.py" else module.rpartition(".")[0]
     for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):

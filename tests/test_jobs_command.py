@@ -1,7 +1,8 @@
-"""The command `python -m robokin.jobs FOLDER`: reports, log, exit status, and a folder of mutated task files.
+"""The command `python -m robokin.jobs FOLDER`: reports, log, exit status, and a folder of mutated
+task files.
 
-Make such a folder to look at, here with 10 000 files: `python tests/test_jobs_command.py 10000 /tmp/mutants`.
-The test takes ROBOKIN_MUTANTS files, 300 if the variable is not set.
+Make such a folder to look at, here with 10 000 files: `python tests/test_jobs_command.py 10000
+/tmp/mutants`. The test takes ROBOKIN_MUTANTS files, 300 if the variable is not set.
 """
 
 import copy
@@ -36,7 +37,9 @@ def write(folder, **files):
     """A folder of task files: name=dict or bytes."""
     folder.mkdir(exist_ok=True)
     for name, data in files.items():
-        (folder / f"{name}.json").write_bytes(data if isinstance(data, bytes) else json.dumps(data).encode())
+        (folder / f"{name}.json").write_bytes(
+            data if isinstance(data, bytes) else json.dumps(data).encode()
+        )
     return folder
 
 
@@ -65,29 +68,48 @@ def test_the_examples(tmp_path):
     assert (run.returncode, run.out.splitlines(), run.err) == (1, REPORTS.splitlines(), "")
     assert [entry.name for entry in tmp_path.iterdir()] == ["output.log"]
     log = (tmp_path / "output.log").read_text(encoding="utf-8")
-    assert [line for line in log.splitlines() if not line.startswith("DEBUG: ")] == REPORTS.splitlines()
+    assert [
+        line for line in log.splitlines() if not line.startswith("DEBUG: ")
+    ] == REPORTS.splitlines()
     debug = [line for line in log.splitlines() if line.startswith("DEBUG: Task example_3.json: ")]
     assert len(debug) == 3
     assert "T = 10.0, q' = [0.2, 0.2, 0.2], p0 = [1.0, 1.0, 1.0], pi = [[2.0, 3.0, 2.0]" in debug[0]
     numbers = [[float(x) for x in re.findall(r"\d+\.\d+", line.split("=", 1)[1])] for line in debug]
-    assert numbers[1][:3] == pytest.approx((0.785398163397448, 0.149913117550067, 1.253235897503375), abs=1e-14)
+    assert numbers[1][:3] == pytest.approx(
+        (0.785398163397448, 0.149913117550067, 1.253235897503375), abs=1e-14
+    )
     assert max(numbers[2][:3]) == pytest.approx(3.048673943550, abs=1e-12)
     assert max(numbers[2][3:]) == pytest.approx(1.331260245755, abs=1e-12)
 
 
 def test_all_fine_is_status_0_and_the_log_is_renewed(tmp_path):
     (tmp_path / "output.log").write_text("yesterday\n" * 1000)
-    run = command("tasks", cwd=write(tmp_path / "tasks", b=example(2), a=example(3), c=example(T=4)).parent)
+    run = command(
+        "tasks", cwd=write(tmp_path / "tasks", b=example(2), a=example(3), c=example(T=4)).parent
+    )
     assert run.returncode == 0 and run.err == ""
     assert re.findall(r"Task (\w)\.json", run.out) == ["a", "b", "c"], "in order of the names"
-    assert "visited 1 of 2 points in 3.04867394355 s (T = 4 s)" in run.out, "errata S0-f: this one hung"
+    assert "visited 1 of 2 points in 3.04867394355 s (T = 4 s)" in run.out, (
+        "errata S0-f: this one hung"
+    )
     assert "yesterday" not in (tmp_path / "output.log").read_text()
 
 
 def test_help_and_wrong_use(tmp_path):
     run = command("-h", cwd=tmp_path)
     assert run.returncode == 0
-    for word in ("FOLDER", "L1, L2", "q'", "p0", "pi", "visit", "collect", "output.log", "Exit status", "rad/s"):
+    for word in (
+        "FOLDER",
+        "L1, L2",
+        "q'",
+        "p0",
+        "pi",
+        "visit",
+        "collect",
+        "output.log",
+        "Exit status",
+        "rad/s",
+    ):
         assert word in run.out
     assert max(map(len, run.out.splitlines())) <= 84
     for arguments in ((), ("a", "b"), ("--fast", "a")):
@@ -99,14 +121,22 @@ def test_nothing_to_do_is_status_2(tmp_path):
     empty = write(tmp_path / "empty")
     (empty / "readme.txt").write_text("no task")
     (empty / ".hidden.json").write_text("{}")
-    for folder, wanted in (("empty", "no tasks (*.json) found in folder empty"),
-                           ("nowhere", "folder nowhere cannot be read: No such file"),
-                           ("empty/readme.txt", "cannot be read: Not a directory"), ("", "cannot be read")):
+    for folder, wanted in (
+        ("empty", "no tasks (*.json) found in folder empty"),
+        ("nowhere", "folder nowhere cannot be read: No such file"),
+        ("empty/readme.txt", "cannot be read: Not a directory"),
+        ("", "cannot be read"),
+    ):
         run = command(folder, cwd=tmp_path)
-        assert run.returncode == 2 and wanted in run.err and wanted in (tmp_path / "output.log").read_text()
+        assert (
+            run.returncode == 2
+            and wanted in run.err
+            and wanted in (tmp_path / "output.log").read_text()
+        )
 
 
 # ---- Output that cannot be written
+
 
 @pytest.mark.parametrize("log", ["folder", "link to nowhere"])
 @posix
@@ -130,7 +160,9 @@ def test_a_log_that_is_a_link_to_a_task_leaves_the_task_alone(tmp_path, link):
     before = task.read_bytes()
     getattr(tmp_path / "output.log", link)(task)
     assert command("tasks", cwd=tmp_path).returncode == 0
-    assert task.read_bytes() == before and "INFO: Task a.json" in (tmp_path / "output.log").read_text()
+    assert (
+        task.read_bytes() == before and "INFO: Task a.json" in (tmp_path / "output.log").read_text()
+    )
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
@@ -155,7 +187,9 @@ def test_a_reader_that_leaves(tmp_path):
 @posix
 def test_streams_that_are_closed(tmp_path):
     write(tmp_path / "tasks", a=example())
-    run = subprocess.run(f'"{sys.executable}" -m robokin.jobs tasks >&- 2>&-', shell=True, cwd=tmp_path, timeout=60)
+    run = subprocess.run(
+        f'"{sys.executable}" -m robokin.jobs tasks >&- 2>&-', shell=True, cwd=tmp_path, timeout=60
+    )
     assert run.returncode == 0 and "visited 2 of 2" in (tmp_path / "output.log").read_text()
 
 
@@ -164,7 +198,9 @@ def test_names_that_a_terminal_cannot_show(tmp_path):
     tasks = write(tmp_path / "tasks")
     for name in (b"caf\xe9.json", "задача.json".encode(), b"a\nINFO: b.json", b"[x]*.json"):
         Path(os.fsdecode(os.fsencode(tasks) + b"/" + name)).write_text(json.dumps(example()))
-    run = command("tasks", cwd=tmp_path, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"})
+    run = command(
+        "tasks", cwd=tmp_path, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    )
     assert run.returncode == 0 and run.out.count("\nINFO: ") == 4 and "4 answered" in run.out
     assert "Task a\\nINFO: b.json: visited" in run.out and "Task caf\\udce9.json" in run.out
     assert "Task задача.json" in (tmp_path / "output.log").read_text(encoding="utf-8")
@@ -180,8 +216,13 @@ def test_things_that_are_no_files(tmp_path):
     (tasks / "null.json").symlink_to("/dev/zero")
     run = command("tasks", cwd=tmp_path, timeout=60)
     assert run.returncode == 1 and "6 files: 1 answered, 5 skipped" in run.out
-    for name, why in (("folder", "is not a file but a folder"), ("pipe", "is not a file but a device"),
-                      ("gone", "cannot be read: No such"), ("loop", "cannot be read"), ("null", "is not a file")):
+    for name, why in (
+        ("folder", "is not a file but a folder"),
+        ("pipe", "is not a file but a device"),
+        ("gone", "cannot be read: No such"),
+        ("loop", "cannot be read"),
+        ("null", "is not a file"),
+    ):
         assert re.search(rf"ERROR: Task {name}.json skipped:\n\t{why}", run.out)
 
 
@@ -213,24 +254,39 @@ def test_ctrl_c_and_a_fault_of_the_program(tmp_path, monkeypatch, capsys):
 
 
 def test_import_robokin_does_not_import_jobs():
-    code = "import sys, robokin; print([name for name in sys.modules if name.startswith('robokin.jobs')])"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "[]\n"
+    code = (
+        "import sys, robokin; print([name for name in sys.modules if "
+        "name.startswith('robokin.jobs')])"
+    )
+    assert (
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout
+        == "[]\n"
+    )
 
 
 # ---- Mutated task files
 
+
 def mutants(folder, count, seed=0):
     """Fill a folder with `count` task files, most of them spoiled. Yields (name, words, case).
 
-    words: what the reason must contain, None for a good task; case: the reference case that a good task is.
+    words: what the reason must contain, None for a good task; case: the reference case that a good
+    task is.
     """
     rng = np.random.default_rng(seed)
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     for i in range(count):
         case = CASES[rng.integers(len(CASES))]
-        data = {"L1": case["L1"], "L2": case["L2"], "T": case["T"], "q'": case["qdot"], "p0": case["p0"],
-                "pi": case["pi"], "task": str(rng.choice(["visit", "collect"]))}
+        data = {
+            "L1": case["L1"],
+            "L2": case["L2"],
+            "T": case["T"],
+            "q'": case["qdot"],
+            "p0": case["p0"],
+            "pi": case["pi"],
+            "task": str(rng.choice(["visit", "collect"])),
+        }
         kind = str(rng.choice(list(MUTATIONS)))
         path = folder / f"{i:05}_{kind.replace(' ', '_')}.json"
         made, words = MUTATIONS[kind](copy.deepcopy(data), rng)
@@ -242,9 +298,26 @@ def mutants(folder, count, seed=0):
 
 
 def _bad_value(rng, where):
-    """A value that stands for no number; `where` says whether it lies in a place of numbers or of arrays."""
-    values = [None, True, False, "5", "", float("nan"), float("inf"), -float("inf"), {}, {"a": 1}, 10**400, -(10**400),
-              [[]], [[[1]]], "visit"]
+    """A value that stands for no number; `where` says whether it lies in a place of numbers or of
+    arrays.
+    """
+    values = [
+        None,
+        True,
+        False,
+        "5",
+        "",
+        float("nan"),
+        float("inf"),
+        -float("inf"),
+        {},
+        {"a": 1},
+        10**400,
+        -(10**400),
+        [[]],
+        [[[1]]],
+        "visit",
+    ]
     return copy.deepcopy(values[rng.integers(len(values) - (where == "pi"))])
 
 
@@ -277,7 +350,7 @@ def _wrong_count(data, rng):
         data["pi"] = []
         return data, "pi: wanted a non-empty array"
     name, triple = (key, data[key]) if key != "pi" else ("pi[0]", data["pi"][0])
-    triple[:] = triple[:int(rng.integers(3))] if rng.random() < 0.5 else [*triple, 1.0]
+    triple[:] = triple[: int(rng.integers(3))] if rng.random() < 0.5 else [*triple, 1.0]
     return data, f"{name}: wanted an array of 3"
 
 
@@ -294,7 +367,9 @@ def _not_positive(data, rng):
 def _missing(data, rng):
     gone = [str(key) for key in rng.choice(SOME, size=rng.integers(1, 8), replace=False)]
     gone.sort(key=["L1", "L2", "T", "q'", "p0", "pi", "task"].index)
-    return {key: value for key, value in data.items() if key not in gone}, f"missing: {', '.join(gone)}"
+    return {
+        key: value for key, value in data.items() if key not in gone
+    }, f"missing: {', '.join(gone)}"
 
 
 def _out_of_reach(data, rng):
@@ -302,7 +377,9 @@ def _out_of_reach(data, rng):
     point = data["p0"] if i == 0 else data["pi"][i - 1]
     kind = rng.integers(3)
     if kind == 0:
-        point[:] = [float(x) for x in rng.choice([-1, 1], 3) * rng.choice([1e2, 1e20, 1e154, 1e308])]
+        point[:] = [
+            float(x) for x in rng.choice([-1, 1], 3) * rng.choice([1e2, 1e20, 1e154, 1e308])
+        ]
         point[2] = abs(point[2])
         return data, f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} {_shown(point)} is too far"
     if kind == 1:
@@ -310,7 +387,10 @@ def _out_of_reach(data, rng):
         return data, f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} {_shown(point)} is under floor"
     data["L1"], data["L2"] = (5, 3) if rng.random() < 0.5 else (3, 5)
     point[:] = [0.1, -0.2, 0.3]
-    return data, f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} (0.1, -0.2, 0.3) is too close to origin"
+    return (
+        data,
+        f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} (0.1, -0.2, 0.3) is too close to origin",
+    )
 
 
 def _truncated(data, rng):
@@ -334,10 +414,14 @@ def _shown(point):
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
-MUTATIONS = {  # kind -> (dict, bytes or None for a folder; words of the reason, None for a good task)
+# kind -> (dict, bytes or None for a folder; words of the reason, None for a good task)
+MUTATIONS = {
     "good": lambda data, rng: (data, None),
     "good with more keys": lambda data, rng: (data | {"q": [], "note": [[["x"]]]}, None),
-    "good with a mark": lambda data, rng: (b"\xef\xbb\xbf" + json.dumps(data, indent=3).encode(), None),
+    "good with a mark": lambda data, rng: (
+        b"\xef\xbb\xbf" + json.dumps(data, indent=3).encode(),
+        None,
+    ),
     "good huge time": _huge_time,
     "missing keys": _missing,
     "wrong value": _spoil_key,
@@ -352,11 +436,18 @@ MUTATIONS = {  # kind -> (dict, bytes or None for a folder; words of the reason,
     "noise": lambda data, rng: (b"\x93" + rng.bytes(int(rng.integers(500))), "is not UTF-8"),
     "empty": lambda data, rng: (b" \n" * int(rng.integers(3)), "is empty"),
     "folder": lambda data, rng: (None, "is not a file but a folder"),
-    "other top": lambda data, rng: (json.dumps([[data], 5, None, "task", True][rng.integers(5)]).encode(),
-                                    "wanted an object with the keys L1, L2, T, q', p0, pi, task"),
-    "deeply nested": lambda data, rng: (b'{"pi": ' + b"[" * int(rng.integers(30_000, 60_000)), "nested too deeply"),
-    "long number": lambda data, rng: (json.dumps(data).encode()[:-1] + b', "T": ' + b"7" * 5000 + b"}",
-                                      "not JSON: a number with thousands of digits"),
+    "other top": lambda data, rng: (
+        json.dumps([[data], 5, None, "task", True][rng.integers(5)]).encode(),
+        "wanted an object with the keys L1, L2, T, q', p0, pi, task",
+    ),
+    "deeply nested": lambda data, rng: (
+        b'{"pi": ' + b"[" * int(rng.integers(30_000, 60_000)),
+        "nested too deeply",
+    ),
+    "long number": lambda data, rng: (
+        json.dumps(data).encode()[:-1] + b', "T": ' + b"7" * 5000 + b"}",
+        "not JSON: a number with thousands of digits",
+    ),
 }
 
 
@@ -379,9 +470,13 @@ def test_mutated_files_are_each_named_with_a_reason(tmp_path):
             n = len(case["pi"])
             served = range(n) if words else case[key]["indices"]
             if not served:
-                assert text.startswith(f"INFO: {title}: could not {kind} any points, not enough time")
+                assert text.startswith(
+                    f"INFO: {title}: could not {kind} any points, not enough time"
+                )
                 continue
-            match = re.match(rf"INFO: {re.escape(title)}: {verb} (\d+) of {n} points in (\S+) s ", text)
+            match = re.match(
+                rf"INFO: {re.escape(title)}: {verb} (\d+) of {n} points in (\S+) s ", text
+            )
             assert match and int(match[1]) == len(served), text
             if not words:
                 assert float(match[2]) == pytest.approx(case[key]["time"], rel=1e-12)
@@ -391,15 +486,22 @@ def test_mutated_files_are_each_named_with_a_reason(tmp_path):
             assert text.startswith(f"ERROR: {title} skipped:\n\t") and words in text, (words, text)
     assert reports[-1].strip() == f"INFO: {count} files: {count - bad} answered, {bad} skipped"
     assert 0.1 * count < bad < 0.95 * count
-    assert f"{count // 100 * 100 - 100 * (count % 100 == 0)} of {count} files" in run.err, "progress"
-    kept = [line for line in (tmp_path / "output.log").read_text(encoding="utf-8").splitlines()
-            if not line.startswith("DEBUG: ")]
+    assert f"{count // 100 * 100 - 100 * (count % 100 == 0)} of {count} files" in run.err, (
+        "progress"
+    )
+    kept = [
+        line
+        for line in (tmp_path / "output.log").read_text(encoding="utf-8").splitlines()
+        if not line.startswith("DEBUG: ")
+    ]
     assert kept == run.out.splitlines()
 
 
 def snapshot(folder):
-    return {path.name: (path.stat().st_mtime_ns, path.read_bytes() if path.is_file() else None)
-            for path in folder.iterdir()}
+    return {
+        path.name: (path.stat().st_mtime_ns, path.read_bytes() if path.is_file() else None)
+        for path in folder.iterdir()
+    }
 
 
 if __name__ == "__main__":

@@ -10,7 +10,9 @@ from scipy.interpolate import BPoly
 from robokin import TimeLaw, linear, quintic, trapezoidal
 
 LAWS = [linear, trapezoidal, quintic, lambda T: trapezoidal(T, 0.5), lambda T: trapezoidal(T, 0.01)]
-laws = pytest.mark.parametrize("law", LAWS, ids=["linear", "trapezoidal", "quintic", "triangle", "steep"])
+laws = pytest.mark.parametrize(
+    "law", LAWS, ids=["linear", "trapezoidal", "quintic", "triangle", "steep"]
+)
 
 
 @laws
@@ -50,7 +52,9 @@ def test_linear_is_the_share_of_the_time():
 
 
 def test_quintic_is_the_polynomial_that_starts_and_ends_at_rest():
-    """The one polynomial of degree 5 with s, s', s'' = 0, 0, 0 and 1, 0, 0 at the ends: SciPy finds it from these."""
+    """The one polynomial of degree 5 with s, s', s'' = 0, 0, 0 and 1, 0, 0 at the ends: SciPy finds
+    it from these.
+    """
     reference = BPoly.from_derivatives([0, 8], [[0, 0, 0], [1, 0, 0]])
     t = np.linspace(0, 8, 1001)
     assert np.allclose(quintic(8.0)(t), reference(t), rtol=0, atol=2e-15)
@@ -74,13 +78,17 @@ def derivative_jumps(law, at, order, h):
     return after - before
 
 
-@pytest.mark.parametrize("law, order, times, jump", [
-    (linear(4.0), 1, [0, 4], 0.25),
-    (trapezoidal(4.0), 1, [0, 1, 3, 4], 0),
-    (trapezoidal(4.0), 2, [0, 1, 3, 4], 1 / 0.75 / 4 / 1.0),  # cruising speed over the time of a ramp
-    (quintic(4.0), 1, [0, 4], 0),
-    (quintic(4.0), 2, [0, 4], 0),
-])
+@pytest.mark.parametrize(
+    "law, order, times, jump",
+    [
+        (linear(4.0), 1, [0, 4], 0.25),
+        (trapezoidal(4.0), 1, [0, 1, 3, 4], 0),
+        # cruising speed over the time of a ramp
+        (trapezoidal(4.0), 2, [0, 1, 3, 4], 1 / 0.75 / 4 / 1.0),
+        (quintic(4.0), 1, [0, 4], 0),
+        (quintic(4.0), 2, [0, 4], 0),
+    ],
+)
 def test_each_law_is_as_smooth_as_it_says(law, order, times, jump):
     for at in times:
         jumps = [abs(derivative_jumps(law, at, order, h)) for h in (1e-2, 1e-3)]
@@ -88,7 +96,11 @@ def test_each_law_is_as_smooth_as_it_says(law, order, times, jump):
 
 
 @settings(max_examples=80, deadline=None)
-@given(st.floats(1e-3, 0.5), st.floats(0.01, 100), st.lists(st.floats(-1, 200), min_size=2, max_size=20))
+@given(
+    st.floats(1e-3, 0.5),
+    st.floats(0.01, 100),
+    st.lists(st.floats(-1, 200), min_size=2, max_size=20),
+)
 def test_any_trapezoid_rises_from_0_to_1(ramp, duration, times):
     s = trapezoidal(duration, ramp)(np.sort(times))
     assert (np.diff(s) >= -1e-15).all() and (s >= 0).all() and (s <= 1).all()

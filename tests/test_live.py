@@ -1,7 +1,8 @@
-"""Explorers: what they answer, how they stand being dragged from several threads, what a notebook stores of them, and
-that they work in a real browser with a real kernel.
+"""Explorers: what they answer, how they stand being dragged from several threads, what a notebook
+stores of them, and that they work in a real browser with a real kernel.
 
-ROBOKIN_MOVES=1000 makes the walk over all sliders in the browser longer than the 60 moves of the suite.
+ROBOKIN_MOVES=1000 makes the walk over all sliders in the browser longer than the 60 moves of the
+suite.
 """
 
 import os
@@ -52,8 +53,14 @@ VIA = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, (0, 1, 0)), (0.3, 0.3, 0.5))
 POSES = {
     "IRB-140": (START, VIA, GOAL),
-    "SCARA": (Target((0.3, 0.1, 0.1), 0), Target((0.25, -0.2, 0.15), 1), Target((0.1, -0.3, 0.05), 2)),
-    ELBOW.name: tuple(Transform(translation=p) for p in ((0.5, 0.2, 0.3), (0.4, -0.1, 0.6), (0.3, -0.4, 0.2))),
+    "SCARA": (
+        Target((0.3, 0.1, 0.1), 0),
+        Target((0.25, -0.2, 0.15), 1),
+        Target((0.1, -0.3, 0.05), 2),
+    ),
+    ELBOW.name: tuple(
+        Transform(translation=p) for p in ((0.5, 0.2, 0.3), (0.4, -0.1, 0.6), (0.3, -0.4, 0.2))
+    ),
 }
 
 
@@ -62,25 +69,37 @@ def arm(request):
     return request.param
 
 
-# --- Numbers ----------------------------------------------------------------------------------------------------------
+# --- Numbers --------------------------------------------------------------------------------------
 
 
 def test_distance_from_singularity_is_the_smallest_stretch_of_a_small_motion(arm):
-    # By differences of fk and by the eigenvalues of J^T J: neither `jacobian` nor a singular value decomposition.
+    # By differences of fk and by the eigenvalues of J^T J: neither `jacobian` nor a singular value
+    # decomposition.
     rng, step, size = np.random.default_rng(1), 1e-6, reach(arm)
     for q in arm.limits[:, 0] + rng.random((20, len(arm.links))) * np.diff(arm.limits)[:, 0]:
         columns, here = [], arm.fk(q)
         for j in range(len(q)):
             moved = arm.fk(q + step * np.eye(len(q))[j])
             turned = (moved.rotation @ here.rotation.inverse()).wxyz
-            column = [*(moved.translation - here.translation) / size, *2 * np.sign(turned[0]) * turned[1:]]
-            columns.append(np.array(column[:3] if len(q) == 3 else column) / step * (size if arm.prismatic[j] else 1))
+            column = [
+                *(moved.translation - here.translation) / size,
+                *2 * np.sign(turned[0]) * turned[1:],
+            ]
+            columns.append(
+                np.array(column[:3] if len(q) == 3 else column)
+                / step
+                * (size if arm.prismatic[j] else 1)
+            )
         squares = np.array(columns) @ np.array(columns).T
-        assert Nearness(arm)(q) == pytest.approx(np.sqrt(max(np.linalg.eigvalsh(squares)[0], 0)), abs=2e-5)
+        assert Nearness(arm)(q) == pytest.approx(
+            np.sqrt(max(np.linalg.eigvalsh(squares)[0], 0)), abs=2e-5
+        )
 
 
-@pytest.mark.parametrize(("arm", "q"), [(IRB140, [0.3, 0.2, -0.4, 1, 0, 2]), (SCARA, [0.5, 0, 1, 0.1]),
-                                        (ELBOW, [0.5, 0.3, 90 * deg])])
+@pytest.mark.parametrize(
+    ("arm", "q"),
+    [(IRB140, [0.3, 0.2, -0.4, 1, 0, 2]), (SCARA, [0.5, 0, 1, 0.1]), (ELBOW, [0.5, 0.3, 90 * deg])],
+)
 def test_a_singular_posture_has_no_distance_and_its_neighbour_a_small_one(arm, q):
     near, beside = Nearness(arm), np.array(q) + 0.01
     assert near(np.array(q)) < 1e-9 and 1e-4 < near(beside) < 0.02
@@ -91,12 +110,16 @@ def test_roll_pitch_yaw_are_turns_about_the_fixed_axes():
     rng = np.random.default_rng(2)
     for angles in (rng.random((50, 3)) - 0.5) * (2 * np.pi, np.pi, 2 * np.pi):
         q = from_roll_pitch_yaw(*angles)
-        assert np.allclose(q.as_matrix(), Rotation.from_euler("xyz", angles).as_matrix(), atol=1e-12)
+        assert np.allclose(
+            q.as_matrix(), Rotation.from_euler("xyz", angles).as_matrix(), atol=1e-12
+        )
         assert np.allclose(roll_pitch_yaw(q), angles, atol=1e-9)
     for angles in ((0.4, np.pi / 2, 1.1), (0.4, -np.pi / 2, 1.1)):
         q = from_roll_pitch_yaw(*angles)
         again = roll_pitch_yaw(q)
-        assert again[0] == 0 and np.allclose(from_roll_pitch_yaw(*again).as_matrix(), q.as_matrix(), atol=1e-9)
+        assert again[0] == 0 and np.allclose(
+            from_roll_pitch_yaw(*again).as_matrix(), q.as_matrix(), atol=1e-9
+        )
 
 
 def test_joint_explorer_tells_the_flange(arm):
@@ -110,7 +133,10 @@ def test_joint_explorer_tells_the_flange(arm):
         assert np.array_equal(picture.q, explorer.q)
         xyz, rpy, wxyz = picture.numbers[:3] * mm, picture.numbers[3:6] * deg, picture.numbers[6:10]
         assert np.allclose(xyz, pose.translation, atol=1e-12)
-        for matrix in (Rotation.from_euler("xyz", rpy), Rotation.from_quat(wxyz, scalar_first=True)):
+        for matrix in (
+            Rotation.from_euler("xyz", rpy),
+            Rotation.from_quat(wxyz, scalar_first=True),
+        ):
             assert np.allclose(matrix.as_matrix(), pose.rotation.as_matrix(), atol=1e-9)
         assert picture.numbers[10] == pytest.approx(float(Nearness(arm)(explorer.q)))
 
@@ -122,24 +148,33 @@ def test_joint_explorer_names_singularities():
     assert _picture(explorer).says == "Not singular."
 
 
-# --- Every branch with its verdict -----------------------------------------------------------------------------------
+# --- Every branch with its verdict ----------------------------------------------------------------
 
 
 def test_every_branch_of_the_target_is_there(arm):
     explorer, rng = target_explorer(arm), random.Random(4)
     seen = set()
-    for name in [*rng.choices([name for name in explorer.controls if name != "branch"], k=60), *"xyz"]:
+    for name in [
+        *rng.choices([name for name in explorer.controls if name != "branch"], k=60),
+        *"xyz",
+    ]:
         control, last, share = explorer.controls[name], explorer.q, 0.6 if name in "xyz" else 1
-        control.value = control.max if "usable" in seen and name in "xyz" and rng.random() < 0.2 else \
-            share * rng.uniform(control.min, control.max)
+        control.value = (
+            control.max
+            if "usable" in seen and name in "xyz" and rng.random() < 0.2
+            else share * rng.uniform(control.min, control.max)
+        )
         picture, rows = _picture(explorer), arm.ik(_target(explorer, arm))
         shown = picture.rows.reshape(rows.shape)
         assert _same(arm, shown, rows)
         exists, inside = ~np.isnan(rows[:, 0]), within(arm, rows)
         assert np.array_equal(picture.past.reshape(rows.shape) > 0, exists[:, None] & ~inside)
         usable = exists & inside.all(axis=-1)
-        assert (within(arm, shown)[usable] & (shown[usable] >= arm.limits[:, 0] - 1e-6)
-                & (shown[usable] <= arm.limits[:, 1] + 1e-6)).all(), "a usable row is shown inside its limits"
+        assert (
+            within(arm, shown)[usable]
+            & (shown[usable] >= arm.limits[:, 0] - 1e-6)
+            & (shown[usable] <= arm.limits[:, 1] + 1e-6)
+        ).all(), "a usable row is shown inside its limits"
         assert [verdict.startswith("usable") for verdict in picture.verdicts] == usable.tolist()
         assert ["does not exist" in verdict for verdict in picture.verdicts] == (~exists).tolist()
         unit = 1 if arm.prismatic.any() else deg
@@ -163,11 +198,14 @@ def test_a_branch_stays_chosen_and_its_reason_is_given():
     assert _picture(explorer).chosen == 6
     explorer.controls["z"].value = 1250
     picture = _picture(explorer)
-    assert picture.faded and picture.says == f"No branch is usable. {explain(IRB140, _target(explorer, IRB140), 6)}"
+    assert (
+        picture.faded
+        and picture.says == f"No branch is usable. {explain(IRB140, _target(explorer, IRB140), 6)}"
+    )
     assert "beyond the stretched arm" in picture.says
 
 
-# --- Motions ----------------------------------------------------------------------------------------------------------
+# --- Motions --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arm", [IRB140, SCARA, ELBOW], ids=lambda arm: arm.name)
@@ -185,20 +223,27 @@ def test_the_motion_passes_where_the_sliders_say(arm):
     place = poses.position if isinstance(poses, Target) else poses.translation
     assert explorer.t[-1] == 8 and np.allclose(arm.fk(explorer.q).translation, place, atol=1e-9)
     page = _picture(explorer).page["arms"][0]
-    speed = abs(differentiate(explorer.q, explorer.t)).max(axis=0) / np.where(arm.prismatic, mm, deg)
+    speed = abs(differentiate(explorer.q, explorer.t)).max(axis=0) / np.where(
+        arm.prismatic, mm, deg
+    )
     assert np.allclose(page["speed"][0], speed, atol=0.051)
     whole = np.frombuffer(page["data"][0], "<i2").reshape(-1, len(arm.links)) * page["steps"][0]
-    assert np.allclose(whole[[0, -1]] * np.where(arm.prismatic, mm, deg), explorer.q[[0, -1]], atol=0.01)
+    assert np.allclose(
+        whole[[0, -1]] * np.where(arm.prismatic, mm, deg), explorer.q[[0, -1]], atol=0.01
+    )
 
 
 def test_a_via_point_out_of_reach_leaves_a_gap_and_says_so():
     explorer = motion_explorer(IRB140, START, VIA, GOAL)
     explorer.controls["via x"].value = 1250
     notes = " ".join(_picture(explorer).page["arms"][0]["notes"]["0"])
-    assert np.isnan(explorer.q).any() and f"No solution in {int(np.isnan(explorer.q[:, 0]).sum())} of 241" in notes
+    assert (
+        np.isnan(explorer.q).any()
+        and f"No solution in {int(np.isnan(explorer.q[:, 0]).sum())} of 241" in notes
+    )
 
 
-# --- Threads, closing, wrong calls -----------------------------------------------------------------------------------
+# --- Threads, closing, wrong calls ----------------------------------------------------------------
 
 
 def test_the_last_value_wins_whatever_threads_set_the_sliders(monkeypatch):
@@ -216,18 +261,29 @@ def test_the_last_value_wins_whatever_threads_set_the_sliders(monkeypatch):
         for value in range(100, 160):
             explorer.controls[name].value = value
 
-    threads = [threading.Thread(target=drag, args=(name,)) for name in ("x", "y", "z", "roll", "pitch", "yaw")]
+    threads = [
+        threading.Thread(target=drag, args=(name,))
+        for name in ("x", "y", "z", "roll", "pitch", "yaw")
+    ]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
     assert len(answers) < 300, "stale requests are dropped"
     assert [explorer.controls[name].value for name in ("x", "roll")] == [159, 159]
-    assert _same(IRB140, _picture(explorer).rows.reshape(8, 6), IRB140.ik(_target(explorer, IRB140)))
+    assert _same(
+        IRB140, _picture(explorer).rows.reshape(8, 6), IRB140.ik(_target(explorer, IRB140))
+    )
 
 
-@pytest.mark.parametrize("make", [lambda: joint_explorer(IRB140), lambda: target_explorer(SCARA),
-                                  lambda: motion_explorer(IRB140, START, VIA, GOAL)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: joint_explorer(IRB140),
+        lambda: target_explorer(SCARA),
+        lambda: motion_explorer(IRB140, START, VIA, GOAL),
+    ],
+)
 def test_a_closed_explorer_raises_nothing(make):
     explorer = make()
     explorer.close()
@@ -239,16 +295,23 @@ def test_a_closed_explorer_raises_nothing(make):
 
 def test_wrong_calls_say_what_is_wanted():
     from robokin.arms.planar import three_lever
-    for call, words in ((lambda: joint_explorer("IRB-140"), "arm: wanted"), (lambda: target_explorer(3), "arm: wanted"),
-                        (lambda: target_explorer(three_lever(0.3)), "wanted one with an inverse"),
-                        (lambda: motion_explorer(SCARA, START, VIA, GOAL), "start: wanted"),
-                        (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), "goal: wanted"),
-                        (lambda: motion_explorer(IRB140, START, IRB140.fk(np.zeros((2, 6))), GOAL), "via: wanted one")):
+
+    for call, words in (
+        (lambda: joint_explorer("IRB-140"), "arm: wanted"),
+        (lambda: target_explorer(3), "arm: wanted"),
+        (lambda: target_explorer(three_lever(0.3)), "wanted one with an inverse"),
+        (lambda: motion_explorer(SCARA, START, VIA, GOAL), "start: wanted"),
+        (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), "goal: wanted"),
+        (
+            lambda: motion_explorer(IRB140, START, IRB140.fk(np.zeros((2, 6))), GOAL),
+            "via: wanted one",
+        ),
+    ):
         with pytest.raises(ValueError, match=words):
             call()
 
 
-# --- What a notebook stores -------------------------------------------------------------------------------------------
+# --- What a notebook stores -----------------------------------------------------------------------
 
 CELLS = {
     "joint": "joint_explorer(IRB140)",
@@ -262,30 +325,56 @@ motion_explorer(IRB140, start, via, goal)""",
     "elbow": "target_explorer(spbu_arm(500 * mm, 400 * mm))",
     "again": "scara",
 }
-FIRST = ("import os\nfrom robokin import IRB140, SCARA, Quaternion, Transform, deg, mm, spbu_arm\n"
-         "from robokin.show import joint_explorer, motion_explorer, target_explorer")
+FIRST = (
+    "import os\nfrom robokin import IRB140, SCARA, Quaternion, Transform, deg, mm, spbu_arm\n"
+    "from robokin.show import joint_explorer, motion_explorer, target_explorer"
+)
 
 
 def test_a_notebook_stores_a_still_picture_and_nbval_compares_its_words(tmp_path):
     path = tmp_path / "live.ipynb"
     _notebook(path, [FIRST, *CELLS.values()])
-    subprocess.run([sys.executable, ROOT / "tests" / "execute_notebooks.py", path], check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, ROOT / "tests" / "execute_notebooks.py", path],
+        check=True,
+        capture_output=True,
+    )
     once = path.read_bytes()
     notebook = nbformat.reads(once.decode(), as_version=4)
     assert set(notebook.metadata) == {"kernelspec", "language_info"}
     for cell in notebook.cells[2:]:
         [output] = cell.outputs
-        assert set(output.data) == {"text/html", "text/plain"} and output.data["text/plain"].endswith(RUN)
-        assert re.search(r'<img alt="[^"]{40,}" .*src="data:image/png;base64', output.data["text/html"])
+        assert set(output.data) == {"text/html", "text/plain"} and output.data[
+            "text/plain"
+        ].endswith(RUN)
+        assert re.search(
+            r'<img alt="[^"]{40,}" .*src="data:image/png;base64', output.data["text/html"]
+        )
         assert output.data["text/html"].endswith(f"<p>{RUN}</p></div>")
     assert b"widget" not in once and b"model_id" not in once
     assert len(once) < 400_000
 
     def nbval():
         rules = ROOT / "tests" / "nbval_sanitize.cfg"
-        return subprocess.run([sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--override-ini", "addopts=",
-                               "--nbval", "--nbval-current-env", "--nbval-sanitize-with", rules, path],
-                              cwd=tmp_path, text=True, capture_output=True)
+        return subprocess.run(
+            [
+                sys.executable,
+                "-m",
+                "pytest",
+                "-p",
+                "no:cacheprovider",
+                "--override-ini",
+                "addopts=",
+                "--nbval",
+                "--nbval-current-env",
+                "--nbval-sanitize-with",
+                rules,
+                path,
+            ],
+            cwd=tmp_path,
+            text=True,
+            capture_output=True,
+        )
 
     run = nbval()
     assert run.returncode == 0, run.stdout[-3000:]
@@ -293,7 +382,7 @@ def test_a_notebook_stores_a_still_picture_and_nbval_compares_its_words(tmp_path
     assert nbval().returncode != 0, "the words are compared"
 
 
-# --- In the browser ---------------------------------------------------------------------------------------------------
+# --- In the browser -------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -308,8 +397,13 @@ def live(jupyter, page):
         cells.nth(i).locator(".robokin-live canvas").first.wait_for(timeout=30_000)
     pid = int(cells.nth(0).locator(".jp-OutputArea-output").first.text_content())
     place = {name: i + 1 for i, name in enumerate(CELLS)}
-    return SimpleNamespace(page=page, kernel=psutil.Process(pid), cell=lambda name: cells.nth(place[name]),
-                           at=lambda name: cells.nth(place[name]).locator(".robokin-explorer"), jupyter=jupyter)
+    return SimpleNamespace(
+        page=page,
+        kernel=psutil.Process(pid),
+        cell=lambda name: cells.nth(place[name]),
+        at=lambda name: cells.nth(place[name]).locator(".robokin-explorer"),
+        jupyter=jupyter,
+    )
 
 
 def test_after_many_moves_the_view_shows_the_last_target(live):
@@ -317,15 +411,18 @@ def test_after_many_moves_the_view_shows_the_last_target(live):
     names = ["joint", "target", "motion", "scara", "elbow"]
     sliders = {name: live.at(name).locator("[role=slider]").all() for name in names}
     memory = []
-    # One explorer after the other: JupyterLab 4.6 keeps 0.1 MB for ever each time that another cell becomes the active
-    # one, whatever is in it. The first walk is short and warms up; what the second one leaves behind counts.
+    # One explorer after the other: JupyterLab 4.6 keeps 0.1 MB for ever each time that another cell
+    # becomes the active one, whatever is in it. The first walk is short and warms up; what the
+    # second one leaves behind counts.
     for moves in (4, MOVES // len(names)):
         for name in names:
             for _ in range(moves):
                 slider = rng.choice(sliders[name])
                 slider.focus()
                 for _ in range(rng.randint(1, 4)):
-                    page.keyboard.press(rng.choice(["ArrowRight", "ArrowLeft", "PageUp", "PageDown"]))
+                    page.keyboard.press(
+                        rng.choice(["ArrowRight", "ArrowLeft", "PageUp", "PageDown"])
+                    )
         _settled(live, names)
         memory.append((live.kernel.memory_info().rss / 1e6, _heap(page)))
     for name, arm in (("target", IRB140), ("scara", SCARA), ("elbow", ELBOW)):
@@ -337,7 +434,10 @@ def test_after_many_moves_the_view_shows_the_last_target(live):
     assert np.allclose(shown[:3], flange, atol=0.051)
     _agrees_with_motion(live.at("motion"))
     (kernel, heap), (kernel_after, heap_after) = memory
-    print(f"{MOVES} moves: kernel {kernel:.1f} -> {kernel_after:.1f} MB, page {heap:.1f} -> {heap_after:.1f} MB")
+    print(
+        f"{MOVES} moves: kernel {kernel:.1f} -> {kernel_after:.1f} MB, page {heap:.1f} -> "
+        f"{heap_after:.1f} MB"
+    )
     assert kernel_after - kernel < 5 and heap_after - heap < 3
     assert page.errors == [] and page.outside == []
     assert page.locator("[data-mime-type='application/vnd.jupyter.stderr']").count() == 0
@@ -346,21 +446,38 @@ def test_after_many_moves_the_view_shows_the_last_target(live):
 
 def test_keyboard_and_screen_reader_reach_everything(live):
     page = live.page
-    for name, wanted in (("joint", ["q1, °", "q2, °", "q3, °", "q4, °", "q5, °", "q6, °"]),
-                         ("target", ["x, mm", "y, mm", "z, mm", "roll, °", "pitch, °", "yaw, °"]),
-                         ("motion", ["via x, mm", "via y, mm", "via z, mm", "blend", "duration, s", "time"]),
-                         ("scara", ["x, mm", "y, mm", "z, mm", "angle, °"])):
+    for name, wanted in (
+        ("joint", ["q1, °", "q2, °", "q3, °", "q4, °", "q5, °", "q6, °"]),
+        ("target", ["x, mm", "y, mm", "z, mm", "roll, °", "pitch, °", "yaw, °"]),
+        ("motion", ["via x, mm", "via y, mm", "via z, mm", "blend", "duration, s", "time"]),
+        ("scara", ["x, mm", "y, mm", "z, mm", "angle, °"]),
+    ):
         explorer = live.at(name)
         for label in wanted:
-            assert explorer.get_by_role("slider", name=label, exact=True).count() == 1, f"{name}: no slider {label}"
-    for name, menus in (("target", ["branch"]), ("motion", ["time law", "corner", "branch", "playing speed"])):
+            assert explorer.get_by_role("slider", name=label, exact=True).count() == 1, (
+                f"{name}: no slider {label}"
+            )
+    for name, menus in (
+        ("target", ["branch"]),
+        ("motion", ["time law", "corner", "branch", "playing speed"]),
+    ):
         for menu in menus:
-            assert live.at(name).get_by_role("combobox", name=menu, exact=True).count() == 1, f"{name}: no menu {menu}"
+            assert live.at(name).get_by_role("combobox", name=menu, exact=True).count() == 1, (
+                f"{name}: no menu {menu}"
+            )
         assert live.at(name).get_by_role("group").count() >= 1
-    assert live.at("target").get_by_role("img").get_attribute("aria-label").endswith("Home resets it.")
-    assert live.at("target").locator("[role=status]").text_content().startswith("8 of 8 branches are usable.")
+    assert (
+        live.at("target").get_by_role("img").get_attribute("aria-label").endswith("Home resets it.")
+    )
+    assert (
+        live.at("target")
+        .locator("[role=status]")
+        .text_content()
+        .startswith("8 of 8 branches are usable.")
+    )
 
-    # From the first slider on, Tab comes to every other control of the explorer, and the keys move what they reach.
+    # From the first slider on, Tab comes to every other control of the explorer, and the keys move
+    # what they reach.
     for name, count in (("target", 7), ("motion", 8)):
         explorer = live.at(name)
         controls = explorer.locator("[role=slider]:visible, select, .rk-scene, button").all()
@@ -376,7 +493,12 @@ def test_keyboard_and_screen_reader_reach_everything(live):
     until(lambda: _table(explorer) != before, 5, "an arrow key moves nothing", page)
     assert slider.get_attribute("aria-valuetext") == "255"
     explorer.get_by_role("combobox", name="branch").select_option(index=7)
-    until(lambda: explorer.locator("tr[aria-current=true]").inner_text().startswith("\u25B6 6"), 5, "not chosen", page)
+    until(
+        lambda: explorer.locator("tr[aria-current=true]").inner_text().startswith("\u25b6 6"),
+        5,
+        "not chosen",
+        page,
+    )
     scene = explorer.locator(".rk-scene")
     pixels = scene.evaluate("e => e.toDataURL()")
     scene.press("ArrowLeft")
@@ -413,7 +535,11 @@ def test_views_come_and_go_and_nothing_complains(live):
 def test_a_stored_notebook_shows_stills_without_a_kernel(jupyter, page):
     path = jupyter.labs / "stored.ipynb"
     _notebook(path, [FIRST, *CELLS.values()])
-    subprocess.run([sys.executable, ROOT / "tests" / "execute_notebooks.py", path], check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, ROOT / "tests" / "execute_notebooks.py", path],
+        check=True,
+        capture_output=True,
+    )
     jupyter.open(page, path.name)
     for cell in page.locator(".jp-CodeCell").all()[1:]:
         cell.scroll_into_view_if_needed()
@@ -424,13 +550,15 @@ def test_a_stored_notebook_shows_stills_without_a_kernel(jupyter, page):
     assert page.get_by_text("Loading widget").count() == 0 and page.errors == []
 
 
-# --- What a person reads ----------------------------------------------------------------------------------------------
+# --- What a person reads --------------------------------------------------------------------------
 
 
 def _picture(explorer):
     """The last picture sent, its arrays of float64 decoded."""
     state = explorer._view.picture
-    return SimpleNamespace(**{k: np.frombuffer(v, "<f8") if isinstance(v, bytes) else v for k, v in state.items()})
+    return SimpleNamespace(
+        **{k: np.frombuffer(v, "<f8") if isinstance(v, bytes) else v for k, v in state.items()}
+    )
 
 
 def _target(explorer, arm):
@@ -458,19 +586,27 @@ def _same(arm, q, rows, atol=1e-6):
 def _table(explorer):
     """The rows of the table, with plain minus signs."""
     text = explorer.locator(".rk-table table").evaluate(
-        "table => [...table.rows].map(row => [...row.cells].map(cell => cell.textContent).join('\\t'))")
+        "table => [...table.rows].map(row => [...row.cells].map(cell => "
+        "cell.textContent).join('\\t'))"
+    )
     return [row.replace("\u2212", "-").replace("\u2013", "nan") for row in text]
 
 
 def _values(explorer):
-    """The values of the sliders as they are read aloud (`aria-valuenow` has one decimal), by their names."""
-    return {slider.get_attribute("aria-label").split(",")[0]:
-            float(slider.get_attribute("aria-valuetext").replace("\u2212", "-"))
-            for slider in explorer.locator("div[role=slider]").all()}
+    """The values of the sliders as they are read aloud (`aria-valuenow` has one decimal), by their
+    names.
+    """
+    return {
+        slider.get_attribute("aria-label").split(",")[0]: float(
+            slider.get_attribute("aria-valuetext").replace("\u2212", "-")
+        )
+        for slider in explorer.locator("div[role=slider]").all()
+    }
 
 
 def _settled(live, names):
     """Wait until nothing changes any more."""
+
     def seen():
         return [_table(live.at(name)) for name in names]
 
@@ -486,11 +622,18 @@ def _settled(live, names):
 
 def _agrees_with_ik(explorer, arm):
     rows = arm.ik(_asked(_values(explorer), arm))
-    shown = np.array([[float(x) for x in line.split("\t")[2:2 + len(arm.links)]] for line in _table(explorer)[1:]])
+    shown = np.array(
+        [
+            [float(x) for x in line.split("\t")[2 : 2 + len(arm.links)]]
+            for line in _table(explorer)[1:]
+        ]
+    )
     assert _same(arm, shown * np.where(arm.prismatic, mm, deg), rows, atol=0.06 * deg)
     exists = ~np.isnan(rows[:, 0])
     verdicts = [line.split("\t")[1] for line in _table(explorer)[1:]]
-    assert [v.startswith("usable") for v in verdicts] == (exists & within(arm, rows).all(axis=-1)).tolist()
+    assert [v.startswith("usable") for v in verdicts] == (
+        exists & within(arm, rows).all(axis=-1)
+    ).tolist()
 
 
 def _agrees_with_motion(explorer):
@@ -518,5 +661,11 @@ def _notebook(path, sources):
     v4 = nbformat.v4
     cells = [v4.new_markdown_cell("# Explorers", id="title")]
     cells += [v4.new_code_cell(source, id=f"cell-{i}") for i, source in enumerate(sources)]
-    kernel = {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}}
+    kernel = {
+        "kernelspec": {
+            "display_name": "Python 3 (ipykernel)",
+            "language": "python",
+            "name": "python3",
+        }
+    }
     nbformat.write(v4.new_notebook(cells=cells, metadata=kernel), path)

@@ -1,4 +1,6 @@
-"""The log loader of source 003, paper 1: its angles against the reference cases, table 1, and errata S3-p to S3-r."""
+"""The log loader of source 003, paper 1: its angles against the reference cases, table 1, and
+errata S3-p to S3-r.
+"""
 
 import numpy as np
 import pytest
@@ -35,8 +37,16 @@ def test_every_reference_case(case):
 def test_fk_is_the_documents_figure(A, B):
     rng = np.random.default_rng(1)
     for alpha, gamma, beta in rng.uniform(-np.pi, np.pi, (20, 3)):
-        chain = (rot("z", alpha) @ rot("y", -gamma) @ shift(A, 0, 0) @ rot("y", np.pi - beta) @ shift(B, 0, 0))
-        np.testing.assert_allclose(loader_arm(A, B).fk([alpha, gamma, beta]).as_matrix(), chain, atol=1e-12)
+        chain = (
+            rot("z", alpha)
+            @ rot("y", -gamma)
+            @ shift(A, 0, 0)
+            @ rot("y", np.pi - beta)
+            @ shift(B, 0, 0)
+        )
+        np.testing.assert_allclose(
+            loader_arm(A, B).fk([alpha, gamma, beta]).as_matrix(), chain, atol=1e-12
+        )
         # and the triangle: beta is the angle at the elbow between the levers
         shoulder, elbow, tip = loader_arm(A, B).frames([alpha, gamma, beta]).translation[1:]
         cosine = (shoulder - elbow) @ (tip - elbow) / (A * B)
@@ -63,8 +73,18 @@ def test_ik_returns_the_drawn_joints(A, B, shape):
 def test_alpha_in_the_nine_cells_of_table_1(x, y):
     alpha = postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
     steep = np.degrees(np.arctan(2.0))
-    table = {(-1, -1): -180 + steep, (0, -1): -90, (1, -1): -steep, (-1, 0): 180, (1, 0): 0, (0, 0): 0,
-             (-1, 1): 180 - steep, (0, 1): 90, (1, 1): steep}  # the corner (-1, 1) as errata S3-p has it
+    table = {
+        (-1, -1): -180 + steep,
+        (0, -1): -90,
+        (1, -1): -steep,
+        (-1, 0): 180,
+        (1, 0): 0,
+        (0, 0): 0,
+        # the corner (-1, 1) as errata S3-p has it
+        (-1, 1): 180 - steep,
+        (0, 1): 90,
+        (1, 1): steep,
+    }
     assert alpha == pytest.approx(table[np.sign(x), np.sign(y)], abs=1e-12)
 
 
@@ -94,8 +114,18 @@ def test_alpha_goes_on_by_the_shortest_turn():
     assert np.isnan(q[2]).all() and q[[0, 1, 3, 4, 5, 6], 0] == pytest.approx(alpha)
 
 
-@pytest.mark.parametrize("start, goal, turn", [
-    (170, -170, 20), (-170, 170, -20), (0, 180, 180), (180, 0, -180), (10, 30, 20), (-90, 91, -179), (0, 0, 0)])
+@pytest.mark.parametrize(
+    "start, goal, turn",
+    [
+        (170, -170, 20),
+        (-170, 170, -20),
+        (0, 180, 180),
+        (180, 0, -180),
+        (10, 30, 20),
+        (-90, 91, -179),
+        (0, 0, 0),
+    ],
+)
 def test_the_shortest_turn(start, goal, turn):
     assert shortest_turn(start * deg, goal * deg) / deg == pytest.approx(turn)
 
@@ -109,8 +139,12 @@ def test_the_printed_shortest_turn_is_wrong():
 def test_stretched_and_folded(A, B):
     arm = loader_arm(A, B)
     direction = np.array([0.6, 0.48, 0.64])
-    stretched, folded = postures(arm, [(A + B) * direction, abs(A - B) * direction + [1e-9 * (A == B), 0, 0]])
-    assert stretched[2] == pytest.approx(np.pi, abs=1e-6) and stretched[1] == pytest.approx(np.arcsin(0.64), abs=1e-6)
+    stretched, folded = postures(
+        arm, [(A + B) * direction, abs(A - B) * direction + [1e-9 * (A == B), 0, 0]]
+    )
+    assert stretched[2] == pytest.approx(np.pi, abs=1e-6) and stretched[1] == pytest.approx(
+        np.arcsin(0.64), abs=1e-6
+    )
     assert folded[2] == pytest.approx(0, abs=1e-6) and folded[2] >= 0
     assert np.isnan(postures(arm, [(A + B) * 1.0001 * direction])).all()
     if A != B:
@@ -122,11 +156,13 @@ def test_the_angles_are_the_documents_formulas(A, B):
     rng = np.random.default_rng(5)
     p = rng.normal(size=(300, 3)) * [1, 1, 0.7]
     p[:, 2] = abs(p[:, 2])
-    p *= (abs(A - B) + rng.uniform(0.001, 0.999, 300) * (A + B - abs(A - B)))[:, None] / np.linalg.norm(
-        p, axis=1, keepdims=True)
+    p *= (abs(A - B) + rng.uniform(0.001, 0.999, 300) * (A + B - abs(A - B)))[
+        :, None
+    ] / np.linalg.norm(p, axis=1, keepdims=True)
     h2 = (p**2).sum(axis=1)
     beta = np.arccos((B**2 + A**2 - h2) / (2 * A * B))  # (3)
-    gamma = np.arccos((A**2 - B**2 + h2) / (2 * A * np.sqrt(h2))) + np.arcsin(p[:, 2] / np.sqrt(h2))  # (4)
+    # (4)
+    gamma = np.arccos((A**2 - B**2 + h2) / (2 * A * np.sqrt(h2))) + np.arcsin(p[:, 2] / np.sqrt(h2))
     q = postures(loader_arm(A, B), p)
     np.testing.assert_allclose(q[:, 1:], np.stack([gamma, beta], axis=1), atol=1e-8)
     assert within(loader_arm(A, B), q).all()
@@ -138,7 +174,8 @@ def test_the_check_of_the_coordinates():
     assert refusal(arm, (1, 0.5, 0.4)) == []
     assert refusal(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
     assert refusal(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the stretched arm"]
-    assert refusal(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]  # the inner bound, S3-r
+    # the inner bound, S3-r
+    assert refusal(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
     assert len(refusal(arm, (2, 0, -1))) == 2
     assert refusal(arm, (1.9, 0, 0)) == [] and refusal(arm, (0, 0, 0.5)) == []
     assert "were millimetres meant" in explain(arm, (1200, 0, 300), 1)
@@ -153,4 +190,5 @@ def test_wrong_calls_are_refused():
         postures(loader_arm(1, 1), (1, 0, 0))
     with pytest.raises(ValueError, match="loader_arm"):
         from robokin import SCARA
+
         postures(SCARA, [(1, 0, 0)])

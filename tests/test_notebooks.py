@@ -1,4 +1,5 @@
-"""What every stored lab promises, read from its file; nbval runs the cells and compares their outputs.
+"""What every stored lab promises, read from its file; nbval runs the cells and compares their
+outputs.
 
 Also: the script that re-executes the labs does so without needless changes.
 """
@@ -62,12 +63,18 @@ def test_cells_were_executed_from_top_to_bottom(code):
 
 def test_something_is_compared(code):
     assert sum(output.output_type == "stream" for cell in code for output in cell.outputs) >= 2
-    assert not [output for cell in code for output in cell.outputs
-                if output.output_type == "error" and "raises-exception" not in cell.metadata.get("tags", ())]
+    assert not [
+        output
+        for cell in code
+        for output in cell.outputs
+        if output.output_type == "error" and "raises-exception" not in cell.metadata.get("tags", ())
+    ]
 
 
 def test_no_warning_is_stored(code):
-    assert not [output.text for cell in code for output in cell.outputs if output.get("name") == "stderr"]
+    assert not [
+        output.text for cell in code for output in cell.outputs if output.get("name") == "stderr"
+    ]
 
 
 def test_the_file_is_small(path):
@@ -76,7 +83,9 @@ def test_the_file_is_small(path):
 
 def test_no_state_of_a_session_is_stored(path):
     notebook = json.loads(path.read_text(encoding="utf-8"))
-    assert set(notebook["metadata"]) == {"kernelspec", "language_info"}, "run tests/execute_notebooks.py"
+    assert set(notebook["metadata"]) == {"kernelspec", "language_info"}, (
+        "run tests/execute_notebooks.py"
+    )
     for cell in notebook["cells"]:
         assert set(cell["metadata"]) <= {"tags", "reason"}
     ids = [cell["id"] for cell in notebook["cells"]]
@@ -91,30 +100,47 @@ def test_an_output_left_uncompared_has_its_reason(cells):
 
 
 def test_a_cell_fits_on_a_screen(code):
-    too_long = {cell.source.splitlines()[0]: n for cell in code if (n := cell.source.count("\n") + 1) > LONGEST_CELL}
+    too_long = {
+        cell.source.splitlines()[0]: n
+        for cell in code
+        if (n := cell.source.count("\n") + 1) > LONGEST_CELL
+    }
     assert not too_long
 
 
 def test_cells_are_plain_python_and_import_what_command_one_installs(code):
     for cell in code:
         for node in ast.walk(ast.parse(cell.source)):  # a SyntaxError: a magic, which no lab needs
-            names = [node.module] if isinstance(node, ast.ImportFrom) else [a.name for a in getattr(node, "names", ())
-                                                                            if isinstance(node, ast.Import)]
+            names = (
+                [node.module]
+                if isinstance(node, ast.ImportFrom)
+                else [a.name for a in getattr(node, "names", ()) if isinstance(node, ast.Import)]
+            )
             for name in names:
-                assert name.split(".")[0] in IMPORTS and "pyplot" not in name, f"{name} in: {cell.source[:60]}"
+                assert name.split(".")[0] in IMPORTS and "pyplot" not in name, (
+                    f"{name} in: {cell.source[:60]}"
+                )
 
 
 def test_names_in_code_can_be_typed(code):
-    # A Cyrillic letter that looks like a Latin one is another name; an invisible character is a riddle.
+    # A Cyrillic letter that looks like a Latin one is another name; an invisible character is a
+    # riddle.
     for cell in code:
         for token in tokenize.generate_tokens(io.StringIO(cell.source).readline):
-            assert token.type in (tokenize.STRING, tokenize.COMMENT) or token.string.isascii() \
-                or "FSTRING" in tokenize.tok_name[token.type], token
+            assert (
+                token.type in (tokenize.STRING, tokenize.COMMENT)
+                or token.string.isascii()
+                or "FSTRING" in tokenize.tok_name[token.type]
+            ), token
 
 
 def test_no_invisible_or_broken_characters(cells):
     for cell in cells:
-        odd = {char for char in cell.source if char != "\n" and unicodedata.category(char) in ("Cc", "Cf", "Cn", "Co")}
+        odd = {
+            char
+            for char in cell.source
+            if char != "\n" and unicodedata.category(char) in ("Cc", "Cf", "Cn", "Co")
+        }
         assert not odd | ({"\ufffd"} & set(cell.source)), f"{odd} in: {cell.source[:60]}"
 
 
@@ -122,7 +148,8 @@ def test_every_picture_has_words(cells):
     for cell in cells:
         for output in cell.get("outputs", ()):
             data = output.get("data", {})
-            # JupyterLab and nbconvert drop the alt text of an image/png output; they keep an <img> in HTML.
+            # JupyterLab and nbconvert drop the alt text of an image/png output; they keep an <img>
+            # in HTML.
             assert not [kind for kind in data if kind.startswith("image/")], cell.source
             _assert_alt_texts(data.get("text/html", ""))
         if cell.cell_type == "markdown":
@@ -151,7 +178,7 @@ def test_links_lead_somewhere(prose):
                 assert (NOTEBOOKS / target.split("#")[0]).exists(), target
 
 
-# --- tests/execute_notebooks.py ---------------------------------------------------------------------------------------
+# --- tests/execute_notebooks.py -------------------------------------------------------------------
 
 PICTURE = """\
 import base64, io
@@ -166,8 +193,12 @@ HTML(f'<img alt="three" src="data:image/png;base64,{base64.b64encode(file.getval
 
 
 def test_executing_again_changes_no_byte(tmp_path):
-    path = _notebook(tmp_path / "a.ipynb", "print(1, flush=True)\nprint(2)",
-                     "import ipywidgets\nipywidgets.IntSlider(5)", PICTURE)
+    path = _notebook(
+        tmp_path / "a.ipynb",
+        "print(1, flush=True)\nprint(2)",
+        "import ipywidgets\nipywidgets.IntSlider(5)",
+        PICTURE,
+    )
     assert _execute(path).returncode == 0
     once = path.read_bytes()
     notebook = nbformat.reads(once.decode(), as_version=4)
@@ -197,7 +228,10 @@ def test_a_picture_packed_by_another_zlib_keeps_its_bytes(tmp_path):
 
 
 def test_one_failing_notebook_is_named_and_the_others_go_on(tmp_path):
-    bad, good = _notebook(tmp_path / "bad.ipynb", "1 / 0"), _notebook(tmp_path / "good.ipynb", "6 * 7")
+    bad, good = (
+        _notebook(tmp_path / "bad.ipynb", "1 / 0"),
+        _notebook(tmp_path / "good.ipynb", "6 * 7"),
+    )
     before = bad.read_bytes()
     run = _execute(bad, good)
     assert run.returncode == 1
@@ -218,12 +252,18 @@ def _png(path):
 def _notebook(path, *sources):
     """Write a notebook with these code cells."""
     v4 = nbformat.v4
-    cells = [v4.new_markdown_cell("# A lab", id="title", metadata={"tags": ["intro"], "scrolled": True})]
+    cells = [
+        v4.new_markdown_cell("# A lab", id="title", metadata={"tags": ["intro"], "scrolled": True})
+    ]
     cells += [v4.new_code_cell(source, id=f"cell-{i}") for i, source in enumerate(sources)]
     nbformat.write(v4.new_notebook(cells=cells, metadata={"widgets": {}}), path)
     return path
 
 
 def _execute(*paths):
-    return subprocess.run([sys.executable, ROOT / "tests" / "execute_notebooks.py", *paths], text=True,
-                          capture_output=True, timeout=120)
+    return subprocess.run(
+        [sys.executable, ROOT / "tests" / "execute_notebooks.py", *paths],
+        text=True,
+        capture_output=True,
+        timeout=120,
+    )

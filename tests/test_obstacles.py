@@ -1,7 +1,9 @@
-"""A point obstacle beside the three-lever arm: reference cases, certified clearance, and plans that keep what they say.
+"""A point obstacle beside the three-lever arm: reference cases, certified clearance, and plans that
+keep what they say.
 
-Distances are checked by a second description of the arm (complex numbers, levers as many points), not by robokin's.
-ROBOKIN_TASKS=2000 runs the full number of random tasks; tests/benchmarks/obstacle_tasks.py prints what comes of them.
+Distances are checked by a second description of the arm (complex numbers, levers as many points),
+not by robokin's. ROBOKIN_TASKS=2000 runs the full number of random tasks;
+tests/benchmarks/obstacle_tasks.py prints what comes of them.
 """
 
 import os
@@ -39,7 +41,8 @@ def seen(q, H, L=1.0):
     lever = L * np.exp(1j * gamma)
     start, found = 0 * lever, []
     for turn in (beta, alpha, None):
-        seen_from_lever = (complex(*H) - start) / lever  # the lever lies from 0 to 1 on the real axis
+        # the lever lies from 0 to 1 on the real axis
+        seen_from_lever = (complex(*H) - start) / lever
         foot = np.clip(seen_from_lever.real, 0, 1)
         found.append(L * abs(seen_from_lever - foot))
         start = start + lever
@@ -54,9 +57,15 @@ def dense(path, samples=4001):
 
 
 def passes_over(q0, q1, H):
-    """Does lever AK pass over one of the points H (n, 2) on the way from q0 to q1? By the side on which H lies."""
+    """Does lever AK pass over one of the points H (n, 2) on the way from q0 to q1? By the side on
+    which H lies.
+    """
     gamma, beta, alpha = dense([q0, q1], 721)[0].T
-    first, second, third = np.exp(1j * gamma), -np.exp(1j * (gamma + beta)), np.exp(1j * (gamma + beta + alpha))
+    first, second, third = (
+        np.exp(1j * gamma),
+        -np.exp(1j * (gamma + beta)),
+        np.exp(1j * (gamma + beta + alpha)),
+    )
     beside = (H @ [1, 1j])[:, None] - first - second
     beside = beside / third
     changes = (beside.imag[:, 1:] > 0) != (beside.imag[:, :-1] > 0)
@@ -65,7 +74,9 @@ def passes_over(q0, q1, H):
 
 
 def tasks(n, seed=5, limited=True):
-    """n random tasks (q0, target, obstacle) whose obstacle, L < OH < 3 L, is swept by AK on the direct way."""
+    """n random tasks (q0, target, obstacle) whose obstacle, L < OH < 3 L, is swept by AK on the
+    direct way.
+    """
     rng = np.random.default_rng(seed)
 
     def ring(count):
@@ -92,7 +103,8 @@ def test_reference_cases(case):
     np.testing.assert_allclose(ARM.least(case["K1"], q0, limited=False)[0], q1, rtol=0, atol=1e-6)
     assert in_quadrilateral(ARM, q0, q1, H)["AK"] == case["inside_quadrilateral"]
     assert swept(ARM, q0, q1, H)["AK"] == case["swept_by_AK_joint_linear"]
-    if not case["swept_by_AK_joint_linear"]:  # else the reference holds the least of samples, up to 0.0007
+    # else the reference holds the least of samples, up to 0.0007
+    if not case["swept_by_AK_joint_linear"]:
         least = clearance(ARM, [q0, q1], H)[0, 2]
         assert 0 < case["min_distance_AK_joint_linear"] - least < 5e-6
     K2, K3 = via_points(case["K"], case["K1"], H, case["L"] / 7)
@@ -105,23 +117,33 @@ def test_reference_cases(case):
     path = via_path(ARM, q0, case["K1"], H, limited=False)
     assert np.isnan(path).any() != (case["K2_reachable"] and case["K3_reachable"])
     if not np.isnan(path).any():
-        np.testing.assert_allclose(ARM.joints(path)[:, 3], [case["K"], K2, K3, case["K1"]], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(
+            ARM.joints(path)[:, 3], [case["K"], K2, K3, case["K1"]], rtol=0, atol=1e-12
+        )
 
 
 def test_via_points_are_square_and_on_the_side_of_the_base():
-    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here, not square and one outside."""
+    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here, not square and
+    one outside.
+    """
     H, K, K1 = np.array([1.5, 1]), np.array([1.2, 1.7]), np.array([1.9, 0.3])
     K2, K3 = via_points(K, K1, H, 1 / 7)
-    np.testing.assert_allclose([K2, K3], [(1.368693567, 0.943725814), (1.375965265, 0.929123009)], atol=1e-9)
+    np.testing.assert_allclose(
+        [K2, K3], [(1.368693567, 0.943725814), (1.375965265, 0.929123009)], atol=1e-9
+    )
     for via, end in ((K2, K), (K3, K1)):
-        assert abs((via - H) @ (end - H)) < 1e-15 and np.hypot(*(via - H)) == pytest.approx(1 / 7, abs=1e-15)
+        assert abs((via - H) @ (end - H)) < 1e-15 and np.hypot(*(via - H)) == pytest.approx(
+            1 / 7, abs=1e-15
+        )
         assert (via - H) @ H < 0
     with pytest.raises(ValueError, match="apart from K1"):
         via_points(K, H, H, 1 / 7)
 
 
 def test_the_quadrilateral_of_any_drawing():
-    """Errata S3-k: the printed inequalities miss this point. A corner and a side count as inside."""
+    """Errata S3-k: the printed inequalities miss this point. A corner and a side count as
+    inside.
+    """
     q0 = ARM.least((0.8668, -0.5041), [1.2, 2.0, 1.0], limited=False)[0]
     q1 = ARM.least((1.2804, 0.1854), [1.5, 2.0, 1.0], limited=False)[0]
     (_, B, A, K), (_, B1, A1, K1) = ARM.joints(q0), ARM.joints(q1)
@@ -129,7 +151,8 @@ def test_the_quadrilateral_of_any_drawing():
     found = in_quadrilateral(ARM, q0, q1, H)
     assert found["AK"].tolist() == [True, True, True, True, False, False]
     assert found["BA"].shape == (6,) and found["BA"][0]
-    # against another way to count: the winding of the corners about the point, for a simple and a crossed outline
+    # against another way to count: the winding of the corners about the point, for a simple and a
+    # crossed outline
     rng = np.random.default_rng(4)
     for corners in (np.stack([A, K, K1, A1]), np.stack([B, A, A1, B1])):
         points = corners.min(axis=0) + rng.uniform(-0.1, 1.1, (500, 2)) * np.ptp(corners, axis=0)
@@ -152,10 +175,13 @@ def test_clearance_is_a_bound_and_a_tight_one(L):
         fast = abs(np.diff(path, axis=0)).sum(axis=1, keepdims=True) * 3 * L / 4000
         assert (sampled.min(axis=1) - bound <= fast + 2e-6 * L).all()
         np.testing.assert_allclose(distances(arm, path, H), seen(path, H, L), rtol=0, atol=1e-14)
-        least, slack = bound.min(axis=1), 3e-6 * L  # `keeps` may refuse what lies this near to the distance
+        # `keeps` may refuse what lies this near to the distance
+        least, slack = bound.min(axis=1), 3e-6 * L
         for distance in (least[1] - slack, least.max() + slack):
             kept = keeps(arm, path[:-1], path[1:], H, distance)
-            assert kept[least >= distance + slack].all() and not kept[least < distance - slack].any()
+            assert (
+                kept[least >= distance + slack].all() and not kept[least < distance - slack].any()
+            )
         assert keeps(arm, path[:-1], path[1:], H, least.min() - slack).all()
         assert not keeps(arm, path[:-1], path[1:], H, least.max() + slack).any()
 
@@ -177,9 +203,13 @@ def test_plans_keep_their_clearance_or_say_that_there_is_none():
         answer = plan(ARM, q0, K1, H)
         ways.append(answer.way)
         if not answer.found:
-            assert answer.way == "none" and answer.path.tolist() == [q0.tolist()] and answer.cost == 0
+            assert (
+                answer.way == "none" and answer.path.tolist() == [q0.tolist()] and answer.cost == 0
+            )
             assert "no way" in answer.words or "No path keeps" in answer.words
-            assert ("No path keeps" in answer.words) == (min(seen(q0, H).min(), np.hypot(*(K1 - H))) < KEPT)
+            assert ("No path keeps" in answer.words) == (
+                min(seen(q0, H).min(), np.hypot(*(K1 - H))) < KEPT
+            )
             continue
         postures = dense(answer.path)
         np.testing.assert_allclose(answer.path[0], q0)
@@ -196,7 +226,9 @@ def test_plans_keep_their_clearance_or_say_that_there_is_none():
 
 
 def test_the_way_round_exists_where_a_path_was_made_first():
-    """Tasks that are known to be solvable: the obstacle stands beside a path with two random corners."""
+    """Tasks that are known to be solvable: the obstacle stands beside a path with two random
+    corners.
+    """
     rng, solved, count = np.random.default_rng(8), 0, 0
     while count < 25:
         path = rng.uniform(0, np.pi, (4, 3))
@@ -204,18 +236,27 @@ def test_the_way_round_exists_where_a_path_was_made_first():
         K, K1 = ARM.joints(path[0])[3], ARM.joints(path[-1])[3]
         if not (1 < np.hypot(*K) < 3 and 1 < np.hypot(*K1) < 3 and np.hypot(*H) > 0.5):
             continue
-        if seen(dense(path, 400), H).min() < KEPT + 0.03 or keeps(ARM, path[0], ARM.least(K1, path[0])[0], H, KEPT):
+        if seen(dense(path, 400), H).min() < KEPT + 0.03 or keeps(
+            ARM, path[0], ARM.least(K1, path[0])[0], H, KEPT
+        ):
             continue
         count += 1
         found = way_round(ARM, path[0], K1, H, KEPT)
         solved += found is not None
-        assert found is None or abs(np.diff(found, axis=0)).sum() < 1.05 * abs(np.diff(path, axis=0)).sum()
+        assert (
+            found is None
+            or abs(np.diff(found, axis=0)).sum() < 1.05 * abs(np.diff(path, axis=0)).sum()
+        )
     assert solved == count
 
 
 def test_the_remembered_posture_leads_from_task_to_task():
     posture = np.array([100, 110, 120]) * deg
-    for target, obstacle in (((1.8, 0.6), (1.2, 2.1)), ((0.5, 2.0), (1.5, 1.5)), ((2.5, 0.5), (1.5, 1.5))):
+    for target, obstacle in (
+        ((1.8, 0.6), (1.2, 2.1)),
+        ((0.5, 2.0), (1.5, 1.5)),
+        ((2.5, 0.5), (1.5, 1.5)),
+    ):
         answer = plan(ARM, posture, target, obstacle)
         assert answer.found and (answer.path[0] == posture).all()
         posture = answer.posture
@@ -227,42 +268,55 @@ def test_the_direct_way():
     free = plan(ARM, q0, (1.8, 0.6))
     beside = plan(ARM, q0, (1.8, 0.6, 0.0), (-2.0, -2.0, 0.0))
     for answer in (free, beside):
-        assert answer.way == "direct" and answer.found and len(answer.path) == 2 and len(answer.via) == 0
+        assert (
+            answer.way == "direct"
+            and answer.found
+            and len(answer.path) == 2
+            and len(answer.via) == 0
+        )
         assert answer.cost == pytest.approx(answer.least) == pytest.approx(18.300924618454935 * deg)
     assert np.isinf(free.clearance).all() and beside.clearance.min() > 2
     assert "no obstacle is given" in free.words and "not in it" in beside.words
 
 
 def test_via_points_serve_where_less_is_asked():
-    """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's way serves a smaller distance."""
+    """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's way serves a
+    smaller distance.
+    """
     found = [plan(ARM, *task, distance=0.09).way for task in tasks(30)]
     assert "via points" in found and "search" in found
     for q0, K1, H in tasks(30):
         answer = plan(ARM, q0, K1, H, distance=0.09)
         if answer.way == "via points":
             assert seen(dense(answer.path), H).min() >= 0.09 and len(answer.path) == 4
-            np.testing.assert_allclose(np.hypot(*(ARM.joints(answer.via)[:, 3] - H).T), 1 / 7, atol=1e-12)
+            np.testing.assert_allclose(
+                np.hypot(*(ARM.joints(answer.via)[:, 3] - H).T), 1 / 7, atol=1e-12
+            )
 
 
 Q0 = np.array([100, 110, 120]) * deg
 KNOWN = ARM.joints(Q0)
 
 
-@pytest.mark.parametrize("target, obstacle, words", [
-    ((0.5, 0.5), (1.5, 1.5), "not farther than one lever"),
-    ((2.5, 2.5), (1.5, 1.5), "farther than three levers"),
-    ((0, 0), (1.5, 1.5), "not farther than one lever"),
-    ((-1.97, 0.35), (1.5, 1.5), "gamma outside 0 to 180 degrees"),
-    ((1.8, 0.6), (0, 0), "on the base"),
-    ((1.8, 0.6), (0.05, -0.1), "on the base or 111.8 mm beside it"),
-    ((1.8, 0.6), (1.8, 0.6), "The target lies 0.0 mm from the obstacle"),
-    ((1.8, 0.6), (1.8, 0.7), "The target lies 100.0 mm from the obstacle"),
-    ((1.8, 0.6), KNOWN[3], "At the start lever AK is already 0.0 mm"),
-    ((1.8, 0.6), (KNOWN[0] + KNOWN[1]) / 2, "At the start lever OB is already"),
-    ((1.8, 0.6), (KNOWN[1] + KNOWN[2]) / 2, "At the start lever BA is already 0.0 mm"),
-    (KNOWN[3], KNOWN[3], "At the start"),
-    ((2.99, 0.1), (1.5, 0.05), "finds no way"),  # stretched over the obstacle: no posture at the target is free
-])
+@pytest.mark.parametrize(
+    "target, obstacle, words",
+    [
+        ((0.5, 0.5), (1.5, 1.5), "not farther than one lever"),
+        ((2.5, 2.5), (1.5, 1.5), "farther than three levers"),
+        ((0, 0), (1.5, 1.5), "not farther than one lever"),
+        ((-1.97, 0.35), (1.5, 1.5), "gamma outside 0 to 180 degrees"),
+        ((1.8, 0.6), (0, 0), "on the base"),
+        ((1.8, 0.6), (0.05, -0.1), "on the base or 111.8 mm beside it"),
+        ((1.8, 0.6), (1.8, 0.6), "The target lies 0.0 mm from the obstacle"),
+        ((1.8, 0.6), (1.8, 0.7), "The target lies 100.0 mm from the obstacle"),
+        ((1.8, 0.6), KNOWN[3], "At the start lever AK is already 0.0 mm"),
+        ((1.8, 0.6), (KNOWN[0] + KNOWN[1]) / 2, "At the start lever OB is already"),
+        ((1.8, 0.6), (KNOWN[1] + KNOWN[2]) / 2, "At the start lever BA is already 0.0 mm"),
+        (KNOWN[3], KNOWN[3], "At the start"),
+        # stretched over the obstacle: no posture at the target is free
+        ((2.99, 0.1), (1.5, 0.05), "finds no way"),
+    ],
+)
 def test_what_cannot_be_is_said(target, obstacle, words):
     answer = plan(ARM, Q0, target, obstacle)
     assert words in answer.words, answer.words
@@ -280,22 +334,27 @@ def test_a_smaller_distance_may_be_asked_for():
 def test_postures_along_a_path():
     path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
     q = along(path, [0, 0.125, 0.25, 0.625, 1])
-    np.testing.assert_allclose(q, [(0, 0, 0), (0.5, 0, 0), (1, 0, 0), (1, 1, 0.5), (1, 2, 1)], atol=1e-15)
+    np.testing.assert_allclose(
+        q, [(0, 0, 0), (0.5, 0, 0), (1, 0, 0), (1, 1, 0.5), (1, 2, 1)], atol=1e-15
+    )
     np.testing.assert_allclose(along(path[[0, 0]], [0, 0.5]), path[[0, 0]])  # a path that stands
 
 
-@pytest.mark.parametrize("call, words", [
-    (lambda: plan(ARM, [1, 2, 4], (1.8, 0.6)), "from 0 to 180 degrees"),
-    (lambda: plan(ARM, [1, 2], (1.8, 0.6)), r"posture.*\(2,\)"),
-    (lambda: plan(ARM, Q0, (1.8, 0.6, 0.1)), "z = 0"),
-    (lambda: plan(ARM, Q0, (1.8, 0.6), (1, np.nan)), "nan"),
-    (lambda: plan(ARM, Q0, (1.8, 0.6), (1, 2), -0.1), "-0.1"),
-    (lambda: plan(ARM, Q0, (1.8, 0.6), (1, 2), 0), "distance: wanted one positive length"),
-    (lambda: plan(ARM, Q0, [(1.8, 0.6)] * 2), "one single point"),
-    (lambda: plan(None, Q0, (1.8, 0.6)), "ThreeLever"),
-    (lambda: clearance(ARM, Q0, (1, 2)), r"\(3,\)"),
-    (lambda: clearance(ARM, [Q0, Q0], [(1, 2), (3, 4)]), "one single point"),
-])
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: plan(ARM, [1, 2, 4], (1.8, 0.6)), "from 0 to 180 degrees"),
+        (lambda: plan(ARM, [1, 2], (1.8, 0.6)), r"posture.*\(2,\)"),
+        (lambda: plan(ARM, Q0, (1.8, 0.6, 0.1)), "z = 0"),
+        (lambda: plan(ARM, Q0, (1.8, 0.6), (1, np.nan)), "nan"),
+        (lambda: plan(ARM, Q0, (1.8, 0.6), (1, 2), -0.1), "-0.1"),
+        (lambda: plan(ARM, Q0, (1.8, 0.6), (1, 2), 0), "distance: wanted one positive length"),
+        (lambda: plan(ARM, Q0, [(1.8, 0.6)] * 2), "one single point"),
+        (lambda: plan(None, Q0, (1.8, 0.6)), "ThreeLever"),
+        (lambda: clearance(ARM, Q0, (1, 2)), r"\(3,\)"),
+        (lambda: clearance(ARM, [Q0, Q0], [(1, 2), (3, 4)]), "one single point"),
+    ],
+)
 def test_wrong_calls_are_named(call, words):
     with pytest.raises(ValueError, match=words):
         call()

@@ -1,4 +1,6 @@
-"""The IRB-140 against the reference cases that were computed independently of robokin and of its document."""
+"""The IRB-140 against the reference cases that were computed independently of robokin and of its
+document.
+"""
 
 import json
 
@@ -7,12 +9,28 @@ import pytest
 from machines import oracle, transform, turns
 from test_spherical_wrist import compare
 
-from robokin import IRB140, blend, differentiate, follow, lin, lin_lin, linear, mm, nearest, ptp, within
+from robokin import (
+    IRB140,
+    blend,
+    differentiate,
+    follow,
+    lin,
+    lin_lin,
+    linear,
+    mm,
+    nearest,
+    ptp,
+    within,
+)
 
 CASES = oracle("irb140")["cases"]
 MOTIONS = {case["law"]: case for case in oracle("trajectories_irb140")["cases"]}
 NAMED = oracle("examples")["irb140_named"]
-POSES = {c["kind"].removeprefix("named:"): transform(c["T"], mm) for c in CASES if c["kind"].startswith("named:")}
+POSES = {
+    c["kind"].removeprefix("named:"): transform(c["T"], mm)
+    for c in CASES
+    if c["kind"].startswith("named:")
+}
 STEP, TOTAL = 0.01, 20.0
 T = np.arange(0, TOTAL, STEP)
 
@@ -24,8 +42,11 @@ def test_every_solution_in_its_place_and_none_more(case):
         assert np.nanmin(turns(rows, case["q"]).max(-1)) < 1e-6
 
 
-@pytest.mark.parametrize("case", [c for c in CASES if c["reachable"]],
-                         ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES) if case["reachable"]])
+@pytest.mark.parametrize(
+    "case",
+    [c for c in CASES if c["reachable"]],
+    ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES) if case["reachable"]],
+)
 def test_which_joints_can_stand_inside_their_limits(case):
     rows = IRB140.ik(transform(case["T"], mm))
     for solution in case["solutions"]:
@@ -41,7 +62,9 @@ def test_which_joints_can_stand_inside_their_limits(case):
                 assert abs(nearest(IRB140, q[None], near)[joint] - value) < 1e-9
 
 
-@pytest.mark.parametrize("case", [c for c in CASES if not c["reachable"]], ids=lambda case: case["kind"])
+@pytest.mark.parametrize(
+    "case", [c for c in CASES if not c["reachable"]], ids=lambda case: case["kind"]
+)
 def test_an_unreachable_pose_has_no_row_at_all(case):
     assert np.isnan(IRB140.ik(transform(case["T"], mm))).all()
 

@@ -6,11 +6,25 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from machines import SHAPES
 
-from robokin import IRB140, Quaternion, Target, Transform, blend, deg, follow, lin, lin_lin, mm, ptp, quintic
+from robokin import (
+    IRB140,
+    Quaternion,
+    Target,
+    Transform,
+    blend,
+    deg,
+    follow,
+    lin,
+    lin_lin,
+    mm,
+    ptp,
+    quintic,
+)
 
 CORNERS = ["parabola", "quintic"]
 corners = pytest.mark.parametrize("corner", CORNERS)
-NEARNESS = {"parabola": 1 / 2, "quintic": 3 / 8}  # distance from via to the curve, of that to the corner's chord
+# distance from via to the curve, of that to the corner's chord
+NEARNESS = {"parabola": 1 / 2, "quintic": 3 / 8}
 
 
 def pose(x, y, z, angle, axis):
@@ -45,7 +59,9 @@ def test_lin_is_a_straight_line_at_constant_speed_and_turn():
 def test_ptp_moves_all_joints_straight(shape):
     rng = np.random.default_rng(32)
     q0, q1, s = rng.normal(size=(*shape, 6)), rng.normal(size=(*shape, 6)), rng.uniform(size=shape)
-    assert np.allclose(ptp(q0, q1, s), q0 * (1 - s[..., None]) + q1 * s[..., None], rtol=0, atol=1e-15)
+    assert np.allclose(
+        ptp(q0, q1, s), q0 * (1 - s[..., None]) + q1 * s[..., None], rtol=0, atol=1e-15
+    )
     assert ptp(q0, q1, s).shape == q0.shape
     assert (ptp(q0, q1, 0) == q0).all() and np.allclose(ptp(q0, q1, 1), q1, rtol=0, atol=1e-15)
 
@@ -82,8 +98,8 @@ def test_no_blend_is_lin_lin(corner):
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
 def test_how_near_the_path_comes_to_via(corner, b):
-    """Errata S1-l: the parabola's middle lies |a - 2 b + c| / 4 from via, half of the way to the chord; the quintic's
-    at 3/4 of that distance."""
+    """Errata S1-l: the parabola's middle lies |a - 2 b + c| / 4 from via, half of the way to the
+    chord; the quintic's at 3/4 of that distance."""
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
     chord = np.linalg.norm((first + last) / 2 - VIA.translation)
     middle = blend(START, VIA, GOAL, b, 0.5, corner).translation
@@ -95,6 +111,7 @@ def test_how_near_the_path_comes_to_via(corner, b):
 def bernstein(points, x):
     """A Bezier curve by its polynomials, not by de Casteljau."""
     from math import comb
+
     n = len(points) - 1
     return sum(comb(n, k) * x**k * (1 - x) ** (n - k) * p for k, p in enumerate(points))
 
@@ -102,23 +119,45 @@ def bernstein(points, x):
 @corners
 def test_the_corner_is_the_bezier_curve_of_its_control_poses(corner):
     b, x = 0.2, np.linspace(0, 1, 51)[:, None]
-    first, via, last = lin(START, VIA, 1 - 2 * b).translation, VIA.translation, lin(VIA, GOAL, 2 * b).translation
-    points = [first, via, last] if corner == "parabola" else [
-        first, first + 0.4 * (via - first), first + 0.8 * (via - first),
-        last + 0.8 * (via - last), last + 0.4 * (via - last), last]
+    first, via, last = (
+        lin(START, VIA, 1 - 2 * b).translation,
+        VIA.translation,
+        lin(VIA, GOAL, 2 * b).translation,
+    )
+    points = (
+        [first, via, last]
+        if corner == "parabola"
+        else [
+            first,
+            first + 0.4 * (via - first),
+            first + 0.8 * (via - first),
+            last + 0.8 * (via - last),
+            last + 0.4 * (via - last),
+            last,
+        ]
+    )
     s = 0.5 - b + 2 * b * x[:, 0]
-    assert np.allclose(blend(START, VIA, GOAL, b, s, corner).translation, bernstein(points, x), rtol=0, atol=1e-14)
+    assert np.allclose(
+        blend(START, VIA, GOAL, b, s, corner).translation, bernstein(points, x), rtol=0, atol=1e-14
+    )
     # About one common axis rotations add like numbers: there the same polynomials give the angle.
-    turned = [Transform(Quaternion.from_angle_axis(angle, (0, 0.6, 0.8))) for angle in (0.3, 1.5, 0.9)]
+    turned = [
+        Transform(Quaternion.from_angle_axis(angle, (0, 0.6, 0.8))) for angle in (0.3, 1.5, 0.9)
+    ]
     a, v, c = 0.3 + (1 - 2 * b) * 1.2, 1.5, 1.5 - 2 * b * 0.6
-    angles = [a, v, c] if corner == "parabola" else [
-        a, a + 0.4 * (v - a), a + 0.8 * (v - a), c + 0.8 * (v - c), c + 0.4 * (v - c), c]
+    angles = (
+        [a, v, c]
+        if corner == "parabola"
+        else [a, a + 0.4 * (v - a), a + 0.8 * (v - a), c + 0.8 * (v - c), c + 0.4 * (v - c), c]
+    )
     angle = blend(*turned, b, s, corner).rotation.as_angle_axis()[0]
     assert np.allclose(angle, bernstein(angles, x[:, 0]), rtol=0, atol=1e-13)
 
 
 def jump(f, at, h, order):
-    """How far a derivative of f jumps at one place, from samples on either side (second order in h)."""
+    """How far a derivative of f jumps at one place, from samples on either side (second order in
+    h).
+    """
     weights = {1: [-1.5, 2, -0.5], 2: [2, -5, 4, -1]}[order]
     k = np.arange(len(weights)) * h
     after = np.tensordot(weights, f(at + k), 1) / h**order
@@ -130,8 +169,8 @@ def jump(f, at, h, order):
 @pytest.mark.parametrize("corner, order", [("parabola", 1), ("quintic", 1), ("quintic", 2)])
 @pytest.mark.parametrize("what", ["joints", "pose"])
 def test_the_derivative_does_not_jump_at_the_ends_of_the_corner(what, corner, order, b):
-    """C1 and C2 by measurement, rotations included: the plain difference of q' (q'') across each end of the corner
-    vanishes in proportion to the step."""
+    """C1 and C2 by measurement, rotations included: the plain difference of q' (q'') across each
+    end of the corner vanishes in proportion to the step."""
     row = IRB140.branch(1, 1, -1)
 
     def f(s):
@@ -147,11 +186,14 @@ def test_the_derivative_does_not_jump_at_the_ends_of_the_corner(what, corner, or
             d = np.diff(p, n=order, axis=0) / h**order
             jumps.append(abs(d[-3 + order] - d[2]).max())  # just after the end, just before it
         assert jumps[0] / jumps[1] > 1.75 and jumps[1] / jumps[2] > 1.75, jumps
-        assert jump(f, end, 1e-3, order) < 0.02 * max(abs(np.diff(f(np.linspace(0, 1, 101)), n=order, axis=0)).max()
-                                                      * 100**order, 1)
+        assert jump(f, end, 1e-3, order) < 0.02 * max(
+            abs(np.diff(f(np.linspace(0, 1, 101)), n=order, axis=0)).max() * 100**order, 1
+        )
 
 
-@pytest.mark.parametrize("corner, order, b", [("parabola", 2, 0.1), ("quintic", 3, 0.1), ("parabola", 1, 0.0)])
+@pytest.mark.parametrize(
+    "corner, order, b", [("parabola", 2, 0.1), ("quintic", 3, 0.1), ("parabola", 1, 0.0)]
+)
 def test_it_is_no_smoother_than_it_says(corner, order, b):
     def f(s):
         return blend(START, VIA, GOAL, b, s, corner).translation
@@ -206,11 +248,17 @@ def test_anything_with_lerp_can_be_blended(corner):
 @corners
 def test_start_equal_to_goal_is_a_motion_too(corner):
     s = np.linspace(0, 1, 21)
-    for T in (lin(START, START, s), lin_lin(START, START, START, s), blend(START, START, START, 0.2, s, corner)):
+    for T in (
+        lin(START, START, s),
+        lin_lin(START, START, START, s),
+        blend(START, START, START, 0.2, s, corner),
+    ):
         assert difference(T, START) < 1e-15
     there_and_back = blend(START, VIA, START, 0.2, s, corner)
     assert difference(there_and_back, there_and_back[::-1]) < 1e-14
-    assert difference(there_and_back[0], START) < 1e-15 and difference(there_and_back[10], START) > 0.1
+    assert (
+        difference(there_and_back[0], START) < 1e-15 and difference(there_and_back[10], START) > 0.1
+    )
     assert (ptp(np.ones(6), np.ones(6), s) == 1).all()
 
 
@@ -223,19 +271,32 @@ def test_a_straight_corner_stays_straight(corner):
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.integers(0, 2**32 - 1), st.floats(0, 0.5, allow_subnormal=False), st.sampled_from(CORNERS))
+@given(
+    st.integers(0, 2**32 - 1), st.floats(0, 0.5, allow_subnormal=False), st.sampled_from(CORNERS)
+)
 def test_any_blend_is_continuous_and_between_its_poses(seed, b, corner):
     rng = np.random.default_rng(seed)
     wxyz = rng.normal(size=(3, 4))
-    points = Transform(Quaternion(wxyz / np.linalg.norm(wxyz, axis=-1, keepdims=True)), rng.normal(size=(3, 3)))
+    points = Transform(
+        Quaternion(wxyz / np.linalg.norm(wxyz, axis=-1, keepdims=True)), rng.normal(size=(3, 3))
+    )
     s = np.linspace(0, 1, 2001)
     T = blend(points[0], points[1], points[2], b, s, corner)
-    lengths = [np.linalg.norm(twist(points[i], points[i + 1])[part]) for i in (0, 1)
-               for part in (slice(0, 3), slice(3, 6))]
+    lengths = [
+        np.linalg.norm(twist(points[i], points[i + 1])[part])
+        for i in (0, 1)
+        for part in (slice(0, 3), slice(3, 6))
+    ]
     steps = twist(T[:-1], T[1:])
-    slack = 2.6 / 1000  # a quintic's speed exceeds the lines' by at most the ratio of its control polygon
-    assert np.linalg.norm(steps[:, :3], axis=-1).max() <= slack * max(lengths[0], lengths[2]) + 1e-12
-    assert np.linalg.norm(steps[:, 3:], axis=-1).max() <= 2 * slack * max(lengths[1], lengths[3]) + 1e-12
+    # a quintic's speed exceeds the lines' by at most the ratio of its control polygon
+    slack = 2.6 / 1000
+    assert (
+        np.linalg.norm(steps[:, :3], axis=-1).max() <= slack * max(lengths[0], lengths[2]) + 1e-12
+    )
+    assert (
+        np.linalg.norm(steps[:, 3:], axis=-1).max()
+        <= 2 * slack * max(lengths[1], lengths[3]) + 1e-12
+    )
     assert np.allclose(np.linalg.norm(T.rotation.wxyz, axis=-1), 1, rtol=0, atol=1e-14)
     low, high = points.translation.min(0), points.translation.max(0)
     assert ((T.translation >= low - 1e-12) & (T.translation <= high + 1e-12)).all()

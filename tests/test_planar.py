@@ -1,4 +1,6 @@
-"""The three-lever arm of source 003 against its reference cases, its family of postures, and the least movement."""
+"""The three-lever arm of source 003 against its reference cases, its family of postures, and the
+least movement.
+"""
 
 import os
 
@@ -23,7 +25,9 @@ def ours(angles):
 
 
 def chain(L, q):
-    """O, B, A, K as complex numbers: every lever turns on from the one before by an interior angle, clockwise."""
+    """O, B, A, K as complex numbers: every lever turns on from the one before by an interior angle,
+    clockwise.
+    """
     gamma, beta, alpha = q
     first = L * np.exp(1j * gamma)
     second = -first * np.exp(1j * beta)
@@ -44,7 +48,9 @@ def test_the_rows_of_the_family(case):
     for row in case["rows"]:
         q = arm.family(K, row["alpha"])
         np.testing.assert_allclose(q, [row["gamma"], row["beta"], row["alpha"]], rtol=0, atol=1e-12)
-        np.testing.assert_allclose(arm.joints(q), [(0, 0), row["B"], row["A"], K], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(
+            arm.joints(q), [(0, 0), row["B"], row["A"], K], rtol=0, atol=1e-12
+        )
         assert within(arm, q).all() == row["within_0_180"]
 
 
@@ -70,21 +76,32 @@ def test_forward(case):
         for point, name in zip(found, "BAK", strict=True):
             np.testing.assert_allclose(point[:2], case[name], rtol=0, atol=1e-12)
     assert frames[:, 2].tolist() == [0, 0, 0, 0]
-    assert (arm.unreached(case["K"]) == "" or "gamma" in arm.unreached(case["K"])) == case["valid_range"]
+    assert (arm.unreached(case["K"]) == "" or "gamma" in arm.unreached(case["K"])) == case[
+        "valid_range"
+    ]
 
 
 @pytest.mark.parametrize("case", UNREACHED)
 def test_out_of_range_is_said(case):
     arm = three_lever(case["L"])
     assert np.isnan(arm.family(case["K"], [1.0, 2.0, np.pi])).all()
-    assert np.isnan(arm.least(case["K"], [1.0, 1, 1])[0]).all() and np.isnan(arm.sweep(case["K"], [1.0, 1, 1])[0]).all()
+    assert (
+        np.isnan(arm.least(case["K"], [1.0, 1, 1])[0]).all()
+        and np.isnan(arm.sweep(case["K"], [1.0, 1, 1])[0]).all()
+    )
     assert len(arm.table(case["K"])) == 0
-    words = {"KO<=L": "not farther than one lever", "KO>=3L": "farther than three levers"}[case["reason"]]
-    assert words in arm.unreached(case["K"]) and f"{case['distance'] * 1000:.1f} mm" in arm.unreached(case["K"])
+    words = {"KO<=L": "not farther than one lever", "KO>=3L": "farther than three levers"}[
+        case["reason"]
+    ]
+    assert words in arm.unreached(
+        case["K"]
+    ) and f"{case['distance'] * 1000:.1f} mm" in arm.unreached(case["K"])
 
 
 def test_the_worked_example():
-    """Errata S3-h: the sweep stops beside the kink beta = 110 degrees, the exact minimum lies on it."""
+    """Errata S3-h: the sweep stops beside the kink beta = 110 degrees, the exact minimum lies on
+    it.
+    """
     previous = ours(EXAMPLE["previous_deg"]) * deg
     q, S = ARM.least(EXAMPLE["target"], previous)
     assert S / deg == pytest.approx(18.300924618, abs=1e-9) == EXAMPLE["cost_deg"]
@@ -92,7 +109,9 @@ def test_the_worked_example():
     q, S = ARM.sweep(EXAMPLE["target"], previous, 0.01 * deg)
     assert S / deg == pytest.approx(18.304095438, abs=1e-9)
     np.testing.assert_allclose(q / deg, [85.225727, 110.007137, 123.522685], rtol=0, atol=1e-6)
-    assert ARM.alpha_range(EXAMPLE["target"])[0] / deg == pytest.approx(EXAMPLE["alpha_min_deg"], abs=1e-12)
+    assert ARM.alpha_range(EXAMPLE["target"])[0] / deg == pytest.approx(
+        EXAMPLE["alpha_min_deg"], abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -105,7 +124,9 @@ def test_the_family_reaches_its_point_over_all_of_its_range(shape):
     q = arm.family(K[..., None, :], alpha)
     assert q.shape == (*shape, 301, 3)
     flange = arm.fk(q).translation
-    np.testing.assert_allclose(flange[..., :2], np.broadcast_to(K[..., None, :], (*shape, 301, 2)), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        flange[..., :2], np.broadcast_to(K[..., None, :], (*shape, 301, 2)), rtol=0, atol=1e-14
+    )
     assert (q[..., 1:] >= 0).all() and (q[..., 1:] <= np.pi + 1e-12).all()
     np.testing.assert_allclose(q[..., 0, 1], np.pi, atol=1e-7)  # beta at alpha_min
     assert (np.diff(q[..., 0], axis=-1) > 0).all()  # gamma only grows
@@ -114,7 +135,8 @@ def test_the_family_reaches_its_point_over_all_of_its_range(shape):
         point = np.append(K[i], 0.0)
         for same in (point, Transform(translation=point)):
             np.testing.assert_array_equal(arm.family(same, alpha[i]), q[i])
-    # the range with gamma limited: where some alpha is left, it is exactly where all angles lie in 0 to 180 degrees
+    # the range with gamma limited: where some alpha is left, it is exactly where all angles lie in
+    # 0 to 180 degrees
     low, high = arm.alpha_range(K)
     with np.errstate(invalid="ignore"):
         inside = (alpha > low[..., None] + 1e-9) & (alpha < high[..., None] - 1e-9)
@@ -148,15 +170,24 @@ def test_the_exact_minimum_is_never_above_the_sweep(limited):
     np.testing.assert_allclose(ARM.fk(q[exists]).translation[:, :2], K[exists], rtol=0, atol=1e-13)
     np.testing.assert_allclose(abs(q - previous).sum(axis=-1), S, rtol=0, atol=1e-13)
     assert within(ARM, q[exists]).all() or not limited
-    above = np.array([ARM.sweep(*task, 0.01 * deg, limited)[1] for task in zip(K, previous, strict=True)]) - S
-    assert (np.isnan(above) >= ~exists).all() and np.isnan(above).sum() <= (~exists).sum() + n / 1000
+    above = (
+        np.array(
+            [ARM.sweep(*task, 0.01 * deg, limited)[1] for task in zip(K, previous, strict=True)]
+        )
+        - S
+    )
+    assert (np.isnan(above) >= ~exists).all() and np.isnan(above).sum() <= (
+        ~exists
+    ).sum() + n / 1000
     assert np.nanmin(above) > -1e-14
     # one step of alpha, each angle moving at most three times as fast: the two cannot lie far apart
     assert 0 < np.nanmax(above) < 0.05 * deg and np.nanmedian(above) < 0.005 * deg
 
 
 def test_the_exact_minimum_between_the_kinks():
-    """A minimum at which no angle stays as it was and alpha is at no end of its range exists, and is found."""
+    """A minimum at which no angle stays as it was and alpha is at no end of its range exists, and
+    is found.
+    """
     K, previous = np.array([1.8, 0.6]), np.array([175, 30, 40]) * deg
     q, S = ARM.least(K, previous, limited=False)
     low, high = ARM.alpha_range(K, limited=False)
@@ -181,10 +212,15 @@ def test_the_table_is_table_3():
     K, step = (1.5, 1.0), 0.01 * deg
     rows = ARM.table(K, step, limited=False)
     assert rows[0, 2] / deg == pytest.approx(64.055520228, abs=1e-9)  # errata S3-e, row 1
-    assert rows[1, 2] / deg == pytest.approx(64.065520228, abs=1e-9)  # row 2: the step is outside the arccos
+    # row 2: the step is outside the arccos
+    assert rows[1, 2] / deg == pytest.approx(64.065520228, abs=1e-9)
     assert 180 - 0.01 < rows[-1, 2] / deg <= 180 and len(rows) == 11595
-    assert np.cos(ARM.family(K, np.pi)[0] - np.arctan2(1.0, 1.5)) == pytest.approx(0.0693375245, abs=1e-10)  # S3-d
-    K = 2 * np.array([np.cos(150 * deg), np.sin(150 * deg)])  # errata S3-g: nearly every row has gamma > 180 degrees
+    # S3-d
+    assert np.cos(ARM.family(K, np.pi)[0] - np.arctan2(1.0, 1.5)) == pytest.approx(
+        0.0693375245, abs=1e-10
+    )
+    # errata S3-g: nearly every row has gamma > 180 degrees
+    K = 2 * np.array([np.cos(150 * deg), np.sin(150 * deg)])
     share = len(ARM.table(K)) / len(ARM.table(K, limited=False))
     assert share == pytest.approx(0.0105, abs=5e-4)  # errata: 1.05 %, from coarser rows
     K = 2 * np.array([np.cos(170 * deg), np.sin(170 * deg)])
@@ -200,7 +236,9 @@ def test_a_redundant_arm_has_no_ik():
 
 
 def test_follow_takes_the_family_as_rows():
-    """Along a path `follow` takes, sample by sample, the posture with the least movement among those offered."""
+    """Along a path `follow` takes, sample by sample, the posture with the least movement among
+    those offered.
+    """
     K = np.linspace((1.8, 0.6), (1.2, 1.4), 40)
     rows = ARM.family(K[:, None], np.linspace(80, 180, 201) * deg)
     q = follow(ARM, rows, 100)
@@ -208,23 +246,28 @@ def test_follow_takes_the_family_as_rows():
     assert abs(np.diff(q, axis=0)).max() < 3 * deg
 
 
-@pytest.mark.parametrize("call, words", [
-    (lambda: three_lever(0), "positive length"),
-    (lambda: three_lever([1, 1]), "positive length"),
-    (lambda: ARM.family((1, 2, 3, 4), 2.0), r"\(4,\)"),
-    (lambda: ARM.family(np.ones((4, 2)), np.ones(3)), r"\(4,\) and \(3,\)"),
-    (lambda: ARM.sweep(np.ones((4, 2)), np.ones(3)), "single point"),
-    (lambda: ARM.sweep((1.5, 1), np.ones(3), 0), "step"),
-    (lambda: ARM.sweep((1.5, 1), np.ones(2)), r"previous.*\(2,\)"),
-    (lambda: ARM.least((1.5, np.nan), np.ones(3)), "nan"),
-])
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: three_lever(0), "positive length"),
+        (lambda: three_lever([1, 1]), "positive length"),
+        (lambda: ARM.family((1, 2, 3, 4), 2.0), r"\(4,\)"),
+        (lambda: ARM.family(np.ones((4, 2)), np.ones(3)), r"\(4,\) and \(3,\)"),
+        (lambda: ARM.sweep(np.ones((4, 2)), np.ones(3)), "single point"),
+        (lambda: ARM.sweep((1.5, 1), np.ones(3), 0), "step"),
+        (lambda: ARM.sweep((1.5, 1), np.ones(2)), r"previous.*\(2,\)"),
+        (lambda: ARM.least((1.5, np.nan), np.ones(3)), "nan"),
+    ],
+)
 def test_wrong_calls_are_named(call, words):
     with pytest.raises(ValueError, match=words):
         call()
 
 
 def test_a_point_off_the_plane_is_not_reached():
-    assert np.isnan(ARM.family((1.5, 1, 0.1), 2.0)).all() and "beside the plane" in ARM.unreached((1.5, 1, 0.1))
+    assert np.isnan(ARM.family((1.5, 1, 0.1), 2.0)).all() and "beside the plane" in ARM.unreached(
+        (1.5, 1, 0.1)
+    )
 
 
 def _pairs(points):

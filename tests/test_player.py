@@ -36,18 +36,57 @@ START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
 T = np.linspace(0, 20, 2001)
-CORNER_JUMP = np.array([0.107946862582, 0.457852830604, 0.920011415539,
-                        0.030116525407, -0.456073919364, -0.216939050457])
-GREATEST_SPEED = {0: [0.167925134190, 0.254172899579, 0.546579628640, 0.184156326854, 0.377072039796, 0.254664472000],
-                  0.1: [0.167925134190, 0.189357070983, 0.268949725020, 0.184156326854, 0.214674566952, 0.254664472000]}
+CORNER_JUMP = np.array(
+    [
+        0.107946862582,
+        0.457852830604,
+        0.920011415539,
+        0.030116525407,
+        -0.456073919364,
+        -0.216939050457,
+    ]
+)
+GREATEST_SPEED = {
+    0: [
+        0.167925134190,
+        0.254172899579,
+        0.546579628640,
+        0.184156326854,
+        0.377072039796,
+        0.254664472000,
+    ],
+    0.1: [
+        0.167925134190,
+        0.189357070983,
+        0.268949725020,
+        0.184156326854,
+        0.214674566952,
+        0.254664472000,
+    ],
+}
 GREATEST_ACCELERATION = {0.1: [0.049798, 0.073271, 0.152951, 0.048029, 0.077924, 0.091649]}
 FRACTIONS = np.array([0, 0.1, 0.25, 0.5])
 
-PLANAR = Arm("Two links", (Link(axis=Z), Link(Transform(translation=(0.5, 0, 0)), Z,
-                                              after=Transform(translation=(0.4, 0, 0)))), None, [[-3, 3], [-2, 2]])
-SCARA = Arm("Four axes", (Link(Transform(translation=(0, 0, 0.4)), Z), Link(Transform(translation=(0.25, 0, 0)), Z),
-                          Link(Transform(translation=(0.2, 0, 0)), -Z, prismatic=True), Link(axis=Z)), None,
-            [[-3, 3], [-2, 2], [0, 0.18], [-6, 6]])
+PLANAR = Arm(
+    "Two links",
+    (
+        Link(axis=Z),
+        Link(Transform(translation=(0.5, 0, 0)), Z, after=Transform(translation=(0.4, 0, 0))),
+    ),
+    None,
+    [[-3, 3], [-2, 2]],
+)
+SCARA = Arm(
+    "Four axes",
+    (
+        Link(Transform(translation=(0, 0, 0.4)), Z),
+        Link(Transform(translation=(0.25, 0, 0)), Z),
+        Link(Transform(translation=(0.2, 0, 0)), -Z, prismatic=True),
+        Link(axis=Z),
+    ),
+    None,
+    [[-3, 3], [-2, 2], [0, 0.18], [-6, 6]],
+)
 
 
 def chain(fraction, t=T, corner="parabola"):
@@ -80,7 +119,7 @@ def kept(player, t=T):
     return np.abs(t[:, None] - player.data["times"]).argmin(axis=0)
 
 
-# --- The data of the page ---------------------------------------------------------------------------------------------
+# --- The data of the page -------------------------------------------------------------------------
 
 
 def test_page_holds_the_motion_within_its_step(blended, motions):
@@ -108,12 +147,17 @@ def test_greatest_speeds_and_accelerations_are_those_of_the_errata(blended):
     arm = blended.data["arms"][0]
     for fraction, wanted in GREATEST_SPEED.items():
         got = arm["speed"][FRACTIONS.tolist().index(fraction)]
-        # Differences forward (errata) and central, and the digit shown, differ by less than a tenth of a degree.
+        # Differences forward (errata) and central, and the digit shown, differ by less than a tenth
+        # of a degree.
         assert np.allclose(got, np.array(wanted) / deg, rtol=0, atol=0.1)
         share = arm["share"][FRACTIONS.tolist().index(fraction)]
         assert np.allclose(share, 100 * np.array(wanted) / IRB140.speed_limits, rtol=0, atol=0.6)
     for fraction, wanted in GREATEST_ACCELERATION.items():
-        assert np.allclose(arm["acceleration"][FRACTIONS.tolist().index(fraction)], np.array(wanted) / deg, atol=0.08)
+        assert np.allclose(
+            arm["acceleration"][FRACTIONS.tolist().index(fraction)],
+            np.array(wanted) / deg,
+            atol=0.08,
+        )
 
 
 def test_an_unblended_corner_is_a_speed_jump_and_no_acceleration(blended):
@@ -164,7 +208,8 @@ def test_the_distance_to_via_is_the_smallest_of_the_path(blended, motions):
     for (distance, *place), least in zip(blended.data["arms"][0]["via"], wanted, strict=True):
         assert distance == pytest.approx(least / mm, abs=0.051)
         assert np.linalg.norm(place - VIA.translation) == pytest.approx(least, abs=2e-4)
-    assert wanted[0] < 1e-9 < 0.03 < wanted[1]  # the unblended path passes the via point, the blended one does not
+    # the unblended path passes the via point, the blended one does not
+    assert wanted[0] < 1e-9 < 0.03 < wanted[1]
 
 
 def test_where_there_is_no_solution_the_curves_have_a_gap(motions):
@@ -194,7 +239,9 @@ def test_a_turn_by_two_pi_is_a_break_and_not_a_speed(motions):
     player = animate(IRB140, T, q)
     arm = player.data["arms"][0]
     [[when, words]] = arm["leaps"]["0"]
-    assert when == pytest.approx(11.995) and words.startswith("q4 jumps by 36") and words.endswith("°")
+    assert (
+        when == pytest.approx(11.995) and words.startswith("q4 jumps by 36") and words.endswith("°")
+    )
     assert arm["speed"][0] == animate(IRB140, T, motions[1]).data["arms"][0]["speed"][0]
     [gap] = arm["gaps"]["0"]
     times = player.data["times"]
@@ -213,7 +260,9 @@ def test_samples_past_a_limit_are_counted(motions):
     assert any("past its speed limit" in note for note in fast)
 
 
-@pytest.mark.parametrize("past, words", [(0.02, "0.020°"), (0.25, "0.25°"), (1.0, "1.0°"), (12.34, "12.3°")])
+@pytest.mark.parametrize(
+    "past, words", [(0.02, "0.020°"), (0.25, "0.25°"), (1.0, "1.0°"), (12.34, "12.3°")]
+)
 def test_how_far_past_a_limit_has_two_significant_digits(past, words):
     q = np.zeros((2001, 6))
     q[:, 1] = np.linspace(0, IRB140.limits[1, 1] + past * deg, 2001)
@@ -223,23 +272,44 @@ def test_how_far_past_a_limit_has_two_significant_digits(past, words):
 
 def test_limits_are_shown_for_the_joints_that_come_near_them():
     q = np.zeros((3, 2001, 6))
-    q[:, :, 0] = np.linspace(0, 1, 2001) * np.array([[100], [120], [130]]) * deg  # its limit is 180 degrees
+    # its limit is 180 degrees
+    q[:, :, 0] = np.linspace(0, 1, 2001) * np.array([[100], [120], [130]]) * deg
     q[1, :, 1] = np.linspace(0, -89, 2001) * deg  # limit -90
     q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # limit 50, passed
-    slow, fast = (animate(IRB140, t, q, slider=("x", [0, 1, 2])).data["panels"]
-                  for t in (T, np.linspace(0, 130 / 195, 2001)))  # joint 1 turns at 195 of at most 200 degrees/s
+    slow, fast = (
+        animate(IRB140, t, q, slider=("x", [0, 1, 2])).data["panels"]
+        # joint 1 turns at 195 of at most 200 degrees/s
+        for t in (T, np.linspace(0, 130 / 195, 2001))
+    )
     assert [panel["near"] for panel in slow] == [[[[1, 0], [2, 1]]], [[]], [[]]]
     assert [panel["near"] for panel in fast] == [[[[1, 0], [2, 1]]], [[[0, 1]]], [[]]]
 
 
 @pytest.mark.parametrize("stroke", [(0.0, 0.18), (0.05, 0.06), (-0.03, 0.2), (0.1, 0.1)])
 def test_two_scales_in_one_panel_share_their_zero_and_their_ticks(stroke):
-    q = np.stack([np.sin(T / 3), 2 * np.cos(T / 4), np.linspace(*stroke, len(T)) + 0.01 * np.sin(T), 0.1 * T], axis=-1)
+    q = np.stack(
+        [
+            np.sin(T / 3),
+            2 * np.cos(T / 4),
+            np.linspace(*stroke, len(T)) + 0.01 * np.sin(T),
+            0.1 * T,
+        ],
+        axis=-1,
+    )
     for panel, unit in zip(animate(SCARA, T, q).data["panels"], ("", "/s", "/s²"), strict=True):
-        [(low, step, count, _)], [(low2, step2, count2, _)] = panel["turn"]["scales"], panel["shift"]["scales"]
+        [(low, step, count, _)], [(low2, step2, count2, _)] = (
+            panel["turn"]["scales"],
+            panel["shift"]["scales"],
+        )
         assert (panel["turn"]["unit"], panel["shift"]["unit"]) == (f"°{unit}", f"mm{unit}")
-        assert count == count2 and low / step == pytest.approx(low2 / step2) and low <= 0 <= low + step * (count - 1)
-    [angles], [places] = (animate(SCARA, T, q).data["panels"][0][kind]["scales"] for kind in ("turn", "shift"))
+        assert (
+            count == count2
+            and low / step == pytest.approx(low2 / step2)
+            and low <= 0 <= low + step * (count - 1)
+        )
+    [angles], [places] = (
+        animate(SCARA, T, q).data["panels"][0][kind]["scales"] for kind in ("turn", "shift")
+    )
     for values, (low, step, count, _) in ((q[:, [0, 1, 3]] / deg, angles), (q[:, 2] / mm, places)):
         assert low <= values.min() + 1e-6 and values.max() <= low + step * (count - 1) + 1e-6
 
@@ -261,11 +331,16 @@ def test_a_planar_arm_is_seen_straight_on():
 
 
 def test_everything_drawn_lies_inside_what_the_camera_sees(blended, motions):
-    """The few points handed over span, from any side, all postures (to the 5 mm they are rounded to)."""
+    """The few points handed over span, from any side, all postures (to the 5 mm they are rounded
+    to).
+    """
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
     flange = IRB140.fk(motions[:, ::20])  # with its axes, as long as the page draws them
-    tips = [(flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation for axis in (X, Y, Z)]
+    tips = [
+        (flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation
+        for axis in (X, Y, Z)
+    ]
     points = np.concatenate([points, np.reshape(tips, (-1, 3))])
     for k in range(24):
         side = np.array([np.cos(k), np.sin(k), np.sin(3 * k)])
@@ -274,17 +349,34 @@ def test_everything_drawn_lies_inside_what_the_camera_sees(blended, motions):
 
 
 def test_the_still_picture_is_seen_as_the_scene_and_at_one_scale(motions):
-    """First and last posture of both arms, projected as player.js does, are lines of the picture."""
-    player = animate([IRB140, IRB140], T, [motions[1], motions[3]], names=["near", "far"], targets=[START, VIA, GOAL])
+    """First and last posture of both arms, projected as player.js does, are lines of the
+    picture.
+    """
+    player = animate(
+        [IRB140, IRB140],
+        T,
+        [motions[1], motions[3]],
+        names=["near", "far"],
+        targets=[START, VIA, GOAL],
+    )
     (azimuth, elevation), ends = player.data["scene"]["view"], []
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
-    up = np.array([-np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)])
+    up = np.array(
+        [
+            -np.sin(elevation) * np.cos(azimuth),
+            -np.sin(elevation) * np.sin(azimuth),
+            np.cos(elevation),
+        ]
+    )
     for ax, q in zip(player.still.axes, (motions[1], motions[3]), strict=True):
         drawn = [np.column_stack(line.get_data()) for line in ax.lines]
         for posture in (q[0], q[-1]):
             points = arm_points(IRB140, posture)
             wanted = np.stack([points @ right, points @ up], axis=-1)
-            assert any(line.shape == wanted.shape and np.allclose(line, wanted, atol=1e-3) for line in drawn)
+            assert any(
+                line.shape == wanted.shape and np.allclose(line, wanted, atol=1e-3)
+                for line in drawn
+            )
         assert max(map(len, drawn)) > 500  # the path, from more samples than the page gets
         ends.append([*ax.get_xlim(), *ax.get_ylim()])
     assert np.allclose(*ends)
@@ -297,14 +389,16 @@ def test_several_arms_share_clock_and_scales(motions):
         assert abs(decoded(player, k)[0] - motions[[1, 3][k], kept(player)] / deg).max() < 0.01
 
 
-# --- Size and sameness ------------------------------------------------------------------------------------------------
+# --- Size and sameness ----------------------------------------------------------------------------
 
 
 def test_the_same_data_gives_the_same_page_whatever_the_noise(blended, motions):
     again = animate(IRB140, T, motions, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
     assert again.html == blended.html
     noise = 1 + 1e-15 * np.random.default_rng(1).standard_normal(motions.shape)
-    other = animate(IRB140, T, motions * noise, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
+    other = animate(
+        IRB140, T, motions * noise, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS)
+    )
     assert other.text == blended.text and repr(other) == repr(blended)
     assert animate(IRB140, T, motions[1]).id != animate(IRB140, T, motions[2]).id
 
@@ -316,7 +410,14 @@ def test_the_id_is_not_of_the_picture(blended):
 def test_the_page_stays_small(motions):
     q = np.broadcast_to(motions[1], (2, 51, *motions[1].shape))
     values = np.linspace(0, 0.5, 51)
-    player = animate(IRB140, T, q, targets=[START, VIA, GOAL], slider=("blend", values), switch=("corner", ["a", "b"]))
+    player = animate(
+        IRB140,
+        T,
+        q,
+        targets=[START, VIA, GOAL],
+        slider=("blend", values),
+        switch=("corner", ["a", "b"]),
+    )
     assert 110 <= len(player.data["times"]) <= 121
     assert len(player.html.encode()) < 650_000
     assert len(animate(IRB140, T, motions[1]).html.encode()) < 75_000
@@ -326,9 +427,14 @@ def test_words_for_the_notebook(blended):
     bundle = blended._repr_mimebundle_()
     assert set(bundle) == {"text/html", "text/plain"}
     farthest = blended.data["arms"][0]["via"][3][0]
-    assert bundle["text/plain"] == ("Player of IRB-140: 20 s, blend 0 to 0.5 in 4 values, greatest speed 31.4 °/s "
-                                    f"(joint 3), smallest distance from the via point 0 to {farthest:g} mm.")
-    picture = r'<img alt="IRB-140 in the first and the last posture[^"]*" [^>]*src="data:image/png;base64,'
+    assert bundle["text/plain"] == (
+        "Player of IRB-140: 20 s, blend 0 to 0.5 in 4 values, greatest speed 31.4 °/s "
+        f"(joint 3), smallest distance from the via point 0 to {farthest:g} mm."
+    )
+    picture = (
+        r'<img alt="IRB-140 in the first and the last posture[^"]*" '
+        r'[^>]*src="data:image/png;base64,'
+    )
     assert re.search(picture, bundle["text/html"])
 
 
@@ -339,7 +445,7 @@ def test_nothing_in_the_data_ends_the_script(motions):
     assert json.loads(player.text)["title"] == "</script><b>"
 
 
-# --- Saving and wrong calls -------------------------------------------------------------------------------------------
+# --- Saving and wrong calls -----------------------------------------------------------------------
 
 
 def test_save_writes_one_page_and_spares_what_is_not_its_own(tmp_path, blended):
@@ -357,29 +463,32 @@ def test_save_writes_one_page_and_spares_what_is_not_its_own(tmp_path, blended):
         blended.save(tmp_path / "player.txt")
 
 
-@pytest.mark.parametrize("change, message", [
-    ({"arm": "IRB140"}, "arm: wanted a Arm"),
-    ({"t": []}, "at least three times"),
-    ({"t": T[:2], "q": np.zeros((2, 6))}, "at least three times"),
-    ({"t": T[::-1]}, "rising times"),
-    ({"t": np.full(2001, np.nan)}, "t: wanted finite"),
-    ({"q": np.zeros((2001, 5))}, r"wanted shape \(2001, 6\)"),
-    ({"q": np.zeros((2000, 6))}, r"wanted shape \(2001, 6\)"),
-    ({"q": np.full((2001, 6), np.inf)}, "finite"),
-    ({"q": "no"}, "wanted numbers"),
-    ({"slider": ("blend", [0, 0.1])}, r"wanted shape \(2, 2001, 6\)"),
-    ({"slider": ("blend", [0.1])}, "at least two"),
-    ({"slider": ("blend", [0.1, 0.1])}, "rising"),
-    ({"slider": "blend"}, r"slider: wanted \(name, values\)"),
-    ({"switch": ("corner", ["one"])}, "at least two words"),
-    ({"switch": ("corner", ["one", "two"])}, r"wanted shape \(2, 2001, 6\)"),
-    ({"names": ["x"]}, "names: wanted only with a list"),
-    ({"arm": [IRB140, IRB140]}, "one array for each of 2 arms"),
-    ({"arm": [IRB140], "q": [np.zeros((2001, 6))], "names": ["a", "b"]}, "wanted 1 names"),
-    ({"targets": [(1, 2, 3)]}, "target"),
-    ({"points": [(1, 2, 3, 4)]}, "points: wanted places"),
-    ({"circles": [((0, 0, 0), -1)]}, "radius"),
-])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"arm": "IRB140"}, "arm: wanted a Arm"),
+        ({"t": []}, "at least three times"),
+        ({"t": T[:2], "q": np.zeros((2, 6))}, "at least three times"),
+        ({"t": T[::-1]}, "rising times"),
+        ({"t": np.full(2001, np.nan)}, "t: wanted finite"),
+        ({"q": np.zeros((2001, 5))}, r"wanted shape \(2001, 6\)"),
+        ({"q": np.zeros((2000, 6))}, r"wanted shape \(2001, 6\)"),
+        ({"q": np.full((2001, 6), np.inf)}, "finite"),
+        ({"q": "no"}, "wanted numbers"),
+        ({"slider": ("blend", [0, 0.1])}, r"wanted shape \(2, 2001, 6\)"),
+        ({"slider": ("blend", [0.1])}, "at least two"),
+        ({"slider": ("blend", [0.1, 0.1])}, "rising"),
+        ({"slider": "blend"}, r"slider: wanted \(name, values\)"),
+        ({"switch": ("corner", ["one"])}, "at least two words"),
+        ({"switch": ("corner", ["one", "two"])}, r"wanted shape \(2, 2001, 6\)"),
+        ({"names": ["x"]}, "names: wanted only with a list"),
+        ({"arm": [IRB140, IRB140]}, "one array for each of 2 arms"),
+        ({"arm": [IRB140], "q": [np.zeros((2001, 6))], "names": ["a", "b"]}, "wanted 1 names"),
+        ({"targets": [(1, 2, 3)]}, "target"),
+        ({"points": [(1, 2, 3, 4)]}, "points: wanted places"),
+        ({"circles": [((0, 0, 0), -1)]}, "radius"),
+    ],
+)
 def test_a_wrong_call_says_what_is_wanted(change, message):
     call = {"arm": IRB140, "t": T, "q": np.zeros((2001, 6))} | change
     arm, t, q = call.pop("arm"), call.pop("t"), call.pop("q")
@@ -387,7 +496,7 @@ def test_a_wrong_call_says_what_is_wanted(change, message):
         animate(arm, t, q, **call)
 
 
-# --- In a browser -----------------------------------------------------------------------------------------------------
+# --- In a browser ---------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -395,9 +504,16 @@ def page(browser):
     """A page that must not complain and must not ask the network for anything."""
     page = browser.new_page(viewport={"width": 900, "height": 900})
     complaints = []
-    page.on("console", lambda m: complaints.append(m.text) if m.type in ("error", "warning") else None)
+    page.on(
+        "console", lambda m: complaints.append(m.text) if m.type in ("error", "warning") else None
+    )
     page.on("pageerror", lambda e: complaints.append(str(e)))
-    page.on("request", lambda r: None if r.url.startswith(("file:", "data:", "about:")) else complaints.append(r.url))
+    page.on(
+        "request",
+        lambda r: (
+            None if r.url.startswith(("file:", "data:", "about:")) else complaints.append(r.url)
+        ),
+    )
     yield page
     page.close()
     assert complaints == []
@@ -412,8 +528,11 @@ def show(page, player, tmp_path):
 
 def ink(page, selector):
     """A fingerprint of what a canvas shows, after the next picture."""
-    return page.evaluate("""selector => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() =>
-        done(document.querySelector(selector).toDataURL()))))""", selector)
+    return page.evaluate(
+        """selector => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() =>
+        done(document.querySelector(selector).toDataURL()))))""",
+        selector,
+    )
 
 
 @pytest.mark.parametrize("arm", [IRB140, SCARA, PLANAR], ids=lambda arm: arm.name)
@@ -421,9 +540,14 @@ def test_the_page_computes_the_frames_of_the_arm(page, arm):
     q = np.random.default_rng(7).uniform(arm.limits[:, 0], arm.limits[:, 1], (50, len(arm.links)))
     player = animate(arm, T, np.linspace(q[0], q[1], 2001))
     script = files("robokin.show").joinpath("player.js").read_text(encoding="utf-8")
-    got = page.evaluate("([script, chain, q]) => q.map(row => new Function(script + 'return frames')()(chain, row))",
-                        [script, player.data["arms"][0]["chain"], q.tolist()])
-    assert np.allclose(np.reshape(got, (50, -1, 3, 4)), arm.frames(q).as_matrix()[..., :3, :], rtol=0, atol=2e-8)
+    got = page.evaluate(
+        "([script, chain, q]) => q.map(row => new Function(script + 'return frames')()(chain, "
+        "row))",
+        [script, player.data["arms"][0]["chain"], q.tolist()],
+    )
+    assert np.allclose(
+        np.reshape(got, (50, -1, 3, 4)), arm.frames(q).as_matrix()[..., :3, :], rtol=0, atol=2e-8
+    )
 
 
 def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
@@ -431,12 +555,17 @@ def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
     assert page.locator("img").count() == 0  # the still picture has gone
     page.get_by_label("time", exact=True).fill("200")
     seen = [(ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text())]
-    assert "jump 52.7" in seen[0][2] and "speed jumps at 10.00 s" in page.locator(".rk-notes").inner_text()
+    assert (
+        "jump 52.7" in seen[0][2]
+        and "speed jumps at 10.00 s" in page.locator(".rk-notes").inner_text()
+    )
     slider = page.get_by_label("blend", exact=True)
     slider.focus()
     for _ in FRACTIONS[1:]:
         page.keyboard.press("ArrowRight")
-        seen.append((ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text()))
+        seen.append(
+            (ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text())
+        )
     for part in zip(*seen, strict=True):
         assert len(set(part)) == len(FRACTIONS)
     assert page.locator(".rk-value").last.inner_text() == "0.50"
@@ -444,7 +573,9 @@ def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
     for j in range(6):
         assert f"{arm['speed'][3][j]:.1f} ({arm['share'][3][j]}\u00a0%)" in seen[3][2]
         assert f"{arm['acceleration'][3][j]:.1f}" in seen[3][2]
-    assert f"{arm['via'][3][0]:.1f} mm" in seen[3][2] and page.locator(".rk-notes").inner_text() == ""
+    assert (
+        f"{arm['via'][3][0]:.1f} mm" in seen[3][2] and page.locator(".rk-notes").inner_text() == ""
+    )
 
 
 def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
@@ -510,7 +641,10 @@ def test_two_copies_of_one_player_do_not_disturb_each_other(page, blended, tmp_p
     assert page.get_by_role("button", name="play").count() == 2
     page.get_by_label("blend", exact=True).nth(1).fill("3")
     ink(page, ".rk-scene")
-    assert [v.inner_text() for v in page.locator(".rk-row:nth-of-type(n+4) .rk-value").all()] == ["0.00", "0.50"]
+    assert [v.inner_text() for v in page.locator(".rk-row:nth-of-type(n+4) .rk-value").all()] == [
+        "0.00",
+        "0.50",
+    ]
 
 
 def test_a_removed_player_asks_for_no_more_pictures(page, blended, tmp_path):
@@ -529,10 +663,13 @@ def test_a_removed_player_asks_for_no_more_pictures(page, blended, tmp_path):
 
 @pytest.mark.parametrize("width", [360, 800, 1400])
 def test_the_words_of_limits_keep_apart(page, tmp_path, width):
-    """Six joints go from limit to limit: at most three labels a panel, with units, none over another."""
+    """Six joints go from limit to limit: at most three labels a panel, with units, none over
+    another.
+    """
     s = np.sin(np.outer(T, np.arange(1, 7)) / 4)
     q = IRB140.limits.mean(axis=-1) + s * np.diff(IRB140.limits, axis=-1).T / 2 * 0.99
-    page.add_init_script("""window.written = []; const write = CanvasRenderingContext2D.prototype.fillText;
+    page.add_init_script("""window.written = [];
+        const write = CanvasRenderingContext2D.prototype.fillText;
         CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
             if (/limit/.test(text)) window.written.push([text, x, y, this.measureText(text).width]);
             return write.call(this, text, x, y); };""")
@@ -545,7 +682,9 @@ def test_the_words_of_limits_keep_apart(page, tmp_path, width):
     assert len(written) <= 6 and (written or width == 360)
     for k, (text, x, y, w) in enumerate(written):
         assert re.fullmatch("q[1-6] limit −?[0-9.]+°(/s)?", text)
-        assert not any(x < x2 + w2 and x2 < x + w and abs(y - y2) < 10 for _, x2, y2, w2 in written[:k])
+        assert not any(
+            x < x2 + w2 and x2 < x + w and abs(y - y2) < 10 for _, x2, y2, w2 in written[:k]
+        )
 
 
 @pytest.mark.parametrize("width", [360, 500, 900, 1400])
@@ -554,7 +693,8 @@ def test_nothing_is_cut_off_at_any_width(page, blended, tmp_path, width):
     show(page, blended, tmp_path)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     boxes = [page.locator(s).bounding_box() for s in (".rk-scene", ".rk-curves")]
-    assert (boxes[0]["y"] == boxes[1]["y"]) == (width >= 900)  # side by side, or one above the other
+    # side by side, or one above the other
+    assert (boxes[0]["y"] == boxes[1]["y"]) == (width >= 900)
     assert all(box["width"] > 250 and box["height"] > 250 for box in boxes)
 
 

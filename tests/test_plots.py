@@ -1,4 +1,6 @@
-"""What the figures draw, read back from their lines, and what reaches a notebook: the alt text and a small picture."""
+"""What the figures draw, read back from their lines, and what reaches a notebook: the alt text and
+a small picture.
+"""
 
 import io
 import json
@@ -18,7 +20,20 @@ from matplotlib.text import Text
 from nbconvert import HTMLExporter
 from PIL import Image
 
-from robokin import IRB140, Arm, Link, Quaternion, Transform, blend, deg, differentiate, follow, lin_lin, linear, mm
+from robokin import (
+    IRB140,
+    Arm,
+    Link,
+    Quaternion,
+    Transform,
+    blend,
+    deg,
+    differentiate,
+    follow,
+    lin_lin,
+    linear,
+    mm,
+)
 from robokin.show import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
 from robokin.show.plots import palette_png
 from robokin.show.scene import arm_points, named_targets, number, project
@@ -30,8 +45,12 @@ VIA = Transform(Quaternion.from_angle_axis(np.pi / 4, Y), np.array([650, -100, 8
 GOAL = Transform(Quaternion.from_angle_axis(np.pi / 2, Y), np.array([300, 300, 500]) * mm)
 T = np.linspace(0, 20, 2001)
 ROW = IRB140.branch(+1, +1, -1)
-PLANAR = Arm("two links", tuple(Link(axis=Z, after=Transform(translation=(length, 0, 0))) for length in (1.5, 1.2)),
-             None, [(-np.pi, np.pi)] * 2)
+PLANAR = Arm(
+    "two links",
+    tuple(Link(axis=Z, after=Transform(translation=(length, 0, 0))) for length in (1.5, 1.2)),
+    None,
+    [(-np.pi, np.pi)] * 2,
+)
 
 
 def law_of_listing_1(t, total=20.0):
@@ -39,14 +58,19 @@ def law_of_listing_1(t, total=20.0):
     share = t / total
     x = np.where(share < 0.5, 200, 200 + (share - 0.5) * 500)
     y = np.where(share < 0.5, 50 + 1000 * share, 550)
-    return Transform(Quaternion.from_angle_axis(share * np.pi / 2, Y),
-                     np.stack([x, y, 500 + 0 * t], axis=-1) * mm)
+    return Transform(
+        Quaternion.from_angle_axis(share * np.pi / 2, Y),
+        np.stack([x, y, 500 + 0 * t], axis=-1) * mm,
+    )
 
 
 def curves(ax):
     """Name -> (samples, 2) of a panel's joint curves."""
-    return {line.get_label(): np.column_stack(line.get_data()) for line in ax.lines
-            if re.fullmatch(r"q\d", line.get_label())}
+    return {
+        line.get_label(): np.column_stack(line.get_data())
+        for line in ax.lines
+        if re.fullmatch(r"q\d", line.get_label())
+    }
 
 
 def words(ax):
@@ -67,14 +91,20 @@ def rounded():
 def figures(rounded):
     v, a = differentiate(rounded, T), differentiate(rounded, T, 2)
     return {
-        "joints": plot_joints(IRB140, T, rounded, v, a, title="Joint 3 brakes hardest at the corner"),
-        "postures": plot_postures(IRB140, rounded, targets=[START, VIA, GOAL], title="The path misses the via point"),
-        "frames": plot_frames(IRB140.frames(rounded[0]), names=list("abcdefg"), chain=True, title="A chain"),
+        "joints": plot_joints(
+            IRB140, T, rounded, v, a, title="Joint 3 brakes hardest at the corner"
+        ),
+        "postures": plot_postures(
+            IRB140, rounded, targets=[START, VIA, GOAL], title="The path misses the via point"
+        ),
+        "frames": plot_frames(
+            IRB140.frames(rounded[0]), names=list("abcdefg"), chain=True, title="A chain"
+        ),
         "own": figure("Nothing to see & nothing <said>"),
     }
 
 
-# --- Joint curves -----------------------------------------------------------------------------------------------------
+# --- Joint curves ---------------------------------------------------------------------------------
 
 
 def test_curves_are_the_given_numbers_in_degrees(rounded):
@@ -86,7 +116,9 @@ def test_curves_are_the_given_numbers_in_degrees(rounded):
         assert list(drawn) == [f"q{i}" for i in range(1, 7)]
         for i, curve in enumerate(drawn.values()):
             np.testing.assert_array_equal(curve[:, 0], T)
-            np.testing.assert_allclose(curve[:, 1], [math.degrees(x) for x in values[:, i]], rtol=1e-12, atol=1e-12)
+            np.testing.assert_allclose(
+                curve[:, 1], [math.degrees(x) for x in values[:, i]], rtol=1e-12, atol=1e-12
+            )
     assert all(ax.get_xlim() == (0, 20) for ax in panels)
 
 
@@ -97,14 +129,26 @@ def test_prismatic_joints_have_panels_of_their_own_in_millimetres():
     left, right = plot_joints(arm, t, q).axes
     shifting = int(np.flatnonzero(arm.prismatic)[0])
     assert set(curves(right)) == {f"q{shifting + 1}"} and len(curves(left)) == 3
-    np.testing.assert_allclose(curves(right)[f"q{shifting + 1}"][:, 1], q[:, shifting] * 1000, rtol=1e-12)
+    np.testing.assert_allclose(
+        curves(right)[f"q{shifting + 1}"][:, 1], q[:, shifting] * 1000, rtol=1e-12
+    )
     assert "mm" in right.get_ylabel() and "°" in left.get_ylabel()
 
 
 def test_colour_and_dash_tell_the_joints_apart(rounded):
-    lines = [line for line in plot_joints(IRB140, T, rounded).axes[0].lines if line.get_label().startswith("q")]
+    lines = [
+        line
+        for line in plot_joints(IRB140, T, rounded).axes[0].lines
+        if line.get_label().startswith("q")
+    ]
     assert [matplotlib.colors.to_hex(line.get_color()).upper() for line in lines] == [
-        "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+        "#0072B2",
+        "#D55E00",
+        "#009E73",
+        "#CC79A7",
+        "#E69F00",
+        "#56B4E9",
+    ]
     assert len({style["dash"] for style in JOINT_STYLES}) == 6 and JOINT_STYLES[0]["dash"] == ()
 
 
@@ -115,7 +159,8 @@ def test_violations_of_task_1_are_counted_and_marked():
     case = oracle("trajectories_irb140")["cases"][0]
     np.testing.assert_allclose(q[::100][1:], [s["q"] for s in case["samples"]][1:20], atol=1e-9)
     assert case["law"] == "task1" and case["limit_violation_count"] == 673
-    # Counted once more, in whole degrees from listing 1 and by the document's own formula for the wrist angle:
+    # Counted once more, in whole degrees from listing 1 and by the document's own formula for the
+    # wrist angle:
     past3, past5 = np.degrees(q[:, 2]) > 50, np.degrees(q[:, 4]) > 115
     assert (past3 | past5).sum() == 673 and t[past3 | past5].max() == pytest.approx(6.72)
     fig = plot_joints(IRB140, t, q)
@@ -136,8 +181,11 @@ def test_a_motion_inside_its_limits_says_so_and_marks_nothing(rounded):
 
 
 def test_far_limits_do_not_flatten_the_curves(rounded):
-    for ax, values in zip(plot_joints(IRB140, T, rounded, differentiate(rounded, T)).axes,
-                          (rounded, differentiate(rounded, T)), strict=True):
+    for ax, values in zip(
+        plot_joints(IRB140, T, rounded, differentiate(rounded, T)).axes,
+        (rounded, differentiate(rounded, T)),
+        strict=True,
+    ):
         low, high = ax.get_ylim()
         assert np.ptp(values / deg) > 0.8 * (high - low)
 
@@ -158,7 +206,9 @@ def test_speeds_past_the_limit_are_counted():
 def test_a_share_of_the_speed_limit_is_said(rounded):
     v = differentiate(rounded, T)
     share = max(abs(v[k, i]) / IRB140.speed_limits[i] for k in range(len(T)) for i in range(6))
-    assert f"at most {100 * share:.2g} % of the speed limit (q3)" in words(plot_joints(IRB140, T, rounded, v).axes[1])
+    assert f"at most {100 * share:.2g} % of the speed limit (q3)" in words(
+        plot_joints(IRB140, T, rounded, v).axes[1]
+    )
 
 
 def test_a_corner_does_not_flatten_the_accelerations(corner):
@@ -170,8 +220,12 @@ def test_a_corner_does_not_flatten_the_accelerations(corner):
     away = abs(T - 10) > 0.05
     assert greatest > 2000
     assert ax.get_ylim()[1] - ax.get_ylim()[0] < 3 * np.ptp(a[away] / deg)
-    assert f"spike at 10 s: speed jump / step, up to {greatest:.0f} °/s² (q3)" in words(ax) and "Spike" in fig.alt
-    assert max(abs(curve[:, 1]).max() for curve in curves(ax).values()) == pytest.approx(greatest)  # still drawn
+    assert (
+        f"spike at 10 s: speed jump / step, up to {greatest:.0f} °/s² (q3)" in words(ax)
+        and "Spike" in fig.alt
+    )
+    # still drawn
+    assert max(abs(curve[:, 1]).max() for curve in curves(ax).values()) == pytest.approx(greatest)
     assert "spike" not in words(fig.axes[1])  # a jump of the speed is no spike
 
 
@@ -211,47 +265,59 @@ def test_gaps_stay_gaps(rounded):
     fig = plot_joints(IRB140, T, q, differentiate(q, T))
     drawn = curves(fig.axes[0])["q1"][:, 1]
     np.testing.assert_array_equal(np.isnan(drawn), np.isnan(q[:, 0]))
-    assert fig.axes[0].get_legend() is not None  # the curves do not reach the edge, where their names would stand
+    # the curves do not reach the edge, where their names would stand
+    assert fig.axes[0].get_legend() is not None
     assert "nan" not in fig.alt.lower()
 
 
 def test_names_at_the_ends_do_not_touch(rounded):
-    fig = plot_joints(IRB140, T, rounded, differentiate(rounded, T) * 0)  # six curves that end in one point
+    # six curves that end in one point
+    fig = plot_joints(IRB140, T, rounded, differentiate(rounded, T) * 0)
     fig.canvas.draw()
     renderer = fig.canvas.get_renderer()
     for ax in fig.axes:
-        boxes = sorted((box.y0, box.y1) for text in ax.texts if re.fullmatch(r"q\d", text.get_text())
-                       for box in [Text.get_window_extent(text, renderer)])  # without its leader line
-        assert len(boxes) == 6 and all(low[1] <= high[0] + 1 for low, high in zip(boxes, boxes[1:], strict=False))
+        boxes = sorted(
+            (box.y0, box.y1)
+            for text in ax.texts
+            if re.fullmatch(r"q\d", text.get_text())
+            # without its leader line
+            for box in [Text.get_window_extent(text, renderer)]
+        )
+        assert len(boxes) == 6 and all(
+            low[1] <= high[0] + 1 for low, high in zip(boxes, boxes[1:], strict=False)
+        )
 
 
-@pytest.mark.parametrize("bad", [
-    lambda q: plot_joints(IRB140, T[:-1], q),
-    lambda q: plot_joints(IRB140, T[::-1], q),
-    lambda q: plot_joints(IRB140, T[:1], q[:1]),
-    lambda q: plot_joints(IRB140, T, q[:, :5]),
-    lambda q: plot_joints(IRB140, T, q, q[:-1]),
-    lambda q: plot_joints("IRB140", T, q),
-    lambda q: plot_postures(IRB140, q[:, :5]),
-    lambda q: plot_postures(IRB140, q * np.nan),
-    lambda q: plot_postures(IRB140, q, targets=[START.as_matrix()]),
-    lambda q: plot_frames([]),
-    lambda q: plot_frames(START.as_matrix()),
-    lambda q: plot_frames([START, GOAL], names=["one"]),
-    lambda q: plot_frames(START, size=-1),
-    lambda q: figure(""),
-])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        lambda q: plot_joints(IRB140, T[:-1], q),
+        lambda q: plot_joints(IRB140, T[::-1], q),
+        lambda q: plot_joints(IRB140, T[:1], q[:1]),
+        lambda q: plot_joints(IRB140, T, q[:, :5]),
+        lambda q: plot_joints(IRB140, T, q, q[:-1]),
+        lambda q: plot_joints("IRB140", T, q),
+        lambda q: plot_postures(IRB140, q[:, :5]),
+        lambda q: plot_postures(IRB140, q * np.nan),
+        lambda q: plot_postures(IRB140, q, targets=[START.as_matrix()]),
+        lambda q: plot_frames([]),
+        lambda q: plot_frames(START.as_matrix()),
+        lambda q: plot_frames([START, GOAL], names=["one"]),
+        lambda q: plot_frames(START, size=-1),
+        lambda q: figure(""),
+    ],
+)
 def test_wrong_calls_say_what_they_got(bad, rounded):
     with pytest.raises(ValueError, match="wanted .*got"):
         bad(rounded)
 
 
-# --- Spatial views ----------------------------------------------------------------------------------------------------
+# --- Spatial views --------------------------------------------------------------------------------
 
 
 def test_a_cube_keeps_its_proportions(figures):
-    """Pixels of the corners of a cube: what a true view maps to a scaled orthographic projection, by Gauss's theorem
-    of axonometry: with the axes' images as complex numbers, a^2 + b^2 + c^2 = 0.
+    """Pixels of the corners of a cube: what a true view maps to a scaled orthographic projection,
+    by Gauss's theorem of axonometry: with the axes' images as complex numbers, a^2 + b^2 + c^2 = 0.
     """
     for name in ("postures", "frames"):
         ax = figures[name].axes[0]
@@ -265,12 +331,17 @@ def test_a_cube_keeps_its_proportions(figures):
 def test_postures_draw_the_path_and_the_arm(figures, rounded):
     lines = [np.column_stack(line.get_data()) for line in figures["postures"].axes[0].lines]
     flange = project(IRB140.fk(rounded).translation)
-    assert any(line.shape == flange.shape and np.allclose(line, flange, atol=1e-12) for line in lines)
+    assert any(
+        line.shape == flange.shape and np.allclose(line, flange, atol=1e-12) for line in lines
+    )
     for k in (0, -1):
         posture = project(arm_points(IRB140, rounded[k]))
-        assert any(line.shape == posture.shape and np.allclose(line, posture, atol=1e-12) for line in lines)
+        assert any(
+            line.shape == posture.shape and np.allclose(line, posture, atol=1e-12) for line in lines
+        )
     assert {"start", "via", "goal", "first", "last", "x", "y", "z"} <= {
-        text.get_text() for text in figures["postures"].axes[0].texts}
+        text.get_text() for text in figures["postures"].axes[0].texts
+    }
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
@@ -282,7 +353,9 @@ def test_links_join_the_frames_of_every_arm(machine):
         if not link.prismatic:
             turned = q.copy()
             turned[:, i] += 1
-            np.testing.assert_allclose(arm_points(machine.arm, turned)[:, 2 * i + 1], points[:, 2 * i + 1], atol=1e-12)
+            np.testing.assert_allclose(
+                arm_points(machine.arm, turned)[:, 2 * i + 1], points[:, 2 * i + 1], atol=1e-12
+            )
 
 
 @pytest.mark.parametrize("arm", [*(m.arm for m in MACHINES), PLANAR], ids=lambda arm: arm.name)
@@ -290,13 +363,17 @@ def test_nothing_is_cut_off_and_little_is_empty(arm):
     q = np.linspace(0.1, 0.9, 40)[:, None] * np.where(arm.prismatic, arm.limits[:, 1], 1.0)
     fig = plot_postures(arm, q, targets=[arm.fk(q[0]), arm.fk(q[-1])], title="A title")
     ink = np.asarray(Image.open(io.BytesIO(palette_png(fig))).convert("L")) < 250
-    assert not ink[:, :2].any() and not ink[:, -2:].any() and not ink[:2].any() and not ink[-2:].any()
+    assert (
+        not ink[:, :2].any() and not ink[:, -2:].any() and not ink[:2].any() and not ink[-2:].any()
+    )
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     assert len(rows) > 0.9 * ink.shape[0] - 40 and np.ptp(columns) > 0.8 * ink.shape[1]
     renderer = fig.canvas.get_renderer()
     for text in fig.axes[0].texts:
         box = text.get_window_extent(renderer)
-        assert box.x0 >= 0 and box.y0 >= 0 and box.x1 <= ink.shape[1] and box.y1 <= ink.shape[0], text
+        assert box.x0 >= 0 and box.y0 >= 0 and box.x1 <= ink.shape[1] and box.y1 <= ink.shape[0], (
+            text
+        )
 
 
 def test_scale_is_in_metres_for_a_large_arm(figures):
@@ -306,8 +383,12 @@ def test_scale_is_in_metres_for_a_large_arm(figures):
     assert re.search(r"floor grid \d+ mm", words(figures["postures"].axes[0]))
     # A plane arm is seen from above: x to the right, y up.
     lines = [np.column_stack(line.get_data()) for line in plot_postures(PLANAR, q).axes[0].lines]
-    tip = np.column_stack([1.5 * np.cos(q[:, 0]) + 1.2 * np.cos(q.sum(1)),
-                           1.5 * np.sin(q[:, 0]) + 1.2 * np.sin(q.sum(1))])
+    tip = np.column_stack(
+        [
+            1.5 * np.cos(q[:, 0]) + 1.2 * np.cos(q.sum(1)),
+            1.5 * np.sin(q[:, 0]) + 1.2 * np.sin(q.sum(1)),
+        ]
+    )
     assert any(line.shape == tip.shape and np.allclose(line, tip) for line in lines)
 
 
@@ -316,20 +397,37 @@ def test_frames_are_drawn_where_they_are():
     lines = [np.column_stack(line.get_data()) for line in fig.axes[0].lines]
     for pose in (Transform(), START, VIA):  # the base too
         for axis in np.eye(3):
-            edge = project(np.stack([pose.translation, pose.translation + 0.1 * (pose.rotation @ axis)]))
-            assert any(line.shape == (2, 2) and np.allclose(line, edge, atol=1e-12) for line in lines)
+            edge = project(
+                np.stack([pose.translation, pose.translation + 0.1 * (pose.rotation @ axis)])
+            )
+            assert any(
+                line.shape == (2, 2) and np.allclose(line, edge, atol=1e-12) for line in lines
+            )
     assert {"base", "start", "via"} <= {text.get_text() for text in fig.axes[0].texts}
     assert "start at (200, 400, 200) mm" in fig.alt and "via at (650, −100, 800) mm" in fig.alt
 
 
 def test_frames_with_one_origin_are_named_at_their_axes():
     turns = Transform(Quaternion.from_angle_axis(np.arange(0, 91, 30) * deg, Z))
-    texts = {text.get_text() for text in plot_frames(turns, names=["0°", "30°", "60°", "90°"]).axes[0].texts}
+    texts = {
+        text.get_text()
+        for text in plot_frames(turns, names=["0°", "30°", "60°", "90°"]).axes[0].texts
+    }
     assert {"x 0°", "x 30°", "x 60°", "x 90°"} <= texts
 
 
-@pytest.mark.parametrize("value, text", [(0.0, "0"), (-1e-13, "0"), (-12.345, "−12.3"), (999.96, "1000"),
-                                         (17993.2, "17993"), (0.05, "0.05"), (62.5, "62.5")])
+@pytest.mark.parametrize(
+    "value, text",
+    [
+        (0.0, "0"),
+        (-1e-13, "0"),
+        (-12.345, "−12.3"),
+        (999.96, "1000"),
+        (17993.2, "17993"),
+        (0.05, "0.05"),
+        (62.5, "62.5"),
+    ],
+)
 def test_numbers_for_people(value, text):
     assert number(value) == text
 
@@ -342,7 +440,7 @@ def test_targets_have_names():
     assert len(named_targets([START] * 5)) == 5
 
 
-# --- In a notebook ----------------------------------------------------------------------------------------------------
+# --- In a notebook --------------------------------------------------------------------------------
 
 
 class Images(HTMLParser):
@@ -356,8 +454,10 @@ class Images(HTMLParser):
 
 
 def test_alt_text_reaches_the_exported_page(figures):
-    outputs = [nbformat.v4.new_output("execute_result", data=fig._repr_mimebundle_(), execution_count=1)
-               for fig in figures.values()]
+    outputs = [
+        nbformat.v4.new_output("execute_result", data=fig._repr_mimebundle_(), execution_count=1)
+        for fig in figures.values()
+    ]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("fig", outputs=outputs)])
     page = Images()
     page.feed(HTMLExporter().from_notebook_node(notebook)[0])
@@ -368,10 +468,17 @@ def test_alt_text_reaches_the_exported_page(figures):
 
 
 def test_alt_text_reaches_the_page_of_an_untrusted_notebook(figures, browser):
-    """What JupyterLab's sanitizer leaves is tested in test_browser; here: that a browser reads the alt text back."""
+    """What JupyterLab's sanitizer leaves is tested in test_browser; here: that a browser reads the
+    alt text back.
+    """
     page = browser.new_page()
     page.set_content(figures["own"]._repr_mimebundle_()["text/html"])
-    assert page.get_by_role("img", name="Nothing to see & nothing <said>").evaluate("i => i.naturalWidth") == 900
+    assert (
+        page.get_by_role("img", name="Nothing to see & nothing <said>").evaluate(
+            "i => i.naturalWidth"
+        )
+        == 900
+    )
     page.close()
 
 
@@ -380,7 +487,10 @@ def test_pictures_are_small_and_have_a_palette(figures):
         data = palette_png(fig)
         image = Image.open(io.BytesIO(data))
         assert image.format == "PNG" and image.mode == "P" and len(data) < 60_000, (name, len(data))
-        assert image.size == tuple(np.round(fig.get_size_inches() * 100).astype(int)) and image.width <= 900
+        assert (
+            image.size == tuple(np.round(fig.get_size_inches() * 100).astype(int))
+            and image.width <= 900
+        )
         colours = np.asarray(image.convert("RGB")).reshape(-1, 3).astype(int)
         if name == "postures":  # thin lines keep their colours
             for want in ((0xC6, 0x28, 0x28), (0x2E, 0x7D, 0x32), (0x1F, 0x55, 0xC4)):
@@ -390,7 +500,10 @@ def test_pictures_are_small_and_have_a_palette(figures):
 def test_alt_text_does_not_depend_on_the_last_bit(rounded):
     v = differentiate(rounded, T)
     moved = rounded + 1e-14 * np.random.default_rng(5).normal(size=rounded.shape)
-    assert plot_joints(IRB140, T, rounded, v).alt == plot_joints(IRB140, T, moved, differentiate(moved, T)).alt
+    assert (
+        plot_joints(IRB140, T, rounded, v).alt
+        == plot_joints(IRB140, T, moved, differentiate(moved, T)).alt
+    )
     assert plot_postures(IRB140, rounded).alt == plot_postures(IRB140, moved).alt
     home = IRB140.frames(np.zeros(6))
     assert plot_frames(home).alt == plot_frames(IRB140.frames(np.full(6, 1e-15))).alt
@@ -399,12 +512,23 @@ def test_alt_text_does_not_depend_on_the_last_bit(rounded):
 
 def test_a_caller_can_say_more(rounded):
     assert plot_joints(IRB140, T, rounded, alt="All calm.").alt == "All calm."
-    assert plot_postures(IRB140, rounded, alt="All calm.").alt == plot_frames(START, alt="All calm.").alt == "All calm."
+    assert (
+        plot_postures(IRB140, rounded, alt="All calm.").alt
+        == plot_frames(START, alt="All calm.").alt
+        == "All calm."
+    )
 
 
 def test_nothing_here_needs_pyplot():
-    code = ("import sys, numpy as np, robokin.show.plots as p; from robokin import IRB140; "
-            "t = np.linspace(0, 1, 50); p.plot_joints(IRB140, t, np.zeros((50, 6)))._repr_mimebundle_(); "
-            "p.plot_postures(IRB140, np.zeros(6)); import json; print(json.dumps(sorted(sys.modules)))")
-    loaded = json.loads(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+    code = (
+        "import sys, numpy as np, robokin.show.plots as p; from robokin import IRB140; "
+        "t = np.linspace(0, 1, 50); p.plot_joints(IRB140, t, np.zeros((50, "
+        "6)))._repr_mimebundle_(); "
+        "p.plot_postures(IRB140, np.zeros(6)); import json; print(json.dumps(sorted(sys.modules)))"
+    )
+    loaded = json.loads(
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        ).stdout
+    )
     assert "matplotlib.figure" in loaded and "matplotlib.pyplot" not in loaded

@@ -23,7 +23,12 @@ def scipy(q):
 
 def same(q, rotation, atol=1e-15):
     """The rotations agree, whatever the sign of the quaternion."""
-    assert np.allclose(q.as_matrix().reshape(-1, 3, 3), rotation.as_matrix().reshape(-1, 3, 3), rtol=0, atol=8 * atol)
+    assert np.allclose(
+        q.as_matrix().reshape(-1, 3, 3),
+        rotation.as_matrix().reshape(-1, 3, 3),
+        rtol=0,
+        atol=8 * atol,
+    )
     assert np.allclose(np.linalg.norm(q.wxyz, axis=-1), 1, rtol=0, atol=atol)
 
 
@@ -32,7 +37,9 @@ def test_composes_acts_and_inverts_as_scipy_does(shape):
     a, b, points = random(shape), random(shape), RNG.normal(size=(*shape, 3))
     same(a @ b, scipy(a) * scipy(b))
     same(a.inverse(), scipy(a).inv())
-    assert np.allclose((a @ points).reshape(-1, 3), scipy(a).apply(points.reshape(-1, 3)), rtol=0, atol=1e-14)
+    assert np.allclose(
+        (a @ points).reshape(-1, 3), scipy(a).apply(points.reshape(-1, 3)), rtol=0, atol=1e-14
+    )
     assert (a @ b).shape == a.inverse().shape == shape
     assert (a @ points).shape == (*shape, 3)
 
@@ -46,7 +53,9 @@ def test_angle_axis_is_scipys_rotation_vector(shape):
     same(q, Rotation.from_rotvec((angle[..., None] * axis).reshape(-1, 3)), 4e-16)
     back, about = q.as_angle_axis()
     assert ((back >= 0) & (back <= np.pi)).all()
-    assert np.allclose((back[..., None] * about).reshape(-1, 3), scipy(q).as_rotvec(), rtol=0, atol=1e-14)
+    assert np.allclose(
+        (back[..., None] * about).reshape(-1, 3), scipy(q).as_rotvec(), rtol=0, atol=1e-14
+    )
 
 
 def test_angle_axis_at_no_turn_at_half_a_turn_and_near_both():
@@ -74,7 +83,9 @@ def test_from_matrix_in_all_four_cases(largest):
     assert np.allclose(back.wxyz, sign * q.wxyz, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, -1), (0, -1, 1), (1, 1, 1)])
+@pytest.mark.parametrize(
+    "axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, -1), (0, -1, 1), (1, 1, 1)]
+)
 def test_from_matrix_at_half_turns(axis):
     unit = np.array(axis) / np.linalg.norm(axis)
     for angle in (np.pi, np.pi - 1e-9, -np.pi + 1e-12):
@@ -98,12 +109,16 @@ def test_slerp_is_scipys_whatever_the_sign(shape, flip):
     ours = a[..., None].slerp(Quaternion(flip * b.wxyz)[..., None], s)
     assert ours.shape == (*shape, 5)
     for i in np.ndindex(*shape):
-        key = Rotation.from_quat([a[i].wxyz, b[i].wxyz] if i else [a.wxyz, b.wxyz], scalar_first=True)
+        key = Rotation.from_quat(
+            [a[i].wxyz, b[i].wxyz] if i else [a.wxyz, b.wxyz], scalar_first=True
+        )
         same(ours[i] if i else ours, Slerp([0, 1], key)(s), 1e-15)
 
 
 def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
-    """Errata S1-a: between chain_s and chain_e the normalised straight line is 2.204 degrees off at a quarter."""
+    """Errata S1-a: between chain_s and chain_e the normalised straight line is 2.204 degrees off at
+    a quarter.
+    """
     a = Quaternion.from_angle_axis(np.pi / 2, (-1, 0, 0))
     b = Quaternion.from_angle_axis(np.pi / 2, (0, 1, 0))
     s = np.linspace(0, 1, 101)
@@ -116,14 +131,18 @@ def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
 
 
 def test_slerp_of_half_a_turn_follows_the_signs_as_they_are():
-    """Both arcs are equally long: the signs of the two quaternions decide, and rounding noise does not."""
+    """Both arcs are equally long: the signs of the two quaternions decide, and rounding noise does
+    not.
+    """
     one = Quaternion.identity()
     for noise in (-4e-16, 0, 4e-16):
         half = Quaternion.from_angle_axis(np.pi + noise, (0, 0, 1))
         for a, sign in ((one, 1), (Quaternion(-one.wxyz), -1)):
             quarter = a.slerp(half, 0.5) @ [1.0, 0, 0]
             assert np.allclose(quarter, [0, sign, 0], rtol=0, atol=1e-14)
-            assert np.allclose(a.slerp(Quaternion(-half.wxyz), 0.5) @ [1.0, 0, 0], -quarter, rtol=0, atol=1e-14)
+            assert np.allclose(
+                a.slerp(Quaternion(-half.wxyz), 0.5) @ [1.0, 0, 0], -quarter, rtol=0, atol=1e-14
+            )
 
 
 def test_slerp_between_nearly_equal_rotations_keeps_all_digits():
@@ -131,14 +150,20 @@ def test_slerp_between_nearly_equal_rotations_keeps_all_digits():
         goal = Quaternion.from_angle_axis(angle, (0.6, 0, 0.8))
         third = Quaternion.identity().slerp(goal, 1 / 3)
         assert np.allclose(third.as_angle_axis()[0], angle / 3, rtol=1e-12, atol=0)
-        base = Quaternion.from_angle_axis(2.0, (0, 1, 0))  # here the two differ in their last digits only
+        # here the two differ in their last digits only
+        base = Quaternion.from_angle_axis(2.0, (0, 1, 0))
         turned = base.slerp(base @ goal, 1 / 3)
-        assert np.allclose((base.inverse() @ turned).as_angle_axis()[0], angle / 3, rtol=0, atol=3e-16)
+        assert np.allclose(
+            (base.inverse() @ turned).as_angle_axis()[0], angle / 3, rtol=0, atol=3e-16
+        )
 
 
 def test_slerp_beyond_its_ends_turns_on():
     goal = Quaternion.from_angle_axis(0.4, (0, 0, 1))
-    same(Quaternion.identity().slerp(goal, np.array([-1.0, 2.5])), Rotation.from_rotvec([[0, 0, -0.4], [0, 0, 1.0]]))
+    same(
+        Quaternion.identity().slerp(goal, np.array([-1.0, 2.5])),
+        Rotation.from_rotvec([[0, 0, -0.4], [0, 0, 1.0]]),
+    )
 
 
 @settings(max_examples=60, deadline=None)
@@ -150,7 +175,9 @@ def test_rotations_are_a_group_that_keeps_lengths_and_hands(seed):
     assert np.allclose(((a @ b) @ c).wxyz, (a @ (b @ c)).wxyz, rtol=0, atol=1e-15)
     assert np.allclose((a @ b) @ u, a @ (b @ u), rtol=1e-13, atol=1e-14 * np.linalg.norm(u))
     assert np.isclose(np.linalg.norm(a @ u), np.linalg.norm(u), rtol=1e-14)
-    assert np.allclose(np.cross(a @ u, a @ v), a @ np.cross(u, v), rtol=1e-12, atol=1e-13 * np.linalg.norm(u) ** 2)
+    assert np.allclose(
+        np.cross(a @ u, a @ v), a @ np.cross(u, v), rtol=1e-12, atol=1e-13 * np.linalg.norm(u) ** 2
+    )
 
 
 def test_indices_reach_the_batch_only():

@@ -1,4 +1,6 @@
-"""The SCARA arm and its Target against the reference cases of the documents' own motions (oracle, errata S1)."""
+"""The SCARA arm and its Target against the reference cases of the documents' own motions (oracle,
+errata S1).
+"""
 
 import json
 from pathlib import Path
@@ -6,14 +8,29 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from robokin import SCARA, Quaternion, Target, Transform, blend, deg, explain, follow, lin, lin_lin, mm, within
+from robokin import (
+    SCARA,
+    Quaternion,
+    Target,
+    Transform,
+    blend,
+    deg,
+    explain,
+    follow,
+    lin,
+    lin_lin,
+    mm,
+    within,
+)
 
 DATA = Path(__file__).parent / "data"
 CASES = json.loads((DATA / "scara.json").read_text())["cases"]
 MOTIONS = json.loads((DATA / "trajectories_scara.json").read_text())["cases"]
 UNITS = np.array([1, 1, 1, mm])
-START, VIA, GOAL = (Target(np.array(p) * mm, a) for p, a in (
-    ((200, 300, 120), 0.0), ((400, 100, 0), np.pi), ((200, -200, 200), np.pi / 2)))
+START, VIA, GOAL = (
+    Target(np.array(p) * mm, a)
+    for p, a in (((200, 300, 120), 0.0), ((400, 100, 0), np.pi), ((200, -200, 200), np.pi / 2))
+)
 
 
 def turned(a, b):
@@ -78,7 +95,8 @@ def law(name, total, t):
 def test_the_documents_motions(case):
     total, step = case["total"], case["step"]
     t = np.arange(0, total, step)
-    if case["law"] == "blend 0.55":  # errata S1-j: the printed law leaves the end poses; robokin refuses
+    # errata S1-j: the printed law leaves the end poses; robokin refuses
+    if case["law"] == "blend 0.55":
         with pytest.raises(ValueError, match=r"0\.55"):
             law(case["law"], total, t)
         return
@@ -93,7 +111,9 @@ def test_the_documents_motions(case):
     speed = np.diff(q, axis=0) / step
     np.testing.assert_allclose(abs(speed).max(0) / UNITS, case["max_abs_speed"], atol=1e-8)
     acceleration = np.diff(speed, axis=0) / step
-    np.testing.assert_allclose(abs(acceleration).max(0) / UNITS, case["max_abs_acc"], rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(
+        abs(acceleration).max(0) / UNITS, case["max_abs_acc"], rtol=1e-5, atol=1e-6
+    )
     assert within(SCARA, q).all() == case["limits_ok"]
 
 
@@ -104,7 +124,9 @@ def test_the_angle_of_a_target_is_not_wrapped():
 
 
 def test_half_a_turn_has_a_direction_as_a_target_only():
-    """Errata S1-t: 0.01 degrees to either side of START turn the rotation the one or the other way to VIA."""
+    """Errata S1-t: 0.01 degrees to either side of START turn the rotation the one or the other way
+    to VIA.
+    """
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
         near = Target(START.position, off)
@@ -116,7 +138,9 @@ def test_half_a_turn_has_a_direction_as_a_target_only():
 def test_the_zone_inside_the_limits_has_the_area_of_the_errata():
     step = 4.0  # mm
     x, y = np.meshgrid(*[np.arange(-460 + step / 2, 460, step)] * 2)
-    ways = within(SCARA, SCARA.ik(Target(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm))).all(-1)
+    ways = within(
+        SCARA, SCARA.ik(Target(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm))
+    ).all(-1)
     r = np.hypot(x, y)[ways.any(-1)]
     assert 126.085128473 <= r.min() < 129 and 447 < r.max() <= 450
     assert ways.any(-1).sum() * step**2 == pytest.approx(569508.156, rel=2e-3)
@@ -136,8 +160,11 @@ def test_at_full_reach_both_rows_exist_and_are_one():
     q[:, 0] = np.arange(-1800, 1800) * 0.1 * deg
     rows = SCARA.ik(SCARA.fk(q))
     np.testing.assert_allclose(rows[:, 0], rows[:, 1], atol=1e-6)
-    np.testing.assert_allclose(SCARA.fk(rows).translation, SCARA.fk(q).translation[:, None] + np.zeros((1, 2, 1)),
-                               atol=1e-13)
+    np.testing.assert_allclose(
+        SCARA.fk(rows).translation,
+        SCARA.fk(q).translation[:, None] + np.zeros((1, 2, 1)),
+        atol=1e-13,
+    )
     assert "elbow singularity" in explain(SCARA, Target((0.45, 0, 0.1)), 0)
 
 

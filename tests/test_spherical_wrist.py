@@ -1,4 +1,6 @@
-"""The inverse kinematics of every arm in the catalogue: nothing wrong, nothing missing, everything in its place."""
+"""The inverse kinematics of every arm in the catalogue: nothing wrong, nothing missing, everything
+in its place.
+"""
 
 import dataclasses
 
@@ -37,7 +39,8 @@ six = pytest.mark.parametrize("machine", SIX, ids=repr)
 
 
 def solved(arm, T, rows):
-    """Every existing row reaches the pose within 1e-12 of the reach; the others are wholly NaN, none in part.
+    """Every existing row reaches the pose within 1e-12 of the reach; the others are wholly NaN,
+    none in part.
 
     Returns which rows exist.
     """
@@ -51,7 +54,9 @@ def solved(arm, T, rows):
 
 
 def expected(machine, T):
-    """Which of the rows must exist, from distances alone: (..., 8) bool, and how far from the edge of existence."""
+    """Which of the rows must exist, from distances alone: (..., 8) bool, and how far from the edge
+    of existence.
+    """
     w = machine.wrist
     centre = T.translation - w["tool"] * T.rotation.as_matrix()[..., 2]
     out2 = centre[..., 0] ** 2 + centre[..., 1] ** 2 - w["lateral"] ** 2
@@ -60,7 +65,9 @@ def expected(machine, T):
         ahead = front * np.sqrt(np.where(out2 >= 0, out2, np.nan)) - w["shoulder"][0]
         d = np.hypot(ahead, centre[..., 2] - w["shoulder"][1])
         exists.append((d <= w["upper"] + w["fore"]) & (d >= abs(w["upper"] - w["fore"])))
-        edges = np.stack([abs(d - w["upper"] - w["fore"]), abs(d - abs(w["upper"] - w["fore"])), abs(out2)])
+        edges = np.stack(
+            [abs(d - w["upper"] - w["fore"]), abs(d - abs(w["upper"] - w["fore"])), abs(out2)]
+        )
         margin.append(np.nanmin(np.where(np.isnan(edges), abs(out2), edges), axis=0))
     return np.stack(exists, axis=-1), np.stack(margin, axis=-1)
 
@@ -69,11 +76,17 @@ def flags(machine, q):
     """The configuration of q by the documents' own rules, from frames and signs."""
     arm = machine.arm
     frames = arm.frames(q)
-    centre = frames.translation[..., -1, :] - machine.wrist["tool"] * frames.rotation.as_matrix()[..., -1, :, 2]
+    centre = (
+        frames.translation[..., -1, :]
+        - machine.wrist["tool"] * frames.rotation.as_matrix()[..., -1, :, 2]
+    )
     turn = q[..., 0]
     front = centre[..., 0] * np.cos(turn) + centre[..., 1] * np.sin(turn)
-    bend = {"IRB-140": np.cos(q[..., 2]), "PUMA 560": np.sin(q[..., 2] + np.arctan2(.4318, .0203)),
-            "DH arm (004)": np.sin(q[..., 2])}[arm.name]
+    bend = {
+        "IRB-140": np.cos(q[..., 2]),
+        "PUMA 560": np.sin(q[..., 2] + np.arctan2(0.4318, 0.0203)),
+        "DH arm (004)": np.sin(q[..., 2]),
+    }[arm.name]
     return np.stack([front, bend, q[..., 4]], axis=-1)
 
 
@@ -86,7 +99,8 @@ def test_20000_random_poses(machine):
     assert rows.shape == (20_000, len(arm.branches), len(arm.links))
     exists = solved(arm, T, rows)
     drawn = gap(arm, rows, q[:, None]).max(axis=-1)
-    assert np.nanmin(drawn, axis=1).max() < 1e-7  # near a singularity a joint value is known to fewer digits
+    # near a singularity a joint value is known to fewer digits
+    assert np.nanmin(drawn, axis=1).max() < 1e-7
     assert np.median(np.nanmin(drawn, axis=1)) < 1e-14
     if machine.wrist:
         wanted, margin = expected(machine, T)
@@ -105,7 +119,10 @@ def test_poses_pushed_out_of_the_workspace(machine):
     exists = solved(arm, T, rows)
     wanted, margin = expected(machine, T)
     assert (exists == wanted)[margin > 1e-12].all()
-    assert 0.02 < exists.any(-1).mean() < 0.9 and not exists[np.linalg.norm(T.translation, axis=-1) > reach(arm)].any()
+    assert (
+        0.02 < exists.any(-1).mean() < 0.9
+        and not exists[np.linalg.norm(T.translation, axis=-1) > reach(arm)].any()
+    )
 
 
 @machines
@@ -141,15 +158,19 @@ def test_wrist_singular_poses(machine, bend):
     exists = solved(arm, T, rows)
     wanted, margin = expected(machine, T)
     assert (exists == wanted)[margin > 1e-12].all()
-    same = np.nanargmin(gap(arm, rows, q[:, None])[..., :3].max(-1) + gap(arm, rows, q[:, None])[..., 4], axis=1)
+    same = np.nanargmin(
+        gap(arm, rows, q[:, None])[..., :3].max(-1) + gap(arm, rows, q[:, None])[..., 4], axis=1
+    )
     row = rows[np.arange(500), same]
     assert turns(row[:, [0, 1, 2, 4]], q[:, [0, 1, 2, 4]]).max() < 1e-8
     spin = arm.jacobian(q)[:, 3:]
-    sense = np.sign((spin[..., 3] * spin[..., 5]).sum(-1))  # axes 4 and 6 point the same way, or against each other
+    # axes 4 and 6 point the same way, or against each other
+    sense = np.sign((spin[..., 3] * spin[..., 5]).sum(-1))
     fixed = row[:, 3] - q[:, 3] + sense * (row[:, 5] - q[:, 5])
     assert turns(fixed, 0).max() < 1e-8
     if bend in (0, np.pi, -np.pi):
-        # Joint 4 is free: 0 by agreement. Near a stretched arm the pose's own rounding already bends the wrist.
+        # Joint 4 is free: 0 by agreement. Near a stretched arm the pose's own rounding already
+        # bends the wrist.
         assert (row[:, 3] == 0).mean() > 0.98
         assert turns(row[:, 4], bend).max() < 1e-8
         assert (exists.sum(1) % 4 == 0).all()  # both rows of the wrist, though they coincide
@@ -166,7 +187,8 @@ def test_home_is_solved_in_all_its_rows(machine):
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
-    assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R  # there the arm is stretched: see below
+    # there the arm is stretched: see below
+    assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R
     assert abs(rows[exists]).max(-1).min() < 1e-7
 
 
@@ -180,7 +202,9 @@ def test_the_irb140_has_eight_rows_at_home_seven_of_them_different():
 def stretched(machine, count, rng, folded=False):
     """Poses with the forearm in line with the upper arm, or folded back on it."""
     q = random_joints(machine.arm, rng, (count,))
-    line = {"IRB-140": np.pi / 2, "PUMA 560": -np.arctan2(.4318, .0203), "DH arm (004)": 0.0}[machine.arm.name]
+    line = {"IRB-140": np.pi / 2, "PUMA 560": -np.arctan2(0.4318, 0.0203), "DH arm (004)": 0.0}[
+        machine.arm.name
+    ]
     q[:, 2] = line + (np.pi if folded else 0)
     return q
 
@@ -226,7 +250,9 @@ def test_a_hair_beyond_the_stretched_arm_is_out_of_reach(machine):
 
 
 def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
-    """Errata S1-c: its arcsine loses the obtuse shoulder, all and only where d < sqrt(l3^2 - l2^2) = 147.986 mm."""
+    """Errata S1-c: its arcsine loses the obtuse shoulder, all and only where d < sqrt(l3^2 - l2^2)
+    = 147.986 mm.
+    """
     edge = np.sqrt(0.38**2 - 0.35**2)
     assert abs(edge / mm - 147.986485869) < 1e-9
     rng = np.random.default_rng(11)
@@ -255,7 +281,9 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
 
 @pytest.mark.parametrize("machine", [m for m in SIX if not m.wrist["lateral"]], ids=repr)
 def test_shoulder_singular_poses(machine):
-    """No lateral offset and the wrist centre on axis 1: joint 1 is free, 0 in front and pi behind."""
+    """No lateral offset and the wrist centre on axis 1: joint 1 is free, 0 in front and pi
+    behind.
+    """
     arm, w = machine.arm, machine.wrist
     rng = np.random.default_rng(12)
     height = w["shoulder"][1] + rng.uniform(0.3, 0.95, 300) * (w["upper"] + w["fore"])
@@ -275,14 +303,18 @@ def test_shoulder_singular_poses(machine):
 
 
 def test_the_pumas_shoulder_rows_meet_where_its_wrist_touches_the_cylinder():
-    """Its wrist centre cannot come nearer to axis 1 than d3; there front and back are one, and each is repeated."""
+    """Its wrist centre cannot come nearer to axis 1 than d3; there front and back are one, and each
+    is repeated.
+    """
     rng = np.random.default_rng(13)
     d3 = 0.15005
     azimuth, z = rng.uniform(-np.pi, np.pi, 300), 0.67183 + rng.uniform(-0.8, 0.8, 300)
     rotation = Quaternion.from_angle_axis(rng.uniform(-3, 3, 300), _unit(rng.normal(size=(300, 3))))
 
     def at(radius):
-        T = Transform(rotation, np.stack([radius * np.cos(azimuth), radius * np.sin(azimuth), z], axis=-1))
+        T = Transform(
+            rotation, np.stack([radius * np.cos(azimuth), radius * np.sin(azimuth), z], axis=-1)
+        )
         return T, PUMA560.ik(T)
 
     T, rows = at(d3)
@@ -312,12 +344,15 @@ def test_limit_poses_and_whole_turns(machine):
     T = arm.fk(q)
     rows = arm.ik(T)
     solved(arm, T, rows)
-    rows = arm.geometry.settle(rows, q[:, None] + 0 * rows)  # one arm's limit of joint 5 is a wrist singularity
+    # one arm's limit of joint 5 is a wrist singularity
+    rows = arm.geometry.settle(rows, q[:, None] + 0 * rows)
     assert np.nanmin(gap(arm, rows, q[:, None]).max(-1), axis=1).max() < 1e-7
 
 
 def test_equal_levers_folded_on_the_shoulder():
-    """The wrist centre at joint 2 itself, which only equal levers reach: joint 2 is free, and no row is half there."""
+    """The wrist centre at joint 2 itself, which only equal levers reach: joint 2 is free, and no
+    row is half there.
+    """
     arm = itmo_arm(0.1, 0.2, 0.2, 0.05)
     q = random_joints(arm, np.random.default_rng(15), (200,))
     q[:, 2] = np.pi
@@ -339,7 +374,9 @@ def test_the_zero_of_the_sign_is_a_number(machine):
         assert np.nanmin(gap(arm, rows, 0 * rows[0]).max(-1)) < 1e-7
 
 
-# Reference cases ------------------------------------------------------------------------------------------------------
+# Reference cases
+# --------------------------------------------------------------------------------------------------
+
 
 def compare(arm, case, unit=1.0):
     """One reference case: rows in their places by flags, none more, none fewer."""
@@ -368,13 +405,18 @@ for case in oracle("itmo6r")["cases"]:
     CASES.append((itmo_arm(**case["params"]), case, 1.0))
 
 
-@pytest.mark.parametrize("arm, case, unit", CASES,
-                         ids=[f"{arm.name}-{i}-{case['kind']}" for i, (arm, case, _) in enumerate(CASES)])
+@pytest.mark.parametrize(
+    "arm, case, unit",
+    CASES,
+    ids=[f"{arm.name}-{i}-{case['kind']}" for i, (arm, case, _) in enumerate(CASES)],
+)
 def test_reference_case(arm, case, unit):
     compare(arm, case, unit)
 
 
-# What is such a wrist -------------------------------------------------------------------------------------------------
+# What is such a wrist
+# -------------------------------------------------------------------------------------------------
+
 
 def changed(number, **parts):
     links = list(IRB140.links)
@@ -389,21 +431,24 @@ def at(x, y, z):
 X, Y, Z = np.eye(3)
 
 
-@pytest.mark.parametrize("links, message", [
-    (IRB140.links[:5], "six revolute links"),
-    (changed(3, prismatic=True), "six revolute links"),
-    (changed(1, axis=X), "axis 1 parallel to z"),
-    (changed(1, before=at(0.01, 0, 0.352)), "axis 1 through the origin"),
-    (changed(2, axis=X), "axis 2 parallel to y"),
-    (changed(3, axis=Z), "axis 3 parallel to y"),
-    (changed(4, axis=Y), "axis 4"),
-    (changed(5, axis=Z), "axis 5 parallel to y"),
-    (changed(5, before=at(0, 0, 0.01)), "axis 5 through"),
-    (changed(6, axis=Z), "axis 6 parallel to axis 4"),
-    (changed(6, before=at(0.065, 0.01, 0)), "axis 6 through"),
-    (changed(3, before=at(0, 0, 0)), "upper arm"),
-    (changed(4, before=at(0, 0, 0)), "forearm"),
-])
+@pytest.mark.parametrize(
+    "links, message",
+    [
+        (IRB140.links[:5], "six revolute links"),
+        (changed(3, prismatic=True), "six revolute links"),
+        (changed(1, axis=X), "axis 1 parallel to z"),
+        (changed(1, before=at(0.01, 0, 0.352)), "axis 1 through the origin"),
+        (changed(2, axis=X), "axis 2 parallel to y"),
+        (changed(3, axis=Z), "axis 3 parallel to y"),
+        (changed(4, axis=Y), "axis 4"),
+        (changed(5, axis=Z), "axis 5 parallel to y"),
+        (changed(5, before=at(0, 0, 0.01)), "axis 5 through"),
+        (changed(6, axis=Z), "axis 6 parallel to axis 4"),
+        (changed(6, before=at(0.065, 0.01, 0)), "axis 6 through"),
+        (changed(3, before=at(0, 0, 0)), "upper arm"),
+        (changed(4, before=at(0, 0, 0)), "forearm"),
+    ],
+)
 def test_a_chain_that_is_no_such_arm_is_refused_by_the_axis(links, message):
     with pytest.raises(ValueError, match=f"crooked.*{message}"):
         spherical_wrist("crooked", links, np.array([(-180, 180)] * len(links)) * deg)
@@ -414,25 +459,31 @@ def random_arm(rng):
     sign = rng.choice([-1.0, 1.0], 6)
     lateral = rng.choice([0.0, 0.12, -0.2])
     heel, bow = rng.choice([0.0, 0.05, -0.04], 2)
-    along = np.array([np.cos(tilt := rng.choice([0.0, np.pi / 2, 0.4])), 0, -np.sin(tilt)])  # axis 4 at home
+    # axis 4 at home
+    along = np.array([np.cos(tilt := rng.choice([0.0, np.pi / 2, 0.4])), 0, -np.sin(tilt)])
     fore = np.array([bow, 0, 0.05]) + 0.3 * along
     split = rng.uniform(-0.1, 0.1)
     turn = Quaternion.from_angle_axis(rng.uniform(-3, 3), _unit(rng.normal(size=3)))
     tool = Transform(turn, rng.normal(size=3) * 0.1)
     return spherical_wrist(
-        "any", (
+        "any",
+        (
             Link(at(0, 0, 0.3), sign[0] * Z),
             Link(at(rng.choice([0.0, 0.07, -0.1]), 0.6 * lateral, 0.05), sign[1] * Y),
             Link(at(heel, 0, 0.35), sign[2] * Y),
             Link(Transform(translation=fore - split * along + 0.4 * lateral * Y), sign[3] * along),
             Link(Transform(translation=split * along), sign[4] * Y),
             Link(Transform(translation=0.05 * along), sign[5] * along, after=tool),
-        ), np.array([(-180, 180)] * 6) * deg)
+        ),
+        np.array([(-180, 180)] * 6) * deg,
+    )
 
 
 @pytest.mark.parametrize("seed", range(40))
 def test_any_such_chain_is_inverted(seed):
-    """Signs, offsets before and beside the arm, a bow in the forearm, a tilted wrist, any tool: all are data."""
+    """Signs, offsets before and beside the arm, a bow in the forearm, a tilted wrist, any tool: all
+    are data.
+    """
     rng = np.random.default_rng(seed)
     arm = random_arm(rng)
     q = rng.uniform(-np.pi, np.pi, (200, 6))
@@ -452,8 +503,12 @@ def test_any_such_chain_is_inverted(seed):
 
 
 def test_a_dh_table_makes_the_same_arm():
-    links = dh_links(a=[0, 0.1, 0, 0, 0, 0], alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
-                     d=[0.1, 0, 0, 0.2, 0, 0.2], theta=np.array([0, 0, 90, 0, 0, 0]) * deg)
+    links = dh_links(
+        a=[0, 0.1, 0, 0, 0, 0],
+        alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
+        d=[0.1, 0, 0, 0.2, 0, 0.2],
+        theta=np.array([0, 0, 90, 0, 0, 0]) * deg,
+    )
     arm = spherical_wrist("the same", links, ITMO6R.limits)
     T = ITMO6R.fk(random_joints(ITMO6R, np.random.default_rng(16), (20,)))
     assert np.array_equal(arm.ik(T), ITMO6R.ik(T), equal_nan=True)

@@ -1,4 +1,6 @@
-"""Pulses, frequencies, pulse trains and phases of the log loader's motors (003, II.3, paper 1; errata S3-s, S3-t)."""
+"""Pulses, frequencies, pulse trains and phases of the log loader's motors (003, II.3, paper 1;
+errata S3-s, S3-t).
+"""
 
 import numpy as np
 import pytest
@@ -26,8 +28,13 @@ PER_DEGREE = np.array([10.0, 20.0, 20.0])
 B = ((1.3, -0.9, 1.2), (-0.1, -0.2, 0.9))  # straight, and no motor turns back
 C = ((1.2, -1.0, 0.3), (0.4, 1.2, 0.3))  # straight, and two motors do
 RANDOM = np.random.default_rng(8).integers(-3000, 3000, (40, 2, 3))
-PAIRS = [*RANDOM, np.array([(0, 0, 0), (1000, 500, 250)]), np.array([(7, 7, 7), (7, 7, 7)]),
-         np.array([(0, 0, 0), (-1, 1999, 0)]), np.array([(5, -4, 3), (4, -4, 3)])]
+PAIRS = [
+    *RANDOM,
+    np.array([(0, 0, 0), (1000, 500, 250)]),
+    np.array([(7, 7, 7), (7, 7, 7)]),
+    np.array([(0, 0, 0), (-1, 1999, 0)]),
+    np.array([(5, -4, 3), (4, -4, 3)]),
+]
 
 
 def moves():
@@ -43,10 +50,13 @@ def moves():
 
 
 MOVES = list(moves())
-every_move = pytest.mark.parametrize("kind, move", MOVES, ids=[f"{i}-{kind}" for i, (kind, _) in enumerate(MOVES)])
+every_move = pytest.mark.parametrize(
+    "kind, move", MOVES, ids=[f"{i}-{kind}" for i, (kind, _) in enumerate(MOVES)]
+)
 
 
 # ---- whole pulses
+
 
 def test_no_rounding_adds_up_over_10_000_moves():
     rng = np.random.default_rng(1)
@@ -55,10 +65,12 @@ def test_no_rounding_adds_up_over_10_000_moves():
     pulses = np.diff(counts(q, per_degree), axis=0)
     assert pulses.dtype.kind == "i"
     exact = (q - q[0]) / deg * per_degree
-    assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1  # half a pulse at the start, half at the station
+    # half a pulse at the start, half at the station
+    assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1
     there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
     assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
-    steps = np.arange(10_001)[:, None] * 0.37 * deg  # each move alone is 0.37 pulses, and rounds to none
+    # each move alone is 0.37 pulses, and rounds to none
+    steps = np.arange(10_001)[:, None] * 0.37 * deg
     assert np.diff(counts(steps, 1.0), axis=0).sum() == 3700
 
 
@@ -67,10 +79,13 @@ def test_counts_and_joints_are_inverse():
     assert (counts(joints(n, PER_DEGREE), PER_DEGREE) == n).all()
     assert counts([90 * deg], 10.0).tolist() == [900]
     q = np.random.default_rng(3).uniform(-3, 3, (50, 3))
-    assert (abs(joints(counts(q, PER_DEGREE), PER_DEGREE) - q) <= 0.5 / PER_DEGREE * deg + 1e-12).all()
+    assert (
+        abs(joints(counts(q, PER_DEGREE), PER_DEGREE) - q) <= 0.5 / PER_DEGREE * deg + 1e-12
+    ).all()
 
 
 # ---- frequencies
+
 
 @pytest.mark.parametrize("case", CASES, ids=[str(i) for i in range(len(CASES))])
 def test_frequencies_and_times_of_the_reference_cases(case):
@@ -80,7 +95,9 @@ def test_frequencies_and_times_of_the_reference_cases(case):
     assert move.frequencies[0] == pytest.approx(case["frequencies"], rel=1e-12)
 
 
-@pytest.mark.parametrize("phi", [(1000, 500, 250), (3, 3, 3), (1, 1999, 77), (0, 400, 100), (0, 0, 9)])
+@pytest.mark.parametrize(
+    "phi", [(1000, 500, 250), (3, 3, 3), (1, 1999, 77), (0, 400, 100), (0, 0, 9)]
+)
 def test_the_corrected_linear_program_has_this_solution(phi):
     p1, p2, p3 = phi
     same_time = [[p2, -p1, 0], [p3, 0, -p1], [0, p3, -p2]]  # omega1 phi2 = omega2 phi1, and so on
@@ -93,9 +110,13 @@ def test_the_corrected_linear_program_has_this_solution(phi):
 
 def test_the_printed_conditions_make_the_longest_motor_the_slowest():
     phi = np.array([1000.0, 500, 250])
-    printed = linprog(-phi, A_eq=[[1000, -500, 0], [1000, 0, -250]], b_eq=[0, 0], bounds=[(0, LIMIT)] * 3).x
+    printed = linprog(
+        -phi, A_eq=[[1000, -500, 0], [1000, 0, -250]], b_eq=[0, 0], bounds=[(0, LIMIT)] * 3
+    ).x
     assert printed == pytest.approx([125, 250, 500]) and phi / printed == pytest.approx([8, 2, 0.5])
-    assert frequencies(phi) == pytest.approx([500, 250, 125]) and phi / frequencies(phi) == pytest.approx([2, 2, 2])
+    assert frequencies(phi) == pytest.approx([500, 250, 125]) and phi / frequencies(
+        phi
+    ) == pytest.approx([2, 2, 2])
 
 
 def test_frequencies_of_a_batch_and_of_nothing():
@@ -104,6 +125,7 @@ def test_frequencies_of_a_batch_and_of_nothing():
 
 
 # ---- moves and their pulse trains
+
 
 @every_move
 def test_the_pulses_are_exactly_those_of_the_move(kind, move):
@@ -128,7 +150,12 @@ def test_the_frequency_limit_is_kept(kind, move):
 def test_a_motor_lags_by_less_than_a_pulse(kind, move):
     for (times, signs), due in zip(move.pulses(), move.positions.T, strict=True):
         t = np.linspace(0, move.duration, 997)
-        stands = due[0] + np.concatenate([[0], np.cumsum(signs)])[np.searchsorted(times, t + 1e-9, side="right")]
+        stands = (
+            due[0]
+            + np.concatenate([[0], np.cumsum(signs)])[
+                np.searchsorted(times, t + 1e-9, side="right")
+            ]
+        )
         assert abs(stands - np.interp(t, move.t, due)).max() < 1 + 1e-5
         assert stands[-1] == due[-1]
 
@@ -136,7 +163,9 @@ def test_a_motor_lags_by_less_than_a_pulse(kind, move):
 @pytest.mark.parametrize("start, goal", PAIRS)
 def test_synchronised_motors_start_and_stop_together_within_one_pulse(start, goal):
     move = synchronised(start, goal)
-    for (times, _), rate in zip(move.pulses(), abs(move.frequencies).T if len(move.t) > 1 else (), strict=False):
+    for (times, _), rate in zip(
+        move.pulses(), abs(move.frequencies).T if len(move.t) > 1 else (), strict=False
+    ):
         if len(times):
             assert times[0] <= (1 + 1e-9) / rate[0]
             assert times[-1] == pytest.approx(move.duration, rel=1e-12)
@@ -149,7 +178,11 @@ def test_unsynchronised_motors_stop_one_by_one(start, goal):
         if n:
             assert times[0] == pytest.approx(1 / LIMIT) and times[-1] == pytest.approx(n / LIMIT)
     assert move.duration == pytest.approx(together.duration)
-    assert (move.positions[-1] == goal).all() and (move(1e9) == goal).all() and (move(-1) == start).all()
+    assert (
+        (move.positions[-1] == goal).all()
+        and (move(1e9) == goal).all()
+        and (move(-1) == start).all()
+    )
 
 
 @pytest.mark.parametrize("points", [B, C])
@@ -182,9 +215,12 @@ def test_a_train_with_many_turns():
     t = np.array([0, 1, 2, 3, 4, 5, 6, 7.0])
     due = np.array([0, 2.6, 2.6, 2.4, 3.2, -0.5, -0.5, 0])
     from robokin.jobs.steppers import Move
+
     times, signs = Move(t, due[:, None]).pulses()[0]
     assert signs.tolist() == [1, 1, 1, -1, -1, -1]
-    assert times == pytest.approx([1 / 2.6, 2 / 2.6, 3 + 0.6 / 0.8, 4 + 1.2 / 3.7, 4 + 2.2 / 3.7, 4 + 3.2 / 3.7])
+    assert times == pytest.approx(
+        [1 / 2.6, 2 / 2.6, 3 + 0.6 / 0.8, 4 + 1.2 / 3.7, 4 + 2.2 / 3.7, 4 + 3.2 / 3.7]
+    )
 
 
 def test_a_line_that_leaves_the_workspace_is_refused():
@@ -215,6 +251,7 @@ def test_wrong_calls_are_refused():
 
 # ---- phases
 
+
 def printed(text):
     """A table of the document: + where it has one."""
     return np.array([[mark == "+" for mark in line] for line in text.split()])
@@ -224,16 +261,18 @@ def test_the_documents_two_tables():
     assert (phases("wave", "unipolar") == printed("+... .+.. ..+. ...+")).all()
     bipolar = phases("two-phase", "bipolar")
     assert ((bipolar == 1) == printed("+.+. .++. .+.+ +..+")).all()
-    assert (bipolar == -1).sum(axis=1).tolist() == [2, 2, 2, 2]  # each + has its - at the winding's other end
+    # each + has its - at the winding's other end
+    assert (bipolar == -1).sum(axis=1).tolist() == [2, 2, 2, 2]
 
 
 @pytest.mark.parametrize("motor", COLUMNS)
-@pytest.mark.parametrize("drive, angle, windings",
-                         [("wave", 90, {1}), ("two-phase", 90, {2}), ("half-step", 45, {1, 2})])
+@pytest.mark.parametrize(
+    "drive, angle, windings", [("wave", 90, {1}), ("two-phase", 90, {2}), ("half-step", 45, {1, 2})]
+)
 def test_the_field_turns_on_by_equal_angles(motor, drive, angle, windings):
     table = phases(drive, motor)
-    # Unipolar: four half windings a quarter of a turn apart, in the order of table 1. Bipolar: two windings at right
-    # angles, the current from the positive end to the negative one.
+    # Unipolar: four half windings a quarter of a turn apart, in the order of table 1. Bipolar: two
+    # windings at right angles, the current from the positive end to the negative one.
     places = np.exp(1j * np.array([0, 90, 180, 270]) * deg)
     if motor == "unipolar":
         assert set(table.ravel()) == {0, 1} and set(table.sum(axis=1)) == windings
@@ -244,7 +283,9 @@ def test_the_field_turns_on_by_equal_angles(motor, drive, angle, windings):
         field = table[:, 0] * places[0] + table[:, 2] * places[1]
     turn = np.angle(np.roll(field, -1) / field) / deg
     assert turn == pytest.approx(angle) and len(table) == 360 / angle
-    assert abs(field) == pytest.approx(np.sqrt(abs(table).sum(axis=1) / (2 if motor == "bipolar" else 1)))
+    assert abs(field) == pytest.approx(
+        np.sqrt(abs(table).sum(axis=1) / (2 if motor == "bipolar" else 1))
+    )
 
 
 def test_table_2_with_the_names_of_table_1_would_cancel():
@@ -262,4 +303,5 @@ def test_the_order_of_the_rows_is_the_direction():
     signs = straight(ARM, *C, PER_DEGREE).pulses()[2][1]
     states = energised(phases("half-step", "bipolar"), signs)
     assert states.shape == (len(signs) + 1, 4)
-    assert (abs(np.diff(states[:, ::2], axis=0)).sum(axis=1) == 1).all()  # one winding changes at a time
+    # one winding changes at a time
+    assert (abs(np.diff(states[:, ::2], axis=0)).sum(axis=1) == 1).all()

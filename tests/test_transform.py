@@ -12,7 +12,10 @@ RNG = np.random.default_rng(2)
 
 def random(shape):
     wxyz = RNG.normal(size=(*shape, 4))
-    return Transform(Quaternion(wxyz / np.linalg.norm(wxyz, axis=-1, keepdims=True)), RNG.normal(size=(*shape, 3)))
+    return Transform(
+        Quaternion(wxyz / np.linalg.norm(wxyz, axis=-1, keepdims=True)),
+        RNG.normal(size=(*shape, 3)),
+    )
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -28,7 +31,9 @@ def test_composes_inverts_and_acts_as_matrices_do(shape):
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_matrices_go_there_and_back(shape):
-    rotation = Rotation.random(int(np.prod(shape)), random_state=3).as_matrix().reshape(*shape, 3, 3)
+    rotation = (
+        Rotation.random(int(np.prod(shape)), random_state=3).as_matrix().reshape(*shape, 3, 3)
+    )
     m = np.zeros((*shape, 4, 4))
     m[..., :3, :3], m[..., :3, 3], m[..., 3, 3] = rotation, RNG.normal(size=(*shape, 3)), 1
     back = Transform.from_matrix(m)
@@ -53,7 +58,12 @@ def test_a_batch_of_poses_composes_with_one():
     T, one = random((5,)), random(())
     for product, pairs in ((T @ one, [(t, one) for t in T]), (one @ T, [(one, t) for t in T])):
         assert product.shape == (5,)
-        assert np.allclose(product.as_matrix(), [a.as_matrix() @ b.as_matrix() for a, b in pairs], rtol=0, atol=1e-14)
+        assert np.allclose(
+            product.as_matrix(),
+            [a.as_matrix() @ b.as_matrix() for a, b in pairs],
+            rtol=0,
+            atol=1e-14,
+        )
 
 
 def test_parts_are_broadcast_together():
@@ -91,7 +101,11 @@ def test_keeps_its_numbers_when_the_callers_array_changes():
 
 
 def test_wrong_partners_are_type_errors():
-    for left, right in ((np.eye(4), Transform()), (Transform(), Quaternion.identity()), (np.zeros(3), Transform())):
+    for left, right in (
+        (np.eye(4), Transform()),
+        (Transform(), Quaternion.identity()),
+        (np.zeros(3), Transform()),
+    ):
         with pytest.raises(TypeError):
             left @ right
 

@@ -1,5 +1,5 @@
-"""Two links in the plane (source 002): the reference cases, the document's formula and errata S2, and the code that a
-computer algebra system writes from the general solution.
+"""Two links in the plane (source 002): the reference cases, the document's formula and errata S2,
+and the code that a computer algebra system writes from the general solution.
 """
 
 import ctypes
@@ -15,7 +15,9 @@ from machines import SHAPES, oracle, turns
 from robokin import Transform, explain, follow, two_link, within
 
 CASES = oracle("planar2")["cases"]
-cases = pytest.mark.parametrize("case", CASES, ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES)])
+cases = pytest.mark.parametrize(
+    "case", CASES, ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES)]
+)
 lengths = pytest.mark.parametrize("l1, l2", [(1, 1), (1, 1.5), (2, 0.3), (0.3, 2)])
 
 
@@ -25,6 +27,7 @@ def elbows(arm, rows):
 
 
 # ---- the arm
+
 
 @cases
 def test_every_reference_case(case):
@@ -39,7 +42,9 @@ def test_every_reference_case(case):
     tolerance = 1e-4 if case["singular"] else 1e-9
     for row, solution in zip(rows, [*case["solutions"], *case["solutions"]][:2], strict=False):
         assert turns(row, solution).max() < tolerance
-    for point, elbow in zip(elbows(arm, rows), [*case["elbows"], *case["elbows"]][:2], strict=False):
+    for point, elbow in zip(
+        elbows(arm, rows), [*case["elbows"], *case["elbows"]][:2], strict=False
+    ):
         np.testing.assert_allclose(point, elbow, atol=tolerance)
     if "q" in case:
         assert turns(rows, case["q"]).max(axis=-1).min() < 1e-9
@@ -90,15 +95,21 @@ def test_stretched_folded_and_out_of_reach(l1, l2):
         for d, q2 in ((l1 + l2, 0), (abs(l1 - l2), np.pi)):
             rows = arm.ik((0.4, -0.2) + d * way)
             assert turns(rows[:, 1], q2).max() < 1e-7
-            np.testing.assert_allclose(arm.fk(rows).translation[:, :2] - (0.4, -0.2), [d * way] * 2, atol=1e-14)
+            np.testing.assert_allclose(
+                arm.fk(rows).translation[:, :2] - (0.4, -0.2), [d * way] * 2, atol=1e-14
+            )
             if d:
-                assert turns(rows[:, 0], angle if q2 == 0 or l1 > l2 else angle + np.pi).max() < 1e-7
+                assert (
+                    turns(rows[:, 0], angle if q2 == 0 or l1 > l2 else angle + np.pi).max() < 1e-7
+                )
             assert arm.geometry.singular(rows)["elbow"].all()
         assert np.isnan(arm.ik((0.4, -0.2) + (l1 + l2) * (1 + 1e-9) * way)).all()
         if l1 != l2:
             assert np.isnan(arm.ik((0.4, -0.2) + abs(l1 - l2) * (1 - 1e-9) * way)).all()
     x, y = 0.4, -0.2 + max(l1, l2)
-    np.testing.assert_array_equal(two_link(l1, l2).ik((-max(l1, l2), -0.0)), two_link(l1, l2).ik((-max(l1, l2), 0.0)))
+    np.testing.assert_array_equal(
+        two_link(l1, l2).ik((-max(l1, l2), -0.0)), two_link(l1, l2).ik((-max(l1, l2), 0.0))
+    )
     mixed = arm.ik([(x, y), (99, 0)])
     assert np.isfinite(mixed[0]).all() and np.isnan(mixed[1]).all()
     assert np.isnan(arm.ik((x, y, 1e-3))).all() and np.isfinite(arm.ik((x, y, 0))).all()
@@ -106,7 +117,9 @@ def test_stretched_folded_and_out_of_reach(l1, l2):
 
 def test_the_reasons_in_words():
     arm = two_link(1, 1.5)
-    assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(arm, (3, 0), 0)
+    assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(
+        arm, (3, 0), 0
+    )
     assert "400.0 mm too near to the base" in explain(arm, (0.1, 0), 1)
     assert "1.0 mm off the plane" in explain(arm, (1, 0, 1e-3), 0)
     assert "is usable: it is inside every limit and not singular" in explain(arm, (1, 1), 0)
@@ -139,9 +152,10 @@ def test_wrong_calls_are_refused():
 
 # ---- the document's formula (2), and what is wrong with it
 
+
 def printed(x3, y3, l):  # noqa: E741  (the document's letter)
     """The first root of (2) as printed."""
-    root = math.sqrt(-x3**2 * (x3**2 + y3**2) * (-4 * l**2 + x3**2 + y3**2))
+    root = math.sqrt(-(x3**2) * (x3**2 + y3**2) * (-4 * l**2 + x3**2 + y3**2))
     below = 2 * x3 * (x3**2 + y3**2)
     return (x3**4 + x3**2 * y3**2 - y3 * root) / below, (x3**2 * y3 + y3**3 + root) / below
 
@@ -162,17 +176,23 @@ def test_the_printed_root_swaps_the_elbow_with_the_sign_of_x3():
     sides = []
     for x3 in (0.1, -0.1):
         x2, y2 = printed(x3, 1, 1)
-        sides.append(x3 * (x3 * y2) - 1 * x2)  # the way to the tip crossed with that to the elbow, y2 put right
+        # the way to the tip crossed with that to the elbow, y2 put right
+        sides.append(x3 * (x3 * y2) - 1 * x2)
     assert sides == pytest.approx([0.8689, -0.8689], abs=1e-4)  # errata S2-d
 
 
 # ---- code generation: the same derivation as in lab 12
 
+
 def document():
-    """x2 of (2), and all four coordinates with the denominator of y2 put right: (symbols, [x2], [x2, y2, x2, y2])."""
+    """x2 of (2), and all four coordinates with the denominator of y2 put right: (symbols, [x2],
+    [x2, y2, x2, y2]).
+    """
     x3, y3, l = symbols = sp.symbols("x3 y3 l")  # noqa: E741
-    root = sp.sqrt(-x3**2 * (x3**2 + y3**2) * (-4 * l**2 + x3**2 + y3**2))
-    x2 = [(x3**4 + x3**2 * y3**2 + side * y3 * root) / (2 * x3 * (x3**2 + y3**2)) for side in (-1, 1)]
+    root = sp.sqrt(-(x3**2) * (x3**2 + y3**2) * (-4 * l**2 + x3**2 + y3**2))
+    x2 = [
+        (x3**4 + x3**2 * y3**2 + side * y3 * root) / (2 * x3 * (x3**2 + y3**2)) for side in (-1, 1)
+    ]
     y2 = [(x3**2 * y3 + y3**3 - side * root) / (2 * (x3**2 + y3**2)) for side in (-1, 1)]
     return symbols, x2[:1], [x2[0], y2[0], x2[1], y2[1]]
 
@@ -182,16 +202,22 @@ def general():
     x1, y1, x3, y3, l1, l2 = symbols = sp.symbols("x1 y1 x3 y3 l1 l2")
     dx, dy = x3 - x1, y3 - y1
     d2 = dx**2 + dy**2
-    along = (d2 + l1**2 - l2**2) / (2 * d2)  # the foot of the elbow on the way from base to tip, as a share of it
+    # the foot of the elbow on the way from base to tip, as a share of it
+    along = (d2 + l1**2 - l2**2) / (2 * d2)
     across = sp.sqrt(l1**2 / d2 - along**2)
-    return symbols, [c for side in (1, -1) for c in (x1 + along * dx + side * across * dy,
-                                                     y1 + along * dy - side * across * dx)]
+    return symbols, [
+        c
+        for side in (1, -1)
+        for c in (x1 + along * dx + side * across * dy, y1 + along * dy - side * across * dx)
+    ]
 
 
 def operations(expressions):
     """SymPy's count before and after common subexpressions are taken out."""
     steps, results = sp.cse(expressions)
-    return sum(map(sp.count_ops, expressions)), sum(sp.count_ops(e) for e in [*results, *(step for _, step in steps)])
+    return sum(map(sp.count_ops, expressions)), sum(
+        sp.count_ops(e) for e in [*results, *(step for _, step in steps)]
+    )
 
 
 def test_the_operation_counts():
@@ -204,17 +230,23 @@ def test_the_operation_counts():
 def test_the_general_solution_solves_the_two_circles():
     (x1, y1, x3, y3, l1, l2), (xa, ya, xb, yb) = general()
     for x2, y2 in ((xa, ya), (xb, yb)):
-        assert sp.factor((x2 - x1)**2 + (y2 - y1)**2 - l1**2) == 0
-        assert sp.factor((x2 - x3)**2 + (y2 - y3)**2 - l2**2) == 0
+        assert sp.factor((x2 - x1) ** 2 + (y2 - y1) ** 2 - l1**2) == 0
+        assert sp.factor((x2 - x3) ** 2 + (y2 - y3) ** 2 - l2**2) == 0
 
 
 def c_source(name, symbols, expressions):
-    """A C function of doubles, out[] last (the document's casts to int, errata S2-c, are left out)."""
+    """A C function of doubles, out[] last (the document's casts to int, errata S2-c, are left
+    out).
+    """
     steps, results = sp.cse(expressions)
     lines = [f"    const double {target} = {sp.ccode(step)};" for target, step in steps]
     lines += [f"    out[{i}] = {sp.ccode(result)};" for i, result in enumerate(results)]
     arguments = ", ".join(f"double {symbol}" for symbol in symbols)
-    return f"#include <math.h>\nvoid {name}({arguments}, double *out) {{\n" + "\n".join(lines) + "\n}\n"
+    return (
+        f"#include <math.h>\nvoid {name}({arguments}, double *out) {{\n"
+        + "\n".join(lines)
+        + "\n}\n"
+    )
 
 
 def compiled(source, name, folder, arguments):
@@ -224,10 +256,28 @@ def compiled(source, name, folder, arguments):
         pytest.skip("no C compiler on this machine")
     (folder / "elbow.c").write_text(source)
     library = folder / "elbow.so"
-    subprocess.run([compiler, "-O2", "-Wall", "-Werror", "-shared", "-fPIC", "-o", library, folder / "elbow.c", "-lm"],
-                   check=True, capture_output=True, text=True)
+    subprocess.run(
+        [
+            compiler,
+            "-O2",
+            "-Wall",
+            "-Werror",
+            "-shared",
+            "-fPIC",
+            "-o",
+            library,
+            folder / "elbow.c",
+            "-lm",
+        ],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     function = getattr(ctypes.CDLL(str(library)), name)
-    function.argtypes, function.restype = [ctypes.c_double] * arguments + [ctypes.POINTER(ctypes.c_double)], None
+    function.argtypes, function.restype = (
+        [ctypes.c_double] * arguments + [ctypes.POINTER(ctypes.c_double)],
+        None,
+    )
 
     def call(row):
         out = (ctypes.c_double * 4)()
@@ -262,14 +312,19 @@ def test_generated_c_agrees_with_generated_python(tmp_path):
     in_python = sp.lambdify(symbols, expressions, "numpy", cse=True)
     rows = targets(500)
     assert "(int)" not in c_source("elbow", symbols, expressions)
-    np.testing.assert_allclose([in_c(row) for row in rows], np.transpose(in_python(*rows.T)), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(
+        [in_c(row) for row in rows], np.transpose(in_python(*rows.T)), rtol=0, atol=1e-12
+    )
 
 
 def test_generated_c_of_the_document_with_and_without_the_casts(tmp_path):
     symbols, x2, four = document()
     in_c = compiled(c_source("elbow", symbols, four), "elbow", tmp_path, 3)
-    assert in_c((1.2, 0.7, 1)) == pytest.approx([0.2375279178, 0.9713807123, 0.9624720822, -0.2713807123])
-    t1, t3, x3, y3 = int(1.2**2), int(0.7**2), 1.2, 0.7  # errata S2-c: the document's listing, for (1.2, 0.7) and l = 1
+    assert in_c((1.2, 0.7, 1)) == pytest.approx(
+        [0.2375279178, 0.9713807123, 0.9624720822, -0.2713807123]
+    )
+    # errata S2-c: the document's listing, for (1.2, 0.7) and l = 1
+    t1, t3, x3, y3 = int(1.2**2), int(0.7**2), 1.2, 0.7
     t5, t7 = int(t1 + t3), 1
     t11 = math.sqrt(-(t1 * t5 * (-4 * t7 + t1 + t3)))
     assert (t1**2 + t1 * t3 - y3 * t11) / x3 / t5 / 2 == pytest.approx(-0.0885148)

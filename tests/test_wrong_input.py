@@ -1,4 +1,6 @@
-"""Wrong input: a ValueError whose message holds the evidence, or the right answer. A table, one line per call."""
+"""Wrong input: a ValueError whose message holds the evidence, or the right answer. A table, one
+line per call.
+"""
 
 import numpy as np
 import pytest
@@ -39,17 +41,26 @@ WRONG = {
     "a number": (lambda: Quaternion(1.0), r"\(\)"),
     "zero quaternion": (lambda: Quaternion([0, 0, 0, 0]), "length 0"),
     "quaternion of length 2": (lambda: Quaternion([2, 0, 0, 0]), "length 2"),
-    "worst of a batch": (lambda: Quaternion([[1, 0, 0, 0], [0, 3, 0, 0], [0, 2, 0, 0]]), "length 3"),
+    "worst of a batch": (
+        lambda: Quaternion([[1, 0, 0, 0], [0, 3, 0, 0], [0, 2, 0, 0]]),
+        "length 3",
+    ),
     "NaN quaternion": (lambda: Quaternion([1, 0, NAN, 0]), r"nan at index \(2,\)"),
     "words": (lambda: Quaternion("abcd"), "abcd"),
     "ragged": (lambda: Quaternion([[1, 0, 0, 0], [1, 0]]), r"\[1, 0\]"),
     "zero axis": (lambda: Quaternion.from_angle_axis(1.0, (0, 0, 0)), r"\[0. 0. 0.\] of length 0"),
     "axis of length 2": (lambda: Quaternion.from_angle_axis(1.0, (0, 0, 2)), "length 2"),
-    "axis in a batch": (lambda: Quaternion.from_angle_axis(1.0, [Z, (0, 3, 4)]), r"\[0. 3. 4.\] of length 5"),
+    "axis in a batch": (
+        lambda: Quaternion.from_angle_axis(1.0, [Z, (0, 3, 4)]),
+        r"\[0. 3. 4.\] of length 5",
+    ),
     "flat axis": (lambda: Quaternion.from_angle_axis(1.0, (1, 0)), r"\(2,\)"),
     "NaN angle": (lambda: Quaternion.from_angle_axis(NAN, Z), "angle.*nan"),
     "infinite angle": (lambda: Quaternion.from_angle_axis(INF, Z), "angle.*inf"),
-    "two angles, three axes": (lambda: Quaternion.from_angle_axis([1, 2], [Z, Z, Z]), r"\(2,\).*\(3,\)"),
+    "two angles, three axes": (
+        lambda: Quaternion.from_angle_axis([1, 2], [Z, Z, Z]),
+        r"\(2,\).*\(3,\)",
+    ),
     "flat matrix": (lambda: Quaternion.from_matrix(np.ones(3)), r"\(3,\)"),
     "matrix 2 x 3": (lambda: Quaternion.from_matrix(np.ones((2, 3))), r"\(2, 3\)"),
     "matrix 4 x 4": (lambda: Quaternion.from_matrix(np.eye(4)), r"\(4, 4\)"),
@@ -58,17 +69,29 @@ WRONG = {
     "mirror in a batch": (lambda: Quaternion.from_matrix([np.eye(3), MIRROR]), "reflection"),
     "NaN matrix": (lambda: Quaternion.from_matrix(np.full((3, 3), NAN)), "nan"),
     "zero matrix": (lambda: Quaternion.from_matrix(np.zeros((3, 3))), "differs from 1 by 1"),
-    "slerp to an array": (lambda: B.rotation.slerp(np.eye(3), 0.5), r"wanted a Quaternion.*\(3, 3\)"),
+    "slerp to an array": (
+        lambda: B.rotation.slerp(np.eye(3), 0.5),
+        r"wanted a Quaternion.*\(3, 3\)",
+    ),
     "slerp at NaN": (lambda: B.rotation.slerp(B.rotation, NAN), "nan"),
-    "slerp of other shapes": (lambda: B.rotation[None][[0, 0]].slerp(B.rotation, [0, 0.5, 1]), r"\(2,\).*\(3,\)"),
+    "slerp of other shapes": (
+        lambda: B.rotation[None][[0, 0]].slerp(B.rotation, [0, 0.5, 1]),
+        r"\(2,\).*\(3,\)",
+    ),
     "points of a plane": (lambda: B.rotation @ np.ones((5, 2)), r"\(5, 2\)"),
     "infinite point": (lambda: B.rotation @ [0, INF, 0], "inf"),
-    "batches do not fit": (lambda: Quaternion.identity((2,)) @ Quaternion.identity((3,)), r"\(2,\).*\(3,\)"),
+    "batches do not fit": (
+        lambda: Quaternion.identity((2,)) @ Quaternion.identity((3,)),
+        r"\(2,\).*\(3,\)",
+    ),
     # transforms
     "matrix as rotation": (lambda: Transform(np.eye(3)), r"wanted a Quaternion.*\(3, 3\)"),
     "point of a plane": (lambda: Transform(translation=(1, 2)), r"\(2,\)"),
     "NaN translation": (lambda: Transform(translation=(0, NAN, 0)), r"nan at index \(1,\)"),
-    "parts do not fit": (lambda: Transform(Quaternion.identity((2,)), np.zeros((3, 3))), r"\(2,\).*\(3,\)"),
+    "parts do not fit": (
+        lambda: Transform(Quaternion.identity((2,)), np.zeros((3, 3))),
+        r"\(2,\).*\(3,\)",
+    ),
     "3 x 3 as transform": (lambda: Transform.from_matrix(np.eye(3)), r"\(3, 3\)"),
     "last row": (lambda: Transform.from_matrix(np.ones((4, 4))), r"0 0 0 1.*\[1. 1. 1. 1.\]"),
     "transposed": (lambda: Transform.from_matrix(B.as_matrix().T), "0 0 0 1"),
@@ -81,10 +104,19 @@ WRONG = {
     "infinite joint": (lambda: IRB140.fk([0, 0, INF, 0, 0, 0]), r"inf at index \(2,\)"),
     "joints as words": (lambda: IRB140.frames(["a"] * 6), "wanted numbers"),
     "Jacobian of seven": (lambda: IRB140.jacobian(np.zeros((2, 7))), r"\(2, 7\)"),
-    "matrix to ik": (lambda: IRB140.ik(np.eye(4)), r"wanted a Transform, got array of shape \(4, 4\).*from_matrix"),
+    "matrix to ik": (
+        lambda: IRB140.ik(np.eye(4)),
+        r"wanted a Transform, got array of shape \(4, 4\).*from_matrix",
+    ),
     "list to ik": (lambda: IRB140.ik([A, B]), "wanted a Transform, got"),
-    "position to ik": (lambda: IRB140.ik((0.4, 0, 0.5)), r"wanted a Transform, got \(0.4, 0, 0.5\)"),
-    "target to ik": (lambda: IRB140.ik(Target((0.4, 0, 0.5), 0.1)), "wanted a Transform, got Target"),
+    "position to ik": (
+        lambda: IRB140.ik((0.4, 0, 0.5)),
+        r"wanted a Transform, got \(0.4, 0, 0.5\)",
+    ),
+    "target to ik": (
+        lambda: IRB140.ik(Target((0.4, 0, 0.5), 0.1)),
+        "wanted a Transform, got Target",
+    ),
     "position to SCARA": (lambda: SCARA.ik((0.4, 0, 0.1)), r"\(0.4, 0, 0.1\)"),
     "no such branch": (lambda: IRB140.branch(1, 1), r"3 flags.*\(1, 1\)"),
     "flag 0": (lambda: IRB140.branch(1, 0, 1), r"\(1, 0, 1\)"),
@@ -143,8 +175,14 @@ WRONG = {
     # derivatives
     "no samples": (lambda: differentiate([], []), "three"),
     "two samples": (lambda: differentiate([1, 2], [0, 1]), r"three times, got shape \(2,\)"),
-    "one sample more": (lambda: differentiate(np.zeros((6, 2)), np.arange(5)), r"5 samples.*\(6, 2\)"),
-    "transposed samples": (lambda: differentiate(np.zeros((6, 50)), np.arange(50)), r"50 samples.*\(6, 50\)"),
+    "one sample more": (
+        lambda: differentiate(np.zeros((6, 2)), np.arange(5)),
+        r"5 samples.*\(6, 2\)",
+    ),
+    "transposed samples": (
+        lambda: differentiate(np.zeros((6, 50)), np.arange(50)),
+        r"50 samples.*\(6, 50\)",
+    ),
     "a single value": (lambda: differentiate(1.0, np.arange(5)), r"\(\)"),
     "time stands": (lambda: differentiate(np.zeros(4), [0, 1, 1, 2]), "rising"),
     "time turns back": (lambda: differentiate(np.zeros(4), [3, 2, 1, 0]), "rising"),
@@ -176,8 +214,10 @@ RIGHT = {
     "start equal to goal, blend": lambda: same(blend(B, B, B, 0.3, S), B),
     "start equal to via": lambda: same(blend(A, A, B, 0.0, S), lin_lin(A, A, B, S)),
     "via and back": lambda: same(blend(A, B, A, 0.2, 1.0), A),
-    "whole numbers": lambda: same(Transform(Quaternion([0, 1, 0, 0]), (1, 2, 3)).inverse().inverse(),
-                                  Transform(Quaternion([0, 1, 0, 0]), (1, 2, 3))),
+    "whole numbers": lambda: same(
+        Transform(Quaternion([0, 1, 0, 0]), (1, 2, 3)).inverse().inverse(),
+        Transform(Quaternion([0, 1, 0, 0]), (1, 2, 3)),
+    ),
     "lists": lambda: np.allclose(B @ [[0, 0, 0], [0, 0, 1]], [[0.3, 0.2, 0.5], [0.3, 0.2, 1.5]]),
     "an empty batch of poses": lambda: IRB140.ik(Transform.identity((0,))).shape == (0, 8, 6),
     "an empty batch of joints": lambda: IRB140.fk(np.zeros((0, 6))).shape == (0,),
@@ -185,7 +225,9 @@ RIGHT = {
     "a share of the rounding past the end": lambda: same(lin(A, B, 1 + 1e-15), B),
     "NaN joints": lambda: np.isnan(IRB140.fk(np.full(6, NAN)).translation).all(),
     "a missing pose": lambda: np.isnan(IRB140.ik(IRB140.fk(np.full((2, 6), NAN)))).all(),
-    "a missing row stays missing": lambda: np.isnan(differentiate(np.full((4, 2), NAN), np.arange(4))).all(),
+    "a missing row stays missing": lambda: np.isnan(
+        differentiate(np.full((4, 2), NAN), np.arange(4))
+    ).all(),
     "a far pose": lambda: np.isnan(IRB140.ik(Transform(translation=(1e100, 0, 0)))).all(),
     "a pose at the base": lambda: IRB140.ik(Transform()).shape == (8, 6),
     "a duration in words that are a number": lambda: linear(np.array(20))(5) == 0.25,

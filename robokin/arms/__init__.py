@@ -8,6 +8,25 @@ from .planar import three_lever, two_link
 from .scara import Target, scara
 from .spherical_wrist import spherical_wrist
 
-__all__ = ["IRB140", "ITMO6R", "PUMA560", "SCARA", "Arm", "Link", "Target", "dh_links", "elbow_arm", "explain",
-           "follow", "itmo_arm", "loader_arm", "nearest", "scara", "spbu_arm", "spherical_wrist", "three_lever",
-           "two_link", "within"]
+__all__ = [
+    "IRB140",
+    "ITMO6R",
+    "PUMA560",
+    "SCARA",
+    "Arm",
+    "Link",
+    "Target",
+    "dh_links",
+    "elbow_arm",
+    "explain",
+    "follow",
+    "itmo_arm",
+    "loader_arm",
+    "nearest",
+    "scara",
+    "spbu_arm",
+    "spherical_wrist",
+    "three_lever",
+    "two_link",
+    "within",
+]

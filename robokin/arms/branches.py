@@ -1,4 +1,6 @@
-"""Choosing among the solutions of the inverse kinematics: `within`, `nearest`, `follow`, `explain`."""
+"""Choosing among the solutions of the inverse kinematics: `within`, `nearest`, `follow`,
+`explain`.
+"""
 
 from dataclasses import replace
 
@@ -12,9 +14,11 @@ from .arm import Arm
 TURN = 2 * np.pi
 SLACK = 1e-9  # a joint this little past its limit stands at it
 SINGULAR = {
-    "shoulder": "the wrist centre is in line with axis 1 (shoulder singularity), where the front and back rows meet",
+    "shoulder": "the wrist centre is in line with axis 1 (shoulder singularity), where the front "
+    "and back rows meet",
     "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows are one",
-    "wrist": "axes 4 and 6 are in one line (wrist singularity), so that only their joints' common turn is fixed",
+    "wrist": "axes 4 and 6 are in one line (wrist singularity), so that only their joints' "
+    "common turn is fixed",
 }
 
 
@@ -30,9 +34,9 @@ def within(arm, q):
 def nearest(arm, rows, q):
     """The row with the least travel from q: rows (..., rows, n) and q (..., n) -> (..., n).
 
-    Travel is the sum of all joint changes (rad; m for a prismatic joint). A joint takes the one of its values
-    q + 2 pi k that is nearest to q and inside the limits or, if none is inside, nearest to q. NaN where no row
-    exists. ValueError: shapes that do not fit.
+    Travel is the sum of all joint changes (rad; m for a prismatic joint). A joint takes the one of
+    its values q + 2 pi k that is nearest to q and inside the limits or, if none is inside, nearest
+    to q. NaN where no row exists. ValueError: shapes that do not fit.
     """
     rows, q = _rows(arm, rows), floats(q, "q", len(arm.links))
     broadcast("rows and q", (*rows.shape[:-2], rows.shape[-1]), q.shape)
@@ -41,28 +45,35 @@ def nearest(arm, rows, q):
 
 
 def follow(arm, rows, row):
-    """One continuous motion through the rows of `ik` along a path: (..., samples, rows, n) -> (..., samples, n).
+    """One continuous motion through the rows of `ik` along a path: (..., samples, rows, n) -> (...,
+    samples, n).
 
-    It starts on `row` (at the first sample where that row exists), with each joint inside its limits if it can; after
-    that every sample takes the row nearest to the one before, with angles unwrapped (they may pass the limits:
-    `within` tells). Where a wrist singularity leaves joints 4 and 6 free they share the turn; for joint 1 free in a
-    shoulder singularity nothing is chosen, it is where `ik` puts it. NaN where no row exists, then on from the last
-    finite sample. ValueError: a row that the arm does not have, no samples.
+    It starts on `row` (at the first sample where that row exists), with each joint inside its
+    limits if it can; after that every sample takes the row nearest to the one before, with angles
+    unwrapped (they may pass the limits: `within` tells). Where a wrist singularity leaves joints 4
+    and 6 free they share the turn; for joint 1 free in a shoulder singularity nothing is chosen, it
+    is where `ik` puts it. NaN where no row exists, then on from the last finite sample. ValueError:
+    a row that the arm does not have, no samples.
     """
     rows = _rows(arm, rows)
     if rows.ndim < 3 or rows.shape[-3] == 0:
-        raise ValueError(f"rows: wanted shape (..., samples, rows, n) with samples, got {rows.shape}")
+        raise ValueError(
+            f"rows: wanted shape (..., samples, rows, n) with samples, got {rows.shape}"
+        )
     count = rows.shape[-2]
     if not (isinstance(row, (int, np.integer)) and 0 <= row < count):
         raise ValueError(f"row: wanted a whole number from 0 to {count - 1}, got {row!r}")
     q = np.full((*rows.shape[:-2], rows.shape[-1]), np.nan)
     before = _start(arm, rows[..., row, :])
     started = np.zeros(q.shape[:-2], dtype=bool)
-    # Each sample depends on the one before: the one loop over time that cannot be an array operation.
+    # Each sample depends on the one before: the one loop over time that cannot be an array
+    # operation.
     for i in range(q.shape[-2]):
         options = rows[..., i, :, :]
-        options = np.where(started[..., None, None], options, options[..., row:row + 1, :])
-        options = arm.geometry.settle(_unwrapped(arm, options, before[..., None, :]), before[..., None, :])
+        options = np.where(started[..., None, None], options, options[..., row : row + 1, :])
+        options = arm.geometry.settle(
+            _unwrapped(arm, options, before[..., None, :]), before[..., None, :]
+        )
         q[..., i, :] = _least(options, before)
         exists = ~np.isnan(q[..., i, :1])
         started |= exists[..., 0]
@@ -71,10 +82,11 @@ def follow(arm, rows, row):
 
 
 def explain(arm, pose, row):
-    """In one sentence whether row `row` of `arm.ik(pose)` is usable, and if not why. One single pose.
+    """In one sentence whether row `row` of `arm.ik(pose)` is usable, and if not why. One single
+    pose.
 
-    Out of reach: by how much, and whether metres were meant to be millimetres. Else every joint past its limit, with
-    the excess, and every singularity that holds.
+    Out of reach: by how much, and whether metres were meant to be millimetres. Else every joint
+    past its limit, with the excess, and every singularity that holds.
     """
     rows = instance(arm, Arm, "arm").ik(pose)
     if rows.ndim != 2:
@@ -91,7 +103,10 @@ def explain(arm, pose, row):
     facts += [SINGULAR[name] for name, holds in arm.geometry.singular(q).items() if holds]
     if not facts:
         return f"{what} is usable: it is inside every limit and not singular."
-    return f"{what} {'is usable, but' if within(arm, q).all() else 'is not usable:'} {', and '.join(facts)}."
+    return (
+        f"{what} {'is usable, but' if within(arm, q).all() else 'is not usable:'} "
+        f"{', and '.join(facts)}."
+    )
 
 
 def _rows(arm, rows):
@@ -103,7 +118,9 @@ def _rows(arm, rows):
 
 
 def _lowest(arm, q):
-    """Each joint's lowest value q + 2 pi k that is not below its lower limit (a prismatic joint has but one)."""
+    """Each joint's lowest value q + 2 pi k that is not below its lower limit (a prismatic joint has
+    but one).
+    """
     low = arm.limits[:, 0] - SLACK
     turned = q + TURN * np.ceil((low - q) / TURN)
     return np.where(arm.prismatic, np.where(q < low, np.inf, q), turned)
@@ -132,17 +149,23 @@ def _least(options, q):
 
 
 def _start(arm, track):
-    """Where a motion along one row (..., samples, n) begins, for its first sample to be measured against.
+    """Where a motion along one row (..., samples, n) begins, for its first sample to be measured
+    against.
 
-    A motion may begin in a singularity, as from the IRB-140's home pose: the free joints then look ahead to the first
-    sample that fixes them.
+    A motion may begin in a singularity, as from the IRB-140's home pose: the free joints then look
+    ahead to the first sample that fixes them.
     """
     exists = ~np.isnan(track).any(axis=-1)
-    elsewhere = track + np.arange(track.shape[-1])  # each joint by another amount, so that no two shifts cancel
-    fixed = np.isclose(arm.geometry.settle(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
+    # each joint by another amount, so that no two shifts cancel
+    elsewhere = track + np.arange(track.shape[-1])
+    fixed = np.isclose(arm.geometry.settle(track, elsewhere), track, rtol=0, atol=1e-12).all(
+        axis=-1
+    )
     begin = exists.argmax(axis=-1)
     ahead = np.where(fixed.any(axis=-1), fixed.argmax(axis=-1), begin)
-    begin, ahead = (np.take_along_axis(track, i[..., None, None], axis=-2)[..., 0, :] for i in (begin, ahead))
+    begin, ahead = (
+        np.take_along_axis(track, i[..., None, None], axis=-2)[..., 0, :] for i in (begin, ahead)
+    )
     q = arm.geometry.settle(begin, ahead)
     q = np.where(np.isnan(q), 0.0, q)
     return _inside(arm, q, q)
@@ -167,5 +190,9 @@ def _excess(arm, q, i):
     value, over = np.ravel(value)[best], np.ravel(over)[best]
     unit, size = (" mm", mm) if arm.prismatic[i] else ("°", deg)
     limit = high if value > high else low
-    value, over, limit = f"{value / size:.1f}{unit}", f"{over / size:.1f}{unit}", f"{limit / size:g}{unit}"
+    value, over, limit = (
+        f"{value / size:.1f}{unit}",
+        f"{over / size:.1f}{unit}",
+        f"{limit / size:g}{unit}",
+    )
     return f"joint {i + 1} stands at {value}, {over} past its limit of {limit}"

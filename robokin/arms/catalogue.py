@@ -23,11 +23,12 @@ def _six_axis(name, links, **limits):
     return Arm(name, links, SphericalWrist(name, links), **limits)
 
 
-# ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the document's, its
-# frame `wrist` split in two (joints 4 and 5). Its joint 2 turns about -y, so a positive angle leans the arm back, and
-# its upper arm is 350 mm where other models of this robot have 360 mm (errata S1-g): we keep the document's numbers.
-# Speeds: public models of the robot differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not
-# checked against the maker's data sheet.
+# ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the
+# document's, its frame `wrist` split in two (joints 4 and 5). Its joint 2 turns about -y, so a
+# positive angle leans the arm back, and its upper arm is 350 mm where other models of this robot
+# have 360 mm (errata S1-g): we keep the document's numbers. Speeds: public models of the robot
+# differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not checked against
+# the maker's data sheet.
 IRB140 = _six_axis(
     "IRB-140",
     links=(
@@ -38,19 +39,26 @@ IRB140 = _six_axis(
         Link(axis=Y),
         Link(_at(65 * mm, 0, 0), X, after=Transform(Quaternion.from_angle_axis(90 * deg, Y))),
     ),
-    limits=np.array([(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)]) * deg,
+    limits=np.array([(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)])
+    * deg,
     speed_limits=np.array([200, 200, 245, 348, 360, 450]) * deg,
 )
 
 
-# SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds are not stated.
+# SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds are
+# not stated.
 SCARA = scara(
-    "SCARA", height=220.2 * mm, upper=200 * mm, fore=250 * mm,
-    limits=np.array([(-140 * deg, 140 * deg), (-150 * deg, 150 * deg), (-400 * deg, 400 * deg), (0, 180 * mm)]),
+    "SCARA",
+    height=220.2 * mm,
+    upper=200 * mm,
+    fore=250 * mm,
+    limits=np.array(
+        [(-140 * deg, 140 * deg), (-150 * deg, 150 * deg), (-400 * deg, 400 * deg), (0, 180 * mm)]
+    ),
 )
 
-# PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model (Robotics Toolbox,
-# `puma560`), the base raised by 26.45 inches.
+# PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model
+# (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
 PUMA560 = _six_axis(
     "PUMA 560",
     links=dh_links(
@@ -58,7 +66,8 @@ PUMA560 = _six_axis(
         alpha=np.array([90, 0, -90, 90, -90, 0]) * deg,
         d=np.array([671.83, 0, 150.05, 431.8, 0, 0]) * mm,
     ),
-    limits=np.array([(-160, 160), (-45, 225), (-225, 45), (-110, 170), (-100, 100), (-266, 266)]) * deg,
+    limits=np.array([(-160, 160), (-45, 225), (-225, 45), (-110, 170), (-100, 100), (-266, 266)])
+    * deg,
 )
 
 
@@ -76,47 +85,64 @@ def _itmo(d1, a2, d4, d6):
 
 
 def itmo_arm(d1, a2, d4, d6):
-    """The six-axis arm of source 004, table 1, for lengths in metres. It states no limits: here one turn each way."""
+    """The six-axis arm of source 004, table 1, for lengths in metres. It states no limits: here one
+    turn each way.
+    """
     return spherical_wrist(**_itmo(d1, a2, d4, d6))
 
 
-# Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 + a2 = 20, of which we
-# take the equal halves, in centimetres (errata S4-j).
+# Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 + a2
+# = 20, of which we take the equal halves, in centimetres (errata S4-j).
 ITMO6R = _six_axis(**_itmo(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm))
 
 
 def spbu_arm(l1, l2):
-    """The positioning arm of source 000 (figure 2) for lengths in metres: joint 1 turns about the vertical, joint 2
-    tilts link 1 away from it, and at joint 3 = 0 link 2 stands square to link 1. Limits: the document's domain.
+    """The positioning arm of source 000 (figure 2) for lengths in metres: joint 1 turns about the
+    vertical, joint 2 tilts link 1 away from it, and at joint 3 = 0 link 2 stands square to link 1.
+    Limits: the document's domain.
 
-    Its first matrix has alpha = -90 degrees; the text's +90 puts the tool below the floor (errata S0-a).
+    Its first matrix has alpha = -90 degrees; the text's +90 puts the tool below the floor (errata
+    S0-a).
     """
     return elbow_arm(
         "Arm (000)",
-        links=dh_links(a=[0, l1, l2], alpha=np.array([-90, 0, 0]) * deg, d=0, theta=np.array([0, -90, 90]) * deg),
+        links=dh_links(
+            a=[0, l1, l2],
+            alpha=np.array([-90, 0, 0]) * deg,
+            d=0,
+            theta=np.array([0, -90, 90]) * deg,
+        ),
         limits=np.array([(-180, 180), (-90, 90), (-90, 90)]) * deg,
     )
 
 
 def loader_arm(A, B):
-    """The log loader of source 003 for levers of lengths A and B in metres, q = (alpha, gamma, beta) from the base out.
+    """The log loader of source 003 for levers of lengths A and B in metres, q = (alpha, gamma,
+    beta) from the base out.
 
     alpha  the turn about the vertical, counter-clockwise from the +x axis
     gamma  lever A above the horizon
-    beta   the interior angle between the levers: lever B stands gamma + beta - 180 degrees above the horizon
+    beta   the interior angle between the levers: lever B stands gamma + beta - 180 degrees above
+           the horizon
 
-    The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. There alpha is
-    atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x = y = 0, it is free and `ik` gives 0),
-    and beta and gamma are (3) and (4). Limits: alpha as in the document, beta and gamma as (3) and (4) give them for
-    z >= 0. At alpha's limits there is no stop: the shortest turn (errata S3-q) passes them. What the document asks of
-    the gripper's point is `robokin.jobs.steppers.refusal`.
+    The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`.
+    There alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x = y
+    = 0, it is free and `ik` gives 0), and beta and gamma are (3) and (4). Limits: alpha as in the
+    document, beta and gamma as (3) and (4) give them for z >= 0. At alpha's limits there is no
+    stop: the shortest turn (errata S3-q) passes them. What the document asks of the gripper's point
+    is `robokin.jobs.steppers.refusal`.
 
     Source: 003, paper 1, (1) to (4), table 1, figure 3.
     """
     A, B = length(A, "A"), length(B, "B")
-    forearm = Transform(Quaternion.from_angle_axis(-180 * deg, -Y))  # an interior angle of 0 lays B back upon A
+    # an interior angle of 0 lays B back upon A
+    forearm = Transform(Quaternion.from_angle_axis(-180 * deg, -Y))
     return elbow_arm(
         "Log loader",
-        links=(Link(axis=Z), Link(axis=-Y, after=_at(A, 0, 0)), Link(forearm, -Y, after=_at(B, 0, 0))),
+        links=(
+            Link(axis=Z),
+            Link(axis=-Y, after=_at(A, 0, 0)),
+            Link(forearm, -Y, after=_at(B, 0, 0)),
+        ),
         limits=np.array([(-180, 180), (0, 270), (0, 180)]) * deg,
     )

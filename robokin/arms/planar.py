@@ -1,7 +1,8 @@
 """Planar arms: all joints turn about z, and everything happens in the plane z = 0.
 
 `two_link` is the arm of source 002: two lengths, two elbows.
-`three_lever` is the arm of source 003: three equal levers OB, BA, AK, one joint more than a point of the plane needs.
+`three_lever` is the arm of source 003: three equal levers OB, BA, AK, one joint more than a point
+of the plane needs.
 """
 
 import numpy as np
@@ -18,13 +19,16 @@ ROUNDING = 1e-12  # out of reach by no more than this share is rounding
 
 
 def two_link(l1, l2, base=(0, 0)):
-    """The planar arm of source 002: links of lengths l1 and l2 in metres on the point `base` (2,) of the plane z = 0.
+    """The planar arm of source 002: links of lengths l1 and l2 in metres on the point `base` (2,)
+    of the plane z = 0.
 
-    q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1 on. The document's unknown (x2, y2) is the
-    elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2), points (..., 3) or Transforms, of which it
-    takes the translation; a point off the plane z = 0 is out of reach. Limits: one turn each; the document has none.
+    q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1 on. The document's
+    unknown (x2, y2) is the elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2),
+    points (..., 3) or Transforms, of which it takes the translation; a point off the plane z = 0 is
+    out of reach. Limits: one turn each; the document has none.
 
-    Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that is no point.
+    Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
+    is no point.
     """
     l1, l2, base = length(l1, "l1"), length(l2, "l2"), floats(base, "base", 2)
     if base.ndim != 1:
@@ -37,12 +41,13 @@ def two_link(l1, l2, base=(0, 0)):
 
 
 class TwoLink:
-    """The inverse of two links in the plane (see `two_link`). Configuration flag: the sign of q2; at +1 link 2 turns
-    counter-clockwise away from link 1, and the elbow lies to the right of the line from base to tip.
+    """The inverse of two links in the plane (see `two_link`). Configuration flag: the sign of q2;
+    at +1 link 2 turns counter-clockwise away from link 1, and the elbow lies to the right of the
+    line from base to tip.
 
-    The document's formula (2) holds for equal links on the origin, divides by x3, and changes sides with the sign of
-    x3 (errata S2-a, S2-d, S2-e). Here the triangle of base, elbow and tip is solved by its half angles, for any
-    lengths.
+    The document's formula (2) holds for equal links on the origin, divides by x3, and changes sides
+    with the sign of x3 (errata S2-a, S2-d, S2-e). Here the triangle of base, elbow and tip is
+    solved by its half angles, for any lengths.
     """
 
     branches = np.array([(1,), (-1,)])
@@ -51,27 +56,40 @@ class TwoLink:
         self.l1, self.l2, self.base = l1, l2, base
 
     def ik(self, pose):
-        """See `Arm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal links fold and bring the tip to
-        the base, q1 is free, and 0.
+        """See `Arm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal links fold
+        and bring the tip to the base, q1 is free, and 0.
         """
         (x, y, d), stretch, fold, off = self._sides(pose)
         slack = ROUNDING * (self.l1 + self.l2)
         exists = (stretch >= -slack) & (fold >= -slack) & (off <= slack)
-        # The four factors of Heron's formula, each taken from a difference and never from a difference of squares.
+        # The four factors of Heron's formula, each taken from a difference and never from a
+        # difference of squares.
         stretch, around = np.maximum(stretch, 0), self.l1 + self.l2 + d
         short, long = np.maximum(d - (self.l1 - self.l2), 0), np.maximum(d + (self.l1 - self.l2), 0)
         elbow = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
-        ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))  # of link 1 from the line to the tip
-        q = np.stack([np.stack([np.arctan2(y, x) - flag * ahead, flag * elbow], axis=-1) for flag in (1, -1)], axis=-2)
+        # of link 1 from the line to the tip
+        ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
+        q = np.stack(
+            [
+                np.stack([np.arctan2(y, x) - flag * ahead, flag * elbow], axis=-1)
+                for flag in (1, -1)
+            ],
+            axis=-2,
+        )
         q = q - 2 * np.pi * np.round(q / (2 * np.pi)) + 0.0  # and no -0.0
         return np.where(exists[..., None, None], q, np.nan)
 
     def unreached(self, pose, row):
-        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0) if it exists."""
+        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0)
+        if it exists.
+        """
         _, stretch, fold, off = self._sides(_single(pose))
         slack = ROUNDING * (self.l1 + self.l2)
-        for gap, where in ((-stretch, "beyond the stretched arm"), (-fold, "too near to the base"),
-                           (off, "off the plane z = 0")):
+        for gap, where in (
+            (-stretch, "beyond the stretched arm"),
+            (-fold, "too near to the base"),
+            (off, "off the plane z = 0"),
+        ):
             if gap > slack:
                 return f"the target is {in_words(gap)} {where}", float(gap)
         return "", 0.0
@@ -81,46 +99,53 @@ class TwoLink:
         return {"elbow": abs(np.sin(q[..., 1])) < 1e-6}
 
     def settle(self, q, previous):
-        """Rows q (..., 2) with q1 as in `previous` where the tip stands on the base and leaves it free."""
+        """Rows q (..., 2) with q1 as in `previous` where the tip stands on the base and leaves it
+        free.
+        """
         arm = self.l1 + self.l2
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & (abs(self.l1 - self.l2) <= FREE * arm)
         return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
 
     def _sides(self, pose):
-        """The way from base to tip (x, y and its length d), and how much it is shorter than the stretched arm, longer
-        than the folded arm, and off the plane.
+        """The way from base to tip (x, y and its length d), and how much it is shorter than the
+        stretched arm, longer than the folded arm, and off the plane.
         """
         x, y, z = _plane(pose)
-        x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0  # -0.0 is 0: atan2 tells them apart, a point does not
+        # -0.0 is 0: atan2 tells them apart, a point does not
+        x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0
         d = np.hypot(x, y)
         return (x, y, d), self.l1 + self.l2 - d, d - abs(self.l1 - self.l2), abs(z)
 
 
 def three_lever(L):
-    """The arm of source 003 for levers of length L in metres, q = (gamma, beta, alpha), each from 0 to 180 degrees.
+    """The arm of source 003 for levers of length L in metres, q = (gamma, beta, alpha), each from 0
+    to 180 degrees.
 
     O      the base, in the origin
     gamma  the angle of lever OB from the +x axis, counter-clockwise
     beta   the interior angle at B; at 180 degrees OB and BA are in line
     alpha  the interior angle at A; at 180 degrees BA and AK are in line
-    K      the gripper, the flange's origin; below 180 degrees the chain turns clockwise on the way to it
+    K      the gripper, the flange's origin; below 180 degrees the chain turns clockwise on the way
+           to it
 
     Source: 003, III.1.1, figures 15 and 16. ValueError: L not one positive number.
     """
     L = length(L, "L")
     lever, folded = Transform(translation=(L, 0, 0)), Quaternion.from_angle_axis(-180 * deg, Z)
-    elbow = Transform(folded, (L, 0, 0))  # an interior angle of 0 lays the next lever back upon this one
+    # an interior angle of 0 lays the next lever back upon this one
+    elbow = Transform(folded, (L, 0, 0))
     links = (Link(), Link(elbow), Link(elbow, after=lever))
     return ThreeLever("Three levers", links, NoInverse(), np.array([(0, 180)] * 3) * deg)
 
 
 class ThreeLever(Arm):
-    """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of postures, one for every
-    value of the free angle alpha: `family` takes the place of `ik`.
+    """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of
+    postures, one for every value of the free angle alpha: `family` takes the place of `ik`.
 
-    Reached are the points with L < KO <= 3 L. Methods take points (..., 2), points (..., 3) with z = 0, or Transforms.
-    With `limited` they keep gamma, too, within 0 to 180 degrees; the document asks for it and does not test it (errata
-    S3-g). gamma is not wrapped: it lies between the direction of K and half a turn more.
+    Reached are the points with L < KO <= 3 L. Methods take points (..., 2), points (..., 3) with z
+    = 0, or Transforms. With `limited` they keep gamma, too, within 0 to 180 degrees; the document
+    asks for it and does not test it (errata S3-g). gamma is not wrapped: it lies between the
+    direction of K and half a turn more.
     """
 
     @property
@@ -131,7 +156,9 @@ class ThreeLever(Arm):
     def joints(self, q):
         """The points O, B, A, K in the plane: q (..., 3) -> (..., 4, 2). Source: 003, (15)-(21)."""
         gamma, beta, alpha = np.moveaxis(self._joints(q), -1, 0)
-        direction = np.stack([0 * gamma, gamma, gamma + beta - np.pi, gamma + beta + alpha - 2 * np.pi], axis=-1)
+        direction = np.stack(
+            [0 * gamma, gamma, gamma + beta - np.pi, gamma + beta + alpha - 2 * np.pi], axis=-1
+        )
         steps = self.lever * np.stack([np.cos(direction), np.sin(direction)], axis=-1)
         steps[..., 0, :] = 0.0
         return np.cumsum(steps, axis=-2)
@@ -139,8 +166,8 @@ class ThreeLever(Arm):
     def alpha_range(self, point, limited=True):
         """The lowest and the highest alpha that reach the point, (...) each; NaN where none does.
 
-        At the lowest one beta is 180 degrees (or gamma 0), the highest one is 180 degrees (or gamma is): along the
-        family gamma only grows with alpha. Source: 003, (2) and (3), figure 17.
+        At the lowest one beta is 180 degrees (or gamma 0), the highest one is 180 degrees (or gamma
+        is): along the family gamma only grows with alpha. Source: 003, (2) and (3), figure 17.
         """
         KO, phi = self._polar(point)
         low, high = _angle(self.lever, 2 * self.lever, KO), np.where(np.isnan(KO), np.nan, np.pi)
@@ -153,22 +180,27 @@ class ThreeLever(Arm):
         return low, high
 
     def family(self, point, alpha):
-        """The posture that reaches the point with the free angle alpha: point (...), alpha (...) -> q (..., 3).
+        """The posture that reaches the point with the free angle alpha: point (...), alpha (...) ->
+        q (..., 3).
 
-        NaN where there is none (see `alpha_range`). `within(arm, q)` marks the angles that lie in 0 to 180 degrees:
-        alpha and beta always do, gamma often does not. For one point and many alphas: `family(point, alphas)`; for
-        many points and many alphas: `family(points[:, None], alphas)`.
-        Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d (its last row) put right.
+        NaN where there is none (see `alpha_range`). `within(arm, q)` marks the angles that lie in 0
+        to 180 degrees: alpha and beta always do, gamma often does not. For one point and many
+        alphas: `family(point, alphas)`; for many points and many alphas: `family(points[:, None],
+        alphas)`.
+        Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d (its last
+        row) put right.
         """
         (KO, phi), alpha = self._polar(point), floats(alpha, "alpha", finite=False)
         broadcast("point and alpha", KO.shape, alpha.shape)
         return self._posture(KO, phi, alpha)
 
     def table(self, point, step=0.01 * deg, limited=True):
-        """Table 3 of the document: the postures for one point at alpha_min, alpha_min + step ... up to 180 degrees.
+        """Table 3 of the document: the postures for one point at alpha_min, alpha_min + step ... up
+        to 180 degrees.
 
-        Returns (rows, 3), no row if the point is out of reach. With `limited` the rows with gamma outside 0 to 180
-        degrees are dropped. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001); errata S3-e.
+        Returns (rows, 3), no row if the point is out of reach. With `limited` the rows with gamma
+        outside 0 to 180 degrees are dropped. Source: 003, III.1.3 (step 0.01 degrees), paper 2
+        (0.001); errata S3-e.
         """
         low = self.alpha_range(_single(point), limited=False)[0]
         if not 0 < step < np.inf:
@@ -178,10 +210,12 @@ class ThreeLever(Arm):
         return rows[(rows[:, 0] >= 0) & (rows[:, 0] <= np.pi)] if limited else rows
 
     def sweep(self, point, previous, step=0.01 * deg, limited=True):
-        """The document's choice: the first row of `table` with the smallest S, the sum of the angles' changes.
+        """The document's choice: the first row of `table` with the smallest S, the sum of the
+        angles' changes.
 
-        Returns (q, S) for one point and one posture `previous` (3,); NaN if there is no row. S in radians stands for
-        the motors' energy, which the document does not model (errata S3-i). Source: 003, III.4.1, figure 29.
+        Returns (q, S) for one point and one posture `previous` (3,); NaN if there is no row. S in
+        radians stands for the motors' energy, which the document does not model (errata S3-i).
+        Source: 003, III.4.1, figure 29.
         """
         previous, rows = floats(previous, "previous", 3), self.table(point, step, limited)
         if not len(rows):
@@ -193,10 +227,11 @@ class ThreeLever(Arm):
     def least(self, point, previous, limited=True):
         """The posture at the point with the exactly smallest S = |d alpha| + |d beta| + |d gamma|.
 
-        Returns (q, S): points (...) and previous (..., 3) -> (..., 3) and (...), NaN where the point is out of reach.
-        S as a function of alpha has a kink where an angle stays as it was, and between its kinks and its ends it has
-        at most one more minimum, that of alpha + beta - gamma: so a few postures are compared, without a step
-        (errata S3-h: the sweep of 0.01 degrees stops up to 0.006 degrees above).
+        Returns (q, S): points (...) and previous (..., 3) -> (..., 3) and (...), NaN where the
+        point is out of reach. S as a function of alpha has a kink where an angle stays as it was,
+        and between its kinks and its ends it has at most one more minimum, that of alpha + beta -
+        gamma: so a few postures are compared, without a step (errata S3-h: the sweep of 0.01
+        degrees stops up to 0.006 degrees above).
         """
         previous = floats(previous, "previous", 3)
         KO, phi = self._polar(point)
@@ -208,41 +243,70 @@ class ThreeLever(Arm):
         # beta as before: then A lies at the distance OA from O, on one of two sides of the line OK.
         OA = 2 * self.lever * np.sin(beta0 / 2)
         at_A = _angle(OA, self.lever, KO)
-        alphas = np.stack([
-            low, high, alpha0, self._alpha_of_gamma(KO, gamma0 - phi),
-            (np.pi - beta0) / 2 + at_A, (np.pi - beta0) / 2 - at_A, self._bottom(KO, low, high),
-        ], axis=-1)
-        alphas = np.clip(np.where(np.isnan(alphas), low[..., None], alphas), low[..., None], high[..., None])
+        alphas = np.stack(
+            [
+                low,
+                high,
+                alpha0,
+                self._alpha_of_gamma(KO, gamma0 - phi),
+                (np.pi - beta0) / 2 + at_A,
+                (np.pi - beta0) / 2 - at_A,
+                self._bottom(KO, low, high),
+            ],
+            axis=-1,
+        )
+        alphas = np.clip(
+            np.where(np.isnan(alphas), low[..., None], alphas), low[..., None], high[..., None]
+        )
         rows = self._posture(KO[..., None], phi[..., None], alphas)
         S = abs(rows - previous[..., None, :]).sum(axis=-1)
         best = np.where(np.isnan(S), np.inf, S).argmin(axis=-1)[..., None]
-        return (np.take_along_axis(rows, best[..., None], axis=-2)[..., 0, :],
-                np.take_along_axis(S, best, axis=-1)[..., 0])
+        return (
+            np.take_along_axis(rows, best[..., None], axis=-2)[..., 0, :],
+            np.take_along_axis(S, best, axis=-1)[..., 0],
+        )
 
     def unreached(self, point):
-        """In words why one single point is not reached, "" if it is. Source: 003, III.1.2: L < KO < 3 L."""
+        """In words why one single point is not reached, "" if it is. Source: 003, III.1.2: L < KO <
+        3 L.
+        """
         x, y, z = _plane(_single(point))
         KO, L = np.hypot(x, y), self.lever
         if abs(z) > ROUNDING * L:
             return f"it lies {in_words(abs(z))} beside the plane z = 0 of the levers"
         if KO <= L:
-            return f"it lies {in_words(KO)} from the base, not farther than one lever ({in_words(L)})"
+            return (
+                f"it lies {in_words(KO)} from the base, not farther than one lever ({in_words(L)})"
+            )
         if KO > 3 * L * (1 + ROUNDING):
-            return f"it lies {in_words(KO)} from the base, farther than three levers ({in_words(3 * L)})"
+            return (
+                f"it lies {in_words(KO)} from the base, farther than three levers "
+                f"({in_words(3 * L)})"
+            )
         if np.isnan(self.alpha_range((x, y))[0]):
             return "every posture that reaches it has gamma outside 0 to 180 degrees"
         return ""
 
     def _polar(self, point):
-        """The distance KO and the direction phi of points (...); NaN where the point is out of reach."""
+        """The distance KO and the direction phi of points (...); NaN where the point is out of
+        reach.
+        """
         x, y, z = _plane(point)
         KO = np.hypot(x, y)
-        reached = (KO > self.lever) & (KO <= 3 * self.lever * (1 + ROUNDING)) & (abs(z) <= ROUNDING * self.lever)
+        reached = (
+            (KO > self.lever)
+            & (KO <= 3 * self.lever * (1 + ROUNDING))
+            & (abs(z) <= ROUNDING * self.lever)
+        )
         return np.where(reached, KO, np.nan), np.where(reached, np.arctan2(y, x), np.nan)
 
     def _posture(self, KO, phi, alpha):
         low = _angle(self.lever, 2 * self.lever, KO)
-        alpha = np.where((alpha >= low - ROUNDING) & (alpha <= np.pi + ROUNDING), np.clip(alpha, low, np.pi), np.nan)
+        alpha = np.where(
+            (alpha >= low - ROUNDING) & (alpha <= np.pi + ROUNDING),
+            np.clip(alpha, low, np.pi),
+            np.nan,
+        )
         KB = 2 * self.lever * np.sin(alpha / 2)  # the isosceles triangle BAK
         gamma = phi + _angle(KO, self.lever, KB)
         beta = _angle(KB, self.lever, KO) + (np.pi - alpha) / 2
@@ -260,8 +324,9 @@ class ThreeLever(Arm):
         return np.where(exists, 2 * np.arcsin(np.minimum(half, 1)), np.nan)
 
     def _bottom(self, KO, low, high):
-        """The alpha between low and high with the least alpha + beta - gamma: six times, the best of 33 and its
-        neighbours. Half of the digits of alpha are enough, since the sum is flat there.
+        """The alpha between low and high with the least alpha + beta - gamma: six times, the best
+        of 33 and its neighbours. Half of the digits of alpha are enough, since the sum is flat
+        there.
         """
         for _ in range(6):
             alphas = low[..., None] + (high - low)[..., None] * np.linspace(0, 1, 33)
@@ -273,14 +338,19 @@ class ThreeLever(Arm):
 
 
 class NoInverse:
-    """Stands where other arms have their closed-form inverse: a family of postures cannot be listed row by row."""
+    """Stands where other arms have their closed-form inverse: a family of postures cannot be listed
+    row by row.
+    """
 
     branches = np.empty((0, 0), dtype=int)
 
     def ik(self, pose):
         """ValueError that names `family`."""
-        raise ValueError("ik: three levers reach a point in a family of postures; wanted arm.family(point, alpha), or "
-                         "arm.least(point, previous) for the one with the least movement")
+        raise ValueError(
+            "ik: three levers reach a point in a family of postures; wanted arm.family(point, "
+            "alpha), or "
+            "arm.least(point, previous) for the one with the least movement"
+        )
 
     def settle(self, q, previous):
         """Rows q (..., 3) as they are: `follow` asks for this."""
@@ -288,19 +358,22 @@ class NoInverse:
 
 
 def _angle(a, b, c):
-    """The angle between the sides a and b of a triangle, opposite c. The law of cosines in its half-angle form: an
-    arccos, as the document has it, loses half of the digits where the triangle is flat. NaN if there is no triangle.
+    """The angle between the sides a and b of a triangle, opposite c. The law of cosines in its
+    half-angle form: an arccos, as the document has it, loses half of the digits where the triangle
+    is flat. NaN if there is no triangle.
     """
     with np.errstate(invalid="ignore"):
         beside, around = _spare(c, b, a) * _spare(c, a, b), _spare(a, b, c) * (a + b + c)
         flat = 4 * ROUNDING * (a + b) ** 2
-        beside, around = (np.where((part < 0) & (part > -flat), 0.0, part) for part in (beside, around))
+        beside, around = (
+            np.where((part < 0) & (part > -flat), 0.0, part) for part in (beside, around)
+        )
         return 2 * np.arctan2(np.sqrt(beside), np.sqrt(around))
 
 
 def _spare(a, b, c):
-    """By how much two sides are longer than the third, rounded alike whichever angle asks: then all angles of a nearly
-    flat triangle belong to one triangle, and the chain closes.
+    """By how much two sides are longer than the third, rounded alike whichever angle asks: then all
+    angles of a nearly flat triangle belong to one triangle, and the chain closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)
 
@@ -310,7 +383,11 @@ def _plane(point):
     point = point.translation if isinstance(point, Transform) else floats(point, "point")
     if point.ndim == 0 or point.shape[-1] not in (2, 3):
         raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {point.shape}")
-    return point[..., 0], point[..., 1], point[..., 2] if point.shape[-1] == 3 else 0 * point[..., 0]
+    return (
+        point[..., 0],
+        point[..., 1],
+        point[..., 2] if point.shape[-1] == 3 else 0 * point[..., 0],
+    )
 
 
 def _single(point):

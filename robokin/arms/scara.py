@@ -1,4 +1,6 @@
-"""SCARA arms: two parallel levers, a turning tool and a vertical stroke; two solutions in closed form."""
+"""SCARA arms: two parallel levers, a turning tool and a vertical stroke; two solutions in closed
+form.
+"""
 
 from dataclasses import dataclass
 
@@ -15,10 +17,12 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Target(Batch):
-    """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...) about the vertical.
+    """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...)
+    about the vertical.
 
-    The angle is in radians and not wrapped: from 0 to pi is a half turn to the left, from 0 to -pi one to the right,
-    and 3 pi is one and a half turns. A rotation cannot tell these apart (errata S1-t).
+    The angle is in radians and not wrapped: from 0 to pi is a half turn to the left, from 0 to -pi
+    one to the right, and 3 pi is one and a half turns. A rotation cannot tell these apart (errata
+    S1-t).
     Source: 001, listings 4 and 12.
     """
 
@@ -41,11 +45,15 @@ class Target(Batch):
         return Target(self.position[(*index, slice(None))], self.angle[index])
 
     def lerp(self, goal, s):
-        """On the way from here (s = 0) to `goal` (s = 1): position and angle both linear; s (...) is broadcast."""
+        """On the way from here (s = 0) to `goal` (s = 1): position and angle both linear; s (...)
+        is broadcast.
+        """
         instance(goal, Target, "goal")
         s = floats(s, "s")
-        return Target(self.position + (goal.position - self.position) * s[..., None],
-                      self.angle + (goal.angle - self.angle) * s)
+        return Target(
+            self.position + (goal.position - self.position) * s[..., None],
+            self.angle + (goal.angle - self.angle) * s,
+        )
 
     def as_transform(self):
         """The flange pose: the tool's z axis keeps pointing up (errata S1-r)."""
@@ -58,7 +66,8 @@ class Target(Batch):
 
 
 def scara(name, height, upper, fore, limits, speed_limits=None):
-    """A SCARA `Arm`: joints 1 to 3 turn about vertical axes, joint 4 lowers the tool from `height`. Lengths in m.
+    """A SCARA `Arm`: joints 1 to 3 turn about vertical axes, joint 4 lowers the tool from `height`.
+    Lengths in m.
 
     q = 0 stretches the arm along x with the tool at `height`. `ik` takes a Target or a Transform.
     Source: 001, listings 4 and 12.
@@ -73,7 +82,8 @@ def scara(name, height, upper, fore, limits, speed_limits=None):
 
 
 class Scara:
-    """The inverse of a SCARA arm (see `scara`). Configuration flag: the sign of joint 2. Angles in [-pi, pi].
+    """The inverse of a SCARA arm (see `scara`). Configuration flag: the sign of joint 2. Angles in
+    [-pi, pi].
 
     Source: 001, listing 4, with errata S1-o (the other elbow, rounding) put right.
     """
@@ -84,7 +94,9 @@ class Scara:
         self.height, self.upper, self.fore = height, upper, fore
 
     def ik(self, pose):
-        """See `Arm.ik`: Target or Transform of shape (...) -> (..., 2, 4). A tilted tool is out of reach."""
+        """See `Arm.ik`: Target or Transform of shape (...) -> (..., 2, 4). A tilted tool is out of
+        reach.
+        """
         position, angle, tilt = _parts(pose)
         x, y, z = np.moveaxis(position[..., None, :], -1, 0)
         elbow = self.branches[:, 0]
@@ -99,11 +111,20 @@ class Scara:
         return np.where(reached[..., None], q, np.nan)
 
     def unreached(self, pose, row):
-        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0) if it exists."""
+        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0)
+        if it exists.
+        """
         position, _, tilt = _parts(pose)
         if tilt >= 1e-9:
-            return f"the tool is tilted by {np.rad2deg(tilt):.1f}°, and a SCARA's tool stays upright", 0.0
-        r, longest, shortest = np.hypot(*position[:2]), self.upper + self.fore, abs(self.upper - self.fore)
+            return (
+                f"the tool is tilted by {np.rad2deg(tilt):.1f}°, and a SCARA's tool stays upright",
+                0.0,
+            )
+        r, longest, shortest = (
+            np.hypot(*position[:2]),
+            self.upper + self.fore,
+            abs(self.upper - self.fore),
+        )
         if r > longest * (1 + ROUNDING):
             return f"the target is {in_words(r - longest)} beyond the stretched arm", r - longest
         if r < shortest * (1 - ROUNDING):

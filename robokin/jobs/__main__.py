@@ -38,8 +38,12 @@ def main(argv=None):
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
-    parser = argparse.ArgumentParser(prog="python -m robokin.jobs", description=HELP, epilog=AFTER,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m robokin.jobs",
+        description=HELP,
+        epilog=AFTER,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("folder", metavar="FOLDER", help="where the task files are")
     folder = parser.parse_args(argv).folder
     with Log() as log:
@@ -54,7 +58,9 @@ def main(argv=None):
 def run(folder, log):
     """Answer every task file in the folder; the exit status."""
     try:
-        names = sorted(n for n in os.listdir(folder) if n.endswith(".json") and not n.startswith("."))
+        names = sorted(
+            n for n in os.listdir(folder) if n.endswith(".json") and not n.startswith(".")
+        )
     except OSError as error:
         log.fatal(f"folder {_shown(folder)} cannot be read: {error.strerror or error}")
         return 2
@@ -67,8 +73,10 @@ def run(folder, log):
         if count < len(names) and (count % 100 == 0 or time.monotonic() > told + 2):
             told = time.monotonic()
             _tell(f"{count} of {len(names)} files")
-    log.info(f"{len(names)} {'file' if len(names) == 1 else 'files'}: {len(names) - skipped} answered, "
-             f"{skipped} skipped")
+    log.info(
+        f"{len(names)} {'file' if len(names) == 1 else 'files'}: {len(names) - skipped} answered, "
+        f"{skipped} skipped"
+    )
     return int(skipped > 0)
 
 
@@ -88,8 +96,10 @@ def one(path, title, log):
         log.debug(f"{title}: {traceback.format_exc()}")
         log.error(f"{title} skipped:\n\tthis program failed, {type(error).__name__}: {error}")
         return False
-    log.debug(f"{title}: L1 = {task.l1}, L2 = {task.l2}, T = {task.T}, q' = {task.speeds.tolist()}, "
-              f"p0 = {task.p0.tolist()}, pi = {task.points.tolist()}, task = {task.kind}")
+    log.debug(
+        f"{title}: L1 = {task.l1}, L2 = {task.l2}, T = {task.T}, q' = {task.speeds.tolist()}, "
+        f"p0 = {task.p0.tolist()}, pi = {task.points.tolist()}, task = {task.kind}"
+    )
     log.debug(f"{title}: q of p0 and pi, nan where a joint is free = {task.q.tolist()}")
     log.debug(f"{title}: t1, t2, t3 of each way = {legs.tolist()}")
     log.info(f"{title}: {text}")
@@ -97,12 +107,15 @@ def one(path, title, log):
 
 
 class Log:
-    """Lines "LEVEL: message" in output.log, and those above DEBUG on the standard output as well."""
+    """Lines "LEVEL: message" in output.log, and those above DEBUG on the standard output as
+    well.
+    """
 
     def __init__(self):
         self.failed = False
         try:
-            # Removed and made, not overwritten: output.log may be a link to a file that must not change.
+            # Removed and made, not overwritten: output.log may be a link to a file that must not
+            # change.
             with contextlib.suppress(FileNotFoundError):
                 os.remove(LOG)
             self.file = open(LOG, "x", encoding="utf-8", errors="backslashreplace", buffering=1)
@@ -144,7 +157,8 @@ class Log:
     def _print(self, text):
         try:
             print(text, flush=True)
-        except OSError as error:  # nobody reads on, as in `| head`, or the disk is full: the log goes on
+        # nobody reads on, as in `| head`, or the disk is full: the log goes on
+        except OSError as error:
             self.failed = True
             _tell(f"the standard output cannot be written: {error.strerror or error}")
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -175,7 +189,9 @@ def _tell(text):
 
 def _shown(name):
     """A file's name on one line, with what cannot be printed as escapes."""
-    return "".join(c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in name)
+    return "".join(
+        c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in name
+    )
 
 
 if __name__ == "__main__":

@@ -1,16 +1,19 @@
-"""Stepper motors: the pulses of a move, when each motor gets them, and what they switch in its windings.
+"""Stepper motors: the pulses of a move, when each motor gets them, and what they switch in its
+windings.
 
 The motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
 
     arm = loader_arm(1.2, 1.0)
-    q = postures(arm, points)                  # (stations, 3); `refusal` says why a point cannot be had
-    n = counts(q, per_degree)                  # (stations, 3) whole pulses: where each motor has to stand
-    move = synchronised(n[0], n[1])            # or unsynchronised, or straight(arm, points[0], points[1], per_degree)
-    q_t = joints(move(t), per_degree)          # joint values at the times t, to draw
+    q = postures(arm, points)                  # (stations, 3); `refusal` says why a point cannot be
+    had n = counts(q, per_degree)                  # (stations, 3) whole pulses: where each motor
+    has to stand move = synchronised(n[0], n[1])            # or unsynchronised, or straight(arm,
+    points[0], points[1], per_degree) q_t = joints(move(t), per_degree)          # joint values at
+    the times t, to draw
     move.pulses()                              # per motor: when, and in which direction
 
-A motor's position is counted in pulses from the joint's zero. Whole pulses are taken from these positions and never
-from the angle of a single move, so that no rounding adds up, however many moves there are.
+A motor's position is counted in pulses from the joint's zero. Whole pulses are taken from these
+positions and never from the angle of a single move, so that no rounding adds up, however many moves
+there are.
 Source: 003, II.3 (the motors) and paper 1; errata S3-p to S3-t.
 """
 
@@ -30,8 +33,10 @@ SLACK = 1e-9  # this near to a whole pulse is the pulse
 
 # ---- From points to motor positions
 
+
 def refusal(arm, point):
-    """Why the loader's gripper cannot be at one point (3,): a list of reasons in words, empty if it can.
+    """Why the loader's gripper cannot be at one point (3,): a list of reasons in words, empty if it
+    can.
 
     Source: 003, paper 1, (1), and the inner bound |A - B| that it lacks (errata S3-r).
     """
@@ -45,11 +50,13 @@ def refusal(arm, point):
 
 
 def postures(arm, points):
-    """The loader's postures at its stations, in their order: points (stations, 3) -> q (stations, 3), alpha unwrapped.
+    """The loader's postures at its stations, in their order: points (stations, 3) -> q (stations,
+    3), alpha unwrapped.
 
-    The elbow is up; beta lies in 0..180 degrees and gamma in 0..270 (for z >= 0). alpha begins in (-180, 180] and goes
-    on by the shortest turn; on the vertical axis, where it is free, it stays as it was (0 at first). NaN rows where a
-    point is out of reach. Source: 003, paper 1, table 1 and (2) to (4); errata S3-p, S3-q.
+    The elbow is up; beta lies in 0..180 degrees and gamma in 0..270 (for z >= 0). alpha begins in
+    (-180, 180] and goes on by the shortest turn; on the vertical axis, where it is free, it stays
+    as it was (0 at first). NaN rows where a point is out of reach. Source: 003, paper 1, table 1
+    and (2) to (4); errata S3-p, S3-q.
     """
     points, reach = floats(points, "points", 3), _loader(arm).elbow.reach
     if points.ndim != 2:
@@ -70,8 +77,8 @@ def postures(arm, points):
 def shortest_turn(start, goal):
     """The shortest way from one angle to another, in [-pi, pi] rad; positive is counter-clockwise.
 
-    Source: 003, paper 1, the two conditions for alpha; the second one has the wrong sign for alpha2 < alpha1 (errata
-    S3-q: from 170 to -170 degrees it turns -20 and not +20).
+    Source: 003, paper 1, the two conditions for alpha; the second one has the wrong sign for alpha2
+    < alpha1 (errata S3-q: from 170 to -170 degrees it turns -20 and not +20).
     """
     start, goal = floats(start, "start"), floats(goal, "goal")
     broadcast("start and goal", start.shape, goal.shape)
@@ -80,11 +87,13 @@ def shortest_turn(start, goal):
 
 
 def counts(q, per_degree):
-    """The motors' positions at joint values q (..., n) rad, in whole pulses (..., n), the nearest ones.
+    """The motors' positions at joint values q (..., n) rad, in whole pulses (..., n), the nearest
+    ones.
 
-    per_degree  (n,) or one number: pulses per degree of the joint, gear included. Source: 003, paper 1, the reduced
-                angle phi of (5).
-    The pulses of moves are differences, `np.diff(counts(q, per_degree), axis=-2)`: their sum is exact.
+    per_degree  (n,) or one number: pulses per degree of the joint, gear included. Source: 003,
+                paper 1, the reduced angle phi of (5).
+    The pulses of moves are differences, `np.diff(counts(q, per_degree), axis=-2)`: their sum is
+    exact.
     """
     return np.rint(_pulses(q, per_degree)).astype(np.int64)
 
@@ -98,12 +107,15 @@ def joints(positions, per_degree):
 
 # ---- Moves: when a motor is where
 
+
 @dataclass(frozen=True, eq=False)
 class Move:
-    """What n motors do between two stations: they stand at `positions` (k, n) in pulses at the times `t` (k,) in s and
-    run evenly in between. The first time is 0, first and last positions are whole pulses.
+    """What n motors do between two stations: they stand at `positions` (k, n) in pulses at the
+    times `t` (k,) in s and run evenly in between. The first time is 0, first and last positions are
+    whole pulses.
 
-    `move(t)` gives the positions at the times t (...), as (..., n): not rounded; before and after the move they stand.
+    `move(t)` gives the positions at the times t (...), as (..., n): not rounded; before and after
+    the move they stand.
     """
 
     t: np.ndarray
@@ -127,19 +139,21 @@ class Move:
     def pulses(self):
         """The pulse trains: for each motor (times, signs), both (pulses,); the signs are +1 and -1.
 
-        A pulse comes when the motor is due one whole pulse further on (or back). So the motor lags by less than one
-        pulse, makes exactly the pulses of the move, and after a change of direction, too, no two pulses come faster
-        than the frequencies allow.
+        A pulse comes when the motor is due one whole pulse further on (or back). So the motor lags
+        by less than one pulse, makes exactly the pulses of the move, and after a change of
+        direction, too, no two pulses come faster than the frequencies allow.
         """
         return [_train(self.t, column) for column in self.positions.T]
 
 
 def frequencies(pulses, limit=LIMIT):
-    """Pulse frequencies with which all motors need the same time: pulses (..., n) -> (..., n) pulses per second.
+    """Pulse frequencies with which all motors need the same time: pulses (..., n) -> (..., n)
+    pulses per second.
 
-    The motor with the most pulses runs at `limit`; one that has none stands. Source: 003, paper 1, (5) to (8), with
-    errata S3-s: its conditions (6) and (7) make the motor with the longest way the slowest. Right is omega1 phi2 =
-    omega2 phi1, for every pair of motors: omega_i = limit phi_i / max phi.
+    The motor with the most pulses runs at `limit`; one that has none stands. Source: 003, paper 1,
+    (5) to (8), with errata S3-s: its conditions (6) and (7) make the motor with the longest way the
+    slowest. Right is omega1 phi2 = omega2 phi1, for every pair of motors: omega_i = limit phi_i /
+    max phi.
     """
     pulses, limit = abs(floats(pulses, "pulses")), _limit(limit)
     if not pulses.ndim:
@@ -149,8 +163,9 @@ def frequencies(pulses, limit=LIMIT):
 
 
 def unsynchronised(start, goal, limit=LIMIT):
-    """Trajectory a of the document: all motors start together at the greatest frequency, and each stops when it is
-    done. start, goal (n,) motor positions -> Move. The gripper's path has a kink wherever a motor stops.
+    """Trajectory a of the document: all motors start together at the greatest frequency, and each
+    stops when it is done. start, goal (n,) motor positions -> Move. The gripper's path has a kink
+    wherever a motor stops.
 
     Source: 003, paper 1, figure 4 (5 in the text), a.
     """
@@ -162,24 +177,32 @@ def unsynchronised(start, goal, limit=LIMIT):
 
 
 def synchronised(start, goal, limit=LIMIT):
-    """Trajectory d of the document: all motors start and stop together, each at its own even frequency (`frequencies`).
-    start, goal (n,) motor positions -> Move. No motor turns back; the gripper's path is a curve.
+    """Trajectory d of the document: all motors start and stop together, each at its own even
+    frequency (`frequencies`). start, goal (n,) motor positions -> Move. No motor turns back; the
+    gripper's path is a curve.
 
     No motion that keeps the limit is faster. Source: 003, paper 1, figure 4 (5 in the text), d.
     """
     start, goal = _stations(start, goal)
     duration = abs(goal - start).max() / _limit(limit)
-    return Move(np.array([0.0, duration]), np.stack([start, goal])) if duration else Move(np.zeros(1), start[None])
+    return (
+        Move(np.array([0.0, duration]), np.stack([start, goal]))
+        if duration
+        else Move(np.zeros(1), start[None])
+    )
 
 
 def straight(arm, start, goal, per_degree, limit=LIMIT):
-    """Trajectories b and c of the document: the loader's gripper goes straight from one point (3,) to another -> Move.
+    """Trajectories b and c of the document: the loader's gripper goes straight from one point (3,)
+    to another -> Move.
 
-    All motors start and stop together; at any moment the one with the most to do runs at the greatest frequency, which
-    is the shortest time for this path. The figure is lost and the text does not say what tells b from c but that in c a
-    motor first turns one way and then back; we read: two pairs of points, one law. c costs more pulses than its d.
+    All motors start and stop together; at any moment the one with the most to do runs at the
+    greatest frequency, which is the shortest time for this path. The figure is lost and the text
+    does not say what tells b from c but that in c a motor first turns one way and then back; we
+    read: two pairs of points, one law. c costs more pulses than its d.
 
-    Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line that `refusal` names.
+    Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line that
+    `refusal` names.
     """
     start, goal = floats(start, "start", 3), floats(goal, "goal", 3)
     s = np.linspace(0, 1, SAMPLES)[:, None]
@@ -187,7 +210,10 @@ def straight(arm, start, goal, per_degree, limit=LIMIT):
     gaps = np.flatnonzero(np.isnan(q).any(axis=-1))
     for i in (*gaps[:1], 0, -1):
         for reason in refusal(arm, start + s[i] * (goal - start)):
-            raise ValueError(f"start and goal: wanted a line inside the workspace, at {s[i, 0]:.0%} of it {reason}")
+            raise ValueError(
+                f"start and goal: wanted a line inside the workspace, at {s[i, 0]:.0%} of it "
+                f"{reason}"
+            )
     due = _pulses(q, per_degree)
     due[[0, -1]] = np.rint(due[[0, -1]])  # motors stand on whole pulses
     t = np.concatenate([[0.0], np.cumsum(abs(np.diff(due, axis=0)).max(axis=-1)) / _limit(limit)])
@@ -197,11 +223,20 @@ def straight(arm, start, goal, per_degree, limit=LIMIT):
 
 # ---- Phases: what a pulse switches
 
-# A turn of the field in eight half steps. Unipolar: which of the four half windings carry current, named a1, b1, a2, b2
-# in the order of their places (table 1). Bipolar: the current's sign in windings 1 and 2. Every second row, from the
-# first, is the wave drive; from the second, the two-phase drive (tables 1 and 2).
-_UNIPOLAR = ((1, 0, 0, 0), (1, 1, 0, 0), (0, 1, 0, 0), (0, 1, 1, 0),
-             (0, 0, 1, 0), (0, 0, 1, 1), (0, 0, 0, 1), (1, 0, 0, 1))
+# A turn of the field in eight half steps. Unipolar: which of the four half windings carry current,
+# named a1, b1, a2, b2 in the order of their places (table 1). Bipolar: the current's sign in
+# windings 1 and 2. Every second row, from the first, is the wave drive; from the second, the
+# two-phase drive (tables 1 and 2).
+_UNIPOLAR = (
+    (1, 0, 0, 0),
+    (1, 1, 0, 0),
+    (0, 1, 0, 0),
+    (0, 1, 1, 0),
+    (0, 0, 1, 0),
+    (0, 0, 1, 1),
+    (0, 0, 0, 1),
+    (1, 0, 0, 1),
+)
 _BIPOLAR = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 _ROWS = {"wave": slice(0, None, 2), "two-phase": slice(1, None, 2), "half-step": slice(None)}
 COLUMNS = {
@@ -211,16 +246,19 @@ COLUMNS = {
 
 
 def phases(drive, motor):
-    """The phase table, one row per pulse: (4 or 8, 4) of 1, 0 and -1, columns as in `COLUMNS[motor]`.
+    """The phase table, one row per pulse: (4 or 8, 4) of 1, 0 and -1, columns as in
+    `COLUMNS[motor]`.
 
-    drive  "wave": one winding at a time; "two-phase": two, with more torque; "half-step": by turns, half the angle per
-           pulse, so twice the pulses per degree
-    motor  "unipolar": 1 where a half winding carries current. "bipolar": 1 at a winding's positive end, -1 at its
-           negative end. The document names the columns of both a1, b1, a2, b2 and means other wires (errata S3-t): with
-           table 1's names the first row of table 2 would be two opposite half windings that cancel.
+    drive  "wave": one winding at a time; "two-phase": two, with more torque; "half-step": by turns,
+           half the angle per pulse, so twice the pulses per degree
+    motor  "unipolar": 1 where a half winding carries current. "bipolar": 1 at a winding's positive
+           end, -1 at its negative end. The document names the columns of both a1, b1, a2, b2 and
+           means other wires (errata S3-t): with table 1's names the first row of table 2 would be
+           two opposite half windings that cancel.
 
-    Source: 003, II.3.2, tables 1 and 2 (which shows only the +). Its appendices 3 and 4, the two-phase drive of the
-    unipolar motor and the half step, are not in the text: these rows follow from the order of table 1.
+    Source: 003, II.3.2, tables 1 and 2 (which shows only the +). Its appendices 3 and 4, the
+    two-phase drive of the unipolar motor and the half step, are not in the text: these rows follow
+    from the order of table 1.
     """
     if drive not in _ROWS:
         raise ValueError(f"drive: wanted one of {tuple(_ROWS)}, got {drive!r}")
@@ -235,9 +273,11 @@ def phases(drive, motor):
 
 
 def energised(table, signs, row=0):
-    """What the windings carry before the first and after every pulse: signs (pulses,) -> (pulses + 1, columns).
+    """What the windings carry before the first and after every pulse: signs (pulses,) -> (pulses +
+    1, columns).
 
-    A positive pulse takes the next row of the table and a negative one the row before: the order is the direction.
+    A positive pulse takes the next row of the table and a negative one the row before: the order is
+    the direction.
     Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
     """
     signs = floats(signs, "signs")
@@ -248,9 +288,12 @@ def energised(table, signs, row=0):
 
 # ---- Private
 
+
 def _loader(arm):
     """The geometry of the loader arm."""
-    return instance(instance(arm, Arm, "arm").geometry, ElbowArm, "arm", hint=": wanted a loader_arm(A, B)")
+    return instance(
+        instance(arm, Arm, "arm").geometry, ElbowArm, "arm", hint=": wanted a loader_arm(A, B)"
+    )
 
 
 def _per_degree(value):
@@ -278,10 +321,15 @@ def _stations(start, goal):
     """Two rows of whole pulses."""
     start, goal = floats(start, "start"), floats(goal, "goal")
     if start.ndim != 1 or not start.size or start.shape != goal.shape:
-        raise ValueError(f"start and goal: wanted one position for each motor, got {start.shape} and {goal.shape}")
+        raise ValueError(
+            f"start and goal: wanted one position for each motor, got {start.shape} and "
+            f"{goal.shape}"
+        )
     for value, name in ((start, "start"), (goal, "goal")):
         if (value != np.rint(value)).any():
-            raise ValueError(f"{name}: wanted whole pulses (`counts` gives them), got {value.tolist()}")
+            raise ValueError(
+                f"{name}: wanted whole pulses (`counts` gives them), got {value.tolist()}"
+            )
     return start, goal
 
 
@@ -290,16 +338,20 @@ def _train(t, due):
     times, signs, stands = [np.empty(0)], [np.empty(0, dtype=int)], round(due[0])
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]
-    turning = turning[1:][direction[turning[1:]] != direction[turning[:-1]]]  # the stretches before which it turns back
+    # the stretches before which it turns back
+    turning = turning[1:][direction[turning[1:]] != direction[turning[:-1]]]
     ends = [*turning, len(due) - 1]
     for begin, end in zip([0, *turning], ends, strict=True):
         sign = 1 if due[end] >= due[begin] else -1
-        way = sign * due[begin:end + 1]
+        way = sign * due[begin : end + 1]
         levels = np.arange(sign * stands + 1, np.floor(way[-1] + SLACK) + 1)
         after = np.searchsorted(np.maximum.accumulate(way), levels - SLACK)
         before = after - 1
         share = np.minimum((levels - way[before]) / (way[after] - way[before]), 1)
-        times.append(t[begin:end + 1][before] + share * (t[begin:end + 1][after] - t[begin:end + 1][before]))
+        times.append(
+            t[begin : end + 1][before]
+            + share * (t[begin : end + 1][after] - t[begin : end + 1][before])
+        )
         signs.append(np.full(len(levels), sign))
         stands += sign * len(levels)
     return np.concatenate(times), np.concatenate(signs)

@@ -10,7 +10,9 @@ from .._validate import floats
 
 @dataclass(frozen=True, eq=False)
 class TimeLaw:
-    """s(t) over `duration` seconds: 0 before the motion, 1 after it. `progress` maps t / duration to s."""
+    """s(t) over `duration` seconds: 0 before the motion, 1 after it. `progress` maps t / duration
+    to s.
+    """
 
     duration: float
     progress: Callable
@@ -18,7 +20,9 @@ class TimeLaw:
     def __post_init__(self):
         duration = floats(self.duration, "duration")
         if duration.shape or duration <= 0:
-            raise ValueError(f"duration: wanted one positive number of seconds, got {self.duration!r}")
+            raise ValueError(
+                f"duration: wanted one positive number of seconds, got {self.duration!r}"
+            )
         object.__setattr__(self, "duration", float(duration))
 
     def __call__(self, t):
@@ -26,7 +30,8 @@ class TimeLaw:
         t = floats(t, "t")
         if not t.size:
             raise ValueError("t: wanted times, got an empty array")
-        return np.clip(self.progress(np.clip(t / self.duration, 0, 1)), 0, 1)  # a polynomial near 1 rounds beyond it
+        # a polynomial near 1 rounds beyond it
+        return np.clip(self.progress(np.clip(t / self.duration, 0, 1)), 0, 1)
 
 
 def linear(duration):
@@ -35,8 +40,9 @@ def linear(duration):
 
 
 def trapezoidal(duration, ramp=0.25):
-    """Constant acceleration, constant speed, constant braking; each ramp takes the share `ramp` of the duration,
-    above 0 and at most 0.5. The acceleration jumps. Source: Siciliano et al., Robotics, 2009, section 4.2.1.
+    """Constant acceleration, constant speed, constant braking; each ramp takes the share `ramp` of
+    the duration, above 0 and at most 0.5. The acceleration jumps. Source: Siciliano et al.,
+    Robotics, 2009, section 4.2.1.
     """
     share = floats(ramp, "ramp")
     if share.shape or not 0 < share <= 0.5:

@@ -1,6 +1,7 @@
 """Paths: where a motion is at s in [0, 1].
 
-`lin`, `lin_lin` and `blend` move anything that has `lerp(goal, s)`: a Transform, for instance. `ptp` moves joints.
+`lin`, `lin_lin` and `blend` move anything that has `lerp(goal, s)`: a Transform, for instance.
+`ptp` moves joints.
 """
 
 import numpy as np
@@ -19,14 +20,17 @@ def lin(start, goal, s):
 
 
 def ptp(q0, q1, s):
-    """The point-to-point motion (PTP, MoveJ): all joints straight from q0 (..., n) to q1 (..., n), at s (...).
+    """The point-to-point motion (PTP, MoveJ): all joints straight from q0 (..., n) to q1 (..., n),
+    at s (...).
 
     Returns (..., n). Joint values are taken as they are: to turn the short way, choose q1 with
     `nearest`. Source: 001, listing 8. ValueError: s outside [0, 1], shapes that do not fit.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
-        raise ValueError(f"q0 and q1: wanted joint values of one length, got shapes {q0.shape} and {q1.shape}")
+        raise ValueError(
+            f"q0 and q1: wanted joint values of one length, got shapes {q0.shape} and {q1.shape}"
+        )
     broadcast("q0, q1 and s", q0.shape[:-1], q1.shape[:-1], s.shape)
     return q0 + s[..., None] * (q1 - q0)
 
@@ -43,13 +47,16 @@ def blend(start, via, goal, fraction, s, corner="parabola"):
     """Two straight motions whose corner is rounded while |s - 1/2| < `fraction`, at s (...).
 
     fraction  the blend (zone), in [0, 0.5], a number or an array broadcast with s; 0 is `lin_lin`
-    corner    "parabola": a quadratic Bezier curve from the first line to the second with `via` as its middle control
-              pose; the velocity is continuous in s (C1). It passes `via` at 1/2 of the distance from `via` to the
-              middle of the corner's two ends.
-              "quintic": a Bezier curve of degree 5 with control poses 0, 0.4 and 0.8 of the way to `via` from both
-              ends; the acceleration is continuous too (C2). It passes at 3/8 of that distance, 3/4 of the parabola's.
-    Source: 001, listing 12 (parabola), with errata S1-j: beyond 0.5 the printed law leaves both end poses.
-    ValueError: a fraction outside [0, 0.5], s outside [0, 1], another corner, values without `lerp`.
+    corner    "parabola": a quadratic Bezier curve from the first line to the second with `via` as
+              its middle control pose; the velocity is continuous in s (C1). It passes `via` at 1/2
+              of the distance from `via` to the middle of the corner's two ends.
+              "quintic": a Bezier curve of degree 5 with control poses 0, 0.4 and 0.8 of the way to
+              `via` from both ends; the acceleration is continuous too (C2). It passes at 3/8 of
+              that distance, 3/4 of the parabola's.
+    Source: 001, listing 12 (parabola), with errata S1-j: beyond 0.5 the printed law leaves both end
+    poses.
+    ValueError: a fraction outside [0, 0.5], s outside [0, 1], another corner, values without
+    `lerp`.
     """
     s, b = _share(s), floats(fraction, "fraction")
     if ((b < 0) | (b > 0.5)).any():
@@ -58,15 +65,22 @@ def blend(start, via, goal, fraction, s, corner="parabola"):
     if corner not in CORNERS:
         raise ValueError(f"corner: wanted one of {CORNERS}, got {corner!r}")
     broadcast("fraction and s", b.shape, s.shape)
-    # x runs from 0 to 1 across the corner and stands still outside: there the curve is at its first or last control
-    # pose, and these run along the two lines. So one formula serves the whole path.
+    # x runs from 0 to 1 across the corner and stands still outside: there the curve is at its first
+    # or last control pose, and these run along the two lines. So one formula serves the whole path.
     x = np.where(b > 0, np.clip((s - 0.5 + b) / np.where(b > 0, 2 * b, 1), 0, 1), s >= 0.5)
     first = _value(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
     last = _value(via, "via").lerp(goal, np.maximum(2 * s - 1, 2 * b))
     if corner == "parabola":
         poses = [first, via, last]
     else:
-        poses = [first, first.lerp(via, 0.4), first.lerp(via, 0.8), last.lerp(via, 0.8), last.lerp(via, 0.4), last]
+        poses = [
+            first,
+            first.lerp(via, 0.4),
+            first.lerp(via, 0.8),
+            last.lerp(via, 0.8),
+            last.lerp(via, 0.4),
+            last,
+        ]
     while len(poses) > 1:  # de Casteljau: between neighbours, again and again, until one is left
         poses = [a.lerp(c, x) for a, c in zip(poses, poses[1:], strict=False)]
     return poses[0]
@@ -83,5 +97,7 @@ def _share(s):
 
 def _value(value, name):
     if not hasattr(value, "lerp"):
-        raise ValueError(f"{name}: wanted a pose with lerp, such as a Transform, got {type(value).__name__}")
+        raise ValueError(
+            f"{name}: wanted a pose with lerp, such as a Transform, got {type(value).__name__}"
+        )
     return value

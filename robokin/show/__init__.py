@@ -4,5 +4,15 @@ from .live import joint_explorer, motion_explorer, target_explorer
 from .player import Player, animate
 from .plots import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
 
-__all__ = ["JOINT_STYLES", "Player", "animate", "figure", "joint_explorer", "motion_explorer", "plot_frames",
-           "plot_joints", "plot_postures", "target_explorer"]
+__all__ = [
+    "JOINT_STYLES",
+    "Player",
+    "animate",
+    "figure",
+    "joint_explorer",
+    "motion_explorer",
+    "plot_frames",
+    "plot_joints",
+    "plot_postures",
+    "target_explorer",
+]

@@ -1,11 +1,13 @@
 """Explorers: sliders that ask the kernel, and an arm that answers at once.
 
-`joint_explorer` moves the joints, `target_explorer` the target (every branch of `ik` drawn, with a verdict each), and
-`motion_explorer` a via point with its blend, time law and branch. Ordinary ipywidgets sliders stand above one anywidget
-view, which draws with the code of the player (`live.js` behind `player.js`).
+`joint_explorer` moves the joints, `target_explorer` the target (every branch of `ik` drawn, with a
+verdict each), and `motion_explorer` a via point with its blend, time law and branch. Ordinary
+ipywidgets sliders stand above one anywidget view, which draws with the code of the player
+(`live.js` behind `player.js`).
 
-A notebook without a kernel shows a still picture and one sentence. They are an output of their own, because a stored
-widget view shows nothing and hides what else is in its output; the live view covers them.
+A notebook without a kernel shows a still picture and one sentence. They are an output of their own,
+because a stored widget view shows nothing and hides what else is in its output; the live view
+covers them.
 """
 
 import hashlib
@@ -18,7 +20,20 @@ import ipywidgets
 import numpy as np
 import traitlets
 
-from .. import Arm, Quaternion, Target, Transform, blend, explain, follow, linear, nearest, quintic, trapezoidal, within
+from .. import (
+    Arm,
+    Quaternion,
+    Target,
+    Transform,
+    blend,
+    explain,
+    follow,
+    linear,
+    nearest,
+    quintic,
+    trapezoidal,
+    within,
+)
 from .._validate import instance
 from ..arms.elbow import ElbowArm
 from ..arms.scara import Scara
@@ -34,42 +49,50 @@ LAWS = {"quintic": quintic, "trapezoidal": trapezoidal, "linear": linear}
 CORNERS = {"parabola (C1)": "parabola", "quintic (C2)": "quintic"}
 RUN = "Run this cell to move the sliders."
 NEAREST = "nearest"
-MEANT = ("Distance from singularity: the smallest singular value of the Jacobian, lengths divided by the arm's reach "
-         "so that it has no unit. It says how little the tool moves in its worst direction; 0 is a singularity.")
+MEANT = (
+    "Distance from singularity: the smallest singular value of the Jacobian, lengths divided by "
+    "the arm's reach "
+    "so that it has no unit. It says how little the tool moves in its worst direction; 0 is a "
+    "singularity."
+)
 TURNS = "Roll, pitch and yaw turn about the base's x, then y, then z axis."
 
 
 def joint_explorer(arm):
-    """A slider per joint within its limits; the arm with all its frames, the flange in numbers, and how near it is to a
-    singularity. Starts at zero, or at the limit nearest to it. Returns an `Explorer`; at the end of a cell it shows
-    itself. ValueError: not an Arm.
+    """A slider per joint within its limits; the arm with all its frames, the flange in numbers, and
+    how near it is to a singularity. Starts at zero, or at the limit nearest to it. Returns an
+    `Explorer`; at the end of a cell it shows itself. ValueError: not an Arm.
 
-    Roll, pitch and yaw are turns about the fixed x, y and z axes of the base, in this order: R = Rz Ry Rx (at a pitch
-    of +-90 degrees roll and yaw turn about the same line, and roll is given as zero).
+    Roll, pitch and yaw are turns about the fixed x, y and z axes of the base, in this order: R = Rz
+    Ry Rx (at a pitch of +-90 degrees roll and yaw turn about the same line, and roll is given as
+    zero).
     """
     return JointExplorer(arm)
 
 
 def target_explorer(arm):
-    """Sliders for the target; every branch of `ik` drawn, the chosen one strongly, with a row of a table for each.
+    """Sliders for the target; every branch of `ik` drawn, the chosen one strongly, with a row of a
+    table for each.
 
-    Six-axis arms: x, y, z in mm and roll, pitch, yaw in degrees as in `joint_explorer`. SCARA: x, y, z and the tool's
-    angle. Positioning arms: x, y, z. The menu chooses a branch, or the usable one nearest to the last posture.
-    Returns an `Explorer`. ValueError: an arm without `ik`.
+    Six-axis arms: x, y, z in mm and roll, pitch, yaw in degrees as in `joint_explorer`. SCARA: x,
+    y, z and the tool's angle. Positioning arms: x, y, z. The menu chooses a branch, or the usable
+    one nearest to the last posture. Returns an `Explorer`. ValueError: an arm without `ik`.
     """
     return TargetExplorer(arm)
 
 
 def motion_explorer(arm, start, via, goal):
-    """A blended motion past `via`: sliders for the via point, the blend and the duration, menus for the time law, the
-    corner and the branch; arm, curves and numbers follow. Poses are what `arm.ik` takes (Transform, or Target for a
-    SCARA), one of each. Returns an `Explorer`. ValueError: other poses, an arm without `ik`.
+    """A blended motion past `via`: sliders for the via point, the blend and the duration, menus for
+    the time law, the corner and the branch; arm, curves and numbers follow. Poses are what `arm.ik`
+    takes (Transform, or Target for a SCARA), one of each. Returns an `Explorer`. ValueError: other
+    poses, an arm without `ik`.
     """
     return MotionExplorer(arm, start, via, goal)
 
 
 class View(anywidget.AnyWidget):
-    """The picture in the page. `stage` stands still; `picture` changes as a whole, so no view shows half of an answer.
+    """The picture in the page. `stage` stands still; `picture` changes as a whole, so no view shows
+    half of an answer.
 
     `still` is the id of the still picture that it covers.
     """
@@ -81,11 +104,13 @@ class View(anywidget.AnyWidget):
 
 
 class Explorer(ipywidgets.VBox):
-    """Sliders above a view. Each kind has `_answer`, the picture for the values of its sliders (a dict of bytes, words
-    and numbers), `_words`, the same in rounded words, and `_draw_still`, the figure for a reader without a kernel.
+    """Sliders above a view. Each kind has `_answer`, the picture for the values of its sliders (a
+    dict of bytes, words and numbers), `_words`, the same in rounded words, and `_draw_still`, the
+    figure for a reader without a kernel.
 
     groups    names of controls that stand below each other
-    controls  dict of name -> ipywidgets slider or menu: `explorer.controls["q1"].value = 30` moves the arm, too
+    controls  dict of name -> ipywidgets slider or menu: `explorer.controls["q1"].value = 30` moves
+              the arm, too
     """
 
     controls = {}  # of one that was refused
@@ -96,7 +121,9 @@ class Explorer(ipywidgets.VBox):
         self._asked = self._answered = 0
         self._view = View(stage=stage)
         column = {"flex": "1 1 300px", "max_width": "460px"}
-        columns = [ipywidgets.VBox([controls[name] for name in group], layout=column) for group in groups]
+        columns = [
+            ipywidgets.VBox([controls[name] for name in group], layout=column) for group in groups
+        ]
         rows = {"display": "flex", "flex_flow": "row wrap", "grid_gap": "0 18px"}
         super().__init__([ipywidgets.Box(columns, layout=rows), self._view])
         self.add_class("robokin-explorer")
@@ -106,38 +133,47 @@ class Explorer(ipywidgets.VBox):
             control.observe(self._changed, "value")
 
     def close(self):
-        """Take every view of it from the page. The sliders can still be moved by code; nobody sees it."""
+        """Take every view of it from the page. The sliders can still be moved by code; nobody sees
+        it.
+        """
         for widget in (*self.controls.values(), *self.children):
             widget.close()
         super().close()
 
     def _changed(self, _):
-        # Messages of the page come in another thread than the cells run in. Whoever gets the lock answers to the
-        # newest values of all sliders; who waited meanwhile finds that done, and the last value is never left out.
+        # Messages of the page come in another thread than the cells run in. Whoever gets the lock
+        # answers to the newest values of all sliders; who waited meanwhile finds that done, and the
+        # last value is never left out.
         ticket = self._asked = next(self._tickets)
         with self._lock:
             if self._answered < ticket:
                 self._answer_now()
 
     def _answer_now(self):
-        asked = self._asked  # before the sliders are read: what changes from here on is answered by the next
+        # before the sliders are read: what changes from here on is answered by the next
+        asked = self._asked
         # The page compares bytes badly: the number tells one picture from the next.
         self._view.picture = {**self._answer(), "serial": asked}
         self._answered = asked
 
     def _ipython_display_(self):
         from IPython.display import display
+
         with self._lock:
             still, words = self._draw_still(), self._words()
         image = still._repr_mimebundle_()["text/html"]
-        page = f'<div data-robokin-still="{self._view.still}">{image}<p>{html.escape(RUN)}</p></div>'
+        page = (
+            f'<div data-robokin-still="{self._view.still}">{image}<p>{html.escape(RUN)}</p></div>'
+        )
         display({"text/html": page, "text/plain": f"{words} {RUN}"}, raw=True)
-        # No text beside the view: a notebook is stored without it, and its tests compare the still picture's words.
+        # No text beside the view: a notebook is stored without it, and its tests compare the still
+        # picture's words.
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
         display({"application/vnd.jupyter.widget-view+json": view}, raw=True)
 
     def __repr__(self):
-        return f"{type(self).__name__}({', '.join(f'{k}={c.value!r}' for k, c in self.controls.items())})"
+        values = ", ".join(f"{name}={control.value!r}" for name, control in self.controls.items())
+        return f"{type(self).__name__}({values})"
 
 
 class JointExplorer(Explorer):
@@ -149,14 +185,23 @@ class JointExplorer(Explorer):
         controls = {}
         for i, (low, high) in enumerate(arm.limits / _units(arm)[:, None]):
             low, high = np.ceil(low - 1e-6), np.floor(high + 1e-6)
-            unit = "mm" if arm.prismatic[i] and reach(arm) <= 2 else "m" if arm.prismatic[i] else "°"
+            unit = (
+                "mm" if arm.prismatic[i] and reach(arm) <= 2 else "m" if arm.prismatic[i] else "°"
+            )
             controls[f"q{i + 1}"] = _slider(f"q{i + 1}, {unit}", low, high, min(max(0, low), high))
-        rows = [(f"position, {_length(arm)[0]}", "xyz", 1 if _length(arm)[1] == mm else 3),
-                ("orientation, °", ("roll", "pitch", "yaw"), 1), ("quaternion", "wxyz", 4),
-                ("distance from singularity", [""], 3)]
-        stage = _stage(arm, "joint", f"{arm.name}: move the joints", "The arm with the frames of its joints.")
-        stage |= {"rows": [[name, list(heads), decimals] for name, heads, decimals in rows],
-                  "meant": f"{TURNS} {MEANT}"}
+        rows = [
+            (f"position, {_length(arm)[0]}", "xyz", 1 if _length(arm)[1] == mm else 3),
+            ("orientation, °", ("roll", "pitch", "yaw"), 1),
+            ("quaternion", "wxyz", 4),
+            ("distance from singularity", [""], 3),
+        ]
+        stage = _stage(
+            arm, "joint", f"{arm.name}: move the joints", "The arm with the frames of its joints."
+        )
+        stage |= {
+            "rows": [[name, list(heads), decimals] for name, heads, decimals in rows],
+            "meant": f"{TURNS} {MEANT}",
+        }
         names, half = list(controls), (len(controls) + 1) // 2
         super().__init__(controls, stage, [names[:half], names[half:]])
 
@@ -168,8 +213,12 @@ class JointExplorer(Explorer):
     def _answer(self):
         q = self.q
         pose, near = self.arm.fk(q), self._near(q)
-        numbers = [*pose.translation / _length(self.arm)[1], *roll_pitch_yaw(pose.rotation) / deg,
-                   *_one_sign(pose.rotation.wxyz), near]
+        numbers = [
+            *pose.translation / _length(self.arm)[1],
+            *roll_pitch_yaw(pose.rotation) / deg,
+            *_one_sign(pose.rotation.wxyz),
+            near,
+        ]
         return {"q": _bytes(q), "numbers": _bytes(numbers), "faded": False, "says": self._says(q)}
 
     def _says(self, q):
@@ -178,22 +227,32 @@ class JointExplorer(Explorer):
 
     def _words(self):
         q = self.q
-        values = ", ".join(f"{c.description.split(',')[0]} {_number(c.value, 0)}" for c in self.controls.values())
-        place = ", ".join(_number(x / _length(self.arm)[1], 1 if _length(self.arm)[1] == mm else 3)
-                          for x in self.arm.fk(q).translation)
-        return (f"{self.arm.name} with a slider for each joint, at {values}: the flange is at ({place}) "
-                f"{_length(self.arm)[0]}. {self._says(q)}")
+        values = ", ".join(
+            f"{c.description.split(',')[0]} {_number(c.value, 0)}" for c in self.controls.values()
+        )
+        place = ", ".join(
+            _number(x / _length(self.arm)[1], 1 if _length(self.arm)[1] == mm else 3)
+            for x in self.arm.fk(q).translation
+        )
+        return (
+            f"{self.arm.name} with a slider for each joint, at {values}: the flange is at "
+            f"({place}) "
+            f"{_length(self.arm)[0]}. {self._says(q)}"
+        )
 
     def _draw_still(self):
         frames = self.arm.frames(self.q)
-        return _picture(self._words(), self.arm, self.q, frames=[frames[i] for i in range(len(self.arm.links))])
+        return _picture(
+            self._words(), self.arm, self.q, frames=[frames[i] for i in range(len(self.arm.links))]
+        )
 
 
 class TargetExplorer(Explorer):
     """See `target_explorer`. After every change:
 
     target   Transform or Target of the sliders
-    rows     (branches, n): each branch with its joints inside their limits where they can be, NaN where none exists
+    rows     (branches, n): each branch with its joints inside their limits where they can be, NaN
+             where none exists
     q        (n,): the posture shown; where the chosen branch does not exist, the one before
     """
 
@@ -204,10 +263,14 @@ class TargetExplorer(Explorer):
         name, size = _length(arm)
         most = np.ceil(1.05 * reach(arm) / (50 * mm)) * 50 * mm / size
         step = 5 if size == mm else 0.005
-        controls = {letter: _slider(f"{letter}, {name}", -most, most, x / size, step)
-                    for letter, x in zip("xyz", place, strict=True)}
-        controls |= {turn: _slider(f"{turn}, °", -180, 180, angle / deg)
-                     for turn, angle in zip(_turns(self._kind), turns, strict=True)}
+        controls = {
+            letter: _slider(f"{letter}, {name}", -most, most, x / size, step)
+            for letter, x in zip("xyz", place, strict=True)
+        }
+        controls |= {
+            turn: _slider(f"{turn}, °", -180, 180, angle / deg)
+            for turn, angle in zip(_turns(self._kind), turns, strict=True)
+        }
         self._names = [_flags(arm, k) for k in range(len(arm.branches))]
         controls["branch"] = _menu("branch", [NEAREST, *self._names])
         turning = not arm.prismatic.any()
@@ -215,10 +278,16 @@ class TargetExplorer(Explorer):
         alt = "The arm in every posture that reaches the target."
         stage = _stage(arm, "target", f"{arm.name}: move the target", alt)
         stage |= {
-            "oriented": self._kind is not np.ndarray, "branches": self._names,
+            "oriented": self._kind is not np.ndarray,
+            "branches": self._names,
             "meant": (f"{TURNS} " if self._kind is Transform else "") + MEANT,
-            "heads": ["branch", "verdict", *(f"q{i + 1} {unit}" for i, unit in enumerate(units)),
-                      "distance from singularity", f"travel, {'°' if turning else 'rad + m'}"],
+            "heads": [
+                "branch",
+                "verdict",
+                *(f"q{i + 1} {unit}" for i, unit in enumerate(units)),
+                "distance from singularity",
+                f"travel, {'°' if turning else 'rad + m'}",
+            ],
         }
         self._travel_unit = deg if turning else 1.0
         turns = [*_turns(self._kind)]
@@ -234,7 +303,9 @@ class TargetExplorer(Explorer):
             return Target(place, value["angle"] * deg)
         if self._kind is np.ndarray:
             return Transform(translation=place)
-        return Transform(from_roll_pitch_yaw(*(value[turn] * deg for turn in _turns(Transform))), place)
+        return Transform(
+            from_roll_pitch_yaw(*(value[turn] * deg for turn in _turns(Transform))), place
+        )
 
     def _answer(self):
         arm, last, target = self.arm, self.q, self.target
@@ -245,16 +316,26 @@ class TargetExplorer(Explorer):
         travel = abs(rows - last).sum(axis=-1)
         wanted = self.controls["branch"].value
         among = usable if usable.any() else exists
-        chosen = self._names.index(wanted) if wanted != NEAREST else int(np.where(among, travel, np.inf).argmin())
+        chosen = (
+            self._names.index(wanted)
+            if wanted != NEAREST
+            else int(np.where(among, travel, np.inf).argmin())
+        )
         if exists[chosen]:
             self.q = rows[chosen]
         self._chosen, self._exists, self._usable = chosen, exists, usable
         pose = target.as_transform() if self._kind is Target else target
         return {
-            "q": _bytes(self.q), "rows": _bytes(rows), "past": _bytes(exists[:, None] & ~inside),
-            "near": _bytes(self._near(rows)), "travel": _bytes(travel / self._travel_unit),
-            "pose": _bytes(_matrix(pose)), "chosen": chosen if exists[chosen] else -1, "faded": not exists[chosen],
-            "verdicts": [self._verdict(k, inside[k]) for k in range(len(rows))], "says": self._says(target),
+            "q": _bytes(self.q),
+            "rows": _bytes(rows),
+            "past": _bytes(exists[:, None] & ~inside),
+            "near": _bytes(self._near(rows)),
+            "travel": _bytes(travel / self._travel_unit),
+            "pose": _bytes(_matrix(pose)),
+            "chosen": chosen if exists[chosen] else -1,
+            "faded": not exists[chosen],
+            "verdicts": [self._verdict(k, inside[k]) for k in range(len(rows))],
+            "says": self._says(target),
         }
 
     def _verdict(self, k, inside):
@@ -265,23 +346,31 @@ class TargetExplorer(Explorer):
         return "usable, singular" if _singular(self.arm, self.rows[k]) else "usable"
 
     def _says(self, target):
-        """How many are usable, and the reason in words: of the chosen row or, if none is usable, of the one that is
-        nearest to it.
+        """How many are usable, and the reason in words: of the chosen row or, if none is usable, of
+        the one that is nearest to it.
         """
         count, row = int(self._usable.sum()), self._chosen
         if count:
-            return (f"{count} of {len(self.rows)} branches {'is' if count == 1 else 'are'} usable. "
-                    f"{explain(self.arm, target, row)}")
+            return (
+                f"{count} of {len(self.rows)} branches {'is' if count == 1 else 'are'} usable. "
+                f"{explain(self.arm, target, row)}"
+            )
         if self.controls["branch"].value == NEAREST and not self._exists.any():
             gaps = [self.arm.geometry.unreached(target, k)[1] for k in range(len(self.rows))]
             row = int(np.argmin(np.round(gaps, 9)))
         return f"No branch is usable. {explain(self.arm, target, row)}"
 
     def _words(self):
-        values = ", ".join(f"{c.description} {_number(c.value, 0 if _length(self.arm)[1] == mm else 3)}"
-                           for name, c in self.controls.items() if name != "branch")
-        return (f"{self.arm.name} with sliders for its target, at {values}: {int(self._exists.sum())} of "
-                f"{len(self.rows)} branches exist, {int(self._usable.sum())} are usable.")
+        values = ", ".join(
+            f"{c.description} {_number(c.value, 0 if _length(self.arm)[1] == mm else 3)}"
+            for name, c in self.controls.items()
+            if name != "branch"
+        )
+        return (
+            f"{self.arm.name} with sliders for its target, at {values}: "
+            f"{int(self._exists.sum())} of "
+            f"{len(self.rows)} branches exist, {int(self._usable.sum())} are usable."
+        )
 
     def _draw_still(self):
         others = [q for k, q in enumerate(self.rows) if self._exists[k] and k != self._chosen]
@@ -290,55 +379,93 @@ class TargetExplorer(Explorer):
 
 
 class MotionExplorer(Explorer):
-    """See `motion_explorer`. `t` (241,) and `q` (241, n) are the motion shown, NaN where there is none."""
+    """See `motion_explorer`. `t` (241,) and `q` (241, n) are the motion shown, NaN where there is
+    none.
+    """
 
     def __init__(self, arm, start, via, goal):
         self.arm, kind = instance(arm, Arm, "arm"), _target_kind(arm)
         wanted = Target if kind is Target else Transform
         for name, pose in (("start", start), ("via", via), ("goal", goal)):
             if instance(pose, wanted, name).shape:
-                raise ValueError(f"{name}: wanted one single pose, got a batch of shape {pose.shape}")
+                raise ValueError(
+                    f"{name}: wanted one single pose, got a batch of shape {pose.shape}"
+                )
         self._ends, self._via = (start, goal), via
         name, size = _length(arm)
         most = np.ceil(1.05 * reach(arm) / (50 * mm)) * 50 * mm / size
         step = 5 if size == mm else 0.005
         place = (via.position if kind is Target else via.translation) / size
-        controls = {f"via {letter}": _slider(f"via {letter}, {name}", -most, most, x, step)
-                    for letter, x in zip("xyz", place, strict=True)}
+        controls = {
+            f"via {letter}": _slider(f"via {letter}, {name}", -most, most, x, step)
+            for letter, x in zip("xyz", place, strict=True)
+        }
         self._names = [_flags(arm, k) for k in range(len(arm.branches))]
         controls |= {
             "blend": _slider("blend", 0, 0.5, 0.1, 0.01, ".2f"),
             "duration": _slider("duration, s", 0.5, 20, 5, 0.5, ".1f"),
-            "law": _menu("time law", list(LAWS)), "corner": _menu("corner", list(CORNERS)),
+            "law": _menu("time law", list(LAWS)),
+            "corner": _menu("corner", list(CORNERS)),
             "branch": _menu("branch", self._names),
         }
         self.controls = controls
         motions = [self._motion(row)[1] for row in range(len(self._names))]
         # The first branch with the most samples that are usable.
-        controls["branch"].value = self._names[int(np.argmax([within(arm, q).all(axis=-1).sum() for q in motions]))]
+        controls["branch"].value = self._names[
+            int(np.argmax([within(arm, q).all(axis=-1).sum() for q in motions]))
+        ]
         alt = f"{arm.name} moves from start past via to goal."
-        stage = _stage(arm, "motion", f"{arm.name}: a blended motion", alt,
-                       [pose.as_transform() if kind is Target else pose for pose in (start, via, goal)])
+        stage = _stage(
+            arm,
+            "motion",
+            f"{arm.name}: a blended motion",
+            alt,
+            [pose.as_transform() if kind is Target else pose for pose in (start, via, goal)],
+        )
         groups = [["via x", "via y", "via z", "blend"], ["duration", "law", "corner", "branch"]]
         super().__init__(controls, stage, groups)
 
     def _motion(self, row):
         value = {name: control.value for name, control in self.controls.items()}
         place = np.array([value[f"via {letter}"] for letter in "xyz"]) * _length(self.arm)[1]
-        via = Target(place, self._via.angle) if isinstance(self._via, Target) else Transform(self._via.rotation, place)
+        via = (
+            Target(place, self._via.angle)
+            if isinstance(self._via, Target)
+            else Transform(self._via.rotation, place)
+        )
         law = LAWS[value["law"]](value["duration"])
         t = np.linspace(0, law.duration, SAMPLES)
-        poses = blend(self._ends[0], via, self._ends[1], value["blend"], law(t), corner=CORNERS[value["corner"]])
+        poses = blend(
+            self._ends[0],
+            via,
+            self._ends[1],
+            value["blend"],
+            law(t),
+            corner=CORNERS[value["corner"]],
+        )
         return t, follow(self.arm, self.arm.ik(poses), row), via
 
     def _answer(self):
         arm = self.arm
         self.t, self.q, via = self._motion(self._names.index(self.controls["branch"].value))
-        poses = [p.as_transform() if isinstance(p, Target) else p for p in (self._ends[0], via, self._ends[1])]
+        poses = [
+            p.as_transform() if isinstance(p, Target) else p
+            for p in (self._ends[0], via, self._ends[1])
+        ]
         self._targets = named_targets(poses)
         track = samples(self.q[None], self.t, arm.prismatic)
-        page = _page([arm], [arm.name], self.t, [track], self._targets, [], None, None, self._view.stage["title"],
-                     scene={"targets": _stations(self._targets)})
+        page = _page(
+            [arm],
+            [arm.name],
+            self.t,
+            [track],
+            self._targets,
+            [],
+            None,
+            None,
+            self._view.stage["title"],
+            scene={"targets": _stations(self._targets)},
+        )
         for key in ("unit", "styles"):
             del page[key]  # the stage has them
         del page["arms"][0]["chain"]
@@ -350,16 +477,23 @@ class MotionExplorer(Explorer):
         return f"A blended motion with sliders for via point, blend and duration. {summary}"
 
     def _draw_still(self):
-        words = {**self._page, "alt": self._words(), **{key: self._view.stage[key] for key in ("unit", "scene")}}
+        words = {
+            **self._page,
+            "alt": self._words(),
+            **{key: self._view.stage[key] for key in ("unit", "scene")},
+        }
         return _still([self.arm], [self.arm.name], [self.q], self._targets, [], words)
 
 
 class Nearness:
-    """How far a posture is from a singularity: q (..., n) -> the smallest singular value of the Jacobian (...).
+    """How far a posture is from a singularity: q (..., n) -> the smallest singular value of the
+    Jacobian (...).
 
-    Lengths count in reaches of the arm, so that it has no unit; NaN for NaN. Only what the arm is asked for counts: the
-    tool's place for up to three joints, else place and orientation, and of these what the arm can move at all.
-    Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability, its smallest semi-axis).
+    Lengths count in reaches of the arm, so that it has no unit; NaN for NaN. Only what the arm is
+    asked for counts: the tool's place for up to three joints, else place and orientation, and of
+    these what the arm can move at all.
+    Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability, its smallest
+    semi-axis).
     """
 
     def __init__(self, arm):
@@ -381,7 +515,8 @@ class Nearness:
 
 
 def roll_pitch_yaw(rotation):
-    """Turns about the base's x, then y, then z axis, in radians, of one rotation: R = Rz(yaw) Ry(pitch) Rx(roll).
+    """Turns about the base's x, then y, then z axis, in radians, of one rotation: R = Rz(yaw)
+    Ry(pitch) Rx(roll).
 
     At a pitch of +-90 degrees roll and yaw turn about the same line; roll is then zero.
     """
@@ -400,7 +535,7 @@ def from_roll_pitch_yaw(roll, pitch, yaw):
     return z @ y @ x
 
 
-# --- What an arm can be asked for ------------------------------------------------------------------------------------
+# --- What an arm can be asked for -----------------------------------------------------------------
 
 
 def _target_kind(arm):
@@ -416,9 +551,11 @@ def _turns(kind):
 
 
 def _showcase(arm, kind):
-    """A target that shows much: most branches usable, far from singularities, in front of the arm and above the floor.
+    """A target that shows much: most branches usable, far from singularities, in front of the arm
+    and above the floor.
 
-    Place (3,), turns in radians, and the posture (n,) that it was made of; all on the grid of the sliders.
+    Place (3,), turns in radians, and the posture (n,) that it was made of; all on the grid of the
+    sliders.
     """
     near = Nearness(arm)
     best, most = None, -1.0
@@ -439,19 +576,25 @@ def _showcase(arm, kind):
         if usable.any():
             score = usable.sum() + float(np.round(np.nanmin(near(rows)), 6))
             if score > most:
-                best, most = (place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))), score
+                best, most = (
+                    (place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))),
+                    score,
+                )
     return best
 
 
 def _spread(arm, count):
     """Postures (count, n) spread evenly between the limits: Weyl's sequence of square roots."""
-    shares = (np.arange(1, count + 1)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13][:len(arm.links)])) % 1
+    shares = (
+        np.arange(1, count + 1)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13][: len(arm.links)])
+    ) % 1
     return arm.limits[:, 0] + shares * (arm.limits[:, 1] - arm.limits[:, 0])
 
 
 def _singular(arm, q):
     """The names of the singularities at one posture."""
-    tells = getattr(arm.geometry, "singular", None)  # an arm without an inverse has no names for them
+    # an arm without an inverse has no names for them
+    tells = getattr(arm.geometry, "singular", None)
     return [f"{name} singularity" for name, holds in tells(q).items() if holds] if tells else []
 
 
@@ -460,31 +603,55 @@ def _flags(arm, k):
     return f"{k}: {flags}"
 
 
-# --- What the page gets ----------------------------------------------------------------------------------------------
+# --- What the page gets ---------------------------------------------------------------------------
 
 
 def _stage(arm, kind, title, alt, poses=()):
-    """What stands still: the chain, and a scene that holds what the arm reaches above the floor and not too far out.
-    (The page shrinks the picture for what leaves it.)
+    """What stands still: the chain, and a scene that holds what the arm reaches above the floor and
+    not too far out. (The page shrinks the picture for what leaves it.)
     """
     name, size = _length(arm)
     postures = _spread(arm, 2000)
     points = arm_points(arm, postures)
-    near = (points[..., 2] > -0.01 * reach(arm)) & (np.hypot(points[..., 0], points[..., 1]) < 0.5 * reach(arm))
-    scene = _scene([arm], [postures[near.all(axis=-1)][None]], named_targets(poses), [], reach(arm)) | {"grows": True}
-    return {"kind": kind, "title": title, "alt": alt, "name": arm.name, "chain": _chain(arm), "scene": scene,
-            "styles": list(plots.JOINT_STYLES), "unit": {"name": name, "size": size}}
+    near = (points[..., 2] > -0.01 * reach(arm)) & (
+        np.hypot(points[..., 0], points[..., 1]) < 0.5 * reach(arm)
+    )
+    scene = _scene(
+        [arm], [postures[near.all(axis=-1)][None]], named_targets(poses), [], reach(arm)
+    ) | {"grows": True}
+    return {
+        "kind": kind,
+        "title": title,
+        "alt": alt,
+        "name": arm.name,
+        "chain": _chain(arm),
+        "scene": scene,
+        "styles": list(plots.JOINT_STYLES),
+        "unit": {"name": name, "size": size},
+    }
 
 
 def _slider(name, low, high, value, step=1, form=None):
     form = form or (".0f" if step >= 1 else ".3f")
-    return ipywidgets.FloatSlider(round(value, 9), min=low, max=high, step=step, description=name, readout_format=form,
-                                  style={"description_width": "74px"}, layout={"width": "auto"})
+    return ipywidgets.FloatSlider(
+        round(value, 9),
+        min=low,
+        max=high,
+        step=step,
+        description=name,
+        readout_format=form,
+        style={"description_width": "74px"},
+        layout={"width": "auto"},
+    )
 
 
 def _menu(name, words):
-    return ipywidgets.Dropdown(options=words, description=name, style={"description_width": "74px"},
-                               layout={"width": "auto"})
+    return ipywidgets.Dropdown(
+        options=words,
+        description=name,
+        style={"description_width": "74px"},
+        layout={"width": "auto"},
+    )
 
 
 def _length(arm):

@@ -1,7 +1,9 @@
-"""The player: an arm that moves beside its curves, in any browser, without a kernel and without a network.
+"""The player: an arm that moves beside its curves, in any browser, without a kernel and without a
+network.
 
-`animate` works everything out once, at full resolution, and hands the page whole numbers: joint values, speeds and
-accelerations of some hundred samples, and for every slider value the numbers worth reading. `player.js` draws them.
+`animate` works everything out once, at full resolution, and hands the page whole numbers: joint
+values, speeds and accelerations of some hundred samples, and for every slider value the numbers
+worth reading. `player.js` draws them.
 """
 
 import base64
@@ -21,31 +23,51 @@ from .samples import samples
 from .scene import INK, SOFT, STRAIGHT, VIEW, Scene, arm_points, named_targets, project, reach
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
-DATA_BYTES = 570_000  # what joint values, speeds and accelerations of all motions may take; at least 41 samples
+# what joint values, speeds and accelerations of all motions may take; at least 41 samples
+DATA_BYTES = 570_000
 NOTHING = -32768  # the whole number that stands for "no value here"
-TIE = 2e-7 * np.sqrt(2)  # added before rounding: an exact half falls the same way on every processor
+# added before rounding: an exact half falls the same way on every processor
+TIE = 2e-7 * np.sqrt(2)
 MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
 
 
-def animate(arm, t, q, *, targets=(), slider=None, switch=None, title=None, points=(), circles=(), names=None):
-    """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end of a cell.
+def animate(
+    arm,
+    t,
+    q,
+    *,
+    targets=(),
+    slider=None,
+    switch=None,
+    title=None,
+    points=(),
+    circles=(),
+    names=None,
+):
+    """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end
+    of a cell.
 
     arm      an Arm, or several side by side: then q and `names` are lists of the same length
-    t, q     full resolution (2001 samples, say): speeds, accelerations and the numbers below the curves come from all
-             samples, and only what is drawn is thinned. Unwrapped angles (`follow`); a NaN row is "no solution here".
-    targets  Transforms in a list (start and goal; start, via and goal), or a dict of name -> Transform. A target called
-             "via" gets its smallest distance from the path.
+    t, q     full resolution (2001 samples, say): speeds, accelerations and the numbers below the
+             curves come from all samples, and only what is drawn is thinned. Unwrapped angles
+             (`follow`); a NaN row is "no solution here".
+    targets  Transforms in a list (start and goal; start, via and goal), or a dict of name ->
+             Transform. A target called "via" gets its smallest distance from the path.
     slider   (name, values): q is then (values, samples, n), and the page has a slider for the value
-    switch   (name, [words]): q has one more leading axis, one motion for each word, and the page has a menu
-    points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre, radius): spheres, or
-             discs where the arm is planar. Metres, base coordinates.
-    ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite numbers.
+    switch   (name, [words]): q has one more leading axis, one motion for each word, and the page
+             has a menu
+    points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
+             radius): spheres, or discs where the arm is planar. Metres, base coordinates.
+    ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
+    numbers.
     """
     arms, names, motions = _arms(arm, q, names)
     t = _times(t)
     slider, switch = _slider(slider), _switch(switch)
     lead = tuple(len(control["values"]) for control in (switch, slider) if control)
-    motions = [_motions(a, m, lead, len(t), n) for a, m, n in zip(arms, motions, names, strict=True)]
+    motions = [
+        _motions(a, m, lead, len(t), n) for a, m, n in zip(arms, motions, names, strict=True)
+    ]
     targets = named_targets(targets)
     marks = _marks(points, circles)
     tracks = [samples(m, t, a.prismatic) for a, m in zip(arms, motions, strict=True)]
@@ -57,16 +79,20 @@ def animate(arm, t, q, *, targets=(), slider=None, switch=None, title=None, poin
 
 
 class Player:
-    """An arm and its curves, animated by the browser. Shows itself in a notebook; `save` writes it as a page.
+    """An arm and its curves, animated by the browser. Shows itself in a notebook; `save` writes it
+    as a page.
 
     data    what the page draws, as JSON takes it; decoding rules at the head of `player.js`
-    still   the figure that stands in its place until the script runs, in print and in an untrusted notebook
+    still   the figure that stands in its place until the script runs, in print and in an untrusted
+            notebook
     """
 
     def __init__(self, data, still):
         self.data, self.still = data, still
         text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-        self.text = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+        self.text = (
+            text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+        )
         # Of the data and not of the picture: another zlib packs the same pixels into other bytes.
         self.id = hashlib.sha256(self.text.encode()).hexdigest()[:12]
 
@@ -75,22 +101,35 @@ class Player:
         """The player as a piece of HTML: the still picture, and the script that replaces it."""
         png = base64.b64encode(plots.palette_png(self.still)).decode()
         alt = html.escape(self.data["alt"])
-        return (f'<div class="robokin-player" data-player="{self.id}"><img alt="{alt}" style="max-width:100%" '
-                f'src="data:image/png;base64,{png}"></div>\n'
-                f'<script>(() => {{\n{_script()}\nplay("{self.id}", {self.text});\n}})();</script>\n')
+        return (
+            f'<div class="robokin-player" data-player="{self.id}"><img alt="{alt}" '
+            f'style="max-width:100%" '
+            f'src="data:image/png;base64,{png}"></div>\n'
+            f'<script>(() => {{\n{_script()}\nplay("{self.id}", {self.text});\n}})();</script>\n'
+        )
 
     def save(self, path):
-        """Write one self-contained page. ValueError: not a .html file, or one that is there and not a saved player."""
+        """Write one self-contained page. ValueError: not a .html file, or one that is there and not
+        a saved player.
+        """
         from pathlib import Path
+
         path = Path(path)
         if path.suffix != ".html":
             raise ValueError(f"path: wanted a name that ends in .html, got {str(path)!r}")
         if path.exists() and not (path.is_file() and MARK.encode() in path.read_bytes()[:200]):
-            raise ValueError(f"path: {str(path)!r} exists and is not a saved player; nothing is overwritten")
-        head = (f'<!DOCTYPE html>\n{MARK}\n<html lang="en">\n<meta charset="utf-8">\n'
-                '<meta name="viewport" content="width=device-width">\n'
-                f'<title>{html.escape(self.data["title"])}</title>\n')
-        body = f'<body style="max-width:1200px;margin:16px auto;padding:0 8px">\n{self.html}</body>\n</html>\n'
+            raise ValueError(
+                f"path: {str(path)!r} exists and is not a saved player; nothing is overwritten"
+            )
+        head = (
+            f'<!DOCTYPE html>\n{MARK}\n<html lang="en">\n<meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width">\n'
+            f"<title>{html.escape(self.data['title'])}</title>\n"
+        )
+        body = (
+            f'<body style="max-width:1200px;margin:16px auto;padding:0 '
+            f'8px">\n{self.html}</body>\n</html>\n'
+        )
         path.write_text(head + body, encoding="utf-8")
 
     def _repr_mimebundle_(self, include=None, exclude=None):
@@ -100,7 +139,7 @@ class Player:
         return self.data["summary"]
 
 
-# --- What the caller gives -------------------------------------------------------------------------------------------
+# --- What the caller gives ------------------------------------------------------------------------
 
 
 def _arms(arm, q, names):
@@ -135,9 +174,11 @@ def _motions(arm, q, lead, count, name):
     q = floats(q, f"q of {name}", finite=False)
     wanted = (*lead, count, len(arm.links))
     if q.shape != wanted:
-        axes = ", ".join(["switch", "slider"][-len(lead):] if lead else [])
-        raise ValueError(f"q of {name}: wanted shape {wanted} ({axes + ', ' if axes else ''}samples, joints), "
-                         f"got {q.shape}")
+        axes = ", ".join(["switch", "slider"][-len(lead) :] if lead else [])
+        raise ValueError(
+            f"q of {name}: wanted shape {wanted} ({axes + ', ' if axes else ''}samples, joints), "
+            f"got {q.shape}"
+        )
     return q.reshape(-1, *wanted[-2:])
 
 
@@ -156,7 +197,9 @@ def _slider(slider):
         raise ValueError(f"slider values: wanted at least two numbers, got shape {values.shape}")
     if (np.diff(values) <= 0).any():
         raise ValueError("slider values: wanted rising numbers")
-    decimals = next((d for d in range(6) if np.allclose(values, values.round(d), rtol=0, atol=1e-9)), 6)
+    decimals = next(
+        (d for d in range(6) if np.allclose(values, values.round(d), rtol=0, atol=1e-9)), 6
+    )
     return {"label": label, "values": [_tidy(v, decimals) for v in values], "decimals": decimals}
 
 
@@ -173,7 +216,9 @@ def _marks(points, circles):
     """Points are circles without a radius: [(name, centre (3,), radius)]."""
     named = points.items() if isinstance(points, dict) else [("", p) for p in points]
     marks = [(str(name), _place(p, "points"), 0.0) for name, p in named]
-    for name, circle in circles.items() if isinstance(circles, dict) else [("", c) for c in circles]:
+    for name, circle in (
+        circles.items() if isinstance(circles, dict) else [("", c) for c in circles]
+    ):
         if len(circle) != 2:
             raise ValueError(f"circles: wanted (centre, radius), got {circle!r:.60}")
         radius = floats(circle[1], "radius")
@@ -190,47 +235,67 @@ def _place(point, name):
     return np.append(point, [0.0] * (3 - len(point)))
 
 
-# --- What the page gets ----------------------------------------------------------------------------------------------
+# --- What the page gets ---------------------------------------------------------------------------
 
 
 def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=None):
-    """What the page draws; joint values, speeds, accelerations as bytes. `scene`: the one of `_scene`, if at hand."""
+    """What the page draws; joint values, speeds, accelerations as bytes. `scene`: the one of
+    `_scene`, if at hand.
+    """
     motions, size = len(tracks[0].q), max(reach(arm) for arm in arms)
     unit = {"name": "mm", "size": mm} if size <= 2 else {"name": "m", "size": 1}
     units = [np.where(arm.prismatic, unit["size"], deg) for arm in arms]
     alone = motions == 1 and scene is None  # else what is drawn changes while a slider moves
     kept = _thin(len(t), tracks, SAMPLES if alone else SAMPLES_UNDER_SLIDER)
-    curves = [[x / u for x in (track.q, track.v, track.a)] for track, u in zip(tracks, units, strict=True)]
+    curves = [
+        [x / u for x in (track.q, track.v, track.a)] for track, u in zip(tracks, units, strict=True)
+    ]
     via = targets.get("via")
     page = {
         "title": title if title is not None else " and ".join(dict.fromkeys(names)),
         "times": [_tidy(x, 6) for x in t[kept]],
-        "slider": slider, "switch": switch, "unit": unit, "styles": plots.JOINT_STYLES,
-        "scene": scene or _scene(arms, [track.q[:, kept] for track in tracks], targets, marks, size),
+        "slider": slider,
+        "switch": switch,
+        "unit": unit,
+        "styles": plots.JOINT_STYLES,
+        "scene": scene
+        or _scene(arms, [track.q[:, kept] for track in tracks], targets, marks, size),
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
         "decimals": [_decimals(arms, curves, k) for k in (1, 2)],
         "arms": [],
     }
     for arm, name, track, curve, u in zip(arms, names, tracks, curves, units, strict=True):
         steps, blobs = zip(*(_encoded(x[:, kept], arm.prismatic) for x in curve), strict=True)
-        page["arms"].append({
-            "name": name,
-            "chain": _chain(arm),
-            "limits": [_rounded(arm.limits.T[i] / u, 3) for i in (0, 1)],
-            "speedLimits": None if arm.speed_limits is None else _rounded(arm.speed_limits / u, 3),
-            "steps": steps, "data": blobs,
-            "via": _closest(arm, track.q, via, unit["size"]) if via is not None else None,
-            **_numbers(arm, t, track, curve, u, unit["name"], page["decimals"]),
-            **_flaws(arm, t, kept, track, u, unit["name"]),
-        })
+        page["arms"].append(
+            {
+                "name": name,
+                "chain": _chain(arm),
+                "limits": [_rounded(arm.limits.T[i] / u, 3) for i in (0, 1)],
+                "speedLimits": None
+                if arm.speed_limits is None
+                else _rounded(arm.speed_limits / u, 3),
+                "steps": steps,
+                "data": blobs,
+                "via": _closest(arm, track.q, via, unit["size"]) if via is not None else None,
+                **_numbers(arm, t, track, curve, u, unit["name"], page["decimals"]),
+                **_flaws(arm, t, kept, track, u, unit["name"]),
+            }
+        )
     page["ticks"] = _scale(t[0], t[-1])
     page["summary"], page["alt"] = _words(page, t, targets)
     return page
 
 
 def _chain(arm):
-    return [{"before": _matrix(link.before), "axis": _rounded(link.axis), "after": _matrix(link.after),
-             "prismatic": link.prismatic} for link in arm.links]
+    return [
+        {
+            "before": _matrix(link.before),
+            "axis": _rounded(link.axis),
+            "after": _matrix(link.after),
+            "prismatic": link.prismatic,
+        }
+        for link in arm.links
+    ]
 
 
 def _thin(count, tracks, wanted):
@@ -243,7 +308,11 @@ def _thin(count, tracks, wanted):
             extra.update((first - 2, first, last, last + 2))
         for motion in track.breaks[track.breaks.any(axis=-1)]:
             edges = np.flatnonzero(motion[1:] != motion[:-1]) + 1
-            extra.update(np.concatenate([edges, edges + 1] + [[i, i + 1] for i in np.flatnonzero(motion)[:1]]).tolist())
+            extra.update(
+                np.concatenate(
+                    [edges, edges + 1] + [[i, i + 1] for i in np.flatnonzero(motion)[:1]]
+                ).tolist()
+            )
     extra = {i for i in extra if 0 < i < count - 1}
     if len(extra) > wanted // 3:
         extra = set()
@@ -252,11 +321,15 @@ def _thin(count, tracks, wanted):
 
 
 def _encoded(values, prismatic):
-    """(motions, samples, n) as whole numbers of 16 bits, little-endian, and the step of each joint."""
+    """(motions, samples, n) as whole numbers of 16 bits, little-endian, and the step of each
+    joint.
+    """
     steps = np.ones(values.shape[-1])
     for kind in (prismatic, ~prismatic):
         if kind.any():
-            greatest = np.nanmax(abs(values[..., kind]), initial=0, where=~np.isnan(values[..., kind]))
+            greatest = np.nanmax(
+                abs(values[..., kind]), initial=0, where=~np.isnan(values[..., kind])
+            )
             steps[kind] = _step(greatest * (1 + TIE) / 32000)
     whole = np.floor(values / steps + 0.5 + TIE)
     whole = np.where(np.isnan(whole), NOTHING, whole).astype("<i2")
@@ -264,38 +337,60 @@ def _encoded(values, prismatic):
 
 
 def _step(least):
-    """The first number of the series 1, 2, 5, 10, ... that is not below `least`, from a millionth on."""
+    """The first number of the series 1, 2, 5, 10, ... that is not below `least`, from a millionth
+    on.
+    """
     least = max(least, 1e-6)
     power = 10.0 ** np.floor(np.log10(least) + 1e-12)
     return next(power * k for k in (1, 2, 5, 10) if power * k >= least * (1 - 1e-12))
 
 
 def _panel(arms, curves, unit, order):
-    """Scales of one panel: [lowest tick, step, number of ticks, decimals] for turning ("turn") and shifting joints, and
-    for each arm the limits [joint, 0 lower or 1 upper] that the panel shows ("near").
+    """Scales of one panel: [lowest tick, step, number of ticks, decimals] for turning ("turn") and
+    shifting joints, and for each arm the limits [joint, 0 lower or 1 upper] that the panel shows
+    ("near").
 
-    All motions share one scale, unless most of them would fill less than a third of it: then each has its own. The
-    limits are those that come near in any motion, so that they stay while a slider moves.
+    All motions share one scale, unless most of them would fill less than a third of it: then each
+    has its own. The limits are those that come near in any motion, so that they stay while a slider
+    moves.
     """
     per = ("", "/s", "/s²")[order]
-    ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]  # (motions, n) each
+    # (motions, n) each
+    ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]
     ranges, own = {}, False
     for key in ("turn", "shift"):
-        low, high = (np.concatenate([pair[k][:, arm.prismatic == (key == "shift")]
-                                     for arm, pair in zip(arms, ends, strict=True)], axis=1) for k in (0, 1))
+        low, high = (
+            np.concatenate(
+                [
+                    pair[k][:, arm.prismatic == (key == "shift")]
+                    for arm, pair in zip(arms, ends, strict=True)
+                ],
+                axis=1,
+            )
+            for k in (0, 1)
+        )
         if low.shape[1]:
-            low, high = np.nan_to_num(np.fmin.reduce(low, axis=1)), np.nan_to_num(np.fmax.reduce(high, axis=1))
+            low, high = (
+                np.nan_to_num(np.fmin.reduce(low, axis=1)),
+                np.nan_to_num(np.fmax.reduce(high, axis=1)),
+            )
             own |= bool(np.median(high - low) < (high.max() - low.min()) / 3)
             ranges[key] = low, high
     if not own:
         ranges = {key: ([low.min()], [high.max()]) for key, (low, high) in ranges.items()}
-    scales = [_scales(both) for both in zip(*(zip(*pair, strict=True) for pair in ranges.values()), strict=True)]
+    scales = [
+        _scales(both)
+        for both in zip(*(zip(*pair, strict=True) for pair in ranges.values()), strict=True)
+    ]
     word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
     panel = {"own": own, "near": []}
     for key, of in zip(ranges, zip(*scales, strict=True), strict=True):
         unique = sorted(set(of))
-        panel[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scales": unique,
-                      "of": [unique.index(scale) for scale in of] if own else None}
+        panel[key] = {
+            "unit": ("°" if key == "turn" else unit["name"]) + per,
+            "scales": unique,
+            "of": [unique.index(scale) for scale in of] if own else None,
+        }
         panel.setdefault("label", f"{word}, {panel[key]['unit']}")
         ranges[key] = np.array([(low, low + step * (count - 1)) for low, step, count, _ in of])
     for arm, pair in zip(arms, ends, strict=True):
@@ -304,14 +399,18 @@ def _panel(arms, curves, unit, order):
         if limits is not None:
             limits = limits if order == 0 else limits[:, None] * [-1, 1]
             limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
-            seen = np.stack([ranges["shift" if shifts else "turn"] for shifts in arm.prismatic], axis=1)
+            seen = np.stack(
+                [ranges["shift" if shifts else "turn"] for shifts in arm.prismatic], axis=1
+            )
             shown = near_limits(limits, *pair, seen[..., 0], seen[..., 1]).any(axis=0)
         panel["near"].append(np.argwhere(shown).tolist())
     return panel
 
 
 def _scales(ranges):
-    """The scale for one range (low, high); or for two in one panel, with zeros and ticks at the same heights."""
+    """The scale for one range (low, high); or for two in one panel, with zeros and ticks at the
+    same heights.
+    """
     ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
     if len(ranges) == 1:
         return [_scale(*ranges[0])]
@@ -320,9 +419,15 @@ def _scales(ranges):
         if all((below or low >= 0) and (above or high <= 0) for low, high in ranges):
             least = [max(high / (above or 1), -low / (below or 1)) for low, high in ranges]
             steps = [float(f"{_step(x):.6g}") if x else 1.0 for x in least]
-            filled = sum((max(high, 0) - min(low, 0)) / step for (low, high), step in zip(ranges, steps, strict=True))
+            filled = sum(
+                (max(high, 0) - min(low, 0)) / step
+                for (low, high), step in zip(ranges, steps, strict=True)
+            )
             if filled / (below + above) > most * 1.001 or best is None:
-                best, most = [_ticks(-below * x, x, below + above + 1) for x in steps], filled / (below + above)
+                best, most = (
+                    [_ticks(-below * x, x, below + above + 1) for x in steps],
+                    filled / (below + above),
+                )
     return best
 
 
@@ -338,17 +443,26 @@ def _scale(low, high):
 
 def _ticks(low, step, count):
     """(lowest tick, step, number of ticks, decimals to write them with)"""
-    return low + 0.0, step, count, next(d for d in range(12) if abs(step - round(step, d)) < 1e-9 * step)
+    return (
+        low + 0.0,
+        step,
+        count,
+        next(d for d in range(12) if abs(step - round(step, d)) < 1e-9 * step),
+    )
 
 
 def _decimals(arms, curves, k):
-    """How many decimals show the greatest value of this quantity with three digits; at least one."""
+    """How many decimals show the greatest value of this quantity with three digits; at least
+    one.
+    """
     greatest = max(np.nanmax(abs(c[k]), initial=0, where=~np.isnan(c[k])) for c in curves)
     return 1 if greatest >= 10 else 2 if greatest >= 1 else 3
 
 
 def _numbers(arm, t, track, curve, units, length, decimals):
-    """For every motion and joint: greatest speed, its share of the limit in percent, greatest acceleration."""
+    """For every motion and joint: greatest speed, its share of the limit in percent, greatest
+    acceleration.
+    """
     speed = np.nanmax(abs(curve[1]), axis=1, initial=0, where=~np.isnan(curve[1]))
     acceleration = np.nanmax(abs(curve[2]), axis=1, initial=0, where=~np.isnan(curve[2]))
     for motion, _, _, before, after in track.jumps:
@@ -359,15 +473,22 @@ def _numbers(arm, t, track, curve, units, length, decimals):
         jumps[motion] = np.fmax(jumps[motion], abs(after - before) / units)
     for motion, joint in np.argwhere(jumps > 0):
         name = length if arm.prismatic[joint] else "°"
-        rows[motion][joint] = f"jump {_tidy(jumps[motion, joint], decimals[0]):.{decimals[0]}f} {name}/s"
+        rows[motion][joint] = (
+            f"jump {_tidy(jumps[motion, joint], decimals[0]):.{decimals[0]}f} {name}/s"
+        )
     share = None
     if arm.speed_limits is not None:
         share = [[int(_tidy(x, 0)) for x in row] for row in 100 * speed * units / arm.speed_limits]
-    return {"speed": [[_tidy(x, decimals[0]) for x in row] for row in speed], "share": share, "acceleration": rows}
+    return {
+        "speed": [[_tidy(x, decimals[0]) for x in row] for row in speed],
+        "share": share,
+        "acceleration": rows,
+    }
 
 
 def _closest(arm, q, via, unit):
-    """For every motion [smallest distance from the via point in the length unit, x, y, z of that place in metres].
+    """For every motion [smallest distance from the via point in the length unit, x, y, z of that
+    place in metres].
 
     The path is the polyline through all samples; NaN interrupts it. None where there is no path.
     """
@@ -383,14 +504,17 @@ def _closest(arm, q, via, unit):
     found = []
     for c, i in enumerate(best):
         d = distance[c, i]
-        found.append([_tidy(d / unit, 1 if unit == mm else 3), *_rounded(near[c, i] + place, 4)]
-                     if np.isfinite(d) else None)
+        found.append(
+            [_tidy(d / unit, 1 if unit == mm else 3), *_rounded(near[c, i] + place, 4)]
+            if np.isfinite(d)
+            else None
+        )
     return found
 
 
 def _flaws(arm, t, kept, track, units, length):
-    """What is wrong with each motion, for those with something wrong: gaps between kept samples, jumps to mark with
-    their words, sentences to read.
+    """What is wrong with each motion, for those with something wrong: gaps between kept samples,
+    jumps to mark with their words, sentences to read.
     """
     gaps, jumps, leaps, notes = {}, {}, {}, {}
     joints = range(len(arm.links))
@@ -399,7 +523,8 @@ def _flaws(arm, t, kept, track, units, length):
         space, value = "" if not arm.prismatic[j] and not per else " ", abs(values[j]) / units[j]
         # One decimal, or two significant digits.
         decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
-        return f"{_tidy(value, decimals):.{decimals}f}{space}{length if arm.prismatic[j] else '°'}{per}"
+        unit = length if arm.prismatic[j] else "°"
+        return f"{_tidy(value, decimals):.{decimals}f}{space}{unit}{per}"
 
     for c, breaks in enumerate(track.breaks):
         inside = np.add.reduceat(breaks, kept[:-1]) if breaks.any() else np.zeros(1)
@@ -413,8 +538,10 @@ def _flaws(arm, t, kept, track, units, length):
     for c, marked in jumps.items():
         times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
         more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
-        notes.setdefault(c, []).append(f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
-                                       "finite-difference value would only tell the time step.")
+        notes.setdefault(c, []).append(
+            f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
+            "finite-difference value would only tell the time step."
+        )
     for c, i, steps in track.leaps:
         worst = max(joints, key=lambda j: abs(steps[j]) / units[j])
         text = f"q{worst + 1} jumps by {amount(steps, worst)}"
@@ -427,21 +554,31 @@ def _flaws(arm, t, kept, track, units, length):
     over = np.fmax(low - track.q, track.q - high)
     fast = abs(track.v) - (np.inf if arm.speed_limits is None else arm.speed_limits * (1 + 1e-9))
     missing = np.isnan(track.q).any(axis=-1)
-    for c in np.flatnonzero(missing.any(axis=-1) | (over > 0).any(axis=(1, 2)) | (fast > 0).any(axis=(1, 2))):
+    for c in np.flatnonzero(
+        missing.any(axis=-1) | (over > 0).any(axis=(1, 2)) | (fast > 0).any(axis=(1, 2))
+    ):
         for j in joints:
             count = int((over[c, :, j] > 0).sum())
             if count:
                 most = np.nanmax(over[c], axis=0, initial=0, where=~np.isnan(over[c]))
-                notes.setdefault(c, []).append(f"q{j + 1} is past its limit in {count} of {len(t)} samples, "
-                                               f"by up to {amount(most, j)}.")
+                notes.setdefault(c, []).append(
+                    f"q{j + 1} is past its limit in {count} of {len(t)} samples, "
+                    f"by up to {amount(most, j)}."
+                )
         for j in joints:
             count = int((fast[c, :, j] > 0).sum())
             if count:
-                notes.setdefault(c, []).append(f"q{j + 1} is past its speed limit in {count} of {len(t)} samples.")
+                notes.setdefault(c, []).append(
+                    f"q{j + 1} is past its speed limit in {count} of {len(t)} samples."
+                )
         if missing[c].any():
-            notes.setdefault(c, []).append(f"No solution in {int(missing[c].sum())} of {len(t)} samples.")
-    return {name: {str(int(c)): value for c, value in sorted(found.items())}
-            for name, found in (("gaps", gaps), ("jumps", jumps), ("leaps", leaps), ("notes", notes))}
+            notes.setdefault(c, []).append(
+                f"No solution in {int(missing[c].sum())} of {len(t)} samples."
+            )
+    return {
+        name: {str(int(c)): value for c, value in sorted(found.items())}
+        for name, found in (("gaps", gaps), ("jumps", jumps), ("leaps", leaps), ("notes", notes))
+    }
 
 
 def _scene(arms, postures, targets, marks, size):
@@ -449,10 +586,15 @@ def _scene(arms, postures, targets, marks, size):
     flat, foot = _plane(arms), 0.08 * size * np.array([[-1], [1]])
     seen = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
     tools = [arm.fk(q) for arm, q in zip(arms, postures, strict=True)]
-    tips = [(pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3) for pose in (*tools, *targets.values())]
+    tips = [
+        (pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3)
+        for pose in (*tools, *targets.values())
+    ]
     seen += [pose.translation[None] for pose in targets.values()]
     seen += [centre + radius * sign * np.eye(3) for _, centre, radius in marks for sign in (1, -1)]
-    seen = np.concatenate([foot * np.eye(3)[k] for k in range(3) if k != (2 if flat is None else flat)] + seen)
+    seen = np.concatenate(
+        [foot * np.eye(3)[k] for k in range(3) if k != (2 if flat is None else flat)] + seen
+    )
     low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
     across = [k for k in range(3) if k != (2 if flat is None else flat)]
     step = _step(max(*(high - low)[across], size / 3) * (1 + TIE) / 8)
@@ -461,10 +603,17 @@ def _scene(arms, postures, targets, marks, size):
     low[2] = min(low[2], 0.0) if flat is None and low[2] < -0.01 * size else 0.0
     places = np.concatenate([pose.translation.reshape(-1, 3) for pose in tools])
     return {
-        "size": _tidy(size, 4), "flat": flat, "grid": _tidy(step, 6), "seen": _outermost(np.concatenate([seen, *tips])),
-        "floor": [_rounded(low, 4), _rounded(high, 4)], "view": _rounded(_view(places, flat), 4),
+        "size": _tidy(size, 4),
+        "flat": flat,
+        "grid": _tidy(step, 6),
+        "seen": _outermost(np.concatenate([seen, *tips])),
+        "floor": [_rounded(low, 4), _rounded(high, 4)],
+        "view": _rounded(_view(places, flat), 4),
         "targets": _stations(targets),
-        "marks": [{"name": name, "at": _rounded(centre), "radius": radius} for name, centre, radius in marks],
+        "marks": [
+            {"name": name, "at": _rounded(centre), "radius": radius}
+            for name, centre, radius in marks
+        ],
     }
 
 
@@ -473,7 +622,8 @@ def _stations(targets):
 
 
 def _outermost(points):
-    """The points (k, 3) that a camera has to see, some fifty: those farthest out in evenly spread directions.
+    """The points (k, 3) that a camera has to see, some fifty: those farthest out in evenly spread
+    directions.
 
     Rounded first, so that which of two equal ones is taken does not depend on noise.
     """
@@ -485,12 +635,15 @@ def _outermost(points):
     z, turn = 1 - 2 * k / 100, k * np.pi * (1 + 5**0.5)
     across = np.sqrt(1 - z**2)
     directions = np.round(np.stack([across * np.cos(turn), across * np.sin(turn), z], axis=-1), 3)
-    return [_rounded(points[i], 3) for i in sorted(set((directions @ points.T).argmax(axis=-1).tolist()))]
+    return [
+        _rounded(points[i], 3)
+        for i in sorted(set((directions @ points.T).argmax(axis=-1).tolist()))
+    ]
 
 
 def _view(tools, flat):
-    """Azimuth and elevation of the camera: straight at a plane, else from where the tool's path spreads widest, on
-    the tool's side of the base.
+    """Azimuth and elevation of the camera: straight at a plane, else from where the tool's path
+    spreads widest, on the tool's side of the base.
     """
     if flat is not None:
         return STRAIGHT[flat]
@@ -502,7 +655,9 @@ def _view(tools, flat):
     # In these steps no side of the floor ever lies along the line of sight.
     for azimuth in VIEW[0] + np.array([0, 30, 90, 120, 180, 210, 270, 300]) * deg:
         screen = project(np.eye(3), (azimuth, VIEW[1])).T
-        area = np.sqrt(max(np.linalg.det(screen @ spread @ screen.T), 0)) + 0.05 * (screen[0] @ spread @ screen[0])
+        area = np.sqrt(max(np.linalg.det(screen @ spread @ screen.T), 0)) + 0.05 * (
+            screen[0] @ spread @ screen[0]
+        )
         toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
         area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
         if area > 1.05 * most:  # the small margin keeps noise from choosing between two equal ones
@@ -511,10 +666,17 @@ def _view(tools, flat):
 
 
 def _plane(arms):
-    """0, 1 or 2 if every arm can move only in the plane where that coordinate is zero, else None."""
+    """0, 1 or 2 if every arm can move only in the plane where that coordinate is zero, else
+    None.
+    """
     for axis in (2, 1, 0):
-        if all(abs(arm_points(arm, np.linspace(0.1, 0.9, 5 * len(arm.links)).reshape(5, -1))[..., axis]).max()
-               < 1e-9 for arm in arms):
+        if all(
+            abs(
+                arm_points(arm, np.linspace(0.1, 0.9, 5 * len(arm.links)).reshape(5, -1))[..., axis]
+            ).max()
+            < 1e-9
+            for arm in arms
+        ):
             return axis
     return None
 
@@ -525,7 +687,9 @@ def _words(page, t, targets):
     parts = [f"{_tidy(t[-1] - t[0], 3):g} s"]
     if page["slider"]:
         values = page["slider"]["values"]
-        parts.append(f"{page['slider']['label']} {values[0]:g} to {values[-1]:g} in {len(values)} values")
+        parts.append(
+            f"{page['slider']['label']} {values[0]:g} to {values[-1]:g} in {len(values)} values"
+        )
     if page["switch"]:
         parts.append(f"{page['switch']['label']} {' or '.join(page['switch']['values'])}")
     for arm in page["arms"]:
@@ -533,18 +697,23 @@ def _words(page, t, targets):
         speeds = arm["speed"]
         fastest = max(range(len(speeds[0])), key=lambda j: max(row[j] for row in speeds))
         unit = page["unit"]["name"] if arm["chain"][fastest]["prismatic"] else "°"
-        parts.append(f"{label}greatest speed {max(row[fastest] for row in speeds):g} {unit}/s (joint {fastest + 1})")
+        parts.append(
+            f"{label}greatest speed {max(row[fastest] for row in speeds):g} {unit}/s (joint "
+            f"{fastest + 1})"
+        )
         if arm["via"] and any(arm["via"]):
             near = [v[0] for v in arm["via"] if v]
             ends = f"{min(near):g}" if min(near) == max(near) else f"{min(near):g} to {max(near):g}"
-            parts.append(f"{label}smallest distance from the via point {ends} {page['unit']['name']}")
+            parts.append(
+                f"{label}smallest distance from the via point {ends} {page['unit']['name']}"
+            )
     summary = f"Player of {who}: {', '.join(parts)}."
     through = f" past {', '.join(targets)}" if targets else ""
     alt = f"{who} in the first and the last posture, with the path of the tool{through}. {summary}"
     return summary, alt
 
 
-# --- The still picture -----------------------------------------------------------------------------------------------
+# --- The still picture ----------------------------------------------------------------------------
 
 
 def _still(arms, names, postures, targets, marks, page):
@@ -571,11 +740,20 @@ def _still(arms, names, postures, targets, marks, page):
                 scene.label(name, centre)
         scene.finish()
         if len(arms) > 1:
-            ax.text(0.03, 1, names[k], transform=ax.transAxes, fontsize=10, fontweight="bold", color=INK, va="top")
+            ax.text(
+                0.03,
+                1,
+                names[k],
+                transform=ax.transAxes,
+                fontsize=10,
+                fontweight="bold",
+                color=INK,
+                va="top",
+            )
     return figure
 
 
-# --- Rounding, the same on every processor ---------------------------------------------------------------------------
+# --- Rounding, the same on every processor --------------------------------------------------------
 
 
 def _tidy(x, decimals):
@@ -594,7 +772,10 @@ def _matrix(pose):
 
 
 def _script(name="player.js"):
-    """A script of this folder without the lines that only people read, as it stands in every output."""
+    """A script of this folder without the lines that only people read, as it stands in every
+    output.
+    """
     from importlib.resources import files
+
     lines = files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()
     return "\n".join(line for line in map(str.strip, lines) if line and not line.startswith("//"))

@@ -1,7 +1,8 @@
 """Arrays in, Matplotlib figures out: joint curves, postures of an arm, frames.
 
-A figure is a value: the last line of a cell, or `fig.savefig(...)`. Nothing here touches pyplot, so no figure is drawn
-twice and none is kept alive. Degrees and millimetres outside (metres for what is larger than 2 m).
+A figure is a value: the last line of a cell, or `fig.savefig(...)`. Nothing here touches pyplot, so
+no figure is drawn twice and none is kept alive. Degrees and millimetres outside (metres for what is
+larger than 2 m).
 """
 
 import base64
@@ -21,7 +22,16 @@ from ..units import deg, mm
 from .panels import JOINT_STYLES, SLACK, lay_out, panel
 from .scene import FAINT, INK, SOFT, Scene, arm_points, is_flat, named_targets, number, reach
 
-__all__ = ["JOINT_STYLES", "SLACK", "Figure", "figure", "palette_png", "plot_frames", "plot_joints", "plot_postures"]
+__all__ = [
+    "JOINT_STYLES",
+    "SLACK",
+    "Figure",
+    "figure",
+    "palette_png",
+    "plot_frames",
+    "plot_joints",
+    "plot_postures",
+]
 
 DPI = 100
 
@@ -35,12 +45,15 @@ class Figure(MatplotlibFigure):
         self.alt = alt
 
     def _repr_mimebundle_(self, include=None, exclude=None):
-        # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the metadata of an
-        # image/png output. Both keep <img alt> in text/html, an untrusted notebook included, and show it once.
+        # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the
+        # metadata of an image/png output. Both keep <img alt> in text/html, an untrusted notebook
+        # included, and show it once.
         data = base64.b64encode(palette_png(self)).decode()
         width, height = np.round(self.get_size_inches() * DPI).astype(int)
-        image = (f'<img alt="{html.escape(self.alt)}" width="{width}" height="{height}" '
-                 f'src="data:image/png;base64,{data}">')
+        image = (
+            f'<img alt="{html.escape(self.alt)}" width="{width}" height="{height}" '
+            f'src="data:image/png;base64,{data}">'
+        )
         return {"text/html": image, "text/plain": self.alt}
 
     def __repr__(self):
@@ -48,9 +61,11 @@ class Figure(MatplotlibFigure):
 
 
 def figure(alt, width=9, height=4):
-    """An empty figure of width x height inches (100 pixels each): `ax = fig.subplots()`, and `fig` ends the cell.
+    """An empty figure of width x height inches (100 pixels each): `ax = fig.subplots()`, and `fig`
+    ends the cell.
 
-    `alt` says in words what a sighted reader concludes; it is the image's alternative text and what a test compares.
+    `alt` says in words what a sighted reader concludes; it is the image's alternative text and what
+    a test compares.
     """
     if not (isinstance(alt, str) and alt.strip()):
         raise ValueError(f"alt: wanted words that say what the figure shows, got {alt!r}")
@@ -60,22 +75,27 @@ def figure(alt, width=9, height=4):
 def palette_png(fig):
     """The figure as the bytes of a PNG with a palette: a third of the size of a plain one.
 
-    Pillow's octree keeps the colours of thin lines to 1/100; its median cut turns the green of a triad blue.
+    Pillow's octree keeps the colours of thin lines to 1/100; its median cut turns the green of a
+    triad blue.
     """
     fig.canvas.draw()
     image = Image.fromarray(np.asarray(fig.canvas.buffer_rgba())).convert("RGB")
     file = io.BytesIO()
-    image.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(file, "PNG", optimize=True)
+    image.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(
+        file, "PNG", optimize=True
+    )
     return file.getvalue()
 
 
 def plot_postures(arm, q, *, targets=(), title=None, alt=None):
     """Postures along one path, in a spatial view with true proportions.
 
-    q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn through all samples, the
-             first and last posture strongly and up to seven between them faintly. NaN rows are left out. Where the
-             flange stands still (the rows of `ik`), up to nine postures are drawn alike.
-    targets  list of Transforms (one: target; two: start, goal; three: start, via, goal) or dict of name -> Transform
+    q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
+             through all samples, the first and last posture strongly and up to seven between them
+             faintly. NaN rows are left out. Where the flange stands still (the rows of `ik`), up to
+             nine postures are drawn alike.
+    targets  list of Transforms (one: target; two: start, goal; three: start, via, goal) or dict of
+             name -> Transform
     alt      the alternative text, where the numbers alone do not say it
     """
     q = _samples(arm, q)
@@ -94,7 +114,8 @@ def plot_postures(arm, q, *, targets=(), title=None, alt=None):
     if moves:
         scene.trace(flange.translation)
         scene.triad(flange[first], length=0.07 * size, width=2.4)
-        # The names stand where the two postures differ most, on the half next to the base: the tool has its own names.
+        # The names stand where the two postures differ most, on the half next to the base: the tool
+        # has its own names.
         half = slice(1, len(arm.links) + 1)
         ends = arm_points(arm, q[[first, last]])[:, half]
         where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()
@@ -109,9 +130,11 @@ def plot_postures(arm, q, *, targets=(), title=None, alt=None):
 
 
 def plot_frames(frames, *, names=None, title=None, size=None, chain=False, alt=None):
-    """Frames as triads (x red, y green, z blue) with names, beside the base frame, in true proportions.
+    """Frames as triads (x red, y green, z blue) with names, beside the base frame, in true
+    proportions.
 
-    frames  Transform of shape (k,) or (), or a list of single Transforms, in base coordinates; NaN is left out
+    frames  Transform of shape (k,) or (), or a list of single Transforms, in base coordinates; NaN
+            is left out
     names   one for each frame; a frame at the base takes the place of the base's own triad
     size    length of the axes in metres; chosen from the distances if not given
     chain   join the origins in their order, from the base, as the links of an arm do
@@ -142,27 +165,42 @@ def plot_frames(frames, *, names=None, title=None, size=None, chain=False, alt=N
 
 
 def plot_joints(arm, t, q, v=None, a=None, *, title=None, alt=None):
-    """Joint values over time and, where given, speeds and accelerations: one panel each, with one time axis.
+    """Joint values over time and, where given, speeds and accelerations: one panel each, with one
+    time axis.
 
-    t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a gap, a jump by a
-    whole turn is a jump. Prismatic joints have panels of their own, in mm.
-    A limit is shaded where its joint comes near it; samples past it are marked and counted. Samples past a limit are
-    judged as drawn, so q + 360 degrees may still be inside (`within` says). A lone spike, which a jump leaves when it
-    is differentiated, does not set the scale: it leaves the panel and is named.
+    t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
+    gap, a jump by a whole turn is a jump. Prismatic joints have panels of their own, in mm.
+    A limit is shaded where its joint comes near it; samples past it are marked and counted. Samples
+    past a limit are judged as drawn, so q + 360 degrees may still be inside (`within` says). A lone
+    spike, which a jump leaves when it is differentiated, does not set the scale: it leaves the
+    panel and is named.
     """
     t = floats(t, "t")
     q = _samples(arm, q)
     if t.ndim != 1 or len(t) != len(q):
         raise ValueError(f"t: wanted {len(q)} times, one for each sample of q, got shape {t.shape}")
     if len(t) < 2 or (np.diff(t) <= 0).any():
-        raise ValueError(f"t: wanted two or more rising times, got {number(t[0])} ... {number(t[-1])}")
-    rows = [(kind, _samples(arm, values, kind, len(q))) for kind, values in (("q", q), ("v", v), ("a", a))
-            if values is not None]
-    groups = [(np.flatnonzero(arm.prismatic == kind), unit, size)
-              for kind, unit, size in ((False, "°", deg), (True, "mm", mm)) if (arm.prismatic == kind).any()]
+        raise ValueError(
+            f"t: wanted two or more rising times, got {number(t[0])} ... {number(t[-1])}"
+        )
+    rows = [
+        (kind, _samples(arm, values, kind, len(q)))
+        for kind, values in (("q", q), ("v", v), ("a", a))
+        if values is not None
+    ]
+    groups = [
+        (np.flatnonzero(arm.prismatic == kind), unit, size)
+        for kind, unit, size in ((False, "°", deg), (True, "mm", mm))
+        if (arm.prismatic == kind).any()
+    ]
     fig = Figure("", figsize=(9, (0.45 if title else 0.1) + 0.45 + 2.05 * len(rows)))
-    grid = fig.subplots(len(rows), len(groups), sharex=True, squeeze=False,
-                        width_ratios=[1.7, 1] if len(groups) > 1 else None)
+    grid = fig.subplots(
+        len(rows),
+        len(groups),
+        sharex=True,
+        squeeze=False,
+        width_ratios=[1.7, 1] if len(groups) > 1 else None,
+    )
     facts = [f"{arm.name}, joint curves over {number(t[-1] - t[0])} s."]
     for (kind, values), line in zip(rows, grid, strict=True):
         for (joints, unit, size), ax in zip(groups, line, strict=True):
@@ -178,7 +216,15 @@ def _canvas(fig, title):
     """Axes over the whole figure, below the title."""
     fig.set_size_inches(9, 6)
     if title:
-        fig.text(0.014, 0.985, textwrap.fill(title, 64), fontsize=12, fontweight="bold", color=INK, va="top")
+        fig.text(
+            0.014,
+            0.985,
+            textwrap.fill(title, 64),
+            fontsize=12,
+            fontweight="bold",
+            color=INK,
+            va="top",
+        )
     return fig.add_axes((0, 0, 1, 0.93 if title else 1))
 
 
@@ -199,17 +245,21 @@ def _frames(frames):
     frames = list(frames)
     for frame in frames:
         if instance(frame, Transform, "frames").shape:
-            raise ValueError(f"frames: wanted a Transform of shape (k,) or a list of single ones, got {frame}")
+            raise ValueError(
+                f"frames: wanted a Transform of shape (k,) or a list of single ones, got {frame}"
+            )
     if not frames:
         raise ValueError("frames: wanted at least one, got none")
     return frames
 
 
 def _naming_axis(frames, i):
-    """Frames with one origin are told apart at the tips of an axis: of the one (0, 1, 2) whose tips lie farthest
-    apart. None for a frame that has its origin to itself.
+    """Frames with one origin are told apart at the tips of an axis: of the one (0, 1, 2) whose tips
+    lie farthest apart. None for a frame that has its origin to itself.
     """
-    here = [f for f in frames if np.allclose(f.translation, frames[i].translation, rtol=0, atol=1e-6)]
+    here = [
+        f for f in frames if np.allclose(f.translation, frames[i].translation, rtol=0, atol=1e-6)
+    ]
     axes = np.stack([frame.rotation.as_matrix() for frame in here])
     apart = np.linalg.norm(axes[:, None] - axes[None], axis=-2)[np.triu_indices(len(here), 1)]
     return int(apart.min(axis=0).argmax()) if len(here) > 1 else None
@@ -236,8 +286,10 @@ def _moves(flange):
 
 def _frames_alt(frames, names, title, unit, unit_name):
     words = [title.rstrip(".") + "."] if title else []
-    parts = [f"{name or f'frame {i + 1}'} at {_place(frame.translation, unit)} {unit_name}"
-             for i, (frame, name) in enumerate(zip(frames, names, strict=True))]
+    parts = [
+        f"{name or f'frame {i + 1}'} at {_place(frame.translation, unit)} {unit_name}"
+        for i, (frame, name) in enumerate(zip(frames, names, strict=True))
+    ]
     return " ".join([*words, f"Frames in base coordinates: {', '.join(parts)}."])
 
 

@@ -1,7 +1,9 @@
-"""Speeds and accelerations fit to be drawn: differentiated piece by piece, with the jumps named and left out.
+"""Speeds and accelerations fit to be drawn: differentiated piece by piece, with the jumps named and
+left out.
 
-Differences across a jump say nothing about the motion: a corner's "acceleration" is the jump of the speed divided by
-the time step (errata S1-m), a wrapped angle's "speed" is 2 pi divided by it (S1-e). Here both are found and reported.
+Differences across a jump say nothing about the motion: a corner's "acceleration" is the jump of the
+speed divided by the time step (errata S1-m), a wrapped angle's "speed" is 2 pi divided by it
+(S1-e). Here both are found and reported.
 """
 
 from dataclasses import dataclass
@@ -10,7 +12,8 @@ import numpy as np
 
 from .. import differentiate
 
-LEAP = 0.1  # rad or m: a smaller step from one sample to the next is never taken for a jump of position
+# rad or m: a smaller step from one sample to the next is never taken for a jump of position
+LEAP = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,10 +21,11 @@ class Samples:
     """Motions of one arm at full resolution; C motions of N samples with n joints each.
 
     q, v, a   (C, N, n) joint values, speeds, accelerations; NaN where there is none to show
-    breaks    (C, N - 1) bool: between these two samples the position jumps, or one of the two does not exist
+    breaks    (C, N - 1) bool: between these two samples the position jumps, or one of the two does
+              not exist
     leaps     [(motion, sample, steps)]: position jumps between `sample` and the next, steps (n,)
-    jumps     [(motion, first, last, before, after)]: speed jumps at the samples first..last, and the speeds (n,)
-              on both sides, equal for the joints that do not take part
+    jumps     [(motion, first, last, before, after)]: speed jumps at the samples first..last, and
+              the speeds (n,) on both sides, equal for the joints that do not take part
     """
 
     q: np.ndarray
@@ -49,14 +53,18 @@ def samples(q, t, prismatic):
 
 
 def _leaps(steps, prismatic):
-    """Which steps (C, N - 1, n) are jumps: a turn by more than pi, or ten times as far as the steps beside it."""
+    """Which steps (C, N - 1, n) are jumps: a turn by more than pi, or ten times as far as the steps
+    beside it.
+    """
     size = abs(steps)
     beside = np.fmax(_shifted(size, 1), _shifted(size, -1))
     return ((size > np.pi) & ~prismatic) | ((size > LEAP) & (size > 10 * beside))
 
 
 def _derivatives(q, t, breaks, missing):
-    """Speeds and accelerations, each unbroken run for itself; NaN where a run has fewer than three samples."""
+    """Speeds and accelerations, each unbroken run for itself; NaN where a run has fewer than three
+    samples.
+    """
     v, a = np.full_like(q, np.nan), np.full_like(q, np.nan)
     whole = ~breaks.any(axis=-1)
     if whole.any():
@@ -70,14 +78,17 @@ def _derivatives(q, t, breaks, missing):
 
 
 def _jumps(speeds, t):
-    """Where the speeds between samples (C, N - 1, n) jump: a change far greater than the changes beside it.
+    """Where the speeds between samples (C, N - 1, n) jump: a change far greater than the changes
+    beside it.
 
-    A smooth motion's changes are all of the size acceleration x step; those two and three samples away tell it (the
-    next one shares a corner that lies between two samples). Less than a hundredth of the greatest speed is no jump,
-    nor is what has no neighbours on both sides.
+    A smooth motion's changes are all of the size acceleration x step; those two and three samples
+    away tell it (the next one shares a corner that lies between two samples). Less than a hundredth
+    of the greatest speed is no jump, nor is what has no neighbours on both sides.
     """
     change = abs(np.diff(speeds, axis=1))
-    beside = np.maximum(*(np.fmax(_shifted(change, 2 * side), _shifted(change, 3 * side)) for side in (-1, 1)))
+    beside = np.maximum(
+        *(np.fmax(_shifted(change, 2 * side), _shifted(change, 3 * side)) for side in (-1, 1))
+    )
     with np.errstate(invalid="ignore"):
         greatest = np.fmax.reduce(abs(speeds), axis=1, keepdims=True)
         sure = change > 8 * beside + 0.01 * greatest + 1e-9
@@ -92,13 +103,17 @@ def _jumps(speeds, t):
             middle = (t[first + 1] + t[last + 1]) / 2
             before = _towards(speeds[c], t, middle, first, -1)
             after = _towards(speeds[c], t, middle, last + 1, 1)
-            joins = part[c, first:last + 1].any(axis=0)
-            found.append((int(c), int(first) + 1, int(last) + 1, before, np.where(joins, after, before)))
+            joins = part[c, first : last + 1].any(axis=0)
+            found.append(
+                (int(c), int(first) + 1, int(last) + 1, before, np.where(joins, after, before))
+            )
     return found
 
 
 def _towards(speeds, t, time, i, side):
-    """The speeds (n,) at `time`, on the straight line through those of interval i and of the next one on its side."""
+    """The speeds (n,) at `time`, on the straight line through those of interval i and of the next
+    one on its side.
+    """
     j = i + side
     if not 0 <= j < len(speeds) or np.isnan(speeds[j]).any():
         return speeds[i]
@@ -107,8 +122,9 @@ def _towards(speeds, t, time, i, side):
 
 
 def _continue_to_the_ends(a, t, breaks):
-    """In place: a difference of one-sided differences is only first-order right, and it shows as a spike at the ends.
-    So the first two and the last two accelerations of each run lie on the straight line through the two next to them.
+    """In place: a difference of one-sided differences is only first-order right, and it shows as a
+    spike at the ends. So the first two and the last two accelerations of each run lie on the
+    straight line through the two next to them.
     """
     whole = ~breaks.any(axis=-1)
     _straighten(a, t, whole, 0, a.shape[1])
@@ -120,7 +136,10 @@ def _continue_to_the_ends(a, t, breaks):
 def _straighten(a, t, motions, start, stop):
     if stop - start < 6:
         return
-    for i, j, ends in ((start + 2, start + 3, (start, start + 1)), (stop - 3, stop - 4, (stop - 1, stop - 2))):
+    for i, j, ends in (
+        (start + 2, start + 3, (start, start + 1)),
+        (stop - 3, stop - 4, (stop - 1, stop - 2)),
+    ):
         slope = (a[motions, j] - a[motions, i]) / (t[j] - t[i])
         for end in ends:
             a[motions, end] = a[motions, i] + slope * (t[end] - t[i])
@@ -142,5 +161,5 @@ def _shifted(values, k):
     out = np.full_like(values, np.nan)
     m = values.shape[1]
     if abs(k) < m:
-        out[:, max(-k, 0):m - max(k, 0)] = values[:, max(k, 0):m + min(k, 0)]
+        out[:, max(-k, 0) : m - max(k, 0)] = values[:, max(k, 0) : m + min(k, 0)]
     return out

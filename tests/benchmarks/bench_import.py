@@ -1,6 +1,7 @@
 """What `import robokin` costs beside `import numpy`: python tests/benchmarks/bench_import.py
 
-Fresh processes, taken in turns so that a busy machine slows both alike; wanted: a ratio of at most 1.15.
+Fresh processes, taken in turns so that a busy machine slows both alike; wanted: a ratio of at most
+1.15.
 """
 
 import os
@@ -16,8 +17,13 @@ TIMED = "import time; start = time.perf_counter(); import {}; print(time.perf_co
 def seconds(module, cache):
     # Byte code is kept as it is on a student's machine, even where the environment forbids it.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-    done = subprocess.run([sys.executable, "-c", TIMED.format(module)], text=True, capture_output=True, check=True,
-                          env=environment | {"PYTHONPYCACHEPREFIX": cache})
+    done = subprocess.run(
+        [sys.executable, "-c", TIMED.format(module)],
+        text=True,
+        capture_output=True,
+        check=True,
+        env=environment | {"PYTHONPYCACHEPREFIX": cache},
+    )
     return float(done.stdout)
 
 
@@ -26,10 +32,14 @@ def main():
         seconds("numpy", cache), seconds("robokin", cache)  # writes the byte code
         pairs = [(seconds("numpy", cache), seconds("robokin", cache)) for _ in range(RUNS)]
     numpy, robokin = (statistics.median(times) for times in zip(*pairs, strict=True))
-    fastest = [min(times) for times in zip(*pairs, strict=True)]  # the least disturbed by a busy machine
+    # the least disturbed by a busy machine
+    fastest = [min(times) for times in zip(*pairs, strict=True)]
     ratio = robokin / numpy
-    print(f"import numpy {numpy * 1e3:.1f} ms, import robokin {robokin * 1e3:.1f} ms (medians of {RUNS}): "
-          f"ratio {ratio:.3f} (of the fastest: {fastest[1] / fastest[0]:.3f})")
+    print(
+        f"import numpy {numpy * 1e3:.1f} ms, import robokin {robokin * 1e3:.1f} ms (medians of "
+        f"{RUNS}): "
+        f"ratio {ratio:.3f} (of the fastest: {fastest[1] / fastest[0]:.3f})"
+    )
     return 0 if ratio <= 1.15 else 1
 
 

@@ -1,7 +1,8 @@
 """How long the jobs take: python tests/benchmarks/bench_jobs.py
 
-Wanted: greedy `visit` of 100 points in milliseconds, the exact optimum of 12 points within a second, and a sweep of the
-three-lever arm's free angle in steps of 0.001 degrees within 50 ms. Each beside the slower way to the same answer.
+Wanted: greedy `visit` of 100 points in milliseconds, the exact optimum of 12 points within a
+second, and a sweep of the three-lever arm's free angle in steps of 0.001 degrees within 50 ms. Each
+beside the slower way to the same answer.
 """
 
 import time
@@ -33,12 +34,21 @@ def main():
     many, twelve, sixteen = drawn(100, 1e6), drawn(12, 60), drawn(16, 60)
     print(f"greedy visit, 100 points: {milliseconds(lambda: visit(many)):.1f} ms")
     for task in (twelve, sixteen):
-        exact, greedy = milliseconds(lambda t=task: best_visit(t), 3), milliseconds(lambda t=task: visit(t))
-        print(f"exact optimum, {len(task.points)} points: {exact:.0f} ms, {exact / greedy:.0f} times the greedy answer")
+        exact, greedy = (
+            milliseconds(lambda t=task: best_visit(t), 3),
+            milliseconds(lambda t=task: visit(t)),
+        )
+        print(
+            f"exact optimum, {len(task.points)} points: {exact:.0f} ms, {exact / greedy:.0f} "
+            f"times the greedy answer"
+        )
     arm, point, before = three_lever(1.0), (0.9, 0.6), np.array([1.0, 2.0, 2.0])
     sweep = milliseconds(lambda: arm.sweep(point, before, 0.001 * deg))
     least = milliseconds(lambda: arm.least(point, before))
-    print(f"sweep in steps of 0.001 degrees: {sweep:.1f} ms; exact minimum {least:.1f} ms: ratio {sweep / least:.0f}")
+    print(
+        f"sweep in steps of 0.001 degrees: {sweep:.1f} ms; exact minimum {least:.1f} ms: ratio "
+        f"{sweep / least:.0f}"
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""How fast robokin is beside its peers: inverse, straight motion and forward kinematics, as ratios of one run.
+"""How fast robokin is beside its peers: inverse, straight motion and forward kinematics, as ratios
+of one run.
 
     python -m venv /tmp/peers && /tmp/peers/bin/pip install -r tests/benchmarks/peers.txt -e .
     /tmp/peers/bin/python tests/benchmarks/bench_kinematics.py [rounds]
@@ -6,11 +7,12 @@
 and, to see what a processor without AVX-512 makes of it, the same with the environment variable
 NPY_DISABLE_CPU_FEATURES="X86_V4 AVX512_ICL". A peer that is not installed is named and left out.
 
-Everything runs on one thread of one processor core. Ours and the peer are timed in turns. Each gets its input ready in
-the form it likes best; making the input and letting go of the result are outside the timed part.
-"Times as fast" is the median over the rounds of (peer's time / our time); "best" compares the shortest times, "again"
-takes our second call in a row, which finds its code and data still in the cache. The marks are held by the first call.
-"Compiled part" is a peer's private function below its documented call: counted too, though no user calls it.
+Everything runs on one thread of one processor core. Ours and the peer are timed in turns. Each gets
+its input ready in the form it likes best; making the input and letting go of the result are outside
+the timed part. "Times as fast" is the median over the rounds of (peer's time / our time); "best"
+compares the shortest times, "again" takes our second call in a row, which finds its code and data
+still in the cache. The marks are held by the first call. "Compiled part" is a peer's private
+function below its documented call: counted too, though no user calls it.
 """
 
 import gc
@@ -20,7 +22,8 @@ from importlib import import_module
 from importlib.metadata import version
 from time import perf_counter, process_time
 
-for _library in ("OMP", "OPENBLAS", "MKL", "RAYON"):  # before NumPy and the peers start their threads
+# before NumPy and the peers start their threads
+for _library in ("OMP", "OPENBLAS", "MKL", "RAYON"):
     os.environ[f"{_library}_NUM_THREADS"] = "1"
 
 import numpy as np  # noqa: E402
@@ -28,14 +31,37 @@ import numpy as np  # noqa: E402
 from robokin import IRB140, PUMA560, lin  # noqa: E402
 
 POSES, SAMPLES, SINGULAR = 10_000, 2_000, 1_000
-PEERS = {"py_opw_kinematics": "py-opw-kinematics", "eaik": "EAIK", "roboticstoolbox": "roboticstoolbox-python"}
-# What OPW calls the two arms (metres, radians). Its zero posture is the arm stretched upwards, all turns about +y
-# and +z: the offsets and the flipped axes lead from there to ours. `fk_case` prints how far the two flanges lie apart.
+PEERS = {
+    "py_opw_kinematics": "py-opw-kinematics",
+    "eaik": "EAIK",
+    "roboticstoolbox": "roboticstoolbox-python",
+}
+# What OPW calls the two arms (metres, radians). Its zero posture is the arm stretched upwards, all
+# turns about +y and +z: the offsets and the flipped axes lead from there to ours. `fk_case` prints
+# how far the two flanges lie apart.
 OPW = {
-    "IRB-140": {"a1": 0.070, "a2": 0.0, "b": 0.0, "c1": 0.352, "c2": 0.350, "c3": 0.380, "c4": 0.065,
-                "offsets": (0, 0, -np.pi / 2, 0, 0, 0), "flip_axes": (False, True, False, False, False, False)},
-    "PUMA 560": {"a1": 0.0, "a2": 0.0203, "b": -0.15005, "c1": 0.67183, "c2": 0.4318, "c3": 0.4318, "c4": 0.0,
-                 "offsets": (0, -np.pi / 2, np.pi / 2, 0, 0, 0), "flip_axes": (False, True, True, False, True, False)},
+    "IRB-140": {
+        "a1": 0.070,
+        "a2": 0.0,
+        "b": 0.0,
+        "c1": 0.352,
+        "c2": 0.350,
+        "c3": 0.380,
+        "c4": 0.065,
+        "offsets": (0, 0, -np.pi / 2, 0, 0, 0),
+        "flip_axes": (False, True, False, False, False, False),
+    },
+    "PUMA 560": {
+        "a1": 0.0,
+        "a2": 0.0203,
+        "b": -0.15005,
+        "c1": 0.67183,
+        "c2": 0.4318,
+        "c3": 0.4318,
+        "c4": 0.0,
+        "offsets": (0, -np.pi / 2, np.pi / 2, 0, 0, 0),
+        "flip_axes": (False, True, True, False, True, False),
+    },
 }
 
 
@@ -46,7 +72,9 @@ def main():
     cases = [ik_case(arm, here) for arm in (IRB140, PUMA560)]
     cases += [lin_case(here), *(fk_case(arm, here) for arm in (IRB140, PUMA560))]
     for case in cases:  # before the process is tied to one core, where more threads would not show
-        case["threads"] = {name: threads(call) for name, call in {"robokin": case["ours"], **case["peers"]}.items()}
+        case["threads"] = {
+            name: threads(call) for name, call in {"robokin": case["ours"], **case["peers"]}.items()
+        }
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
     for case in cases:
@@ -66,17 +94,23 @@ def installed():
 
 
 def describe_processor():
-    """Print the vector level that NumPy uses; returns 512 or 256, the width of its registers in bits."""
+    """Print the vector level that NumPy uses; returns 512 or 256, the width of its registers in
+    bits.
+    """
     found = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
     wide = any("512" in feature or feature == "X86_V4" for feature in found)
     y, x = np.random.default_rng(0).normal(size=(2, 4096))
     best = min(clock(lambda: np.arctan2(y, x)) for _ in range(200))
-    print(f"NumPy {np.__version__}, vector level {' '.join(found)} ({'AVX-512' if wide else 'no AVX-512'}); "
-          f"arctan2 {best / len(x) * 1e9:.1f} ns per element\n")
+    print(
+        f"NumPy {np.__version__}, vector level {' '.join(found)} "
+        f"({'AVX-512' if wide else 'no AVX-512'}); "
+        f"arctan2 {best / len(x) * 1e9:.1f} ns per element\n"
+    )
     return 512 if wide else 256
 
 
-# ---- the cases: what is called, and whether the answers agree --------------------------------------------------
+# ---- the cases: what is called, and whether the answers agree ------------------------------------
+
 
 def ik_case(arm, here):
     """All branches of many poses. The mark is against the fastest peer."""
@@ -86,8 +120,11 @@ def ik_case(arm, here):
     q[:, 4] = 0
     singular = arm.fk(q)
     rows, notes = arm.ik(pose), []
-    notes.append(f"robokin: {exist(rows).sum()} solutions, {exist(arm.ik(singular)).sum() / SINGULAR:.2f} per pose "
-                 "where joint 5 is 0")
+    notes.append(
+        f"robokin: {exist(rows).sum()} solutions, {exist(arm.ik(singular)).sum() / SINGULAR:.2f} "
+        f"per pose "
+        "where joint 5 is 0"
+    )
     peers = {}
     for prepare, unpack in ((opw_ik, opw_rows), (eaik_ik, eaik_rows)):
         for name, call in prepare(arm, pose, here).items():
@@ -95,10 +132,19 @@ def ik_case(arm, here):
             theirs = unpack(call())
             few = unpack(prepare(arm, singular, here)[name]())
             unknown, missed = disagreement(rows, theirs)
-            notes.append(f"{name}: {exist(theirs).sum()} solutions, {unknown} not among ours, {missed} of ours missed; "
-                         f"{exist(few).sum() / SINGULAR:.2f} per pose where joint 5 is 0")
-    return {"title": f"IK, all branches, {POSES} poses, {arm.name}", "count": POSES, "ours": lambda: arm.ik(pose),
-            "peers": peers, "notes": notes, "mark": {512: 5, 256: 2}}
+            notes.append(
+                f"{name}: {exist(theirs).sum()} solutions, {unknown} not among ours, {missed} of "
+                f"ours missed; "
+                f"{exist(few).sum() / SINGULAR:.2f} per pose where joint 5 is 0"
+            )
+    return {
+        "title": f"IK, all branches, {POSES} poses, {arm.name}",
+        "count": POSES,
+        "ours": lambda: arm.ik(pose),
+        "peers": peers,
+        "notes": notes,
+        "mark": {512: 5, 256: 2},
+    }
 
 
 def lin_case(here):
@@ -110,10 +156,18 @@ def lin_case(here):
         toolbox, SE3 = here["roboticstoolbox"], import_module("spatialmath").SE3
         first, last = SE3(start.as_matrix()), SE3(goal.as_matrix())
         peers["roboticstoolbox ctraj(s=s)"] = lambda: toolbox.ctraj(first, last, s=s)
-        away = abs(np.array(toolbox.ctraj(first, last, s=s).A) - lin(start, goal, s).as_matrix()).max()
+        away = abs(
+            np.array(toolbox.ctraj(first, last, s=s).A) - lin(start, goal, s).as_matrix()
+        ).max()
         notes.append(f"greatest difference of a matrix element: {away:.0e}")
-    return {"title": f"LIN, {SAMPLES} poses", "count": SAMPLES, "ours": lambda: lin(start, goal, s), "peers": peers,
-            "notes": notes, "mark": {512: 250, 256: 250}}
+    return {
+        "title": f"LIN, {SAMPLES} poses",
+        "count": SAMPLES,
+        "ours": lambda: lin(start, goal, s),
+        "peers": peers,
+        "notes": notes,
+        "mark": {512: 250, 256: 250},
+    }
 
 
 def fk_case(arm, here):
@@ -124,7 +178,8 @@ def fk_case(arm, here):
         robot = opw_robot(arm, here)
         peers["opw batch_forward"] = lambda: robot.batch_forward(q)
         peers["opw batch_forward, compiled part"] = lambda: robot._robot.batch_forward(q)
-    if "roboticstoolbox" in here and arm is PUMA560:  # its IRB-140 is another one, with an upper arm of 360 mm
+    # its IRB-140 is another one, with an upper arm of 360 mm
+    if "roboticstoolbox" in here and arm is PUMA560:
         robot2 = here["roboticstoolbox"].models.DH.Puma560()
         chain = robot2.ets()
         peers["roboticstoolbox ETS eval (compiled)"] = lambda: chain.eval(q)
@@ -132,14 +187,25 @@ def fk_case(arm, here):
     want, notes = arm.fk(q).as_matrix(), []
     for name, call in peers.items():
         theirs = call()
-        theirs = theirs.as_matrix() if hasattr(theirs, "as_matrix") else np.array(getattr(theirs, "A", theirs))
+        theirs = (
+            theirs.as_matrix()
+            if hasattr(theirs, "as_matrix")
+            else np.array(getattr(theirs, "A", theirs))
+        )
         away = abs(theirs.reshape(want.shape) - want).max()
         notes.append(f"{name}: greatest difference of a matrix element {away:.0e}")
-    return {"title": f"FK, {POSES} joint rows, {arm.name}", "count": POSES, "ours": lambda: arm.fk(q), "peers": peers,
-            "notes": notes, "mark": {}}
+    return {
+        "title": f"FK, {POSES} joint rows, {arm.name}",
+        "count": POSES,
+        "ours": lambda: arm.fk(q),
+        "peers": peers,
+        "notes": notes,
+        "mark": {},
+    }
 
 
-# ---- the peers' own ways -----------------------------------------------------------------------------------------
+# ---- the peers' own ways -------------------------------------------------------------------------
+
 
 def opw_robot(arm, here):
     opw = here["py_opw_kinematics"]
@@ -147,10 +213,11 @@ def opw_robot(arm, here):
 
 
 def opw_ik(arm, pose, here):
-    """`reach`, the call of this peer that gives all eight rows: by the documented way and, faster, past its wrapper.
+    """`reach`, the call of this peer that gives all eight rows: by the documented way and, faster,
+    past its wrapper.
 
-    It also rates every row inside the limits by a singular value. That is not asked for here and takes most of its
-    time: limits that no row keeps spare it that.
+    It also rates every row inside the limits by a singular value. That is not asked for here and
+    takes most of its time: limits that no row keeps spare it that.
     """
     if "py_opw_kinematics" not in here:
         return {}
@@ -159,8 +226,10 @@ def opw_ik(arm, pose, here):
     flat = np.ascontiguousarray(matrices.reshape(-1, 16))
     never = np.tile([9.0, 9.1], (6, 1))
     pairs = [tuple(pair) for pair in never]
-    return {"opw reach": lambda: robot.reach(rigid, joint_limits=never, threads=1).joints,
-            "opw reach, compiled part": lambda: robot._robot.reach(flat, pairs, None, 1)[0]}
+    return {
+        "opw reach": lambda: robot.reach(rigid, joint_limits=never, threads=1).joints,
+        "opw reach, compiled part": lambda: robot._robot.reach(flat, pairs, None, 1)[0],
+    }
 
 
 def opw_rows(result):
@@ -168,13 +237,19 @@ def opw_rows(result):
 
 
 def eaik_ik(arm, pose, here):
-    """`IK_batched` with one worker, on a list of matrices. Its model knows no turn after axis 6: the poses lose it."""
+    """`IK_batched` with one worker, on a list of matrices. Its model knows no turn after axis 6:
+    the poses lose it.
+    """
     if "eaik" not in here:
         return {}
     frames = arm.frames(np.zeros(6))
     joints = [frames[i] @ link.before for i, link in enumerate(arm.links)]
-    axes = np.array([joint.rotation @ link.axis for joint, link in zip(joints, arm.links, strict=True)])
-    points = np.array([np.zeros(3), *(joint.translation for joint in joints), frames[6].translation])
+    axes = np.array(
+        [joint.rotation @ link.axis for joint, link in zip(joints, arm.links, strict=True)]
+    )
+    points = np.array(
+        [np.zeros(3), *(joint.translation for joint in joints), frames[6].translation]
+    )
     robot = import_module("eaik.IK_HP").HPRobot(axes, np.diff(points, axis=0))
     matrices = pose.as_matrix()
     matrices[:, :3, :3] = matrices[:, :3, :3] @ frames[6].rotation.as_matrix().T
@@ -187,18 +262,21 @@ def eaik_rows(result):
     rows = np.full((len(result), max(one.num_solutions() for one in result), 6), np.nan)
     for row, one in zip(rows, result, strict=True):
         exact = one.Q[~np.asarray(one.is_LS, dtype=bool)]
-        row[:len(exact)] = exact
+        row[: len(exact)] = exact
     return rows
 
 
-# ---- agreement, time, report -------------------------------------------------------------------------------------
+# ---- agreement, time, report ---------------------------------------------------------------------
+
 
 def exist(rows):
     return ~np.isnan(rows).any(axis=-1)
 
 
 def disagreement(ours, theirs):
-    """How many of their rows are not among ours, and how many of ours not among theirs: modulo 2 pi, at 1e-6."""
+    """How many of their rows are not among ours, and how many of ours not among theirs: modulo 2
+    pi, at 1e-6.
+    """
     away = 0.0
     for i in range(6):
         difference = ours[:, :, None, i] - theirs[:, None, :, i]
@@ -214,7 +292,9 @@ def clock(call):
 
 
 def threads(call):
-    """Processor time over wall time: 1 for one thread at work, less where others hold the processor."""
+    """Processor time over wall time: 1 for one thread at work, less where others hold the
+    processor.
+    """
     call()
     cpu, wall = process_time(), perf_counter()
     for _ in range(3):
@@ -223,7 +303,9 @@ def threads(call):
 
 
 def race(ours, theirs, rounds):
-    """Seconds (rounds, 3) of our call, our call again and the peer's, in turns; fewer rounds where one takes long."""
+    """Seconds (rounds, 3) of our call, our call again and the peer's, in turns; fewer rounds where
+    one takes long.
+    """
     gc.collect()
     gc.disable()
     times = [(clock(ours), clock(ours), clock(theirs))]
@@ -242,20 +324,29 @@ def report(case, rounds, level):
         first_best, _, peer_best = times.min(axis=0) * scale
         ratio, ratio_again = np.median(times[:, 2:] / times[:, :2], axis=0)
         lowest = min(lowest, ratio)
-        print(f"  {name:36s} {peer:7.3f} us each (best {peer_best:.3f}), "
-              f"robokin {first:.3f} (best {first_best:.3f}, again {again:.3f}): "
-              f"{ratio:6.2f} times as fast (best {peer_best / first_best:.2f}, again {ratio_again:.2f}), "
-              f"{len(times)} rounds")
+        print(
+            f"  {name:36s} {peer:7.3f} us each (best {peer_best:.3f}), "
+            f"robokin {first:.3f} (best {first_best:.3f}, again {again:.3f}): "
+            f"{ratio:6.2f} times as fast (best {peer_best / first_best:.2f}, again "
+            f"{ratio_again:.2f}), "
+            f"{len(times)} rounds"
+        )
     if not case["peers"]:
         best = min(clock(case["ours"]) for _ in range(rounds))
         print(f"  no peer; robokin best {best * scale:.3f} us each")
     elif level in case["mark"]:
         mark = case["mark"][level]
-        print(f"  against the fastest peer {lowest:.2f} times, the mark is {mark}: "
-              f"{'reached' if lowest >= mark else 'NOT reached'}")
+        print(
+            f"  against the fastest peer {lowest:.2f} times, the mark is {mark}: "
+            f"{'reached' if lowest >= mark else 'NOT reached'}"
+        )
     for note in case["notes"]:
         print(f"  {note}")
-    print("  processor time / wall time: " + ", ".join(f"{name} {x:.2f}" for name, x in case["threads"].items()) + "\n")
+    print(
+        "  processor time / wall time: "
+        + ", ".join(f"{name} {x:.2f}" for name, x in case["threads"].items())
+        + "\n"
+    )
 
 
 if __name__ == "__main__":

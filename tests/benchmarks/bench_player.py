@@ -3,8 +3,9 @@
     python tests/benchmarks/bench_player.py            100 frames, slider
     python tests/benchmarks/bench_player.py --long     also 1000 frames (Matplotlib takes minutes)
 
-Scene: the chain of source 001, tasks 3 and 4 (errata S1, "chain"), arm and three panels of curves. Build time includes
-the still picture. Slider: 51 blends x 2 corners of 2001 samples; key press to paint, and 30 keys at one per 33 ms.
+Scene: the chain of source 001, tasks 3 and 4 (errata S1, "chain"), arm and three panels of curves.
+Build time includes the still picture. Slider: 51 blends x 2 corners of 2001 samples; key press to
+paint, and 30 keys at one per 33 ms.
 """
 
 import shutil
@@ -27,10 +28,18 @@ X, Y, Z = np.eye(3)
 START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 
-# The stamp after the picture that follows a key: the next frame has begun and, in a task after it, is on the screen.
+# The stamp after the picture that follows a key: the next frame has begun and, in a task after it,
+# is on the screen.
 LISTEN = """() => {
     window.pressed = []; window.painted = [];
     const range = document.querySelector('[aria-label=blend]');
@@ -38,10 +47,12 @@ LISTEN = """() => {
     range.addEventListener('input', () => {
         const key = window.key;
         requestAnimationFrame(() => { const c = new MessageChannel();
-            c.port1.onmessage = () => window.pressed.push(performance.now() - key); c.port2.postMessage(0); });
+            c.port1.onmessage = () => window.pressed.push(performance.now() - key);
+            c.port2.postMessage(0); });
     });
     const canvas = document.querySelector('.rk-curves').getContext('2d'), wipe = canvas.clearRect;
-    canvas.clearRect = function (...a) { window.painted.push(performance.now()); return wipe.apply(this, a); };
+    canvas.clearRect = function (...a) {
+        window.painted.push(performance.now()); return wipe.apply(this, a); };
     range.focus();
 }"""
 # Keys come from the page itself, at even times: the driver's own delays would count as ours.
@@ -106,24 +117,39 @@ def compare(frames):
     q = motion(0.1, t)
     player(t, q)  # fonts and imports
     (ours, our_bytes), (theirs, their_bytes) = player(t, q), jshtml(t, q)
-    print(f"{frames} frames: player {1e3 * ours:.0f} ms, {our_bytes / 1e3:.0f} kB; to_jshtml {theirs:.1f} s, "
-          f"{their_bytes / 1e6:.1f} MB; ratios {theirs / ours:.0f} and {their_bytes / our_bytes:.0f}")
+    print(
+        f"{frames} frames: player {1e3 * ours:.0f} ms, {our_bytes / 1e3:.0f} kB; to_jshtml "
+        f"{theirs:.1f} s, "
+        f"{their_bytes / 1e6:.1f} MB; ratios {theirs / ours:.0f} and {their_bytes / our_bytes:.0f}"
+    )
 
 
 def slider():
     t, fractions = np.linspace(0, 20, 2001), np.linspace(0, 0.5, 51)
     q = np.stack([motion(fractions[:, None], t, corner) for corner in ("parabola", "quintic")])
     begin = time.perf_counter()
-    made = animate(IRB140, t, q, targets=[START, VIA, GOAL], slider=("blend", fractions),
-                   switch=("corner", ["parabola (C1)", "quintic (C2)"]))
+    made = animate(
+        IRB140,
+        t,
+        q,
+        targets=[START, VIA, GOAL],
+        slider=("blend", fractions),
+        switch=("corner", ["parabola (C1)", "quintic (C2)"]),
+    )
     size = len(made.html.encode())
     seconds = time.perf_counter() - begin
-    print(f"blend slider, 51 x 2 motions of 2001 samples: built in {seconds:.2f} s, {size / 1e3:.0f} kB")
-    path = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    print(
+        f"blend slider, 51 x 2 motions of 2001 samples: built in {seconds:.2f} s, "
+        f"{size / 1e3:.0f} kB"
+    )
+    path = next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
     if path is None:
         print("no Chromium: the slider is not measured")
         return
     from playwright.sync_api import sync_playwright
+
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         made.save(Path(folder) / "player.html")
         browser = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
@@ -137,8 +163,10 @@ def slider():
         pressed = page.evaluate("pressed")
         painted = page.evaluate(KEYS)
         browser.close()
-    print(f"key press to paint: median {statistics.median(pressed):.1f} ms of {len(pressed)} "
-          f"(greatest {max(pressed):.1f}); 30 keys at one per 33 ms: {painted} pictures")
+    print(
+        f"key press to paint: median {statistics.median(pressed):.1f} ms of {len(pressed)} "
+        f"(greatest {max(pressed):.1f}); 30 keys at one per 33 ms: {painted} pictures"
+    )
 
 
 if __name__ == "__main__":

@@ -1,11 +1,13 @@
-"""How much faster the code that SymPy writes after taking out common subexpressions is than the formula as it stands.
+"""How much faster the code that SymPy writes after taking out common subexpressions is than the
+formula as it stands.
 
     python tests/benchmarks/bench_two_link.py [rounds]
 
-Both elbows of the two-link arm (lab 12), for a million targets in NumPy: "naive" evaluates the four expressions one by
-one, "generated" computes every common subexpression once. Once for the document's formula (equal links on the origin,
-the denominator of y2 put right) and once for the general solution. The two are timed in turns, on one thread; printed
-is the median of (naive / generated), after the largest difference of the results. Scalar calls are timed as well.
+Both elbows of the two-link arm (lab 12), for a million targets in NumPy: "naive" evaluates the four
+expressions one by one, "generated" computes every common subexpression once. Once for the
+document's formula (equal links on the origin, the denominator of y2 put right) and once for the
+general solution. The two are timed in turns, on one thread; printed is the median of (naive /
+generated), after the largest difference of the results. Scalar calls are timed as well.
 """
 
 import os
@@ -32,22 +34,43 @@ def main():
     offset, l1 = rows[:, 2:4] - rows[:, :2], rows[:, 4]
     length = np.linalg.norm(offset, axis=1) * 0.6  # so that equal links reach every target
     cases = {
-        "document, equal links on the origin": (document()[0], document()[2], [*offset.T, np.maximum(length, l1)]),
+        "document, equal links on the origin": (
+            document()[0],
+            document()[2],
+            [*offset.T, np.maximum(length, l1)],
+        ),
         "general solution": (*general(), list(rows.T)),
     }
-    print(f"NumPy {np.__version__}, SymPy {sp.__version__}, {TARGETS} targets, median of {rounds} rounds")
+    print(
+        f"NumPy {np.__version__}, SymPy {sp.__version__}, {TARGETS} targets, median of {rounds} "
+        f"rounds"
+    )
     for name, (symbols, expressions, columns) in cases.items():
-        naive, generated = (sp.lambdify(symbols, expressions, "numpy", cse=cse) for cse in (False, True))
-        apart = max(abs(a - b).max() for a, b in zip(naive(*columns), generated(*columns), strict=True))
+        naive, generated = (
+            sp.lambdify(symbols, expressions, "numpy", cse=cse) for cse in (False, True)
+        )
+        apart = max(
+            abs(a - b).max() for a, b in zip(naive(*columns), generated(*columns), strict=True)
+        )
         before, after = operations(expressions)
         arrays = in_turns(naive, generated, columns, rounds)
-        in_math = [each(sp.lambdify(symbols, expressions, "math", cse=cse)) for cse in (False, True)]
+        in_math = [
+            each(sp.lambdify(symbols, expressions, "math", cse=cse)) for cse in (False, True)
+        ]
         scalars = in_turns(*in_math, [np.array(columns).T[:SCALAR].tolist()], rounds)
-        print(f"{name}: {before} -> {after} operations ({before / after:.1f} times fewer), results within {apart:.1e}")
+        print(
+            f"{name}: {before} -> {after} operations ({before / after:.1f} times fewer), results "
+            f"within {apart:.1e}"
+        )
         for what, times, count in (("arrays", arrays, TARGETS), ("one by one", scalars, SCALAR)):
             ratio = statistics.median(a / b for a, b in times)
-            slow, fast = (statistics.median(column) / count * 1e9 for column in zip(*times, strict=True))
-            print(f"    {what}: naive {slow:.0f} ns, generated {fast:.0f} ns per target: {ratio:.1f} times as fast")
+            slow, fast = (
+                statistics.median(column) / count * 1e9 for column in zip(*times, strict=True)
+            )
+            print(
+                f"    {what}: naive {slow:.0f} ns, generated {fast:.0f} ns per target: "
+                f"{ratio:.1f} times as fast"
+            )
 
 
 def each(call):

@@ -1,9 +1,11 @@
-"""Every branch of every six-axis arm on a million random poses, and at and near the three singularities.
+"""Every branch of every six-axis arm on a million random poses, and at and near the three
+singularities.
 
     python tests/benchmarks/million_poses.py [poses per arm]
 
-Not part of the test suite (it takes about a minute). For each arm: no row may be wrong, none may be missing, and
-rows that do not exist are wholly NaN. Which rows exist is counted from distances alone, not from the solver.
+Not part of the test suite (it takes about a minute). For each arm: no row may be wrong, none may be
+missing, and rows that do not exist are wholly NaN. Which rows exist is counted from distances
+alone, not from the solver.
 """
 
 import sys
@@ -16,7 +18,9 @@ TURN = 2 * np.pi
 
 
 def check(arm, q, label, tolerance):
-    """Solve the poses of q (N, 6); the drawn q must be among the answers within `tolerance`, every answer right."""
+    """Solve the poses of q (N, 6); the drawn q must be among the answers within `tolerance`, every
+    answer right.
+    """
     pose = arm.fk(q)
     rows = arm.ik(pose)
     there = ~np.isnan(rows)
@@ -30,14 +34,26 @@ def check(arm, q, label, tolerance):
     away = abs((rows - q[:, None] + np.pi) % TURN - np.pi).max(-1)
     missing = (np.where(exists, away, np.inf).min(-1) > tolerance).sum()
     wanted = expected(arm, pose)
-    print(f"{arm.name:14s} {label:28s} {len(q):8d} poses, {exists.sum():8d} rows: drawn row missing {missing}, "
-          f"half rows {half}, rows other than counted {(exists != wanted).sum()}, "
-          f"worst position error {np.nanmax(position):.1e} of the reach, angle {np.nanmax(angle):.1e} rad")
-    return missing + half + (exists != wanted).sum() + (np.nanmax(position) > 1e-12) + (np.nanmax(angle) > 1e-12)
+    print(
+        f"{arm.name:14s} {label:28s} {len(q):8d} poses, {exists.sum():8d} rows: drawn row "
+        f"missing {missing}, "
+        f"half rows {half}, rows other than counted {(exists != wanted).sum()}, "
+        f"worst position error {np.nanmax(position):.1e} of the reach, angle "
+        f"{np.nanmax(angle):.1e} rad"
+    )
+    return (
+        missing
+        + half
+        + (exists != wanted).sum()
+        + (np.nanmax(position) > 1e-12)
+        + (np.nanmax(angle) > 1e-12)
+    )
 
 
 def expected(arm, pose):
-    """Which rows exist, from the distance of the wrist centre: (N, 8). A second way: lengths from `frames` at q = 0."""
+    """Which rows exist, from the distance of the wrist centre: (N, 8). A second way: lengths from
+    `frames` at q = 0.
+    """
     frames = arm.frames(np.zeros(6))
     joints = [frames[i] @ link.before for i, link in enumerate(arm.links)]
     centre = joints[4].translation
@@ -60,14 +76,20 @@ def near(arm, name, rng, count, offset):
     if name == "wrist":
         q[:, 4] = rng.choice([0, np.pi], count) + offset
     elif name == "elbow":
-        q[:, 2] = home.sign3 * (rng.choice([0, np.pi], count) + home.upper_angle - home.fore_angle) + offset
-    else:  # shoulder: joint 2 brings the wrist centre over axis 1 (as near as the lateral offset allows)
+        q[:, 2] = (
+            home.sign3 * (rng.choice([0, np.pi], count) + home.upper_angle - home.fore_angle)
+            + offset
+        )
+    # shoulder: joint 2 brings the wrist centre over axis 1 (as near as the lateral offset allows)
+    else:
         bend = home.fore_angle - home.upper_angle + home.sign3 * q[:, 2]
         x, z = home.upper + home.fore * np.cos(bend), home.fore * np.sin(bend)
         length = np.hypot(x, z)
         ok = length > abs(offset - home.shoulder_x)
         q, x, z, length = q[ok], x[ok], z[ok], length[ok]
-        lift = rng.choice([-1, 1], len(q)) * np.arccos((offset - home.shoulder_x) / length) - np.arctan2(z, x)
+        lift = rng.choice([-1, 1], len(q)) * np.arccos(
+            (offset - home.shoulder_x) / length
+        ) - np.arctan2(z, x)
         q[:, 1] = home.sign2 * (lift - home.upper_angle)
     return q
 
@@ -85,7 +107,9 @@ def main():
         for name in ("wrist", "elbow", "shoulder"):
             for offset in (0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3):
                 q = near(arm, name, rng, 10_000, offset)
-                bad += check(arm, q, f"{name} singularity + {offset:g}", 1e9 if offset < 1e-4 else 1e-3)
+                bad += check(
+                    arm, q, f"{name} singularity + {offset:g}", 1e9 if offset < 1e-4 else 1e-3
+                )
     print("all rows right, none missing" if not bad else f"{bad} faults")
     return int(bad > 0)
 
