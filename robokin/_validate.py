@@ -1,18 +1,32 @@
-"""What every public call asks of the arrays it is given."""
+"""What every public call asks of what it is given, and how it refuses.
+
+One rule. What should be numbers or words and cannot be used, whatever is wrong with it (kind, shape
+or value), is a `ValueError`. What should be an object of a class (an arm, a pose, a task) and is
+not is a `TypeError`. Both say `name: wanted ..., got ...`. What is legal and yet likely a slip
+(degrees for radians) is a warning and never refused.
+"""
+
+import reprlib
+import warnings
+from collections.abc import Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 
+from ._arrays import Floats
 
-def floats(value, name, last=None, finite=True):
+T = TypeVar("T")
+TWO_TURNS = 4 * np.pi
+
+
+def floats(value: Any, name: str, last: int | None = None, finite: bool = True) -> Floats:
     """`value` as a float array; `last` is the length that its last axis must have. ValueError
     otherwise.
 
     With `finite=False` a NaN passes (a row that does not exist) and an infinite number does not.
+    Not a copy: who keeps the array makes one.
     """
-    try:
-        array = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name}: wanted numbers, got {_short(value)}") from None
+    array = _numbers(value, name)
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     bad = ~np.isfinite(array) if finite else np.isinf(array)
@@ -22,33 +36,100 @@ def floats(value, name, last=None, finite=True):
     return array
 
 
-def length(value, name):
-    """`value` as a float, if it is one positive number (of metres); ValueError otherwise."""
+def positive(value: Any, name: str, what: str = "one positive number") -> float:
+    """`value` as a float, if it is one positive number; ValueError otherwise, which says that
+    `what` was wanted.
+    """
     array = floats(value, name)
     if array.ndim or array <= 0:
-        raise ValueError(f"{name}: wanted one positive length in metres, got {_short(value)}")
+        raise ValueError(f"{name}: wanted {what}, got {short(value)}")
     return float(array)
 
 
-def broadcast(name, *shapes):
+def length(value: Any, name: str) -> float:
+    """`value` as a float, if it is one positive number (of metres); ValueError otherwise."""
+    return positive(value, name, "one positive length in metres")
+
+
+def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
+    """`value` as an int, if it is a whole number from `low` to `high`; ValueError otherwise. True
+    is no number.
+    """
+    good = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not (good and low <= value and (high is None or value <= high)):
+        wanted = f"from {low} to {high}" if high is not None else f"of at least {low}"
+        raise ValueError(f"{name}: wanted a whole number {wanted}, got {short(value)}")
+    return int(value)
+
+
+def choice(value: Any, name: str, options: Sequence[str]) -> str:
+    """`value`, if it is one of these words; ValueError otherwise."""
+    if not (isinstance(value, str) and value in options):
+        raise ValueError(f"{name}: wanted one of {tuple(options)}, got {short(value)}")
+    return value
+
+
+def broadcast(name: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
     """The common batch shape; ValueError where the shapes do not fit."""
     if all(shape == shapes[0] for shape in shapes):
         return shapes[0]
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError:
-        raise ValueError(
-            f"{name}: batch shapes {' and '.join(map(str, shapes))} do not fit together"
-        ) from None
+        fit = f"{' and '.join(map(str, shapes))} do not fit together"
+        raise ValueError(f"{name}: batch shapes {fit}") from None
 
 
-def instance(value, kind, name, hint=""):
-    """`value`, if it is a `kind`; ValueError otherwise."""
+def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
+    """`value`, if it is a `kind`; TypeError otherwise."""
     if not isinstance(value, kind):
-        raise ValueError(f"{name}: wanted a {kind.__name__}, got {_short(value)}{hint}")
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise TypeError(f"{name}: wanted {article} {kind.__name__}, got {short(value)}{hint}")
     return value
 
 
-def _short(value):
-    text = f"array of shape {value.shape}" if isinstance(value, np.ndarray) else repr(value)
+def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3) -> None:
+    """A UserWarning where an angle is beyond two turns: radians were wanted, and these are likely
+    degrees.
+    """
+    if (abs(angles) > TWO_TURNS).any():
+        greatest = np.nanmax(abs(angles))
+        text = f"{name}: {greatest:.6g} rad is more than two turns; were degrees meant (90 * deg)?"
+        warnings.warn(text, UserWarning, stacklevel=stacklevel)
+
+
+def short(value: Any) -> str:
+    """A wrong argument in at most sixty characters, for a message."""
+    if isinstance(value, np.ndarray):
+        return f"array of shape {value.shape}"
+    try:
+        text = (
+            reprlib.repr(value) if isinstance(value, (str, list, tuple, dict, int)) else repr(value)
+        )
+    except Exception:  # a repr may fail; the message must not
+        text = f"one {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _numbers(value: Any, name: str) -> Floats:
+    """`value` as floats, if it holds real numbers and nothing else."""
+    if type(value) is np.ndarray and value.dtype == np.float64:
+        return value
+    if isinstance(value, np.ma.MaskedArray):
+        raise ValueError(f"{name}: wanted numbers, got a masked array (`filled` makes a plain one)")
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind == "O" and array.size and all(map(_is_real, array.flat)):
+            array = array.astype(float)  # whole numbers too great for NumPy, fractions
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name}: wanted numbers, got {short(value)}") from None
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name}: wanted numbers, got {short(value)}")
+    with np.errstate(over="ignore"):
+        return array.astype(float, copy=False)
+
+
+def _is_real(value: Any) -> bool:
+    from numbers import Real  # here: rarely needed, and abc costs an import
+
+    return isinstance(value, Real)
