@@ -6,7 +6,7 @@ memory. The formulas of this package are written on components; how the runs are
 here and nowhere else.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
