@@ -6,8 +6,8 @@ memory. The formulas of this package are written on components; how the runs are
 here and nowhere else.
 """
 
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,4 +42,34 @@ def stack(parts: Sequence[Floats]) -> Floats:
     out = np.empty((*np.broadcast(*parts).shape, len(parts)), order="F")
     for i, part in enumerate(parts):
         out[..., i] = part
+    return out
+
+
+def by_blocks(
+    work: Callable[..., Sequence[Any]], *columns: Floats, rest: tuple[int, ...] = ()
+) -> Floats:
+    """What `work` makes of the rows of arrays (N, k), in one new array (parts, *rest, N).
+
+    work(*blocks)  takes the components of some rows of each array, as a tuple of k arrays (rows,).
+                   It answers with a list of parts, each a number or an array that fits
+                   (*rest, rows), or a pair of such, for the two places of the last axis of `rest`.
+
+    Some thousand rows go through at a time: more would not stay in the processor's cache, and every
+    step would wait for the memory.
+    """
+    count = len(columns[0])
+    runs = [np.asfortranarray(column) for column in columns]
+    out = None
+    for start in range(0, max(count, 1), BLOCK):
+        rows = slice(start, start + BLOCK)
+        parts = work(*(components(run[rows]) for run in runs))
+        if out is None:
+            out = np.empty((len(parts), *rest, count))
+        for i, part in enumerate(parts):
+            if isinstance(part, tuple):
+                for k, each in enumerate(part):
+                    out[i, ..., k, rows] = each
+            else:
+                out[i, ..., rows] = part
+    assert out is not None
     return out

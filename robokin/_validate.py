@@ -6,6 +6,7 @@ not is a `TypeError`. Both say `name: wanted ..., got ...`. What is legal and ye
 (degrees for radians) is a warning and never refused.
 """
 
+import math
 import reprlib
 import warnings
 from collections.abc import Sequence
@@ -17,6 +18,7 @@ from ._arrays import Floats
 
 T = TypeVar("T")
 TWO_TURNS = 4 * np.pi
+GREATEST = 10**8  # values in one array: more would fill the memory of a laptop
 
 
 def floats(value: Any, name: str, last: int | None = None, finite: bool = True) -> Floats:
@@ -36,14 +38,24 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     return array
 
 
+def number(value: Any, name: str, what: str = "one number") -> float:
+    """`value` as a float, if it is one finite number; ValueError otherwise, which says that `what`
+    was wanted.
+    """
+    array = floats(value, name)
+    if array.ndim:
+        raise ValueError(f"{name}: wanted {what}, got {short(value)}")
+    return float(array)
+
+
 def positive(value: Any, name: str, what: str = "one positive number") -> float:
     """`value` as a float, if it is one positive number; ValueError otherwise, which says that
     `what` was wanted.
     """
-    array = floats(value, name)
-    if array.ndim or array <= 0:
+    one = number(value, name, what)
+    if one <= 0:
         raise ValueError(f"{name}: wanted {what}, got {short(value)}")
-    return float(array)
+    return one
 
 
 def length(value: Any, name: str) -> float:
@@ -60,6 +72,23 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
         wanted = f"from {low} to {high}" if high is not None else f"of at least {low}"
         raise ValueError(f"{name}: wanted a whole number {wanted}, got {short(value)}")
     return int(value)
+
+
+def shape_of(value: Any, name: str) -> tuple[int, ...]:
+    """`value`, if it is the shape of an array that NumPy can have; ValueError otherwise."""
+    good = isinstance(value, (tuple, list)) and len(value) < 60
+    if not (good and all(type(n) is int and n >= 0 for n in value)):
+        raise ValueError(f"{name}: wanted a tuple of whole numbers, got {short(value)}")
+    if math.prod(value) > GREATEST:
+        raise ValueError(f"{name}: wanted at most {GREATEST:g} values, got {math.prod(value):g}")
+    return tuple(value)
+
+
+def text(value: Any, name: str) -> str:
+    """`value`, if it is a string; ValueError otherwise."""
+    if not isinstance(value, str):
+        raise ValueError(f"{name}: wanted words, got {short(value)}")
+    return value
 
 
 def choice(value: Any, name: str, options: Sequence[str]) -> str:

@@ -5,11 +5,17 @@ quaternions q and -q are one rotation. Angles in radians. The leading axes of ev
 batch.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, Self, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ._validate import broadcast, floats, instance
+from ._arrays import Floats, components, sealed, stack
+from ._validate import broadcast, floats, instance, shape_of, warn_if_degrees
+
+UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
 
 
 class Batch:
@@ -19,72 +25,82 @@ class Batch:
 
     __array_ufunc__ = None  # so that `array @ value` is a TypeError and not an array of objects
 
-    def __len__(self):
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The batch shape."""
+        raise NotImplementedError
+
+    def __getitem__(self, index: Any) -> Self:
+        raise NotImplementedError
+
+    def __len__(self) -> int:
         if not self.shape:
             raise TypeError(f"one single {type(self).__name__} has no length")
         return self.shape[0]
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Self]:
         return (self[i] for i in range(len(self)))
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Quaternion(Batch):
     """A rotation of any batch shape, as a unit quaternion `wxyz` of shape (..., 4).
 
-    `a @ b` composes (first b, then a) and `a @ points` turns points of shape (..., 3). ValueError:
-    not finite, or a length that is not 1 within 1e-6.
+    `a @ b` composes (first b, then a) and `a @ points` turns points of shape (..., 3). `wxyz` is
+    read-only. ValueError: not finite, or a length that is not 1 within 1e-6.
     Source: 001, all listings (there `*`); the product is Hamilton's.
+
+    >>> half = Quaternion.from_angle_axis(np.pi, (0, 0, 1))
+    >>> (half @ (1, 2, 3)).round(3)
+    array([-1., -2.,  3.])
     """
 
-    wxyz: np.ndarray
+    wxyz: Floats
 
-    def __post_init__(self):
-        wxyz = floats(self.wxyz, "wxyz", 4)
-        length = np.linalg.norm(wxyz, axis=-1, keepdims=True)
-        if (abs(length - 1) > 1e-6).any():
-            worst = length.flat[abs(length - 1).argmax()]
-            raise ValueError(f"wxyz: wanted unit quaternions, got one of length {worst:.6g}")
-        object.__setattr__(self, "wxyz", wxyz / length)
+    def __init__(self, wxyz: ArrayLike) -> None:
+        value = floats(wxyz, "wxyz", 4)
+        object.__setattr__(self, "wxyz", sealed(unit(value, "wxyz", "unit quaternions")))
 
     @classmethod
-    def _of(cls, *wxyz):
+    def _of(cls, *wxyz: Floats) -> "Quaternion":
         """From components already known to be of unit length: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
-        object.__setattr__(self, "wxyz", wxyz[0] if len(wxyz) == 1 else stack(wxyz))
+        object.__setattr__(self, "wxyz", sealed(wxyz[0] if len(wxyz) == 1 else stack(wxyz)))
         return self
 
     @classmethod
-    def identity(cls, shape=()):
+    def identity(cls, shape: tuple[int, ...] = ()) -> "Quaternion":
         """No rotation, of the given batch shape."""
-        return cls._of(np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*shape, 4)))
+        return cls._of(np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*shape_of(shape, "shape"), 4)))
 
     @classmethod
-    def from_angle_axis(cls, angle, axis):
+    def from_angle_axis(cls, angle: ArrayLike, axis: ArrayLike) -> "Quaternion":
         """The turn by `angle` (...) in radians about the unit vector `axis` (..., 3),
         counter-clockwise seen against the axis. ValueError: an axis whose length is not 1 within
         1e-6.
         """
-        angle, axis = floats(angle, "angle"), floats(axis, "axis", 3)
-        broadcast("angle and axis", angle.shape, axis.shape[:-1])
-        length = np.linalg.norm(axis, axis=-1, keepdims=True)
-        if (abs(length - 1) > 1e-6).any():
-            worst = tuple(int(i) for i in np.argwhere(abs(length[..., 0] - 1) > 1e-6)[0])
-            raise ValueError(
-                f"axis: wanted a unit vector, got {axis[worst]} of length {length[worst][0]:.6g}"
-            )
-        return cls._turn(angle, axis / length)
+        angles, axes = floats(angle, "angle"), floats(axis, "axis", 3)
+        broadcast("angle and axis", angles.shape, axes.shape[:-1])
+        warn_if_degrees(angles, "angle")
+        return cls._turn(angles, unit(axes, "axis", "a unit vector"))
 
     @classmethod
-    def _turn(cls, angle, axis):
+    def _turn(cls, angle: Floats, axis: Floats) -> "Quaternion":
         """As `from_angle_axis`, unchecked: a NaN angle gives a NaN rotation."""
-        sine = np.sin(angle / 2)
-        return cls._of(
-            np.cos(angle / 2), sine * axis[..., 0], sine * axis[..., 1], sine * axis[..., 2]
-        )
+        return cls._of(*half_angles(angle, components(axis)))
 
     @classmethod
-    def from_matrix(cls, matrix):
+    def from_roll_pitch_yaw(cls, roll: ArrayLike, pitch: ArrayLike, yaw: ArrayLike) -> "Quaternion":
+        """Turns (...) in radians about the fixed x, then y, then z axis: Rz(yaw) Ry(pitch)
+        Rx(roll).
+        """
+        x, y, z = np.eye(3)
+        rolled = cls.from_angle_axis(roll, x)
+        pitched, yawed = cls.from_angle_axis(pitch, y), cls.from_angle_axis(yaw, z)
+        return yawed @ pitched @ rolled
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> "Quaternion":
         """From rotation matrices (..., 3, 3). ValueError: not orthogonal within 1e-6, or a
         reflection.
 
@@ -95,11 +111,11 @@ class Quaternion(Batch):
         m = floats(matrix, "matrix", 3)
         if m.ndim < 2 or m.shape[-2] != 3:
             raise ValueError(f"matrix: wanted shape (..., 3, 3), got {m.shape}")
-        error = abs(m @ m.mT - np.eye(3)).max(initial=0)
-        if error > 1e-6:
-            raise ValueError(
-                f"matrix: wanted a rotation, got one whose R R^T differs from 1 by {error:.3g}"
-            )
+        with np.errstate(over="ignore", invalid="ignore"):
+            error = abs(m @ m.mT - np.eye(3)).max(initial=0)
+        if not error <= UNIT:
+            differs = f"one whose R R^T differs from 1 by {error:.3g}"
+            raise ValueError(f"matrix: wanted a rotation, got {differs}")
         if (np.linalg.det(m) < 0).any():
             raise ValueError("matrix: wanted a rotation, got a reflection (determinant -1)")
         xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
@@ -113,8 +129,7 @@ class Quaternion(Batch):
             m[..., 0, 2] + m[..., 2, 0],
             m[..., 2, 1] + m[..., 1, 2],
         )
-        # row k is 4 * component k * quaternion
-        rows = np.stack(
+        rows = np.stack(  # row k is 4 * component k * quaternion
             [
                 stack([1 + xx + yy + zz, wx, wy, wz]),
                 stack([wx, 1 + xx - yy - zz, xy, xz]),
@@ -127,23 +142,15 @@ class Quaternion(Batch):
         row = np.take_along_axis(rows, largest[..., None, None], axis=-2)[..., 0, :]
         return cls._of(row / np.linalg.norm(row, axis=-1, keepdims=True))
 
-    def as_matrix(self):
+    def as_matrix(self) -> Floats:
         """Rotation matrices (..., 3, 3)."""
         return np.stack([stack(row) for row in self._rows()], axis=-2)
 
-    def _rows(self):
+    def _rows(self) -> tuple[tuple[Floats, ...], ...]:
         """The nine elements of the matrix, each an array of the batch shape."""
-        w, x, y, z = _components(self.wxyz)
-        x2, y2, z2 = 2 * x, 2 * y, 2 * z
-        wx, wy, wz = w * x2, w * y2, w * z2
-        xx, xy, xz, yy, yz, zz = x * x2, x * y2, x * z2, y * y2, y * z2, z * z2
-        return (
-            (1 - (yy + zz), xy - wz, xz + wy),
-            (xy + wz, 1 - (xx + zz), yz - wx),
-            (xz - wy, yz + wx, 1 - (xx + yy)),
-        )
+        return matrix_rows(components(self.wxyz))
 
-    def as_angle_axis(self):
+    def as_angle_axis(self) -> tuple[Floats, Floats]:
         """The angle in [0, pi] and the unit axis (..., 3). The axis of no rotation is z, by
         agreement.
         """
@@ -151,88 +158,158 @@ class Quaternion(Batch):
         sine = np.linalg.norm(vector, axis=-1)
         angle = 2 * np.arctan2(sine, abs(self.wxyz[..., 0]))
         some = sine[..., None] > 0
-        return angle, np.where(some, vector / np.where(some, sine[..., None], 1), [0.0, 0.0, 1.0])
+        axis = np.where(some, vector / np.where(some, sine[..., None], 1), [0.0, 0.0, 1.0])
+        return angle, axis
+
+    def as_roll_pitch_yaw(self) -> tuple[Floats, Floats, Floats]:
+        """The turns (...) in radians about the fixed x, then y, then z axis that make this rotation
+        (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
+
+        At a pitch of +-90 degrees roll and yaw turn about the same line; roll is then zero.
+        """
+        (xx, xy, _), (yx, yy, _), (zx, zy, zz) = self._rows()
+        level = np.hypot(xx, yx)
+        upright = level < 1e-9
+        roll = np.where(upright, 0.0, np.arctan2(zy, zz))
+        yaw = np.where(upright, np.arctan2(-xy, yy), np.arctan2(yx, xx))
+        return roll, np.arctan2(-zx, level), yaw
+
+    def angle_to(self, other: "Quaternion") -> Floats:
+        """The angle in [0, pi] of the turn from these rotations to `other`: (...) in radians.
+
+        The shape is that of both batches together. Right to the last digits for small angles, where
+        an arccos of the product's scalar part is not. Source: 001, listing 6.
+        """
+        instance(other, Quaternion, "other")
+        broadcast("the two rotations", self.shape, other.shape)
+        return _angle_between(*_same_sign(self.wxyz, other.wxyz))
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """The batch shape."""
         return self.wxyz.shape[:-1]
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> "Quaternion":
         index = index if isinstance(index, tuple) else (index,)
         return Quaternion._of(self.wxyz[(*index, slice(None))])
 
-    def __matmul__(self, other):
+    @overload
+    def __matmul__(self, other: "Quaternion") -> "Quaternion": ...
+    @overload
+    def __matmul__(self, other: ArrayLike) -> Floats: ...
+    def __matmul__(self, other: Any) -> Any:
         if isinstance(other, Quaternion):
-            aw, ax, ay, az = _components(self.wxyz)
-            bw, bx, by, bz = _components(other.wxyz)
             broadcast("the two rotations", self.shape, other.shape)
-            return Quaternion._of(
-                aw * bw - ax * bx - ay * by - az * bz,
-                aw * bx + ax * bw + ay * bz - az * by,
-                aw * by - ax * bz + ay * bw + az * bx,
-                aw * bz + ax * by - ay * bx + az * bw,
-            )
+            return Quaternion._of(*hamilton(components(self.wxyz), components(other.wxyz)))
         if isinstance(other, Batch):
             return NotImplemented
         points = floats(other, "points", 3, finite=False)
         broadcast("rotation and points", self.shape, points.shape[:-1])
-        w, *u = _components(self.wxyz)
-        v = _components(points)
-        t = [2 * c for c in _cross(u, v)]  # v + w t + u x t, which is q v q* written out
-        return stack([v_ + w * t_ + c for v_, t_, c in zip(v, t, _cross(u, t), strict=True)])
+        return stack(turned(components(self.wxyz), components(points)))
 
-    def inverse(self):
+    def inverse(self) -> "Quaternion":
         """The rotation back."""
         return Quaternion._of(self.wxyz * [1.0, -1.0, -1.0, -1.0])
 
-    def slerp(self, goal, s):
+    def slerp(self, goal: "Quaternion", s: ArrayLike) -> "Quaternion":
         """Along the shorter arc from here (s = 0) to `goal` (s = 1), at constant angular velocity.
 
         `s` (...) is broadcast against both; beyond [0, 1] the turn goes on. For a relative turn of
         exactly pi both arcs are equally long: there the signs of the two quaternions decide (they
-        are used as they are).
-        Source: Shoemake 1985, SIGGRAPH; 001, listing 7.
+        are used as they are). Source: Shoemake 1985, SIGGRAPH; 001, listing 7.
         """
         instance(goal, Quaternion, "goal")
-        s = floats(s, "s")
-        broadcast("start, goal and s", self.shape, goal.shape, s.shape)
-        a, b = self.wxyz, goal.wxyz
-        # The margin keeps rounding noise from choosing the direction of a half turn.
-        b = np.where(((a * b).sum(-1) < -1e-14)[..., None], -b, b)
-        angle = 2 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
+        share = floats(s, "s")
+        broadcast("start, goal and s", self.shape, goal.shape, share.shape)
+        a, b = _same_sign(self.wxyz, goal.wxyz)
+        angle = _angle_between(a, b) / 2  # of the arc on the sphere of quaternions
         none = angle == 0
         whole = np.where(none, 1.0, np.sin(angle))
-        of_a = np.where(none, 1 - s, np.sin((1 - s) * angle) / whole)
-        of_b = np.where(none, s, np.sin(s * angle) / whole)
-        return Quaternion._of(
-            *(of_a * a_ + of_b * b_ for a_, b_ in zip(_components(a), _components(b), strict=True))
-        )
+        of_a = np.where(none, 1 - share, np.sin((1 - share) * angle) / whole)
+        of_b = np.where(none, share, np.sin(share * angle) / whole)
+        ends = zip(components(a), components(b), strict=True)
+        return Quaternion._of(*(of_a * a_ + of_b * b_ for a_, b_ in ends))
 
-    def __repr__(self):
-        return (
-            f"Quaternion(wxyz={rounded(self.wxyz)})"
-            if not self.shape
-            else f"Quaternion(shape={self.shape})"
-        )
+    def __repr__(self) -> str:
+        if self.shape:
+            return f"Quaternion(shape={self.shape})"
+        return f"Quaternion(wxyz={rounded(self.wxyz)})"
 
 
-def rounded(array):
+# --- The formulas on components, for single numbers and for arrays alike --------------------------
+
+
+def hamilton(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
+    """Hamilton's product of two quaternions (w, x, y, z)."""
+    aw, ax, ay, az = a
+    bw, bx, by, bz = b
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    )
+
+
+def turned(q: Sequence[Any], v: Sequence[Any]) -> tuple[Any, ...]:
+    """The vector v (x, y, z) turned by the quaternion q: q v q* written out, v + w t + u x t."""
+    w, *u = q
+    t = [2 * c for c in cross(u, v)]
+    return tuple(v_ + w * t_ + c for v_, t_, c in zip(v, t, cross(u, t), strict=True))
+
+
+def half_angles(angle: Floats, axis: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
+    """The quaternion of a turn by `angle` about the unit vector `axis` (x, y, z)."""
+    sine = np.sin(angle / 2)
+    return np.cos(angle / 2), sine * axis[0], sine * axis[1], sine * axis[2]
+
+
+def matrix_rows(q: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
+    """The rotation matrix of the quaternion q, row by row."""
+    w, x, y, z = q
+    x2, y2, z2 = 2 * x, 2 * y, 2 * z
+    wx, wy, wz = w * x2, w * y2, w * z2
+    xx, xy, xz, yy, yz, zz = x * x2, x * y2, x * z2, y * y2, y * z2, z * z2
+    return (
+        (1 - (yy + zz), xy - wz, xz + wy),
+        (xy + wz, 1 - (xx + zz), yz - wx),
+        (xz - wy, yz + wx, 1 - (xx + yy)),
+    )
+
+
+def unit(vectors: Floats, name: str, what: str) -> Floats:
+    """Vectors (..., k) at length 1. ValueError: a length that is not 1 within 1e-6, which says that
+    `what` was wanted.
+    """
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+        off = abs(length - 1)
+    if (off > UNIT).any():
+        worst = np.unravel_index(off[..., 0].argmax(), off.shape[:-1])
+        got = f"{vectors[worst]} of length {length[worst][0]:.6g}"
+        raise ValueError(f"{name}: wanted {what}, got {got}")
+    scaled: Floats = vectors / length
+    return scaled
+
+
+def rounded(array: Floats) -> str:
     """For a repr: four decimals, no minus zero."""
     return np.array2string(np.round(array, 4) + 0.0, separator=", ")
 
 
-def _components(array):
-    return tuple(array[..., i] for i in range(array.shape[-1]))
+def _same_sign(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Two rotations, the second as the one of b and -b that is nearer to the first."""
+    # The margin keeps rounding noise from choosing the direction of a half turn.
+    return a, np.where(((a * b).sum(-1) < -1e-14)[..., None], -b, b)
 
 
-def stack(components):
-    # components in one long run each
-    out = np.empty((*np.broadcast(*components).shape, len(components)), order="F")
-    for i, component in enumerate(components):
-        out[..., i] = component
-    return out
+def _angle_between(a: Floats, b: Floats) -> Floats:
+    """The angle of the turn between quaternions of the same sign: twice that of their arc."""
+    apart, beside = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
+    angle: Floats = 4 * np.arctan2(apart, beside)
+    return angle
 
 
-def _cross(a, b):
+def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, Any, Any]:
+    """The cross product of two vectors (x, y, z)."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

@@ -6,48 +6,62 @@ radians.
 """
 
 from dataclasses import dataclass
+from typing import Any, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ._validate import broadcast, floats, instance
-from .quaternion import Batch, Quaternion, rounded, stack
+from ._arrays import Floats, components, sealed, stack
+from ._validate import broadcast, floats, instance, shape_of
+from .quaternion import Batch, Quaternion, rounded
+
+HERE = Quaternion.identity()
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Transform(Batch):
     """A pose or a change of frame: first `rotation`, then `translation` (..., 3) in metres.
 
     Either part may be left out. A batch of poses acts on a batch of points by broadcasting:
-    `T[:, None] @ points`. ValueError: wrong shape, not finite.
+    `T[:, None] @ points`. The arrays are read-only copies. ValueError: wrong shape, not finite.
     Source: 001, all listings (there `+`); 000, the homogeneous matrices.
+
+    >>> ahead = Transform(translation=(1, 0, 0))
+    >>> left = Transform(Quaternion.from_angle_axis(np.pi / 2, (0, 0, 1)))
+    >>> (left @ ahead).translation.round(3)
+    array([0., 1., 0.])
     """
 
-    rotation: Quaternion = Quaternion.identity()
-    translation: np.ndarray = (0.0, 0.0, 0.0)
+    rotation: Quaternion
+    translation: Floats
 
-    def __post_init__(self):
-        instance(self.rotation, Quaternion, "rotation")
-        translation = floats(self.translation, "translation", 3)
-        shape = broadcast("rotation and translation", self.rotation.shape, translation.shape[:-1])
-        whole = Quaternion._of(np.broadcast_to(self.rotation.wxyz, (*shape, 4)))
+    def __init__(
+        self, rotation: Quaternion = HERE, translation: ArrayLike = (0.0, 0.0, 0.0)
+    ) -> None:
+        instance(rotation, Quaternion, "rotation")
+        place = floats(translation, "translation", 3)
+        shape = broadcast("rotation and translation", rotation.shape, place.shape[:-1])
+        whole = Quaternion._of(np.broadcast_to(rotation.wxyz, (*shape, 4)))
         object.__setattr__(self, "rotation", whole)
-        object.__setattr__(self, "translation", np.broadcast_to(translation, (*shape, 3)).copy())
+        copy = np.broadcast_to(place, (*shape, 3)).copy()
+        object.__setattr__(self, "translation", sealed(copy))
 
     @classmethod
-    def _of(cls, rotation, translation):
+    def _of(cls, rotation: Quaternion, translation: Floats) -> "Transform":
         """From parts of one batch shape: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
         object.__setattr__(self, "rotation", rotation)
-        object.__setattr__(self, "translation", translation)
+        object.__setattr__(self, "translation", sealed(translation))
         return self
 
     @classmethod
-    def identity(cls, shape=()):
+    def identity(cls, shape: tuple[int, ...] = ()) -> "Transform":
         """The frame itself, of the given batch shape."""
-        return cls._of(Quaternion.identity(shape), np.zeros((*shape, 3)))
+        place = np.broadcast_to(np.zeros(3), (*shape_of(shape, "shape"), 3))
+        return cls._of(Quaternion.identity(shape), place)
 
     @classmethod
-    def from_matrix(cls, matrix):
+    def from_matrix(cls, matrix: ArrayLike) -> "Transform":
         """From homogeneous matrices (..., 4, 4). ValueError: the upper left part is no rotation
         within 1e-6, or the last row is not 0 0 0 1.
         """
@@ -55,12 +69,11 @@ class Transform(Batch):
         if m.ndim < 2 or m.shape[-2] != 4:
             raise ValueError(f"matrix: wanted shape (..., 4, 4), got {m.shape}")
         if (abs(m[..., 3, :] - [0, 0, 0, 1]) > 1e-9).any():
-            raise ValueError(
-                f"matrix: wanted 0 0 0 1 as the last row, got {m[..., 3, :].reshape(-1, 4)[0]}"
-            )
+            last = m[..., 3, :].reshape(-1, 4)[0]
+            raise ValueError(f"matrix: wanted 0 0 0 1 as the last row, got {last}")
         return cls._of(Quaternion.from_matrix(m[..., :3, :3]), m[..., :3, 3].copy())
 
-    def as_matrix(self):
+    def as_matrix(self) -> Floats:
         """Homogeneous matrices (..., 4, 4)."""
         m = np.zeros((*self.shape, 4, 4))
         m[..., :3, :3] = self.rotation.as_matrix()
@@ -69,15 +82,19 @@ class Transform(Batch):
         return m
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """The batch shape."""
         return self.translation.shape[:-1]
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> "Transform":
         index = index if isinstance(index, tuple) else (index,)
         return Transform._of(self.rotation[index], self.translation[(*index, slice(None))])
 
-    def __matmul__(self, other):
+    @overload
+    def __matmul__(self, other: "Transform") -> "Transform": ...
+    @overload
+    def __matmul__(self, other: ArrayLike) -> Floats: ...
+    def __matmul__(self, other: Any) -> Any:
         if isinstance(other, Transform):
             rotation = self.rotation @ other.rotation
             return Transform._of(rotation, self.rotation @ other.translation + self.translation)
@@ -85,29 +102,24 @@ class Transform(Batch):
             return NotImplemented
         return self.rotation @ other + self.translation
 
-    def inverse(self):
+    def inverse(self) -> "Transform":
         """The change of frame back: [R^T, -R^T p]. Source: 000, "Обратная задача"."""
         back = self.rotation.inverse()
         return Transform._of(back, -(back @ self.translation))
 
-    def lerp(self, goal, s):
+    def lerp(self, goal: "Transform", s: ArrayLike) -> "Transform":
         """On the way from here (s = 0) to `goal` (s = 1): the origin on a straight line, the
         rotation by `Quaternion.slerp`. `s` (...) is broadcast against both; beyond [0, 1] the
-        motion goes on.
-        Source: 001, listing 7 (`Transform.lerp`).
+        motion goes on. Source: 001, listing 7 (`Transform.lerp`).
         """
         instance(goal, Transform, "goal")
-        s = floats(s, "s")
-        rotation = self.rotation.slerp(goal.rotation, s)
-        here, there = np.moveaxis(self.translation, -1, 0), np.moveaxis(goal.translation, -1, 0)
-        return Transform._of(
-            rotation, stack([a + (b - a) * s for a, b in zip(here, there, strict=True)])
-        )
+        share = floats(s, "s")
+        rotation = self.rotation.slerp(goal.rotation, share)
+        ends = zip(components(self.translation), components(goal.translation), strict=True)
+        return Transform._of(rotation, stack([a + (b - a) * share for a, b in ends]))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if self.shape:
             return f"Transform(shape={self.shape})"
-        return (
-            f"Transform(rotation={rounded(self.rotation.wxyz)}, "
-            f"translation={rounded(self.translation)})"
-        )
+        place = rounded(self.translation)
+        return f"Transform(rotation={rounded(self.rotation.wxyz)}, translation={place})"

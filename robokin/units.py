@@ -1,10 +1,31 @@
 """Units: multiply by one to come in, divide by it to go out.
 
-Inside robokin a length is in metres and an angle in radians. A lesson writes ``352 * mm`` and ``90
-* deg``.
+Inside robokin a length is in metres and an angle in radians. A lesson writes ``352 * mm`` and
+``90 * deg``.
 """
 
 from math import pi
 
+import numpy as np
+
+from ._arrays import Floats
+
 mm = 1e-3
 deg = pi / 180
+
+
+def wrapped(angle: Floats, near: Floats | float = 0.0) -> Floats:
+    """The angles nearest to `near` (within half a turn) that differ from these by whole turns."""
+    return angle - 2 * pi * np.round((angle - near) / (2 * pi))
+
+
+def length_unit(size: float) -> tuple[str, float]:
+    """The unit in which people read lengths of something of this size in metres: its name, and its
+    length in metres. Millimetres up to 2 m, then metres.
+    """
+    return ("mm", mm) if size <= 2 else ("m", 1.0)
+
+
+def in_words(length: float) -> str:
+    """A length in metres, for a sentence: millimetres below 10 m, then metres."""
+    return f"{length / mm:.1f} mm" if length < 10 else f"{length:.1f} m"

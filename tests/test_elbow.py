@@ -233,8 +233,8 @@ def test_wrong_arms_and_points_are_refused():
         (lambda: workspace(5, 4, (1, 1)), r"points: wanted shape \(\.\.\., 3\), got \(2,\)"),
         (lambda: refusal(5, 4, [(1, 1, 1)] * 2), r"one single point \(3,\), got \(2, 3\)"),
         (lambda: spbu_arm(5, 4).ik((1, np.inf, 1)), "inf"),
-        (lambda: spbu_arm(0, 4), "upper arm"),
-        (lambda: spbu_arm(5, 0), "forearm"),
+        (lambda: spbu_arm(0, 4), "l1: wanted one positive length"),
+        (lambda: spbu_arm(5, 0), "l2: wanted one positive length"),
     ):
         with pytest.raises(ValueError, match=evidence):
             call()

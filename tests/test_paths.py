@@ -9,7 +9,7 @@ from machines import SHAPES
 from robokin import (
     IRB140,
     Quaternion,
-    Target,
+    ScaraPose,
     Transform,
     blend,
     deg,
@@ -239,7 +239,11 @@ def test_poses_may_be_batches(corner):
 @corners
 def test_anything_with_lerp_can_be_blended(corner):
     """A SCARA's target keeps its angle unwrapped: half a turn has a direction (errata S1-t)."""
-    a, b, c = Target((0.1, 0, 0), 0.0), Target((0.2, 0, 0), np.pi), Target((0.2, 0.1, 0), 3 * np.pi)
+    a, b, c = (
+        ScaraPose((0.1, 0, 0), 0.0),
+        ScaraPose((0.2, 0, 0), np.pi),
+        ScaraPose((0.2, 0.1, 0), 3 * np.pi),
+    )
     s = np.linspace(0, 1, 101)
     T = blend(a, b, c, 0.2, s, corner)
     assert (np.diff(T.angle) > 0).all() and abs(T.angle[-1] - 3 * np.pi) < 1e-14

@@ -1,5 +1,5 @@
-"""The SCARA arm and its Target against the reference cases of the documents' own motions (oracle,
-errata S1).
+"""The SCARA arm and its ScaraPose against the reference cases of the documents' own motions
+(oracle, errata S1).
 """
 
 import json
@@ -11,7 +11,7 @@ import pytest
 from robokin import (
     SCARA,
     Quaternion,
-    Target,
+    ScaraPose,
     Transform,
     blend,
     deg,
@@ -28,7 +28,7 @@ CASES = json.loads((DATA / "scara.json").read_text())["cases"]
 MOTIONS = json.loads((DATA / "trajectories_scara.json").read_text())["cases"]
 UNITS = np.array([1, 1, 1, mm])
 START, VIA, GOAL = (
-    Target(np.array(p) * mm, a)
+    ScaraPose(np.array(p) * mm, a)
     for p, a in (((200, 300, 120), 0.0), ((400, 100, 0), np.pi), ((200, -200, 200), np.pi / 2))
 )
 
@@ -43,7 +43,7 @@ def turned(a, b):
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["kind"])
 def test_every_reference_case_has_its_rows_in_their_places(case):
     *position, angle = case["target"]
-    target = Target(np.array(position) * mm, angle)
+    target = ScaraPose(np.array(position) * mm, angle)
     rows = SCARA.ik(target)
     matrix = np.array(case["T"])
     matrix[:3, 3] *= mm
@@ -80,10 +80,10 @@ def law(name, total, t):
     omega = 2 * np.pi * t / total
     if name == "listing4 target":
         circle = np.stack([np.cos(omega), np.sin(omega), 0 * t], axis=-1)
-        return Target((np.array([200, 0, 100]) + 100 * circle) * mm, 4 * omega)
+        return ScaraPose((np.array([200, 0, 100]) + 100 * circle) * mm, 4 * omega)
     if name == "listing6 target":
         x, y, z = 200 + 50 * np.cos(omega), 30 + 200 * np.sin(omega), 100 + 50 * np.sin(omega)
-        return Target(np.stack([x, y, z], axis=-1) * mm, np.pi)
+        return ScaraPose(np.stack([x, y, z], axis=-1) * mm, np.pi)
     if name == "LIN":
         return lin(START, GOAL, t / total)
     if name == "LIN-LIN":
@@ -118,7 +118,7 @@ def test_the_documents_motions(case):
 
 
 def test_the_angle_of_a_target_is_not_wrapped():
-    half, more = lin(START, Target(VIA.position, 3 * np.pi), np.array([0.5, 1.0])).angle
+    half, more = lin(START, ScaraPose(VIA.position, 3 * np.pi), np.array([0.5, 1.0])).angle
     assert half == pytest.approx(1.5 * np.pi) and more == pytest.approx(3 * np.pi)
     assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
 
@@ -129,7 +129,7 @@ def test_half_a_turn_has_a_direction_as_a_target_only():
     """
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
-        near = Target(START.position, off)
+        near = ScaraPose(START.position, off)
         assert near.lerp(VIA, 0.5).angle == pytest.approx(np.pi / 2, abs=1e-3)
         middles.append(near.as_transform().lerp(VIA.as_transform(), 0.5).rotation.as_matrix()[1, 0])
     assert middles == pytest.approx([-1, 1], abs=1e-6)
@@ -139,7 +139,7 @@ def test_the_zone_inside_the_limits_has_the_area_of_the_errata():
     step = 4.0  # mm
     x, y = np.meshgrid(*[np.arange(-460 + step / 2, 460, step)] * 2)
     ways = within(
-        SCARA, SCARA.ik(Target(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm))
+        SCARA, SCARA.ik(ScaraPose(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm))
     ).all(-1)
     r = np.hypot(x, y)[ways.any(-1)]
     assert 126.085128473 <= r.min() < 129 and 447 < r.max() <= 450
@@ -165,21 +165,21 @@ def test_at_full_reach_both_rows_exist_and_are_one():
         SCARA.fk(q).translation[:, None] + np.zeros((1, 2, 1)),
         atol=1e-13,
     )
-    assert "elbow singularity" in explain(SCARA, Target((0.45, 0, 0.1)), 0)
+    assert "elbow singularity" in explain(SCARA, ScaraPose((0.45, 0, 0.1)), 0)
 
 
 def test_wrong_targets_are_refused():
     with pytest.raises(ValueError, match=r"\(\.\.\., 3\)"):
-        Target((1.0, 2.0), 0.0)
+        ScaraPose((1.0, 2.0), 0.0)
     with pytest.raises(ValueError, match="nan"):
-        Target((0.1, 0.2, np.nan), 0.0)
-    with pytest.raises(ValueError, match="Target or a Transform"):
+        ScaraPose((0.1, 0.2, np.nan), 0.0)
+    with pytest.raises(TypeError, match="ScaraPose or a Transform"):
         SCARA.ik(np.eye(4))
-    with pytest.raises(ValueError, match="wanted a Target"):
+    with pytest.raises(TypeError, match="wanted a ScaraPose"):
         START.lerp(Transform(), 0.5)
 
 
 def test_explain_names_the_stroke_in_millimetres():
     assert "joint 4 stands at 220.2 mm, 40.2 mm past its limit of 180 mm" in explain(SCARA, VIA, 0)
-    assert "100.0 mm beyond the stretched arm" in explain(SCARA, Target((0.55, 0, 0.1), 0.0), 0)
-    assert "40.0 mm too near to axis 1" in explain(SCARA, Target((0.01, 0, 0.1), 0.0), 1)
+    assert "100.0 mm beyond the stretched arm" in explain(SCARA, ScaraPose((0.55, 0, 0.1), 0.0), 0)
+    assert "40.0 mm too near to axis 1" in explain(SCARA, ScaraPose((0.01, 0, 0.1), 0.0), 1)

@@ -102,7 +102,7 @@ def test_stretched_folded_and_out_of_reach(l1, l2):
                 assert (
                     turns(rows[:, 0], angle if q2 == 0 or l1 > l2 else angle + np.pi).max() < 1e-7
                 )
-            assert arm.geometry.singular(rows)["elbow"].all()
+            assert arm.geometry.singularities(rows)["elbow"].all()
         assert np.isnan(arm.ik((0.4, -0.2) + (l1 + l2) * (1 + 1e-9) * way)).all()
         if l1 != l2:
             assert np.isnan(arm.ik((0.4, -0.2) + abs(l1 - l2) * (1 - 1e-9) * way)).all()

@@ -1,6 +1,8 @@
-"""Wrong input: a ValueError whose message holds the evidence, or the right answer. A table, one
-line per call.
+"""Wrong input: the exception of the one rule, whose message holds the evidence, or the right answer.
+evidence, or the right answer. A table, one line per call.
 """
+
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,19 +13,26 @@ from robokin import (
     Arm,
     Link,
     Quaternion,
-    Target,
+    ScaraPose,
     TimeLaw,
     Transform,
     blend,
     dh_links,
     differentiate,
+    elbow_arm,
+    explain,
+    follow,
     itmo_arm,
     lin,
     lin_lin,
     linear,
+    nearest,
     ptp,
     quintic,
+    scara_arm,
+    spbu_arm,
     spherical_wrist,
+    three_lever,
     trapezoidal,
 )
 
@@ -34,6 +43,7 @@ Z = (0, 0, 1)
 S = np.linspace(0, 1, 5)
 MIRROR = np.diag([1.0, 1, -1])
 LIMITS = [(-1, 1)] * 6
+ONE = SimpleNamespace(links=(Link(),), target=Transform)
 
 WRONG = {
     # quaternions
@@ -114,26 +124,57 @@ WRONG = {
         r"wanted a Transform, got \(0.4, 0, 0.5\)",
     ),
     "target to ik": (
-        lambda: IRB140.ik(Target((0.4, 0, 0.5), 0.1)),
-        "wanted a Transform, got Target",
+        lambda: IRB140.ik(ScaraPose((0.4, 0, 0.5), 0.1)),
+        "wanted a Transform, got ScaraPose",
     ),
     "position to SCARA": (lambda: SCARA.ik((0.4, 0, 0.1)), r"\(0.4, 0, 0.1\)"),
     "no such branch": (lambda: IRB140.branch(1, 1), r"3 flags.*\(1, 1\)"),
     "flag 0": (lambda: IRB140.branch(1, 0, 1), r"\(1, 0, 1\)"),
-    "limits turned round": (lambda: Arm("x", (Link(),), None, [(1, -1)]), r"\[\[1.0, -1.0\]\]"),
-    "limits of another arm": (lambda: Arm("x", (Link(),), None, LIMITS), "wanted 1 pairs"),
-    "NaN limits": (lambda: Arm("x", (Link(),), None, [(NAN, 1)]), "nan"),
-    "no speed": (lambda: Arm("x", (Link(),), None, [(0, 1)], [0.0]), r"\[0.0\]"),
-    "speeds of another arm": (lambda: Arm("x", (Link(),), None, [(0, 1)], [1, 2]), r"\(2,\)"),
+    "limits turned round": (lambda: Arm("x", ONE, [(1, -1)]), r"\[\[1.0, -1.0\]\]"),
+    "limits of another arm": (lambda: Arm("x", ONE, LIMITS), "wanted 1 pairs"),
+    "NaN limits": (lambda: Arm("x", ONE, [(NAN, 1)]), "nan"),
+    "no speed": (lambda: Arm("x", ONE, [(0, 1)], [0.0]), r"\[0.0\]"),
+    "speeds of another arm": (lambda: Arm("x", ONE, [(0, 1)], [1, 2]), r"\(2,\)"),
     "link without axis": (lambda: Link(axis=(0, 0, 0)), "axis.*length 0"),
     "link about a long axis": (lambda: Link(axis=(0, 0, 2)), "axis.*length 2"),
+    "no geometry": (lambda: Arm("x", None, LIMITS), "geometry with links, target, got None"),
+    "links of another kind": (
+        lambda: elbow_arm("x", 3, LIMITS[:3]),
+        "links: wanted a tuple, got 3",
+    ),
+    "one of the links": (lambda: elbow_arm("x", [Link(), 1], LIMITS), r"links\[1\]: wanted a Link"),
+    "link that slides in words": (lambda: Link(prismatic="yes"), "prismatic: wanted a bool"),
+    "three levers explained": (lambda: explain(three_lever(1), (1, 1), 0), "ClosedFormArm"),
     "link about a plane's axis": (lambda: Link(axis=(0, 1)), r"axis.*\(2,\)"),
     "link from a matrix": (lambda: Link(np.eye(4)), r"before.*\(4, 4\)"),
     "link after a matrix": (lambda: Link(after=np.eye(4)), r"after.*\(4, 4\)"),
     "five links": (lambda: spherical_wrist("x", IRB140.links[:5], LIMITS), "six revolute links"),
     "limits of five": (lambda: spherical_wrist("x", IRB140.links, LIMITS[:5]), "wanted 6 pairs"),
     "DH columns": (lambda: dh_links([0, 1], [0, 1, 2], 0), r"\(2,\).*\(3,\)"),
-    "DH without upper arm": (lambda: itmo_arm(0.1, 0.0, 0.2, 0.2), "upper arm"),
+    "DH without upper arm": (lambda: itmo_arm(0.1, 0.0, 0.2, 0.2), "a2: wanted one positive"),
+    "DH below the floor": (lambda: itmo_arm(-0.1, 0.1, 0.2, 0.2), "d1 and d6.*-0.1"),
+    "links of no link": (lambda: elbow_arm("x", [], LIMITS[:3]), "at least one Link"),
+    "no lever": (lambda: scara_arm("x", 0.2, 0, 0.1, LIMITS[:4]), "upper: .*got 0"),
+    "height in words": (lambda: scara_arm("x", "1", 0.2, 0.1, LIMITS[:4]), "height: .*'1'"),
+    "link before 0": (lambda: spbu_arm(-5, 4), "l1: .*-5"),
+    "arm named 3": (lambda: spherical_wrist(3, IRB140.links, LIMITS), "name: wanted words, got 3"),
+    "no rows": (lambda: nearest(IRB140, np.zeros((0, 6)), np.zeros(6)), r"with rows.*\(0, 6\)"),
+    "True as a row": (lambda: explain(IRB140, A, True), "True"),
+    "True as a row to follow": (lambda: follow(IRB140, np.zeros((3, 8, 6)), True), "True"),
+    "lerp of unfit places": (
+        lambda: ScaraPose(np.zeros((2, 3))).lerp(ScaraPose(np.zeros((3, 3))), 0.5),
+        r"\(2,\).*\(3,\)",
+    ),
+    "batch of links": (lambda: Link(Transform.identity((2,))), r"before: .*shape=\(2,\)"),
+    # kinds of numbers
+    "numbers as words": (lambda: IRB140.fk(["0"] * 6), "wanted numbers"),
+    "complex numbers": (lambda: Transform(translation=(1j, 0, 0)), "translation: wanted numbers"),
+    "masked numbers": (lambda: IRB140.fk(np.ma.zeros(6)), "masked"),
+    "dates": (lambda: IRB140.fk(np.zeros(6, "datetime64[s]")), "wanted numbers"),
+    "a number beyond floats": (lambda: IRB140.fk([10**400] * 6), "wanted numbers"),
+    "None among numbers": (lambda: IRB140.fk([0, 0, None, 0, 0, 0]), "wanted numbers"),
+    "shape 3": (lambda: Quaternion.identity(3), "tuple of whole numbers, got 3"),
+    "endless shape": (lambda: Transform.identity((10**6, 10**6)), "at most 1e.08"),
     "NaN length": (lambda: itmo_arm(0.1, NAN, 0.2, 0.2), "nan"),
     # laws
     "no times": (lambda: linear(1.0)([]), "empty"),
@@ -198,10 +239,38 @@ WRONG = {
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_input_is_named(name):
     call, evidence = WRONG[name]
-    with pytest.raises(ValueError, match=evidence) as caught:
+    with pytest.raises(
+        TypeError if name in OF_ANOTHER_KIND else ValueError, match=evidence
+    ) as caught:
         call()
     text = str(caught.value)
     assert len(text) < 200 and "\n" not in text
+
+
+# What should be an object of a class and is not.
+OF_ANOTHER_KIND = {
+    "slerp to an array",
+    "matrix as rotation",
+    "lerp to an array",
+    "lerp to a rotation",
+    "matrix to ik",
+    "list to ik",
+    "position to ik",
+    "target to ik",
+    "position to SCARA",
+    "no geometry",
+    "links of another kind",
+    "one of the links",
+    "link from a matrix",
+    "link after a matrix",
+    "link that slides in words",
+    "three levers explained",
+    "blend of arrays",
+    "blend via an array",
+    "blend to a list",
+    "lin of joints",
+    "lin to joints",
+}
 
 
 def same(a, b):

@@ -1,11 +1,13 @@
 """Robot arms: chains of links, their closed-form inverses, and the machines of the lessons."""
 
-from .arm import Arm, Link, dh_links
-from .branches import explain, follow, nearest, within
+from .arm import Arm, ClosedFormArm
+from .branches import explain, follow, nearest, representative, unwrapped, within
 from .catalogue import IRB140, ITMO6R, PUMA560, SCARA, itmo_arm, loader_arm, spbu_arm
+from .dexterity import distance_from_singularity, reach, singular_values
 from .elbow import elbow_arm
-from .planar import three_lever, two_link
-from .scara import Target, scara
+from .link import Link, dh_links
+from .planar import ThreeLeverArm, three_lever, two_link
+from .scara import ScaraPose, scara_arm
 from .spherical_wrist import spherical_wrist
 
 __all__ = [
@@ -14,19 +16,26 @@ __all__ = [
     "PUMA560",
     "SCARA",
     "Arm",
+    "ClosedFormArm",
     "Link",
-    "Target",
+    "ScaraPose",
+    "ThreeLeverArm",
     "dh_links",
+    "distance_from_singularity",
     "elbow_arm",
     "explain",
     "follow",
     "itmo_arm",
     "loader_arm",
     "nearest",
-    "scara",
+    "reach",
+    "representative",
+    "scara_arm",
+    "singular_values",
     "spbu_arm",
     "spherical_wrist",
     "three_lever",
     "two_link",
+    "unwrapped",
     "within",
 ]

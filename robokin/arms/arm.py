@@ -1,185 +1,198 @@
-"""An arm as data: a chain of links, a geometry that inverts it, and the limits of its joints."""
+"""An arm as data: a geometry and the limits of its joints."""
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import broadcast, floats, instance
-from ..quaternion import Quaternion
+from .._arrays import Bools, Floats, Ints, by_blocks, frozen
+from .._validate import floats, short, text, warn_if_degrees
+from ..quaternion import Quaternion, cross, turned
 from ..transform import Transform
+from .geometry import ClosedForm, Geometry
+from .link import BASE, Frame, Link
 
 
-@dataclass(frozen=True, eq=False)
-class Link:
-    """One joint between two fixed transforms: the frame after it is `frame @ before @ motion @
-    after`.
-
-    The motion is a turn about the unit vector `axis` or, if `prismatic`, a shift along it. A
-    Denavit-Hartenberg row has its fixed part after the joint; listing 1 of source 001 has it
-    before.
-    """
-
-    before: Transform = Transform()
-    axis: tuple = (0.0, 0.0, 1.0)
-    after: Transform = Transform()
-    prismatic: bool = False
-
-    def __post_init__(self):
-        instance(self.before, Transform, "before")
-        instance(self.after, Transform, "after")
-        axis = floats(self.axis, "axis", 3)
-        if axis.ndim != 1 or abs(np.linalg.norm(axis) - 1) > 1e-9:
-            raise ValueError(
-                f"axis: wanted one unit vector, got {axis} of length {np.linalg.norm(axis):.6g}"
-            )
-
-    def carry(self, frame, q):
-        """The frame after this link, from the frame before it and q (...) in radians, metres if
-        prismatic.
-        """
-        joint, axis = frame @ self.before, np.asarray(self.axis, dtype=float)
-        if self.prismatic:
-            moved = Transform._of(
-                joint.rotation, joint.translation + q[..., None] * (joint.rotation @ axis)
-            )
-        else:
-            moved = Transform._of(joint.rotation @ Quaternion._turn(q, axis), joint.translation)
-        return moved @ self.after
-
-
-def dh_links(a, alpha, d, theta=0.0):
-    """Revolute links from a table of standard Denavit-Hartenberg parameters, each (n,): A = Rot(z,
-    theta + q) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha). Metres and radians; `theta` is the
-    offset of the joint.
-
-    Source: 000, "Обзор источников"; 004, table 1. ValueError: columns of different length.
-    """
-    table = [
-        floats(column, name)
-        for column, name in ((a, "a"), (alpha, "alpha"), (d, "d"), (theta, "theta"))
-    ]
-    broadcast("a, alpha, d and theta", *(column.shape for column in table))
-    a, alpha, d, theta = np.broadcast_arrays(*table)
-    turn = Transform(Quaternion.from_angle_axis(theta, (0, 0, 1)))
-    rest = Transform(
-        Quaternion.from_angle_axis(alpha, (1, 0, 0)), np.stack([a, np.zeros_like(a), d], axis=-1)
-    )
-    return tuple(Link(before=before, after=after) for before, after in zip(turn, rest, strict=True))
-
-
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Arm:
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 
     name           what a figure calls it
-    links          n links, base to flange
-    geometry       the closed-form inverse of the same links: has `branches`, `ik`, `unreached`,
-                   `singular`, `settle`
-    limits         (n, 2), lowest and highest value of each joint
-    speed_limits   (n,), greatest speeds in rad/s or m/s, where known
+    geometry       its links, and what follows from them: see `geometry.py`
+    limits         (n, 2), lowest and highest value of each joint; read-only
+    speed_limits   (n,), greatest speeds in rad/s or m/s, where known; read-only
+
+    An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. ValueError: limits that do
+    not fit; TypeError: no geometry.
     """
 
     name: str
-    links: tuple
-    geometry: object
-    limits: np.ndarray
-    speed_limits: np.ndarray | None = None
+    geometry: Geometry
+    limits: Floats
+    speed_limits: Floats | None
 
-    def __post_init__(self):
-        limits = floats(self.limits, "limits", 2)
-        if limits.shape != (len(self.links), 2) or (limits[:, 0] >= limits[:, 1]).any():
-            raise ValueError(
-                f"limits: wanted {len(self.links)} pairs (lowest, highest), got {limits.tolist()}"
-            )
-        object.__setattr__(self, "limits", limits)
-        if self.speed_limits is not None:
-            speeds = floats(self.speed_limits, "speed_limits", len(self.links))
-            if (speeds <= 0).any():
-                raise ValueError(f"speed_limits: wanted positive numbers, got {speeds.tolist()}")
-            object.__setattr__(self, "speed_limits", speeds)
+    def __init__(
+        self,
+        name: str,
+        geometry: Geometry,
+        limits: ArrayLike,
+        speed_limits: ArrayLike | None = None,
+    ) -> None:
+        object.__setattr__(self, "name", text(name, "name"))
+        parts = self._geometry_has()
+        if isinstance(geometry, type) or not all(hasattr(geometry, part) for part in parts):
+            wanted = f"a geometry with {', '.join(parts)}"
+            raise TypeError(f"geometry: wanted {wanted}, got {short(geometry)}")
+        object.__setattr__(self, "geometry", geometry)
+        n = len(self.links)
+        pairs = floats(limits, "limits", 2)
+        if pairs.shape != (n, 2) or (pairs[:, 0] >= pairs[:, 1]).any():
+            got = pairs.tolist() if pairs.size < 50 else f"shape {pairs.shape}"
+            raise ValueError(f"limits: wanted {n} pairs (lowest, highest), got {got}")
+        object.__setattr__(self, "limits", frozen(pairs))
+        speeds = None if speed_limits is None else floats(speed_limits, "speed_limits", n)
+        if speeds is not None and (speeds.ndim != 1 or (speeds <= 0).any()):
+            got = short(speeds.tolist())
+            raise ValueError(f"speed_limits: wanted {n} positive numbers, got {got}")
+        object.__setattr__(self, "speed_limits", None if speeds is None else frozen(speeds))
 
-    @cached_property
-    def prismatic(self):
-        """(n,) bool: which joints shift and do not turn."""
-        return np.array([link.prismatic for link in self.links])
+    @staticmethod
+    def _geometry_has() -> tuple[str, ...]:
+        return "links", "target"
 
     @property
-    def branches(self):
-        """(rows, flags) of +-1: the configuration of every row of `ik`, in its order."""
-        return self.geometry.branches
+    def links(self) -> tuple[Link, ...]:
+        """The n links, base to flange."""
+        return self.geometry.links
 
-    def branch(self, *flags):
-        """The row of `ik` that holds the configuration with these flags. ValueError: no such
-        flags.
+    @property
+    def target(self) -> type:
+        """What the arm can be asked for: Transform (place and orientation), ScaraPose (place and
+        angle) or np.ndarray (a point).
         """
-        for row, wanted in enumerate(self.branches.tolist()):
-            if wanted == list(flags):
-                return row
-        raise ValueError(
-            f"{self.name}: wanted {self.branches.shape[1]} flags of +1 or -1, got {flags}"
-        )
+        return self.geometry.target
 
-    def frames(self, q):
+    @cached_property
+    def prismatic(self) -> Bools:
+        """(n,) bool, read-only: which joints shift and do not turn."""
+        prismatic = np.array([link.prismatic for link in self.links])
+        prismatic.flags.writeable = False
+        return prismatic
+
+    def fk(self, q: ArrayLike) -> Transform:
+        """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
+        poses.
+
+        A UserWarning where a joint turns by more than two turns: degrees were likely meant.
+        """
+
+        def flange(joints: Sequence[Any]) -> list[Any]:
+            *_, (_, (rotation, origin)) = self._walk(joints)
+            return [*rotation, *origin]
+
+        return _transform(self._evaluate(flange, q))
+
+    def frames(self, q: ArrayLike) -> Transform:
         """Every frame in base coordinates: base, the frame after each joint, the last one being the
         flange.
 
         q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes that frame and those after
-        it NaN.
+        it NaN. A UserWarning as in `fk`.
         """
-        frames = list(self._walk(q))
-        return Transform._of(
-            Quaternion._of(np.stack([f.rotation.wxyz for f in frames], axis=-2)),
-            np.stack([f.translation for f in frames], axis=-2),
-        )
 
-    def fk(self, q):
-        """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
-        poses.
-        """
-        *_, flange = self._walk(q)
-        return flange
+        def frames(joints: Sequence[Any]) -> list[Any]:
+            walk = [BASE, *(frame for _, frame in self._walk(joints))]
+            return [part for rotation, origin in walk for part in (*rotation, *origin)]
 
-    def jacobian(self, q):
+        parts = self._evaluate(frames, q)
+        return _transform(parts.reshape(*parts.shape[:-1], len(self.links) + 1, 7))
+
+    def jacobian(self, q: ArrayLike) -> Floats:
         """The geometric Jacobian at the flange in base coordinates: q (..., n) -> (..., 6, n).
 
         Rows 0..2: linear velocity in m per unit of joint speed; rows 3..5: angular velocity in rad.
         Source: Siciliano et al., Robotics, 2009, section 3.1.
         """
-        frames = self.frames(q)
-        tip = frames.translation[..., -1, :]
-        columns = []
-        for i, link in enumerate(self.links):
-            joint = frames[..., i] @ link.before
-            axis = joint.rotation @ np.asarray(link.axis, dtype=float)
-            if link.prismatic:
-                columns.append(np.concatenate([axis, np.zeros_like(axis)], axis=-1))
-            else:
-                columns.append(
-                    np.concatenate([np.cross(axis, tip - joint.translation), axis], axis=-1)
-                )
-        return np.stack(columns, axis=-1)
+        n = len(self.links)
 
-    def ik(self, pose):
-        """All joint values that bring the flange to `pose`: Transform of shape (...) -> (..., rows,
-        n).
+        def columns(joints: Sequence[Any]) -> list[Any]:
+            walk = list(self._walk(joints))
+            tip = walk[-1][1][1]
+            found = []
+            for link, ((rotation, origin), _) in zip(self.links, walk, strict=True):
+                axis = turned(rotation, link.axis.tolist())
+                arm = [t - o for t, o in zip(tip, origin, strict=True)]
+                found.append((*axis, 0, 0, 0) if link.prismatic else (*cross(axis, arm), *axis))
+            return [column[row] for row in range(6) for column in found]
+
+        parts = self._evaluate(columns, q)
+        return parts.reshape(*parts.shape[:-1], 6, n)
+
+    def _walk(self, joints: Sequence[Any]) -> Iterator[tuple[Frame, Frame]]:
+        """For each link the frame of its joint and the frame after it, base to flange."""
+        frame = BASE
+        for link, q in zip(self.links, joints, strict=True):
+            joint, frame = link.carry(frame, q)
+            yield joint, frame
+
+    def _evaluate(self, work: Callable[[Sequence[Any]], list[Any]], q: ArrayLike) -> Floats:
+        """The numbers that `work` makes of the joints' values, for every q (..., n): (..., k)."""
+        n = len(self.links)
+        values = floats(q, "q", n, finite=False)
+        warn_if_degrees(
+            values if not self.prismatic.any() else values[..., ~self.prismatic], "q", 4
+        )
+        if values.ndim == 1:
+            return np.array(work(values.tolist()), dtype=float)
+        parts = by_blocks(work, values.reshape(-1, n))
+        return np.moveaxis(parts.reshape(len(parts), *values.shape[:-1]), 0, -1)
+
+    def __repr__(self) -> str:
+        return f"Arm({self.name!r}, {len(self.links)} joints)"
+
+
+class ClosedFormArm(Arm):
+    """An `Arm` with all solutions of its inverse in closed form: `ik`."""
+
+    geometry: ClosedForm
+
+    @staticmethod
+    def _geometry_has() -> tuple[str, ...]:
+        own = "branches", "carried", "ik", "gap", "singularities", "choose_free_joints"
+        return *Arm._geometry_has(), *own
+
+    @property
+    def branches(self) -> Ints:
+        """(rows, flags) of +-1, read-only: the configuration of every row of `ik`, in its order."""
+        return self.geometry.branches
+
+    def branch(self, *flags: int) -> int:
+        """The row of `ik` that holds the configuration with these flags. ValueError: no such
+        flags.
+        """
+        for row, wanted in enumerate(self.branches.tolist()):
+            if all(np.ndim(flag) == 0 for flag in flags) and list(flags) == wanted:
+                return row
+        count = self.branches.shape[1]
+        raise ValueError(f"{self.name}: wanted {count} flags of +1 or -1, got {short(flags)}")
+
+    def ik(self, pose: Any) -> Floats:
+        """All joint values that bring the flange to `pose` (of the kind `target`, or a Transform):
+        shape (...) -> (..., rows, n).
 
         Row k is always the configuration `branches[k]`. A row that does not exist is wholly NaN.
         Angles lie in [-pi, pi]; limits are ignored (see `within`, `nearest`). Where branches
-        coincide the row is repeated.
+        coincide the row is repeated. TypeError: another kind of thing.
         """
         return self.geometry.ik(pose)
 
-    def _walk(self, q):
-        """The frames one by one, base to flange."""
-        frame = Transform.identity(np.shape(q)[:-1])
-        yield frame
-        for link, q_i in zip(self.links, np.moveaxis(self._joints(q), -1, 0), strict=True):
-            frame = link.carry(frame, q_i)
-            yield frame
 
-    def _joints(self, q):
-        return floats(q, "q", len(self.links), finite=False)
-
-    def __repr__(self):
-        return f"Arm({self.name!r}, {len(self.links)} joints)"
+def _transform(parts: Floats) -> Transform:
+    """Of w, x, y, z of the rotation and x, y, z of the origin: (..., 7)."""
+    missing = np.isnan(parts[..., 0])
+    if missing.any():  # a joint on the origin does not move it, and yet nobody knows where it is
+        parts[missing, 4:] = np.nan
+    return Transform._of(Quaternion._of(parts[..., :4]), parts[..., 4:])

@@ -2,49 +2,73 @@
 `explain`.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import broadcast, floats, instance
+from .._arrays import Bools, Floats
+from .._validate import broadcast, floats, instance, warn_if_degrees, whole
 from ..transform import Transform
-from ..units import deg, mm
-from .arm import Arm
+from ..units import deg, mm, wrapped
+from .arm import Arm, ClosedFormArm
+from .scara import ScaraPose
+from .verdicts import SENTENCES
 
 TURN = 2 * np.pi
 SLACK = 1e-9  # a joint this little past its limit stands at it
-SINGULAR = {
-    "shoulder": "the wrist centre is in line with axis 1 (shoulder singularity), where the front "
-    "and back rows meet",
-    "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows are one",
-    "wrist": "axes 4 and 6 are in one line (wrist singularity), so that only their joints' "
-    "common turn is fixed",
-}
 
 
-def within(arm, q):
+def within(arm: Arm, q: ArrayLike) -> Bools:
     """Which joints can stand at q (..., n) inside their limits: bool (..., n).
 
-    A revolute joint counts if some q + 2 pi k lies inside. NaN is outside.
+    A revolute joint counts if some q + 2 pi k lies inside. NaN is outside. A UserWarning where an
+    angle is beyond two turns: degrees were likely meant.
     """
-    low = _lowest(arm, floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False))
-    return low <= arm.limits[:, 1] + SLACK
+    values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
+    warn_if_degrees(values[..., ~arm.prismatic], "q")
+    return _within(arm, values)
 
 
-def nearest(arm, rows, q):
+def representative(arm: Arm, q: ArrayLike) -> Floats:
+    """Joint values as people read them: for each joint the value q + 2 pi k that is inside its
+    limits and nearest to q or, if none is inside, the one that is least past them.
+
+    q (..., n) -> (..., n). A prismatic joint has but one value.
+    """
+    values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
+    value, (low, high) = _inside(arm, values, values), arm.limits.T
+    # Past the limits: the lowest value above the upper one or the highest below the lower one.
+    above = value - TURN * np.floor((value - high) / TURN)
+    below = value + TURN * np.floor((low - value) / TURN)
+    least = np.where(above - high <= low - below, above, below)
+    outside = (value < low - SLACK) | (value > high + SLACK)
+    return np.where(outside & ~arm.prismatic, least, value)
+
+
+def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
+    """For each revolute joint the value q + 2 pi k nearest to `near`: (..., n) both, broadcast."""
+    n = len(instance(arm, Arm, "arm").links)
+    values, goal = floats(q, "q", n, finite=False), floats(near, "near", n, finite=False)
+    broadcast("q and near", values.shape, goal.shape)
+    return _unwrapped(arm, values, goal)
+
+
+def nearest(arm: Arm, rows: ArrayLike, q: ArrayLike) -> Floats:
     """The row with the least travel from q: rows (..., rows, n) and q (..., n) -> (..., n).
 
     Travel is the sum of all joint changes (rad; m for a prismatic joint). A joint takes the one of
     its values q + 2 pi k that is nearest to q and inside the limits or, if none is inside, nearest
-    to q. NaN where no row exists. ValueError: shapes that do not fit.
+    to q. NaN where no row exists. ValueError: shapes that do not fit, no rows.
     """
-    rows, q = _rows(arm, rows), floats(q, "q", len(arm.links))
-    broadcast("rows and q", (*rows.shape[:-2], rows.shape[-1]), q.shape)
-    options = _inside(arm, rows, q[..., None, :])
-    return _least(options, q)
+    options, here = _rows(arm, rows), floats(q, "q", len(arm.links))
+    broadcast("rows and q", (*options.shape[:-2], options.shape[-1]), here.shape)
+    return _least(_inside(arm, options, here[..., None, :]), here)
 
 
-def follow(arm, rows, row):
+def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     """One continuous motion through the rows of `ik` along a path: (..., samples, rows, n) -> (...,
     samples, n).
 
@@ -55,83 +79,77 @@ def follow(arm, rows, row):
     is where `ik` puts it. NaN where no row exists, then on from the last finite sample. ValueError:
     a row that the arm does not have, no samples.
     """
-    rows = _rows(arm, rows)
-    if rows.ndim < 3 or rows.shape[-3] == 0:
-        raise ValueError(
-            f"rows: wanted shape (..., samples, rows, n) with samples, got {rows.shape}"
-        )
-    count = rows.shape[-2]
-    if not (isinstance(row, (int, np.integer)) and 0 <= row < count):
-        raise ValueError(f"row: wanted a whole number from 0 to {count - 1}, got {row!r}")
-    q = np.full((*rows.shape[:-2], rows.shape[-1]), np.nan)
-    before = _start(arm, rows[..., row, :])
+    options = _rows(arm, rows)
+    if options.ndim < 3 or options.shape[-3] == 0:
+        got = options.shape
+        raise ValueError(f"rows: wanted shape (..., samples, rows, n) with samples, got {got}")
+    whole(row, "row", 0, options.shape[-2] - 1)
+    choose = _chooser(arm)
+    q = np.full((*options.shape[:-2], options.shape[-1]), np.nan)
+    before = _start(arm, options[..., row, :])
     started = np.zeros(q.shape[:-2], dtype=bool)
     # Each sample depends on the one before: the one loop over time that cannot be an array
     # operation.
     for i in range(q.shape[-2]):
-        options = rows[..., i, :, :]
-        options = np.where(started[..., None, None], options, options[..., row : row + 1, :])
-        options = arm.geometry.settle(
-            _unwrapped(arm, options, before[..., None, :]), before[..., None, :]
-        )
-        q[..., i, :] = _least(options, before)
+        here = options[..., i, :, :]
+        here = np.where(started[..., None, None], here, here[..., row : row + 1, :])
+        here = choose(_unwrapped(arm, here, before[..., None, :]), before[..., None, :])
+        q[..., i, :] = _least(here, before)
         exists = ~np.isnan(q[..., i, :1])
         started |= exists[..., 0]
         before = np.where(exists, q[..., i, :], before)
     return q
 
 
-def explain(arm, pose, row):
+def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
     """In one sentence whether row `row` of `arm.ik(pose)` is usable, and if not why. One single
     pose.
 
     Out of reach: by how much, and whether metres were meant to be millimetres. Else every joint
-    past its limit, with the excess, and every singularity that holds.
+    past its limit, with the excess, and every singularity that holds. The sentences are those of
+    `verdicts.SENTENCES`.
     """
-    rows = instance(arm, Arm, "arm").ik(pose)
+    rows = instance(arm, ClosedFormArm, "arm").ik(pose)
     if rows.ndim != 2:
         raise ValueError(f"pose: wanted one single pose, got a batch of shape {rows.shape[:-2]}")
-    if not (isinstance(row, (int, np.integer)) and 0 <= row < len(rows)):
-        raise ValueError(f"row: wanted a whole number from 0 to {len(rows) - 1}, got {row!r}")
-    what, q = f"Row {row} ({', '.join(f'{flag:+d}' for flag in arm.branches[row])})", rows[row]
-    if np.isnan(q).any():
-        reason, gap = arm.geometry.unreached(pose, row)
-        meant = gap > 10 and not np.isnan(arm.ik(_shrunk(pose))).all()
-        hint = "; lengths are in metres, were millimetres meant (350 * mm)?" if meant else "."
-        return f"{what} does not exist: {reason}{hint}"
-    facts = [_excess(arm, q, i) for i in np.flatnonzero(~within(arm, q))]
-    facts += [SINGULAR[name] for name, holds in arm.geometry.singular(q).items() if holds]
-    if not facts:
-        return f"{what} is usable: it is inside every limit and not singular."
-    return (
-        f"{what} {'is usable, but' if within(arm, q).all() else 'is not usable:'} "
-        f"{', and '.join(facts)}."
-    )
+    row = whole(row, "row", 0, len(rows) - 1)
+    q, signs = rows[row], ", ".join(f"{flag:+d}" for flag in arm.branches[row])
+    gap = arm.geometry.gap(pose, row)
+    if gap is not None:
+        meant = gap.metres > 10 and not np.isnan(arm.ik(_shrunk(pose))).all()
+        hint = SENTENCES["millimetres"] if meant else "."
+        return SENTENCES["missing"].format(row=row, flags=signs, reason=gap.words, hint=hint)
+    good = _within(arm, q)
+    facts = [_excess(arm, q, int(i)) for i in np.flatnonzero(~good)]
+    held = arm.geometry.singularities(q).items()
+    facts += [SENTENCES[name].format(what=arm.geometry.carried) for name, holds in held if holds]
+    kind = "not usable" if not good.all() else "usable but" if facts else "usable"
+    return SENTENCES[kind].format(row=row, flags=signs, facts=", and ".join(facts))
 
 
-def _rows(arm, rows):
-    instance(arm, Arm, "arm")
-    rows = floats(rows, "rows", len(arm.links), finite=False)
-    if rows.ndim < 2:
-        raise ValueError(f"rows: wanted shape (..., rows, {len(arm.links)}), got {rows.shape}")
-    return rows
+def _rows(arm: Arm, rows: ArrayLike) -> Floats:
+    n = len(instance(arm, Arm, "arm").links)
+    options = floats(rows, "rows", n, finite=False)
+    if options.ndim < 2 or options.shape[-2] == 0:
+        got = options.shape
+        raise ValueError(f"rows: wanted shape (..., rows, {n}) with rows, got {got}")
+    return options
 
 
-def _lowest(arm, q):
-    """Each joint's lowest value q + 2 pi k that is not below its lower limit (a prismatic joint has
-    but one).
+def _within(arm: Arm, q: Floats) -> Bools:
+    """The lowest value q + 2 pi k not below the lower limit tells (a prismatic joint has but
+    one).
     """
-    low = arm.limits[:, 0] - SLACK
-    turned = q + TURN * np.ceil((low - q) / TURN)
-    return np.where(arm.prismatic, np.where(q < low, np.inf, q), turned)
+    low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
+    lowest = q + TURN * np.ceil((low - q) / TURN)
+    return np.where(arm.prismatic, np.where(q < low, np.inf, q), lowest) <= high
 
 
-def _unwrapped(arm, q, near):
-    """Each revolute joint's value q + 2 pi k nearest to `near`."""
-    return np.where(arm.prismatic, q, q - TURN * np.round((q - near) / TURN))
+def _unwrapped(arm: Arm, q: Floats, near: Floats) -> Floats:
+    return np.where(arm.prismatic, q, wrapped(q, near))
 
 
-def _inside(arm, q, near):
+def _inside(arm: Arm, q: Floats, near: Floats) -> Floats:
     """As `_unwrapped`, but inside the limits where there is such a value."""
     value = _unwrapped(arm, q, near)
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
@@ -141,58 +159,58 @@ def _inside(arm, q, near):
     return np.where(fits, inside, value)
 
 
-def _least(options, q):
+def _least(options: Floats, q: Floats) -> Floats:
     """The option (..., rows, n) with the least travel from q (..., n); NaN where there is none."""
     travel = abs(options - q[..., None, :]).sum(axis=-1)
     best = np.where(np.isnan(travel), np.inf, travel).argmin(axis=-1)
     return np.take_along_axis(options, best[..., None, None], axis=-2)[..., 0, :]
 
 
-def _start(arm, track):
+def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
+    """What chooses the free joints of rows near a posture; an arm without a closed form names
+    none.
+    """
+    if isinstance(arm, ClosedFormArm):
+        return arm.geometry.choose_free_joints
+    return lambda rows, _: rows
+
+
+def _start(arm: Arm, track: Floats) -> Floats:
     """Where a motion along one row (..., samples, n) begins, for its first sample to be measured
     against.
 
     A motion may begin in a singularity, as from the IRB-140's home pose: the free joints then look
     ahead to the first sample that fixes them.
     """
+    choose = _chooser(arm)
     exists = ~np.isnan(track).any(axis=-1)
     # each joint by another amount, so that no two shifts cancel
     elsewhere = track + np.arange(track.shape[-1])
-    fixed = np.isclose(arm.geometry.settle(track, elsewhere), track, rtol=0, atol=1e-12).all(
-        axis=-1
-    )
+    fixed = np.isclose(choose(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
     begin = exists.argmax(axis=-1)
     ahead = np.where(fixed.any(axis=-1), fixed.argmax(axis=-1), begin)
-    begin, ahead = (
+    first, later = (
         np.take_along_axis(track, i[..., None, None], axis=-2)[..., 0, :] for i in (begin, ahead)
     )
-    q = arm.geometry.settle(begin, ahead)
+    q = choose(first, later)
     q = np.where(np.isnan(q), 0.0, q)
     return _inside(arm, q, q)
 
 
-def _shrunk(pose):
+def _shrunk(pose: Any) -> Any:
     """The pose as if its lengths had been millimetres."""
-    part = "translation" if isinstance(pose, Transform) else "position"
-    if not hasattr(pose, part):  # a point
-        return np.asarray(pose) / 1000
-    return replace(pose, **{part: getattr(pose, part) / 1000})
+    if isinstance(pose, Transform):
+        return replace(pose, translation=pose.translation / 1000)
+    if isinstance(pose, ScaraPose):
+        return replace(pose, position=pose.position / 1000)
+    return np.asarray(pose) / 1000
 
 
-def _excess(arm, q, i):
+def _excess(arm: Arm, q: Floats, i: int) -> str:
     """How joint i stands past its limit, said in the unit of the joint."""
-    low, high = arm.limits[i]
-    value = q[i]
-    if not arm.prismatic[i]:
-        value = value + TURN * np.arange(-2, 3)
-    over = np.where(value > high, value - high, low - value)
-    best = np.argmin(over)
-    value, over = np.ravel(value)[best], np.ravel(over)[best]
+    (low, high), value = arm.limits[i], representative(arm, q)[i]
+    limit, over = (high, value - high) if value > high else (low, low - value)
     unit, size = (" mm", mm) if arm.prismatic[i] else ("°", deg)
-    limit = high if value > high else low
-    value, over, limit = (
-        f"{value / size:.1f}{unit}",
-        f"{over / size:.1f}{unit}",
-        f"{limit / size:g}{unit}",
-    )
-    return f"joint {i + 1} stands at {value}, {over} past its limit of {limit}"
+    value_words, over_words = f"{value / size:.1f}{unit}", f"{over / size:.1f}{unit}"
+    facts = {"value": value_words, "over": over_words, "limit": f"{limit / size:g}{unit}"}
+    return SENTENCES["past"].format(joint=i + 1, **facts)

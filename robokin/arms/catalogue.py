@@ -2,25 +2,21 @@
 
 import numpy as np
 
-from .._validate import length
+from .._validate import length, number
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .arm import Arm, Link, dh_links
+from .arm import ClosedFormArm
 from .elbow import elbow_arm
-from .scara import scara
-from .spherical_wrist import SphericalWrist, spherical_wrist
+from .link import Link, dh_links
+from .scara import scara_arm
+from .spherical_wrist import spherical_wrist
 
 X, Y, Z = np.eye(3)
 
 
-def _at(x, y, z):
+def _at(x: float, y: float, z: float) -> Transform:
     return Transform(translation=(x, y, z))
-
-
-def _six_axis(name, links, **limits):
-    """As `spherical_wrist`, but measured when first used: `import robokin` stays fast."""
-    return Arm(name, links, SphericalWrist(name, links), **limits)
 
 
 # ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the
@@ -29,7 +25,7 @@ def _six_axis(name, links, **limits):
 # have 360 mm (errata S1-g): we keep the document's numbers. Speeds: public models of the robot
 # differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not checked against
 # the maker's data sheet.
-IRB140 = _six_axis(
+IRB140 = spherical_wrist(
     "IRB-140",
     links=(
         Link(_at(0, 0, 352 * mm), Z),
@@ -47,7 +43,7 @@ IRB140 = _six_axis(
 
 # SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds are
 # not stated.
-SCARA = scara(
+SCARA = scara_arm(
     "SCARA",
     height=220.2 * mm,
     upper=200 * mm,
@@ -59,7 +55,7 @@ SCARA = scara(
 
 # PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model
 # (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
-PUMA560 = _six_axis(
+PUMA560 = spherical_wrist(
     "PUMA 560",
     links=dh_links(
         a=np.array([0, 431.8, 20.3, 0, 0, 0]) * mm,
@@ -71,35 +67,34 @@ PUMA560 = _six_axis(
 )
 
 
-def _itmo(d1, a2, d4, d6):
-    return {
-        "name": "DH arm (004)",
-        "links": dh_links(
-            a=[0, a2, 0, 0, 0, 0],
+def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
+    """The six-axis arm of source 004, table 1, for lengths in metres; d1 and d6 may be 0. It states
+    no limits: here one turn each way. ValueError: a length that is not positive.
+    """
+    ends = [number(value, name) for name, value in (("d1", d1), ("d6", d6))]
+    if min(ends) < 0:
+        raise ValueError(f"d1 and d6: wanted lengths that are not negative, got {ends}")
+    return spherical_wrist(
+        "DH arm (004)",
+        links=dh_links(
+            a=[0, length(a2, "a2"), 0, 0, 0, 0],
             alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
-            d=[d1, 0, 0, d4, 0, d6],
+            d=[ends[0], 0, 0, length(d4, "d4"), 0, ends[1]],
             theta=np.array([0, 0, 90, 0, 0, 0]) * deg,
         ),
-        "limits": np.array([(-360, 360)] * 6) * deg,
-    }
-
-
-def itmo_arm(d1, a2, d4, d6):
-    """The six-axis arm of source 004, table 1, for lengths in metres. It states no limits: here one
-    turn each way.
-    """
-    return spherical_wrist(**_itmo(d1, a2, d4, d6))
+        limits=np.array([(-360, 360)] * 6) * deg,
+    )
 
 
 # Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 + a2
 # = 20, of which we take the equal halves, in centimetres (errata S4-j).
-ITMO6R = _six_axis(**_itmo(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm))
+ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
 
 
-def spbu_arm(l1, l2):
+def spbu_arm(l1: float, l2: float) -> ClosedFormArm:
     """The positioning arm of source 000 (figure 2) for lengths in metres: joint 1 turns about the
     vertical, joint 2 tilts link 1 away from it, and at joint 3 = 0 link 2 stands square to link 1.
-    Limits: the document's domain.
+    Limits: the document's domain. ValueError: a length that is not positive.
 
     Its first matrix has alpha = -90 degrees; the text's +90 puts the tool below the floor (errata
     S0-a).
@@ -107,7 +102,7 @@ def spbu_arm(l1, l2):
     return elbow_arm(
         "Arm (000)",
         links=dh_links(
-            a=[0, l1, l2],
+            a=[0, length(l1, "l1"), length(l2, "l2")],
             alpha=np.array([-90, 0, 0]) * deg,
             d=0,
             theta=np.array([0, -90, 90]) * deg,
@@ -116,7 +111,7 @@ def spbu_arm(l1, l2):
     )
 
 
-def loader_arm(A, B):
+def loader_arm(A: float, B: float) -> ClosedFormArm:
     """The log loader of source 003 for levers of lengths A and B in metres, q = (alpha, gamma,
     beta) from the base out.
 
@@ -130,7 +125,7 @@ def loader_arm(A, B):
     = 0, it is free and `ik` gives 0), and beta and gamma are (3) and (4). Limits: alpha as in the
     document, beta and gamma as (3) and (4) give them for z >= 0. At alpha's limits there is no
     stop: the shortest turn (errata S3-q) passes them. What the document asks of the gripper's point
-    is `robokin.jobs.steppers.refusal`.
+    is `robokin.jobs.steppers.out_of_reach`.
 
     Source: 003, paper 1, (1) to (4), table 1, figure 3.
     """

@@ -5,20 +5,25 @@
 of the plane needs.
 """
 
-import numpy as np
+from typing import Any
 
-from .._validate import broadcast, floats, length
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._arrays import Bools, Floats
+from .._validate import broadcast, floats, length, positive, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
-from ..units import deg
-from .arm import Arm, Link
-from .elbow import FREE, in_words
+from ..units import deg, in_words, wrapped
+from .arm import Arm, ClosedFormArm
+from .geometry import FREE, ROUNDING, SINGULAR, Gap, distance, fixed, flags, two_levers, worst
+from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
-ROUNDING = 1e-12  # out of reach by no more than this share is rounding
+MOST_ROWS = 2_000_000  # of a table: a second or two
 
 
-def two_link(l1, l2, base=(0, 0)):
+def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
     """The planar arm of source 002: links of lengths l1 and l2 in metres on the point `base` (2,)
     of the plane z = 0.
 
@@ -30,94 +35,81 @@ def two_link(l1, l2, base=(0, 0)):
     Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
     is no point.
     """
-    l1, l2, base = length(l1, "l1"), length(l2, "l2"), floats(base, "base", 2)
-    if base.ndim != 1:
-        raise ValueError(f"base: wanted one point (2,), got shape {base.shape}")
-    links = (
-        Link(Transform(translation=(*base, 0)), after=Transform(translation=(l1, 0, 0))),
-        Link(after=Transform(translation=(l2, 0, 0))),
-    )
-    return Arm("Two links", links, TwoLink(l1, l2, base), np.array([(-180, 180)] * 2) * deg)
+    limits = np.array([(-180, 180)] * 2) * deg
+    return ClosedFormArm("Two links", TwoLinkGeometry(l1, l2, base), limits)
 
 
-class TwoLink:
-    """The inverse of two links in the plane (see `two_link`). Configuration flag: the sign of q2;
-    at +1 link 2 turns counter-clockwise away from link 1, and the elbow lies to the right of the
-    line from base to tip.
+class TwoLinkGeometry:
+    """Two links in the plane and their inverse (see `two_link`). Configuration flag: the sign of
+    q2; at +1 link 2 turns counter-clockwise away from link 1, and the elbow lies to the right of
+    the line from base to tip.
 
     The document's formula (2) holds for equal links on the origin, divides by x3, and changes sides
     with the sign of x3 (errata S2-a, S2-d, S2-e). Here the triangle of base, elbow and tip is
     solved by its half angles, for any lengths.
     """
 
-    branches = np.array([(1,), (-1,)])
+    branches = flags(1)
+    target = np.ndarray
+    carried = "the target"
+    l1: float
+    l2: float
+    base: tuple[float, float]
+    links: tuple[Link, ...]
 
-    def __init__(self, l1, l2, base):
-        self.l1, self.l2, self.base = l1, l2, base
-
-    def ik(self, pose):
-        """See `Arm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal links fold
-        and bring the tip to the base, q1 is free, and 0.
-        """
-        (x, y, d), stretch, fold, off = self._sides(pose)
-        slack = ROUNDING * (self.l1 + self.l2)
-        exists = (stretch >= -slack) & (fold >= -slack) & (off <= slack)
-        # The four factors of Heron's formula, each taken from a difference and never from a
-        # difference of squares.
-        stretch, around = np.maximum(stretch, 0), self.l1 + self.l2 + d
-        short, long = np.maximum(d - (self.l1 - self.l2), 0), np.maximum(d + (self.l1 - self.l2), 0)
-        elbow = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
-        # of link 1 from the line to the tip
-        ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
-        q = np.stack(
-            [
-                np.stack([np.arctan2(y, x) - flag * ahead, flag * elbow], axis=-1)
-                for flag in (1, -1)
-            ],
-            axis=-2,
+    def __init__(self, l1: float, l2: float, base: ArrayLike = (0, 0)) -> None:
+        l1, l2, place = length(l1, "l1"), length(l2, "l2"), floats(base, "base", 2)
+        if place.ndim != 1:
+            raise ValueError(f"base: wanted one point (2,), got shape {place.shape}")
+        links = (
+            Link(Transform(translation=(*place, 0)), after=Transform(translation=(l1, 0, 0))),
+            Link(after=Transform(translation=(l2, 0, 0))),
         )
-        q = q - 2 * np.pi * np.round(q / (2 * np.pi)) + 0.0  # and no -0.0
+        vars(self).update(l1=l1, l2=l2, base=tuple(place.tolist()), links=links)
+
+    __setattr__ = __delattr__ = fixed
+
+    def ik(self, pose: Any) -> Floats:
+        """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal
+        links fold and bring the tip to the base, q1 is free, and 0.
+        """
+        x, y, d, off = self._way(pose)
+        ahead, turn, exists = two_levers(self.l1, self.l2, d)
+        exists = exists & (off <= ROUNDING * (self.l1 + self.l2))
+        direction = np.arctan2(y, x)
+        rows = [np.stack([direction - f * ahead, f * turn], axis=-1) for f in (1, -1)]
+        q = wrapped(np.stack(rows, axis=-2)) + 0.0  # and no -0.0
         return np.where(exists[..., None, None], q, np.nan)
 
-    def unreached(self, pose, row):
-        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0)
-        if it exists.
-        """
-        _, stretch, fold, off = self._sides(_single(pose))
-        slack = ROUNDING * (self.l1 + self.l2)
-        for gap, where in (
-            (-stretch, "beyond the stretched arm"),
-            (-fold, "too near to the base"),
-            (off, "off the plane z = 0"),
-        ):
-            if gap > slack:
-                return f"the target is {in_words(gap)} {where}", float(gap)
-        return "", 0.0
+    def gap(self, pose: Any, row: int) -> Gap | None:
+        """Why `row` does not exist for one single pose; None if it exists."""
+        _, _, d, off = self._way(_single(pose))
+        if not np.isnan(self.ik(pose)[row]).any():
+            return None
+        borders = {"stretched": d - (self.l1 + self.l2), "base": abs(self.l1 - self.l2) - d}
+        return worst(borders | {"plane": off}, self.carried)
 
-    def singular(self, q):
+    def singularities(self, q: Floats) -> dict[str, Bools]:
         """Which singularities hold at q (..., 2): dict of name -> bool (...), within 1e-6 rad."""
-        return {"elbow": abs(np.sin(q[..., 1])) < 1e-6}
+        return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
-    def settle(self, q, previous):
+    def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
         """Rows q (..., 2) with q1 as in `previous` where the tip stands on the base and leaves it
         free.
         """
-        arm = self.l1 + self.l2
-        free = (abs(np.cos(q[..., 1] / 2)) < FREE) & (abs(self.l1 - self.l2) <= FREE * arm)
+        equal = abs(self.l1 - self.l2) <= FREE * (self.l1 + self.l2)
+        free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
         return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
 
-    def _sides(self, pose):
-        """The way from base to tip (x, y and its length d), and how much it is shorter than the
-        stretched arm, longer than the folded arm, and off the plane.
-        """
+    def _way(self, pose: Any) -> tuple[Floats, Floats, Floats, Floats]:
+        """The way from base to tip: x, y, its length d, and how far the tip is off the plane."""
         x, y, z = _plane(pose)
         # -0.0 is 0: atan2 tells them apart, a point does not
         x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0
-        d = np.hypot(x, y)
-        return (x, y, d), self.l1 + self.l2 - d, d - abs(self.l1 - self.l2), abs(z)
+        return x, y, distance(x, y), abs(z)
 
 
-def three_lever(L):
+def three_lever(L: float) -> "ThreeLeverArm":
     """The arm of source 003 for levers of length L in metres, q = (gamma, beta, alpha), each from 0
     to 180 degrees.
 
@@ -130,15 +122,30 @@ def three_lever(L):
 
     Source: 003, III.1.1, figures 15 and 16. ValueError: L not one positive number.
     """
-    L = length(L, "L")
-    lever, folded = Transform(translation=(L, 0, 0)), Quaternion.from_angle_axis(-180 * deg, Z)
-    # an interior angle of 0 lays the next lever back upon this one
-    elbow = Transform(folded, (L, 0, 0))
-    links = (Link(), Link(elbow), Link(elbow, after=lever))
-    return ThreeLever("Three levers", links, NoInverse(), np.array([(0, 180)] * 3) * deg)
+    return ThreeLeverArm("Three levers", ThreeLeverGeometry(L), np.array([(0, 180)] * 3) * deg)
 
 
-class ThreeLever(Arm):
+class ThreeLeverGeometry:
+    """Three levers of the length `lever` (see `three_lever`). No inverse: a family of postures
+    cannot be listed row by row.
+    """
+
+    target = np.ndarray
+    lever: float
+    links: tuple[Link, ...]
+
+    def __init__(self, L: float) -> None:
+        L = length(L, "L")
+        folded = Quaternion.from_angle_axis(-180 * deg, Z)
+        # an interior angle of 0 lays the next lever back upon this one
+        elbow = Transform(folded, (L, 0, 0))
+        links = (Link(), Link(elbow), Link(elbow, after=Transform(translation=(L, 0, 0))))
+        vars(self).update(lever=L, links=links)
+
+    __setattr__ = __delattr__ = fixed
+
+
+class ThreeLeverArm(Arm):
     """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of
     postures, one for every value of the free angle alpha: `family` takes the place of `ik`.
 
@@ -148,14 +155,16 @@ class ThreeLever(Arm):
     direction of K and half a turn more.
     """
 
-    @property
-    def lever(self):
-        """The length L of each lever, in metres."""
-        return self.links[1].before.translation[0]
+    geometry: ThreeLeverGeometry
 
-    def joints(self, q):
+    @property
+    def lever(self) -> float:
+        """The length L of each lever, in metres."""
+        return self.geometry.lever
+
+    def points(self, q: ArrayLike) -> Floats:
         """The points O, B, A, K in the plane: q (..., 3) -> (..., 4, 2). Source: 003, (15)-(21)."""
-        gamma, beta, alpha = np.moveaxis(self._joints(q), -1, 0)
+        gamma, beta, alpha = np.moveaxis(floats(q, "q", 3, finite=False), -1, 0)
         direction = np.stack(
             [0 * gamma, gamma, gamma + beta - np.pi, gamma + beta + alpha - 2 * np.pi], axis=-1
         )
@@ -163,7 +172,7 @@ class ThreeLever(Arm):
         steps[..., 0, :] = 0.0
         return np.cumsum(steps, axis=-2)
 
-    def alpha_range(self, point, limited=True):
+    def alpha_range(self, point: Any, limited: bool = True) -> tuple[Floats, Floats]:
         """The lowest and the highest alpha that reach the point, (...) each; NaN where none does.
 
         At the lowest one beta is 180 degrees (or gamma 0), the highest one is 180 degrees (or gamma
@@ -179,7 +188,7 @@ class ThreeLever(Arm):
             low, high = np.where(nowhere, np.nan, low), np.where(nowhere, np.nan, high)
         return low, high
 
-    def family(self, point, alpha):
+    def family(self, point: Any, alpha: ArrayLike) -> Floats:
         """The posture that reaches the point with the free angle alpha: point (...), alpha (...) ->
         q (..., 3).
 
@@ -190,26 +199,31 @@ class ThreeLever(Arm):
         Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d (its last
         row) put right.
         """
-        (KO, phi), alpha = self._polar(point), floats(alpha, "alpha", finite=False)
-        broadcast("point and alpha", KO.shape, alpha.shape)
-        return self._posture(KO, phi, alpha)
+        (KO, phi), angles = self._polar(point), floats(alpha, "alpha", finite=False)
+        broadcast("point and alpha", KO.shape, angles.shape)
+        return self._posture(KO, phi, angles)
 
-    def table(self, point, step=0.01 * deg, limited=True):
+    def table(self, point: Any, step: float = 0.01 * deg, limited: bool = True) -> Floats:
         """Table 3 of the document: the postures for one point at alpha_min, alpha_min + step ... up
         to 180 degrees.
 
         Returns (rows, 3), no row if the point is out of reach. With `limited` the rows with gamma
-        outside 0 to 180 degrees are dropped. Source: 003, III.1.3 (step 0.01 degrees), paper 2
-        (0.001); errata S3-e.
+        outside 0 to 180 degrees are dropped. ValueError: a step that would make more than two
+        million rows. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001); errata S3-e.
         """
         low = self.alpha_range(_single(point), limited=False)[0]
-        if not 0 < step < np.inf:
-            raise ValueError(f"step: wanted a positive angle in radians, got {step!r}")
-        count = 0 if np.isnan(low) else int((np.pi - low) / step + 1 + 1e-9)
-        rows = self.family(point, np.minimum(low + step * np.arange(count), np.pi))
+        width = positive(step, "step", "one positive angle in radians")
+        many = 0.0 if np.isnan(low) else (np.pi - low) / width + 1 + 1e-9
+        if many > MOST_ROWS:
+            raise ValueError(
+                f"step: wanted at most {MOST_ROWS} rows, got {step!r}: {many:.3g} rows"
+            )
+        rows = self.family(point, np.minimum(low + width * np.arange(int(many)), np.pi))
         return rows[(rows[:, 0] >= 0) & (rows[:, 0] <= np.pi)] if limited else rows
 
-    def sweep(self, point, previous, step=0.01 * deg, limited=True):
+    def sweep(
+        self, point: Any, previous: ArrayLike, step: float = 0.01 * deg, limited: bool = True
+    ) -> tuple[Floats, Floats]:
         """The document's choice: the first row of `table` with the smallest S, the sum of the
         angles' changes.
 
@@ -217,14 +231,16 @@ class ThreeLever(Arm):
         radians stands for the motors' energy, which the document does not model (errata S3-i).
         Source: 003, III.4.1, figure 29.
         """
-        previous, rows = floats(previous, "previous", 3), self.table(point, step, limited)
+        before, rows = self._previous(previous), self.table(point, step, limited)
+        if before.ndim != 1:
+            raise ValueError(f"previous: wanted one posture (3,), got shape {before.shape}")
         if not len(rows):
-            return np.full(3, np.nan), np.nan
-        S = sum(abs(rows[:, i] - previous[i]) for i in range(3))
+            return np.full(3, np.nan), np.full((), np.nan)
+        S = abs(rows - before).sum(axis=-1)
         best = S.argmin()
         return rows[best], S[best]
 
-    def least(self, point, previous, limited=True):
+    def least(self, point: Any, previous: ArrayLike, limited: bool = True) -> tuple[Floats, Floats]:
         """The posture at the point with the exactly smallest S = |d alpha| + |d beta| + |d gamma|.
 
         Returns (q, S): points (...) and previous (..., 3) -> (..., 3) and (...), NaN where the
@@ -233,11 +249,11 @@ class ThreeLever(Arm):
         gamma: so a few postures are compared, without a step (errata S3-h: the sweep of 0.01
         degrees stops up to 0.006 degrees above).
         """
-        previous = floats(previous, "previous", 3)
+        before = self._previous(previous)
         KO, phi = self._polar(point)
-        shape = broadcast("point and previous", KO.shape, previous.shape[:-1])
+        shape = broadcast("point and previous", KO.shape, before.shape[:-1])
         KO, phi = np.broadcast_to(KO, shape), np.broadcast_to(phi, shape)
-        gamma0, beta0, alpha0 = np.moveaxis(np.broadcast_to(previous, (*shape, 3)), -1, 0)
+        gamma0, beta0, alpha0 = np.moveaxis(np.broadcast_to(before, (*shape, 3)), -1, 0)
         low, high = (np.broadcast_to(end, shape) for end in self.alpha_range(point, limited))
 
         # beta as before: then A lies at the distance OA from O, on one of two sides of the line OK.
@@ -259,19 +275,19 @@ class ThreeLever(Arm):
             np.where(np.isnan(alphas), low[..., None], alphas), low[..., None], high[..., None]
         )
         rows = self._posture(KO[..., None], phi[..., None], alphas)
-        S = abs(rows - previous[..., None, :]).sum(axis=-1)
+        S = abs(rows - before[..., None, :]).sum(axis=-1)
         best = np.where(np.isnan(S), np.inf, S).argmin(axis=-1)[..., None]
         return (
             np.take_along_axis(rows, best[..., None], axis=-2)[..., 0, :],
             np.take_along_axis(S, best, axis=-1)[..., 0],
         )
 
-    def unreached(self, point):
+    def out_of_reach(self, point: Any) -> str:
         """In words why one single point is not reached, "" if it is. Source: 003, III.1.2: L < KO <
         3 L.
         """
-        x, y, z = _plane(_single(point))
-        KO, L = np.hypot(x, y), self.lever
+        x, y, z = (float(part) for part in _plane(_single(point)))
+        KO, L = float(np.hypot(x, y)), self.lever
         if abs(z) > ROUNDING * L:
             return f"it lies {in_words(abs(z))} beside the plane z = 0 of the levers"
         if KO <= L:
@@ -287,7 +303,12 @@ class ThreeLever(Arm):
             return "every posture that reaches it has gamma outside 0 to 180 degrees"
         return ""
 
-    def _polar(self, point):
+    def _previous(self, previous: ArrayLike) -> Floats:
+        values = floats(previous, "previous", 3)
+        warn_if_degrees(values, "previous", 4)
+        return values
+
+    def _polar(self, point: Any) -> tuple[Floats, Floats]:
         """The distance KO and the direction phi of points (...); NaN where the point is out of
         reach.
         """
@@ -300,7 +321,7 @@ class ThreeLever(Arm):
         )
         return np.where(reached, KO, np.nan), np.where(reached, np.arctan2(y, x), np.nan)
 
-    def _posture(self, KO, phi, alpha):
+    def _posture(self, KO: Floats, phi: Floats | float, alpha: Floats) -> Floats:
         low = _angle(self.lever, 2 * self.lever, KO)
         alpha = np.where(
             (alpha >= low - ROUNDING) & (alpha <= np.pi + ROUNDING),
@@ -312,18 +333,18 @@ class ThreeLever(Arm):
         beta = _angle(KB, self.lever, KO) + (np.pi - alpha) / 2
         return np.stack(np.broadcast_arrays(gamma, beta, alpha), axis=-1)
 
-    def _gamma1(self, KO, alpha):
+    def _gamma1(self, KO: Floats, alpha: Floats) -> Floats:
         """The angle KOB of the document's figure 18."""
         return _angle(KO, self.lever, 2 * self.lever * np.sin(alpha / 2))
 
-    def _alpha_of_gamma(self, KO, gamma1):
+    def _alpha_of_gamma(self, KO: Floats, gamma1: Floats) -> Floats:
         """The alpha that belongs to the angle KOB; NaN where there is none."""
         KB = np.sqrt(KO**2 + self.lever**2 - 2 * KO * self.lever * np.cos(gamma1))
         half = KB / (2 * self.lever)
         exists = (half <= 1 + ROUNDING) & (gamma1 >= 0) & (gamma1 <= np.pi)
         return np.where(exists, 2 * np.arcsin(np.minimum(half, 1)), np.nan)
 
-    def _bottom(self, KO, low, high):
+    def _bottom(self, KO: Floats, low: Floats, high: Floats) -> Floats:
         """The alpha between low and high with the least alpha + beta - gamma: six times, the best
         of 33 and its neighbours. Half of the digits of alpha are enough, since the sum is flat
         there.
@@ -337,27 +358,7 @@ class ThreeLever(Arm):
         return (low + high) / 2
 
 
-class NoInverse:
-    """Stands where other arms have their closed-form inverse: a family of postures cannot be listed
-    row by row.
-    """
-
-    branches = np.empty((0, 0), dtype=int)
-
-    def ik(self, pose):
-        """ValueError that names `family`."""
-        raise ValueError(
-            "ik: three levers reach a point in a family of postures; wanted arm.family(point, "
-            "alpha), or "
-            "arm.least(point, previous) for the one with the least movement"
-        )
-
-    def settle(self, q, previous):
-        """Rows q (..., 3) as they are: `follow` asks for this."""
-        return q
-
-
-def _angle(a, b, c):
+def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
     """The angle between the sides a and b of a triangle, opposite c. The law of cosines in its
     half-angle form: an arccos, as the document has it, loses half of the digits where the triangle
     is flat. NaN if there is no triangle.
@@ -371,26 +372,23 @@ def _angle(a, b, c):
         return 2 * np.arctan2(np.sqrt(beside), np.sqrt(around))
 
 
-def _spare(a, b, c):
+def _spare(a: Floats | float, b: Floats | float, c: Floats | float) -> Any:
     """By how much two sides are longer than the third, rounded alike whichever angle asks: then all
     angles of a nearly flat triangle belong to one triangle, and the chain closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)
 
 
-def _plane(point):
+def _plane(point: Any) -> tuple[Floats, Floats, Floats]:
     """x, y, z of points (..., 2) or (..., 3), or of Transforms."""
-    point = point.translation if isinstance(point, Transform) else floats(point, "point")
-    if point.ndim == 0 or point.shape[-1] not in (2, 3):
-        raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {point.shape}")
-    return (
-        point[..., 0],
-        point[..., 1],
-        point[..., 2] if point.shape[-1] == 3 else 0 * point[..., 0],
-    )
+    place = point.translation if isinstance(point, Transform) else floats(point, "point")
+    if place.ndim == 0 or place.shape[-1] not in (2, 3):
+        raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {place.shape}")
+    x, y = place[..., 0], place[..., 1]
+    return x, y, place[..., 2] if place.shape[-1] == 3 else 0 * x
 
 
-def _single(point):
+def _single(point: Any) -> Any:
     x = _plane(point)[0]
     if x.ndim:
         raise ValueError(f"point: wanted one single point, got a batch of shape {x.shape}")

@@ -3,151 +3,163 @@ form.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import broadcast, floats, instance
+from .._arrays import Bools, Floats, sealed
+from .._validate import broadcast, floats, instance, length, number
 from ..quaternion import Batch, Quaternion, rounded
 from ..transform import Transform
-from .arm import Arm, Link
-from .elbow import ROUNDING, in_words
+from ..units import wrapped
+from .arm import ClosedFormArm
+from .geometry import FREE, SINGULAR, UPRIGHT, Gap, distance, fixed, flags, two_levers, worst
+from .link import Link
 
 X, Y, Z = np.eye(3)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Target(Batch):
+@dataclass(frozen=True, eq=False, repr=False, init=False)
+class ScaraPose(Batch):
     """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...)
-    about the vertical.
+    about the vertical. The arrays are read-only copies.
 
     The angle is in radians and not wrapped: from 0 to pi is a half turn to the left, from 0 to -pi
     one to the right, and 3 pi is one and a half turns. A rotation cannot tell these apart (errata
-    S1-t).
-    Source: 001, listings 4 and 12.
+    S1-t). ValueError: wrong shapes, not finite. Source: 001, listings 4 and 12.
     """
 
-    position: np.ndarray
-    angle: np.ndarray = 0.0
+    position: Floats
+    angle: Floats
 
-    def __post_init__(self):
-        position, angle = floats(self.position, "position", 3), floats(self.angle, "angle")
-        shape = broadcast("position and angle", position.shape[:-1], angle.shape)
-        object.__setattr__(self, "position", np.broadcast_to(position, (*shape, 3)))
-        object.__setattr__(self, "angle", np.broadcast_to(angle, shape))
+    def __init__(self, position: ArrayLike, angle: ArrayLike = 0.0) -> None:
+        place, turn = floats(position, "position", 3), floats(angle, "angle")
+        shape = broadcast("position and angle", place.shape[:-1], turn.shape)
+        copies = np.broadcast_to(place, (*shape, 3)).copy(), np.broadcast_to(turn, shape).copy()
+        object.__setattr__(self, "position", sealed(copies[0]))
+        object.__setattr__(self, "angle", sealed(copies[1]))
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """The batch shape."""
         return self.angle.shape
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> "ScaraPose":
         index = index if isinstance(index, tuple) else (index,)
-        return Target(self.position[(*index, slice(None))], self.angle[index])
+        return ScaraPose(self.position[(*index, slice(None))], self.angle[index])
 
-    def lerp(self, goal, s):
+    def lerp(self, goal: "ScaraPose", s: ArrayLike) -> "ScaraPose":
         """On the way from here (s = 0) to `goal` (s = 1): position and angle both linear; s (...)
         is broadcast.
         """
-        instance(goal, Target, "goal")
-        s = floats(s, "s")
-        return Target(
-            self.position + (goal.position - self.position) * s[..., None],
-            self.angle + (goal.angle - self.angle) * s,
-        )
+        instance(goal, ScaraPose, "goal")
+        share = floats(s, "s")
+        broadcast("start, goal and s", self.shape, goal.shape, share.shape)
+        position = self.position + (goal.position - self.position) * share[..., None]
+        return ScaraPose(position, self.angle + (goal.angle - self.angle) * share)
 
-    def as_transform(self):
+    def as_transform(self) -> Transform:
         """The flange pose: the tool's z axis keeps pointing up (errata S1-r)."""
-        return Transform(Quaternion.from_angle_axis(self.angle, Z), self.position)
+        return Transform(Quaternion._turn(self.angle, Z), self.position)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if self.shape:
-            return f"Target(shape={self.shape})"
-        return f"Target(position={rounded(self.position)}, angle={rounded(self.angle)})"
+            return f"ScaraPose(shape={self.shape})"
+        return f"ScaraPose(position={rounded(self.position)}, angle={rounded(self.angle)})"
 
 
-def scara(name, height, upper, fore, limits, speed_limits=None):
-    """A SCARA `Arm`: joints 1 to 3 turn about vertical axes, joint 4 lowers the tool from `height`.
+def scara_arm(
+    name: str,
+    height: float,
+    upper: float,
+    fore: float,
+    limits: ArrayLike,
+    speed_limits: ArrayLike | None = None,
+) -> ClosedFormArm:
+    """A SCARA: joints 1 to 3 turn about vertical axes, joint 4 lowers the tool from `height`.
     Lengths in m.
 
-    q = 0 stretches the arm along x with the tool at `height`. `ik` takes a Target or a Transform.
-    Source: 001, listings 4 and 12.
+    q = 0 stretches the arm along x with the tool at `height`. `ik` takes a ScaraPose or a
+    Transform. Source: 001, listings 4 and 12. ValueError: a lever that is not one positive length.
     """
-    links = (
-        Link(Transform(translation=(0, 0, height)), Z),
-        Link(Transform(translation=(upper, 0, 0)), Z),
-        Link(Transform(translation=(fore, 0, 0)), Z),
-        Link(axis=-Z, prismatic=True),
-    )
-    return Arm(name, links, Scara(height, upper, fore), limits, speed_limits)
+    return ClosedFormArm(name, ScaraGeometry(height, upper, fore), limits, speed_limits)
 
 
-class Scara:
-    """The inverse of a SCARA arm (see `scara`). Configuration flag: the sign of joint 2. Angles in
-    [-pi, pi].
+class ScaraGeometry:
+    """The links of a SCARA and their inverse (see `scara_arm`). Configuration flag: the sign of
+    joint 2. Angles in [-pi, pi].
 
     Source: 001, listing 4, with errata S1-o (the other elbow, rounding) put right.
     """
 
-    branches = np.array([(1,), (-1,)])
+    branches = flags(1)
+    target = ScaraPose
+    carried = "the target"
+    height: float
+    upper: float
+    fore: float
+    links: tuple[Link, ...]
 
-    def __init__(self, height, upper, fore):
-        self.height, self.upper, self.fore = height, upper, fore
+    def __init__(self, height: float, upper: float, fore: float) -> None:
+        level = number(height, "height", "one number of metres")
+        upper, fore = length(upper, "upper"), length(fore, "fore")
+        links = (
+            Link(Transform(translation=(0, 0, level)), Z),
+            Link(Transform(translation=(upper, 0, 0)), Z),
+            Link(Transform(translation=(fore, 0, 0)), Z),
+            Link(axis=-Z, prismatic=True),
+        )
+        vars(self).update(height=level, upper=upper, fore=fore, links=links)
 
-    def ik(self, pose):
-        """See `Arm.ik`: Target or Transform of shape (...) -> (..., 2, 4). A tilted tool is out of
-        reach.
+    __setattr__ = __delattr__ = fixed
+
+    def ik(self, pose: Any) -> Floats:
+        """See `ClosedFormArm.ik`: ScaraPose or Transform of shape (...) -> (..., 2, 4). A tilted
+        tool is out of reach.
         """
         position, angle, tilt = _parts(pose)
         x, y, z = np.moveaxis(position[..., None, :], -1, 0)
+        ahead, turn, exists = two_levers(self.upper, self.fore, distance(x, y))
         elbow = self.branches[:, 0]
-        cos2 = (x * x + y * y - self.upper**2 - self.fore**2) / (2 * self.upper * self.fore)
-        reached = (abs(cos2) <= 1 + ROUNDING) & (tilt < 1e-9)[..., None]
-        cos2 = np.clip(cos2, -1, 1)
-        sin2 = elbow * np.sqrt((1 - cos2) * (1 + cos2))
-        q1 = np.arctan2(y, x) - np.arctan2(self.fore * sin2, self.upper + self.fore * cos2)
-        q2 = np.arctan2(sin2, cos2)
+        q1, q2 = np.arctan2(y, x) - elbow * ahead, elbow * turn
         q3 = angle[..., None] - q1 - q2
-        q = np.stack(np.broadcast_arrays(_wrapped(q1), q2, _wrapped(q3), self.height - z), axis=-1)
-        return np.where(reached[..., None], q, np.nan)
+        parts = np.broadcast_arrays(wrapped(q1), q2, wrapped(q3), self.height - z)
+        reached = exists & (tilt < UPRIGHT)[..., None]
+        return np.where(reached[..., None], np.stack(parts, axis=-1) + 0.0, np.nan)
 
-    def unreached(self, pose, row):
-        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0)
-        if it exists.
-        """
+    def gap(self, pose: Any, row: int) -> Gap | None:
+        """Why `row` does not exist for one single pose; None if it exists."""
         position, _, tilt = _parts(pose)
-        if tilt >= 1e-9:
-            return (
-                f"the tool is tilted by {np.rad2deg(tilt):.1f}°, and a SCARA's tool stays upright",
-                0.0,
-            )
-        r, longest, shortest = (
-            np.hypot(*position[:2]),
-            self.upper + self.fore,
-            abs(self.upper - self.fore),
-        )
-        if r > longest * (1 + ROUNDING):
-            return f"the target is {in_words(r - longest)} beyond the stretched arm", r - longest
-        if r < shortest * (1 - ROUNDING):
-            return f"the target is {in_words(shortest - r)} too near to axis 1", shortest - r
-        return "", 0.0
+        if not np.isnan(self.ik(pose)[row]).any():
+            return None
+        if tilt >= UPRIGHT:
+            return Gap("tilted", 0.0, self.carried, float(np.rad2deg(tilt)))
+        r, borders = np.hypot(*position[:2]), (self.upper + self.fore, abs(self.upper - self.fore))
+        return worst({"stretched": r - borders[0], "axis": borders[1] - r}, self.carried)
 
-    def singular(self, q):
+    def singularities(self, q: Floats) -> dict[str, Bools]:
         """Which singularities hold at q (..., 4): dict of name -> bool (...), within 1e-6 rad."""
-        return {"elbow": abs(np.sin(q[..., 1])) < 1e-6}
+        return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
-    def settle(self, q, previous):
-        """Rows q (..., 4) as they are: a reachable pose leaves no joint free."""
-        return q
+    def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
+        """Rows q (..., 4) as they are, but for equal levers folded onto axis 1: there joint 1 is as
+        in `previous`, and joint 3 makes up for it.
+        """
+        equal = abs(self.upper - self.fore) <= FREE * (self.upper + self.fore)
+        free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
+        if not free.any():
+            return q
+        back = np.where(free, q[..., 0] - previous[..., 0], 0.0)
+        return np.stack([q[..., 0] - back, q[..., 1], q[..., 2] + back, q[..., 3]], axis=-1)
 
 
-def _parts(pose):
+def _parts(pose: Any) -> tuple[Floats, Floats, Floats]:
     """Position, angle about the vertical, and tilt away from it in radians."""
-    if isinstance(pose, Target):
+    if isinstance(pose, ScaraPose):
         return pose.position, pose.angle, np.zeros(pose.shape)
-    instance(pose, Transform, "pose", hint=" (a SCARA takes a Target or a Transform)")
+    hint = " (a SCARA takes a ScaraPose or a Transform)"
+    instance(pose, Transform, "pose", hint=hint)
     w, x, y, z = np.moveaxis(pose.rotation.wxyz, -1, 0)
-    return pose.translation, 2 * np.arctan2(z, w), 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
-
-
-def _wrapped(angle):
-    return angle - 2 * np.pi * np.round(angle / (2 * np.pi))
+    tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
+    return pose.translation, 2 * np.arctan2(z, w), tilt

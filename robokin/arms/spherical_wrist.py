@@ -5,91 +5,97 @@ so the problem falls apart in two: bring the wrist centre to its place with join
 the tool with joints 4 to 6.
 """
 
-from functools import cached_property
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .._arrays import Bools, Floats, by_blocks
 from .._validate import instance
-from ..quaternion import Quaternion
+from ..quaternion import Quaternion, hamilton, matrix_rows
 from ..transform import Transform
-from .arm import Arm
-from .elbow import Elbow, home, parallel, turned
+from ..units import wrapped
+from .arm import ClosedFormArm
+from .elbow import Elbow, parallel, rotated
+from .geometry import SINGULAR, Gap, fixed, flags
+from .link import Link, chain, home
 
 FREE = 1e-13  # below this sine of joint 5 the angle of joint 4 is noise, and the joint is free
 # below this sine of joint 5 rounding of the pose itself can turn joint 4: a motion chooses it
 NOISY = 1e-9
-BLOCK = 2048  # poses solved at a time, so that the work stays in the processor's cache
 
 
-def spherical_wrist(name, links, limits, speed_limits=None):
-    """An `Arm` of six revolute links with a spherical wrist; its geometry is read from the links at
+def spherical_wrist(
+    name: str,
+    links: Iterable[Link],
+    limits: ArrayLike,
+    speed_limits: ArrayLike | None = None,
+) -> ClosedFormArm:
+    """An arm of six revolute links with a spherical wrist; its geometry is read from the links at
     q = 0.
 
     Wanted at q = 0, in base coordinates: axis 1 on the z axis; axes 2, 3 and 5 parallel to the y
     axis; axes 4 to 6 meeting in one point, 4 parallel to 6. Signs and offsets of the joints follow
     from the links. ValueError otherwise, naming the axis.
     """
-    geometry = SphericalWrist(name, links)
-    geometry.wrist  # noqa: B018  (measured now, so that a wrong chain is reported here)
-    return Arm(name, geometry.links, geometry, limits, speed_limits)
+    return ClosedFormArm(name, SphericalWristGeometry(links), limits, speed_limits)
 
 
-class SphericalWrist:
-    """The inverse of six links with a spherical wrist (see `spherical_wrist`).
+class SphericalWristGeometry:
+    """Six links with a spherical wrist, and their inverse (see `spherical_wrist`).
 
     Configuration flags, +1 or -1: the wrist centre in front of or behind axis 1 (front is the side
     of +x at q1 = 0); joint 3 on the positive or negative side of the stretched arm; joint 5
-    positive or negative.
-    Source: 001, listing 1, with errata S1-c (obtuse shoulder) and S1-d (singular wrist) put right;
-    004, section 3.
+    positive or negative. Source: 001, listing 1, with errata S1-c (obtuse shoulder) and S1-d
+    (singular wrist) put right; 004, section 3.
     """
 
-    branches = np.array([(i, j, k) for i in (1, -1) for j in (1, -1) for k in (1, -1)])
+    branches = flags(3)
+    target = Transform
+    carried = "the wrist centre"
+    links: tuple[Link, ...]
+    elbow: Elbow
+    wrist: "Wrist"
 
-    def __init__(self, name, links):
-        self.name, self.links = name, tuple(links)
+    def __init__(self, links: Iterable[Link]) -> None:
+        links = chain(links)
+        if len(links) != 6 or any(link.prismatic for link in links):
+            raise ValueError(f"links: wanted six revolute links, got {len(links)}")
+        points, axes, flange = home(links)
+        wrist, centre = Wrist.measured(points[3:], axes[3:], flange)
+        elbow = Elbow.measured(points[:3], axes[:3], centre, self.carried)
+        vars(self).update(links=links, elbow=elbow, wrist=wrist)
 
-    @cached_property
-    def wrist(self):
-        """The geometry, measured when it is first asked for; that of the first three joints is
-        `wrist.elbow`.
-        """
-        return Wrist(self.name, self.links)
+    __setattr__ = __delattr__ = fixed
 
-    def ik(self, pose):
-        """See `Arm.ik`: Transform of shape (...) -> (..., 8, 6)."""
+    def ik(self, pose: Any) -> Floats:
+        """See `ClosedFormArm.ik`: Transform of shape (...) -> (..., 8, 6)."""
         instance(pose, Transform, "pose", hint=" (Transform.from_matrix takes a 4 x 4 array)")
-        # each component in one long run in memory
-        wxyz = np.asfortranarray(pose.rotation.wxyz.reshape(-1, 4))
-        translation = np.asfortranarray(pose.translation.reshape(-1, 3))
-        # joint, front/back, elbow, wrist, pose: long runs in memory
-        q = np.empty((6, 2, 2, 2, len(translation)))
+        columns = pose.rotation.wxyz.reshape(-1, 4), pose.translation.reshape(-1, 3)
         with np.errstate(invalid="ignore", divide="ignore"):
-            for i in range(0, len(translation), BLOCK):
-                block = slice(i, i + BLOCK)
-                self._solve(
-                    Transform._of(Quaternion._of(wxyz[block]), translation[block]), q[..., block]
-                )
+            q = by_blocks(self._solve, *columns, rest=(2, 2, 2))
         return np.moveaxis(q.reshape(6, 8, *pose.shape), (0, 1), (-1, -2))
 
-    def _solve(self, pose, q):
-        """Fill q (6, 2, 2, 2, N)."""
+    def _solve(self, rotation: Sequence[Floats], origin: Sequence[Floats]) -> list[Any]:
+        """The six joints of poses (N,), for front/back and elbow (2, 2, N): a pair for the two
+        wrists where they differ.
+        """
         wrist = self.wrist
 
         # The wrist centre lies at a fixed place in the flange: step back to it. Joints 1 to 3 bring
         # it to its place.
-        tool = (pose.rotation @ wrist.from_flange)._rows()
+        tool = matrix_rows(hamilton(rotation, wrist.from_flange))
         cx, cy, cz = wrist.centre_from_flange
         x, y, z = (
-            pose.translation[:, i] + row[0] * cx + row[1] * cy + row[2] * cz
-            for i, row in enumerate(tool)
+            o + row[0] * cx + row[1] * cy + row[2] * cz for o, row in zip(origin, tool, strict=True)
         )
-        (cos1, sin1), fore = wrist.elbow.solve(x, y, z, q[:3, :, :, 0])
-        q[:3, :, :, 1] = q[:3, :, :, 0]
+        first, (cos1, sin1), fore = self.elbow.solve(x, y, z)
 
         # Joints 4 to 6: the wrist's frame at the tool, seen from the forearm. Its axis 4 points ce
         # ahead, se up.
-        ce, se = turned(*fore, wrist.axis4_from_fore)
+        ce, se = rotated(*fore, wrist.axis4 - self.elbow.fore_angle)
         ahead = [cos1 * tool[0][k] + sin1 * tool[1][k] for k in range(3)]
         aside = [wrist.sign5 * (cos1 * tool[1][k] - sin1 * tool[0][k]) for k in range(3)]
         below = [wrist.sign5 * (se * ahead[k] - ce * tool[2][k]) for k in range(3)]
@@ -103,36 +109,32 @@ class SphericalWrist:
         # singularity this keeps the orientation right although joint 4 is noise (errata S1-d).
         sin6 = wrist.sign6 * (cos4 * aside[0] - sin4 * below[0])
         cos6 = cos4 * aside[1] - sin4 * below[1]
+        q4, q5, q6 = np.arctan2(sin4, cos4), np.arctan2(sin5, cos5), np.arctan2(sin6, cos6)
 
         # The other wrist: joint 5 the other way, joints 4 and 6 half a turn on. A stuck wrist has
         # but one row.
-        q4, q5, q6 = np.arctan2(sin4, cos4), np.arctan2(sin5, cos5), np.arctan2(sin6, cos6)
-        q[3, :, :, 0], q[4, :, :, 0], q[5, :, :, 0] = q4, q5, q6
-        q[3, :, :, 1], q[4, :, :, 1], q[5, :, :, 1] = (
-            q4 - np.copysign(np.pi, q4),
-            -q5,
-            q6 - np.copysign(np.pi, q6),
-        )
+        other = [q4 - np.copysign(np.pi, q4), -q5, q6 - np.copysign(np.pi, q6)]
         if stuck.any():
-            q[3:, :, :, 1] = np.where(stuck, q[3:, :, :, 0], q[3:, :, :, 1])
+            pairs = zip((q4, q5, q6), other, strict=True)
+            other = [np.where(stuck, one, two) for one, two in pairs]
+        same = [(q_i, q_i) for q_i in first]
+        return [*same, *zip((q4, q5, q6), other, strict=True)]
 
-    def unreached(self, pose, row):
-        """Why `row` does not exist for one single pose, in words, and by how many metres; ("", 0.0)
-        if it exists.
+    def gap(self, pose: Any, row: int) -> Gap | None:
+        """Why `row` does not exist for one single pose; None if it exists."""
+        if not np.isnan(self.ik(pose)[row]).any():
+            return None
+        turn = Quaternion(self.wrist.from_flange)
+        centre = pose.translation + pose.rotation @ turn @ self.wrist.centre_from_flange
+        return self.elbow.gap(centre, self.branches[row, 0])
+
+    def singularities(self, q: Floats) -> dict[str, Bools]:
+        """Which singularities hold at q (..., 6): dict of name -> bool (...). As
+        `Elbow.singularities`, and wrist: axes 4 and 6 in one line (within 1e-6 rad).
         """
-        centre = (
-            pose.translation
-            + pose.rotation @ self.wrist.from_flange @ self.wrist.centre_from_flange
-        )
-        return self.wrist.elbow.unreached(centre, self.branches[row][0])
+        return self.elbow.singularities(q) | {"wrist": abs(np.sin(q[..., 4])) < SINGULAR}
 
-    def singular(self, q):
-        """Which singularities hold at q (..., 6): dict of name -> bool (...). As `Elbow.singular`,
-        and wrist: axes 4 and 6 in one line (within 1e-6 rad).
-        """
-        return self.wrist.elbow.singular(q) | {"wrist": abs(np.sin(q[..., 4])) < 1e-6}
-
-    def settle(self, q, previous):
+    def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
         """Rows q (..., 6) with what a wrist singularity leaves free chosen for the least turn from
         `previous`.
 
@@ -144,42 +146,57 @@ class SphericalWrist:
             return q
         sense = self.wrist.sign6 * np.where(np.cos(q[..., 4]) > 0, 1.0, -1.0)
         turn = q[..., 3] - previous[..., 3] + sense * (q[..., 5] - previous[..., 5])
-        half = (turn - 2 * np.pi * np.round(turn / (2 * np.pi))) / 2
+        half = wrapped(turn) / 2
         out = q.copy()
         out[..., 3] = np.where(stuck, previous[..., 3] + half, q[..., 3])
         out[..., 5] = np.where(stuck, previous[..., 5] + sense * half, q[..., 5])
         return out
 
 
+@dataclass(frozen=True, eq=False)
 class Wrist:
-    """The last three joints, measured on the links at q = 0."""
+    """The last three joints, measured on the links at q = 0.
 
-    def __init__(self, name, links):
-        def need(true, what):
-            if not true:
-                raise ValueError(f"{name}: {what} at q = 0")
+    sign5, sign6  +1 or -1: axis 5 along +y or -y, axis 6 along axis 4 or against it
+    axis4         angle of axis 4 above the horizon
+    from_flange   the quaternion w, x, y, z from the flange to the wrist's own frame, in which axis
+                  5 is y and axis 4 is z
+    centre_from_flange  the way x, y, z from the flange to the wrist centre, in the wrist's own
+                        frame
+    """
 
-        need(
-            len(links) == 6 and not any(link.prismatic for link in links),
-            "wanted six revolute links",
-        )
-        points, axes, flange = home(links)
-        (e4, e5, e6), (p4, p5, p6) = axes[3:], points[3:]
-        parallel(name, 5, e5, 1)
-        need(abs(e4[1]) < 1e-9, f"wanted axis 4 square to axis 5, got {e4}")
-        need(abs(abs(e4 @ e6) - 1) < 1e-9, f"wanted axis 6 parallel to axis 4, got {e6}")
+    sign5: float
+    sign6: float
+    axis4: float
+    from_flange: tuple[float, ...]
+    centre_from_flange: tuple[float, ...]
+
+    @classmethod
+    def measured(
+        cls, points: Sequence[Floats], axes: Sequence[Floats], flange: Transform
+    ) -> tuple["Wrist", Floats]:
+        """From a point on each of the axes 4 to 6, the axes, and the flange; and the wrist centre.
+        ValueError: other directions than `spherical_wrist` wants.
+        """
+        (e4, e5, e6), (p4, p5, p6) = axes, points
+        parallel(5, e5, 1)
+        _need(abs(e4[1]) < 1e-9, f"axis 4 square to axis 5, got {e4}")
+        _need(abs(abs(e4 @ e6) - 1) < 1e-9, f"axis 6 parallel to axis 4, got {e6}")
         centre = p4 + ((p5 - p4) @ e4) * e4  # axis 5 is square to axis 4: its foot on axis 4
         for number, point, axis in ((5, p5, e5), (6, p6, e6)):
-            need(
-                np.linalg.norm(np.cross(centre - point, axis)) < 1e-9,
-                f"wanted axis {number} through {centre}",
-            )
-
-        self.elbow = Elbow(name, points[:3], axes[:3], centre, "wrist centre")
-        self.sign5, self.sign6 = np.sign(e5[1]), np.sign(e4 @ e6)
-        self.axis4_from_fore = np.arctan2(e4[2], e4[0]) - self.elbow.fore_angle
-        # axis 5 is y, axis 4 is z
+            beside = np.linalg.norm(np.cross(centre - point, axis))
+            _need(beside < 1e-9, f"axis {number} through {centre}, got it {beside:.3g} m beside")
         frame = Quaternion.from_matrix(np.stack([np.cross(e5, e4), e5, e4], axis=-1))
-        self.from_flange = flange.rotation.inverse() @ frame
-        # in the wrist's own frame
-        self.centre_from_flange = frame.inverse() @ (centre - flange.translation)
+        wrist = cls(
+            sign5=float(np.sign(e5[1])),
+            sign6=float(np.sign(e4 @ e6)),
+            axis4=float(np.arctan2(e4[2], e4[0])),
+            from_flange=tuple((flange.rotation.inverse() @ frame).wxyz.tolist()),
+            centre_from_flange=tuple((frame.inverse() @ (centre - flange.translation)).tolist()),
+        )
+        return wrist, centre
+
+
+def _need(true: Any, wanted: str) -> None:
+    if not true:
+        raise ValueError(f"links: wanted {wanted} at q = 0")

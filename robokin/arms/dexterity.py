@@ -1,0 +1,56 @@
+"""How near a singularity is: the singular values of the Jacobian, with one length for all."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._arrays import Bools, Floats, Ints
+from .._validate import instance
+from .arm import Arm
+
+
+def reach(arm: Arm) -> float:
+    """The length of the stretched arm in metres, prismatic joints at their far limit: the measure
+    of its pictures, and the length by which a Jacobian's unlike rows are made comparable.
+    """
+    parts = [part for link in instance(arm, Arm, "arm").links for part in (link.before, link.after)]
+    shifts = abs(arm.limits[arm.prismatic]).max(axis=-1, initial=0)
+    return float(sum(np.linalg.norm(part.translation) for part in parts) + shifts.sum())
+
+
+def singular_values(arm: Arm, q: ArrayLike) -> Floats:
+    """The singular values of the Jacobian at q (..., n), falling: the semi-axes of the ellipsoid of
+    tool velocities that joint speeds of length 1 can make. NaN for NaN.
+
+    Lengths count in reaches of the arm (see `reach`), so that they have no unit. Only what the arm
+    is asked for counts: the tool's place for arms of up to three joints, else place and
+    orientation, and of these what the arm can move at all.
+    Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
+    """
+    jacobian = _scaled(arm, q)[..., _movable(arm), :]
+    exists: Bools = np.isfinite(jacobian).all(axis=(-1, -2), keepdims=True)
+    whole = np.where(exists, jacobian, 0.0)
+    values = np.linalg.svd(whole, compute_uv=False)
+    return np.where(exists[..., 0], values, np.nan)
+
+
+def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
+    """The smallest of the `singular_values` at q (..., n): (...). It says how little the tool moves
+    in its worst direction; 0 is a singularity.
+    """
+    return singular_values(arm, q)[..., -1]
+
+
+def _scaled(arm: Arm, q: ArrayLike) -> Floats:
+    jacobian, size = arm.jacobian(q), reach(arm)
+    jacobian[..., :3, :] /= size
+    jacobian[..., arm.prismatic] *= size
+    return jacobian
+
+
+def _movable(arm: Arm) -> Ints:
+    """Which rows of the Jacobian any posture can make other than zero."""
+    n = len(arm.links)
+    shares = (np.arange(1, 65)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(n) % 6]) % 1
+    postures = arm.limits[:, 0] + shares * (arm.limits[:, 1] - arm.limits[:, 0])
+    moved = abs(_scaled(arm, postures)).max(axis=(0, 2)) > 1e-9
+    return np.flatnonzero(moved[:3] if n <= 3 else moved)

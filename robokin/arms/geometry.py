@@ -1,0 +1,137 @@
+"""What a geometry is: a chain of links and, where there is one, its closed-form inverse.
+
+An arm is a geometry with limits (see `arm.py`). A geometry is made of the numbers that its links
+and its inverse have in common, so that the two cannot disagree. Two protocols say what it has:
+`Geometry` is every one, `ClosedForm` has an inverse besides.
+
+How near is near stands here too, once for all geometries. Distances are shares of the arm's reach.
+"""
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Any, Protocol
+
+import numpy as np
+
+from .._arrays import Bools, Floats, Ints
+from ..units import in_words
+from .link import Link
+from .verdicts import SENTENCES
+
+ROUNDING = 1e-12  # past a border by no more than this is on it
+STRAIGHT = 1e-14  # this near to stretched or folded is so: the two elbow rows are one
+FREE = 1e-13  # this near to axis 1 the angle of joint 1 is noise, and the joint is free
+SINGULAR = 1e-6  # rad, or of the reach: this near to a singularity is called singular
+UPRIGHT = 1e-9  # rad; a tool tilted by less than this stands upright
+
+
+class Geometry(Protocol):
+    """What every geometry has.
+
+    links    base to flange
+    target   what an arm of this geometry can be asked for: Transform (place and orientation),
+             ScaraPose (place and angle) or np.ndarray (a point)
+    """
+
+    @property
+    def links(self) -> tuple[Link, ...]: ...
+    @property
+    def target(self) -> type: ...
+
+
+class ClosedForm(Geometry, Protocol):
+    """What a geometry with a closed-form inverse has besides.
+
+    branches   (rows, flags) of +-1, read-only: the configuration of every row
+    carried    what is brought to its place by the first joints: "wrist centre", "point", ...
+    """
+
+    @property
+    def branches(self) -> Ints: ...
+    @property
+    def carried(self) -> str: ...
+
+    def ik(self, pose: Any) -> Floats:
+        """See `ClosedFormArm.ik`."""
+
+    def gap(self, pose: Any, row: int) -> "Gap | None":
+        """Why `row` does not exist for one single pose; None if it exists."""
+
+    def singularities(self, q: Floats) -> dict[str, Bools]:
+        """Which singularities hold at q (..., n): dict of name -> bool (...)."""
+
+    def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
+        """Rows q (..., n) with what a singularity leaves free chosen for the least turn from
+        `previous` (..., n).
+        """
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Why a row does not exist: which border is passed, and by how much.
+
+    kind     names a sentence of `verdicts.SENTENCES`
+    metres   how far the target is beyond the border; 0 where no length says it
+    what     what should be brought to its place: "the wrist centre", "the target"
+    degrees  by how much a tool is tilted, where that is the reason
+    """
+
+    kind: str
+    metres: float
+    what: str
+    degrees: float = 0.0
+
+    @property
+    def words(self) -> str:
+        """The reason as a part of a sentence."""
+        facts = {"what": self.what, "gap": in_words(self.metres), "degrees": self.degrees}
+        return SENTENCES[self.kind].format(**facts)
+
+
+def flags(count: int) -> Ints:
+    """All configurations of so many flags, (2**count, count) of +1 and -1, read-only: the first
+    flag changes last.
+    """
+    rows = np.array(list(product((1, -1), repeat=count)))
+    rows.flags.writeable = False
+    return rows
+
+
+def fixed(self: object, name: str, *_: object) -> None:
+    """In place of __setattr__ and __delattr__: a geometry is measured once and never changed."""
+    raise AttributeError(f"{type(self).__name__} cannot be changed: {name}")
+
+
+def worst(gaps: dict[str, Any], what: str) -> Gap:
+    """The border (name -> metres beyond it) that is passed the farthest."""
+    kind = max(gaps, key=lambda name: float(gaps[name]))
+    return Gap(kind, max(float(gaps[kind]), 0.0), what)
+
+
+def distance(x: Floats, y: Floats) -> Floats:
+    """The length of (x, y), as np.hypot gives it, of + - * / and sqrt alone: these are rounded
+    alike on every machine and in every language, so that all agree on what is out of reach.
+    """
+    scale = np.maximum(abs(x), abs(y))
+    scale = np.where(scale > 0, scale, 1.0)
+    x, y = x / scale, y / scale
+    return scale * np.sqrt(x * x + y * y)
+
+
+def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bools]:
+    """The triangle of two levers whose ends are d (...) apart: the angle of the upper one from the
+    line between the ends, the turn from the upper to the fore one, both in [0, pi], and whether
+    there is such a triangle.
+
+    By half angles: the four factors are Heron's, each taken from a difference and never from a
+    difference of squares, so that no digit is lost where equal levers fold (the law of cosines
+    loses half of them).
+    """
+    slack = ROUNDING * (upper + fore)
+    stretch, fold = upper + fore - d, d - abs(upper - fore)
+    exists = (stretch >= -slack) & (fold >= -slack)
+    stretch, around = np.maximum(stretch, 0), upper + fore + d
+    short, long = np.maximum(d - (upper - fore), 0), np.maximum(d + (upper - fore), 0)
+    ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
+    turn = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
+    return ahead, turn, exists

@@ -1,0 +1,30 @@
+"""The words of a verdict: every sentence that `explain` is made of, so that a page can be given
+them.
+
+In braces stand the facts: {what} is brought to its place, {gap} a length with its unit, {degrees}
+an angle; {row}, {flags}, {reason}, {hint}, {facts}; {joint}, {value}, {over} and {limit}.
+"""
+
+SENTENCES = {
+    # a whole verdict
+    "missing": "Row {row} ({flags}) does not exist: {reason}{hint}",
+    "usable": "Row {row} ({flags}) is usable: it is inside every limit and not singular.",
+    "usable but": "Row {row} ({flags}) is usable, but {facts}.",
+    "not usable": "Row {row} ({flags}) is not usable: {facts}.",
+    "millimetres": "; lengths are in metres, were millimetres meant (350 * mm)?",
+    # why a row does not exist
+    "stretched": "{what} is {gap} beyond the stretched arm",
+    "folded": "{what} is {gap} too near to joint 2",
+    "axis": "{what} is {gap} too near to axis 1",
+    "base": "{what} is {gap} too near to the base",
+    "plane": "{what} is {gap} off the plane z = 0",
+    "tilted": "the tool is tilted by {degrees:.1f}°, and a SCARA's tool stays upright",
+    # a joint past its limit
+    "past": "joint {joint} stands at {value}, {over} past its limit of {limit}",
+    # singularities
+    "shoulder": "{what} is in line with axis 1 (shoulder singularity), where the front and back "
+    "rows meet",
+    "elbow": "the arm is stretched or folded (elbow singularity), where the two elbow rows are one",
+    "wrist": "axes 4 and 6 are in one line (wrist singularity), so that only their joints' common "
+    "turn is fixed",
+}
