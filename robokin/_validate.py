@@ -17,6 +17,7 @@ import numpy as np
 from ._arrays import Floats
 
 T = TypeVar("T")
+FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
 GREATEST = 10**8  # values in one array: more would fill the memory of a laptop
 
@@ -121,7 +122,8 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3) -> None:
     """A UserWarning where an angle is beyond two turns: radians were wanted, and these are likely
     degrees.
     """
-    if (abs(angles) > TWO_TURNS).any():
+    beyond = abs(angles) > TWO_TURNS
+    if beyond.any() if beyond.ndim else beyond:
         greatest = np.nanmax(abs(angles))
         text = f"{name}: {greatest:.6g} rad is more than two turns; were degrees meant (90 * deg)?"
         warnings.warn(text, UserWarning, stacklevel=stacklevel)
@@ -142,20 +144,22 @@ def short(value: Any) -> str:
 
 def _numbers(value: Any, name: str) -> Floats:
     """`value` as floats, if it holds real numbers and nothing else."""
-    if type(value) is np.ndarray and value.dtype == np.float64:
+    if type(value) is np.ndarray and value.dtype is FLOAT:
         return value
     if isinstance(value, np.ma.MaskedArray):
         raise ValueError(f"{name}: wanted numbers, got a masked array (`filled` makes a plain one)")
     try:
         array = np.asarray(value)
+        if array.dtype is FLOAT:
+            return array
         if array.dtype.kind == "O" and array.size and all(map(_is_real, array.flat)):
-            array = array.astype(float)  # whole numbers too great for NumPy, fractions
+            return array.astype(float)  # whole numbers too great for NumPy, fractions
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name}: wanted numbers, got {short(value)}") from None
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{name}: wanted numbers, got {short(value)}")
-    with np.errstate(over="ignore"):
-        return array.astype(float, copy=False)
+    with np.errstate(over="ignore"):  # of numbers longer than 64 bits
+        return array.astype(float)
 
 
 def _is_real(value: Any) -> bool:

@@ -64,8 +64,9 @@ class Quaternion(Batch):
     @classmethod
     def _of(cls, *wxyz: Floats) -> "Quaternion":
         """From components already known to be of unit length: nothing is checked, NaN rows pass."""
-        self = object.__new__(cls)
-        object.__setattr__(self, "wxyz", sealed(wxyz[0] if len(wxyz) == 1 else stack(wxyz)))
+        self, array = object.__new__(cls), wxyz[0] if len(wxyz) == 1 else stack(wxyz)
+        array.setflags(write=False)
+        object.__setattr__(self, "wxyz", array)
         return self
 
     @classmethod
@@ -190,8 +191,8 @@ class Quaternion(Batch):
         return self.wxyz.shape[:-1]
 
     def __getitem__(self, index: Any) -> "Quaternion":
-        index = index if isinstance(index, tuple) else (index,)
-        return Quaternion._of(self.wxyz[(*index, slice(None))])
+        whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
+        return Quaternion._of(self.wxyz[whole])
 
     @overload
     def __matmul__(self, other: "Quaternion") -> "Quaternion": ...
@@ -258,10 +259,33 @@ def turned(q: Sequence[Any], v: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(v_ + w * t_ + c for v_, t_, c in zip(v, t, cross(u, t), strict=True))
 
 
+def spun(q: Sequence[Any], axis: int, cosine: Any, sine: Any) -> tuple[Any, Any, Any, Any]:
+    """The quaternion q times a turn about the coordinate axis 0, 1 or 2, given by the cosine and
+    sine of half its angle: what is left of Hamilton's product.
+    """
+    w, *v = q
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    u = [w * sine + v[axis] * cosine] * 3
+    u[i], u[j] = v[i] * cosine + v[j] * sine, v[j] * cosine - v[i] * sine
+    return w * cosine - v[axis] * sine, *u
+
+
+def along(q: Sequence[Any], axis: int, length: float) -> list[Any]:
+    """The vector of this length on the coordinate axis 0, 1 or 2, turned by q: a column of
+    `matrix_rows`, times the length.
+    """
+    w, *v = q
+    i, j, twice = (axis + 1) % 3, (axis + 2) % 3, 2 * length
+    u = [length - twice * (v[i] * v[i] + v[j] * v[j])] * 3
+    u[i], u[j] = twice * (v[axis] * v[i] + w * v[j]), twice * (v[axis] * v[j] - w * v[i])
+    return u
+
+
 def half_angles(angle: Floats, axis: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
     """The quaternion of a turn by `angle` about the unit vector `axis` (x, y, z)."""
-    sine = np.sin(angle / 2)
-    return np.cos(angle / 2), sine * axis[0], sine * axis[1], sine * axis[2]
+    half = angle / 2
+    sine = np.sin(half)
+    return np.cos(half), sine * axis[0], sine * axis[1], sine * axis[2]
 
 
 def matrix_rows(q: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
@@ -282,8 +306,8 @@ def unit(vectors: Floats, name: str, what: str) -> Floats:
     `what` was wanted.
     """
     with np.errstate(over="ignore"):
-        length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-        off = abs(length - 1)
+        length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
+    off = abs(length - 1)
     if (off > UNIT).any():
         worst = np.unravel_index(off[..., 0].argmax(), off.shape[:-1])
         got = f"{vectors[worst]} of length {length[worst][0]:.6g}"

@@ -41,8 +41,9 @@ class Transform(Batch):
         instance(rotation, Quaternion, "rotation")
         place = floats(translation, "translation", 3)
         shape = broadcast("rotation and translation", rotation.shape, place.shape[:-1])
-        whole = Quaternion._of(np.broadcast_to(rotation.wxyz, (*shape, 4)))
-        object.__setattr__(self, "rotation", whole)
+        if rotation.shape != shape:
+            rotation = Quaternion._of(np.broadcast_to(rotation.wxyz, (*shape, 4)))
+        object.__setattr__(self, "rotation", rotation)
         copy = np.broadcast_to(place, (*shape, 3)).copy()
         object.__setattr__(self, "translation", sealed(copy))
 
@@ -51,7 +52,8 @@ class Transform(Batch):
         """From parts of one batch shape: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
         object.__setattr__(self, "rotation", rotation)
-        object.__setattr__(self, "translation", sealed(translation))
+        translation.setflags(write=False)
+        object.__setattr__(self, "translation", translation)
         return self
 
     @classmethod
@@ -87,8 +89,8 @@ class Transform(Batch):
         return self.translation.shape[:-1]
 
     def __getitem__(self, index: Any) -> "Transform":
-        index = index if isinstance(index, tuple) else (index,)
-        return Transform._of(self.rotation[index], self.translation[(*index, slice(None))])
+        whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
+        return Transform._of(Quaternion._of(self.rotation.wxyz[whole]), self.translation[whole])
 
     @overload
     def __matmul__(self, other: "Transform") -> "Transform": ...

@@ -1,5 +1,5 @@
-"""Wrong input: the exception of the one rule, whose message holds the evidence, or the right answer.
-evidence, or the right answer. A table, one line per call.
+"""Wrong input: the exception of the one rule whose message holds the evidence, or the right
+answer. A table, one line per call.
 """
 
 from types import SimpleNamespace

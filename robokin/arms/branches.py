@@ -28,7 +28,7 @@ def within(arm: Arm, q: ArrayLike) -> Bools:
     angle is beyond two turns: degrees were likely meant.
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
-    warn_if_degrees(values[..., ~arm.prismatic], "q")
+    warn_if_degrees(values[..., ~arm.prismatic] if arm.prismatic.any() else values, "q")
     return _within(arm, values)
 
 
@@ -114,7 +114,7 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
         raise ValueError(f"pose: wanted one single pose, got a batch of shape {rows.shape[:-2]}")
     row = whole(row, "row", 0, len(rows) - 1)
     q, signs = rows[row], ", ".join(f"{flag:+d}" for flag in arm.branches[row])
-    gap = arm.geometry.gap(pose, row)
+    gap = arm.geometry.gap(pose, row) if np.isnan(q).any() else None
     if gap is not None:
         meant = gap.metres > 10 and not np.isnan(arm.ik(_shrunk(pose))).all()
         hint = SENTENCES["millimetres"] if meant else "."

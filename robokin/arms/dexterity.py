@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, Ints
+from .._arrays import Floats, Ints
 from .._validate import instance
 from .arm import Arm
 
@@ -27,10 +27,10 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
     Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
     """
     jacobian = _scaled(arm, q)[..., _movable(arm), :]
-    exists: Bools = np.isfinite(jacobian).all(axis=(-1, -2), keepdims=True)
-    whole = np.where(exists, jacobian, 0.0)
+    missing = np.isnan(jacobian.sum(axis=(-1, -2), keepdims=True))
+    whole = np.where(missing, 0.0, jacobian)
     values = np.linalg.svd(whole, compute_uv=False)
-    return np.where(exists[..., 0], values, np.nan)
+    return np.where(missing[..., 0], np.nan, values)
 
 
 def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:

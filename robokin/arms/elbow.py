@@ -189,10 +189,9 @@ class Elbow:
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
         exists = (unfolded >= -ROUNDING * inner) & (unstretched >= -ROUNDING * outer)
-        folded, stretched = unfolded <= STRAIGHT * inner, unstretched <= STRAIGHT * outer
-        unfolded = np.where(folded, 0.0, np.where(stretched, 2.0, unfolded))
-        unstretched = np.where(stretched, 0.0, np.where(folded, 2.0, unstretched))
         unfolded = np.where(exists, unfolded, np.nan)
+        unstretched = np.where(unstretched <= STRAIGHT * outer, 0.0, unstretched)
+        unfolded = np.where(unfolded <= STRAIGHT * inner, 0.0, unfolded)
         elbow = self.sign3 * np.array([1.0, -1.0])[:, None]
         cos_g, sin_g = unfolded - 1, elbow * np.sqrt(unfolded * unstretched)
         along, across = (upper - fore) + fore * unfolded, fore * sin_g
@@ -201,7 +200,7 @@ class Elbow:
         # forearm above the horizon
         cos_b, sin_b = cos_a * cos_g - sin_a * sin_g, sin_a * cos_g + cos_a * sin_g
 
-        q1 = np.arctan2(self.sign1 * sin1, cos1) + np.where(exists, 0.0, np.nan)
+        q1 = np.where(exists, np.arctan2(self.sign1 * sin1, cos1), np.nan)
         cos2, sin2 = rotated(cos_a, sin_a, -self.upper_angle)
         cos3, sin3 = rotated(cos_g, sin_g, self.upper_angle - self.fore_angle)
         q2, q3 = np.arctan2(self.sign2 * sin2, cos2), np.arctan2(self.sign3 * sin3, cos3)
@@ -260,7 +259,10 @@ def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
 def _unit(x: Floats, y: Floats) -> Pair:
     """(x, y) at length 1, and (1, 0) for no length: equal levers, folded, leave joint 2 free."""
     length = np.sqrt(x * x + y * y)
-    return np.where(length == 0, 1.0, x / length), np.where(length == 0, 0.0, y / length)
+    none = length == 0
+    if none.any():
+        x, length = np.where(none, 1.0, x), np.where(none, 1.0, length)
+    return x / length, y / length
 
 
 def _point(pose: Any) -> Floats:

@@ -112,8 +112,7 @@ def distance(x: Floats, y: Floats) -> Floats:
     """The length of (x, y), as np.hypot gives it, of + - * / and sqrt alone: these are rounded
     alike on every machine and in every language, so that all agree on what is out of reach.
     """
-    scale = np.maximum(abs(x), abs(y))
-    scale = np.where(scale > 0, scale, 1.0)
+    scale = np.maximum(np.maximum(abs(x), abs(y)), 1e-300)
     x, y = x / scale, y / scale
     return scale * np.sqrt(x * x + y * y)
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from .._arrays import Floats, sealed
 from .._validate import broadcast, floats, instance
-from ..quaternion import Quaternion, half_angles, hamilton, turned, unit
+from ..quaternion import Quaternion, along, half_angles, hamilton, spun, turned, unit
 from ..transform import Transform
 
 # A frame on components, as the formulas of a chain take it: the rotation w, x, y, z and the origin
@@ -52,21 +52,23 @@ class Link:
         object.__setattr__(self, "axis", direction)
         object.__setattr__(self, "after", after)
         object.__setattr__(self, "prismatic", instance(prismatic, bool, "prismatic"))
-        # For the formulas: plain numbers, and None for a part that changes nothing.
-        object.__setattr__(self, "_parts", (_plain(before), direction.tolist(), _plain(after)))
+        object.__setattr__(self, "_parts", (_Fixed(before), _coordinate(direction), _Fixed(after)))
 
     def carry(self, frame: Frame, q: Floats) -> tuple[Frame, Frame]:
         """The joint's own frame and the frame after this link, from the frame before it and q (...)
         in radians, metres if prismatic; all frames on components (`BASE` to begin with).
         """
-        before, axis, after = self._parts  # type: ignore[attr-defined]
-        joint = rotation, origin = _step(frame, before)
+        before, (axis, sign), after = self._parts  # type: ignore[attr-defined]
+        joint = rotation, origin = before.step(frame)
         if self.prismatic:
-            ahead = turned(rotation, axis)
+            ahead = turned(rotation, self.axis.tolist())
             moved: Frame = rotation, [o + q * a for o, a in zip(origin, ahead, strict=True)]
+        elif axis is None:
+            moved = hamilton(rotation, half_angles(q, self.axis.tolist())), origin
         else:
-            moved = hamilton(rotation, half_angles(q, axis)), origin
-        return joint, _step(moved, after)
+            half = (0.5 * sign) * q
+            moved = spun(rotation, axis, np.cos(half), np.sin(half)), origin
+        return joint, after.step(moved)
 
 
 def dh_links(
@@ -111,14 +113,31 @@ def home(links: Sequence[Link]) -> tuple[list[Floats], list[Floats], Transform]:
     return points, axes, frame
 
 
-def _step(frame: Frame, fixed: tuple[list[float] | None, list[float] | None]) -> Frame:
-    """The frame after a fixed transform, given as plain numbers."""
-    (rotation, origin), (turn, shift) = frame, fixed
-    if shift is not None:
-        origin = [o + s for o, s in zip(origin, turned(rotation, shift), strict=True)]
-    return (rotation if turn is None else hamilton(rotation, turn)), origin
+class _Fixed:
+    """A fixed transform in as few steps as it takes: shifts along coordinate axes, then a turn
+    about one of them or about any axis, or none.
+    """
+
+    def __init__(self, fixed: Transform) -> None:
+        turn = fixed.rotation.wxyz.tolist()
+        self.shifts = [(k, x) for k, x in enumerate(fixed.translation.tolist()) if x]
+        self.axes = [k for k in range(3) if turn[k + 1]]
+        self.turn = turn
+
+    def step(self, frame: Frame) -> Frame:
+        """The frame after the transform."""
+        rotation, origin = frame
+        for k, length in self.shifts:
+            shift = along(rotation, k, length)
+            origin = [o + s for o, s in zip(origin, shift, strict=True)]
+        if len(self.axes) > 1:
+            rotation = hamilton(rotation, self.turn)
+        for k in self.axes if len(self.axes) == 1 else ():
+            rotation = spun(rotation, k, self.turn[0], self.turn[k + 1])
+        return rotation, origin
 
 
-def _plain(fixed: Transform) -> tuple[list[float] | None, list[float] | None]:
-    turn, shift = fixed.rotation.wxyz.tolist(), fixed.translation.tolist()
-    return (None if turn == [1.0, 0.0, 0.0, 0.0] else turn), (shift if any(shift) else None)
+def _coordinate(axis: Floats) -> tuple[int | None, float]:
+    """Which coordinate axis (0, 1, 2) this one is, and its sign; None if it is another."""
+    k = int(abs(axis).argmax())
+    return (k, float(axis[k])) if abs(axis[k]) == 1 else (None, 1.0)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, sealed
+from .._arrays import Bools, Floats, components, sealed, stack
 from .._validate import broadcast, floats, instance, length, number
 from ..quaternion import Batch, Quaternion, rounded
 from ..transform import Transform
@@ -119,14 +119,14 @@ class ScaraGeometry:
         tool is out of reach.
         """
         position, angle, tilt = _parts(pose)
-        x, y, z = np.moveaxis(position[..., None, :], -1, 0)
+        x, y, z = (part[..., None] for part in components(position))
         ahead, turn, exists = two_levers(self.upper, self.fore, distance(x, y))
         elbow = self.branches[:, 0]
-        q1, q2 = np.arctan2(y, x) - elbow * ahead, elbow * turn
+        q1, q2 = np.arctan2(y, x) - elbow * ahead, elbow * turn + 0.0  # no -0.0
         q3 = angle[..., None] - q1 - q2
-        parts = np.broadcast_arrays(wrapped(q1), q2, wrapped(q3), self.height - z)
+        q = stack([wrapped(q1), q2, wrapped(q3), self.height - z])
         reached = exists & (tilt < UPRIGHT)[..., None]
-        return np.where(reached[..., None], np.stack(parts, axis=-1) + 0.0, np.nan)
+        return np.where(reached[..., None], q, np.nan)
 
     def gap(self, pose: Any, row: int) -> Gap | None:
         """Why `row` does not exist for one single pose; None if it exists."""
