@@ -118,15 +118,16 @@ def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
     return value
 
 
-def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3) -> None:
-    """A UserWarning where an angle is beyond two turns: radians were wanted, and these are likely
-    degrees.
+def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int = 0) -> None:
+    """A UserWarning where radians were wanted and these angles are likely degrees: one of them is
+    beyond two turns, or in a batch, which may be a motion that turns on and on, beyond eight.
+
+    posture  1 if the last axis are the joints of one posture, 0 if every angle stands for itself
     """
-    beyond = abs(angles) > TWO_TURNS
-    if beyond.any() if beyond.ndim else beyond:
-        greatest = np.nanmax(abs(angles))
-        text = f"{name}: {greatest:.6g} rad is more than two turns; were degrees meant (90 * deg)?"
-        warnings.warn(text, UserWarning, stacklevel=stacklevel)
+    beyond = abs(angles) > (TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS)
+    if beyond.any() if angles.ndim else beyond:
+        text = f"{name}: {np.nanmax(abs(angles)):.6g} rad is many turns; were degrees meant?"
+        warnings.warn(f"{text} (90 * deg)", UserWarning, stacklevel=stacklevel)
 
 
 def short(value: Any) -> str:

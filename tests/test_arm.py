@@ -154,5 +154,6 @@ def test_a_prismatic_joint_shifts_along_its_axis():
 
 def test_whole_turns_change_nothing():
     q = RNG.uniform(-np.pi, np.pi, (50, 6))
-    a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-3, 4, q.shape))
+    with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
+        a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-9, 10, q.shape))
     assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13

@@ -23,8 +23,10 @@ from robokin import (
     lin,
     mm,
     nearest,
+    representative,
     within,
 )
+from robokin.arms import unwrapped
 
 machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
 six = pytest.mark.parametrize("machine", SIX, ids=repr)
@@ -67,7 +69,8 @@ def test_within_is_true_where_some_whole_turn_brings_the_joint_inside(arm, shape
 
 def test_within_counts_a_joint_at_its_limit_and_not_a_missing_one():
     assert within(IRB140, IRB140.limits.T).all()
-    assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
+    with pytest.warns(UserWarning, match="q: 13.2645 rad .* were degrees meant"):
+        assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
     past = IRB140.limits[:, 1] + 1e-6
     # their circles leave no gap
     assert within(IRB140, past).tolist() == [True, False, False, True, False, True]
@@ -557,3 +560,74 @@ def test_the_blend_stays_on_one_row():
         path = follow(IRB140, rows[corner], row)
         assert turns(path, rows[corner, :, row]).max() < 1e-12
         assert abs(np.diff(path, axis=0)).max() < 0.05
+
+
+# What people read
+# --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
+def test_the_value_shown_is_inside_or_least_past_the_limits(arm):
+    """By trial of whole turns: the value inside that is nearest to q, else the one least past."""
+    rng = np.random.default_rng(31)
+    q = rng.uniform(-11, 11, (400, len(arm.links)))
+    shown = representative(arm, q)
+    for value, given in zip(shown.ravel(), np.ravel(q), strict=True):
+        assert abs(np.exp(1j * value) - np.exp(1j * given)) < 1e-13 or value == given
+    for row, given in zip(shown, q, strict=True):
+        inside = representatives(arm, given)
+        for i, (low, high) in enumerate(arm.limits):
+            if arm.prismatic[i]:
+                assert row[i] == given[i]
+            elif inside[i]:
+                best = min(abs(v - given[i]) for v in inside[i])
+                assert abs(row[i] - given[i]) == pytest.approx(best, abs=1e-12)
+            else:
+                turns_ = given[i] + 2 * np.pi * np.arange(-4, 5)
+                past = np.maximum(turns_ - high, low - turns_)
+                assert max(row[i] - high, low - row[i]) == pytest.approx(past.min(), abs=1e-12)
+
+
+def test_a_joint_past_its_limit_is_shown_at_its_least_excess_whatever_came_before():
+    """A5: lab 02 showed q3 at -300.5, 70 past; lab 07 q5 at 259.8 where -100.2 is 0.2 past."""
+    q = np.zeros(6)
+    for k in (-1, 0, 1):
+        q[2] = (-300.5 + 360 * k) * deg
+        assert representative(IRB140, q)[2] / deg == pytest.approx(59.5)
+    q[2] = 0
+    for k in (-1, 0, 1):
+        q[4] = (259.8 + 360 * k) * deg
+        assert representative(PUMA560, q)[4] / deg == pytest.approx(-100.2)
+    T = PUMA560.fk([0.1, 0.2, 0.3, 0.4, -100.2 * deg, 0.5])
+    rows = PUMA560.ik(T)
+    row = int(np.nanargmin(abs(rows - [0.1, 0.2, 0.3, 0.4, -100.2 * deg, 0.5]).max(-1)))
+    assert "joint 5 stands at -100.2°, 0.2° past its limit of -100°" in explain(PUMA560, T, row)
+    assert np.isnan(representative(IRB140, np.full(6, np.nan))).all()
+
+
+def test_at_its_limit_a_joint_is_shown_there():
+    for arm in (IRB140, PUMA560, SCARA):
+        for side in (0, 1):
+            limit = arm.limits[:, side]
+            assert np.allclose(representative(arm, limit), limit, rtol=0, atol=1e-12)
+
+
+def test_unwrapped_takes_the_nearest_whole_turn_and_leaves_a_stroke():
+    rng = np.random.default_rng(32)
+    q, near = rng.uniform(-9, 9, (2, 100, 2))
+    got = unwrapped(MIXED, q, near)
+    assert (got[:, 1] == q[:, 1]).all()
+    assert (abs(got[:, 0] - near[:, 0]) <= np.pi + 1e-12).all()
+    assert np.allclose(np.exp(1j * got[:, 0]), np.exp(1j * q[:, 0]))
+    with pytest.raises(ValueError, match=r"\(2, 2\).*\(3, 2\)"):
+        unwrapped(MIXED, np.zeros((2, 2)), np.zeros((3, 2)))
+
+
+def test_degrees_for_radians_are_hinted_at_and_a_long_motion_is_not():
+    with pytest.warns(UserWarning, match="q: 90 rad is many turns; were degrees meant"):
+        within(IRB140, [0, 90, 0, 0, 0, 0])
+    with pytest.warns(UserWarning, match="q: 90 rad is many turns"):
+        IRB140.frames([0, 90, 0, 0, 0, 0])
+    motion = np.linspace(np.zeros(6), np.full(6, 8 * np.pi), 100)  # four turns
+    within(IRB140, motion), IRB140.fk(motion)
+    SCARA.fk([0.1, 0.2, 0.3, 90])  # metres

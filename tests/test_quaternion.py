@@ -241,3 +241,68 @@ def test_nearly_unit_quaternions_are_made_unit():
 def test_repr_has_no_minus_zero():
     assert repr(Quaternion([1.0, -0.0, -1e-9, 0])) == "Quaternion(wxyz=[1., 0., 0., 0.])"
     assert repr(random((2, 3))) == "Quaternion(shape=(2, 3))"
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_angle_between_two_rotations_is_scipys(shape):
+    a, b = random(shape), random(shape)
+    wanted = (scipy(a).inv() * scipy(b)).magnitude().reshape(shape)
+    assert np.allclose(a.angle_to(b), wanted, rtol=0, atol=4e-15)
+    assert np.allclose(a.angle_to(Quaternion(-b.wxyz)), wanted, rtol=0, atol=4e-15)
+    assert a.angle_to(b).shape == shape and (a.angle_to(a) == 0).all()
+
+
+@pytest.mark.parametrize("exponent", range(1, 16))
+def test_a_small_angle_keeps_its_digits(exponent):
+    angle = 10.0**-exponent
+    a = random((50,))
+    b = a @ Quaternion.from_angle_axis(angle, (0.6, 0, 0.8))
+    assert np.allclose(a.angle_to(b), angle, rtol=0, atol=1e-15)
+    nearly_opposite = a @ Quaternion.from_angle_axis(np.pi - angle, (0.6, 0, 0.8))
+    assert np.allclose(a.angle_to(nearly_opposite), np.pi - angle, rtol=0, atol=2e-15)
+
+
+def test_angles_of_unfit_batches_and_other_things_are_refused():
+    with pytest.raises(ValueError, match=r"\(2,\).*\(3,\)"):
+        random((2,)).angle_to(random((3,)))
+    with pytest.raises(TypeError, match="other: wanted a Quaternion"):
+        random(()).angle_to(Transform())
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_roll_pitch_yaw_are_scipys_turns_about_fixed_axes(shape):
+    q = random(shape)
+    angles = np.stack(q.as_roll_pitch_yaw(), axis=-1)
+    wanted = scipy(q).as_euler("xyz").reshape(*shape, 3)
+    assert np.allclose(angles, wanted, rtol=0, atol=1e-12)
+    back = Quaternion.from_roll_pitch_yaw(*np.moveaxis(angles, -1, 0))
+    same(back, scipy(q), 1e-15)
+    one_by_one = Rotation.from_euler("xyz", angles.reshape(-1, 3))
+    same(back, one_by_one, 1e-15)
+
+
+@pytest.mark.parametrize("pitch", [90, -90])
+def test_upright_the_roll_is_zero_and_the_rotation_right(pitch):
+    for roll, yaw in ((0, 0), (30, 20), (-140, 75)):
+        q = Quaternion.from_roll_pitch_yaw(*np.deg2rad([roll, pitch, yaw]))
+        r, p, y = q.as_roll_pitch_yaw()
+        assert r == 0 and np.rad2deg(p) == pytest.approx(pitch, abs=1e-6)
+        same(Quaternion.from_roll_pitch_yaw(r, p, y), scipy(q), 1e-9)
+
+
+def test_degrees_for_radians_are_hinted_at_and_taken():
+    with pytest.warns(UserWarning, match=r"angle: 90 rad .* were degrees meant\? \(90 \* deg\)"):
+        q = Quaternion.from_angle_axis(90, (0, 0, 1))
+    assert q.wxyz[0] == np.cos(45)
+    with pytest.warns(UserWarning, match="angle: 90 rad"):
+        Quaternion.from_angle_axis([0, -90.0], (0, 0, 1))
+
+
+def test_no_rotation_of_any_shape():
+    for shape in ((), (3,), (2, 0), (4, 1)):
+        assert Quaternion.identity(shape).shape == Transform.identity(shape).shape == shape
+        assert (Transform.identity(shape).as_matrix() == np.eye(4)).all()
+    assert Quaternion.identity([2]).shape == (2,)
+    for wrong in (3, (1.0,), (-1,), ("2",), None, (True,)):
+        with pytest.raises(ValueError, match="shape: wanted a tuple of whole numbers"):
+            Quaternion.identity(wrong)

@@ -86,7 +86,7 @@ class Arm:
         """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
         poses.
 
-        A UserWarning where a joint turns by more than two turns: degrees were likely meant.
+        A UserWarning where a joint is turned many times round: degrees were likely meant.
         """
 
         def flange(joints: Sequence[Any]) -> list[Any]:

@@ -25,10 +25,11 @@ def within(arm: Arm, q: ArrayLike) -> Bools:
     """Which joints can stand at q (..., n) inside their limits: bool (..., n).
 
     A revolute joint counts if some q + 2 pi k lies inside. NaN is outside. A UserWarning where an
-    angle is beyond two turns: degrees were likely meant.
+    angle is many turns: degrees were likely meant.
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
-    warn_if_degrees(values[..., ~arm.prismatic] if arm.prismatic.any() else values, "q")
+    turning = values[..., ~arm.prismatic] if arm.prismatic.any() else values
+    warn_if_degrees(turning, "q", posture=1)
     return _within(arm, values)
 
 

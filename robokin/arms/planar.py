@@ -305,7 +305,7 @@ class ThreeLeverArm(Arm):
 
     def _previous(self, previous: ArrayLike) -> Floats:
         values = floats(previous, "previous", 3)
-        warn_if_degrees(values, "previous", 4)
+        warn_if_degrees(values, "previous", 4, posture=1)
         return values
 
     def _polar(self, point: Any) -> tuple[Floats, Floats]:

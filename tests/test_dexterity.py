@@ -1,0 +1,93 @@
+"""How near a singularity is: one measure with one length."""
+
+import numpy as np
+import pytest
+from machines import MACHINES, random_joints
+
+from robokin import (
+    IRB140,
+    ITMO6R,
+    PUMA560,
+    SCARA,
+    distance_from_singularity,
+    itmo_arm,
+    scara_arm,
+    singular_values,
+    three_lever,
+    two_link,
+)
+from robokin.arms import reach
+
+RNG = np.random.default_rng(12)
+
+
+def test_the_reach_is_the_length_of_the_stretched_arm():
+    assert reach(two_link(0.3, 0.5)) == pytest.approx(0.8)
+    assert reach(IRB140) == pytest.approx(0.352 + 0.07 + 0.35 + 0.38 + 0.065)
+    assert reach(SCARA) == pytest.approx(0.2202 + 0.2 + 0.25 + 0.18)
+    assert reach(three_lever(0.4)) == pytest.approx(1.2)
+
+
+def test_of_two_links_the_product_is_the_area_of_their_parallelogram():
+    """det J = l1 l2 sin q2, in units of the reach squared."""
+    arm = two_link(0.3, 0.5)
+    q = RNG.uniform(-3, 3, (200, 2))
+    wanted = 0.3 * 0.5 * abs(np.sin(q[:, 1])) / 0.8**2
+    assert np.allclose(singular_values(arm, q).prod(-1), wanted, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=repr)
+def test_the_values_are_stretches_of_small_steps(machine):
+    """Whatever the direction of a small joint step, the tool's step is between the smallest and the
+    greatest value long: by differences of FK, lengths in reaches.
+    """
+    arm = machine.arm
+    q = random_joints(arm, RNG, (5,))
+    values = singular_values(arm, q)
+    assert (np.diff(values, axis=-1) <= 0).all() and (values >= 0).all()
+    scale = np.where(arm.prismatic, 1 / reach(arm), 1.0)  # a metre of stroke counts in reaches
+    seen = []
+    for _ in range(200):
+        step = RNG.normal(size=len(arm.links))
+        step *= 1e-6 / np.linalg.norm(step)
+        a, b = arm.fk(q - step / scale / 2), arm.fk(q + step / scale / 2)
+        moved = np.linalg.norm(b.translation - a.translation, axis=-1) / reach(arm)
+        if len(arm.links) > 3:
+            moved = np.hypot(moved, a.rotation.angle_to(b.rotation))
+        seen.append(moved / 1e-6)
+    seen = np.array(seen)
+    assert (seen <= values[:, 0] + 1e-6).all() and (seen >= values[:, -1] - 1e-6).all()
+    assert (seen.max(0) > 0.5 * values[:, 0]).all()
+
+
+def test_zero_at_a_singularity_and_missing_where_the_posture_is():
+    for arm, q in (
+        (IRB140, np.zeros(6)),  # the wrist
+        (PUMA560, [0.3, -0.4, -np.pi / 2 + np.arctan2(20.3, 431.8), 0.2, 0.7, 0]),  # stretched
+        (SCARA, [0.2, np.pi, 0.1, 0.05]),  # folded
+        (three_lever(0.4), [0.5, np.pi, np.pi]),
+    ):
+        assert distance_from_singularity(arm, q) < 1e-10
+        away = np.asarray(q) + 0.3
+        assert distance_from_singularity(arm, away) > 1e-3
+        rows = distance_from_singularity(arm, [away, np.full(len(away), np.nan)])
+        assert rows[0] == distance_from_singularity(arm, away) and np.isnan(rows[1])
+
+
+def test_the_measure_does_not_depend_on_the_size_of_the_arm():
+    q = RNG.uniform(-2, 2, (20, 6))
+    big = itmo_arm(1, 1, 2, 2)
+    assert np.allclose(singular_values(ITMO6R, q), singular_values(big, q), rtol=1e-12, atol=0)
+    small, large = (
+        scara_arm("any", 0.3 * k, 0.2 * k, 0.25 * k, [(-3, 3)] * 3 + [(0, 0.2 * k)]) for k in (1, 7)
+    )
+    turns, stroke = RNG.uniform(-2, 2, (20, 3)), RNG.uniform(0, 0.2, (20, 1))
+    a = singular_values(small, np.hstack([turns, stroke]))
+    b = singular_values(large, np.hstack([turns, 7 * stroke]))
+    assert np.allclose(a, b, rtol=1e-12, atol=0) and a.shape == (20, 4)
+
+
+def test_only_what_the_arm_is_asked_for_counts():
+    assert singular_values(two_link(1, 1), [0.1, 0.2]).shape == (2,)
+    assert singular_values(SCARA, [0.1, 0.2, 0.3, 0.1]).shape == (4,)
+    assert singular_values(IRB140, np.full((3, 6), 0.2)).shape == (3, 6)
