@@ -26,6 +26,10 @@ def within(arm: Arm, q: ArrayLike) -> Bools:
 
     A revolute joint counts if some q + 2 pi k lies inside. NaN is outside. A UserWarning where an
     angle is many turns: degrees were likely meant.
+
+    >>> from robokin import IRB140, deg, within
+    >>> within(IRB140, np.array([0, 120, 0, 0, 0, 390]) * deg)
+    array([ True, False,  True,  True,  True,  True])
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
     turning = values[..., ~arm.prismatic] if arm.prismatic.any() else values
@@ -38,6 +42,11 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
     limits and nearest to q or, if none is inside, the one that is least past them.
 
     q (..., n) -> (..., n). A prismatic joint has but one value.
+
+    >>> from robokin import IRB140, deg, representative
+    >>> q = np.array([0, 0, -300, 0, 0, 0]) * deg  # joint 3 has room from -230 to 50 degrees
+    >>> (representative(IRB140, q) / deg).round(1).tolist()
+    [0.0, 0.0, 60.0, 0.0, 0.0, 0.0]
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
     value, (low, high) = _inside(arm, values, values), arm.limits.T
@@ -63,6 +72,11 @@ def nearest(arm: Arm, rows: ArrayLike, q: ArrayLike) -> Floats:
     Travel is the sum of all joint changes (rad; m for a prismatic joint). A joint takes the one of
     its values q + 2 pi k that is nearest to q and inside the limits or, if none is inside, nearest
     to q. NaN where no row exists. ValueError: shapes that do not fit, no rows.
+
+    >>> from robokin import SCARA, ScaraPose, deg, nearest
+    >>> rows = SCARA.ik(ScaraPose((0.3, 0.1, 0.2), 0))
+    >>> bool((nearest(SCARA, rows, [0, 90 * deg, 0, 0]) == rows[SCARA.branch(+1)]).all())
+    True
     """
     options, here = _rows(arm, rows), floats(q, "q", len(arm.links))
     broadcast("rows and q", (*options.shape[:-2], options.shape[-1]), here.shape)
@@ -109,6 +123,10 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
     Out of reach: by how much, and whether metres were meant to be millimetres. Else every joint
     past its limit, with the excess, and every singularity that holds. The sentences are those of
     `verdicts.SENTENCES`.
+
+    >>> from robokin import SCARA, ScaraPose, explain
+    >>> explain(SCARA, ScaraPose((0.46, 0, 0.1), 0), 0)
+    'Row 0 (+1) does not exist: the target is 10.0 mm beyond the stretched arm.'
     """
     rows = instance(arm, ClosedFormArm, "arm").ik(pose)
     if rows.ndim != 2:

@@ -36,6 +36,11 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
 def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
     """The smallest of the `singular_values` at q (..., n): (...). It says how little the tool moves
     in its worst direction; 0 is a singularity.
+
+    >>> from robokin import SCARA, deg, distance_from_singularity
+    >>> postures = np.array([(0, 90 * deg, 0, 0), (0, 5 * deg, 0, 0), (0, 0, 0, 0)])
+    >>> distance_from_singularity(SCARA, postures).round(3)
+    array([0.148, 0.009, 0.   ])
     """
     return singular_values(arm, q)[..., -1]
 

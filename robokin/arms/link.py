@@ -79,6 +79,10 @@ def dh_links(
     offset of the joint.
 
     Source: 000, "Обзор источников"; 004, table 1. ValueError: columns that are not of one length.
+
+    >>> from robokin import dh_links
+    >>> len(dh_links(a=[0, 0.4], alpha=[0.5 * np.pi, 0], d=0))
+    2
     """
     columns = {"a": a, "alpha": alpha, "d": d, "theta": theta}
     table = [floats(column, name) for name, column in columns.items()]

@@ -34,6 +34,11 @@ def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
 
     Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
     is no point.
+
+    >>> from robokin import deg, two_link
+    >>> (two_link(0.3, 0.4).ik((0.3, 0.4)) / deg).round(1) + 0.0
+    array([[  0. ,  90. ],
+           [106.3, -90. ]])
     """
     limits = np.array([(-180, 180)] * 2) * deg
     return ClosedFormArm("Two links", TwoLinkGeometry(l1, l2, base), limits)

@@ -28,6 +28,10 @@ class ScaraPose(Batch):
     The angle is in radians and not wrapped: from 0 to pi is a half turn to the left, from 0 to -pi
     one to the right, and 3 pi is one and a half turns. A rotation cannot tell these apart (errata
     S1-t). ValueError: wrong shapes, not finite. Source: 001, listings 4 and 12.
+
+    >>> from robokin import ScaraPose
+    >>> ScaraPose((0.2, 0.3, 0.1), 0.0).lerp(ScaraPose((0.4, 0.1, 0.1), 3.0), 0.5)
+    ScaraPose(position=[0.3, 0.2, 0.1], angle=1.5)
     """
 
     position: Floats
