@@ -146,7 +146,7 @@ def test_a_prismatic_joint_shifts_along_its_axis():
         (1, 0, 0),
         prismatic=True,
     )
-    arm = Arm("slide", SimpleNamespace(links=(link,), target=Transform), [(0, 1)])
+    arm = Arm("slide", SimpleNamespace(links=(link,), target=Transform, reach=1.0), [(0, 1)])
     assert np.allclose(arm.fk([0.3]).translation, [1, 0.3, 0], rtol=0, atol=1e-16)
     assert np.allclose(arm.jacobian([0.3])[:, 0], [0, 1, 0, 0, 0, 0], rtol=0, atol=1e-15)
     assert arm.prismatic.tolist() == [True]

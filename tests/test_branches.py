@@ -36,7 +36,9 @@ HOME = np.zeros(6)
 # metres.
 MIXED = Arm(
     "mixed",
-    SimpleNamespace(links=(Link(), Link(axis=(1, 0, 0), prismatic=True)), target=Transform),
+    SimpleNamespace(
+        links=(Link(), Link(axis=(1, 0, 0), prismatic=True)), target=Transform, reach=1.0
+    ),
     [(-250 * deg, 100 * deg), (-0.5, 7.0)],
 )
 

@@ -13,19 +13,29 @@ from robokin import (
     itmo_arm,
     scara_arm,
     singular_values,
+    spbu_arm,
     three_lever,
     two_link,
 )
-from robokin.arms import reach
+from robokin.arms import total_length
 
 RNG = np.random.default_rng(12)
 
 
-def test_the_reach_is_the_length_of_the_stretched_arm():
-    assert reach(two_link(0.3, 0.5)) == pytest.approx(0.8)
-    assert reach(IRB140) == pytest.approx(0.352 + 0.07 + 0.35 + 0.38 + 0.065)
-    assert reach(SCARA) == pytest.approx(0.2202 + 0.2 + 0.25 + 0.18)
-    assert reach(three_lever(0.4)) == pytest.approx(1.2)
+def test_the_reach_is_how_far_the_carried_point_gets_from_axis_1():
+    assert two_link(0.3, 0.5).reach == pytest.approx(0.8)
+    assert IRB140.reach == pytest.approx(0.07 + 0.35 + 0.38)
+    assert PUMA560.reach == pytest.approx(0.4318 + np.hypot(0.4318, 0.0203))
+    assert SCARA.reach == pytest.approx(0.45)
+    assert spbu_arm(5, 4).reach == pytest.approx(9)
+    assert three_lever(0.4).reach == pytest.approx(1.2)
+
+
+def test_the_total_length_is_that_of_the_stretched_chain():
+    assert total_length(two_link(0.3, 0.5)) == pytest.approx(0.8)
+    assert total_length(IRB140) == pytest.approx(0.352 + 0.07 + 0.35 + 0.38 + 0.065)
+    assert total_length(SCARA) == pytest.approx(0.2202 + 0.2 + 0.25 + 0.18)
+    assert total_length(three_lever(0.4)) == pytest.approx(1.2)
 
 
 def test_of_two_links_the_product_is_the_area_of_their_parallelogram():
@@ -45,13 +55,13 @@ def test_the_values_are_stretches_of_small_steps(machine):
     q = random_joints(arm, RNG, (5,))
     values = singular_values(arm, q)
     assert (np.diff(values, axis=-1) <= 0).all() and (values >= 0).all()
-    scale = np.where(arm.prismatic, 1 / reach(arm), 1.0)  # a metre of stroke counts in reaches
+    scale = np.where(arm.prismatic, 1 / arm.reach, 1.0)  # a metre of stroke counts in reaches
     seen = []
     for _ in range(200):
         step = RNG.normal(size=len(arm.links))
         step *= 1e-6 / np.linalg.norm(step)
         a, b = arm.fk(q - step / scale / 2), arm.fk(q + step / scale / 2)
-        moved = np.linalg.norm(b.translation - a.translation, axis=-1) / reach(arm)
+        moved = np.linalg.norm(b.translation - a.translation, axis=-1) / arm.reach
         if len(arm.links) > 3:
             moved = np.hypot(moved, a.rotation.angle_to(b.rotation))
         seen.append(moved / 1e-6)

@@ -103,7 +103,7 @@ def test_an_arm_without_a_closed_form_is_of_another_type():
     arm = three_lever(0.4)
     assert isinstance(arm, Arm) and arm.target is np.ndarray
     assert not any(hasattr(arm, name) for name in ("ik", "branches", "branch"))
-    with pytest.raises(TypeError, match="geometry with links, target, branches"):
+    with pytest.raises(TypeError, match="geometry with links, target, reach, branches"):
         type(IRB140)("none", arm.geometry, arm.limits)
 
 

@@ -43,7 +43,7 @@ Z = (0, 0, 1)
 S = np.linspace(0, 1, 5)
 MIRROR = np.diag([1.0, 1, -1])
 LIMITS = [(-1, 1)] * 6
-ONE = SimpleNamespace(links=(Link(),), target=Transform)
+ONE = SimpleNamespace(links=(Link(),), target=Transform, reach=1.0)
 
 WRONG = {
     # quaternions
@@ -137,7 +137,7 @@ WRONG = {
     "speeds of another arm": (lambda: Arm("x", ONE, [(0, 1)], [1, 2]), r"\(2,\)"),
     "link without axis": (lambda: Link(axis=(0, 0, 0)), "axis.*length 0"),
     "link about a long axis": (lambda: Link(axis=(0, 0, 2)), "axis.*length 2"),
-    "no geometry": (lambda: Arm("x", None, LIMITS), "geometry with links, target, got None"),
+    "no geometry": (lambda: Arm("x", None, LIMITS), "geometry with links, target, reach, got None"),
     "links of another kind": (
         lambda: elbow_arm("x", 3, LIMITS[:3]),
         "links: wanted a tuple, got 3",

@@ -3,7 +3,7 @@
 from .arm import Arm, ClosedFormArm
 from .branches import explain, follow, nearest, representative, unwrapped, within
 from .catalogue import IRB140, ITMO6R, PUMA560, SCARA, itmo_arm, loader_arm, spbu_arm
-from .dexterity import distance_from_singularity, reach, singular_values
+from .dexterity import distance_from_singularity, singular_values, total_length
 from .elbow import elbow_arm
 from .link import Link, dh_links
 from .planar import ThreeLeverArm, three_lever, two_link
@@ -28,13 +28,13 @@ __all__ = [
     "itmo_arm",
     "loader_arm",
     "nearest",
-    "reach",
     "representative",
     "scara_arm",
     "singular_values",
     "spbu_arm",
     "spherical_wrist",
     "three_lever",
+    "total_length",
     "two_link",
     "unwrapped",
     "within",

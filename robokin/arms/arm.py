@@ -61,7 +61,7 @@ class Arm:
 
     @staticmethod
     def _geometry_has() -> tuple[str, ...]:
-        return "links", "target"
+        return "links", "target", "reach"
 
     @property
     def links(self) -> tuple[Link, ...]:
@@ -74,6 +74,13 @@ class Arm:
         angle) or np.ndarray (a point).
         """
         return self.geometry.target
+
+    @property
+    def reach(self) -> float:
+        """How far from axis 1, in metres, the arm can bring what it carries (the wrist centre, the
+        tool of an arm without a wrist).
+        """
+        return self.geometry.reach
 
     @cached_property
     def prismatic(self) -> Bools:

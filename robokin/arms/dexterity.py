@@ -8,9 +8,9 @@ from .._validate import instance
 from .arm import Arm
 
 
-def reach(arm: Arm) -> float:
-    """The length of the stretched arm in metres, prismatic joints at their far limit: the measure
-    of its pictures, and the length by which a Jacobian's unlike rows are made comparable.
+def total_length(arm: Arm) -> float:
+    """The length of the stretched chain from the base in metres, prismatic joints at their far
+    limit: the measure of its pictures.
     """
     parts = [part for link in instance(arm, Arm, "arm").links for part in (link.before, link.after)]
     shifts = abs(arm.limits[arm.prismatic]).max(axis=-1, initial=0)
@@ -21,7 +21,7 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
     """The singular values of the Jacobian at q (..., n), falling: the semi-axes of the ellipsoid of
     tool velocities that joint speeds of length 1 can make. NaN for NaN.
 
-    Lengths count in reaches of the arm (see `reach`), so that they have no unit. Only what the arm
+    Lengths count in reaches of the arm (`Arm.reach`), so that they have no unit. Only what the arm
     is asked for counts: the tool's place for arms of up to three joints, else place and
     orientation, and of these what the arm can move at all.
     Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
@@ -46,7 +46,7 @@ def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def _scaled(arm: Arm, q: ArrayLike) -> Floats:
-    jacobian, size = arm.jacobian(q), reach(arm)
+    jacobian, size = arm.jacobian(q), arm.reach
     jacobian[..., :3, :] /= size
     jacobian[..., arm.prismatic] *= size
     return jacobian

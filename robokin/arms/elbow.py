@@ -51,6 +51,7 @@ class ElbowGeometry:
     carried = "the point"
     links: tuple[Link, ...]
     elbow: "Elbow"
+    reach: float
 
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
@@ -58,7 +59,7 @@ class ElbowGeometry:
             raise ValueError(f"links: wanted three revolute links, got {len(links)}")
         points, axes, flange = home(links)
         elbow = Elbow.measured(points, axes, flange.translation, self.carried)
-        vars(self).update(links=links, elbow=elbow)
+        vars(self).update(links=links, elbow=elbow, reach=elbow.reach)
 
     __setattr__ = __delattr__ = fixed
 
@@ -105,7 +106,7 @@ class Elbow:
     lateral      how far the point is beside the plane that holds axis 1, to the left
     upper, fore  lengths of the levers
     upper_angle, fore_angle  their angles above the horizon at q = 0
-    reach        of the stretched arm from axis 1: the measure of all slack
+    reach        of the stretched arm from axis 1
     """
 
     carried: str

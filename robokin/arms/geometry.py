@@ -31,12 +31,16 @@ class Geometry(Protocol):
     links    base to flange
     target   what an arm of this geometry can be asked for: Transform (place and orientation),
              ScaraPose (place and angle) or np.ndarray (a point)
+    reach    m; how far from axis 1 the arm can bring what it carries: the measure of all slack, and
+             the length by which the unlike rows of a Jacobian are made comparable
     """
 
     @property
     def links(self) -> tuple[Link, ...]: ...
     @property
     def target(self) -> type: ...
+    @property
+    def reach(self) -> float: ...
 
 
 class ClosedForm(Geometry, Protocol):

@@ -60,6 +60,7 @@ class TwoLinkGeometry:
     l1: float
     l2: float
     base: tuple[float, float]
+    reach: float
     links: tuple[Link, ...]
 
     def __init__(self, l1: float, l2: float, base: ArrayLike = (0, 0)) -> None:
@@ -70,7 +71,7 @@ class TwoLinkGeometry:
             Link(Transform(translation=(*place, 0)), after=Transform(translation=(l1, 0, 0))),
             Link(after=Transform(translation=(l2, 0, 0))),
         )
-        vars(self).update(l1=l1, l2=l2, base=tuple(place.tolist()), links=links)
+        vars(self).update(l1=l1, l2=l2, reach=l1 + l2, base=tuple(place.tolist()), links=links)
 
     __setattr__ = __delattr__ = fixed
 
@@ -80,7 +81,7 @@ class TwoLinkGeometry:
         """
         x, y, d, off = self._way(pose)
         ahead, turn, exists = two_levers(self.l1, self.l2, d)
-        exists = exists & (off <= ROUNDING * (self.l1 + self.l2))
+        exists = exists & (off <= ROUNDING * self.reach)
         direction = np.arctan2(y, x)
         rows = [np.stack([direction - f * ahead, f * turn], axis=-1) for f in (1, -1)]
         q = wrapped(np.stack(rows, axis=-2)) + 0.0  # and no -0.0
@@ -102,7 +103,7 @@ class TwoLinkGeometry:
         """Rows q (..., 2) with q1 as in `previous` where the tip stands on the base and leaves it
         free.
         """
-        equal = abs(self.l1 - self.l2) <= FREE * (self.l1 + self.l2)
+        equal = abs(self.l1 - self.l2) <= FREE * self.reach
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
         return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
 
@@ -137,6 +138,7 @@ class ThreeLeverGeometry:
 
     target = np.ndarray
     lever: float
+    reach: float
     links: tuple[Link, ...]
 
     def __init__(self, L: float) -> None:
@@ -145,7 +147,7 @@ class ThreeLeverGeometry:
         # an interior angle of 0 lays the next lever back upon this one
         elbow = Transform(folded, (L, 0, 0))
         links = (Link(), Link(elbow), Link(elbow, after=Transform(translation=(L, 0, 0))))
-        vars(self).update(lever=L, links=links)
+        vars(self).update(lever=L, reach=3 * L, links=links)
 
     __setattr__ = __delattr__ = fixed
 

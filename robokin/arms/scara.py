@@ -103,6 +103,7 @@ class ScaraGeometry:
     height: float
     upper: float
     fore: float
+    reach: float
     links: tuple[Link, ...]
 
     def __init__(self, height: float, upper: float, fore: float) -> None:
@@ -114,7 +115,7 @@ class ScaraGeometry:
             Link(Transform(translation=(fore, 0, 0)), Z),
             Link(axis=-Z, prismatic=True),
         )
-        vars(self).update(height=level, upper=upper, fore=fore, links=links)
+        vars(self).update(height=level, upper=upper, fore=fore, reach=upper + fore, links=links)
 
     __setattr__ = __delattr__ = fixed
 
@@ -150,7 +151,7 @@ class ScaraGeometry:
         """Rows q (..., 4) as they are, but for equal levers folded onto axis 1: there joint 1 is as
         in `previous`, and joint 3 makes up for it.
         """
-        equal = abs(self.upper - self.fore) <= FREE * (self.upper + self.fore)
+        equal = abs(self.upper - self.fore) <= FREE * self.reach
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
         if not free.any():
             return q

@@ -58,6 +58,7 @@ class SphericalWristGeometry:
     links: tuple[Link, ...]
     elbow: Elbow
     wrist: "Wrist"
+    reach: float
 
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
@@ -66,7 +67,7 @@ class SphericalWristGeometry:
         points, axes, flange = home(links)
         wrist, centre = Wrist.measured(points[3:], axes[3:], flange)
         elbow = Elbow.measured(points[:3], axes[:3], centre, self.carried)
-        vars(self).update(links=links, elbow=elbow, wrist=wrist)
+        vars(self).update(links=links, elbow=elbow, wrist=wrist, reach=elbow.reach)
 
     __setattr__ = __delattr__ = fixed
 
