@@ -40,7 +40,7 @@ def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
     >>> from robokin import SCARA, deg, distance_from_singularity
     >>> postures = np.array([(0, 90 * deg, 0, 0), (0, 5 * deg, 0, 0), (0, 0, 0, 0)])
     >>> distance_from_singularity(SCARA, postures).round(3)
-    array([0.148, 0.009, 0.   ])
+    array([0.279, 0.018, 0.   ])
     """
     return singular_values(arm, q)[..., -1]
 
