@@ -1,12 +1,30 @@
 """Chains of links: forward kinematics, frames, the Jacobian and the data of an arm."""
 
+import dataclasses
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from machines import MACHINES, SHAPES, position_gap, random_joints, reach, rot, rotation_gap, shift
 
-from robokin import IRB140, Arm, Link, Quaternion, Transform, deg, dh_links
+from robokin import (
+    IRB140,
+    ITMO6R,
+    PUMA560,
+    SCARA,
+    Arm,
+    Link,
+    Quaternion,
+    ScaraPose,
+    Transform,
+    deg,
+    dh_links,
+    loader_arm,
+    mm,
+    spbu_arm,
+    three_lever,
+    two_link,
+)
 
 RNG = np.random.default_rng(3)
 machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
@@ -157,3 +175,59 @@ def test_whole_turns_change_nothing():
     with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
         a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-9, 10, q.shape))
     assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13
+
+
+# The numbers of the machines as their sources print them, in degrees and millimetres.
+PUBLISHED = {
+    "IRB-140": (  # 001, listing 7; speeds: the lower ones of public models
+        IRB140,
+        [(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)],
+        [200, 200, 245, 348, 360, 450],
+    ),
+    "SCARA": (SCARA, [(-140, 140), (-150, 150), (-400, 400), (0, 180)], None),  # listings 4, 12
+    "PUMA 560": (  # Corke's model
+        PUMA560,
+        [(-160, 160), (-45, 225), (-225, 45), (-110, 170), (-100, 100), (-266, 266)],
+        None,
+    ),
+    "DH arm (004)": (ITMO6R, [(-360, 360)] * 6, None),
+    "Arm (000)": (spbu_arm(5, 4), [(-180, 180), (-90, 90), (-90, 90)], None),
+    "Log loader": (loader_arm(1.2, 1.0), [(-180, 180), (0, 270), (0, 180)], None),
+    "Three levers": (three_lever(0.4), [(0, 180)] * 3, None),
+    "Two links": (two_link(0.4, 0.3), [(-180, 180)] * 2, None),
+}
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_limits_and_speeds_are_the_published_ones(name):
+    arm, limits, speeds = PUBLISHED[name]
+    units = np.where(arm.prismatic, mm, deg)[:, None]
+    assert arm.name == name
+    assert np.allclose(arm.limits / units, limits, rtol=0, atol=1e-9)
+    if speeds is None:
+        assert arm.speed_limits is None
+    else:
+        assert np.allclose(arm.speed_limits / deg, speeds, rtol=0, atol=1e-9)
+
+
+def test_equal_parts_do_not_make_equal_arms():
+    """Arms, links and poses are compared as things, not as numbers: an array has no one answer."""
+    for a, b in (
+        (Link(), Link()),
+        (Transform(), Transform()),
+        (Quaternion.identity(), Quaternion.identity()),
+        (ScaraPose((0, 0, 0)), ScaraPose((0, 0, 0))),
+        (two_link(1, 1), two_link(1, 1)),
+        (dataclasses.replace(IRB140), IRB140),
+    ):
+        assert (a == b) is False and a == a and len({a, b, a}) == 2
+        for change in ("anything", *vars(a)):
+            with pytest.raises(AttributeError):
+                setattr(a, change, 1)
+            with pytest.raises(AttributeError):
+                delattr(a, change)
+
+
+def test_an_arm_is_shown_by_its_name():
+    assert repr(IRB140) == "Arm('IRB-140', 6 joints)"
+    assert repr(three_lever(1)) == "Arm('Three levers', 3 joints)"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from machines import SHAPES, dh, oracle, turns
 
-from robokin import Quaternion, Transform, explain, spbu_arm, within
+from robokin import Quaternion, Transform, explain, loader_arm, spbu_arm, within
 from robokin.jobs.visit_collect import postures, refusal, workspace
 
 CASES = oracle("spbu3")["cases"]
@@ -238,3 +238,14 @@ def test_wrong_arms_and_points_are_refused():
     ):
         with pytest.raises(ValueError, match=evidence):
             call()
+
+
+def test_on_axis_1_only_joint_1_is_free():
+    for arm in (spbu_arm(2, 1), loader_arm(1, 0.8)):
+        rows = arm.ik((0, 0, 1.5))
+        near = np.array([0.7, 0.1, 0.2])
+        kept = arm.geometry.choose_free_joints(rows, near)
+        assert (kept[:, 0] == 0.7).all() and (kept[:, 1:] == rows[:, 1:]).all()
+        assert np.allclose(arm.fk(kept).translation, [0, 0, 1.5], rtol=0, atol=3e-15)
+        beside = arm.ik((1e-6, 0, 1.5))
+        assert (arm.geometry.choose_free_joints(beside, near) == beside).all()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from machines import SHAPES, oracle
 
-from robokin import Transform, deg, explain, follow, three_lever, within
+from robokin import Transform, deg, explain, follow, three_lever, two_link, within
 
 CASES = oracle("planar3")["cases"]
 SWEEPS = [case for case in CASES if case["kind"] == "sweep"]
@@ -270,3 +270,49 @@ def test_a_point_off_the_plane_is_not_reached():
 
 def _pairs(points):
     return np.stack([points.real, points.imag], axis=-1)
+
+
+def test_out_of_reach_and_the_family_agree_at_the_borders():
+    L = ARM.lever
+    for KO in (L, L * (1 + 1e-13), L * (1 + 1e-9), 3 * L, 3 * L * (1 + 5e-13), 3 * L * (1 + 1e-9)):
+        for angle in (0.3, 1.2, 2.0):
+            K = KO * np.array([np.cos(angle), np.sin(angle)])
+            low, high = ARM.alpha_range(K)
+            assert (ARM.out_of_reach(K) == "") == bool(low <= high), (KO, angle)
+    assert ARM.out_of_reach((0, 3 * L * (1 + 5e-13))) == ""
+
+
+def test_the_plane_is_as_thick_as_the_rounding_of_the_arm():
+    """A point beside the plane by less than 1e-12 of the reach is on it, whatever the size."""
+    for size in (1e-3, 1.0, 1e3):
+        two, three = two_link(size, size), three_lever(size)
+        assert not np.isnan(two.ik((size, 0, 1e-12 * size))).any()
+        assert np.isnan(two.ik((size, 0, 3e-12 * size))).all()
+        assert not np.isnan(three.family((2 * size, size, 0.5e-12 * size), 2.5)).any()
+        assert np.isnan(three.family((2 * size, size, 3e-12 * size), 2.5)).all()
+
+
+def test_a_sweep_keeps_gamma_within_its_limits_unless_told_otherwise():
+    """Without the limits some points have a nearer posture, with gamma outside 0 to 180 degrees."""
+    previous = np.array([0.0, 90, 120]) * deg
+    better = 0
+    for K in np.random.default_rng(5).uniform(-2.5, 2.5, (200, 2)) * ARM.lever:
+        q, S = ARM.sweep(K, previous, step=0.5 * deg)
+        free, less = ARM.sweep(K, previous, step=0.5 * deg, limited=False)
+        if not np.isnan(S):
+            assert -1e-9 <= q[0] <= np.pi + 1e-9 and less <= S
+            better += less < S - 1e-9
+    assert better > 5
+    with pytest.raises(ValueError, match="previous: wanted one posture"):
+        ARM.sweep((1, 1), np.zeros((2, 3)))
+
+
+def test_a_table_of_billions_of_rows_is_refused_with_its_size():
+    with pytest.raises(ValueError, match=r"at most 2000000 rows, got 1e-09: [12]\.\d+e\+09 rows"):
+        ARM.table((1.5 * ARM.lever, ARM.lever), step=1e-9)
+    assert len(ARM.table((1.5 * ARM.lever, ARM.lever), step=0.001 * deg)) > 10_000
+
+
+def test_degrees_for_radians_are_hinted_at():
+    with pytest.warns(UserWarning, match="previous: 120 rad is many turns"):
+        ARM.least((1.5 * ARM.lever, ARM.lever), [100, 110, 120])

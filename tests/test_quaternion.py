@@ -306,3 +306,9 @@ def test_no_rotation_of_any_shape():
     for wrong in (3, (1.0,), (-1,), ("2",), None, (True,)):
         with pytest.raises(ValueError, match="shape: wanted a tuple of whole numbers"):
             Quaternion.identity(wrong)
+
+
+@pytest.mark.parametrize("axis", [(1, 0, 0), (-1, 0, 0), (0, -0.6, 0.8), (0, 0, -1)])
+def test_half_a_turn_keeps_the_axis_that_its_quaternion_has(axis):
+    angle, about = Quaternion((0, *axis)).as_angle_axis()
+    assert angle == np.pi and about.tolist() == list(axis)

@@ -183,3 +183,14 @@ def test_explain_names_the_stroke_in_millimetres():
     assert "joint 4 stands at 220.2 mm, 40.2 mm past its limit of 180 mm" in explain(SCARA, VIA, 0)
     assert "100.0 mm beyond the stretched arm" in explain(SCARA, ScaraPose((0.55, 0, 0.1), 0.0), 0)
     assert "40.0 mm too near to axis 1" in explain(SCARA, ScaraPose((0.01, 0, 0.1), 0.0), 1)
+
+
+def test_places_of_a_batch():
+    batch = ScaraPose(np.arange(18).reshape(2, 3, 3) / 10, np.arange(6).reshape(2, 3))
+    assert batch.shape == (2, 3) and len(batch) == 2 and batch[1].shape == (3,)
+    assert batch[1, 2].angle == 5 and batch[1, 2].position.tolist() == [1.5, 1.6, 1.7]
+    assert batch[:, 1].angle.tolist() == [1, 4] and batch[..., None].shape == (2, 3, 1)
+    assert [b.angle.tolist() for b in batch] == [[0, 1, 2], [3, 4, 5]]
+    assert repr(batch) == "ScaraPose(shape=(2, 3))"
+    assert repr(batch[0, 1]) == "ScaraPose(position=[0.3, 0.4, 0.5], angle=1.)"
+    assert not hasattr(batch.angle, "nothing") and not batch.angle.flags.writeable

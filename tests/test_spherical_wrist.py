@@ -516,3 +516,25 @@ def test_a_dh_table_makes_the_same_arm():
 
 def _unit(v):
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+def test_each_singularity_is_told_by_its_own_joints():
+    """Joint 5 alone for the wrist, joint 3 for the elbow, joints 2 and 3 for the shoulder."""
+    stretched = -90 * deg  # of the IRB-140: the forearm straight up
+    for q, wanted in (
+        ([0.3, 0.2, 0.4, 0.5, 0.0, 0.7], {"wrist"}),
+        ([0.3, 0.2, 0.4, 0.5, np.pi, 0.7], {"wrist"}),
+        ([0.0, 0.2, 0.4, 0.0, 0.6, 0.0], set()),
+        ([0.3, 0.2, stretched, 0.5, 0.6, 0.7], {"elbow"}),
+        ([0.3, 0.2, stretched, 0.5, -5e-7, 0.7], {"elbow", "wrist"}),
+        ([0.3, 0.2, 0.4, 0.5, -0.6, 0.7], set()),
+        ([0.3, 0.2, 0.4, 0.5, -2e-6, 0.7], set()),
+    ):
+        held = IRB140.geometry.singularities(np.array(q))
+        assert {name for name, holds in held.items() if holds} == wanted, q
+    # The wrist centre over axis 1: 70 mm ahead plus upper arm and forearm cancel.
+    q2 = np.arcsin(0.07 / 0.35)
+    q = np.array([0.5, q2, q2 - 90 * deg, 0.4, 0.6, 0.1])
+    centre = IRB140.frames(q)[4].translation
+    assert np.hypot(*centre[:2]) < 1e-12
+    assert IRB140.geometry.singularities(q)["shoulder"]

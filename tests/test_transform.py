@@ -113,3 +113,12 @@ def test_wrong_partners_are_type_errors():
 def test_repr_has_no_minus_zero():
     text = repr(Transform(translation=(-0.0, -1e-9, 1)))
     assert "-0" not in text and "1." in text
+
+
+def test_a_matrix_may_be_a_list():
+    rows = [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]
+    T = Transform.from_matrix(rows)
+    assert T.translation.tolist() == [1, 2, 3]
+    assert np.allclose(T @ (1, 0, 0), [1, 3, 3])
+    batch = Transform.from_matrix([rows, np.eye(4).tolist()])
+    assert batch.shape == (2,) and batch[1].translation.tolist() == [0, 0, 0]

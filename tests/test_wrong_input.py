@@ -92,7 +92,7 @@ WRONG = {
     "infinite point": (lambda: B.rotation @ [0, INF, 0], "inf"),
     "batches do not fit": (
         lambda: Quaternion.identity((2,)) @ Quaternion.identity((3,)),
-        r"\(2,\).*\(3,\)",
+        r"the two rotations: batch shapes \(2,\) and \(3,\)",
     ),
     # transforms
     "matrix as rotation": (lambda: Transform(np.eye(3)), r"wanted a Quaternion.*\(3, 3\)"),

@@ -161,6 +161,7 @@ class Arm:
         return f"Arm({self.name!r}, {len(self.links)} joints)"
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class ClosedFormArm(Arm):
     """An `Arm` with all solutions of its inverse in closed form: `ik`."""
 

@@ -5,6 +5,7 @@
 of the plane needs.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -152,6 +153,7 @@ class ThreeLeverGeometry:
     __setattr__ = __delattr__ = fixed
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class ThreeLeverArm(Arm):
     """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of
     postures, one for every value of the free angle alpha: `family` takes the place of `ik`.
