@@ -633,3 +633,18 @@ def test_degrees_for_radians_are_hinted_at_and_a_long_motion_is_not():
     motion = np.linspace(np.zeros(6), np.full(6, 8 * np.pi), 100)  # four turns
     within(IRB140, motion), IRB140.fk(motion)
     SCARA.fk([0.1, 0.2, 0.3, 90])  # metres
+
+
+def test_a_batch_of_motions_is_followed_as_each_alone():
+    """One of them singular throughout, one that begins late, one that is missing."""
+    s = np.linspace(0, 1, 30)[:, None]
+    plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s
+    stuck = np.array([0.1, 0.2, 0.3, 0.9, 0.0, 0.6]) + [0.5, 0.3, 0.2, 0.4, 0, 0.3] * s
+    rows = IRB140.ik(IRB140.fk(np.stack([plain, stuck, stuck, plain])))
+    rows[1, :3] = np.nan
+    rows[3] = np.nan
+    for row in (0, 1):
+        together = follow(IRB140, rows, row)
+        alone = np.stack([follow(IRB140, track, row) for track in rows])
+        np.testing.assert_array_equal(together, alone)
+        assert np.isnan(together[1, :3]).all() and np.isfinite(together[:3, 3:]).all()

@@ -153,6 +153,11 @@ WRONG = {
     "DH columns": (lambda: dh_links([0, 1], [0, 1, 2], 0), r"\(2,\).*\(3,\)"),
     "DH without upper arm": (lambda: itmo_arm(0.1, 0.0, 0.2, 0.2), "a2: wanted one positive"),
     "DH below the floor": (lambda: itmo_arm(-0.1, 0.1, 0.2, 0.2), "d1 and d6.*-0.1"),
+    "a link that slides": (
+        lambda: elbow_arm("x", [*IRB140.links[:2], Link(prismatic=True)], LIMITS[:3]),
+        "three revolute links",
+    ),
+    "four links": (lambda: elbow_arm("x", IRB140.links[:4], LIMITS[:4]), "links, got 4"),
     "links of no link": (lambda: elbow_arm("x", [], LIMITS[:3]), "at least one Link"),
     "no lever": (lambda: scara_arm("x", 0.2, 0, 0.1, LIMITS[:4]), "upper: .*got 0"),
     "height in words": (lambda: scara_arm("x", "1", 0.2, 0.1, LIMITS[:4]), "height: .*'1'"),

@@ -64,7 +64,7 @@ class TwoLinkGeometry:
     reach: float
     links: tuple[Link, ...]
 
-    def __init__(self, l1: float, l2: float, base: ArrayLike = (0, 0)) -> None:
+    def __init__(self, l1: float, l2: float, base: ArrayLike) -> None:
         l1, l2, place = length(l1, "l1"), length(l2, "l2"), floats(base, "base", 2)
         if place.ndim != 1:
             raise ValueError(f"base: wanted one point (2,), got shape {place.shape}")
