@@ -99,6 +99,21 @@ def test_an_arm_says_what_it_can_be_asked_for(machine):
     assert arm.target is arm.geometry.target and arm.links is arm.geometry.links
 
 
+@pytest.mark.parametrize(
+    "arm", [m.arm for m in MACHINES] + [spbu_arm(5, 4), loader_arm(1, 1), two_link(1, 1)], ids=repr
+)
+def test_every_row_has_its_flags_and_every_configuration_its_row(arm):
+    q = np.full(len(arm.links), 0.3)
+    count = arm.ik(arm.fk(q)).shape[-2]
+    flags = arm.branches.tolist()
+    assert len(flags) == count == 2 ** len(flags[0])
+    assert len({tuple(row) for row in flags}) == count and {abs(f) for r in flags for f in r} == {1}
+    assert [arm.branch(*row) for row in flags] == list(range(count))
+    for wrong in ((), (1,) * (len(flags[0]) + 1), (0,) * len(flags[0]), (np.ones(2),)):
+        with pytest.raises(ValueError, match="flags of \\+1 or -1"):
+            arm.branch(*wrong)
+
+
 def test_an_arm_without_a_closed_form_is_of_another_type():
     arm = three_lever(0.4)
     assert isinstance(arm, Arm) and arm.target is np.ndarray

@@ -316,3 +316,23 @@ def test_a_table_of_billions_of_rows_is_refused_with_its_size():
 def test_degrees_for_radians_are_hinted_at():
     with pytest.warns(UserWarning, match="previous: 120 rad is many turns"):
         ARM.least((1.5 * ARM.lever, ARM.lever), [100, 110, 120])
+
+
+def test_no_posture_of_the_family_moves_less_than_the_least():
+    """By brute force: 400 targets and postures, each against 20 001 postures of its family."""
+    rng = np.random.default_rng(17)
+    L = ARM.lever
+    K = ARM.points(rng.uniform(0, np.pi, (400, 3)))[:, 3]
+    K = K[np.hypot(*K.T) > 1.001 * L]
+    before = rng.uniform(0, np.pi, (len(K), 3))
+    for limited in (False, True):
+        low, high = ARM.alpha_range(K, limited)
+        q, S = ARM.least(K, before, limited)
+        alphas = np.linspace(low, high, 20_001)
+        rows = ARM.family(K, alphas)
+        sums = abs(rows - before).sum(-1)
+        reached = ~np.isnan(low)
+        assert (np.nanmin(sums[:, reached], axis=0) > S[reached] - 1e-9).all()
+        assert (np.nanmin(sums[:, reached], axis=0) < S[reached] + 1e-3).all()
+        assert np.isnan(S[~reached]).all() and np.isnan(q[~reached]).all()
+        assert np.allclose(ARM.fk(q[reached]).translation[:, :2], K[reached], rtol=0, atol=1e-12)
