@@ -7,7 +7,7 @@ import pytest
 from machines import SHAPES, dh, oracle, turns
 
 from robokin import Quaternion, Transform, explain, loader_arm, spbu_arm, within
-from robokin.jobs.visit_collect import postures, refusal, workspace
+from robokin.jobs.visit_collect import out_of_workspace, principal_postures, workspace
 
 CASES = oracle("spbu3")["cases"]
 VERDICTS = ("outer", "floor", "inner_l1_gt_l2", "inner_l1_lt_l2")
@@ -60,7 +60,7 @@ def test_the_principal_branch_is_row_0(case):
     else:
         assert turns(row, case["principal"]).max() < (1e-6 if case["singular"]["elbow"] else 1e-9)
         fixed = [not case["singular"]["axis"], True, True]
-        q = postures(case["l1"], case["l2"], case["p"])
+        q = principal_postures(case["l1"], case["l2"], case["p"])
         assert (np.isnan(q) == np.logical_not(fixed)).all() and (q[fixed] == row[fixed]).all()
 
 
@@ -69,7 +69,9 @@ def test_the_four_verdicts_of_the_workspace(case):
     inside = workspace(case["l1"], case["l2"], case["p"])
     assert dict(zip(VERDICTS, inside.tolist(), strict=True)) == case["workspace"]
     assert inside.all() == case["inside_workspace"]
-    assert len(refusal(case["l1"], case["l2"], case["p"])) == 4 - sum(case["workspace"].values())
+    assert len(out_of_workspace(case["l1"], case["l2"], case["p"])) == 4 - sum(
+        case["workspace"].values()
+    )
 
 
 @lengths
@@ -161,15 +163,15 @@ def test_the_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2
     ],
 )
 def test_the_reason_of_a_refusal(l1, l2, point, words):
-    assert refusal(l1, l2, point) == [words]
+    assert out_of_workspace(l1, l2, point) == [words]
 
 
 def test_two_reasons_at_once():
-    assert [text.split(":")[0] for text in refusal(5, 4, (0, 0, -20))] == [
+    assert [text.split(":")[0] for text in out_of_workspace(5, 4, (0, 0, -20))] == [
         "is too far",
         "is under floor",
     ]
-    assert refusal(5, 4, (2, 3, 2)) == []
+    assert out_of_workspace(5, 4, (2, 3, 2)) == []
 
 
 def test_two_solutions_inside_the_domain():
@@ -221,8 +223,8 @@ def test_joint_1_is_0_on_the_axis_whatever_the_sign_of_zero(x, y):
     """Errata S0-p: atan2(0, -0.0) is pi."""
     rows = spbu_arm(5, 4).ik((x, y, 4.9))
     np.testing.assert_array_equal(rows[:, 0], [0, 0, np.pi, np.pi])
-    assert np.isnan(postures(5, 4, (x, y, 4.9))).tolist() == [True, False, False]
-    assert spbu_arm(5, 4).ik((-1, y, 2))[0, 0] == np.pi == postures(5, 4, (-1, y, 2))[0]
+    assert np.isnan(principal_postures(5, 4, (x, y, 4.9))).tolist() == [True, False, False]
+    assert spbu_arm(5, 4).ik((-1, y, 2))[0, 0] == np.pi == principal_postures(5, 4, (-1, y, 2))[0]
 
 
 def test_wrong_arms_and_points_are_refused():
@@ -231,7 +233,7 @@ def test_wrong_arms_and_points_are_refused():
         (lambda: workspace(5, [4, 4], (1, 1, 1)), r"l2: .*\[4, 4\]"),
         (lambda: workspace(5, np.nan, (1, 1, 1)), "l2.*nan"),
         (lambda: workspace(5, 4, (1, 1)), r"points: wanted shape \(\.\.\., 3\), got \(2,\)"),
-        (lambda: refusal(5, 4, [(1, 1, 1)] * 2), r"one single point \(3,\), got \(2, 3\)"),
+        (lambda: out_of_workspace(5, 4, [(1, 1, 1)] * 2), r"one single point \(3,\), got \(2, 3\)"),
         (lambda: spbu_arm(5, 4).ik((1, np.inf, 1)), "inf"),
         (lambda: spbu_arm(0, 4), "l1: wanted one positive length"),
         (lambda: spbu_arm(5, 0), "l2: wanted one positive length"),
