@@ -124,7 +124,8 @@ def test_nothing_to_do_is_status_2(tmp_path):
     for folder, wanted in (
         ("empty", "no tasks (*.json) found in folder empty"),
         ("nowhere", "folder nowhere cannot be read: No such file"),
-        ("empty/readme.txt", "cannot be read: Not a directory"),
+        ("empty/readme.txt", "empty/readme.txt is a file: wanted its folder, empty"),
+        ("output.log", "output.log is a file: wanted its folder, ."),
         ("", "cannot be read"),
     ):
         run = command(folder, cwd=tmp_path)
@@ -187,10 +188,44 @@ def test_a_reader_that_leaves(tmp_path):
 @posix
 def test_streams_that_are_closed(tmp_path):
     write(tmp_path / "tasks", a=example())
-    run = subprocess.run(
-        f'"{sys.executable}" -m robokin.jobs tasks >&- 2>&-', shell=True, cwd=tmp_path, timeout=60
-    )
-    assert run.returncode == 0 and "visited 2 of 2" in (tmp_path / "output.log").read_text()
+    for closed, status, told in (
+        (">&-", 1, "the standard output cannot be written: it is closed\n"),
+        (">&- 2>&-", 1, ""),
+        ("2>&-", 0, ""),
+    ):
+        run = subprocess.run(
+            f'"{sys.executable}" -m robokin.jobs tasks {closed}',
+            shell=True,
+            cwd=tmp_path,
+            timeout=60,
+            capture_output=True,
+            text=True,
+        )
+        assert (run.returncode, run.stderr) == (status, told)
+        assert ("visited 2 of 2" in run.stdout) == (status == 0)
+        log = (tmp_path / "output.log").read_text()
+        assert "visited 2 of 2" in log and "cannot" not in log
+
+
+@posix
+def test_two_runs_in_one_folder(tmp_path):
+    """The second one leaves the log of the first alone and says so."""
+    write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(600)})
+    write(tmp_path / "others", a=example(2))
+    line = [sys.executable, "-m", "robokin.jobs", "tasks"]
+    with subprocess.Popen(
+        line, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as first:
+        first.stdout.readline()  # it is at work, and then waits for a reader of its output
+        second = command("others", cwd=tmp_path)
+        out, err = first.communicate(timeout=60)
+    assert second.returncode == 1 and "a.json: collected 1 of 2" in second.out
+    assert second.err == "output.log cannot be written: another run is writing it\n"
+    assert first.returncode == 0 and b"cannot" not in err
+    log = (tmp_path / "output.log").read_text()
+    assert "a.json" not in log and "INFO: 600 files: 600 answered, 0 skipped" in log
+    assert command("others", cwd=tmp_path).returncode == 0, "the folder is free again"
+    assert "a.json" in (tmp_path / "output.log").read_text()
 
 
 @posix
@@ -233,10 +268,10 @@ def test_ctrl_c_and_a_fault_of_the_program(tmp_path, monkeypatch, capsys):
     write(tmp_path / "tasks", a=example(), b=example(2))
     real = module.answer
 
-    def fails(task):
+    def fails(task, **options):
         if task.kind == "visit":
             raise ArithmeticError("of the test")
-        return real(task)
+        return real(task, **options)
 
     monkeypatch.setattr(module, "answer", fails)
     assert module.main(["tasks"]) == 1
@@ -245,12 +280,80 @@ def test_ctrl_c_and_a_fault_of_the_program(tmp_path, monkeypatch, capsys):
     assert "Task b.json: collected 1 of 2" in out and "Traceback" not in out
     assert "Traceback" in (tmp_path / "output.log").read_text(), "for whoever mends it"
 
-    def stop(task):
+    def stop(task, **options):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(module, "answer", stop)
     assert module.main(["tasks"]) == 130
     assert capsys.readouterr().err == "ERROR: stopped with Ctrl+C\n"
+
+
+def test_the_log_of_a_caller_is_left_alone(tmp_path, monkeypatch, capsys, caplog):
+    from robokin.jobs import __main__ as module
+
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path / "tasks", a=example())
+    for _ in range(2):
+        assert module.main(["tasks"]) == 0
+        assert capsys.readouterr().out.count("visited 2 of 2") == 1
+        assert (tmp_path / "output.log").read_text().count("visited 2 of 2") == 1
+    assert not caplog.records and not module.log.handlers
+    assert not module.answers.handlers and not module.end.handlers
+
+
+# ---- What a reader should know
+
+
+def test_what_is_odd_about_a_file(tmp_path):
+    tasks = write(
+        tmp_path / "tasks",
+        degrees=example(**{"q'": [20, 20, 20]}),
+        keys=example(q=[1, 2, 3], comment="mine"),
+        low=example(p0=[6, 0, 1], pi=[[1.05, 0, 0.1]]),
+        twice=json.dumps(example()).encode()[:-1] + b', "T": 1}',
+    )
+    run = command(str(tasks), cwd=tmp_path)
+    assert run.returncode == 1 and "4 files: 3 answered, 1 skipped" in run.out
+    said = dict(re.findall(r"Task (\w+)\.json.*?\n\t([^0-9].*)$", run.out, re.M))
+    for name, words in (
+        ("degrees", "20 rad/s is more than two turns a second; were degrees meant?"),
+        ("keys", "warning: unknown keys, ignored: 'q', 'comment'"),
+        ("low", "from p0 to pi[0] dips under the floor, down to z = -1.016 m"),
+        ("twice", "T: given 2 times"),
+    ):
+        assert words in run.out.split(f"Task {name}.json")[1].split("\nINFO")[0], said
+    above = command(str(tasks), "--above-floor", cwd=tmp_path)
+    assert "low.json: could not visit any points, what is in time dips under" in above.out
+
+
+# ---- Large files
+
+
+def test_large_files_are_told_and_answered_on_a_page(tmp_path):
+    rng = np.random.default_rng(0)
+    points = rng.uniform([1, 1, 1], [3, 3, 5], (200_000, 3)).round(6).tolist()
+    bad = [[9, 9, 9]] * 100_000
+    tasks = write(
+        tmp_path / "tasks",
+        bad=example(2, pi=bad),
+        good=example(2, pi=points, T=1e9),
+        greedy=example(3, pi=points[:10_001]),
+    )
+    run = command(str(tasks), cwd=tmp_path, timeout=60)
+    assert run.returncode == 1 and "3 files: 1 answered, 2 skipped" in run.out
+    assert "good.json: collected 200000 of 200000 points" in run.out
+    assert "\n\tand 199000 more points\n" in run.out
+    assert (
+        run.out.count("is too far") == 10 and "\n\tand 99990 more points are too far\n" in run.out
+    )
+    assert "greedy.json skipped:\n\tpi: wanted at most 10000 points to visit, got 10001" in run.out
+    assert len(run.out) < 100_000
+    assert (tmp_path / "output.log").stat().st_size < 400_000
+    assert [line for line in run.err.splitlines() if "files" not in line] == [
+        "Task bad.json: reading 1 MB",
+        "Task good.json: reading 6 MB",
+        "Task good.json: 200000 points to collect",
+    ]
 
 
 def test_import_robokin_does_not_import_jobs():

@@ -2,14 +2,30 @@
 
 import argparse
 import contextlib
+import logging
 import os
 import sys
 import time
-import traceback
+from collections.abc import Iterator, Sequence
+from typing import TextIO
 
 import numpy as np
 
-from .visit_collect import TaskError, answer, itinerary, read_task, report
+from .._arrays import Floats
+from .visit_collect import (
+    FAULTS_SHOWN,
+    NEAREST_LIMIT,
+    POINTS_SHOWN,
+    TASK_LIMIT,
+    TaskError,
+    answer,
+    itinerary,
+    read_task,
+    report,
+)
+
+if sys.platform != "win32":
+    import fcntl
 
 LOG = "output.log"
 HELP = """\
@@ -23,17 +39,28 @@ three-joint arm serve in the time T? Every *.json in FOLDER is a task with the k
 Three examples lie in notebooks/tasks."""
 AFTER = f"""\
 A report on each file, in order of the names, goes to the standard output; a file
-that is no task is skipped, with every reason. The same goes to {LOG} in the
+that is no task is skipped, with the reasons. The same goes to {LOG} in the
 working folder, with the joint values and the times of each way (DEBUG). This log
-is made anew; no other file is written. Progress goes to the standard error output.
+is made anew, by one run at a time; no other file is written. Progress goes to the
+standard error output.
+
+A key given twice is a reason to skip a file. Unknown keys, speeds that look like
+degrees and moves on which the tool dips under the floor are warnings. A file may
+have {TASK_LIMIT} points ("visit", or "collect" with p0 on axis 1: {NEAREST_LIMIT}). The
+first {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of a kind.
 
 Exit status: 0    every task answered
-             1    a file skipped, or the output could not be written
+             1    a file skipped, or the output or the log could not be written
              2    nothing to do: wrong use, no such folder, no *.json in it
              130  stopped with Ctrl+C"""
+BIG = 1_000_000  # bytes: a file on which the work can be waited for
+
+log = logging.getLogger("robokin.jobs")  # to output.log
+answers = log.getChild("answers")  # to the standard output as well
+end = log.getChild("end")  # to the standard error output as well: the run ends here
 
 
-def main(argv=None):
+def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; the exit status."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
@@ -45,149 +72,174 @@ def main(argv=None):
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("folder", metavar="FOLDER", help="where the task files are")
-    folder = parser.parse_args(argv).folder
-    with Log() as log:
+    parser.add_argument(
+        "--above-floor",
+        action="store_true",
+        help="refuse moves on which the tool dips under the floor",
+    )
+    given = parser.parse_args(argv)
+    with outputs() as lost:
         try:
-            status = run(folder, log)
+            status = run(given.folder, given.above_floor)
         except KeyboardInterrupt:
-            log.fatal("stopped with Ctrl+C")
+            end.error("stopped with Ctrl+C")
             return 130
-        return status or int(log.failed)
+        return status or int(bool(lost))
 
 
-def run(folder, log):
+def run(folder: str, above_floor: bool = False) -> int:
     """Answer every task file in the folder; the exit status."""
     try:
         names = sorted(
             n for n in os.listdir(folder) if n.endswith(".json") and not n.startswith(".")
         )
+    except NotADirectoryError:
+        where = os.path.dirname(folder) or os.curdir
+        end.error(f"{_shown(folder)} is a file: wanted its folder, {_shown(where)}")
+        return 2
     except OSError as error:
-        log.fatal(f"folder {_shown(folder)} cannot be read: {error.strerror or error}")
+        end.error(f"folder {_shown(folder)} cannot be read: {error.strerror or error}")
         return 2
     if not names:
-        log.fatal(f"no tasks (*.json) found in folder {_shown(folder)}")
+        end.error(f"no tasks (*.json) found in folder {_shown(folder)}")
         return 2
     skipped, told = 0, time.monotonic()
     for count, name in enumerate(names, 1):
-        skipped += not one(os.path.join(folder, name), f"Task {_shown(name)}", log)
+        skipped += not one(os.path.join(folder, name), f"Task {_shown(name)}", above_floor)
         if count < len(names) and (count % 100 == 0 or time.monotonic() > told + 2):
             told = time.monotonic()
             _tell(f"{count} of {len(names)} files")
-    log.info(
+    answers.info(
         f"{len(names)} {'file' if len(names) == 1 else 'files'}: {len(names) - skipped} answered, "
         f"{skipped} skipped"
     )
     return int(skipped > 0)
 
 
-def one(path, title, log):
+def one(path: str, title: str, above_floor: bool = False) -> bool:
     """Answer one task file and say so, or say why not; whether it was answered."""
     try:
+        size = os.path.getsize(path) if os.path.isfile(path) else 0
+        if size > BIG:
+            _tell(f"{title}: reading {size / 1e6:.0f} MB")
         task = read_task(path)
-        result = answer(task)
+        if size > BIG:
+            _tell(f"{title}: {len(task.points)} points to {task.kind}")
+        result = answer(task, above_floor=above_floor)
         text = report(task, result)
         _, q = itinerary(task, result)
         with np.errstate(over="ignore"):
             legs = abs(np.diff(q, axis=0)) / task.speeds
     except TaskError as error:
-        log.error(f"{title} skipped:" + "".join(f"\n\t{fault}" for fault in error.faults))
+        answers.error(f"{title} skipped:" + "".join(f"\n\t{fault}" for fault in error.faults))
         return False
     except Exception as error:  # a fault of this program: the other files are answered all the same
-        log.debug(f"{title}: {traceback.format_exc()}")
-        log.error(f"{title} skipped:\n\tthis program failed, {type(error).__name__}: {error}")
+        log.debug(title, exc_info=True)
+        answers.error(f"{title} skipped:\n\tthis program failed, {type(error).__name__}: {error}")
         return False
     log.debug(
         f"{title}: L1 = {task.l1}, L2 = {task.l2}, T = {task.T}, q' = {task.speeds.tolist()}, "
-        f"p0 = {task.p0.tolist()}, pi = {task.points.tolist()}, task = {task.kind}"
+        f"p0 = {task.p0.tolist()}, pi = {_first(task.points)}, task = {task.kind}"
     )
-    log.debug(f"{title}: q of p0 and pi, nan where a joint is free = {task.q.tolist()}")
-    log.debug(f"{title}: t1, t2, t3 of each way = {legs.tolist()}")
-    log.info(f"{title}: {text}")
+    log.debug(f"{title}: q of p0 and pi, nan where a joint is free = {_first(task.q)}")
+    log.debug(f"{title}: t1, t2, t3 of each way = {_first(legs)}")
+    answers.info(f"{title}: {text}")
     return True
 
 
-class Log:
-    """Lines "LEVEL: message" in output.log, and those above DEBUG on the standard output as
-    well.
+class Output(logging.StreamHandler[TextIO]):
+    """Lines "LEVEL: message" to a stream. If it cannot be written, that is told once and noted in
+    `lost`, and the others go on.
     """
 
-    def __init__(self):
-        self.failed = False
+    def __init__(self, title: str, stream: TextIO, lost: list[str]) -> None:
+        super().__init__(stream)
+        self.title, self.lost = title, lost
+        self.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        """What `emit` calls where the stream raises."""
+        self.setLevel(logging.CRITICAL + 1)
+        _lose(self.title, sys.exc_info()[1], self.lost)
+        # What is left in its buffer goes nowhere, or it would fail again when it is closed.
+        with contextlib.suppress(OSError), open(os.devnull, "w") as nowhere:
+            os.dup2(nowhere.fileno(), self.stream.fileno())
+
+
+@contextlib.contextmanager
+def outputs() -> Iterator[list[str]]:
+    """The loggers have their outputs while this lasts; the names of those that are lost."""
+    lost: list[str] = []
+    with contextlib.ExitStack() as stack:
         try:
-            # Removed and made, not overwritten: output.log may be a link to a file that must not
-            # change.
+            _lock_folder(stack)
+            # Removed and made, not overwritten: it may be a link to a file that must not change.
             with contextlib.suppress(FileNotFoundError):
                 os.remove(LOG)
-            self.file = open(LOG, "x", encoding="utf-8", errors="backslashreplace", buffering=1)
+            file = stack.enter_context(open(LOG, "x", encoding="utf-8", errors="backslashreplace"))
+            _connect(stack, log, Output(LOG, file, lost), logging.DEBUG)
         except OSError as error:
-            self._lost(error)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._close()
-
-    def debug(self, message):
-        """To the file only."""
-        self._write(f"DEBUG: {message}\n")
-
-    def info(self, message):
-        """To the file and to the standard output."""
-        self._write(f"INFO: {message}\n")
-        self._print(f"INFO: {message}")
-
-    def error(self, message):
-        """As `info`."""
-        self._write(f"ERROR: {message}\n")
-        self._print(f"ERROR: {message}")
-
-    def fatal(self, message):
-        """To the file and to the standard error output: the run ends here."""
-        self._write(f"ERROR: {message}\n")
-        _tell(f"ERROR: {message}")
-
-    def _write(self, line):
-        if self.file:
-            try:
-                self.file.write(line)
-            except OSError as error:
-                self._lost(error)
-
-    def _print(self, text):
-        try:
-            print(text, flush=True)
-        # nobody reads on, as in `| head`, or the disk is full: the log goes on
-        except OSError as error:
-            self.failed = True
-            _tell(f"the standard output cannot be written: {error.strerror or error}")
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-    def _lost(self, error):
-        """Without the file the answers still go to the standard output."""
-        self.failed = True
-        _tell(f"{LOG} cannot be written: {error.strerror or error}")
-        if getattr(self, "file", None):
-            self._close()
-        self.file = None
-
-    def _close(self):
-        if self.file:
-            try:
-                self.file.close()
-            except OSError as error:
-                self.file = None
-                self._lost(error)
+            _lose(LOG, error, lost)
+            _connect(stack, log, logging.NullHandler(), logging.DEBUG)
+        if sys.stdout:
+            name = "the standard output"
+            _connect(stack, answers, Output(name, sys.stdout, lost), logging.INFO)
+        else:
+            _lose("the standard output", "it is closed", lost)
+        if sys.stderr:
+            _connect(stack, end, Output("the standard error output", sys.stderr, []), logging.INFO)
+        stack.callback(log.setLevel, log.level)
+        stack.callback(setattr, log, "propagate", log.propagate)
+        log.setLevel(logging.DEBUG)
+        log.propagate = False  # a caller's own log is not for this
+        yield lost
 
 
-def _tell(text):
+def _connect(
+    stack: contextlib.ExitStack, logger: logging.Logger, handler: logging.Handler, level: int
+) -> None:
+    handler.setLevel(level)
+    logger.addHandler(handler)
+    stack.callback(logger.removeHandler, handler)
+
+
+def _lock_folder(stack: contextlib.ExitStack) -> None:
+    """Keep other runs from this folder's log until the stack is left; OSError if one has it.
+
+    On Windows no lock is needed: nobody can remove a file that is open. A file system without locks
+    goes without.
+    """
+    if sys.platform == "win32":
+        return
+    try:
+        folder = os.open(os.curdir, os.O_RDONLY)
+        stack.callback(os.close, folder)
+        fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise OSError("another run is writing it") from None
+    except OSError:
+        pass
+
+
+def _lose(title: str, why: object, lost: list[str]) -> None:
+    lost.append(title)
+    _tell(f"{title} cannot be written: {getattr(why, 'strerror', None) or why}")
+
+
+def _tell(text: str) -> None:
     """To the standard error output, if there is one."""
     if sys.stderr:
         with contextlib.suppress(OSError):
             print(text, file=sys.stderr, flush=True)
 
 
-def _shown(name):
+def _first(rows: Floats) -> str:
+    """Rows of numbers for the log, as many as a report has points."""
+    more = f" and {len(rows) - POINTS_SHOWN} more" if len(rows) > POINTS_SHOWN else ""
+    return f"{rows[:POINTS_SHOWN].tolist()}{more}"
+
+
+def _shown(name: str) -> str:
     """A file's name on one line, with what cannot be printed as escapes."""
     return "".join(
         c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in name
