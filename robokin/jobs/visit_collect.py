@@ -30,10 +30,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._arrays import BLOCK, Bools, Floats, Ints, components, frozen
+from .._arrays import Bools, Floats, Ints, by_blocks, components, frozen
 from .._validate import TWO_TURNS, broadcast, floats, instance, length, short, warn_if_degrees
 from ..arms import spbu_arm, within
-from ..arms.elbow import FREE, ROUNDING
+from ..arms.geometry import FREE, ROUNDING
 
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
 SHORTEST, LONGEST = 1e-6, 1e6  # m; a link beyond these is a mistake of units
@@ -552,27 +552,25 @@ def _lowest(l1: float, l2: float, start: Floats, end: Floats, below: float) -> F
     """`lowest` of what has been checked; what is not below the height `below` may be too great."""
     start, end = np.broadcast_arrays(_kept(_kept(start, end), 0.0), _kept(_kept(end, start), 0.0))
     moves = np.concatenate([start[..., 1:], end[..., 1:]], axis=-1).reshape(-1, 4)
-    z = np.empty(len(moves))
-    for i in range(0, len(moves), BLOCK):
-        z[i : i + BLOCK] = _lowest_of_block(l1, l2, moves[i : i + BLOCK], below)
+    z = by_blocks(lambda block: [_lowest_of_block(l1, l2, block, below)], moves)
     return z.reshape(start.shape[:-1])
 
 
 @np.errstate(invalid="ignore")  # NaN of postures that do not exist
-def _lowest_of_block(l1: float, l2: float, moves: Floats, below: float) -> Floats:
-    """`_lowest` for moves (n, 4): q2 and q3 at the start, q2 and q3 at the end.
+def _lowest_of_block(l1: float, l2: float, moves: Sequence[Floats], below: float) -> Floats:
+    """`_lowest` for moves: q2 and q3 at the start, q2 and q3 at the end, (n,) each.
 
     Halves those stretches of a move which can still hold a lower place. With a = q2 and b = q2 + q3
     the height is z = l1 cos a - l2 sin b, and a, b run evenly: a stretch of the share h hangs lower
     than its lower end by at most z'' h^2 / 8, and z'' is known from its middle and from how fast it
     can change.
     """
-    a, q3, a_end, q3_end = components(moves)
+    a, q3, a_end, q3_end = moves
     b, b_end = a + q3, a_end + q3_end
     da, db = a_end - a, b_end - b
     low, high = l1 * np.cos(a) - l2 * np.sin(b), l1 * np.cos(a_end) - l2 * np.sin(b_end)
     least, change = np.minimum(low, high), l1 * abs(da) ** 3 + l2 * abs(db) ** 3
-    move, begin, share = np.arange(len(moves)), np.zeros(len(moves)), 1.0
+    move, begin, share = np.arange(len(a)), np.zeros(len(a)), 1.0
     while len(move):
         middle = begin + share / 2
         up = l1 * np.cos(a[move] + middle * da[move])
