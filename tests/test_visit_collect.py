@@ -1274,8 +1274,8 @@ def test_wrong_calls():
             r"point: wanted one single point \(3,\), got \(1, 3\)",
         ),
         (lambda: make(kind="fetch"), TaskError, "task: .*fetch"),
-        (lambda: make(remarks="odd"), ValueError, "remarks: wanted texts, got 'odd'"),
-        (lambda: make(remarks=[1]), ValueError, r"remarks: wanted texts, got \[1\]"),
+        (lambda: make(remarks="odd"), ValueError, "remarks: wanted a list of texts, got 'odd'"),
+        (lambda: make(remarks=[1]), ValueError, "remarks: wanted words, got 1"),
         (
             lambda: Result((0,), (), (1,)),
             ValueError,

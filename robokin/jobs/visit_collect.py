@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._arrays import Bools, Floats, Ints, by_blocks, components, frozen
-from .._validate import TWO_TURNS, broadcast, floats, instance, length, short, warn_if_degrees
+from .._validate import TWO_TURNS, broadcast, floats, instance, length, short, text, warn_if_degrees
 from ..arms import spbu_arm, within
 from ..arms.geometry import FREE, ROUNDING
 
@@ -180,7 +180,7 @@ class TaskError(ValueError):
         super().__init__("; ".join(self.faults))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Task:
     """A checked task, read-only: links l1, l2 (m), time T (s), greatest joint speeds (3,) in rad/s,
     start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks`: what is odd
@@ -188,6 +188,10 @@ class Task:
     of the points.
 
     TaskError with every fault: see `faults`.
+
+    >>> task = Task(5, 4, 10, [0.2] * 3, [1, 1, 1], [[2, 3, 2], [1, 3, 3]], "visit")
+    >>> visit(task).order
+    (0, 1)
     """
 
     l1: float
@@ -197,24 +201,35 @@ class Task:
     p0: Floats
     points: Floats
     kind: str
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[str, ...]
     q: Floats = field(init=False)
 
-    def __post_init__(self) -> None:
-        given = (self.l1, self.l2, self.T, self.speeds, self.p0, self.points, self.kind)
-        data = dict(zip(KEYS, map(_plain, given), strict=True))
+    def __init__(
+        self,
+        l1: float,
+        l2: float,
+        T: float,
+        speeds: ArrayLike,
+        p0: ArrayLike,
+        points: ArrayLike,
+        kind: str,
+        remarks: Sequence[str] = (),
+    ) -> None:
+        given = map(_plain, (l1, l2, T, speeds, p0, points, kind))
+        data = dict(zip(KEYS, given, strict=True))
         if found := faults(data):
             raise TaskError(found)
-        remarks = self.remarks
-        if not (isinstance(remarks, (list, tuple)) and all(isinstance(r, str) for r in remarks)):
-            raise ValueError(f"remarks: wanted texts, got {short(remarks)}")
+        if not isinstance(remarks, (list, tuple)):
+            raise ValueError(f"remarks: wanted a list of texts, got {short(remarks)}")
         l1, l2, T = (float(data[key]) for key in KEYS[:3])
         # -0.0 is 0, as in `principal_postures`
-        speeds, p0, points = (frozen(np.array(data[key], dtype=float) + 0.0) for key in KEYS[3:6])
-        q = frozen(principal_postures(l1, l2, np.vstack([p0, points])))
-        values = (l1, l2, T, speeds, p0, points, data["task"], tuple(remarks), q)
-        for name, value in zip(self.__dataclass_fields__, values, strict=True):
-            object.__setattr__(self, name, value)
+        rows = [frozen(np.array(data[key], dtype=float) + 0.0) for key in KEYS[3:6]]
+        vars(self).update(l1=l1, l2=l2, T=T, speeds=rows[0], p0=rows[1], points=rows[2])
+        vars(self).update(
+            kind=data["task"],
+            remarks=tuple(text(remark, "remarks") for remark in remarks),
+            q=frozen(principal_postures(l1, l2, np.vstack(rows[1:]))),
+        )
 
 
 def read_task(path: str | os.PathLike[str]) -> Task:
@@ -284,12 +299,11 @@ class Result:
 
     def __post_init__(self) -> None:
         times = floats(self.times, "times")
-        for name in ("order", "left"):
-            object.__setattr__(self, name, _indices(getattr(self, name), name))
+        vars(self).update(order=_indices(self.order, "order"), left=_indices(self.left, "left"))
         if times.shape != (len(self.order),):
             wanted = f"{len(self.order)} times, one for each point of order"
             raise ValueError(f"times: wanted {wanted}, got {short(self.times)}")
-        object.__setattr__(self, "times", tuple(times.tolist()))
+        vars(self)["times"] = tuple(times.tolist())
 
     @property
     def time(self) -> float:
@@ -431,7 +445,7 @@ def report(task: Task, result: Result) -> str:
     if count and result.left:
         some = ", ".join(map(str, result.left[:POINTS_SHOWN]))
         lines.append(f"left: {some}" + _more(len(result.left), POINTS_SHOWN, " and {}"))
-    lines += [f"warning: {text}" for text in (*_low_moves(task, result, stops), *_oddities(task))]
+    lines += [f"warning: {words}" for words in (*_low_moves(task, result, stops), *_oddities(task))]
     return "\n\t".join(lines)
 
 
@@ -797,9 +811,11 @@ def _plain(value: Any, depth: int = 2) -> Any:
     return [_plain(v, depth - 1) for v in value]
 
 
-def _more(count: int, shown: int, text: str) -> str:
-    """How many more there are than are shown, in the place {} of the text; "" if there are none."""
-    return text.format(f"{count - shown} more") if count > shown else ""
+def _more(count: int, shown: int, words: str) -> str:
+    """How many more there are than are shown, in the place {} of the words; "" if there are
+    none.
+    """
+    return words.format(f"{count - shown} more") if count > shown else ""
 
 
 def _coordinates(point: Floats) -> str:
