@@ -328,10 +328,10 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
     costs = 2 * _travel(start, task.q[1:], task.speeds, short_way)
     if above_floor:
         costs[_dips(task, start, task.q[1:])] = np.inf
-    order = costs.argsort(kind="stable")
-    # Costs that differ by rounding are a tie; `order` has them side by side.
-    rank = np.cumsum(~_about(costs[order], np.append(costs[order][:1], costs[order][:-1])))
-    order = order[np.lexsort((order, rank))]
+    order = costs.argsort()
+    # Costs that differ by rounding are a tie; sorted, they stand side by side.
+    rank = np.cumsum(~_about(costs[order[1:]], costs[order[:-1]]))
+    order = order[np.lexsort((order, np.append(0, rank)))]
     times = np.cumsum(costs[order])
     fits = int(_fits(times, task.T).sum())
     return _result(task, order[:fits].tolist(), times[:fits])
@@ -459,14 +459,10 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
     """
     limit = ABOVE_LIMIT if above_floor else NEAREST_LIMIT
     if (n := len(task.points)) > limit:
-        where = " where p0 lies on axis 1" if back else ""
-        raise TaskError(
-            [
-                f"pi: wanted at most {limit} points to {task.kind}{where}"
-                f"{' above the floor' if above_floor else ''}, got {n} "
-                f"(up to {n * (n + 1) // 2:.1e} moves to compare)"
-            ]
-        )
+        what = "collect with p0 on axis 1" if back else "visit"
+        floor = " above the floor" if above_floor else ""
+        moves = f"up to {n * (n + 1) // 2:.1e} moves to compare"
+        raise TaskError([f"pi: wanted at most {limit} points to {what}{floor}, got {n} ({moves})"])
     order: list[int] = []
     times: list[float] = []
     total, here, p0 = 0.0, task.q[0], task.q[0]
