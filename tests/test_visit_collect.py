@@ -24,7 +24,6 @@ from robokin.jobs import visit_collect
 from robokin.jobs.visit_collect import (
     ABOVE_LIMIT,
     EXACT_LIMIT,
-    FILE_LIMIT,
     KEYS,
     LONGEST,
     NEAREST_LIMIT,
@@ -303,6 +302,34 @@ def test_results_hold_together(case):
     assert all(2 * legs[0, i + 1] + brought.time > case["T"] for i in brought.left)
 
 
+@pytest.mark.parametrize("k", [1e-5, 1, 1e5])
+def test_rounding_is_a_share_of_the_reach(k):
+    """Errata S0-l: what is past a border by less than 1e-12 of the reach is on it, at any size."""
+    behind = np.sqrt(25 - 16)  # where the inner border for l1 < l2 meets the axis
+    for l1, l2, border, outward, condition in (
+        (5, 4, (0, 0, 9), (0, 0, 1), 0),
+        (5, 4, (4, 3, 0), (0, 0, -1), 1),
+        (5, 4, (0, 1, 0), (0, -1, 0), 2),
+        (4, 5, (0, 0, behind), (0, 0, -5 / 3), 3),
+        (4, 5, (0.6, 0.8, 0), (-0.6, -0.8, 0), 3),
+    ):
+        border, outward = k * np.array(border, float), 9 * k * np.array(outward)
+        for share, inside in ((-1e-9, True), (0.5e-12, True), (2e-12, False), (1e-9, False)):
+            holds = workspace(k * l1, k * l2, border + share * outward)
+            assert holds[condition] == inside and np.delete(holds, condition).all()
+    q = principal_postures(
+        5 * k, 4 * k, k * np.array([(2, 3, 2), (1, 3, 3), (0, 0, 9), (0, 0, 0.5)])
+    )
+    np.testing.assert_allclose(
+        q, principal_postures(5, 4, [(2, 3, 2), (1, 3, 3), (0, 0, 9), (0, 0, 0.5)]), atol=1e-7
+    )
+    # a point is on axis 1 if it is nearer than 1e-13 of the reach
+    for rho, free in ((0.5e-13, True), (2e-13, False)):
+        assert np.isnan(principal_postures(5 * k, 4 * k, (9 * k * rho, 0, 6 * k))[0]) == free
+        folded = principal_postures(4 * k, 4 * k, (0, 0, 8 * k * rho))
+        assert np.isnan(folded).tolist() == [True, free, False]
+
+
 # ---- Travel time
 
 
@@ -433,9 +460,11 @@ def test_a_container_on_the_axis():
     for other in (
         make(kind="collect"),
         make(p0=(0, 0, 6)),
-        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),
+        make(p0=(0, 0, 6), points=[(2, 3, 2)], kind="collect"),  # one point has one order
     ):
         assert "axis 1" not in report(other, answer(other))
+    two = make(p0=(0, 0, 6), kind="collect")
+    assert "axis 1" in report(two, collect(two))
 
 
 def on_the_axis():
@@ -548,6 +577,23 @@ def test_above_floor_refuses_such_moves():
         assert why in report(make(**given, T=T), Result((), (), (0,)))
 
 
+@pytest.mark.parametrize("k", [1e-3, 1, 1e3])
+def test_a_dip_of_a_billionth_of_the_reach_is_rounding(k):
+    """From a point on the floor to one beside it the tool dips as the square of their distance."""
+
+    def beside(distance):
+        points = [(k * (6 - distance), 0, 0)]
+        return make(l1=5 * k, l2=4 * k, p0=(6 * k, 0, 0), points=points, T=100)
+
+    wide = beside(1e-2)
+    depth = -dense(wide, *wide.q[:, None])[0] / k
+    assert 1e-8 < depth < 1e-6
+    for share, told in ((0.5e-9, False), (2e-9, True)):
+        task = beside(1e-2 * np.sqrt(share * 9 / depth))
+        assert ("dips" in report(task, visit(task))) == told
+        assert len(visit(task, above_floor=True).order) == (not told)
+
+
 @pytest.mark.parametrize("kind", ["visit", "collect"])
 def test_above_floor_from_a_start_on_the_axis(kind):
     task = make(p0=(0, 0, 3), points=[(1.05, 0, 0), (7, 0, 0), (3, 0, 0.2)], T=1000, kind=kind)
@@ -584,6 +630,17 @@ def test_the_lowest_place_is_that_of_a_dense_sample(l1, l2):
         assert (got < ends - 1e-2 * l1).any() and (got < 0).any()
 
 
+@pytest.mark.parametrize("l1, l2", [(5, 4), (4, 5), (9, 1)])
+def test_the_lowest_place_of_any_move(l1, l2):
+    """Between postures anywhere inside the limits, where the lowest place is often on the way."""
+    start, end = np.random.default_rng(6).uniform(-np.pi / 2, np.pi / 2, (2, 2000, 3))
+    task = make(l1=l1, l2=l2, p0=(0, 8.5, 1), points=[(0, 8.5, 1)])
+    got, sample = lowest(l1, l2, start, end), dense(task, start, end)
+    assert (got <= sample + 1e-8).all()
+    assert (got >= sample - (l1 + l2) * (2 * np.pi / 800) ** 2).all()
+    assert (got < np.minimum(*(lowest(l1, l2, q, q) for q in (start, end))) - 0.1).sum() > 5
+
+
 def test_the_floor_is_checked_for_certain():
     """Moves between points on the floor or just above it: the shallowest dips are found, and none
     that is not there. The reference halves the bracket round the least of a dense sample.
@@ -617,6 +674,7 @@ def test_lowest_takes_batches_and_free_joints():
     q = drawn(rng, 11).q.reshape(3, 4, 3)
     wide = lowest(5, 4, q[:, None], q)
     assert wide.shape == (3, 3, 4)
+    assert lowest(5, 4, (4 * np.pi, 0, 0), (-4 * np.pi, 0, 0)) == 5
     for i, j, k in ((0, 0, 0), (0, 2, 1), (2, 1, 3)):
         assert wide[i, j, k] == lowest(5, 4, q[i, k], q[j, k])
     assert lowest(5, 4, np.zeros((0, 3)), np.zeros(3)).shape == (0,)
@@ -1145,11 +1203,11 @@ def test_speeds_that_are_likely_degrees():
 def test_a_file_that_is_too_big(tmp_path):
     path = tmp_path / "x.json"
     with path.open("wb") as file:
-        file.truncate(FILE_LIMIT + 1)
+        file.truncate(40_000_001)
     with pytest.raises(TaskError, match="is too big: 40 MB, and 40 MB are read"):
         read_task(path)
     with path.open("wb") as file:
-        file.truncate(FILE_LIMIT)
+        file.truncate(40_000_000)
     tracemalloc.start()
     with pytest.raises(TaskError, match="is not JSON"):
         read_task(path)
@@ -1284,6 +1342,7 @@ def test_wrong_calls():
         (lambda: Result((), (), (-1,)), ValueError, "left: wanted indices of points"),
         (lambda: Result((), (), 0), ValueError, "left: wanted indices of points"),
         (lambda: Result((), (), (1e300,)), ValueError, "left: wanted indices of points"),
+        (lambda: Result((), (), (2.0**60,)), ValueError, "left: wanted indices of points"),
     ):
         with pytest.raises(kind, match=evidence):
             call()
