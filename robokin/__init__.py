@@ -36,6 +36,8 @@ from .quaternion import Quaternion
 from .transform import Transform
 from .units import deg, mm
 
+__version__ = "0.2.0"
+
 __all__ = [
     "IRB140",
     "ITMO6R",

@@ -1,8 +1,11 @@
 """Figures and players for notebooks: arrays in, pictures out."""
 
-from .live import joint_explorer, motion_explorer, target_explorer
-from .player import Player, animate
-from .plots import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+try:
+    from .live import joint_explorer, motion_explorer, target_explorer
+    from .player import Player, animate
+    from .plots import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+except ModuleNotFoundError as error:
+    raise ImportError(f"robokin.show: {error}; pip install 'robokin[show]' brings it") from error
 
 __all__ = [
     "JOINT_STYLES",
