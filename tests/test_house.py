@@ -5,6 +5,7 @@ promises.
 import ast
 import importlib
 import inspect
+import itertools
 import re
 import subprocess
 import sys
@@ -15,30 +16,38 @@ import pytest
 from conftest import ROOT
 from packaging.requirements import Requirement
 
+import robokin
+
 TOP = {"notebooks", "robokin", "environment.txt", "tests", "README.md", "pyproject.toml"}
+TOP |= {"CONTRIBUTING.md", "CHANGELOG.md"}
+OWNERS_CHOICE = {"LICENSE", "LICENSE.md", "LICENSE.txt", "LICENCE", "LICENCE.md", "LICENCE.txt"}
 MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"}
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
 # Each module may import what stands beside the longest entry that it begins with (itself and its
 # own parts besides).
-BASE = ("robokin._validate", "robokin.units", "robokin.quaternion", "robokin.transform")
-DRAWN = (*BASE, "robokin.arms.arm", "robokin.motion.derivatives")  # an arm's data, and arrays
+BASE = (
+    "robokin._arrays",
+    "robokin._validate",
+    "robokin.units",
+    "robokin.quaternion",
+    "robokin.transform",
+)
+KINEMATICS = (*BASE, "robokin.arms", "robokin.motion")
 LAYERS = {
-    "robokin": (
-        "robokin.units",
-        "robokin.quaternion",
-        "robokin.transform",
-        "robokin.arms",
-        "robokin.motion",
-    ),
-    "robokin._validate": (),
+    "robokin": KINEMATICS,
+    "robokin._arrays": (),
+    "robokin._validate": ("robokin._arrays",),
     "robokin.units": (),
-    "robokin.quaternion": ("robokin._validate",),
-    "robokin.transform": ("robokin._validate", "robokin.quaternion"),
+    "robokin.quaternion": ("robokin._arrays", "robokin._validate"),
+    "robokin.transform": ("robokin._arrays", "robokin._validate", "robokin.quaternion"),
     "robokin.arms": BASE,
-    "robokin.motion": ("robokin._validate", "robokin.units"),  # values with `lerp`, and no arms
-    "robokin.jobs": (*BASE, "robokin.arms", "robokin.motion"),
-    "robokin.show": DRAWN,
+    # values with `lerp`, and no arms
+    "robokin.motion": ("robokin._arrays", "robokin._validate", "robokin.units"),
+    "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
+    "robokin.jobs": KINEMATICS,
+    "robokin.show": KINEMATICS,
     "robokin.show.live": ("robokin",),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
@@ -107,7 +116,7 @@ def test_top_level_holds_what_the_design_names():
     found = {
         entry.name for entry in ROOT.iterdir() if not entry.name.startswith((".", "__pycache__"))
     }
-    assert found - MADE_BY_TOOLS == TOP
+    assert found - MADE_BY_TOOLS - OWNERS_CHOICE == TOP
 
 
 def test_ci_runs_the_test_command_of_the_readme():
@@ -136,17 +145,49 @@ def test_readme_names_every_lab_and_its_links_resolve():
 def test_pins_are_exact_installed_and_within_the_ranges():
     lines = (ROOT / "environment.txt").read_text().splitlines()
     pins = dict(line.split("==") for line in lines if line and not line.startswith(("#", "-")))
-    assert "-e ." in lines
+    assert "-e .[labs]" in lines
     assert {"numpy", "matplotlib", "ipywidgets", "jupyterlab", "nbval"} <= set(pins)
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    for text in project["dependencies"] + project["optional-dependencies"]["test"]:
-        wanted = Requirement(text)
+    extras = PROJECT["optional-dependencies"].values()
+    for wanted in map(Requirement, [*PROJECT["dependencies"], *itertools.chain(*extras)]):
         assert wanted.specifier.contains(version(wanted.name)), (
             f"{wanted}: {version(wanted.name)} is installed"
         )
         assert wanted.name not in pins or wanted.specifier.contains(pins[wanted.name])
     wrong = {name: version(name) for name, pin in pins.items() if version(name) != pin}
     assert not wrong, f"the stored outputs were made with other versions: {wrong}"
+
+
+def test_the_package_itself_needs_numpy_only():
+    assert [Requirement(text).name for text in PROJECT["dependencies"]] == ["numpy"]
+    extras = {
+        extra: {Requirement(text).name.lower() for text in texts}
+        for extra, texts in PROJECT["optional-dependencies"].items()
+    }
+    # What `robokin.show` imports is its extra; IPython and traitlets come with the widgets.
+    drawn = {
+        name.split(".")[0] for m in MODULES if m.startswith("robokin.show") for name in _imports(m)
+    }
+    assert (drawn & DRAWING) - {"IPython", "traitlets"} == {
+        "PIL" if name == "pillow" else name for name in extras["show"]
+    }
+    assert extras["labs"] == {"robokin", "jupyterlab", "scipy", "sympy"}
+
+
+def test_show_without_its_extra_says_what_to_install():
+    code = "import sys; sys.modules['matplotlib'] = None; import robokin, robokin.show"
+    run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True)
+    assert re.search(r"ImportError: .*matplotlib.*robokin\[show\]", run.stderr), run.stderr
+
+
+def test_the_version_stands_once():
+    assert "version" in PROJECT["dynamic"] and "version" not in PROJECT
+    assert re.fullmatch(r"\d+\.\d+\.\d+", robokin.__version__)
+
+
+def test_the_checker_finds_nothing():
+    # Configured in pyproject.toml. Its cache (.mypy_cache) makes the second run quick.
+    run = subprocess.run([sys.executable, "-m", "mypy"], cwd=ROOT, text=True, capture_output=True)
+    assert run.returncode == 0, run.stdout + run.stderr
 
 
 @pytest.mark.parametrize("command", [["check", "--output-format=concise"], ["format", "--check"]])
@@ -207,7 +248,7 @@ def _origin(source, name):
 
 def _passed_on(init):
     """The names that an __init__.py imports from its own package: (name, relative module)."""
-    for node in ast.parse(init.read_text(encoding="utf-8")).body:
+    for node in ast.walk(ast.parse(init.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level:
             for alias in node.names:
                 yield alias.asname or alias.name, "." * node.level + (node.module or "")

@@ -1,0 +1,714 @@
+"""Wrong calls: every public callable, every argument replaced in turn by every wrong thing below.
+
+Nothing but ValueError and TypeError may come of it, said by robokin and not by what it is built on;
+no call may take longer than `SECONDS`, and NumPy may not complain. What a message says is held by
+`test_wrong_input.py`.
+"""
+
+import datetime
+import decimal
+import fractions
+import inspect
+import signal
+import time
+import traceback
+import types
+import warnings
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import robokin
+from robokin import (
+    IRB140,
+    SCARA,
+    Arm,
+    Link,
+    Quaternion,
+    Target,
+    TimeLaw,
+    Transform,
+    blend,
+    deg,
+    dh_links,
+    differentiate,
+    elbow_arm,
+    explain,
+    follow,
+    itmo_arm,
+    lin,
+    lin_lin,
+    linear,
+    loader_arm,
+    nearest,
+    ptp,
+    quintic,
+    scara,
+    spbu_arm,
+    spherical_wrist,
+    three_lever,
+    trapezoidal,
+    two_link,
+    within,
+)
+from robokin import show as figures
+from robokin.jobs import obstacles, steppers, visit_collect
+
+SECONDS = 5
+PACKAGE = str(Path(robokin.__file__).parent)
+MODULES = (robokin, figures, visit_collect, obstacles, steppers)
+OPERATORS = ("__matmul__", "__getitem__", "__call__")
+
+# ---- The right calls
+
+T = Transform(Quaternion.from_angle_axis(0.3, (0, 0, 1)), (0.4, 0.1, 0.5))
+HIGHER = Transform(T.rotation, (0.4, -0.1, 0.6))
+TURN = T.rotation
+BATCH = lin(T, HIGHER, [0, 0.5, 1])
+PLACE = Target((0.3, 0.1, 0.15), 0.5)
+S = np.array([0.0, 0.25, 1.0])
+SIX = np.array([0.1, 0.2, -0.3, 0.4, 0.5, 0.6])
+TIMES = np.linspace(0, 1, 6)
+MOTION = SIX + 0.1 * TIMES[:, None]
+SPEEDS = differentiate(MOTION, TIMES)
+LAW = quintic(2.0)
+LEVERS = three_lever(0.5)
+FOLDED = np.array([90.0, 60, 90]) * deg
+OPENED = np.array([60.0, 90, 120]) * deg
+POINT = np.array([0.6, 0.5])
+OBSTACLE = np.array([0.2, 1.1])
+PATH = np.stack([FOLDED, OPENED, FOLDED])
+POSITIONING = spbu_arm(2.0, 1.5)
+LINKS = LEVERS.links
+SERVED = np.array([[1.0, 0.5, 1.0], [0.8, -0.5, 1.2]])
+TASK = visit_collect.Task(2.0, 1.5, 20.0, [0.5, 0.5, 0.5], [1.0, 0.0, 1.0], SERVED, "visit")
+RESULT = visit_collect.visit(TASK)
+TASK_DATA = dict(
+    zip(
+        visit_collect.KEYS,
+        (2.0, 1.5, 20.0, [0.5] * 3, [1.0, 0.0, 1.0], SERVED.tolist(), "visit"),
+        strict=True,
+    )
+)
+TASK_FILE = Path(__file__).parent.parent / "notebooks" / "tasks" / "example_3.json"
+LOADER = loader_arm(1.2, 1.0)
+STATIONS = np.array([[1.5, 0.2, 0.3], [0.9, 0.9, 0.6]])
+PULSES = np.array([10.0, 8, 12])
+MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
+PLAN = obstacles.plan(LEVERS, FOLDED, POINT)
+PAGE = "page.html, in a folder of the test"
+PLAYER = figures.animate(IRB140, TIMES, MOTION)
+
+# "name" or "name (case)": callable and its arguments, all of them, each legal. A name in a module
+# of robokin.jobs begins with the module's.
+CALLS = {
+    # robokin
+    "Quaternion": (Quaternion, dict(wxyz=np.array([0.6, 0.8, 0, 0]))),
+    "Quaternion.identity": (Quaternion.identity, dict(shape=(2,))),
+    "Quaternion.from_angle_axis": (
+        Quaternion.from_angle_axis,
+        dict(angle=np.array([0.1, 0.2]), axis=np.array([0, 0.6, 0.8])),
+    ),
+    "Quaternion.from_matrix": (Quaternion.from_matrix, dict(matrix=TURN.as_matrix())),
+    "Quaternion.slerp": (TURN.slerp, dict(goal=Quaternion.identity(), s=S)),
+    "Quaternion.__matmul__": (lambda other: TURN @ other, dict(other=TURN)),
+    "Quaternion.__matmul__ (points)": (lambda other: TURN @ other, dict(other=np.ones((2, 3)))),
+    "Quaternion.__matmul__ (from the right)": (lambda other: other @ TURN, dict(other=TURN)),
+    "Quaternion.__getitem__": (lambda index: BATCH.rotation[index], dict(index=1)),
+    "Transform": (Transform, dict(rotation=TURN, translation=np.array([0.1, 0.2, 0.3]))),
+    "Transform.identity": (Transform.identity, dict(shape=(2,))),
+    "Transform.from_matrix": (Transform.from_matrix, dict(matrix=T.as_matrix())),
+    "Transform.lerp": (T.lerp, dict(goal=HIGHER, s=S)),
+    "Transform.__matmul__": (lambda other: T @ other, dict(other=BATCH)),
+    "Transform.__matmul__ (points)": (lambda other: T @ other, dict(other=np.ones((2, 3)))),
+    "Transform.__matmul__ (from the right)": (lambda other: other @ T, dict(other=T)),
+    "Transform.__getitem__": (lambda index: BATCH[index], dict(index=1)),
+    "Target": (Target, dict(position=np.array([0.3, 0.1, 0.1]), angle=0.4)),
+    "Target.lerp": (PLACE.lerp, dict(goal=Target((0.2, 0.1, 0.1)), s=S)),
+    "Target.__getitem__": (lambda index: PLACE.lerp(PLACE, S)[index], dict(index=1)),
+    "Link": (Link, dict(before=T, axis=np.array([0, 0.6, 0.8]), after=T, prismatic=False)),
+    "Link.carry": (Link().carry, dict(frame=T, q=0.3)),
+    "Arm": (
+        Arm,
+        dict(
+            name="arm",
+            links=SCARA.links,
+            geometry=SCARA.geometry,
+            limits=SCARA.limits,
+            speed_limits=np.ones(4),
+        ),
+    ),
+    "Arm.branch": (lambda flag: IRB140.branch(+1, -1, flag), dict(flag=1)),
+    "Arm.branch (SCARA)": (lambda flag: SCARA.branch(flag), dict(flag=1)),
+    "Arm.fk": (IRB140.fk, dict(q=SIX)),
+    "Arm.fk (SCARA)": (SCARA.fk, dict(q=SIX[:4])),
+    "Arm.frames": (IRB140.frames, dict(q=SIX)),
+    "Arm.jacobian": (IRB140.jacobian, dict(q=MOTION)),
+    "Arm.ik": (IRB140.ik, dict(pose=T)),
+    "Arm.ik (SCARA)": (SCARA.ik, dict(pose=PLACE)),
+    "Arm.ik (points)": (POSITIONING.ik, dict(pose=SERVED)),
+    "Arm.ik (plane)": (two_link(0.5, 0.4).ik, dict(pose=POINT)),
+    "ThreeLever.joints": (LEVERS.joints, dict(q=PATH)),
+    "ThreeLever.alpha_range": (LEVERS.alpha_range, dict(point=POINT, limited=True)),
+    "ThreeLever.family": (LEVERS.family, dict(point=POINT, alpha=np.array([1.5, 2.0]))),
+    "ThreeLever.table": (LEVERS.table, dict(point=POINT, step=1 * deg, limited=True)),
+    "ThreeLever.sweep": (
+        LEVERS.sweep,
+        dict(point=POINT, previous=FOLDED, step=1 * deg, limited=True),
+    ),
+    "ThreeLever.least": (LEVERS.least, dict(point=POINT, previous=FOLDED, limited=True)),
+    "ThreeLever.unreached": (LEVERS.unreached, dict(point=POINT)),
+    "dh_links": (
+        dh_links,
+        dict(a=np.array([0, 0.3]), alpha=np.array([1.57, 0]), d=np.zeros(2), theta=np.zeros(2)),
+    ),
+    "elbow_arm": (
+        elbow_arm,
+        dict(
+            name="arm",
+            links=POSITIONING.links,
+            limits=POSITIONING.limits,
+            speed_limits=np.ones(3),
+        ),
+    ),
+    "spherical_wrist": (
+        spherical_wrist,
+        dict(name="arm", links=IRB140.links, limits=IRB140.limits, speed_limits=np.ones(6)),
+    ),
+    "scara": (
+        scara,
+        dict(
+            name="arm",
+            height=0.3,
+            upper=0.2,
+            fore=0.25,
+            limits=SCARA.limits,
+            speed_limits=np.ones(4),
+        ),
+    ),
+    "itmo_arm": (itmo_arm, dict(d1=0.1, a2=0.1, d4=0.2, d6=0.2)),
+    "loader_arm": (loader_arm, dict(A=1.2, B=1.0)),
+    "spbu_arm": (spbu_arm, dict(l1=2.0, l2=1.5)),
+    "three_lever": (three_lever, dict(L=0.5)),
+    "two_link": (two_link, dict(l1=0.5, l2=0.4, base=np.array([0.1, 0.2]))),
+    "explain": (explain, dict(arm=IRB140, pose=T, row=1)),
+    "explain (SCARA)": (explain, dict(arm=SCARA, pose=PLACE, row=1)),
+    "explain (points)": (explain, dict(arm=POSITIONING, pose=SERVED[0], row=3)),
+    "explain (plane)": (explain, dict(arm=two_link(0.5, 0.4), pose=POINT, row=0)),
+    "follow": (follow, dict(arm=IRB140, rows=IRB140.ik(BATCH), row=0)),
+    "nearest": (nearest, dict(arm=IRB140, rows=IRB140.ik(T), q=SIX)),
+    "within": (within, dict(arm=IRB140, q=SIX)),
+    "within (SCARA)": (within, dict(arm=SCARA, q=SIX[:4])),
+    "lin": (lin, dict(start=T, goal=HIGHER, s=S)),
+    "lin (SCARA)": (lin, dict(start=PLACE, goal=PLACE, s=S)),
+    "lin_lin": (lin_lin, dict(start=T, via=HIGHER, goal=T, s=S)),
+    "blend": (
+        blend,
+        dict(start=T, via=HIGHER, goal=T, fraction=0.1, s=S, corner="quintic"),
+    ),
+    "ptp": (ptp, dict(q0=SIX, q1=SIX + 0.1, s=S)),
+    "TimeLaw": (TimeLaw, dict(duration=2.0, progress=np.sin)),
+    "TimeLaw.__call__": (LAW, dict(t=TIMES)),
+    "linear": (linear, dict(duration=2.0)),
+    "quintic": (quintic, dict(duration=2.0)),
+    "trapezoidal": (trapezoidal, dict(duration=2.0, ramp=0.2)),
+    "differentiate": (differentiate, dict(values=MOTION, t=TIMES, order=2)),
+    # robokin.show
+    "animate": (
+        figures.animate,
+        dict(
+            arm=IRB140,
+            t=TIMES,
+            q=MOTION,
+            targets=[T],
+            slider=None,
+            switch=None,
+            title="title",
+            points={"p": (0.1, 0.2, 0.3)},
+            circles=[((0.1, 0.2, 0.3), 0.1)],
+            names=None,
+        ),
+    ),
+    "animate (controls)": (
+        figures.animate,
+        dict(
+            arm=[IRB140, IRB140],
+            t=TIMES,
+            q=[np.broadcast_to(MOTION, (2, 2, 6, 6))] * 2,
+            targets={"via": T},
+            slider=("blend", np.array([0.0, 0.1])),
+            switch=("corner", ["parabola", "quintic"]),
+            title=None,
+            points=(),
+            circles=(),
+            names=["one", "two"],
+        ),
+    ),
+    "Player": (figures.Player, dict(data=PLAYER.data, still=PLAYER.still)),
+    "Player.save": (lambda path: PLAYER.save(path), dict(path=PAGE)),
+    "figure": (figures.figure, dict(alt="words", width=3, height=2)),
+    "joint_explorer": (figures.joint_explorer, dict(arm=SCARA)),
+    "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
+    "motion_explorer": (
+        figures.motion_explorer,
+        dict(arm=SCARA, start=PLACE, via=Target((0.2, 0.2, 0.1)), goal=Target((0.1, 0.3, 0.1))),
+    ),
+    "plot_frames": (
+        figures.plot_frames,
+        dict(frames=BATCH, names=["a", "b", "c"], title="t", size=0.1, chain=True, alt="words"),
+    ),
+    "plot_joints": (
+        figures.plot_joints,
+        dict(arm=IRB140, t=TIMES, q=MOTION, v=SPEEDS, a=SPEEDS, title="title", alt="words"),
+    ),
+    "plot_postures": (
+        figures.plot_postures,
+        dict(arm=IRB140, q=MOTION, targets=[T, HIGHER], title="title", alt="words"),
+    ),
+    # robokin.jobs
+    "visit_collect.workspace": (visit_collect.workspace, dict(l1=2.0, l2=1.5, points=SERVED)),
+    "visit_collect.refusal": (visit_collect.refusal, dict(l1=2.0, l2=1.5, point=SERVED[0])),
+    "visit_collect.postures": (visit_collect.postures, dict(l1=2.0, l2=1.5, points=SERVED)),
+    "visit_collect.misfit": (
+        visit_collect.misfit,
+        dict(l1=2.0, l2=1.5, q=TASK.q[1:], points=SERVED),
+    ),
+    "visit_collect.travel_time": (
+        visit_collect.travel_time,
+        dict(q_from=TASK.q, q_to=TASK.q[0], speeds=np.ones(3), short_way=False),
+    ),
+    "visit_collect.TaskError": (visit_collect.TaskError, dict(faults=["a fault"])),
+    "visit_collect.Task": (
+        visit_collect.Task,
+        dict(
+            l1=2.0,
+            l2=1.5,
+            T=20.0,
+            speeds=np.ones(3),
+            p0=SERVED[0],
+            points=SERVED,
+            kind="visit",
+        ),
+    ),
+    "visit_collect.read_task": (visit_collect.read_task, dict(path=str(TASK_FILE))),
+    "visit_collect.faults": (visit_collect.faults, dict(data=TASK_DATA)),
+    "visit_collect.Result": (
+        visit_collect.Result,
+        dict(order=(0, 1), times=(1.0, 2.0), left=()),
+    ),
+    "visit_collect.collect": (visit_collect.collect, dict(task=TASK, short_way=False)),
+    "visit_collect.visit": (visit_collect.visit, dict(task=TASK, short_way=False)),
+    "visit_collect.best_visit": (visit_collect.best_visit, dict(task=TASK, short_way=False)),
+    "visit_collect.itinerary": (
+        visit_collect.itinerary,
+        dict(task=TASK, result=RESULT, short_way=False),
+    ),
+    "visit_collect.answer": (visit_collect.answer, dict(task=TASK)),
+    "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
+    "obstacles.in_quadrilateral": (
+        obstacles.in_quadrilateral,
+        dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE),
+    ),
+    "obstacles.swept": (obstacles.swept, dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE)),
+    "obstacles.distances": (obstacles.distances, dict(arm=LEVERS, q=PATH, H=OBSTACLE)),
+    "obstacles.clearance": (obstacles.clearance, dict(arm=LEVERS, path=PATH, H=OBSTACLE)),
+    "obstacles.keeps": (
+        obstacles.keeps,
+        dict(arm=LEVERS, a=FOLDED, b=PATH, H=OBSTACLE, distance=0.05),
+    ),
+    "obstacles.via_points": (
+        obstacles.via_points,
+        dict(K=POINT, K1=np.array([-0.5, 0.7]), H=OBSTACLE, radius=0.1),
+    ),
+    "obstacles.via_path": (
+        obstacles.via_path,
+        dict(arm=LEVERS, q0=FOLDED, target=POINT, H=OBSTACLE, radius=0.1, limited=True),
+    ),
+    "obstacles.way_round": (
+        obstacles.way_round,
+        dict(arm=LEVERS, q0=FOLDED, target=POINT, H=OBSTACLE, distance=0.05),
+    ),
+    "obstacles.Plan": (
+        obstacles.Plan,
+        {name: getattr(PLAN, name) for name in PLAN.__dataclass_fields__},
+    ),
+    "obstacles.plan": (
+        obstacles.plan,
+        dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE, distance=0.05),
+    ),
+    "obstacles.along": (obstacles.along, dict(path=PATH, s=S)),
+    "steppers.refusal": (steppers.refusal, dict(arm=LOADER, point=STATIONS[0])),
+    "steppers.postures": (steppers.postures, dict(arm=LOADER, points=STATIONS)),
+    "steppers.shortest_turn": (steppers.shortest_turn, dict(start=0.1, goal=S)),
+    "steppers.counts": (steppers.counts, dict(q=PATH, per_degree=PULSES)),
+    "steppers.joints": (
+        steppers.joints,
+        dict(positions=np.array([10.0, 20, 30]), per_degree=PULSES),
+    ),
+    "steppers.Move": (steppers.Move, dict(t=MOVE.t, positions=MOVE.positions)),
+    "steppers.Move.__call__": (MOVE, dict(t=TIMES)),
+    "steppers.frequencies": (steppers.frequencies, dict(pulses=PULSES, limit=400.0)),
+    "steppers.unsynchronised": (
+        steppers.unsynchronised,
+        dict(start=np.zeros(3), goal=PULSES, limit=400.0),
+    ),
+    "steppers.synchronised": (
+        steppers.synchronised,
+        dict(start=np.zeros(3), goal=PULSES, limit=400.0),
+    ),
+    "steppers.straight": (
+        steppers.straight,
+        dict(arm=LOADER, start=STATIONS[0], goal=STATIONS[1], per_degree=PULSES, limit=400.0),
+    ),
+    "steppers.phases": (steppers.phases, dict(drive="wave", motor="bipolar")),
+    "steppers.energised": (
+        steppers.energised,
+        dict(table=steppers.phases("wave", "unipolar"), signs=np.array([1, 1, -1]), row=1),
+    ),
+}
+
+# ---- The wrong things
+
+HUGE = 10**400
+UNSAFE = np.zeros(10**7)
+UNSAFE[-1] = np.nan
+MILLION = np.zeros(10**6)
+
+
+def deep(depth=5000):
+    value = [1.0]
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+def ragged():
+    return [[1.0, 2.0], [3.0]]
+
+
+class Sulky:
+    """What cannot even be shown."""
+
+    def __repr__(self):
+        raise RuntimeError("no")
+
+
+# name -> a function, since some of them can be used but once
+WRONG = {
+    "None": lambda: None,
+    "no word": lambda: "",
+    "a word": lambda: "abc",
+    "a word that NumPy reads as a number": lambda: "90",
+    "a word with a zero byte": lambda: "a\0b.html",
+    "half of a character": lambda: "\ud800",
+    "a formula that is none": lambda: "a $\\frac{ b$",
+    "words": lambda: ["1", "2", "3"],
+    "bytes": lambda: b"12",
+    "True": lambda: True,
+    "NumPy's True": lambda: np.True_,
+    "-1": lambda: -1,
+    "0": lambda: 0,
+    "0.0": lambda: 0.0,
+    "-0.5": lambda: -0.5,
+    "1.5": lambda: 1.5,
+    "seven": lambda: 7,
+    "degrees": lambda: 90,
+    "a million radians": lambda: 1e6,
+    "1e17": lambda: 1e17,
+    "1e300": lambda: 1e300,
+    "1e-300": lambda: 1e-300,
+    "1e-9": lambda: 1e-9,
+    "NaN": lambda: np.nan,
+    "infinite": lambda: np.inf,
+    "minus infinite": lambda: -np.inf,
+    "a million": lambda: 10**6,
+    "a million million": lambda: 10**12,
+    "10**400": lambda: HUGE,
+    "-10**400": lambda: -HUGE,
+    "10**400 in a list": lambda: [HUGE, 1, 1],
+    "a fraction": lambda: fractions.Fraction(1, 3),
+    "a decimal": lambda: decimal.Decimal("0.1"),
+    "complex": lambda: 1 + 2j,
+    "complex array": lambda: np.array([1, 2, 3j]),
+    "masked": lambda: np.ma.masked_array([1.0, 2, 3], [False, True, False]),
+    "date": lambda: datetime.date(2020, 1, 1),
+    "datetime64": lambda: np.array(["2020-01-01"] * 3, dtype="datetime64[D]"),
+    "timedelta64": lambda: np.array([1, 2, 3], dtype="timedelta64[s]"),
+    "record array": lambda: np.zeros(3, dtype=[("x", float), ("y", int)]),
+    "array of objects": lambda: np.array([None, 1, {}], dtype=object),
+    "array of no axes": lambda: np.array(0.5),
+    "empty list": lambda: [],
+    "empty rows": lambda: np.empty((0, 3)),
+    "rows of nothing": lambda: np.empty((3, 0)),
+    "five by five by five": lambda: np.zeros((5, 5, 5)),
+    "two numbers": lambda: (0.1, 0.2),
+    "three numbers": lambda: [0.1, 0.2, 0.3],
+    "seven numbers": lambda: np.arange(7.0),
+    "identity of four": lambda: np.eye(4),
+    "NaN everywhere": lambda: np.full((4, 6), np.nan),
+    "ragged": ragged,
+    "nested five thousand times": deep,
+    "a million numbers": lambda: MILLION,
+    "ten million numbers, one NaN": lambda: UNSAFE,
+    "a list that holds itself": lambda: (lambda a: a.append(a) or a)([1.0]),
+    "object": object,
+    "a list of an object": lambda: [object()],
+    "a pair of objects": lambda: (object(), object()),
+    "a word and an object": lambda: ("word", object()),
+    "empty dict": dict,
+    "dict": lambda: {"x": 1.0},
+    "dict of an object": lambda: {"x": object()},
+    "dict with a wrong key": lambda: {(1, 2): None},
+    "set": lambda: {1.0, 2.0},
+    "function": lambda: lambda *_: 1 / 0,
+    "class": lambda: int,
+    "class of ours": lambda: Transform,
+    "module": lambda: np,
+    "generator": lambda: (i for i in range(3)),
+    "range": lambda: range(3),
+    "slice": lambda: slice(None, "a"),
+    "ellipsis": lambda: ...,
+    "an index out of range": lambda: 10**5,
+    "a pair of indices": lambda: (0, 0),
+    "an arm": lambda: IRB140,
+    "a SCARA": lambda: SCARA,
+    "three levers": lambda: LEVERS,
+    "a positioning arm": lambda: POSITIONING,
+    "a pose": lambda: T,
+    "poses": lambda: BATCH,
+    "a list of poses": lambda: [T, None],
+    "a missing pose": lambda: IRB140.fk(np.full(6, np.nan)),
+    "a rotation": lambda: TURN,
+    "rotations": lambda: BATCH.rotation,
+    "a SCARA's pose": lambda: PLACE,
+    "a law": lambda: LAW,
+    "a link": Link,
+    "links": lambda: IRB140.links[:2],
+    "a task": lambda: TASK,
+    "a result": lambda: visit_collect.Result((7,), (1.0,), ()),
+    "a move": lambda: MOVE,
+    "a plan": lambda: PLAN,
+    "a path": lambda: Path("no/such.html"),
+    "something whose repr fails": Sulky,
+}
+
+
+def derived(value):
+    """Wrong (and some legal) numbers made from the legal ones of an argument: name -> value."""
+    if isinstance(value, (bool, str, bytes, dict)) or value is None:
+        return {}
+    try:
+        array = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        return {}
+    if not array.size:
+        return {}
+
+    def one(other, dtype=float):
+        changed = array.astype(dtype)
+        changed.reshape(-1)[-1:] = other
+        return changed
+
+    last = (slice(None),) * max(array.ndim - 1, 0)
+    made = {
+        "with a NaN": one(np.nan),
+        "with an infinite number": one(np.inf),
+        "with 1e300": one(1e300),
+        "with 10**400": one(HUGE, object).tolist(),
+        "with None": one(None, object),
+        "with a word": one("x", object).tolist(),
+        "as words": array.astype(str),
+        "complex": array + 0j,
+        "complex, truly": array + 1j,
+        "masked": np.ma.masked_array(array, np.ones(array.shape, dtype=bool)),
+        "in degrees": array / deg,
+        "a million times": array * 1e6,
+        "1e200 times": array * 1e200,
+        "negative": -array,
+        "nought": array * 0,
+        "of bool": array.astype(bool),
+        "with one axis more": array[None],
+        "twice": np.stack([array, array]),
+        "five times": np.stack([array] * 5),
+    }
+    if array.ndim:
+        made |= {
+            "one shorter": array[(*last, slice(None, -1))],
+            "none of it": array[:0],
+            "one of it": array[:1],
+            "flat": array.reshape(-1),
+            "transposed": array.T,
+            "turned round": array[::-1],
+            "in a list with a shorter one": [*array.tolist(), []],
+        }
+    return made
+
+
+# ---- What is held
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    return str(tmp_path_factory.mktemp("page") / "page.html")
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_wrong_calls_are_refused_in_our_words(name, page):
+    call, right = CALLS[name]
+    right = {key: page if value is PAGE else value for key, value in right.items()}
+    _, complaint = _outcome(call, right)
+    assert not complaint, f"the right call: {complaint}"
+    complaints = []
+    for argument, value in right.items():
+        wrong = [(kind, make) for kind, make in WRONG.items()]
+        wrong += [(kind, lambda bad=bad: bad) for kind, bad in derived(value).items()]
+        for kind, make in wrong:
+            error, complaint = _outcome(call, right | {argument: make()})
+            if kind == "object" and not complaint:
+                complaint = _against_the_rule(value, error)
+            if complaint:
+                complaints.append(f"{argument} = {kind}: {complaint}")
+    assert not complaints, f"{len(complaints)} wrong calls\n" + "\n".join(complaints[:40])
+
+
+def test_every_public_callable_is_called_wrongly():
+    wanted = dict(_public())
+    called = {}
+    for name, (_, arguments) in CALLS.items():
+        called.setdefault(name.split()[0], set()).update(arguments)
+    assert set(wanted) - set(called) == set(), "not in the table"
+    assert set(called) - set(wanted) == set(), "not public (any more)"
+    for name, parameters in wanted.items():
+        if name.split(".")[-1] not in OPERATORS:
+            assert parameters <= called[name], f"{name}: {parameters - called[name]} missing"
+
+
+def test_the_watch_is_awake():
+    # The checks above would see what they are there for.
+    with np.errstate(all="warn"):
+        for call, seen in (
+            (lambda x: time.sleep(60), "took longer"),
+            (lambda x: np.float64(0) / 0, "RuntimeWarning"),
+            (lambda x: {}[x], "KeyError"),
+            (lambda x: len(None), "not robokin's words"),
+        ):
+            assert seen in _outcome(call, {"x": 1}, seconds=0.2)[1]
+
+
+# ---- Private
+
+
+class TooLong(BaseException):
+    """Raised by the watch in the middle of a call."""
+
+
+def _outcome(call, arguments, seconds=SECONDS):
+    """The error of a call (or None), and what is wrong with that in words (or "")."""
+    error, complaint, start = None, "", time.perf_counter()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", UserWarning)  # hints: likely a slip, and legal
+        try:
+            with _watch(seconds):
+                call(**arguments)
+        except (ValueError, TypeError) as caught:
+            error = caught
+            complaint = _foreign(caught)
+        except TooLong:
+            complaint = f"took longer than {seconds} s"
+        except Exception as caught:
+            complaint = f"{type(caught).__name__}: {caught}"[:200]
+    if not complaint and time.perf_counter() - start > seconds:
+        complaint = f"took {time.perf_counter() - start:.1f} s"
+    return error, complaint
+
+
+class _watch:
+    """Raises TooLong after so many seconds, where the system has such an alarm."""
+
+    def __init__(self, seconds):
+        self.seconds = seconds
+
+    def __enter__(self):
+        if hasattr(signal, "setitimer"):
+            self.before = signal.signal(signal.SIGALRM, self._ring)
+            signal.setitimer(signal.ITIMER_REAL, self.seconds)
+
+    def __exit__(self, *_):
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, self.before)
+
+    def _ring(self, *_):
+        raise TooLong
+
+
+def _foreign(error):
+    """Whether the words of an error are not robokin's own: "" if they are."""
+    text = str(error)
+    if not text or len(text) > 500:
+        return f"{type(error).__name__} of {len(text)} letters"
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    ours = last.filename.startswith(PACKAGE) and last.line.startswith("raise")
+    # An operator between two that do not fit is refused by Python itself.
+    python = isinstance(error, TypeError) and last.name == "<lambda>" and "operand" in text
+    return "" if ours or python else f"not robokin's words: {type(error).__name__}: {text}"[:200]
+
+
+def _against_the_rule(value, error):
+    """An object() is of no use anywhere. TypeError where an object of a class is wanted, ValueError
+    where numbers or words are; a flag may be anything.
+    """
+    if isinstance(value, bool):
+        return ""
+    if error is None:
+        return "accepted"
+    kinds = (robokin.quaternion.Batch, Arm, Link, TimeLaw, visit_collect.Task)
+    kinds += (visit_collect.Result, figures.Player, types.FunctionType, np.ufunc)
+    wanted = TypeError if isinstance(value, kinds) else ValueError
+    return "" if isinstance(error, wanted) else f"{type(error).__name__}, not {wanted.__name__}"
+
+
+@cache
+def _public():
+    """Every public callable and its parameters: functions, constructors, methods and operators of
+    the public classes and of the machines' classes.
+    """
+    found = {}
+    for module in MODULES:
+        job = module.__name__.startswith("robokin.jobs.")
+        prefix = f"{module.__name__.split('.')[-1]}." if job else ""
+        names = getattr(module, "__all__", None) or [
+            name
+            for name, value in vars(module).items()
+            if getattr(value, "__module__", None) == module.__name__ and name[0] != "_"
+        ]
+        for name in names:
+            value = getattr(module, name)
+            if inspect.isfunction(value):
+                found[prefix + name] = _parameters(value)
+            elif inspect.isclass(value):
+                found[prefix + name] = _parameters(value)
+                _methods(value, found, prefix)
+            elif isinstance(value, Arm):
+                _methods(type(value), found, "")
+    for arm in (LEVERS, POSITIONING, LOADER, two_link(1, 1)):
+        _methods(type(arm), found, "")
+    return tuple(found.items())
+
+
+def _methods(kind, found, prefix):
+    for cls in kind.__mro__:
+        if cls.__module__.split(".")[0] != "robokin":
+            continue
+        for name, member in vars(cls).items():
+            member = getattr(member, "__func__", member)  # of a class method
+            public = name[0] != "_" or name in OPERATORS
+            if public and inspect.isfunction(member) and len(_parameters(member)) > 1:
+                found[f"{prefix}{cls.__name__}.{name}"] = _parameters(member) - {"self", "cls"}
+
+
+def _parameters(call):
+    return set(inspect.signature(call).parameters)
