@@ -39,7 +39,7 @@ LAYERS = {
     "robokin": KINEMATICS,
     "robokin._arrays": (),
     "robokin._validate": ("robokin._arrays",),
-    "robokin.units": (),
+    "robokin.units": ("robokin._arrays",),
     "robokin.quaternion": ("robokin._arrays", "robokin._validate"),
     "robokin.transform": ("robokin._arrays", "robokin._validate", "robokin.quaternion"),
     "robokin.arms": BASE,
@@ -136,7 +136,10 @@ def test_ci_runs_the_test_command_of_the_readme():
 
 def test_readme_names_every_lab_and_its_links_resolve():
     links = re.findall(r"\]\(([^)\s]+)\)", README)
-    for link in links:
+    others = [
+        (ROOT / name).read_text(encoding="utf-8") for name in ("CONTRIBUTING.md", "CHANGELOG.md")
+    ]
+    for link in links + re.findall(r"\]\(([^)\s]+)\)", " ".join(others)):
         assert link.startswith(("https:", "#")) or (ROOT / link).exists(), link
     for lab in (ROOT / "notebooks").glob("*.ipynb"):
         assert f"notebooks/{lab.name}" in links, f"{lab.name} is not in the README"

@@ -1,0 +1,59 @@
+"""The examples in docstrings are true: each runs with NumPy as `np` and the public names of
+`robokin`, as in a notebook that began with them.
+"""
+
+import doctest
+import importlib
+import inspect
+import io
+
+import numpy as np
+import pytest
+
+import robokin
+
+PACKAGES = ("robokin", "robokin.arms", "robokin.motion", "robokin.show")
+JOBS = tuple(f"robokin.jobs.{job}" for job in ("visit_collect", "obstacles", "steppers"))
+NAMES = {"np": np, **{name: getattr(robokin, name) for name in robokin.__all__}}
+HOW = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+
+
+def public():
+    """name -> object: the functions and classes of the packages and of the jobs, and the modules
+    that define them.
+    """
+    found = {}
+    for module in map(importlib.import_module, (*PACKAGES, *JOBS)):
+        found[module.__name__] = module
+        for name in getattr(module, "__all__", vars(module)):
+            value = getattr(module, name)
+            home = getattr(value, "__module__", "")
+            ours = home == module.__name__ or hasattr(module, "__all__")
+            if ours and name[0] != "_" and (inspect.isclass(value) or inspect.isroutine(value)):
+                found[f"{home}.{name}"] = value
+                found[home] = importlib.import_module(home)
+    return found
+
+
+PUBLIC = public()
+
+
+def examples(name):
+    """The examples in the docstring of a public name, and of its methods."""
+    value = PUBLIC[name]
+    finder = doctest.DocTestFinder(recurse=not inspect.ismodule(value), exclude_empty=True)
+    return [test for test in finder.find(value, name, globs=NAMES) if test.examples]
+
+
+@pytest.mark.parametrize("name", [name for name in PUBLIC if examples(name)])
+def test_the_example_is_true(name):
+    said = io.StringIO()
+    runner = doctest.DocTestRunner(optionflags=HOW)
+    for test in examples(name):
+        runner.run(test, out=said.write, clear_globs=False)
+    assert runner.summarize(verbose=False).failed == 0, said.getvalue()
+
+
+def test_a_wrong_example_would_be_seen():
+    test = doctest.DocTestParser().get_doctest(">>> deg * 180\n3.0\n", dict(NAMES), "x", None, 0)
+    assert doctest.DocTestRunner(optionflags=HOW).run(test, out=lambda _: None).failed == 1
