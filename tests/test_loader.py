@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from machines import SHAPES, oracle, rot, shift, turns
 
-from robokin import Transform, deg, explain, loader_arm, within
-from robokin.jobs.steppers import postures, refusal, shortest_turn
+from robokin import SCARA, Transform, deg, explain, loader_arm, three_lever, two_link, within
+from robokin.jobs.steppers import out_of_reach, shortest_turn, station_postures
 
 CASES = oracle("loader_arm")["cases"]
 LENGTHS = [(1.2, 1.0), (1.0, 1.2), (1.0, 1.0), (2.0, 0.1)]
@@ -23,14 +23,14 @@ def joints_of(case):
 def test_every_reference_case(case):
     arm = loader_arm(case["A"], case["B"])
     row = arm.ik(case["p"])[arm.branch(+1, -1)]
-    q = postures(arm, [case["p"]])[0]
+    q = station_postures(arm, [case["p"]])[0]
     if not case["reachable"]:
-        assert np.isnan(row).all() and np.isnan(q).all() and refusal(arm, case["p"])
+        assert np.isnan(row).all() and np.isnan(q).all() and out_of_reach(arm, case["p"])
         return
     assert abs(q - joints_of(case)).max() < 1e-9
     assert turns(row, q).max() < 1e-12 and within(arm, row).all()
     np.testing.assert_allclose(arm.fk(q).translation, case["p"], atol=1e-12)
-    assert refusal(arm, case["p"]) == []
+    assert out_of_reach(arm, case["p"]) == []
 
 
 @lengths
@@ -71,7 +71,7 @@ def test_ik_returns_the_drawn_joints(A, B, shape):
 @pytest.mark.parametrize("x", [-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("y", [-2.0, -0.0, 0.0, 2.0])
 def test_alpha_in_the_nine_cells_of_table_1(x, y):
-    alpha = postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
+    alpha = station_postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
     steep = np.degrees(np.arctan(2.0))
     table = {
         (-1, -1): -180 + steep,
@@ -89,7 +89,7 @@ def test_alpha_in_the_nine_cells_of_table_1(x, y):
 
 
 def test_the_printed_corner_of_table_1_is_wrong():
-    alpha = postures(loader_arm(2, 1.5), [(-1, 2, 0), (-1, 1e-4, 0)])[:, 0] / deg
+    alpha = station_postures(loader_arm(2, 1.5), [(-1, 2, 0), (-1, 1e-4, 0)])[:, 0] / deg
     assert alpha == pytest.approx([116.565051, 179.994270], abs=1e-6)
     printed = np.degrees(np.arctan([2.0, 1e-4])) + 90
     assert printed == pytest.approx([153.434949, 90.005730], abs=1e-6)
@@ -97,7 +97,9 @@ def test_the_printed_corner_of_table_1_is_wrong():
 
 def test_on_the_axis_alpha_stays_as_it_was():
     arm = loader_arm(1.2, 1.0)
-    q = postures(arm, [(0, 0, 1.5), (0.5, 0.5, 1), (0, 0, 1.5), (0, 1e-16, 2.2), (-0.5, 0.5, 1)])
+    q = station_postures(
+        arm, [(0, 0, 1.5), (0.5, 0.5, 1), (0, 0, 1.5), (0, 1e-16, 2.2), (-0.5, 0.5, 1)]
+    )
     assert q[:, 0] / deg == pytest.approx([0, 45, 45, 45, 135])
     assert np.isfinite(q).all() and q[3, 2] == pytest.approx(np.pi)
 
@@ -105,12 +107,12 @@ def test_on_the_axis_alpha_stays_as_it_was():
 def test_alpha_goes_on_by_the_shortest_turn():
     angle = np.array([170, -170, -20, 170, -100, 79]) * deg
     points = np.stack([np.cos(angle), np.sin(angle), 0 * angle + 0.3], axis=-1)
-    alpha = postures(loader_arm(1.2, 1.0), points)[:, 0]
+    alpha = station_postures(loader_arm(1.2, 1.0), points)[:, 0]
     assert alpha / deg == pytest.approx([170, 190, 340, 170, 260, 439], abs=1e-9)
     assert abs(np.diff(alpha)).max() <= np.pi + 1e-12
     assert alpha == pytest.approx(np.unwrap(angle))
     lost = np.insert(points, 2, [9, 9, 9], axis=0)
-    q = postures(loader_arm(1.2, 1.0), lost)
+    q = station_postures(loader_arm(1.2, 1.0), lost)
     assert np.isnan(q[2]).all() and q[[0, 1, 3, 4, 5, 6], 0] == pytest.approx(alpha)
 
 
@@ -139,16 +141,16 @@ def test_the_printed_shortest_turn_is_wrong():
 def test_stretched_and_folded(A, B):
     arm = loader_arm(A, B)
     direction = np.array([0.6, 0.48, 0.64])
-    stretched, folded = postures(
+    stretched, folded = station_postures(
         arm, [(A + B) * direction, abs(A - B) * direction + [1e-9 * (A == B), 0, 0]]
     )
     assert stretched[2] == pytest.approx(np.pi, abs=1e-6) and stretched[1] == pytest.approx(
         np.arcsin(0.64), abs=1e-6
     )
     assert folded[2] == pytest.approx(0, abs=1e-6) and folded[2] >= 0
-    assert np.isnan(postures(arm, [(A + B) * 1.0001 * direction])).all()
+    assert np.isnan(station_postures(arm, [(A + B) * 1.0001 * direction])).all()
     if A != B:
-        assert np.isnan(postures(arm, [abs(A - B) * 0.999 * direction])).all()
+        assert np.isnan(station_postures(arm, [abs(A - B) * 0.999 * direction])).all()
 
 
 @lengths
@@ -163,21 +165,22 @@ def test_the_angles_are_the_documents_formulas(A, B):
     beta = np.arccos((B**2 + A**2 - h2) / (2 * A * B))  # (3)
     # (4)
     gamma = np.arccos((A**2 - B**2 + h2) / (2 * A * np.sqrt(h2))) + np.arcsin(p[:, 2] / np.sqrt(h2))
-    q = postures(loader_arm(A, B), p)
+    q = station_postures(loader_arm(A, B), p)
     np.testing.assert_allclose(q[:, 1:], np.stack([gamma, beta], axis=1), atol=1e-8)
+    q[:, 0] = shortest_turn(0, q[:, 0])  # unwrapped over 300 stations
     assert within(loader_arm(A, B), q).all()
     assert gamma.max() > np.pi or A >= B  # the range above 180 degrees is used
 
 
 def test_the_check_of_the_coordinates():
     arm = loader_arm(1.2, 0.7)
-    assert refusal(arm, (1, 0.5, 0.4)) == []
-    assert refusal(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
-    assert refusal(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the stretched arm"]
+    assert out_of_reach(arm, (1, 0.5, 0.4)) == []
+    assert out_of_reach(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
+    assert out_of_reach(arm, (2, 0, 0)) == ["the point is 100.0 mm beyond the stretched arm"]
     # the inner bound, S3-r
-    assert refusal(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
-    assert len(refusal(arm, (2, 0, -1))) == 2
-    assert refusal(arm, (1.9, 0, 0)) == [] and refusal(arm, (0, 0, 0.5)) == []
+    assert out_of_reach(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
+    assert len(out_of_reach(arm, (2, 0, -1))) == 2
+    assert out_of_reach(arm, (1.9, 0, 0)) == [] and out_of_reach(arm, (0, 0, 0.5)) == []
     assert "were millimetres meant" in explain(arm, (1200, 0, 300), 1)
     assert "183.8 mm too near" in explain(arm, Transform(translation=(0.3, 0, 0.1)), 1)
 
@@ -187,8 +190,9 @@ def test_wrong_calls_are_refused():
         with pytest.raises(ValueError, match="A: |B: "):
             loader_arm(A, B)
     with pytest.raises(ValueError, match="stations"):
-        postures(loader_arm(1, 1), (1, 0, 0))
-    with pytest.raises(ValueError, match="loader_arm"):
-        from robokin import SCARA
-
-        postures(SCARA, [(1, 0, 0)])
+        station_postures(loader_arm(1, 1), (1, 0, 0))
+    for arm in (SCARA, two_link(1, 1), three_lever(1), None, "a"):
+        with pytest.raises(TypeError, match="loader_arm"):
+            station_postures(arm, [(1, 0, 0)])
+        with pytest.raises(TypeError, match="loader_arm"):
+            out_of_reach(arm, "a")  # the arm is the worse fault

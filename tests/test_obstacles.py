@@ -7,14 +7,18 @@ tests/benchmarks/obstacle_tasks.py prints what comes of them.
 """
 
 import os
+import re
 
 import numpy as np
 import pytest
 from machines import oracle
 
-from robokin import deg, three_lever, within
+from robokin import SCARA, deg, loader_arm, three_lever, within
+from robokin.jobs import obstacles
 from robokin.jobs.obstacles import (
     LEVERS,
+    TOLERANCE,
+    WORK,
     Plan,
     along,
     clearance,
@@ -86,7 +90,7 @@ def tasks(n, seed=5, limited=True):
     while n:
         q0, K1 = rng.uniform(0, np.pi, 3), ring(1)[0]
         q1, _ = ARM.least(K1, q0, limited)
-        if np.isnan(q1).any() or not 1 < np.hypot(*ARM.joints(q0)[3]) < 3:
+        if np.isnan(q1).any() or not 1 < np.hypot(*ARM.points(q0)[3]) < 3:
             continue
         H = ring(1)
         if passes_over(q0, q1, H)[0]:
@@ -98,7 +102,7 @@ def tasks(n, seed=5, limited=True):
 def test_reference_cases(case):
     q0, q1, H = np.array(case["previous"])[::-1], np.array(case["new"])[::-1], case["H"]
     for q, names in ((q0, ("A", "K")), (q1, ("A1", "K1"))):
-        for point, name in zip(ARM.joints(q)[2:], names, strict=True):
+        for point, name in zip(ARM.points(q)[2:], names, strict=True):
             np.testing.assert_allclose(point, case[name], rtol=0, atol=1e-12)
     np.testing.assert_allclose(ARM.least(case["K1"], q0, limited=False)[0], q1, rtol=0, atol=1e-6)
     assert in_quadrilateral(ARM, q0, q1, H)["AK"] == case["inside_quadrilateral"]
@@ -118,7 +122,7 @@ def test_reference_cases(case):
     assert np.isnan(path).any() != (case["K2_reachable"] and case["K3_reachable"])
     if not np.isnan(path).any():
         np.testing.assert_allclose(
-            ARM.joints(path)[:, 3], [case["K"], K2, K3, case["K1"]], rtol=0, atol=1e-12
+            ARM.points(path)[:, 3], [case["K"], K2, K3, case["K1"]], rtol=0, atol=1e-12
         )
 
 
@@ -146,7 +150,7 @@ def test_the_quadrilateral_of_any_drawing():
     """
     q0 = ARM.least((0.8668, -0.5041), [1.2, 2.0, 1.0], limited=False)[0]
     q1 = ARM.least((1.2804, 0.1854), [1.5, 2.0, 1.0], limited=False)[0]
-    (_, B, A, K), (_, B1, A1, K1) = ARM.joints(q0), ARM.joints(q1)
+    (_, B, A, K), (_, B1, A1, K1) = ARM.points(q0), ARM.points(q1)
     H = np.stack([A, K, (A + K) / 2, (3 * A + K1 + K + A1) / 6, 2 * K - A, (5, 5)])
     found = in_quadrilateral(ARM, q0, q1, H)
     assert found["AK"].tolist() == [True, True, True, True, False, False]
@@ -175,21 +179,18 @@ def test_clearance_is_a_bound_and_a_tight_one(L):
         fast = abs(np.diff(path, axis=0)).sum(axis=1, keepdims=True) * 3 * L / 4000
         assert (sampled.min(axis=1) - bound <= fast + 2e-6 * L).all()
         np.testing.assert_allclose(distances(arm, path, H), seen(path, H, L), rtol=0, atol=1e-14)
-        # `keeps` may refuse what lies this near to the distance
-        least, slack = bound.min(axis=1), 3e-6 * L
-        for distance in (least[1] - slack, least.max() + slack):
-            kept = keeps(arm, path[:-1], path[1:], H, distance)
-            assert (
-                kept[least >= distance + slack].all() and not kept[least < distance - slack].any()
-            )
-        assert keeps(arm, path[:-1], path[1:], H, least.min() - slack).all()
-        assert not keeps(arm, path[:-1], path[1:], H, least.max() + slack).any()
+        # the clearance is known to 1e-6 of a lever, and `keeps` is surer than that
+        least, slack = bound.min(axis=1), 2.1e-6 * L
+        for distance in least[least > slack]:
+            for asked in (distance - slack, distance + slack):
+                kept = keeps(arm, path[:-1], path[1:], H, asked)
+                np.testing.assert_array_equal(kept, least > asked)
 
 
 def test_a_lever_that_passes_over_has_no_clearance():
     q0, q1 = np.array([100, 120, 130]) * deg, np.array([60, 120, 130]) * deg
     for lever, u in ((0, 0.5), (1, 0.3), (2, 0.9)):
-        O_B_A_K = ARM.joints((q0 + q1) / 2)
+        O_B_A_K = ARM.points((q0 + q1) / 2)
         H = O_B_A_K[lever] + u * (O_B_A_K[lever + 1] - O_B_A_K[lever])
         assert swept(ARM, q0, q1, H)[LEVERS[lever]]
         assert clearance(ARM, [q0, q1], H)[0, lever] == 0
@@ -197,10 +198,115 @@ def test_a_lever_that_passes_over_has_no_clearance():
     assert not any(swept(ARM, q0, q1, (-2.0, -2.0)).values())
 
 
-def test_plans_keep_their_clearance_or_say_that_there_is_none():
+@pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
+def test_clearance_of_motions_that_are_known():
+    """Lever OB of an arm whose joint 1 alone turns, past the obstacle or not up to it; all beyond
+    B hangs together.
+    """
+    q, H = np.array([0.2, 2.0, 2.5]), np.array([0.3, 0.9])
+    to = np.arctan2(H[1], H[0])  # 71.6 degrees
+    for turn in (0.5, 1.0, 1.3, 2.0, 40.0):
+        end = q + [turn, 0, 0]
+        angle = max(to - end[0], 0.0)
+        least = np.hypot(*H) * np.sin(angle)
+        found = clearance(ARM, [q, end], H)[0]
+        assert least - 2e-6 <= found[0] <= least, turn
+        # the others: the nearest of a turn of their end points about the base
+        s = np.linspace(0, min(turn, 2 * np.pi), 40_001)[:, None]
+        sampled = seen(q + s * [1, 0, 0], H).min(axis=0)
+        assert (sampled - found <= 2e-4).all() and (sampled >= found).all()
+
+
+@pytest.mark.parametrize("H", [(0, 0), (1e-9, 0), (0.01, -0.02), (1e3, 2e3)])
+def test_clearance_where_the_distance_hardly_changes(H):
+    """An obstacle in the base sees the levers turn about it: half-way distances are all alike, and
+    a search that halves until it knows must not go on for ever.
+    """
+    a, b = np.array([0.1, 1.1, 1.9]), np.array([3.0, 1.1, 1.9])
+    least = clearance(ARM, [a, b], H)[0]
+    sampled = seen(dense([a, b], 100_001)[0], H).min(axis=0)
+    assert (least <= sampled).all() and (sampled - least <= 2.1e-6).all()
+    held = sampled.min() + 1e-4
+    assert not keeps(ARM, a, b, H, held) and (held < 0.1 or keeps(ARM, a, b, H, held - 2e-4))
+
+
+def test_a_motion_that_stands_keeps_what_it_has():
+    """The border: a distance that is just kept is kept, and not one above it."""
+    q, H = np.array([1.0, 2.0, 1.5]), (1.3, 1.2)
+    least = seen(q, H).min()
+    near = distances(ARM, q, H).min()
+    assert near == pytest.approx(least, abs=1e-15)
+    assert keeps(ARM, q, q, H, near) and not keeps(ARM, q, q, H, np.nextafter(near, 9))
+    np.testing.assert_allclose(
+        clearance(ARM, [q, q, q], H), [seen(q, H) - TOLERANCE] * 2, rtol=0, atol=1e-15
+    )
+
+
+def test_batches_of_postures_and_of_obstacles():
+    rng = np.random.default_rng(12)
+    q, H = rng.uniform(0, np.pi, (4, 1, 3)), rng.uniform(-2, 2, (5, 2))
+    found = distances(ARM, q, H)
+    assert found.shape == (4, 5, 3)
+    for i in range(4):
+        for k in range(5):
+            np.testing.assert_allclose(found[i, k], seen(q[i, 0], H[k]), atol=1e-14)
+    np.testing.assert_array_equal(distances(ARM, q[0, 0], H), found[0])
+    np.testing.assert_array_equal(distances(ARM, q[:, 0], (*H[0], 0.0)), found[:, 0])
+    missing = distances(ARM, [[np.nan] * 3, [1, 1, 1]], H[0])
+    assert np.isnan(missing[0]).all() and np.isfinite(missing[1]).all()
+    a, b = rng.uniform(0, np.pi, (2, 1, 3)), rng.uniform(0, np.pi, (3, 3))
+    H = (0.9, 1.0)
+    kept = keeps(ARM, a, b, H, 0.2)
+    assert kept.shape == (2, 3) and kept.any() and not kept.all()
+    for i in range(2):
+        for k in range(3):
+            one = keeps(ARM, a[i, 0], b[k], H, 0.2)
+            assert one.shape == () and one == kept[i, k]
+            assert one == (clearance(ARM, [a[i, 0], b[k]], H).min() >= 0.2)
+
+
+def test_long_paths_are_measured_in_portions(monkeypatch):
+    """Whether stretches are looked at all together or a few at a time: the same answer."""
+    rng = np.random.default_rng(13)
+    path, H = rng.uniform(0, np.pi, (60, 3)), (0.9, 1.1)
+    together, kept = clearance(ARM, path, H), keeps(ARM, path[:-1], path[1:], H, 0.1)
+    monkeypatch.setattr(obstacles, "PORTION", 7)
+    np.testing.assert_allclose(clearance(ARM, path, H), together, rtol=0, atol=1.1e-6)
+    np.testing.assert_array_equal(keeps(ARM, path[:-1], path[1:], H, 0.1), kept)
+
+
+@pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
+def test_work_without_end_is_refused(monkeypatch):
+    q = np.array([1.0, 2.0, 1.5])
+    # a hundred turns are work, and not too much
+    assert clearance(ARM, [q, q + [200 * np.pi, 0, 0]], (1.2, 1.3)).shape == (1, 3)
+    many = np.tile(q, (WORK + 1, 1))
+    with pytest.raises(ValueError, match=f"most {WORK} stre.*{WORK + 1} of 0 rad.*{WORK + 1} and"):
+        keeps(ARM, many, q, (2.9, 2.9), 0.5)
+    with pytest.raises(
+        ValueError, match=r"got 1 of 3e\+06 rad in all, which take 10\d{5} and more"
+    ):
+        clearance(ARM, [q, q + 1e6], (1.2, 1.3))
+    monkeypatch.setattr(obstacles, "WORK", 8)
+    assert keeps(ARM, many[:8], q, (2.9, 2.9), 0.5).all()
+    for call in (
+        lambda: keeps(ARM, many[:9], q, (2.9, 2.9), 0.5),
+        lambda: keeps(ARM, q, q + [20, 0, 0], (2.9, 2.9), 0.5),
+        lambda: swept(ARM, q, q + [20, 0, 0], (1.5, 1.5)),
+    ):
+        with pytest.raises(ValueError, match="motions: wanted some of which at most 8 stretches"):
+            call()
+
+
+@pytest.fixture(scope="module")
+def answers():
+    """(q0, target, obstacle, plan) of the random tasks."""
+    return [(*task, plan(ARM, *task)) for task in tasks(TASKS)]
+
+
+def test_plans_keep_their_clearance_or_say_that_there_is_none(answers):
     ways = []
-    for q0, K1, H in tasks(TASKS):
-        answer = plan(ARM, q0, K1, H)
+    for q0, K1, H, answer in answers:
         ways.append(answer.way)
         if not answer.found:
             assert (
@@ -212,7 +318,7 @@ def test_plans_keep_their_clearance_or_say_that_there_is_none():
             )
             continue
         postures = dense(answer.path)
-        np.testing.assert_allclose(answer.path[0], q0)
+        assert (answer.path[0] == q0).all()
         np.testing.assert_allclose(ARM.fk(answer.posture).translation[:2], K1, rtol=0, atol=1e-12)
         assert within(ARM, answer.path).all()
         sampled = seen(postures, H).min(axis=1)
@@ -220,9 +326,50 @@ def test_plans_keep_their_clearance_or_say_that_there_is_none():
         assert (answer.clearance <= sampled).all() and (answer.clearance.min() >= KEPT - 2e-6)
         assert answer.cost == pytest.approx(abs(np.diff(answer.path, axis=0)).sum())
         assert answer.cost >= answer.least - 1e-9
-        assert "AK" in answer.words or "BA" in answer.words or "OB" in answer.words
     assert ways.count("direct") == 0
     assert ways.count("search") > 0.7 * TASKS
+
+
+def test_the_words_name_the_lever_that_is_nearest(answers):
+    """And of levers that meet in the nearest point, the one nearer to the base."""
+    told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
+    for q0, K1, H, answer in answers:
+        paths = [[q0, ARM.least(K1, q0)[0]], via_path(ARM, q0, K1, H)]
+        if "No path keeps" in answer.words:
+            continue
+        assert ("not both within reach" in answer.words) == bool(np.isnan(paths[1]).any())
+        found = told.findall(answer.words)
+        assert len(found) == 2 - np.isnan(paths[1]).any() and found[0][1] == "sweeps"
+        for (name, what, near), path in zip(found, paths, strict=False):
+            parts = seen(dense(path, 20_001), H)
+            least = parts.min(axis=(0, 1))
+            fast = abs(np.diff(path, axis=0)).sum(axis=1).max() * 3 / 20_000
+            lever = LEVERS.index(name)
+            assert least[lever] <= least.min() + fast
+            assert (least[:lever] > least.min() + 1e-6).all()
+            if what == "sweeps":
+                assert least.min() <= fast
+            else:
+                assert abs(float(near) / 1000 - least.min()) <= fast + 5.1e-5 and float(near) > 0
+
+
+def test_the_way_round_is_taut(answers):
+    """Nothing of a path can be had for less in an obvious way: no via posture left out or pulled a
+    little towards its neighbours, and the target reached from the last one in no nearer posture.
+    """
+    searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
+    nearer = 0
+    for H, K1, path in searched:
+        assert not keeps(ARM, path[:-2], path[2:], H, KEPT).any()
+        for a, via, b in zip(path, path[1:], path[2:], strict=False):
+            between = np.clip(via, np.minimum(a, b), np.maximum(a, b))
+            pulled = via + (between - via) / 32
+            slack = abs(between - via).sum() > 1e-9
+            assert not (slack and keeps(ARM, [a, pulled], [pulled, b], H, KEPT).all())
+        goals = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 300))
+        gain = abs(path[-1] - path[-2]).sum() - abs(goals - path[-2]).sum(axis=1)
+        nearer += keeps(ARM, path[-2], goals[gain > 1 * deg], H, KEPT).any()
+    assert len(searched) > 0.7 * TASKS and nearer <= 0.05 * len(searched)
 
 
 def test_the_way_round_exists_where_a_path_was_made_first():
@@ -233,7 +380,7 @@ def test_the_way_round_exists_where_a_path_was_made_first():
     while count < 25:
         path = rng.uniform(0, np.pi, (4, 3))
         H = rng.uniform(-2.5, 2.5, 2)
-        K, K1 = ARM.joints(path[0])[3], ARM.joints(path[-1])[3]
+        K, K1 = ARM.points(path[0])[3], ARM.points(path[-1])[3]
         if not (1 < np.hypot(*K) < 3 and 1 < np.hypot(*K1) < 3 and np.hypot(*H) > 0.5):
             continue
         if seen(dense(path, 400), H).min() < KEPT + 0.03 or keeps(
@@ -260,7 +407,7 @@ def test_the_remembered_posture_leads_from_task_to_task():
         answer = plan(ARM, posture, target, obstacle)
         assert answer.found and (answer.path[0] == posture).all()
         posture = answer.posture
-        np.testing.assert_allclose(ARM.joints(posture)[3], target, atol=1e-12)
+        np.testing.assert_allclose(ARM.points(posture)[3], target, atol=1e-12)
 
 
 def test_the_direct_way():
@@ -283,19 +430,21 @@ def test_via_points_serve_where_less_is_asked():
     """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's way serves a
     smaller distance.
     """
-    found = [plan(ARM, *task, distance=0.09).way for task in tasks(30)]
-    assert "via points" in found and "search" in found
-    for q0, K1, H in tasks(30):
+    ways = []
+    for q0, K1, H in tasks(min(TASKS, 30)):
         answer = plan(ARM, q0, K1, H, distance=0.09)
+        ways.append(answer.way)
         if answer.way == "via points":
+            assert "The via points K2 and K3 lead round it." in answer.words
             assert seen(dense(answer.path), H).min() >= 0.09 and len(answer.path) == 4
             np.testing.assert_allclose(
-                np.hypot(*(ARM.joints(answer.via)[:, 3] - H).T), 1 / 7, atol=1e-12
+                np.hypot(*(ARM.points(answer.via)[:, 3] - H).T), 1 / 7, atol=1e-12
             )
+    assert "via points" in ways and "search" in ways
 
 
 Q0 = np.array([100, 110, 120]) * deg
-KNOWN = ARM.joints(Q0)
+KNOWN = ARM.points(Q0)
 
 
 @pytest.mark.parametrize(
@@ -324,6 +473,25 @@ def test_what_cannot_be_is_said(target, obstacle, words):
     assert answer.path.tolist() == [Q0.tolist()] and (answer.posture == Q0).all()
 
 
+def test_what_is_just_kept_is_kept():
+    """The borders of base, start, target and direct way belong to what is allowed."""
+    target, H = (1.75, 0.5), (1.75, 0.75)
+    at_start, direct = distances(ARM, Q0, H).min(), [Q0, ARM.least(target, Q0)[0]]
+    for distance, obstacle, words in (
+        (0.5, (0.0, -0.5), "on the base or 500.0 mm"),
+        (at_start, H, "At the start lever AK is already"),
+        (0.25, H, "The target lies 250.0 mm"),
+    ):
+        at, above = (
+            plan(ARM, Q0, target, obstacle, d).words for d in (distance, np.nextafter(distance, 9))
+        )
+        assert words in above and words not in at, (at, above)
+    H = (1.5, 1.4)
+    near = clearance(ARM, direct, H).min()
+    assert plan(ARM, Q0, target, H, near).way == "direct"
+    assert plan(ARM, Q0, target, H, np.nextafter(near, 9)).way != "direct"
+
+
 def test_a_smaller_distance_may_be_asked_for():
     target, obstacle = (1.8, 0.6), (1.8, 0.7)
     assert not plan(ARM, Q0, target, obstacle).found
@@ -340,26 +508,182 @@ def test_postures_along_a_path():
     np.testing.assert_allclose(along(path[[0, 0]], [0, 0.5]), path[[0, 0]])  # a path that stands
 
 
-@pytest.mark.parametrize(
-    "call, words",
-    [
-        (lambda: plan(ARM, [1, 2, 4], (1.8, 0.6)), "from 0 to 180 degrees"),
-        (lambda: plan(ARM, [1, 2], (1.8, 0.6)), r"posture.*\(2,\)"),
-        (lambda: plan(ARM, Q0, (1.8, 0.6, 0.1)), "z = 0"),
-        (lambda: plan(ARM, Q0, (1.8, 0.6), (1, np.nan)), "nan"),
-        (lambda: plan(ARM, Q0, (1.8, 0.6), (1, 2), -0.1), "-0.1"),
-        (lambda: plan(ARM, Q0, (1.8, 0.6), (1, 2), 0), "distance: wanted one positive length"),
-        (lambda: plan(ARM, Q0, [(1.8, 0.6)] * 2), "one single point"),
-        (lambda: plan(None, Q0, (1.8, 0.6)), "ThreeLever"),
-        (lambda: clearance(ARM, Q0, (1, 2)), r"\(3,\)"),
-        (lambda: clearance(ARM, [Q0, Q0], [(1, 2), (3, 4)]), "one single point"),
-    ],
-)
-def test_wrong_calls_are_named(call, words):
-    with pytest.raises(ValueError, match=words):
+def test_postures_before_and_after_a_path_are_its_ends():
+    path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
+    assert (along(path, [[-1.0, 2.0], [1e300, -1e300]]) == path[[[0, 2], [2, 0]]]).all()
+
+
+# ---- wrong calls
+
+ARMS = {
+    "in_quadrilateral": lambda arm: in_quadrilateral(arm, Q0, Q0, (1, 2)),
+    "swept": lambda arm: swept(arm, Q0, Q0, (1, 2)),
+    "distances": lambda arm: distances(arm, Q0, (1, 2)),
+    "clearance": lambda arm: clearance(arm, [Q0, Q0], (1, 2)),
+    "keeps": lambda arm: keeps(arm, Q0, Q0, (1, 2), 0.1),
+    "via_path": lambda arm: via_path(arm, Q0, (1.8, 0.6), (1, 2)),
+    "way_round": lambda arm: way_round(arm, Q0, (1.8, 0.6), (1, 2), 0.1),
+    "plan": lambda arm: plan(arm, Q0, (1.8, 0.6)),
+}
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_another_arm_is_refused(name):
+    ARMS[name](ARM)
+    for arm in (None, "a", 3, SCARA, loader_arm(1, 1), ARM.geometry, type(ARM)):
+        with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):
+            ARMS[name](arm)
+
+
+FAR = (1.2, 1.9)  # an obstacle that leaves room
+GOAL = (1.8, 0.6)
+WRONG = {
+    "a posture past its limit": (lambda: plan(ARM, [1, 2, 4], GOAL), "from 0 to 180 degrees"),
+    "a posture below its limit": (lambda: plan(ARM, [1, -0.1, 3], GOAL), "from 0 to 180 degrees"),
+    "a posture in degrees": (
+        lambda: plan(ARM, [100, 110, 120], GOAL),
+        r"180 degrees, got \[5729\.578",
+    ),
+    "two angles": (lambda: plan(ARM, [1, 2], GOAL), r"posture.*\(2,\)"),
+    "two postures": (lambda: plan(ARM, [Q0, Q0], GOAL), r"posture: wanted one .*\(2, 3\)"),
+    "no posture": (lambda: plan(ARM, None, GOAL), "posture: wanted numbers"),
+    "NaN posture": (lambda: plan(ARM, [1, np.nan, 2], GOAL), "posture.*nan"),
+    "target off the plane": (lambda: plan(ARM, Q0, (1.8, 0.6, 0.1)), "z = 0"),
+    "target of four numbers": (lambda: plan(ARM, Q0, (1, 2, 0, 0)), "target: wanted points"),
+    "target as a number": (lambda: plan(ARM, Q0, 1.8), "target: wanted points.*1.8"),
+    "two targets": (lambda: plan(ARM, Q0, [GOAL] * 2), r"target.*one single point.*\(2,\)"),
+    "NaN obstacle": (lambda: plan(ARM, Q0, GOAL, (1, np.nan)), "obstacle.*nan"),
+    "obstacle beyond the numbers": (lambda: plan(ARM, Q0, GOAL, (1e300, 0)), "metres, got 1e.300"),
+    "obstacle as words": (lambda: plan(ARM, Q0, GOAL, "ab"), "obstacle: wanted numbers"),
+    "negative distance": (lambda: plan(ARM, Q0, GOAL, (1, 2), -0.1), "-0.1"),
+    "distance 0": (lambda: plan(ARM, Q0, GOAL, (1, 2), 0), "distance: wanted one positive length"),
+    "NaN distance": (lambda: plan(ARM, Q0, GOAL, (1, 2), np.nan), "distance.*nan"),
+    "one posture is no path": (lambda: clearance(ARM, Q0, (1, 2)), r"two or more.*\(3,\)"),
+    "a path of one": (lambda: clearance(ARM, [Q0], (1, 2)), r"two or more.*\(1, 3\)"),
+    "a batch of paths": (lambda: clearance(ARM, [[Q0, Q0]] * 2, (1, 2)), r"\(2, 2, 3\)"),
+    "two obstacles": (lambda: clearance(ARM, [Q0, Q0], [(1, 2)] * 2), "one single point"),
+    "angles beyond the numbers": (lambda: clearance(ARM, [Q0, Q0 + 1e10], FAR), "radians, got 1e"),
+    "along nothing": (lambda: along([Q0], 0.5), "two or more"),
+    "along at NaN": (lambda: along([Q0, Q0], np.nan), "s: wanted finite"),
+    "distance below zero": (lambda: keeps(ARM, Q0, Q0, FAR, -np.inf), "distance.*inf"),
+    "keeps -1": (lambda: keeps(ARM, Q0, Q0, FAR, -1), "distance: wanted one positive length"),
+    "keeps NaN": (lambda: keeps(ARM, Q0, Q0, FAR, np.nan), "distance.*nan"),
+    "keeps of NaN": (lambda: keeps(ARM, Q0, [np.nan] * 3, FAR, 0.1), "b: wanted finite"),
+    "keeps of what does not fit": (
+        lambda: keeps(ARM, [Q0] * 2, [Q0] * 3, FAR, 0.1),
+        r"a and b.*\(2, 3\) and \(3, 3\)",
+    ),
+    "distances of what does not fit": (
+        lambda: distances(ARM, [Q0] * 2, [FAR] * 3),
+        r"q and H.*\(2,\) and \(3,\)",
+    ),
+    "way round, degrees": (
+        lambda: way_round(ARM, [100, 110, 120], GOAL, FAR, 0.1),
+        "q0: .* to 180",
+    ),
+    "way round, NaN": (lambda: way_round(ARM, Q0 * np.nan, GOAL, FAR, 0.1), "q0.*nan"),
+    "way round, NaN target": (lambda: way_round(ARM, Q0, (np.nan, 1), FAR, 0.1), "target.*nan"),
+    "way round, distance": (lambda: way_round(ARM, Q0, GOAL, FAR, -1), "distance: .*got -1"),
+    "way round, NaN distance": (lambda: way_round(ARM, Q0, GOAL, FAR, np.nan), "distance.*nan"),
+    "radius below zero": (lambda: via_points((1, 2), (2, 1), FAR, -1), "radius: .*positive.*-1"),
+    "no radius": (lambda: via_points((1, 2), (2, 1), FAR, None), "radius: wanted"),
+    "radius of a via path": (lambda: via_path(ARM, Q0, GOAL, FAR, 0), "radius: .*positive.*0"),
+    "two starts": (lambda: via_path(ARM, [Q0, Q0], GOAL, FAR), r"q0: .*\(2, 3\)"),
+    "limited by words": (lambda: via_path(ARM, Q0, GOAL, FAR, 0.1, "no"), "limited: .*'no'"),
+    "quadrilaterals of a batch": (
+        lambda: in_quadrilateral(ARM, [Q0] * 4, Q0, FAR),
+        r"q0: wanted one .*\(4, 3\)",
+    ),
+    "swept by nothing": (lambda: swept(ARM, Q0, None, FAR), "q1: wanted numbers"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_calls_are_named(name):
+    call, words = WRONG[name]
+    with pytest.raises(ValueError, match=words) as caught:
         call()
+    assert len(str(caught.value)) < 200
+
+
+def test_degrees_get_a_hint():
+    q, H = np.array([100.0, 110.0, 120.0]), (1.2, 1.9)
+    for call in (
+        lambda: in_quadrilateral(ARM, Q0, q, H),
+        lambda: swept(ARM, q, Q0, H),
+        lambda: distances(ARM, q, H),
+        lambda: clearance(ARM, [Q0, q], H),
+        lambda: keeps(ARM, q, Q0, H, 0.1),
+        lambda: keeps(ARM, Q0, q, H, 0.1),
+    ):
+        with pytest.warns(UserWarning, match="degrees") as caught:
+            call()
+        assert caught[0].filename == __file__
+
+
+def test_an_arm_with_room_for_too_many_postures_is_refused():
+    wide = type(ARM)("wide", ARM.geometry, [(-20.0, 20.0)] * 3)
+    with pytest.raises(ValueError, match=rf"arm: .*{WORK} postures, got 9.6"):
+        way_round(wide, Q0, GOAL, FAR, 0.1)
+    narrow = type(ARM)("narrow", ARM.geometry, [(0.0, 3.2)] * 3)
+    assert way_round(narrow, Q0, GOAL, FAR, 0.1) is not None
+
+
+# ---- a plan is data
+
+
+def a_plan(**other):
+    made = dict(way="search", words="So.", path=[Q0, Q0 + 0.1], clearance=[[1, 2, np.inf]], least=1)
+    return Plan(**made | other)
 
 
 def test_a_plan_is_data():
     answer = plan(ARM, Q0, (1.8, 0.6), (1.6, 1.6))
     assert isinstance(answer, Plan) and answer.words.endswith(".")
+    path, clear = np.array([Q0, Q0 + 0.1, Q0]), np.array([[1.0, 2, np.inf], [0, 1, 2]])
+    made = a_plan(path=path, clearance=clear)
+    assert made.found and made.cost == pytest.approx(0.6) and made.least == 1
+    assert made.via.shape == (1, 3) and (made.posture == Q0).all()
+    path[:], clear[:] = 0, 0
+    assert (made.path[0] == Q0).all() and np.isinf(made.clearance[0, 2])
+    for array in (made.path, made.clearance, made.via, made.posture):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+    for name in ("path", "clearance", "words", "found", "cost"):
+        with pytest.raises(AttributeError):
+            setattr(made, name, None)
+    stays = a_plan(way="none", path=[Q0], clearance=np.empty((0, 3)), least=np.nan)
+    assert not stays.found and stays.cost == 0 and np.isnan(stays.least) and len(stays.via) == 0
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"way": "tunnel"},
+        {"way": None},
+        {"way": "none"},  # and two postures
+        {"words": 3},
+        {"path": [Q0]},  # and found
+        {"path": Q0},
+        {"path": [Q0 * np.nan, Q0]},
+        {"path": np.empty((0, 3))},
+        {"path": [Q0] * 3},  # of two parts, with one clearance
+        {"path": None},
+        {"clearance": [[1, 2]]},
+        {"clearance": [[1, 2, np.nan]]},
+        {"clearance": [[1, 2, -np.inf]]},
+        {"clearance": [[1, 2, -1e-3]]},
+        {"clearance": [[1, 2, 3], [1, 2]]},
+        {"clearance": "abc"},
+        {"clearance": [[1, 2, 3]] * 2},
+        {"clearance": [1, 2, 3]},
+        {"least": -1},
+        {"least": [1, 2]},
+        {"least": np.inf},
+        {"way": "none", "path": np.empty((0, 3)), "clearance": np.empty((0, 3))},
+        {"way": "direct", "path": [Q0], "clearance": np.empty((0, 3))},
+    ],
+)
+def test_a_plan_of_parts_that_do_not_belong_together_is_refused(wrong):
+    with pytest.raises(ValueError, match=f"^({'|'.join([*wrong, 'path', 'clearance'])}): wanted"):
+        a_plan(**wrong)

@@ -7,16 +7,19 @@ import pytest
 from machines import oracle
 from scipy.optimize import linprog
 
-from robokin import deg, loader_arm
+from robokin import SCARA, deg, loader_arm, three_lever
 from robokin.jobs.steppers import (
     COLUMNS,
     LIMIT,
+    Move,
     counts,
     energised,
     frequencies,
-    joints,
+    joint_values,
+    out_of_reach,
     phases,
-    postures,
+    shortest_turn,
+    station_postures,
     straight,
     synchronised,
     unsynchronised,
@@ -60,7 +63,7 @@ every_move = pytest.mark.parametrize(
 
 def test_no_rounding_adds_up_over_10_000_moves():
     rng = np.random.default_rng(1)
-    q = np.cumsum(rng.uniform(-20 * deg, 20 * deg, (10_001, 3)), axis=0)
+    q = rng.uniform(-np.pi, np.pi, (10_001, 3))
     per_degree = np.array([10 / 3, 7.77, 0.1])
     pulses = np.diff(counts(q, per_degree), axis=0)
     assert pulses.dtype.kind == "i"
@@ -70,18 +73,38 @@ def test_no_rounding_adds_up_over_10_000_moves():
     there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
     assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
     # each move alone is 0.37 pulses, and rounds to none
-    steps = np.arange(10_001)[:, None] * 0.37 * deg
-    assert np.diff(counts(steps, 1.0), axis=0).sum() == 3700
+    steps = np.arange(10_001)[:, None] * 0.037 * deg
+    assert np.diff(counts(steps, 10.0), axis=0).sum() == 3700
 
 
-def test_counts_and_joints_are_inverse():
-    n = np.random.default_rng(2).integers(-100_000, 100_000, (50, 3))
-    assert (counts(joints(n, PER_DEGREE), PER_DEGREE) == n).all()
+def test_counts_and_joint_values_are_inverse():
+    n = np.random.default_rng(2).integers(-7000, 7000, (50, 3))
+    assert (counts(joint_values(n, PER_DEGREE), PER_DEGREE) == n).all()
     assert counts([90 * deg], 10.0).tolist() == [900]
+    assert joint_values([900, -900], [10, 20]).tolist() == [90 * deg, -45 * deg]
     q = np.random.default_rng(3).uniform(-3, 3, (50, 3))
-    assert (
-        abs(joints(counts(q, PER_DEGREE), PER_DEGREE) - q) <= 0.5 / PER_DEGREE * deg + 1e-12
-    ).all()
+    half = 0.5 / PER_DEGREE * deg
+    assert (abs(joint_values(counts(q, PER_DEGREE), PER_DEGREE) - q) <= half + 1e-12).all()
+
+
+def test_positions_are_counted_as_far_as_a_float_counts():
+    assert counts([4.0], [2**52 / (4 / deg)]).tolist() == [2**52]
+    for q, per_degree in (([4.0], [2**53 / (4 / deg)]), ([1.0], [1e300]), ([-4.0], [1e17])):
+        with pytest.raises(ValueError, match=r"q: wanted at most 2\*\*52 pulses"):
+            counts(q, per_degree)
+    with (
+        pytest.warns(UserWarning, match="degrees"),
+        pytest.raises(ValueError, match="5.7.*21"),
+    ):
+        counts([1e17], [1e3])
+    with pytest.raises(ValueError, match="positions / per_degree: .*inf"):
+        joint_values([1e300], 1e-300)
+
+
+def test_degrees_get_a_hint():
+    with pytest.warns(UserWarning, match="q: 120 rad .*degrees") as caught:
+        assert counts([100.0, 110.0, 120.0], 1.0).shape == (3,)
+    assert caught[0].filename == __file__
 
 
 # ---- frequencies
@@ -187,13 +210,15 @@ def test_unsynchronised_motors_stop_one_by_one(start, goal):
 
 @pytest.mark.parametrize("points", [B, C])
 def test_the_straight_line_is_straight_and_the_others_are_not(points):
-    n = counts(postures(ARM, points), PER_DEGREE)
+    n = counts(station_postures(ARM, points), PER_DEGREE)
     b = straight(ARM, *points, PER_DEGREE)
     a, d = unsynchronised(*n), synchronised(*n)
     assert (b.positions[0] == n[0]).all() and (b.positions[-1] == n[1]).all()
     off = {}
     for name, move in (("a", a), ("b", b), ("d", d)):
-        path = ARM.fk(joints(move(np.linspace(0, move.duration, 400)), PER_DEGREE)).translation
+        path = ARM.fk(
+            joint_values(move(np.linspace(0, move.duration, 400)), PER_DEGREE)
+        ).translation
         way = np.subtract(points[1], points[0]) / np.linalg.norm(np.subtract(points[1], points[0]))
         across = np.cross(path - points[0], way)
         off[name] = np.linalg.norm(across, axis=1).max()
@@ -214,8 +239,6 @@ def test_in_c_motors_turn_back_and_in_b_none_does():
 def test_a_train_with_many_turns():
     t = np.array([0, 1, 2, 3, 4, 5, 6, 7.0])
     due = np.array([0, 2.6, 2.6, 2.4, 3.2, -0.5, -0.5, 0])
-    from robokin.jobs.steppers import Move
-
     times, signs = Move(t, due[:, None]).pulses()[0]
     assert signs.tolist() == [1, 1, 1, -1, -1, -1]
     assert times == pytest.approx(
@@ -232,21 +255,129 @@ def test_a_line_that_leaves_the_workspace_is_refused():
         straight(ARM, (1.2, 0, 0.5), (3, 0.1, 0.5), PER_DEGREE)
 
 
+def test_no_motor_that_stands_makes_a_move_last():
+    for move in (synchronised([5, -4], [5, -4]), unsynchronised([5, -4], [5, -4])):
+        assert move.duration == 0 and move.positions.tolist() == [[5, -4]]
+        assert move.frequencies.shape == (0, 2) and move([0, 1]).tolist() == [[5, -4]] * 2
+        assert [len(times) for times, _ in move.pulses()] == [0, 0]
+    point = straight(ARM, B[0], B[0], PER_DEGREE)
+    assert [len(times) for times, _ in point.pulses()] == [0, 0, 0]
+
+
+@pytest.mark.parametrize("limit", [100.0, 250, 1e6])
+def test_the_limit_is_the_callers(limit):
+    start, goal = np.array([3, 0, -2]), np.array([1003, -400, -2])
+    assert synchronised(start, goal, limit).duration == pytest.approx(1000 / limit)
+    each = unsynchronised(start, goal, limit)
+    assert each.t == pytest.approx([0, 400 / limit, 1000 / limit])
+    assert each.positions.tolist() == [[3, 0, -2], [403, -400, -2], [1003, -400, -2]]
+    assert abs(straight(ARM, *B, PER_DEGREE, limit).frequencies).max() == pytest.approx(limit)
+
+
+# ---- a move is data
+
+
+def test_a_move_is_data():
+    t, positions = np.array([0.0, 1, 3]), np.array([(0, 5), (2.5, 5), (4, 5)])
+    move = Move(t, positions)
+    assert move.duration == 3 and move.frequencies.tolist() == [[2.5, 0], [0.75, 0]]
+    assert move([[-1, 0], [0.4, 9]]).tolist() == [[[0, 5], [0, 5]], [[1, 5], [4, 5]]]
+    t[:], positions[:] = 9, 9
+    assert move.t.tolist() == [0, 1, 3] and move.positions[0].tolist() == [0, 5]
+    for array in (move.t, move.positions):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+    for name in ("t", "positions", "duration"):
+        with pytest.raises(AttributeError):
+            setattr(move, name, None)
+    assert Move([0], [[1.0]]).duration == 0
+
+
+@pytest.mark.parametrize(
+    "t, positions, complaint",
+    [
+        ([], np.empty((0, 2)), "t: wanted times that rise from 0"),
+        (0.0, [[1]], "t: wanted times that rise from 0"),
+        ([1, 2], [[0], [1]], r"t: wanted times that rise from 0, got \[1.0, 2.0\]"),
+        ([-1, 0], [[0], [1]], "t: wanted times that rise from 0"),
+        ([0, 1, 1], [[0], [1], [2]], "t: wanted times that rise from 0"),
+        ([0, 2, 1], [[0], [1], [2]], "t: wanted times that rise from 0"),
+        ([[0, 1]], [[0], [1]], "t: wanted times that rise from 0"),
+        ([0, np.nan], [[0], [1]], "t: wanted finite"),
+        ([0, np.inf], [[0], [1]], "t: wanted finite"),
+        ("ab", [[0], [1]], "t: wanted numbers"),
+        ([0, 1], [0, 1], r"positions: wanted \(2, motors\), got \(2,\)"),
+        ([0, 1], [[0], [1], [2]], r"positions: wanted \(2, motors\), got \(3, 1\)"),
+        ([0, 1], np.empty((2, 0)), r"positions: wanted \(2, motors\), got \(2, 0\)"),
+        ([0, 1], [[0], [np.nan]], "positions: wanted finite"),
+        ([0, 1], [[0], [0.5]], "first and last of positions: wanted whole pulses"),
+        ([0, 1], [[0.5], [0]], "first and last of positions: wanted whole pulses"),
+        ([0, 1, 2], [[0], [2.0**53], [0]], r"positions: wanted at most 2\*\*52"),
+        ([0, 1], None, "positions: wanted numbers"),
+    ],
+)
+def test_a_move_that_cannot_be_is_refused(t, positions, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        Move(t, positions)
+
+
+def test_pulses_without_end_are_refused():
+    far = synchronised([0, 0], [10_000_000, 1])
+    with pytest.raises(ValueError, match="at most 10000000 in 100000 .* got one of 10000001 in 1"):
+        far.pulses()
+    assert synchronised([0], [9_999]).pulses()[0][1].sum() == 9_999
+    t = np.arange(100_002.0)
+    with pytest.raises(ValueError, match="got one of 100001 in 100001"):
+        Move(t, t[:, None]).pulses()
+    assert len(Move(t[:-1], t[:-1, None]).pulses()[0][0]) == 100_000
+
+
 def test_wrong_calls_are_refused():
+    table, nan = phases("wave", "bipolar"), np.nan
     for call, complaint in (
         (lambda: synchronised([0, 0], [1, 2, 3]), "one position for each motor"),
-        (lambda: synchronised([0.5], [1]), "whole pulses"),
+        (lambda: synchronised([], []), "one position for each motor"),
+        (lambda: synchronised([[0]], [[1]]), "one position for each motor"),
+        (lambda: synchronised([0.5], [1]), r"start: wanted whole pulses.*\[0.5\]"),
+        (lambda: synchronised([0], [1.5]), r"goal: wanted whole pulses.*\[1.5\]"),
+        (lambda: synchronised([0], [2**60]), r"goal: wanted at most 2\*\*52 pulses"),
+        (lambda: synchronised([0], None), "goal: wanted numbers"),
+        (lambda: synchronised([0], [1], 5e-324), "pulses / limit: .*inf"),
         (lambda: unsynchronised([0], [1], limit=0), "positive number of pulses per second"),
+        (lambda: unsynchronised([0], [1], limit=[1, 2]), "limit: wanted one positive number"),
+        (lambda: unsynchronised([0], [1], limit="a"), "limit: wanted numbers"),
         (lambda: counts([1.0], -3), "positive numbers of pulses"),
-        (lambda: counts([np.nan], 3), "finite"),
+        (lambda: counts([1.0], [3, 0]), r"per_degree: .*\[3.0, 0.0\]"),
+        (lambda: counts([1.0], [[3]]), "per_degree: .*one for each motor"),
+        (lambda: counts([nan], 3), "finite"),
         (lambda: counts([1.0, 2.0], [1, 2, 3]), "do not fit"),
+        (lambda: joint_values([1.0, 2.0], [1, 2, 3]), "do not fit"),
+        (lambda: shortest_turn([1.0, 2.0], [1, 2, 3]), "do not fit"),
         (lambda: frequencies(3.0), "one number for each motor"),
+        (lambda: frequencies([[], []]), r"one number for each motor.*\(2, 0\)"),
+        (lambda: frequencies([1], 0), "limit: wanted one positive number"),
+        (lambda: straight(ARM, [B[0]] * 2, B[1], PER_DEGREE), r"start: wanted one .*\(2, 3\)"),
+        (lambda: straight(ARM, *B, 1e300), r"per_degree: wanted at most 2\*\*52"),
+        (lambda: out_of_reach(ARM, [B[0]] * 2), r"point: wanted one single point \(3,\)"),
         (lambda: phases("full", "bipolar"), "drive: wanted one of"),
+        (lambda: phases([], "bipolar"), "drive: wanted one of"),
         (lambda: phases("wave", "tripolar"), "motor: wanted one of"),
-        (lambda: energised(phases("wave", "bipolar"), [1, 0]), r"\+1 and -1"),
+        (lambda: phases("wave", None), "motor: wanted one of"),
+        (lambda: energised(table, [1, 0]), r"\+1 and -1"),
+        (lambda: energised(table, [[1]]), r"\+1 and -1"),
+        (lambda: energised(table, [1], row=1.5), "row: wanted a whole number.*1.5"),
+        (lambda: energised(table, [1], row=True), "row: wanted a whole number.*True"),
+        (lambda: energised([], [1]), "table: wanted rows"),
+        (lambda: energised([[]] * 0, [1]), "table: wanted rows"),
+        (lambda: energised([1, 0], [1]), r"table: wanted rows.*\(2,\)"),
+        (lambda: energised(None, [1]), "table: wanted numbers"),
     ):
-        with pytest.raises(ValueError, match=complaint):
+        with pytest.raises(ValueError, match=complaint) as caught:
             call()
+        assert len(str(caught.value)) < 200
+    for arm in (None, 3, SCARA, three_lever(1), ARM.geometry):
+        with pytest.raises(TypeError, match="arm: wanted .*a loader_arm"):
+            straight(arm, *B, PER_DEGREE)
 
 
 # ---- phases
@@ -300,6 +431,10 @@ def test_the_order_of_the_rows_is_the_direction():
     assert (energised(table, [-1, -1, 1]) == table[[0, 3, 2, 3]]).all()
     assert (energised(table, [1], row=3) == table[[3, 0]]).all()
     assert (energised(table, []) == table[[0]]).all()
+    assert (energised(table, [1, 1], row=-3) == table[[1, 2, 3]]).all()
+    assert (energised(table.tolist(), [-1], row=4) == table[[0, 3]]).all()
+    with pytest.raises(TypeError):
+        COLUMNS["unipolar"] = ()
     signs = straight(ARM, *C, PER_DEGREE).pulses()[2][1]
     states = energised(phases("half-step", "bipolar"), signs)
     assert states.shape == (len(signs) + 1, 4)

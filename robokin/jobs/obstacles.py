@@ -14,28 +14,40 @@ S             the sum of the changes of all joint angles along a path, in radian
 Points are (2,), or (3,) with z = 0, in metres.
 """
 
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import floats, instance, length
-from ..arms.elbow import in_words
-from ..arms.planar import ThreeLever
-from ..units import deg
+from .._arrays import Bools, Floats, Ints, frozen
+from .._validate import broadcast, choice, floats, instance, length, short, text, warn_if_degrees
+from ..arms.planar import ThreeLeverArm
+from ..units import deg, in_words
 
 LEVERS = ("OB", "BA", "AK")
+WAYS = ("direct", "via points", "search", "none")
 TOLERANCE = 1e-6  # of a lever's length: a clearance is known as well as this
+CLOSE = 1e-9  # of a lever's length: `keeps` cannot tell distances apart that are nearer than this
 STEP = 5 * deg  # of the grid of postures in which `way_round` searches
 # Of a lever's length, kept between the grid's postures and the clearance, tried in this order. One
 # step of the first joint can move the gripper by 0.26 lever lengths: a small clearance needs the
 # last margin, or steps jump over H.
 MARGINS = (0.005, 0.03, 0.13)
+SLACK = 1e-9  # past a limit by no more than this is rounding
+FARTHEST = 1e9  # rad or m; beyond it a float does not hold an angle or a place well enough
+WORK = 1_000_000  # stretches of motions, or postures of a grid, that one call may look at: 1 s
+PORTION = 50_000  # stretches measured at a time, so that memory stays small
 
 
 # --- Where is the obstacle? -----------------------------------------------------------------------
 
 
-def in_quadrilateral(arm, q0, q1, H):
+def in_quadrilateral(
+    arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike
+) -> dict[str, Bools]:
     """Does H (..., 2) lie in the quadrilaterals between the levers before and after the motion from
     q0 to q1?
 
@@ -44,80 +56,78 @@ def in_quadrilateral(arm, q0, q1, H):
     here a ray from H counts the sides it crosses. Straight sides are not what the levers sweep: see
     `swept`.
     """
-    (_, B, A, K), (_, B1, A1, K1) = arm.joints(q0), arm.joints(q1)
-    H = _points(H, "H")
+    instance(arm, ThreeLeverArm, "arm")
+    q0, q1, H = _posture(q0, "q0"), _posture(q1, "q1"), _points(H, "H")
+    warn_if_degrees(q0, "q0", posture=1)
+    warn_if_degrees(q1, "q1", posture=1)
+    (_, B, A, K), (_, B1, A1, K1) = arm.points(q0), arm.points(q1)
     return {"BA": _inside(np.stack([B, A, A1, B1]), H), "AK": _inside(np.stack([A, K, K1, A1]), H)}
 
 
-def swept(arm, q0, q1, H):
+def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dict[str, bool]:
     """Which levers truly pass over H (2,) on the motion from q0 to q1? dict of lever -> bool."""
-    least = clearance(arm, np.stack([q0, q1]), H)[0]
+    instance(arm, ThreeLeverArm, "arm")
+    q0, q1, H = _posture(q0, "q0"), _posture(q1, "q1"), _point(H, "H")
+    warn_if_degrees(q0, "q0", posture=1)
+    warn_if_degrees(q1, "q1", posture=1)
+    least = _clearance(arm, np.stack([q0, q1]), H)[0]
     return dict(zip(LEVERS, (least <= 0).tolist(), strict=True))
 
 
 # --- How near does the arm come? ------------------------------------------------------------------
 
 
-def distances(arm, q, H):
+def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
     """The distances of H (..., 2) from the levers OB, BA, AK in the postures q (..., 3): (..., 3),
     in metres.
     """
-    gamma, beta, alpha = np.moveaxis(floats(q, "q", 3, finite=False), -1, 0)
-    return np.stack(
-        np.broadcast_arrays(*_beside(arm, gamma, beta, alpha, _points(H, "H"))[0]), axis=-1
-    )
+    instance(arm, ThreeLeverArm, "arm")
+    q, H = _angles(q, "q", finite=False), _points(H, "H")
+    warn_if_degrees(q, "q", posture=1)
+    shape = broadcast("q and H", q.shape[:-1], H.shape[:-1])
+    return _distances(arm, np.broadcast_to(q, (*shape, 3)), H)
 
 
-def clearance(arm, path, H):
+def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
     """The least distance of every lever from H along a path (k, 3): (k - 1, 3), one row for every
     part.
 
     Not a sample but a bound: the arm comes nowhere nearer, and at some place at most `TOLERANCE`
     lever lengths farther; 0 where a lever passes over H. It is found by halving those stretches of
-    a part which could still hold a smaller distance, given how fast the points of the levers move.
+    a part which could still hold a smaller distance. ValueError: a path that takes more than `WORK`
+    stretches.
     """
-    path, H, tolerance = _path(path), _point(H, "H"), TOLERANCE * arm.lever
-    a, b = path[:-1], path[1:]
-    least = np.minimum(distances(arm, a, H), distances(arm, b, H))
-    part, middle, half = _stretches(len(a), 16)
-    while len(part):
-        here, bound = _bounds(arm, a[part], b[part], middle, half, H)
-        np.minimum.at(least, part, here)
-        part, middle, half = _halved(
-            part, middle, half, (bound < least[part] - tolerance).any(axis=-1)
-        )
-    return np.maximum(least - tolerance, 0)
+    instance(arm, ThreeLeverArm, "arm")
+    path, H = _path(path), _point(H, "H")
+    warn_if_degrees(path, "path", posture=1)
+    return _clearance(arm, path, H)
 
 
-def keeps(arm, a, b, H, distance):
-    """Do all levers keep this distance from H on the motions from postures a (..., 3) to b (...,
-    3)? bool (...).
+def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance: float) -> Bools:
+    """Do all levers keep this distance (metres) from H on the motions from postures a (..., 3) to b
+    (..., 3)? bool (...).
 
     As certain as `clearance` and quicker, since a motion is given up at the first stretch that is
-    too near.
+    too near. ValueError: motions that take more than `WORK` stretches.
     """
-    a, b = np.broadcast_arrays(floats(a, "a", 3), floats(b, "b", 3))
-    shape, a, b, H = a.shape[:-1], a.reshape(-1, 3), b.reshape(-1, 3), _point(H, "H")
-    good = (distances(arm, a, H) >= distance).all(axis=-1) & (distances(arm, b, H) >= distance).all(
-        axis=-1
+    instance(arm, ThreeLeverArm, "arm")
+    a, b, H, distance = (
+        _angles(a, "a"),
+        _angles(b, "b"),
+        _point(H, "H"),
+        length(distance, "distance"),
     )
-    part, middle, half = _stretches(len(a), 4)
-    # after that a stretch is shorter than 1e-7: it touches the circle, and counts as near
-    for _ in range(24):
-        part, middle, half = part[good[part]], middle[good[part]], half[good[part]]
-        here, bound = _bounds(arm, a[part], b[part], middle, half, H)
-        good[part[(here < distance).any(axis=-1)]] = False
-        part, middle, half = _halved(part, middle, half, (bound < distance).any(axis=-1))
-        if not len(part):
-            break
-    good[part] = False
-    return good.reshape(shape)
+    warn_if_degrees(a, "a", posture=1)
+    warn_if_degrees(b, "b", posture=1)
+    shape = broadcast("a and b", a.shape, b.shape)
+    a, b = (np.broadcast_to(q, shape).reshape(-1, 3) for q in (a, b))
+    return _keeps(arm, a, b, H, distance).reshape(shape[:-1])
 
 
 # --- The document's way round: two via points for the gripper -------------------------------------
 
 
-def via_points(K, K1, H, radius):
+def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floats:
     """The via points K2 and K3, (2, 2): on the circle about H, where the lines square to KH and to
     K1H leave it on the side of the base. Source: 003, III.3.2, figure 26.
 
@@ -125,7 +135,7 @@ def via_points(K, K1, H, radius):
     not square to the line, and on either side (errata S3-m). ValueError: H in K or K1, where there
     is no line.
     """
-    K, K1, H = _point(K, "K"), _point(K1, "K1"), _point(H, "H")
+    K, K1, H, radius = _point(K, "K"), _point(K1, "K1"), _point(H, "H"), length(radius, "radius")
     points = []
     for name, end in (("K", K), ("K1", K1)):
         x, y = end - H
@@ -136,20 +146,26 @@ def via_points(K, K1, H, radius):
     return np.stack(points)
 
 
-def via_path(arm, q0, target, H, radius=None, limited=True):
+def via_path(
+    arm: ThreeLeverArm,
+    q0: ArrayLike,
+    target: ArrayLike,
+    H: ArrayLike,
+    radius: float | None = None,
+    limited: bool = True,
+) -> Floats:
     """The path K - K2 - K3 - K1 with the least movement for each part: (4, 3), NaN from the first
     point that is out of reach on. The radius is L/7 unless given. Source: 003, IV.
 
     Passing K2 and K3 promises nothing about the way between them, nor about the levers (errata
     S3-n): see `clearance`.
     """
-    path = [floats(q0, "q0", 3)]
-    K, K1, radius = (
-        arm.joints(path[0])[3],
-        _point(target, "target"),
-        arm.lever / 7 if radius is None else radius,
-    )
-    for point in (*via_points(K, K1, H, radius), K1):
+    instance(arm, ThreeLeverArm, "arm")
+    path, K1 = [_posture(q0, "q0")], _point(target, "target")
+    if not isinstance(limited, bool):
+        raise ValueError(f"limited: wanted True or False, got {short(limited)}")
+    radius = arm.lever / 7 if radius is None else radius
+    for point in (*via_points(arm.points(path[0])[3], K1, H, radius), K1):
         known = not np.isnan(path[-1]).any()
         path.append(arm.least(point, path[-1], limited)[0] if known else path[-1])
     return np.stack(path)
@@ -158,7 +174,9 @@ def via_path(arm, q0, target, H, radius=None, limited=True):
 # --- A better way round: search among postures ----------------------------------------------------
 
 
-def way_round(arm, q0, target, H, distance):
+def way_round(
+    arm: ThreeLeverArm, q0: ArrayLike, target: ArrayLike, H: ArrayLike, distance: float
+) -> Floats | None:
     """A path (k, 3) from posture q0 to the target, with little movement, on which all levers keep
     the distance from H; None if none is found.
 
@@ -167,26 +185,11 @@ def way_round(arm, q0, target, H, distance):
     distance, one joint by one step at a time, so that it arrives at each with the least S. It is
     followed back from the place of the curve that it reaches with the least S; then corners that
     are not needed are cut. Every part of the path is checked by `keeps`. The grid is 5 degrees
-    wide: a passage narrower than that can be missed.
+    wide: a passage narrower than that can be missed. ValueError: a posture q0 outside the limits.
     """
-    q0, H = floats(q0, "q0", 3), _point(H, "H")
-    low, high = arm.alpha_range(target)
-    goals = arm.family(target, np.linspace(low, high, int((high - low) / (1 * deg)) + 2))
-    goals = goals[(distances(arm, goals, H) >= distance).all(axis=-1)]
-    if not len(goals):
-        return None
-    axes = [_axis(value, *limits) for value, limits in zip(q0, arm.limits, strict=True)]
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    room = np.minimum.reduce(np.broadcast_arrays(*_beside(arm, *np.ix_(*axes), H)[0]))
-    start = tuple(int(np.abs(axis - value).argmin()) for axis, value in zip(axes, q0, strict=True))
-    for margin in MARGINS:
-        free = room >= distance + margin * arm.lever
-        free[start] = True
-        waves = _wave(free, start)
-        path = _back(arm, grid, room, waves, _arrivals(axes, goals, waves), goals, H, distance)
-        if path is not None:
-            return _taut(arm, path, goals, H, distance)
-    return None
+    instance(arm, ThreeLeverArm, "arm")
+    q0, K1, H = _start(arm, q0, "q0"), _point(target, "target"), _point(H, "H")
+    return _way_round(arm, q0, K1, H, length(distance, "distance"))
 
 
 # --- The control system ---------------------------------------------------------------------------
@@ -196,37 +199,75 @@ def way_round(arm, q0, target, H, distance):
 class Plan:
     """What `plan` answers.
 
-    found      bool: is there a path that keeps the clearance?
     way        "direct", "via points", "search", or "none"
     words      the answer in sentences
     path       (k, 3) postures, the first being the start; (1, 3) if nothing was found: the arm
                stays
     clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on every part;
                inf without one
-    cost       S of the path, in radians
-    least      S of the direct motion, which no path can undercut
+    least      S of the direct motion in radians, which no path can undercut; NaN if the target is
+               out of reach
+
+    Arrays are read-only copies. ValueError: parts that do not belong together.
     """
 
-    found: bool
     way: str
     words: str
-    path: np.ndarray
-    clearance: np.ndarray
-    cost: float
+    path: Floats
+    clearance: Floats
     least: float
 
-    @property
-    def posture(self):
-        """The posture (3,) in which the arm stands afterwards: remembered for the next task."""
-        return self.path[-1]
+    def __post_init__(self) -> None:
+        choice(self.way, "way", WAYS)
+        text(self.words, "words")
+        path = _angles(self.path, "path")
+        if path.ndim != 2 or not len(path) or (len(path) > 1) != self.found:
+            wanted = "two or more postures (k, 3)" if self.found else "the start (1, 3)"
+            raise ValueError(f"path: wanted {wanted} of way {self.way!r}, got shape {path.shape}")
+        finite = self.clearance
+        with suppress(ValueError):  # inf is a distance here, and to `floats` it is none
+            finite = np.nan_to_num(finite, nan=np.nan, posinf=0.0)
+        known = floats(finite, "clearance", 3)
+        if known.shape != (len(path) - 1, 3) or (known < 0).any():
+            raise ValueError(
+                f"clearance: wanted distances ({len(path) - 1}, 3), got {short(self.clearance)}"
+            )
+        least = floats(self.least, "least", finite=False)
+        if least.ndim or least < 0:
+            raise ValueError(f"least: wanted one sum of changes, got {short(self.least)}")
+        object.__setattr__(self, "path", frozen(path))
+        object.__setattr__(self, "clearance", frozen(np.asarray(self.clearance, dtype=float)))
+        object.__setattr__(self, "least", float(least))
 
     @property
-    def via(self):
+    def found(self) -> bool:
+        """Is there a path that keeps the clearance?"""
+        return self.way != "none"
+
+    @property
+    def cost(self) -> float:
+        """S of the path, in radians."""
+        return float(abs(np.diff(self.path, axis=0)).sum())
+
+    @property
+    def posture(self) -> Floats:
+        """The posture (3,) in which the arm stands afterwards: remembered for the next task."""
+        posture: Floats = self.path[-1]
+        return posture
+
+    @property
+    def via(self) -> Floats:
         """The postures (k - 2, 3) between start and end."""
         return self.path[1:-1]
 
 
-def plan(arm, posture, target, obstacle=None, distance=None):
+def plan(
+    arm: ThreeLeverArm,
+    posture: ArrayLike,
+    target: ArrayLike,
+    obstacle: ArrayLike | None = None,
+    distance: float | None = None,
+) -> Plan:
     """The control system of source 003 (figure 33): from the remembered posture (3,) to the target,
     past the obstacle.
 
@@ -235,66 +276,50 @@ def plan(arm, posture, target, obstacle=None, distance=None):
     movement; the document's via points K2, K3; a search among postures. Angles stay within 0 to 180
     degrees. ValueError: a posture outside.
     """
-    instance(arm, ThreeLever, "arm")
-    start, K1 = _posture(arm, posture), _point(target, "target")
+    instance(arm, ThreeLeverArm, "arm")
+    start, K1 = _start(arm, posture, "posture"), _point(target, "target")
     distance = arm.lever / 7 if distance is None else length(distance, "distance")
-    unreached = arm.unreached(K1)
+    H = None if obstacle is None else _point(obstacle, "obstacle")
+    unreached = arm.out_of_reach(K1)
     if unreached:
         return _none(start, f"The target is out of reach: {unreached}.")
-    goal, least = arm.least(K1, start)
+    goal, S = arm.least(K1, start)
+    least = float(S)
     direct = np.stack([start, goal])
-    if obstacle is None:
-        return _found(
-            "direct",
-            "The way is direct: no obstacle is given.",
-            direct,
-            np.full((1, 3), np.inf),
-            least,
-        )
-    H = _point(obstacle, "obstacle")
+    if H is None:
+        far = np.full((1, 3), np.inf)
+        return Plan("direct", "The way is direct: no obstacle is given.", direct, far, least)
     too_near = _too_near(arm, start, K1, H, distance)
     if too_near:
         hint = f"No path keeps {in_words(distance)}; a smaller distance may be asked for."
         return _none(start, f"{too_near} {hint}", least)
-    clear = clearance(arm, direct, H)
+    clear = _clearance(arm, direct, H)
     if clear.min() >= distance:
-        return _found(
-            "direct", "The way is direct: the obstacle is not in it.", direct, clear, least
-        )
-    words = f"On the direct way {_nearest(clear)}."
+        words = "The way is direct: the obstacle is not in it."
+        return Plan("direct", words, direct, clear, least)
+    words = f"On the direct way {_nearest(arm, clear)}."
     by_points = via_path(arm, start, K1, H, max(distance, arm.lever / 7))
     if np.isnan(by_points).any():
         words += " The via points K2 and K3 are not both within reach."
     else:
-        clear = clearance(arm, by_points, H)
+        clear = _clearance(arm, by_points, H)
         if clear.min() >= distance:
-            return _found(
-                "via points",
-                f"{words} The via points K2 and K3 lead round it.",
-                by_points,
-                clear,
-                least,
-            )
-        words += f" By the via points K2 and K3 {_nearest(clear)}."
-    by_search = way_round(arm, start, K1, H, distance)
+            words += " The via points K2 and K3 lead round it."
+            return Plan("via points", words, by_points, clear, least)
+        words += f" By the via points K2 and K3 {_nearest(arm, clear)}."
+    by_search = _way_round(arm, start, K1, H, distance)
     if by_search is not None:
-        clear = clearance(arm, by_search, H)
-        return _found(
-            "search", f"{words} A search among postures finds a way.", by_search, clear, least
-        )
-    return _none(
-        start,
-        f"{words} A search among postures in steps of {STEP / deg:.0f}° finds no way that keeps "
-        f"{in_words(distance)}.",
-        least,
-    )
+        words += " A search among postures finds a way."
+        return Plan("search", words, by_search, _clearance(arm, by_search, H), least)
+    words += f" A search among postures in steps of {STEP / deg:.0f}° finds no way that keeps"
+    return _none(start, f"{words} {in_words(distance)}.", least)
 
 
-def along(path, s):
+def along(path: ArrayLike, s: ArrayLike) -> Floats:
     """Postures on a path (k, 3) at the shares s (...) of its S, from 0 to 1: (..., 3), for figures
-    and players.
+    and players. Before and after, the path's ends.
     """
-    path, s = _path(path), floats(s, "s")
+    path, s = _path(path), np.clip(floats(s, "s"), 0, 1)
     S = np.concatenate([[0.0], abs(np.diff(path, axis=0)).sum(axis=-1).cumsum()])
     return np.stack([np.interp(s * S[-1], S, path[:, i]) for i in range(3)], axis=-1)
 
@@ -302,18 +327,13 @@ def along(path, s):
 # --- Private helpers ------------------------------------------------------------------------------
 
 
-def _found(way, words, path, clear, least):
-    cost = abs(np.diff(path, axis=0)).sum()
-    return Plan(True, way, words, path, clear, float(cost), float(least))
+def _none(start: Floats, words: str, least: float = np.nan) -> Plan:
+    return Plan("none", words, start[None], np.empty((0, 3)), least)
 
 
-def _none(start, words, least=np.nan):
-    return Plan(False, "none", words, start[None], np.empty((0, 3)), 0.0, float(least))
-
-
-def _too_near(arm, start, K1, H, distance):
+def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> str:
     """Why no path can keep the distance, in a sentence; "" if one could."""
-    O_H, K1_H, q_H = np.hypot(*H), np.hypot(*(K1 - H)), distances(arm, start, H)
+    O_H, K1_H, q_H = np.hypot(*H), np.hypot(*(K1 - H)), _distances(arm, start, H)
     if O_H < distance:
         return f"The obstacle lies on the base or {in_words(O_H)} beside it."
     if q_H.min() < distance:
@@ -326,101 +346,180 @@ def _too_near(arm, start, K1, H, distance):
     return ""
 
 
-def _nearest(clear):
-    lever, near = LEVERS[clear.min(axis=0).argmin()], clear.min()
-    return (
-        f"lever {lever} sweeps the obstacle"
-        if near == 0
-        else f"lever {lever} comes as near as {in_words(near)}"
-    )
+def _nearest(arm: ThreeLeverArm, clear: Floats) -> str:
+    least = clear.min(axis=0)
+    # two levers are equally near at the joint where they meet: the first is named
+    lever = LEVERS[(least <= least.min() + TOLERANCE * arm.lever).argmax()]
+    if not least.min():
+        return f"lever {lever} sweeps the obstacle"
+    return f"lever {lever} comes as near as {in_words(least.min())}"
 
 
-def _inside(corners, point):
+def _inside(corners: Floats, point: Floats) -> Bools:
     """Even-odd rule: corners (n, 2), points (..., 2) -> bool (...). A point on a side is inside."""
-    crossings, on_side = 0, False
+    crossings, on_side = np.zeros(point.shape[:-1]), np.zeros(point.shape[:-1], dtype=bool)
     for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         x, y = point[..., 0], point[..., 1]
         left = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)  # > 0: the point lies left of the side
         crossings = crossings + ((y0 > y) != (y1 > y)) * ((left > 0) == (y1 > y0))
         within = (x - x0) * (x - x1) + (y - y0) * (y - y1) <= 0
         on_side = on_side | (within & (abs(left) <= 1e-12 * np.hypot(x1 - x0, y1 - y0)))
-    return (crossings % 2 == 1) | on_side
+    inside: Bools = (crossings % 2 == 1) | on_side
+    return inside
 
 
-def _beside(arm, gamma, beta, alpha, H):
-    """Three lists, for OB, BA, AK: the distance of H from the lever, and where it lies beside it:
-    along from the lever's start, and across. Angles of shapes that fit; a lever's arrays have that
-    of the angles that move it.
+def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """H (..., 2) seen from the levers OB, BA, AK in postures q (3, ...), four times (3, ...): its
+    distance from the lever, how far it lies along the lever from its start, how far past either of
+    its ends, and how far across.
     """
-    x, y, L = H[..., 0], H[..., 1], arm.lever  # of H, seen from the start of each lever in turn
-    distance, along, across = [], [], []
-    for direction in (gamma, gamma + beta - np.pi, gamma + beta + alpha - 2 * np.pi):
-        c, s = np.cos(direction), np.sin(direction)
-        along.append(c * x + s * y)
-        across.append(c * y - s * x)
-        beyond = along[-1] - np.clip(along[-1], 0, L)
-        distance.append(np.sqrt(across[-1] ** 2 + beyond**2))
-        x, y = x - L * c, y - L * s
-    return distance, along, across
+    direction = np.cumsum(q, axis=0)
+    direction[1] -= np.pi
+    direction[2] -= 2 * np.pi
+    c, s = np.cos(direction), np.sin(direction)
+    x, y = np.empty_like(c), np.empty_like(s)  # of H from the start of each lever
+    x[0], y[0] = H[..., 0], H[..., 1]
+    for i in (1, 2):
+        x[i], y[i] = x[i - 1] - arm.lever * c[i - 1], y[i - 1] - arm.lever * s[i - 1]
+    along, across = c * x + s * y, c * y - s * x
+    beyond = along - np.clip(along, 0, arm.lever)
+    return np.sqrt(across**2 + beyond**2), along, beyond, across
 
 
-def _bounds(arm, a, b, middle, half, H):
-    """Distances (n, 3) in the middle of stretches of the motions a -> b, and lower bounds for the
-    whole stretches.
+def _distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
+    return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
 
-    On a stretch a point at u from the start of its lever moves no farther than (v + u w) half: v is
-    the speed of the lever's start, w that of its turning. The bound is the least over u of
-    (distance of H from the point) minus that.
+
+def _clearance(arm: ThreeLeverArm, path: Floats, H: Floats) -> Floats:
+    a, b, tolerance = path[:-1], path[1:], TOLERANCE * arm.lever
+    least = np.full(a.shape, np.inf)
+
+    def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
+        np.minimum.at(least, part, here.T)
+        nearer: Bools = np.any(bound < least[part].T - tolerance, axis=0)
+        return nearer
+
+    _measure(arm, a, b, H, halve)
+    return np.maximum(least - tolerance, 0)
+
+
+def _keeps(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: float) -> Bools:
+    a, b = np.broadcast_arrays(a, b)
+    good = np.ones(len(a), dtype=bool)
+
+    def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
+        doubtful = bound < distance
+        # what cannot be told from touching the circle counts as too near
+        near = (here < distance) | (doubtful & (here - bound < CLOSE * arm.lever))
+        good[part[near.any(axis=0)]] = False
+        return good[part] & doubtful.any(axis=0)
+
+    _measure(arm, a, b, H, halve)
+    return good
+
+
+def _measure(
+    arm: ThreeLeverArm,
+    a: Floats,
+    b: Floats,
+    H: Floats,
+    halve: Callable[[Ints, Floats, Floats], Bools],
+) -> None:
+    """Measure stretches of the motions a -> b (n, 3), at first the whole motions, and halve those
+    of which `halve(part, here, bound)` says so: number of the motion (m,), distances of the levers
+    at an end of the stretch (3, m), and what they are at least on all of it.
     """
-    change, L, shift, bound = (b - a).T, arm.lever, 0.0, []
-    here, along, across = _beside(arm, *(a.T + middle * change), H)
-    turns = abs(np.cumsum(change, axis=0)) * half
-    for turn, x, y in zip(turns, along, across, strict=True):
-        slope = np.minimum(turn, 0.99)
-        u = np.clip(x + abs(y) * slope / np.sqrt(1 - slope**2), 0, L)
-        least = np.sqrt(y**2 + (u - x) ** 2) - u * turn - shift
-        bound.append(np.where(turn < 0.99, least, -np.inf))
-        shift = shift + L * turn
-    return np.stack(here, axis=-1), np.stack(bound, axis=-1)
+    part, start, end = np.arange(len(a)), np.zeros(len(a)), np.ones(len(a))
+    work = len(part)
+    while len(part):
+        if work > WORK:
+            turn = abs(b - a).sum()
+            raise ValueError(
+                f"motions: wanted some of which at most {WORK} stretches have to be measured, got "
+                f"{len(a)} of {turn:.6g} rad in all, which take {work} and more"
+            )
+        now, later = slice(-PORTION, None), slice(None, -PORTION)
+        i, s, e = part[now], start[now], end[now]
+        which = halve(i, *_bounds(arm, a[i].T, b[i].T, np.stack([s, e]), H))
+        i, s, e = i[which], s[which], e[which]
+        middle = (s + e) / 2
+        part = np.concatenate([part[later], i, i])
+        start = np.concatenate([start[later], s, middle])
+        end = np.concatenate([end[later], middle, e])
+        work += 2 * len(i)
 
 
-def _stretches(parts, count):
-    """Every part cut into `count` stretches: number of the part, middle and half length on [0,
-    1].
+def _bounds(
+    arm: ThreeLeverArm, a: Floats, b: Floats, ends: Floats, H: Floats
+) -> tuple[Floats, Floats]:
+    """For stretches of the motions a -> b (3, n) between two `ends` (2, n): the smaller of the
+    distances (3, n) at the ends, and lower bounds for all between.
+
+    Seen from a lever, the obstacle goes from one place to another, almost straight: between them it
+    strays from the line by an eighth of its greatest acceleration. The distance from a lever is a
+    convex function along that line, and so it lies above its tangents at both ends.
     """
-    middle = (np.arange(count) + 0.5) / count
-    return (
-        np.repeat(np.arange(parts), count),
-        np.tile(middle, parts),
-        np.full(parts * count, 0.5 / count),
-    )
+    change, L = b - a, arm.lever
+    d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], H)
+    turn = change * (ends[1] - ends[0])
+    stray = np.hypot(*H) * np.cumsum(turn, axis=0) ** 2
+    stray[1] += L * turn[1] ** 2
+    stray[2] += L * ((turn[1] + turn[2]) ** 2 + turn[2] ** 2)
+    x, y = along[:, 1] - along[:, 0], across[:, 1] - across[:, 0]
+    rise = (beyond * x[:, None] + across * y[:, None]) / np.where(d > 0, d, 1)
+    (d0, d1), (rise0, rise1) = (np.moveaxis(v, 1, 0) for v in (d, rise))
+    here = np.minimum(d0, d1)
+    inner = (rise0 < 0) & (rise1 > 0)  # the tangents meet between the ends
+    meet = (d0 * rise1 - d1 * rise0 + rise0 * rise1) / np.where(inner, rise1 - rise0, 1)
+    return here, np.maximum(np.where(inner, meet, here) - stray / 8, 0)
 
 
-def _halved(part, middle, half, which):
-    """The two halves of those stretches."""
-    part, middle, half = part[which], middle[which], half[which] / 2
-    return np.tile(part, 2), np.concatenate([middle - half, middle + half]), np.tile(half, 2)
+def _way_round(
+    arm: ThreeLeverArm, q0: Floats, K1: Floats, H: Floats, distance: float
+) -> Floats | None:
+    low, high = arm.alpha_range(K1)
+    if np.isnan(low):
+        return None
+    goals = arm.family(K1, np.linspace(low, high, int((high - low) / (1 * deg)) + 2))
+    goals = goals[(_distances(arm, goals, H) >= distance).all(axis=-1)]
+    if not len(goals):
+        return None
+    size = np.prod(np.ptp(arm.limits, axis=1) / STEP)
+    if size > WORK:
+        raise ValueError(f"arm: wanted limits for a grid of {WORK} postures, got {size:.6g}")
+    axes = [_axis(value, *limits) for value, limits in zip(q0, arm.limits, strict=True)]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    room = _distances(arm, grid, H).min(axis=-1)
+    start = tuple(int(np.abs(axis - value).argmin()) for axis, value in zip(axes, q0, strict=True))
+    for margin in MARGINS:
+        free = room >= distance + margin * arm.lever
+        free[start] = True
+        waves = _wave(free, start)
+        path = _back(arm, grid, room, waves, _arrivals(axes, goals, waves), goals, H, distance)
+        if path is not None:
+            return _taut(arm, path, goals, H, distance)
+    return None
 
 
-def _axis(value, low, high):
+def _axis(value: float, low: float, high: float) -> Floats:
     """Angles in even steps from `value` to both limits, and the limits."""
     down, up = np.arange(value, low, -STEP), np.arange(value, high, STEP)
-    return np.unique(np.concatenate([[low, high], down, up]).clip(low, high))
+    every = np.concatenate([[low, high], down, up])
+    return np.unique(every.clip(min(low, value), max(high, value)))
 
 
-def _wave(free, start):
+def _wave(free: Bools, start: tuple[int, ...]) -> Ints:
     """How many steps of one joint lead from the start to every free posture of the grid; -1 where
     none do.
     """
-    waves = np.full(np.add(free.shape, 2), -1, dtype=np.int16)  # a border saves asking for the ends
+    waves = np.full(np.add(free.shape, 2), -1)  # a border saves asking for the ends
     inside = (slice(1, -1),) * 3
     open_ = np.zeros(waves.shape, dtype=bool)
     open_[inside] = free
-    front = np.ravel_multi_index(np.add(start, 1), waves.shape)[None]
+    front = np.array([np.ravel_multi_index(tuple(i + 1 for i in start), waves.shape)])
     flat, open_, count = waves.reshape(-1), open_.reshape(-1), 0
-    steps = np.array(
-        [s * sign for s in (waves.shape[1] * waves.shape[2], waves.shape[2], 1) for sign in (1, -1)]
-    )
+    steps = np.array(waves.strides) // waves.itemsize
+    steps = np.concatenate([steps, -steps])
     open_[front] = False
     while len(front):
         flat[front] = count
@@ -431,7 +530,7 @@ def _wave(free, start):
     return waves[inside]
 
 
-def _arrivals(axes, goals, waves):
+def _arrivals(axes: list[Floats], goals: Floats, waves: Ints) -> tuple[Ints, Ints]:
     """Grid postures that the wave reached (m, 3) and a goal (m,) in a cell beside each, by rising
     S.
     """
@@ -451,15 +550,24 @@ def _arrivals(axes, goals, waves):
     return nodes[:, order].T, number[order]
 
 
-def _back(arm, grid, room, waves, arrivals, goals, H, distance):
+def _back(
+    arm: ThreeLeverArm,
+    grid: Floats,
+    room: Floats,
+    waves: Ints,
+    arrivals: tuple[Ints, Ints],
+    goals: Floats,
+    H: Floats,
+    distance: float,
+) -> Floats | None:
     """The path of the wave to the first goal of which all parts keep the distance, without needless
     corners.
     """
     nodes, numbers = (column[:400] for column in arrivals)
-    good = keeps(arm, grid[tuple(nodes.T)], goals[numbers], H, distance)
+    good = _keeps(arm, grid[tuple(nodes.T)], goals[numbers], H, distance)
     for node, number in list(zip(nodes[good], numbers[good], strict=True))[:5]:
         node = tuple(node.tolist())
-        path = [goals[number], grid[node]]
+        back = [goals[number], grid[node]]
         while waves[node] > 0:
             before = []
             for i in range(3):
@@ -470,28 +578,28 @@ def _back(arm, grid, room, waves, arrivals, goals, H, distance):
                         before.append(other)
             # of ways with equal S the one with more room
             node = max(before, key=lambda other: room[other])
-            path.append(grid[node])
-        path = _cut(arm, np.stack(path[::-1]), H, distance)
+            back.append(grid[node])
+        path = _cut(arm, np.stack(back[::-1]), H, distance)
         if path is not None:
             return path
     return None
 
 
-def _cut(arm, path, H, distance):
+def _cut(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> Floats | None:
     """From every posture on, straight to the farthest that can be reached so; None if not even the
     next can.
     """
     kept = [0]
     while kept[-1] < len(path) - 1:
         here = kept[-1]
-        good = np.flatnonzero(keeps(arm, path[here], path[here + 1 :], H, distance))
+        good = np.flatnonzero(_keeps(arm, path[here], path[here + 1 :], H, distance))
         if not len(good):
             return None
         kept.append(here + 1 + good[-1])
     return path[kept]
 
 
-def _taut(arm, path, goals, H, distance):
+def _taut(arm: ThreeLeverArm, path: Floats, goals: Floats, H: Floats, distance: float) -> Floats:
     """The path with less S: each via posture pulled between its neighbours as far as the distance
     allows, and the goal moved along its curve to where it is nearest to the last of them."""
     shares = np.linspace(1, 0, 33)[:, None]
@@ -499,55 +607,67 @@ def _taut(arm, path, goals, H, distance):
         for i in range(1, len(path) - 1):
             a, via, b = path[i - 1], path[i], path[i + 1]
             pulled = via + shares * (np.clip(via, np.minimum(a, b), np.maximum(a, b)) - via)
-            good = keeps(arm, a, pulled, H, distance) & keeps(arm, pulled, b, H, distance)
+            good = _keeps(arm, a, pulled, H, distance) & _keeps(arm, pulled, b, H, distance)
             path[i] = pulled[good.argmax()] if good.any() else via
         S = abs(goals - path[-2]).sum(axis=-1)
         near = goals[S < abs(path[-1] - path[-2]).sum()]
         near = near[abs(near - path[-2]).sum(axis=-1).argsort()]
-        good = keeps(arm, path[-2], near, H, distance)
+        good = _keeps(arm, path[-2], near, H, distance)
         if good.any():
             path[-1] = near[good.argmax()]
-        path = _cut(arm, path, H, distance)
+        path = cast(Floats, _cut(arm, path, H, distance))  # not None: every part keeps it
     return path
 
 
-def _points(value, name):
-    """x, y of points (..., 2), or (..., 3) in the plane z = 0."""
-    point = floats(value, name)
-    if (
-        point.ndim == 0
-        or point.shape[-1] not in (2, 3)
-        or (point.shape[-1] == 3 and point[..., 2].any())
-    ):
+def _angles(value: ArrayLike, name: str, finite: bool = True) -> Floats:
+    """Postures (..., 3)."""
+    q = floats(value, name, 3, finite)
+    if (abs(q) > FARTHEST).any():
+        raise ValueError(f"{name}: wanted angles in radians, got {np.nanmax(abs(q)):.6g}")
+    return q
+
+
+def _posture(value: ArrayLike, name: str) -> Floats:
+    q = _angles(value, name)
+    if q.ndim != 1:
+        raise ValueError(f"{name}: wanted one single posture (3,), got shape {q.shape}")
+    return q
+
+
+def _start(arm: ThreeLeverArm, value: ArrayLike, name: str) -> Floats:
+    """A posture inside the limits."""
+    q = _posture(value, name)
+    if (q < arm.limits[:, 0] - SLACK).any() or (q > arm.limits[:, 1] + SLACK).any():
         raise ValueError(
-            f"{name}: wanted points (..., 2), or (..., 3) with z = 0, got "
-            f"{np.asarray(value).tolist()}"
+            f"{name}: wanted three angles from 0 to 180 degrees, got {(q / deg).round(3).tolist()}"
         )
-    return point[..., :2]
+    return q
 
 
-def _point(value, name):
-    """x, y of one single point."""
-    point = _points(value, name)
-    if point.ndim != 1:
-        raise ValueError(
-            f"{name}: wanted one single point, got a batch of shape {point.shape[:-1]}"
-        )
-    return point
-
-
-def _path(path):
-    path = floats(path, "path", 3)
+def _path(value: ArrayLike) -> Floats:
+    path = _angles(value, "path")
     if path.ndim != 2 or len(path) < 2:
         raise ValueError(f"path: wanted two or more postures (k, 3), got shape {path.shape}")
     return path
 
 
-def _posture(arm, q):
-    q = floats(q, "posture", 3)
-    slack = 1e-9
-    if q.ndim != 1 or (q < arm.limits[:, 0] - slack).any() or (q > arm.limits[:, 1] + slack).any():
-        raise ValueError(
-            f"posture: wanted three angles from 0 to 180 degrees, got {(q / deg).round(3).tolist()}"
-        )
-    return q
+def _points(value: ArrayLike, name: str) -> Floats:
+    """x, y of points (..., 2), or (..., 3) in the plane z = 0."""
+    points = floats(value, name)
+    flat = points.ndim and (
+        points.shape[-1] == 2 or (points.shape[-1] == 3 and not points[..., 2].any())
+    )
+    if not flat:
+        wanted = "wanted points (..., 2), or (..., 3) with z = 0"
+        raise ValueError(f"{name}: {wanted}, got {short(value)}")
+    if (abs(points) > FARTHEST).any():
+        raise ValueError(f"{name}: wanted points in metres, got {abs(points).max():.6g}")
+    return points[..., :2]
+
+
+def _point(value: ArrayLike, name: str) -> Floats:
+    """x, y of one single point."""
+    point = _points(value, name)
+    if point.ndim != 1:
+        raise ValueError(f"{name}: wanted one single point, got a batch {point.shape[:-1]}")
+    return point

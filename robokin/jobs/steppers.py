@@ -4,12 +4,11 @@ windings.
 The motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
 
     arm = loader_arm(1.2, 1.0)
-    q = postures(arm, points)                  # (stations, 3); `refusal` says why a point cannot be
-    had n = counts(q, per_degree)                  # (stations, 3) whole pulses: where each motor
-    has to stand move = synchronised(n[0], n[1])            # or unsynchronised, or straight(arm,
-    points[0], points[1], per_degree) q_t = joints(move(t), per_degree)          # joint values at
-    the times t, to draw
-    move.pulses()                              # per motor: when, and in which direction
+    q = station_postures(arm, points)        # (stations, 3); `out_of_reach` says why one is NaN
+    n = counts(q, per_degree)                # (stations, 3) whole pulses: where the motors stand
+    move = synchronised(n[0], n[1])          # or unsynchronised, or straight
+    q_t = joint_values(move(t), per_degree)  # joint values at the times t, to draw
+    move.pulses()                            # for each motor: when, and in which direction
 
 A motor's position is counted in pulses from the joint's zero. Whole pulses are taken from these
 positions and never from the angle of a single move, so that no rounding adds up, however many moves
@@ -17,39 +16,55 @@ there are.
 Source: 003, II.3 (the motors) and paper 1; errata S3-p to S3-t.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import broadcast, floats, instance
-from ..arms.arm import Arm
-from ..arms.elbow import FREE, ROUNDING, ElbowArm
-from ..units import deg
+from .._arrays import Floats, Ints, frozen
+from .._validate import (
+    broadcast,
+    choice,
+    floats,
+    instance,
+    positive,
+    short,
+    warn_if_degrees,
+    whole,
+)
+from ..arms.arm import ClosedFormArm
+from ..arms.elbow import ElbowGeometry
+from ..arms.geometry import FREE, ROUNDING
+from ..units import deg, wrapped
 
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
 SAMPLES = 1001  # postures along a straight line
 SLACK = 1e-9  # this near to a whole pulse is the pulse
+COUNTED = 2**52  # pulses from zero: so far a float counts them, and their differences, one by one
+LISTED = 10_000_000  # pulses that one call lists
+STRETCHES = 100_000  # of a move whose pulses are listed
 
 
 # ---- From points to motor positions
 
 
-def refusal(arm, point):
+def out_of_reach(arm: ClosedFormArm, point: ArrayLike) -> list[str]:
     """Why the loader's gripper cannot be at one point (3,): a list of reasons in words, empty if it
     can.
 
     Source: 003, paper 1, (1), and the inner bound |A - B| that it lacks (errata S3-r).
     """
-    point = floats(point, "point", 3)
-    if point.ndim != 1:
-        raise ValueError(f"point: wanted one single point (3,), got {point.shape}")
-    reasons = [_loader(arm).unreached(point, arm.branch(+1, -1))[0]]
-    if point[2] < -ROUNDING * arm.geometry.elbow.reach:
-        reasons.append(f"the point is under the floor: z = {point[2]:.4g} m")
-    return [reason for reason in reasons if reason]
+    geometry, place = _loader(arm), _place(point, "point")
+    gap = geometry.gap(place, arm.branch(+1, -1))
+    reasons = [gap.words] if gap else []
+    if place[2] < -ROUNDING * geometry.elbow.reach:
+        reasons.append(f"the point is under the floor: z = {place[2]:.4g} m")
+    return reasons
 
 
-def postures(arm, points):
+def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     """The loader's postures at its stations, in their order: points (stations, 3) -> q (stations,
     3), alpha unwrapped.
 
@@ -58,23 +73,19 @@ def postures(arm, points):
     as it was (0 at first). NaN rows where a point is out of reach. Source: 003, paper 1, table 1
     and (2) to (4); errata S3-p, S3-q.
     """
-    points, reach = floats(points, "points", 3), _loader(arm).elbow.reach
-    if points.ndim != 2:
-        raise ValueError(f"points: wanted shape (stations, 3), got {points.shape}")
-    alpha, gamma, beta = arm.ik(points)[:, arm.branch(+1, -1)].T
-    free = np.hypot(points[:, 0], points[:, 1]) <= FREE * reach
-    before = None
+    reach, places = _loader(arm).elbow.reach, floats(points, "points", 3)
+    if places.ndim != 2:
+        raise ValueError(f"points: wanted shape (stations, 3), got {places.shape}")
+    alpha, gamma, beta = arm.ik(places)[:, arm.branch(+1, -1)].T
+    free = np.hypot(places[:, 0], places[:, 1]) <= FREE * reach
+    before = 0.0
     for i in np.flatnonzero(~np.isnan(alpha)):
-        if before is None:
-            alpha[i] = 0.0 if free[i] else shortest_turn(0.0, alpha[i])
-        else:
-            alpha[i] = before if free[i] else before + shortest_turn(before, alpha[i])
-        before = alpha[i]
+        alpha[i] = before = before if free[i] else float(wrapped(alpha[i], before))
     gamma = np.where(gamma < -90 * deg, gamma + 360 * deg, gamma)
     return np.stack([alpha, gamma, abs(beta)], axis=-1)  # folded, beta is 0 but for rounding
 
 
-def shortest_turn(start, goal):
+def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
     """The shortest way from one angle to another, in [-pi, pi] rad; positive is counter-clockwise.
 
     Source: 003, paper 1, the two conditions for alpha; the second one has the wrong sign for alpha2
@@ -82,27 +93,29 @@ def shortest_turn(start, goal):
     """
     start, goal = floats(start, "start"), floats(goal, "goal")
     broadcast("start and goal", start.shape, goal.shape)
-    turn = goal - start
-    return turn - 2 * np.pi * np.round(turn / (2 * np.pi))
+    return wrapped(goal - start)
 
 
-def counts(q, per_degree):
+def counts(q: ArrayLike, per_degree: ArrayLike) -> Ints:
     """The motors' positions at joint values q (..., n) rad, in whole pulses (..., n), the nearest
     ones.
 
     per_degree  (n,) or one number: pulses per degree of the joint, gear included. Source: 003,
                 paper 1, the reduced angle phi of (5).
     The pulses of moves are differences, `np.diff(counts(q, per_degree), axis=-2)`: their sum is
-    exact.
+    exact. A UserWarning where a joint is turned many times round: degrees were likely meant.
     """
-    return np.rint(_pulses(q, per_degree)).astype(np.int64)
+    values = floats(q, "q")
+    warn_if_degrees(values, "q", posture=1)
+    return _counted(np.rint(_pulses(values, per_degree)), "q").astype(np.int64)
 
 
-def joints(positions, per_degree):
+def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
     """Joint values in rad from motor positions in pulses (..., n): the way back from `counts`."""
     positions, per_degree = floats(positions, "positions"), _per_degree(per_degree)
     broadcast("positions and per_degree", positions.shape, per_degree.shape)
-    return positions / per_degree * deg
+    with np.errstate(over="ignore"):
+        return floats(positions / per_degree * deg, "positions / per_degree")
 
 
 # ---- Moves: when a motor is where
@@ -112,41 +125,57 @@ def joints(positions, per_degree):
 class Move:
     """What n motors do between two stations: they stand at `positions` (k, n) in pulses at the
     times `t` (k,) in s and run evenly in between. The first time is 0, first and last positions are
-    whole pulses.
+    whole pulses. Both are read-only copies.
 
     `move(t)` gives the positions at the times t (...), as (..., n): not rounded; before and after
-    the move they stand.
+    the move they stand. ValueError: times that do not rise from 0, positions that do not fit.
     """
 
-    t: np.ndarray
-    positions: np.ndarray
+    t: Floats
+    positions: Floats
 
-    def __call__(self, t):
+    def __post_init__(self) -> None:
+        t, positions = floats(self.t, "t"), floats(self.positions, "positions")
+        if t.ndim != 1 or not t.size or t[0] != 0 or (np.diff(t) <= 0).any():
+            raise ValueError(f"t: wanted times that rise from 0, got {short(t.tolist())}")
+        if positions.ndim != 2 or len(positions) != len(t) or not positions.size:
+            raise ValueError(f"positions: wanted ({len(t)}, motors), got {positions.shape}")
+        _whole(_counted(positions, "positions")[[0, -1]], "first and last of positions")
+        object.__setattr__(self, "t", frozen(t))
+        object.__setattr__(self, "positions", frozen(positions))
+
+    def __call__(self, t: ArrayLike) -> Floats:
         """The motors' positions in pulses at the times t (...) in seconds -> (..., n)."""
         t = floats(t, "t")
         return np.stack([np.interp(t, self.t, column) for column in self.positions.T], axis=-1)
 
     @property
-    def duration(self):
+    def duration(self) -> float:
         """Seconds."""
         return float(self.t[-1])
 
     @property
-    def frequencies(self):
+    def frequencies(self) -> Floats:
         """(k - 1, n) pulses per second in each stretch of the move, negative backwards."""
-        return np.diff(self.positions, axis=0) / np.diff(self.t)[:, None]
+        with np.errstate(over="ignore"):
+            return np.diff(self.positions, axis=0) / np.diff(self.t)[:, None]
 
-    def pulses(self):
+    def pulses(self) -> list[tuple[Floats, Ints]]:
         """The pulse trains: for each motor (times, signs), both (pulses,); the signs are +1 and -1.
 
         A pulse comes when the motor is due one whole pulse further on (or back). So the motor lags
         by less than one pulse, makes exactly the pulses of the move, and after a change of
-        direction, too, no two pulses come faster than the frequencies allow.
+        direction, too, no two pulses come faster than the frequencies allow. ValueError: a move of
+        more than `LISTED` pulses or `STRETCHES` stretches.
         """
+        count, stretches = abs(np.diff(self.positions, axis=0)).sum(), len(self.t) - 1
+        if count > LISTED or stretches > STRETCHES:
+            wanted = f"wanted a move of at most {LISTED} in {STRETCHES} stretches"
+            raise ValueError(f"pulses: {wanted}, got one of {count:.0f} in {stretches}")
         return [_train(self.t, column) for column in self.positions.T]
 
 
-def frequencies(pulses, limit=LIMIT):
+def frequencies(pulses: ArrayLike, limit: float = LIMIT) -> Floats:
     """Pulse frequencies with which all motors need the same time: pulses (..., n) -> (..., n)
     pulses per second.
 
@@ -156,13 +185,13 @@ def frequencies(pulses, limit=LIMIT):
     max phi.
     """
     pulses, limit = abs(floats(pulses, "pulses")), _limit(limit)
-    if not pulses.ndim:
-        raise ValueError(f"pulses: wanted one number for each motor, got {pulses}")
+    if not (pulses.ndim and pulses.shape[-1]):
+        raise ValueError(f"pulses: wanted one number for each motor, got shape {pulses.shape}")
     most = pulses.max(axis=-1, keepdims=True)
-    return limit * pulses / np.where(most > 0, most, 1)
+    return pulses / np.where(most > 0, most, 1) * limit
 
 
-def unsynchronised(start, goal, limit=LIMIT):
+def unsynchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
     """Trajectory a of the document: all motors start together at the greatest frequency, and each
     stops when it is done. start, goal (n,) motor positions -> Move. The gripper's path has a kink
     wherever a motor stops.
@@ -170,13 +199,13 @@ def unsynchronised(start, goal, limit=LIMIT):
     Source: 003, paper 1, figure 4 (5 in the text), a.
     """
     start, goal = _stations(start, goal)
-    ends = abs(goal - start) / _limit(limit)
+    ends = _seconds(abs(goal - start), limit)
     t = np.unique([0.0, *ends])
     share = np.minimum(t[:, None] / np.where(ends > 0, ends, 1), 1)
     return Move(t, start + (goal - start) * share)
 
 
-def synchronised(start, goal, limit=LIMIT):
+def synchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
     """Trajectory d of the document: all motors start and stop together, each at its own even
     frequency (`frequencies`). start, goal (n,) motor positions -> Move. No motor turns back; the
     gripper's path is a curve.
@@ -184,15 +213,19 @@ def synchronised(start, goal, limit=LIMIT):
     No motion that keeps the limit is faster. Source: 003, paper 1, figure 4 (5 in the text), d.
     """
     start, goal = _stations(start, goal)
-    duration = abs(goal - start).max() / _limit(limit)
-    return (
-        Move(np.array([0.0, duration]), np.stack([start, goal]))
-        if duration
-        else Move(np.zeros(1), start[None])
-    )
+    duration = _seconds(abs(goal - start), limit).max()
+    if duration == 0:
+        return Move(np.zeros(1), start[None])
+    return Move(np.array([0.0, duration]), np.stack([start, goal]))
 
 
-def straight(arm, start, goal, per_degree, limit=LIMIT):
+def straight(
+    arm: ClosedFormArm,
+    start: ArrayLike,
+    goal: ArrayLike,
+    per_degree: ArrayLike,
+    limit: float = LIMIT,
+) -> Move:
     """Trajectories b and c of the document: the loader's gripper goes straight from one point (3,)
     to another -> Move.
 
@@ -202,21 +235,23 @@ def straight(arm, start, goal, per_degree, limit=LIMIT):
     read: two pairs of points, one law. c costs more pulses than its d.
 
     Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line that
-    `refusal` names.
+    `out_of_reach` names.
     """
-    start, goal = floats(start, "start", 3), floats(goal, "goal", 3)
-    s = np.linspace(0, 1, SAMPLES)[:, None]
-    q = postures(arm, (1 - s) * start + s * goal)
+    _loader(arm)
+    start, goal = _place(start, "start"), _place(goal, "goal")
+    s = np.linspace(0, 1, SAMPLES)
+    points = (1 - s)[:, None] * start + s[:, None] * goal
+    q = station_postures(arm, points)
     gaps = np.flatnonzero(np.isnan(q).any(axis=-1))
     for i in (*gaps[:1], 0, -1):
-        for reason in refusal(arm, start + s[i] * (goal - start)):
+        for reason in out_of_reach(arm, points[i]):
             raise ValueError(
-                f"start and goal: wanted a line inside the workspace, at {s[i, 0]:.0%} of it "
-                f"{reason}"
+                f"start and goal: wanted a line inside the workspace, at {s[i]:.0%} of it {reason}"
             )
-    due = _pulses(q, per_degree)
+    due = _counted(_pulses(q, per_degree), "per_degree")
     due[[0, -1]] = np.rint(due[[0, -1]])  # motors stand on whole pulses
-    t = np.concatenate([[0.0], np.cumsum(abs(np.diff(due, axis=0)).max(axis=-1)) / _limit(limit)])
+    ahead = _seconds(abs(np.diff(due, axis=0)).max(axis=-1), limit)
+    t = np.concatenate([[0.0], np.cumsum(ahead)])
     moved = np.concatenate([[True], np.diff(t) > 0])
     return Move(t[moved], due[moved])
 
@@ -239,13 +274,20 @@ _UNIPOLAR = (
 )
 _BIPOLAR = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 _ROWS = {"wave": slice(0, None, 2), "two-phase": slice(1, None, 2), "half-step": slice(None)}
-COLUMNS = {
-    "unipolar": ("half winding a1", "half winding b1", "half winding a2", "half winding b2"),
-    "bipolar": ("winding 1, end a1", "winding 1, end b1", "winding 2, end a2", "winding 2, end b2"),
-}
+COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "unipolar": ("half winding a1", "half winding b1", "half winding a2", "half winding b2"),
+        "bipolar": (
+            "winding 1, end a1",
+            "winding 1, end b1",
+            "winding 2, end a2",
+            "winding 2, end b2",
+        ),
+    }
+)
 
 
-def phases(drive, motor):
+def phases(drive: str, motor: str) -> Ints:
     """The phase table, one row per pulse: (4 or 8, 4) of 1, 0 and -1, columns as in
     `COLUMNS[motor]`.
 
@@ -260,11 +302,8 @@ def phases(drive, motor):
     two-phase drive of the unipolar motor and the half step, are not in the text: these rows follow
     from the order of table 1.
     """
-    if drive not in _ROWS:
-        raise ValueError(f"drive: wanted one of {tuple(_ROWS)}, got {drive!r}")
-    if motor not in COLUMNS:
-        raise ValueError(f"motor: wanted one of {tuple(COLUMNS)}, got {motor!r}")
-    if motor == "unipolar":
+    choice(drive, "drive", tuple(_ROWS))
+    if choice(motor, "motor", tuple(COLUMNS)) == "unipolar":
         rows = np.array(_UNIPOLAR)
     else:
         first, second = np.array(_BIPOLAR).T
@@ -272,70 +311,94 @@ def phases(drive, motor):
     return rows[_ROWS[drive]]
 
 
-def energised(table, signs, row=0):
-    """What the windings carry before the first and after every pulse: signs (pulses,) -> (pulses +
-    1, columns).
+def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
+    """What the windings carry before the first and after every pulse: table (rows, columns), signs
+    (pulses,) -> (pulses + 1, columns).
 
-    A positive pulse takes the next row of the table and a negative one the row before: the order is
-    the direction.
-    Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
+    The first answer is the row number `row` of the table, counted on from the last row to the
+    first. A positive pulse takes the next row and a negative one the row before: the order is the
+    direction. Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
     """
-    signs = floats(signs, "signs")
+    rows, signs = floats(table, "table"), floats(signs, "signs")
+    if rows.ndim != 2 or not len(rows):
+        raise ValueError(f"table: wanted rows as `phases` gives them, got shape {rows.shape}")
     if signs.ndim != 1 or (abs(signs) != 1).any():
-        raise ValueError(f"signs: wanted +1 and -1 in an array (pulses,), got {signs}")
-    return table[(row + np.concatenate([[0], np.cumsum(signs)]).astype(int)) % len(table)]
+        raise ValueError(f"signs: wanted +1 and -1 in an array (pulses,), got {short(signs)}")
+    steps = np.concatenate([[0], np.cumsum(signs)]).astype(np.int64)
+    return np.asarray(table)[(whole(row, "row", -COUNTED, COUNTED) + steps) % len(rows)]
 
 
 # ---- Private
 
 
-def _loader(arm):
+def _loader(arm: ClosedFormArm) -> ElbowGeometry:
     """The geometry of the loader arm."""
-    return instance(
-        instance(arm, Arm, "arm").geometry, ElbowArm, "arm", hint=": wanted a loader_arm(A, B)"
-    )
+    hint = ": wanted a loader_arm(A, B)"
+    geometry = instance(arm, ClosedFormArm, "arm", hint).geometry
+    return instance(geometry, ElbowGeometry, "arm", hint)
 
 
-def _per_degree(value):
-    value = floats(value, "per_degree")
-    if (value <= 0).any():
-        raise ValueError(f"per_degree: wanted positive numbers of pulses, got {value.tolist()}")
-    return value
+def _place(value: ArrayLike, name: str) -> Floats:
+    place = floats(value, name, 3)
+    if place.ndim != 1:
+        raise ValueError(f"{name}: wanted one single point (3,), got {place.shape}")
+    return place
 
 
-def _limit(value):
-    limit = floats(value, "limit")
-    if limit.ndim or limit <= 0:
-        raise ValueError(f"limit: wanted one positive number of pulses per second, got {value!r}")
-    return float(limit)
+def _per_degree(value: ArrayLike) -> Floats:
+    per_degree = floats(value, "per_degree")
+    if per_degree.ndim > 1 or (per_degree <= 0).any():
+        wanted = "wanted positive numbers of pulses, one for each motor"
+        raise ValueError(f"per_degree: {wanted}, got {short(per_degree.tolist())}")
+    return per_degree
 
 
-def _pulses(q, per_degree):
+def _limit(value: float) -> float:
+    return positive(value, "limit", "one positive number of pulses per second")
+
+
+def _seconds(pulses: Floats, limit: float) -> Floats:
+    """How long these pulses take at the greatest frequency."""
+    with np.errstate(over="ignore"):
+        return floats(pulses / _limit(limit), "pulses / limit")
+
+
+def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
     """Motor positions, not rounded."""
-    q, per_degree = floats(q, "q"), _per_degree(per_degree)
+    per_degree = _per_degree(per_degree)
     broadcast("q and per_degree", q.shape, per_degree.shape)
-    return q / deg * per_degree
+    with np.errstate(over="ignore"):
+        return q / deg * per_degree
 
 
-def _stations(start, goal):
+def _counted(positions: Floats, name: str) -> Floats:
+    """Motor positions that a float counts."""
+    if (abs(positions) > COUNTED).any():
+        most = abs(positions).max()
+        raise ValueError(f"{name}: wanted at most 2**52 pulses from zero, got {most:.6g}")
+    return positions
+
+
+def _whole(positions: Floats, name: str) -> None:
+    if (positions != np.rint(positions)).any():
+        got = short(positions.tolist())
+        raise ValueError(f"{name}: wanted whole pulses (`counts` gives them), got {got}")
+
+
+def _stations(start: ArrayLike, goal: ArrayLike) -> tuple[Floats, Floats]:
     """Two rows of whole pulses."""
     start, goal = floats(start, "start"), floats(goal, "goal")
     if start.ndim != 1 or not start.size or start.shape != goal.shape:
-        raise ValueError(
-            f"start and goal: wanted one position for each motor, got {start.shape} and "
-            f"{goal.shape}"
-        )
+        wanted = "wanted one position for each motor"
+        raise ValueError(f"start and goal: {wanted}, got {start.shape} and {goal.shape}")
     for value, name in ((start, "start"), (goal, "goal")):
-        if (value != np.rint(value)).any():
-            raise ValueError(
-                f"{name}: wanted whole pulses (`counts` gives them), got {value.tolist()}"
-            )
+        _whole(_counted(value, name), name)
     return start, goal
 
 
-def _train(t, due):
+def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
     """One motor's pulses, from where it is due (k,) at the times t: (times, signs)."""
-    times, signs, stands = [np.empty(0)], [np.empty(0, dtype=int)], round(due[0])
+    times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], round(due[0])
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]
     # the stretches before which it turns back
