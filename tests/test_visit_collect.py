@@ -1194,10 +1194,10 @@ def test_speeds_that_are_likely_degrees():
     )
     still = make(speeds=(4 * np.pi,) * 3)
     assert "warning" not in report(still, visit(still))
-    with pytest.warns(UserWarning, match="q_to: 90 rad is more than two turns"):
+    with pytest.warns(UserWarning, match="q_to: 90 rad is many turns"):
         travel_time((0, 0, 0), (90, 0, 0), (1, 1, 1))
-    with pytest.warns(UserWarning, match="q_from: 45 rad is more than two turns"):
-        travel_time((0, -45, 0), (0, 0, 0), (1, 1, 1))
+    with pytest.warns(UserWarning, match="q_from: 60 rad is many turns"):
+        travel_time((0, -60, 0), (0, 0, 0), (1, 1, 1))
 
 
 def test_a_file_that_is_too_big(tmp_path):

@@ -144,7 +144,7 @@ def travel_time(
     if limits.ndim != 1 or not (limits > 0).all():
         raise ValueError(f"speeds: wanted three positive numbers in rad/s, got {short(speeds)}")
     for q, name in ((start, "q_from"), (end, "q_to")):
-        warn_if_degrees(q, name)
+        warn_if_degrees(q, name, posture=1)
     return _travel(start, end, limits, short_way)
 
 
