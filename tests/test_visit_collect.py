@@ -564,6 +564,9 @@ def test_above_floor_refuses_such_moves():
     assert result.order == (2, 1) and result.left == (0,) and "dips" not in report(brought, result)
     assert answer(task, above_floor=True) == visit(task, above_floor=True)
     assert answer(brought, above_floor=True) == result
+    # unless it is asked for, nothing is refused
+    assert answer(task) == visit(task) and answer(brought) == collect(brought)
+    assert collect(brought).order == (2, 0, 1)
     only = make(p0=(6, 0, 1), points=places[:1], T=100)
     assert report(only, visit(only, above_floor=True)) == (
         "could not visit any points, what is in time dips under the floor (T = 100 s)"
