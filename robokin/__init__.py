@@ -31,7 +31,19 @@ from .arms import (
     two_link,
     within,
 )
-from .motion import TimeLaw, blend, differentiate, lin, lin_lin, linear, ptp, quintic, trapezoidal
+from .motion import (
+    Recording,
+    TimeLaw,
+    blend,
+    differentiate,
+    lin,
+    lin_lin,
+    linear,
+    ptp,
+    quintic,
+    record,
+    trapezoidal,
+)
 from .quaternion import Quaternion
 from .transform import Transform
 from .units import deg, mm
@@ -47,6 +59,7 @@ __all__ = [
     "ClosedFormArm",
     "Link",
     "Quaternion",
+    "Recording",
     "ScaraPose",
     "ThreeLeverArm",
     "TimeLaw",
@@ -68,6 +81,7 @@ __all__ = [
     "nearest",
     "ptp",
     "quintic",
+    "record",
     "representative",
     "scara_arm",
     "singular_values",

@@ -8,7 +8,7 @@ here and nowhere else.
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +17,18 @@ Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
 Ints: TypeAlias = NDArray[np.int64]
 
+Array = TypeVar("Array", bound=NDArray[Any])
+
 BLOCK = 16_000  # numbers in one array of the work: 128 kB, which memory is kept ready for
 
 
-def sealed(array: Floats) -> Floats:
+def sealed(array: Array) -> Array:
     """This very array, which nobody else holds, made read-only."""
     array.setflags(write=False)
     return array
 
 
-def frozen(array: Floats) -> Floats:
+def frozen(array: Array) -> Array:
     """A read-only copy."""
     return sealed(array.copy())
 

@@ -79,3 +79,32 @@ def test_leaves_its_input_alone():
     values, t = np.arange(5.0), np.arange(5.0)
     differentiate(values, t)
     assert values.tolist() == t.tolist() == [0, 1, 2, 3, 4]
+
+
+def test_the_order_is_bounded_and_the_message_says_what_would_be_computed():
+    values, t = RNG.normal(size=(30, 4)), uneven(30)
+    assert np.isfinite(differentiate(values, t, 10)).all()
+    for order in (11, 10**6, 10**400):
+        with pytest.raises(ValueError, match=r"order: wanted at most 10, got .*120 numbers"):
+            differentiate(values, t, order)
+    for order in (0, -1, 1.5, True, "2", None):
+        with pytest.raises(ValueError, match="order: wanted a whole number of at least 1"):
+            differentiate(values, t, order)
+
+
+@pytest.mark.parametrize("t", [np.arange(5.0) * 1e-10, np.array([0, 1, 3, 4, 9]) * 1e-200])
+def test_slopes_beyond_all_numbers_are_refused(t):
+    values = np.array([0, 1e300, -1e300, 1e300, 0])
+    with pytest.raises(ValueError, match="slopes"):
+        differentiate(values, t)
+    with pytest.raises(ValueError, match="slopes"):
+        differentiate(values / 1e10, t, 3)
+
+
+def test_two_times_are_enough_for_none():
+    with pytest.raises(ValueError, match=r"at least three times, got shape \(2,\)"):
+        differentiate([1, 2], [0, 1])
+    assert differentiate([1, 2, 5], [0, 1, 2]).tolist() == [0, 2, 4]
+    for t in ([0, 1, 1], [0, 2, 1]):
+        with pytest.raises(ValueError, match="rising"):
+            differentiate([1, 2, 5], t)

@@ -1,5 +1,7 @@
 """Time laws: from rest at the start to the goal in time, and as smooth as they say."""
 
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -109,3 +111,57 @@ def test_any_trapezoid_rises_from_0_to_1(ramp, duration, times):
 def test_a_law_knows_its_duration():
     for law in LAWS:
         assert law(20).duration == 20 and isinstance(law(20), TimeLaw)
+
+
+@laws
+def test_a_law_can_be_pickled(law):
+    t = np.linspace(-1, 9, 101)
+    again = pickle.loads(pickle.dumps(law(8.0)))
+    assert again.duration == 8 and (again(t) == law(8.0)(t)).all()
+
+
+def test_an_own_law_is_a_function_of_the_share_of_the_time():
+    law = TimeLaw(4, lambda x: x**2)
+    assert law([-1, 0, 1, 2, 4, 5]).tolist() == [0, 0, 1 / 16, 1 / 4, 1, 1]
+    assert TimeLaw(4, lambda x: 3 * x - 1)([0, 2, 4]).tolist() == [0, 0.5, 1]  # kept in [0, 1]
+
+
+@pytest.mark.parametrize("progress", [None, 3, "linear", [0, 1]])
+def test_progress_is_a_function(progress):
+    with pytest.raises(TypeError, match="progress: wanted a function, got"):
+        TimeLaw(2, progress)
+
+
+@pytest.mark.parametrize(
+    "progress, message",
+    [
+        (lambda x: "fast", "progress: wanted numbers"),
+        (lambda x: None, "progress: wanted numbers"),
+        (lambda x: x * np.nan, "progress: wanted finite"),
+        (lambda x: 0.5, r"progress: wanted s of shape \(3,\), got shape \(\)"),
+        (lambda x: x[:2], r"progress: wanted s of shape \(3,\), got shape \(2,\)"),
+    ],
+)
+def test_what_progress_answers_is_looked_at(progress, message):
+    with pytest.raises(ValueError, match=message):
+        TimeLaw(2, progress)([0, 1, 2])
+
+
+@pytest.mark.parametrize("duration", [1e-320, 1e-300, 1e300])
+def test_no_duration_is_too_short_or_too_long(duration):
+    for law in LAWS:
+        with np.errstate(all="raise", under="ignore"):
+            assert law(duration)([0.0, duration, 1e308]).tolist() == [0, 1, 1]
+
+
+@pytest.mark.parametrize("ramp", [1e-300, 1e-320])
+def test_no_ramp_is_too_short(ramp):
+    with np.errstate(all="raise", under="ignore"):
+        s = trapezoidal(1.0, ramp)(np.linspace(0, 1, 11))
+    assert np.allclose(s, np.linspace(0, 1, 11), rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("wrong", [0, -1, 0.6, np.nan, "half", [0.1, 0.2], None])
+def test_a_ramp_is_a_share_of_at_most_a_half(wrong):
+    with pytest.raises(ValueError, match="ramp: wanted"):
+        trapezoidal(1.0, wrong)

@@ -28,21 +28,22 @@ from robokin import (
     PUMA560,
     SCARA,
     Quaternion,
-    Target,
+    ScaraPose,
     Transform,
     blend,
     deg,
     differentiate,
+    distance_from_singularity,
     explain,
     follow,
     mm,
     quintic,
     spbu_arm,
+    three_lever,
     within,
 )
 from robokin.show import joint_explorer, motion_explorer, target_explorer
-from robokin.show.live import RUN, Nearness, from_roll_pitch_yaw, roll_pitch_yaw
-from robokin.show.scene import reach
+from robokin.show.live import RUN
 
 page = test_browser.page
 MOVES = int(os.environ.get("ROBOKIN_MOVES", 60))
@@ -54,9 +55,9 @@ GOAL = Transform(Quaternion.from_angle_axis(90 * deg, (0, 1, 0)), (0.3, 0.3, 0.5
 POSES = {
     "IRB-140": (START, VIA, GOAL),
     "SCARA": (
-        Target((0.3, 0.1, 0.1), 0),
-        Target((0.25, -0.2, 0.15), 1),
-        Target((0.1, -0.3, 0.05), 2),
+        ScaraPose((0.3, 0.1, 0.1), 0),
+        ScaraPose((0.25, -0.2, 0.15), 1),
+        ScaraPose((0.1, -0.3, 0.05), 2),
     ),
     ELBOW.name: tuple(
         Transform(translation=p) for p in ((0.5, 0.2, 0.3), (0.4, -0.1, 0.6), (0.3, -0.4, 0.2))
@@ -70,56 +71,6 @@ def arm(request):
 
 
 # --- Numbers --------------------------------------------------------------------------------------
-
-
-def test_distance_from_singularity_is_the_smallest_stretch_of_a_small_motion(arm):
-    # By differences of fk and by the eigenvalues of J^T J: neither `jacobian` nor a singular value
-    # decomposition.
-    rng, step, size = np.random.default_rng(1), 1e-6, reach(arm)
-    for q in arm.limits[:, 0] + rng.random((20, len(arm.links))) * np.diff(arm.limits)[:, 0]:
-        columns, here = [], arm.fk(q)
-        for j in range(len(q)):
-            moved = arm.fk(q + step * np.eye(len(q))[j])
-            turned = (moved.rotation @ here.rotation.inverse()).wxyz
-            column = [
-                *(moved.translation - here.translation) / size,
-                *2 * np.sign(turned[0]) * turned[1:],
-            ]
-            columns.append(
-                np.array(column[:3] if len(q) == 3 else column)
-                / step
-                * (size if arm.prismatic[j] else 1)
-            )
-        squares = np.array(columns) @ np.array(columns).T
-        assert Nearness(arm)(q) == pytest.approx(
-            np.sqrt(max(np.linalg.eigvalsh(squares)[0], 0)), abs=2e-5
-        )
-
-
-@pytest.mark.parametrize(
-    ("arm", "q"),
-    [(IRB140, [0.3, 0.2, -0.4, 1, 0, 2]), (SCARA, [0.5, 0, 1, 0.1]), (ELBOW, [0.5, 0.3, 90 * deg])],
-)
-def test_a_singular_posture_has_no_distance_and_its_neighbour_a_small_one(arm, q):
-    near, beside = Nearness(arm), np.array(q) + 0.01
-    assert near(np.array(q)) < 1e-9 and 1e-4 < near(beside) < 0.02
-    assert np.isnan(near(np.full((2, len(q)), np.nan))).all()
-
-
-def test_roll_pitch_yaw_are_turns_about_the_fixed_axes():
-    rng = np.random.default_rng(2)
-    for angles in (rng.random((50, 3)) - 0.5) * (2 * np.pi, np.pi, 2 * np.pi):
-        q = from_roll_pitch_yaw(*angles)
-        assert np.allclose(
-            q.as_matrix(), Rotation.from_euler("xyz", angles).as_matrix(), atol=1e-12
-        )
-        assert np.allclose(roll_pitch_yaw(q), angles, atol=1e-9)
-    for angles in ((0.4, np.pi / 2, 1.1), (0.4, -np.pi / 2, 1.1)):
-        q = from_roll_pitch_yaw(*angles)
-        again = roll_pitch_yaw(q)
-        assert again[0] == 0 and np.allclose(
-            from_roll_pitch_yaw(*again).as_matrix(), q.as_matrix(), atol=1e-9
-        )
 
 
 def test_joint_explorer_tells_the_flange(arm):
@@ -138,7 +89,9 @@ def test_joint_explorer_tells_the_flange(arm):
             Rotation.from_quat(wxyz, scalar_first=True),
         ):
             assert np.allclose(matrix.as_matrix(), pose.rotation.as_matrix(), atol=1e-9)
-        assert picture.numbers[10] == pytest.approx(float(Nearness(arm)(explorer.q)))
+        assert picture.numbers[10] == pytest.approx(
+            float(distance_from_singularity(arm, explorer.q))
+        )
 
 
 def test_joint_explorer_names_singularities():
@@ -205,6 +158,55 @@ def test_a_branch_stays_chosen_and_its_reason_is_given():
     assert "beyond the stretched arm" in picture.says
 
 
+def test_a_joint_past_its_limit_is_shown_where_it_is_least_past_it():
+    """Lab 02: q3 at 59.5°, 9.5 past, was shown as -300.5°, 70 past, after a drag through -229°."""
+    explorer = target_explorer(IRB140)
+    pose = IRB140.fk(np.array([30, 10, 59.5, 20, 30, 40]) * deg)
+    turns = np.array(pose.rotation.as_roll_pitch_yaw()) / deg
+    values = dict(zip(("y", "z"), pose.translation[1:] / mm, strict=True))
+    for name, value in (values | dict(zip(("roll", "pitch", "yaw"), turns, strict=True))).items():
+        explorer.controls[name].value = value
+    shown = []
+    for last in (0, -229, 49, -300):  # wherever the joint was before
+        explorer.controls["x"].value = 0
+        explorer.q = np.array([30, 10, last, 20, 30, 40]) * deg
+        explorer.controls["x"].value = pose.translation[0] / mm
+        picture = _picture(explorer)
+        rows, past = (np.reshape(x, (8, 6)) for x in (picture.rows, picture.past))
+        shown.append(np.where(past, rows, 0))
+        row = np.nanargmin(abs(rows[:, 2] / deg - 59.5))
+        assert rows[row, 2] == pytest.approx(59.5 * deg) and past[row, 2]
+        assert picture.verdicts[row] == "past limit: q3"
+    assert all(np.allclose(one, shown[0], equal_nan=True) for one in shown)
+
+
+def test_every_joint_past_its_limit_is_as_little_past_it_as_it_can(arm):
+    explorer, rng = target_explorer(arm), random.Random(6)
+    low, high = arm.limits.T
+    seen = 0
+    for name in rng.choices([name for name in explorer.controls if name != "branch"], k=40):
+        control = explorer.controls[name]
+        control.value = 0.6 * rng.uniform(control.min, control.max)
+        picture = _picture(explorer)
+        rows, past = (np.reshape(x, (-1, len(low))) for x in (picture.rows, picture.past))
+        for k, j in np.argwhere(past > 0):
+            turns = [0] if arm.prismatic[j] else 2 * np.pi * np.arange(-3, 4)
+            least = min(max(low[j] - v, v - high[j]) for v in rows[k, j] + np.array(turns))
+            assert max(low[j] - rows[k, j], rows[k, j] - high[j]) == pytest.approx(least)
+            seen += 1
+    assert seen or arm in (ELBOW, ITMO6R)
+
+
+def test_lab_07_at_x_zero():
+    """There q5 was shown as 259.8° where -100.2° is 0.2 past its limit."""
+    explorer = target_explorer(PUMA560)
+    for x in (600, 0, -600, 0):
+        explorer.controls["x"].value = x
+    rows = np.reshape(_picture(explorer).rows, (8, 6)) / deg
+    assert np.abs(rows[:, 4]).max() == pytest.approx(100.2, abs=0.05)
+    assert "q5" in _picture(explorer).verdicts[4] and "q5" in _picture(explorer).verdicts[5]
+
+
 # --- Motions --------------------------------------------------------------------------------------
 
 
@@ -215,12 +217,16 @@ def test_the_motion_passes_where_the_sliders_say(arm):
     c = explorer.controls
     c["via x"].value += 20
     c["blend"].value, c["duration"].value, c["corner"].value = 0.25, 8, "quintic (C2)"
-    moved = via.position if isinstance(via, Target) else via.translation
+    moved = via.position if isinstance(via, ScaraPose) else via.translation
     moved = moved + [20 * mm, 0, 0]
-    via = Target(moved, via.angle) if isinstance(via, Target) else Transform(via.rotation, moved)
+    via = (
+        ScaraPose(moved, via.angle)
+        if isinstance(via, ScaraPose)
+        else Transform(via.rotation, moved)
+    )
     law = quintic(8)
     poses = blend(start, via, goal, 0.25, law(explorer.t), corner="quintic")
-    place = poses.position if isinstance(poses, Target) else poses.translation
+    place = poses.position if isinstance(poses, ScaraPose) else poses.translation
     assert explorer.t[-1] == 8 and np.allclose(arm.fk(explorer.q).translation, place, atol=1e-9)
     page = _picture(explorer).page["arms"][0]
     speed = abs(differentiate(explorer.q, explorer.t)).max(axis=0) / np.where(
@@ -294,20 +300,16 @@ def test_a_closed_explorer_raises_nothing(make):
 
 
 def test_wrong_calls_say_what_is_wanted():
-    from robokin.arms.planar import three_lever
-
-    for call, words in (
-        (lambda: joint_explorer("IRB-140"), "arm: wanted"),
-        (lambda: target_explorer(3), "arm: wanted"),
-        (lambda: target_explorer(three_lever(0.3)), "wanted one with an inverse"),
-        (lambda: motion_explorer(SCARA, START, VIA, GOAL), "start: wanted"),
-        (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), "goal: wanted"),
-        (
-            lambda: motion_explorer(IRB140, START, IRB140.fk(np.zeros((2, 6))), GOAL),
-            "via: wanted one",
-        ),
+    two = IRB140.fk(np.zeros((2, 6)))
+    for call, kind, words in (
+        (lambda: joint_explorer("IRB-140"), TypeError, "arm: wanted an Arm"),
+        (lambda: target_explorer(3), TypeError, "arm: wanted a ClosedFormArm"),
+        (lambda: target_explorer(three_lever(0.3)), TypeError, "arm: wanted a ClosedFormArm"),
+        (lambda: motion_explorer(SCARA, START, VIA, GOAL), TypeError, "start: wanted a ScaraPose"),
+        (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), TypeError, "goal: wanted"),
+        (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted one"),
     ):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(kind, match=words):
             call()
 
 
@@ -569,7 +571,7 @@ def _asked(value, arm):
     """The target for slider values in mm and degrees, not by the code of the explorer."""
     place = [value[k] * mm for k in "xyz"]
     if arm is SCARA:
-        return Target(place, value["angle"] * deg)
+        return ScaraPose(place, value["angle"] * deg)
     if arm is ELBOW:
         return Transform(translation=place)
     turned = Rotation.from_euler("xyz", [value[k] for k in ("roll", "pitch", "yaw")], degrees=True)

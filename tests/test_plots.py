@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import matplotlib
 import matplotlib.colors
@@ -33,6 +34,7 @@ from robokin import (
     lin_lin,
     linear,
     mm,
+    record,
 )
 from robokin.show import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
 from robokin.show.plots import palette_png
@@ -45,11 +47,9 @@ VIA = Transform(Quaternion.from_angle_axis(np.pi / 4, Y), np.array([650, -100, 8
 GOAL = Transform(Quaternion.from_angle_axis(np.pi / 2, Y), np.array([300, 300, 500]) * mm)
 T = np.linspace(0, 20, 2001)
 ROW = IRB140.branch(+1, +1, -1)
+LINKS = tuple(Link(axis=Z, after=Transform(translation=(length, 0, 0))) for length in (1.5, 1.2))
 PLANAR = Arm(
-    "two links",
-    tuple(Link(axis=Z, after=Transform(translation=(length, 0, 0))) for length in (1.5, 1.2)),
-    None,
-    [(-np.pi, np.pi)] * 2,
+    "two links", SimpleNamespace(links=LINKS, target=np.ndarray, reach=2.7), [(-np.pi, np.pi)] * 2
 )
 
 
@@ -229,6 +229,76 @@ def test_a_corner_does_not_flatten_the_accelerations(corner):
     assert "spike" not in words(fig.axes[1])  # a jump of the speed is no spike
 
 
+def test_a_recording_shows_no_acceleration_where_the_speed_jumps(corner):
+    found = record(IRB140, T, corner)
+    fig = plot_joints(found)
+    assert len(fig.axes) == 3
+    for ax, values in zip(fig.axes, (found.q, found.v, found.a), strict=True):
+        for i, curve in enumerate(curves(ax).values()):
+            np.testing.assert_allclose(curve[:, 1], values[:, i] / deg, rtol=1e-12, atol=1e-12)
+    assert np.isnan(curves(fig.axes[2])["q3"][1000, 1])
+    # Errata S1, "chain": the jump of joint 3 is 0.92001 rad/s.
+    said = f"None at 10 s: the speed jumps, by up to {math.degrees(0.920011415539):.1f} °/s (q3)."
+    assert said in fig.alt and "spike" not in fig.alt.lower()
+    assert "the speed jumps" in words(fig.axes[2]) and "jumps" not in words(fig.axes[1])
+
+
+def test_given_values_take_the_place_of_the_recording_s(corner):
+    found, a = record(IRB140, T, corner), differentiate(corner, T, 2)
+    fig = plot_joints(found, a=a)
+    assert "spike at 10 s: speed jump / step" in words(fig.axes[2])
+    drawn = {line.get_label(): line.get_ydata() for line in fig.axes[2].lines}
+    np.testing.assert_allclose(drawn["q3"], a[:, 2] / deg, rtol=1e-12, atol=1e-12)
+    assert "Greatest speed 31.2 °/s (q3)." in fig.alt  # the missing ones are the recording's
+    slow = plot_joints(found, v=found.v / 2)
+    assert "Greatest speed 15.6 °/s (q3)." in slow.alt and "None at 10 s" in slow.alt
+    exact = np.where(np.isnan(found.a), 0.1, found.a)  # a caller who knows the acceleration there
+    calm = plot_joints(IRB140, T, corner, found.v, exact).alt
+    assert "spike" not in calm.lower() and "None at" not in calm
+
+
+def test_spikes_of_two_kinds_are_told_apart():
+    q = np.zeros((2001, 6))
+    q[:, 3] = np.where(T < 5, 0, 0.05 * (T - 5))
+    q[1400:, 5] += 2 * np.pi
+    v, a = differentiate(q, T), differentiate(q, T, 2)
+    fig = plot_joints(IRB140, T, q, v, a)
+    assert f"spike at 14 s: angle jump / step, up to {math.pi / 0.01 / deg:.0f} °/s (q6)" in words(
+        fig.axes[1]
+    )
+    said = words(fig.axes[2])
+    assert f"spike at 14 s: angle jump / step, up to {math.pi / 2e-4 / deg:.0f} °/s² (q6)" in said
+    assert f"spike at 5 s: speed jump / step, up to {0.05 / 0.02 / deg:.0f} °/s² (q4)" in said
+    assert "Greatest acceleration 0 °/s²." in fig.alt
+    for ax in fig.axes[1:]:
+        low, high = ax.get_ylim()
+        assert high - low < 10
+
+
+def test_values_no_greater_than_elsewhere_are_no_spikes():
+    """A caller may know the right speed beside a jump of position."""
+    q, v = np.zeros((2001, 6)), np.zeros((2001, 6))
+    v[:, 3] = np.cos(T)
+    q[:, 3] = (np.sin(T) + 3) % 3.5
+    assert len(record(IRB140, T, q).leaps) > 2
+    fig = plot_joints(IRB140, T, q, v)
+    assert "spike" not in fig.alt and "Greatest speed 57.3 °/s (q4)." in fig.alt
+
+
+def test_jumps_of_position_are_named_with_their_size():
+    arm = MACHINES[[m.arm.name for m in MACHINES].index("SCARA")].arm
+    t = np.linspace(0, 1, 101)
+    q = np.zeros((101, 4))
+    stroke, turning = int(np.flatnonzero(arm.prismatic)[0]), int(np.flatnonzero(~arm.prismatic)[0])
+    q[:, stroke] = 0.3
+    q[40:, stroke] = 0.1
+    for k, size in ((20, 90), (50, -90), (70, 30), (90, 45)):
+        q[k:, turning] += size * deg
+    left, right = plot_joints(arm, t, q).axes
+    assert f"q{stroke + 1} jumps by 200 mm at 0.395 s" in words(right)
+    assert f"q{turning + 1} jumps by up to 90° at 4 places" in words(left)
+
+
 def test_a_long_burst_is_no_spike(rounded):
     a = differentiate(rounded, T, 2)
     ax = plot_joints(IRB140, T, rounded, None, a).axes[1]
@@ -289,26 +359,37 @@ def test_names_at_the_ends_do_not_touch(rounded):
 
 
 @pytest.mark.parametrize(
-    "bad",
+    "bad, kind",
     [
-        lambda q: plot_joints(IRB140, T[:-1], q),
-        lambda q: plot_joints(IRB140, T[::-1], q),
-        lambda q: plot_joints(IRB140, T[:1], q[:1]),
-        lambda q: plot_joints(IRB140, T, q[:, :5]),
-        lambda q: plot_joints(IRB140, T, q, q[:-1]),
-        lambda q: plot_joints("IRB140", T, q),
-        lambda q: plot_postures(IRB140, q[:, :5]),
-        lambda q: plot_postures(IRB140, q * np.nan),
-        lambda q: plot_postures(IRB140, q, targets=[START.as_matrix()]),
-        lambda q: plot_frames([]),
-        lambda q: plot_frames(START.as_matrix()),
-        lambda q: plot_frames([START, GOAL], names=["one"]),
-        lambda q: plot_frames(START, size=-1),
-        lambda q: figure(""),
+        (lambda q: plot_joints(IRB140, T[:-1], q), ValueError),
+        (lambda q: plot_joints(IRB140, T[::-1], q), ValueError),
+        (lambda q: plot_joints(IRB140, T[:1], q[:1]), ValueError),
+        (lambda q: plot_joints(IRB140, T, q[:, :5]), ValueError),
+        (lambda q: plot_joints(IRB140, T, q, q[:-1]), ValueError),
+        (lambda q: plot_joints(IRB140, T, q, title=3), ValueError),
+        (lambda q: plot_joints(IRB140, T, None), ValueError),
+        (lambda q: plot_joints("IRB140", T, q), TypeError),
+        (lambda q: plot_joints(record(IRB140, T, q), T), ValueError),
+        (lambda q: plot_joints(record(IRB140, T, q[None])), ValueError),
+        (lambda q: plot_postures(IRB140, q[:, :5]), ValueError),
+        (lambda q: plot_postures(IRB140, q * np.nan), ValueError),
+        (lambda q: plot_postures(IRB140, q, targets=[START.as_matrix()]), TypeError),
+        (lambda q: plot_postures(IRB140, q, targets=None), TypeError),
+        (lambda q: plot_postures(IRB140, q, title=3), ValueError),
+        (lambda q: plot_frames([]), ValueError),
+        (lambda q: plot_frames(START.as_matrix()), TypeError),
+        (lambda q: plot_frames(3), TypeError),
+        (lambda q: plot_frames([START, GOAL], names=["one"]), ValueError),
+        (lambda q: plot_frames(START, names=3), ValueError),
+        (lambda q: plot_frames(START, names=[3]), ValueError),
+        (lambda q: plot_frames(START, size=-1), ValueError),
+        (lambda q: plot_frames(START, size=0), ValueError),
+        (lambda q: figure(""), ValueError),
+        (lambda q: figure("Wide", width=101), ValueError),
     ],
 )
-def test_wrong_calls_say_what_they_got(bad, rounded):
-    with pytest.raises(ValueError, match="wanted .*got"):
+def test_wrong_calls_say_what_they_got(bad, kind, rounded):
+    with pytest.raises(kind, match="wanted .*got|wanted none"):
         bad(rounded)
 
 
@@ -508,6 +589,28 @@ def test_alt_text_does_not_depend_on_the_last_bit(rounded):
     home = IRB140.frames(np.zeros(6))
     assert plot_frames(home).alt == plot_frames(IRB140.frames(np.full(6, 1e-15))).alt
     assert "−0" not in plot_frames(home).alt
+
+
+ODD = "a $\\frac{ b$ \ud800 _c_ & <d>"
+
+
+def test_titles_and_names_are_plain_text(rounded):
+    """No formulas unless asked; half a character is shown as the sign for what cannot be shown."""
+    shown = ODD.replace("\ud800", "\ufffd")
+    figs = [
+        plot_joints(IRB140, T, rounded, title=ODD, alt=ODD),
+        plot_postures(IRB140, rounded, targets={ODD: START}, title=ODD),
+        plot_frames([START, VIA], names=[ODD, "b"], title=ODD),
+        plot_frames(START, names=[ODD], alt=ODD),
+        figure(ODD),
+    ]
+    for fig, count in zip(figs, (1, 2, 2, 1, 0), strict=True):
+        assert fig._repr_mimebundle_()["text/plain"].encode()
+        texts = [text for text in fig.findobj(Text) if "frac" in text.get_text()]
+        assert len(texts) == count and not any(text.get_parse_math() for text in texts)
+        assert all(shown in text.get_text() for text in texts)
+    assert figs[0].alt == figs[3].alt == figs[4].alt == shown
+    assert shown in figs[1].alt and shown in figs[2].alt
 
 
 def test_a_caller_can_say_more(rounded):

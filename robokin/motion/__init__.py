@@ -1,10 +1,12 @@
-"""Motions: time laws, paths, and their derivatives."""
+"""Motions: time laws, paths, their derivatives, and recordings of them."""
 
 from .derivatives import differentiate
 from .laws import TimeLaw, linear, quintic, trapezoidal
 from .paths import blend, lin, lin_lin, ptp
+from .recording import Recording, record
 
 __all__ = [
+    "Recording",
     "TimeLaw",
     "blend",
     "differentiate",
@@ -13,5 +15,6 @@ __all__ = [
     "linear",
     "ptp",
     "quintic",
+    "record",
     "trapezoidal",
 ]

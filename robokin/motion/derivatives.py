@@ -1,33 +1,56 @@
 """Speeds and accelerations from samples."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import floats
+from .._arrays import Floats
+from .._validate import floats, short, whole
+
+ORDERS = 10  # each order divides the rounding errors by the step once more
 
 
-def differentiate(values, t, order=1):
+def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
     """The derivative of samples by central differences, one-sided at both ends (`numpy.gradient`,
     second order).
 
     values (samples,) or (..., samples, n), t (samples,) in seconds, rising; the result has the
-    shape of `values`. `order` 2 differentiates twice, and so on. It takes what it gets: give it
-    unwrapped angles (`follow` does). A NaN spreads to its neighbours. ValueError: fewer than three
-    samples, shapes that do not fit, times that do not rise.
+    shape of `values`. `order` 2 differentiates twice, and so on up to 10. It takes what it gets:
+    give it unwrapped angles (`follow` does). A NaN spreads to its neighbours. ValueError: fewer
+    than three samples, shapes that do not fit, times that do not rise, slopes beyond all numbers.
     """
-    values, t = floats(values, "values", finite=False), floats(t, "t")
-    if t.ndim != 1 or len(t) < 3:
-        raise ValueError(f"t: wanted at least three times, got shape {t.shape}")
-    if (np.diff(t) <= 0).any():
-        raise ValueError("t: wanted rising times, got a step that is not positive")
+    values, t = floats(values, "values", finite=False), rising(t)
     axis = 0 if values.ndim == 1 else -2
     if values.ndim == 0 or values.shape[axis] != len(t):
         raise ValueError(
             f"values: wanted {len(t)} samples, one for each time, got shape {values.shape}"
         )
-    if not (isinstance(order, (int, np.integer)) and order >= 1):
-        raise ValueError(f"order: wanted 1, 2, ..., got {order!r}")
+    if whole(order, "order", 1) > ORDERS:
+        raise ValueError(
+            f"order: wanted at most {ORDERS}, got {short(order)}: {values.size} numbers would be "
+            "differentiated so many times, and nothing but rounding errors would be left"
+        )
     for _ in range(order):
-        slopes = np.gradient(values, t, axis=axis, edge_order=2)
-        # a missing sample has no slope, though its neighbours have
-        values = np.where(np.isnan(values), np.nan, slopes)
+        with np.errstate(all="ignore"):
+            slopes = np.gradient(values, t, axis=axis, edge_order=2)
+        missing = np.isnan(values)
+        known = np.isfinite(slopes)
+        if missing.any():
+            slopes[missing] = np.nan  # a missing sample has no slope, though its neighbours have
+            known = ~np.isinf(slopes)
+        if not known.all():
+            raise ValueError("values and t: wanted slopes that are numbers, got infinite ones")
+        values = slopes
     return values
+
+
+def rising(t: ArrayLike, least: int = 3) -> Floats:
+    """`t` as an array of at least so many times, each after the one before; ValueError
+    otherwise.
+    """
+    t = floats(t, "t")
+    if t.ndim != 1 or len(t) < least:
+        words = {2: "two", 3: "three"}[least]
+        raise ValueError(f"t: wanted at least {words} times, got shape {t.shape}")
+    if (t[1:] <= t[:-1]).any():
+        raise ValueError("t: wanted rising times, got a step that is not positive")
+    return t

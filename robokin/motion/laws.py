@@ -2,63 +2,83 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._validate import floats
+from .._arrays import Floats
+from .._validate import floats, positive, short
+
+RAMP = "a number above 0 and at most 0.5"
 
 
 @dataclass(frozen=True, eq=False)
 class TimeLaw:
-    """s(t) over `duration` seconds: 0 before the motion, 1 after it. `progress` maps t / duration
-    to s.
+    """s(t) over `duration` seconds: 0 before the motion, 1 after it.
+
+    `progress` maps t / duration, an array of numbers in [0, 1], to s of the same shape. A law can
+    be pickled if its `progress` can (a function of a module can, a lambda cannot). TypeError:
+    `progress` cannot be called.
     """
 
     duration: float
-    progress: Callable
+    progress: Callable[[Floats], Floats]
 
-    def __post_init__(self):
-        duration = floats(self.duration, "duration")
-        if duration.shape or duration <= 0:
-            raise ValueError(
-                f"duration: wanted one positive number of seconds, got {self.duration!r}"
-            )
-        object.__setattr__(self, "duration", float(duration))
+    def __post_init__(self) -> None:
+        duration = positive(self.duration, "duration", "one positive number of seconds")
+        if not callable(self.progress):
+            raise TypeError(f"progress: wanted a function, got {short(self.progress)}")
+        object.__setattr__(self, "duration", duration)
 
-    def __call__(self, t):
-        """s at the times t (...) in seconds. ValueError: no times, not finite."""
+    def __call__(self, t: ArrayLike) -> Floats:
+        """s at the times t (...) in seconds. ValueError: no times, not finite; a `progress` that
+        gives other shapes or no numbers.
+        """
         t = floats(t, "t")
         if not t.size:
             raise ValueError("t: wanted times, got an empty array")
-        # a polynomial near 1 rounds beyond it
-        return np.clip(self.progress(np.clip(t / self.duration, 0, 1)), 0, 1)
+        s = floats(self.progress(np.clip(t, 0, self.duration) / self.duration), "progress")
+        if s.shape != t.shape:
+            raise ValueError(f"progress: wanted s of shape {t.shape}, got shape {s.shape}")
+        return np.clip(s, 0, 1)  # a polynomial near 1 rounds beyond it
 
 
-def linear(duration):
+def linear(duration: float) -> TimeLaw:
     """Constant speed: s = t / T. The speed jumps at both ends. Source: 001, listing 7."""
-    return TimeLaw(duration, lambda x: x)
+    return TimeLaw(duration, _linear)
 
 
-def trapezoidal(duration, ramp=0.25):
+def trapezoidal(duration: float, ramp: float = 0.25) -> TimeLaw:
     """Constant acceleration, constant speed, constant braking; each ramp takes the share `ramp` of
     the duration, above 0 and at most 0.5. The acceleration jumps. Source: Siciliano et al.,
     Robotics, 2009, section 4.2.1.
     """
-    share = floats(ramp, "ramp")
-    if share.shape or not 0 < share <= 0.5:
-        raise ValueError(f"ramp: wanted a number above 0 and at most 0.5, got {ramp!r}")
-    ramp = float(share)
-    peak = 1 / (1 - ramp)  # the cruising speed, so that the area is 1
-
-    def progress(x):
-        up, down = peak * x**2 / (2 * ramp), 1 - peak * (1 - x) ** 2 / (2 * ramp)
-        return np.where(x < ramp, up, np.where(x > 1 - ramp, down, peak * (x - ramp / 2)))
-
-    return TimeLaw(duration, progress)
+    share = positive(ramp, "ramp", RAMP)
+    if share > 0.5:
+        raise ValueError(f"ramp: wanted {RAMP}, got {short(ramp)}")
+    return TimeLaw(duration, partial(_trapezoidal, share))
 
 
-def quintic(duration):
+def quintic(duration: float) -> TimeLaw:
     """s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / T: speed and acceleration are zero at both ends.
     Source: Craig, Introduction to Robotics, section 7.3 (quintic polynomials).
     """
-    return TimeLaw(duration, lambda x: x**3 * (10 + x * (6 * x - 15)))
+    return TimeLaw(duration, _quintic)
+
+
+# Functions of the module and not of their builders, so that a law can be pickled.
+
+
+def _linear(x: Floats) -> Floats:
+    return x
+
+
+def _trapezoidal(ramp: float, x: Floats) -> Floats:
+    peak = 1 / (1 - ramp)  # the cruising speed, so that the area is 1
+    up, down = (peak * np.minimum(y, ramp) ** 2 / (2 * ramp) for y in (x, 1 - x))
+    return np.where(x < ramp, up, np.where(x > 1 - ramp, 1 - down, peak * (x - ramp / 2)))
+
+
+def _quintic(x: Floats) -> Floats:
+    return x**3 * (10 + x * (6 * x - 15))

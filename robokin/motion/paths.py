@@ -4,22 +4,37 @@
 `ptp` moves joints.
 """
 
-import numpy as np
+from typing import Protocol, Self, TypeVar
 
-from .._validate import broadcast, floats
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._arrays import Floats
+from .._validate import broadcast, choice, floats
 
 CORNERS = ("parabola", "quintic")
 
 
-def lin(start, goal, s):
+class Lerps(Protocol):
+    """A place on the way to another one of its kind: what a path leads through."""
+
+    def lerp(self, goal: Self, s: ArrayLike) -> Self:
+        """Here for s = 0, at `goal` for s = 1, between them on the straight way."""
+
+
+P = TypeVar("P", bound=Lerps)
+
+
+def lin(start: P, goal: P, s: ArrayLike) -> P:
     """The straight motion (LIN, MoveL) from `start` to `goal`, at s (...) in [0, 1].
 
-    Source: 001, listing 7. ValueError: s outside [0, 1], or values without `lerp`.
+    Source: 001, listing 7. ValueError: s outside [0, 1]. TypeError: values without `lerp`, or of
+    two kinds.
     """
-    return _value(start, "start").lerp(goal, _share(s))
+    return _pose(start, "start").lerp(goal, _share(s))
 
 
-def ptp(q0, q1, s):
+def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     """The point-to-point motion (PTP, MoveJ): all joints straight from q0 (..., n) to q1 (..., n),
     at s (...).
 
@@ -35,15 +50,17 @@ def ptp(q0, q1, s):
     return q0 + s[..., None] * (q1 - q0)
 
 
-def lin_lin(start, via, goal, s):
+def lin_lin(start: P, via: P, goal: P, s: ArrayLike) -> P:
     """Two straight motions in a chain: at `via` for s = 1/2, where the velocity jumps.
 
-    Source: 001, listing 11. ValueError as `lin`.
+    Source: 001, listing 11. Raises as `lin`.
     """
     return blend(start, via, goal, 0.0, s)
 
 
-def blend(start, via, goal, fraction, s, corner="parabola"):
+def blend(
+    start: P, via: P, goal: P, fraction: ArrayLike, s: ArrayLike, corner: str = "parabola"
+) -> P:
     """Two straight motions whose corner is rounded while |s - 1/2| < `fraction`, at s (...).
 
     fraction  the blend (zone), in [0, 0.5], a number or an array broadcast with s; 0 is `lin_lin`
@@ -55,21 +72,20 @@ def blend(start, via, goal, fraction, s, corner="parabola"):
               that distance, 3/4 of the parabola's.
     Source: 001, listing 12 (parabola), with errata S1-j: beyond 0.5 the printed law leaves both end
     poses.
-    ValueError: a fraction outside [0, 0.5], s outside [0, 1], another corner, values without
-    `lerp`.
+    ValueError: a fraction outside [0, 0.5], s outside [0, 1], another corner. TypeError: values
+    without `lerp`, or of several kinds.
     """
     s, b = _share(s), floats(fraction, "fraction")
     if ((b < 0) | (b > 0.5)).any():
         bad = b[(b < 0) | (b > 0.5)].flat[0] if b.ndim else b
         raise ValueError(f"fraction: wanted a blend in [0, 0.5], got {bad:g}")
-    if corner not in CORNERS:
-        raise ValueError(f"corner: wanted one of {CORNERS}, got {corner!r}")
+    choice(corner, "corner", CORNERS)
     broadcast("fraction and s", b.shape, s.shape)
     # x runs from 0 to 1 across the corner and stands still outside: there the curve is at its first
     # or last control pose, and these run along the two lines. So one formula serves the whole path.
     x = np.where(b > 0, np.clip((s - 0.5 + b) / np.where(b > 0, 2 * b, 1), 0, 1), s >= 0.5)
-    first = _value(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
-    last = _value(via, "via").lerp(goal, np.maximum(2 * s - 1, 2 * b))
+    first = _pose(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
+    last = _pose(via, "via").lerp(goal, np.maximum(2 * s - 1, 2 * b))
     if corner == "parabola":
         poses = [first, via, last]
     else:
@@ -86,7 +102,7 @@ def blend(start, via, goal, fraction, s, corner="parabola"):
     return poses[0]
 
 
-def _share(s):
+def _share(s: ArrayLike) -> Floats:
     s = floats(s, "s")
     if not s.size:
         raise ValueError("s: wanted shares of the path, got an empty array")
@@ -95,9 +111,9 @@ def _share(s):
     return np.clip(s, 0, 1)
 
 
-def _value(value, name):
-    if not hasattr(value, "lerp"):
-        raise ValueError(
-            f"{name}: wanted a pose with lerp, such as a Transform, got {type(value).__name__}"
-        )
+def _pose(value: P, name: str) -> P:
+    kind = type(value)
+    if not callable(getattr(kind, "lerp", None)):
+        wanted = "a pose with lerp, such as a Transform"
+        raise TypeError(f"{name}: wanted {wanted}, got {kind.__name__}")
     return value

@@ -14,38 +14,50 @@ import hashlib
 import html
 import itertools
 import threading
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import anywidget
 import ipywidgets
 import numpy as np
 import traitlets
+from numpy.typing import ArrayLike
 
 from .. import (
     Arm,
+    ClosedFormArm,
     Quaternion,
-    Target,
+    ScaraPose,
+    TimeLaw,
     Transform,
     blend,
+    distance_from_singularity,
     explain,
     follow,
     linear,
     nearest,
     quintic,
+    record,
+    representative,
     trapezoidal,
     within,
 )
+from .._arrays import Bools, Floats
 from .._validate import instance
-from ..arms.elbow import ElbowArm
-from ..arms.scara import Scara
-from ..arms.spherical_wrist import SphericalWrist
-from ..units import deg, mm
+from ..units import deg, length_unit, mm
 from . import plots
-from .player import _chain, _matrix, _page, _scene, _script, _stations, _still
-from .samples import samples
-from .scene import Scene, arm_points, named_targets, reach
+from .player import Page, _chain, _matrix, _page, _scene, _script, _stations, _still
+from .scene import Scene, arm_points, extent, named_targets, posture
+
+Pose: TypeAlias = Transform | ScaraPose
+Controls: TypeAlias = dict[str, Any]  # name -> ipywidgets slider or menu
 
 SAMPLES = 241  # of a motion: enough for its speeds, few enough to answer while the slider moves
-LAWS = {"quintic": quintic, "trapezoidal": trapezoidal, "linear": linear}
+LAWS: dict[str, Callable[[float], TimeLaw]] = {
+    "quintic": quintic,
+    "trapezoidal": trapezoidal,
+    "linear": linear,
+}
 CORNERS = {"parabola (C1)": "parabola", "quintic (C2)": "quintic"}
 RUN = "Run this cell to move the sliders."
 NEAREST = "nearest"
@@ -58,10 +70,10 @@ MEANT = (
 TURNS = "Roll, pitch and yaw turn about the base's x, then y, then z axis."
 
 
-def joint_explorer(arm):
+def joint_explorer(arm: Arm) -> "JointExplorer":
     """A slider per joint within its limits; the arm with all its frames, the flange in numbers, and
     how near it is to a singularity. Starts at zero, or at the limit nearest to it. Returns an
-    `Explorer`; at the end of a cell it shows itself. ValueError: not an Arm.
+    `Explorer`; at the end of a cell it shows itself. TypeError: not an Arm.
 
     Roll, pitch and yaw are turns about the fixed x, y and z axes of the base, in this order: R = Rz
     Ry Rx (at a pitch of +-90 degrees roll and yaw turn about the same line, and roll is given as
@@ -70,22 +82,22 @@ def joint_explorer(arm):
     return JointExplorer(arm)
 
 
-def target_explorer(arm):
+def target_explorer(arm: ClosedFormArm) -> "TargetExplorer":
     """Sliders for the target; every branch of `ik` drawn, the chosen one strongly, with a row of a
     table for each.
 
     Six-axis arms: x, y, z in mm and roll, pitch, yaw in degrees as in `joint_explorer`. SCARA: x,
     y, z and the tool's angle. Positioning arms: x, y, z. The menu chooses a branch, or the usable
-    one nearest to the last posture. Returns an `Explorer`. ValueError: an arm without `ik`.
+    one nearest to the last posture. Returns an `Explorer`. TypeError: an arm without `ik`.
     """
     return TargetExplorer(arm)
 
 
-def motion_explorer(arm, start, via, goal):
+def motion_explorer(arm: ClosedFormArm, start: Pose, via: Pose, goal: Pose) -> "MotionExplorer":
     """A blended motion past `via`: sliders for the via point, the blend and the duration, menus for
     the time law, the corner and the branch; arm, curves and numbers follow. Poses are what `arm.ik`
-    takes (Transform, or Target for a SCARA), one of each. Returns an `Explorer`. ValueError: other
-    poses, an arm without `ik`.
+    takes (Transform, or ScaraPose for a SCARA), one of each. Returns an `Explorer`. ValueError: a
+    batch of poses. TypeError: other poses, an arm without `ik`.
     """
     return MotionExplorer(arm, start, via, goal)
 
@@ -113,9 +125,12 @@ class Explorer(ipywidgets.VBox):
               the arm, too
     """
 
-    controls = {}  # of one that was refused
+    controls: Controls = {}  # of one that was refused
+    _answer: Callable[[], Page]
+    _words: Callable[[], str]
+    _draw_still: Callable[[], plots.Figure]
 
-    def __init__(self, controls, stage, groups):
+    def __init__(self, controls: Controls, stage: Page, groups: Iterable[Iterable[str]]) -> None:
         self.controls = controls
         self._lock, self._tickets = threading.RLock(), itertools.count(1)
         self._asked = self._answered = 0
@@ -132,7 +147,7 @@ class Explorer(ipywidgets.VBox):
         for control in controls.values():
             control.observe(self._changed, "value")
 
-    def close(self):
+    def close(self) -> None:
         """Take every view of it from the page. The sliders can still be moved by code; nobody sees
         it.
         """
@@ -140,7 +155,7 @@ class Explorer(ipywidgets.VBox):
             widget.close()
         super().close()
 
-    def _changed(self, _):
+    def _changed(self, _: Any) -> None:
         # Messages of the page come in another thread than the cells run in. Whoever gets the lock
         # answers to the newest values of all sliders; who waited meanwhile finds that done, and the
         # last value is never left out.
@@ -149,16 +164,17 @@ class Explorer(ipywidgets.VBox):
             if self._answered < ticket:
                 self._answer_now()
 
-    def _answer_now(self):
+    def _answer_now(self) -> None:
         # before the sliders are read: what changes from here on is answered by the next
         asked = self._asked
         # The page compares bytes badly: the number tells one picture from the next.
         self._view.picture = {**self._answer(), "serial": asked}
         self._answered = asked
 
-    def _ipython_display_(self):
-        from IPython.display import display
+    def _ipython_display_(self) -> None:
+        import IPython.display
 
+        display: Any = IPython.display.display
         with self._lock:
             still, words = self._draw_still(), self._words()
         image = still._repr_mimebundle_()["text/html"]
@@ -171,7 +187,7 @@ class Explorer(ipywidgets.VBox):
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
         display({"application/vnd.jupyter.widget-view+json": view}, raw=True)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         values = ", ".join(f"{name}={control.value!r}" for name, control in self.controls.items())
         return f"{type(self).__name__}({values})"
 
@@ -179,14 +195,13 @@ class Explorer(ipywidgets.VBox):
 class JointExplorer(Explorer):
     """See `joint_explorer`. `q` (n,) is the posture shown."""
 
-    def __init__(self, arm):
+    def __init__(self, arm: Arm) -> None:
         self.arm = instance(arm, Arm, "arm")
-        self._near = Nearness(arm)
-        controls = {}
+        controls: Controls = {}
         for i, (low, high) in enumerate(arm.limits / _units(arm)[:, None]):
             low, high = np.ceil(low - 1e-6), np.floor(high + 1e-6)
             unit = (
-                "mm" if arm.prismatic[i] and reach(arm) <= 2 else "m" if arm.prismatic[i] else "°"
+                "mm" if arm.prismatic[i] and extent(arm) <= 2 else "m" if arm.prismatic[i] else "°"
             )
             controls[f"q{i + 1}"] = _slider(f"q{i + 1}, {unit}", low, high, min(max(0, low), high))
         rows = [
@@ -206,26 +221,27 @@ class JointExplorer(Explorer):
         super().__init__(controls, stage, [names[:half], names[half:]])
 
     @property
-    def q(self):
+    def q(self) -> Floats:
         """The posture of the sliders (n,), in radians and metres."""
-        return np.array([control.value for control in self.controls.values()]) * _units(self.arm)
+        q: Floats = np.array([control.value for control in self.controls.values()])
+        return q * _units(self.arm)
 
-    def _answer(self):
+    def _answer(self) -> Page:
         q = self.q
-        pose, near = self.arm.fk(q), self._near(q)
+        pose = self.arm.fk(q)
         numbers = [
             *pose.translation / _length(self.arm)[1],
-            *roll_pitch_yaw(pose.rotation) / deg,
+            *np.array(pose.rotation.as_roll_pitch_yaw()) / deg,
             *_one_sign(pose.rotation.wxyz),
-            near,
+            distance_from_singularity(self.arm, q),
         ]
         return {"q": _bytes(q), "numbers": _bytes(numbers), "faded": False, "says": self._says(q)}
 
-    def _says(self, q):
+    def _says(self, q: Floats) -> str:
         names = _singular(self.arm, q)
         return f"Singular: {' and '.join(names)}." if names else "Not singular."
 
-    def _words(self):
+    def _words(self) -> str:
         q = self.q
         values = ", ".join(
             f"{c.description.split(',')[0]} {_number(c.value, 0)}" for c in self.controls.values()
@@ -240,7 +256,7 @@ class JointExplorer(Explorer):
             f"{_length(self.arm)[0]}. {self._says(q)}"
         )
 
-    def _draw_still(self):
+    def _draw_still(self) -> plots.Figure:
         frames = self.arm.frames(self.q)
         return _picture(
             self._words(), self.arm, self.q, frames=[frames[i] for i in range(len(self.arm.links))]
@@ -250,18 +266,18 @@ class JointExplorer(Explorer):
 class TargetExplorer(Explorer):
     """See `target_explorer`. After every change:
 
-    target   Transform or Target of the sliders
-    rows     (branches, n): each branch with its joints inside their limits where they can be, NaN
-             where none exists
+    target   Transform or ScaraPose of the sliders
+    rows     (branches, n): each branch with its joints inside their limits where they can be, else
+             as little past them as they can; NaN where none exists
     q        (n,): the posture shown; where the chosen branch does not exist, the one before
     """
 
-    def __init__(self, arm):
-        self.arm, self._near = instance(arm, Arm, "arm"), Nearness(arm)
-        self._kind = _target_kind(arm)
+    def __init__(self, arm: ClosedFormArm) -> None:
+        self.arm = instance(arm, ClosedFormArm, "arm")
+        self._kind = arm.target
         place, turns, self.q = _showcase(arm, self._kind)
         name, size = _length(arm)
-        most = np.ceil(1.05 * reach(arm) / (50 * mm)) * 50 * mm / size
+        most = np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size
         step = 5 if size == mm else 0.005
         controls = {
             letter: _slider(f"{letter}, {name}", -most, most, x / size, step)
@@ -290,29 +306,25 @@ class TargetExplorer(Explorer):
             ],
         }
         self._travel_unit = deg if turning else 1.0
-        turns = [*_turns(self._kind)]
-        rest = [turns, ["branch"]] if self._kind is Transform else [[*turns, "branch"]]
+        names = [*_turns(self._kind)]
+        rest = [names, ["branch"]] if self._kind is Transform else [[*names, "branch"]]
         super().__init__(controls, stage, [["x", "y", "z"], *rest])
 
     @property
-    def target(self):
+    def target(self) -> Pose:
         """What the sliders ask for."""
         value = {name: control.value for name, control in self.controls.items()}
         place = np.array([value[letter] for letter in "xyz"]) * _length(self.arm)[1]
-        if self._kind is Target:
-            return Target(place, value["angle"] * deg)
-        if self._kind is np.ndarray:
-            return Transform(translation=place)
-        return Transform(
-            from_roll_pitch_yaw(*(value[turn] * deg for turn in _turns(Transform))), place
-        )
+        turns = np.array([value[turn] for turn in _turns(self._kind)]) * deg
+        return _asked(self._kind, place, turns)
 
-    def _answer(self):
+    def _answer(self) -> Page:
         arm, last, target = self.arm, self.q, self.target
         # One row at a time: each takes its own values q + 2 pi k, inside the limits where it can.
-        self.rows = rows = nearest(arm, arm.ik(target)[:, None, :], last)
+        rows = nearest(arm, arm.ik(target)[:, None, :], last)
         exists, inside = ~np.isnan(rows[:, 0]), within(arm, rows)
-        usable = exists & inside.all(axis=-1)
+        self.rows = rows = np.where(inside, rows, representative(arm, rows))
+        usable = exists & np.all(inside, axis=-1)
         travel = abs(rows - last).sum(axis=-1)
         wanted = self.controls["branch"].value
         among = usable if usable.any() else exists
@@ -324,12 +336,12 @@ class TargetExplorer(Explorer):
         if exists[chosen]:
             self.q = rows[chosen]
         self._chosen, self._exists, self._usable = chosen, exists, usable
-        pose = target.as_transform() if self._kind is Target else target
+        pose = _pose(target)
         return {
             "q": _bytes(self.q),
             "rows": _bytes(rows),
             "past": _bytes(exists[:, None] & ~inside),
-            "near": _bytes(self._near(rows)),
+            "near": _bytes(distance_from_singularity(arm, rows)),
             "travel": _bytes(travel / self._travel_unit),
             "pose": _bytes(_matrix(pose)),
             "chosen": chosen if exists[chosen] else -1,
@@ -338,14 +350,14 @@ class TargetExplorer(Explorer):
             "says": self._says(target),
         }
 
-    def _verdict(self, k, inside):
+    def _verdict(self, k: int, inside: Bools) -> str:
         if not self._exists[k]:
             return "does not exist"
         if not inside.all():
             return f"past limit: {', '.join(f'q{i + 1}' for i in np.flatnonzero(~inside))}"
         return "usable, singular" if _singular(self.arm, self.rows[k]) else "usable"
 
-    def _says(self, target):
+    def _says(self, target: Pose) -> str:
         """How many are usable, and the reason in words: of the chosen row or, if none is usable, of
         the one that is nearest to it.
         """
@@ -356,11 +368,11 @@ class TargetExplorer(Explorer):
                 f"{explain(self.arm, target, row)}"
             )
         if self.controls["branch"].value == NEAREST and not self._exists.any():
-            gaps = [self.arm.geometry.unreached(target, k)[1] for k in range(len(self.rows))]
-            row = int(np.argmin(np.round(gaps, 9)))
+            gaps = [self.arm.geometry.gap(target, k) for k in range(len(self.rows))]
+            row = int(np.argmin(np.round([gap.metres if gap else 0.0 for gap in gaps], 9)))
         return f"No branch is usable. {explain(self.arm, target, row)}"
 
-    def _words(self):
+    def _words(self) -> str:
         values = ", ".join(
             f"{c.description} {_number(c.value, 0 if _length(self.arm)[1] == mm else 3)}"
             for name, c in self.controls.items()
@@ -372,10 +384,10 @@ class TargetExplorer(Explorer):
             f"{len(self.rows)} branches exist, {int(self._usable.sum())} are usable."
         )
 
-    def _draw_still(self):
+    def _draw_still(self) -> plots.Figure:
         others = [q for k, q in enumerate(self.rows) if self._exists[k] and k != self._chosen]
-        target = self.target.as_transform() if self._kind is Target else self.target
-        return _picture(self._words(), self.arm, self.q, others, targets={"target": target})
+        targets = {"target": _pose(self.target)}
+        return _picture(self._words(), self.arm, self.q, others, targets=targets)
 
 
 class MotionExplorer(Explorer):
@@ -383,9 +395,9 @@ class MotionExplorer(Explorer):
     none.
     """
 
-    def __init__(self, arm, start, via, goal):
-        self.arm, kind = instance(arm, Arm, "arm"), _target_kind(arm)
-        wanted = Target if kind is Target else Transform
+    def __init__(self, arm: ClosedFormArm, start: Pose, via: Pose, goal: Pose) -> None:
+        self.arm = instance(arm, ClosedFormArm, "arm")
+        wanted: type[Pose] = ScaraPose if arm.target is ScaraPose else Transform
         for name, pose in (("start", start), ("via", via), ("goal", goal)):
             if instance(pose, wanted, name).shape:
                 raise ValueError(
@@ -393,9 +405,9 @@ class MotionExplorer(Explorer):
                 )
         self._ends, self._via = (start, goal), via
         name, size = _length(arm)
-        most = np.ceil(1.05 * reach(arm) / (50 * mm)) * 50 * mm / size
+        most = np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size
         step = 5 if size == mm else 0.005
-        place = (via.position if kind is Target else via.translation) / size
+        place = _pose(via).translation / size
         controls = {
             f"via {letter}": _slider(f"via {letter}, {name}", -most, most, x, step)
             for letter, x in zip("xyz", place, strict=True)
@@ -412,7 +424,7 @@ class MotionExplorer(Explorer):
         motions = [self._motion(row)[1] for row in range(len(self._names))]
         # The first branch with the most samples that are usable.
         controls["branch"].value = self._names[
-            int(np.argmax([within(arm, q).all(axis=-1).sum() for q in motions]))
+            int(np.argmax([np.all(within(arm, posture(arm, q)), axis=-1).sum() for q in motions]))
         ]
         alt = f"{arm.name} moves from start past via to goal."
         stage = _stage(
@@ -420,17 +432,17 @@ class MotionExplorer(Explorer):
             "motion",
             f"{arm.name}: a blended motion",
             alt,
-            [pose.as_transform() if kind is Target else pose for pose in (start, via, goal)],
+            [_pose(pose) for pose in (start, via, goal)],
         )
         groups = [["via x", "via y", "via z", "blend"], ["duration", "law", "corner", "branch"]]
         super().__init__(controls, stage, groups)
 
-    def _motion(self, row):
+    def _motion(self, row: int) -> tuple[Floats, Floats, Pose]:
         value = {name: control.value for name, control in self.controls.items()}
         place = np.array([value[f"via {letter}"] for letter in "xyz"]) * _length(self.arm)[1]
-        via = (
-            Target(place, self._via.angle)
-            if isinstance(self._via, Target)
+        via: Any = (
+            ScaraPose(place, self._via.angle)
+            if isinstance(self._via, ScaraPose)
             else Transform(self._via.rotation, place)
         )
         law = LAWS[value["law"]](value["duration"])
@@ -445,20 +457,13 @@ class MotionExplorer(Explorer):
         )
         return t, follow(self.arm, self.arm.ik(poses), row), via
 
-    def _answer(self):
+    def _answer(self) -> Page:
         arm = self.arm
         self.t, self.q, via = self._motion(self._names.index(self.controls["branch"].value))
-        poses = [
-            p.as_transform() if isinstance(p, Target) else p
-            for p in (self._ends[0], via, self._ends[1])
-        ]
-        self._targets = named_targets(poses)
-        track = samples(self.q[None], self.t, arm.prismatic)
+        self._targets = named_targets([_pose(p) for p in (self._ends[0], via, self._ends[1])])
         page = _page(
-            [arm],
             [arm.name],
-            self.t,
-            [track],
+            [record(arm, self.t, self.q[None])],
             self._targets,
             [],
             None,
@@ -472,133 +477,89 @@ class MotionExplorer(Explorer):
         self._page = page
         return {"page": page}
 
-    def _words(self):
+    def _words(self) -> str:
         summary = self._page["summary"].removeprefix("Player of ")
         return f"A blended motion with sliders for via point, blend and duration. {summary}"
 
-    def _draw_still(self):
+    def _draw_still(self) -> plots.Figure:
         words = {
             **self._page,
             "alt": self._words(),
             **{key: self._view.stage[key] for key in ("unit", "scene")},
         }
-        return _still([self.arm], [self.arm.name], [self.q], self._targets, [], words)
-
-
-class Nearness:
-    """How far a posture is from a singularity: q (..., n) -> the smallest singular value of the
-    Jacobian (...).
-
-    Lengths count in reaches of the arm, so that it has no unit; NaN for NaN. Only what the arm is
-    asked for counts: the tool's place for up to three joints, else place and orientation, and of
-    these what the arm can move at all.
-    Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability, its smallest
-    semi-axis).
-    """
-
-    def __init__(self, arm):
-        self.arm, self.size = arm, reach(arm)
-        moved = abs(self._scaled(_spread(arm, 64))).max(axis=(0, 2)) > 1e-9
-        self.rows = np.flatnonzero(moved[:3] if len(arm.links) <= 3 else moved)
-
-    def __call__(self, q):
-        jacobian = self._scaled(q)[..., self.rows, :]
-        exists = np.isfinite(jacobian).all(axis=(-1, -2))
-        values = np.linalg.svd(np.where(exists[..., None, None], jacobian, 0.0), compute_uv=False)
-        return np.where(exists, values[..., -1], np.nan)
-
-    def _scaled(self, q):
-        jacobian = self.arm.jacobian(q)
-        jacobian[..., :3, :] /= self.size
-        jacobian[..., self.arm.prismatic] *= self.size
-        return jacobian
-
-
-def roll_pitch_yaw(rotation):
-    """Turns about the base's x, then y, then z axis, in radians, of one rotation: R = Rz(yaw)
-    Ry(pitch) Rx(roll).
-
-    At a pitch of +-90 degrees roll and yaw turn about the same line; roll is then zero.
-    """
-    m = rotation.as_matrix()
-    level = np.hypot(m[0, 0], m[1, 0])
-    pitch = np.arctan2(-m[2, 0], level)
-    if level < 1e-9:
-        return np.array([0.0, pitch, np.arctan2(-m[0, 1], m[1, 1])])
-    return np.array([np.arctan2(m[2, 1], m[2, 2]), pitch, np.arctan2(m[1, 0], m[0, 0])])
-
-
-def from_roll_pitch_yaw(roll, pitch, yaw):
-    """The Quaternion of these turns in radians (see `roll_pitch_yaw`)."""
-    axes = zip((roll, pitch, yaw), np.eye(3), strict=True)
-    x, y, z = (Quaternion.from_angle_axis(angle, axis) for angle, axis in axes)
-    return z @ y @ x
+        return _still([self.arm.name], [(self.arm, self.q)], self._targets, [], words)
 
 
 # --- What an arm can be asked for -----------------------------------------------------------------
 
 
-def _target_kind(arm):
-    """Transform: place and orientation; Target: place and angle; np.ndarray: a place."""
-    for geometry, kind in ((SphericalWrist, Transform), (Scara, Target), (ElbowArm, np.ndarray)):
-        if isinstance(arm.geometry, geometry):
-            return kind
-    raise ValueError(f"arm: wanted one with an inverse (ik), got {arm!r}")
+def _pose(target: Pose) -> Transform:
+    return target.as_transform() if isinstance(target, ScaraPose) else target
 
 
-def _turns(kind):
-    return {Transform: ("roll", "pitch", "yaw"), Target: ("angle",)}.get(kind, ())
+def _turns(kind: type) -> tuple[str, ...]:
+    return {Transform: ("roll", "pitch", "yaw"), ScaraPose: ("angle",)}.get(kind, ())
 
 
-def _showcase(arm, kind):
+def _showcase(arm: ClosedFormArm, kind: type) -> tuple[Floats, Floats, Floats]:
     """A target that shows much: most branches usable, far from singularities, in front of the arm
-    and above the floor.
+    and above the floor. (Where there is none, the one in the middle of all limits.)
 
     Place (3,), turns in radians, and the posture (n,) that it was made of; all on the grid of the
     sliders.
     """
-    near = Nearness(arm)
-    best, most = None, -1.0
+    middle, size = arm.limits.mean(axis=-1), extent(arm)
+    best, most = (arm.fk(middle).translation, _turned(arm.fk(middle), kind), middle), -1.0
     for q in _spread(arm, 160):
         pose = arm.fk(q)
         place = np.round(pose.translation / (50 * mm)) * 50 * mm
-        if place[0] < 0.2 * near.size or (kind is Transform and place[2] < 0.1 * near.size):
+        if place[0] < 0.2 * size or (kind is Transform and place[2] < 0.1 * size):
             continue
-        turns = np.round(roll_pitch_yaw(pose.rotation) / (15 * deg)) * 15 * deg
-        if kind is Transform:
-            target, turns = Transform(from_roll_pitch_yaw(*turns), place), turns
-        elif kind is Target:
-            target, turns = Target(place, turns[2]), turns[2:]
-        else:
-            target, turns = Transform(translation=place), ()
-        rows = arm.ik(target)
-        usable = within(arm, rows).all(axis=-1)
+        turns = np.round(_turned(pose, kind) / (15 * deg)) * 15 * deg
+        rows = arm.ik(_asked(kind, place, turns))
+        usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
-            score = usable.sum() + float(np.round(np.nanmin(near(rows)), 6))
+            near = np.nanmin(distance_from_singularity(arm, rows))
+            score = usable.sum() + float(np.round(near, 6))
             if score > most:
-                best, most = (
-                    (place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))),
-                    score,
-                )
+                best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
+                most = score
     return best
 
 
-def _spread(arm, count):
+def _asked(kind: type, place: Floats, turns: Floats) -> Pose:
+    """The target of this kind with its place (3,) and the turns of its sliders in radians."""
+    if kind is ScaraPose:
+        return ScaraPose(place, turns[0])
+    if kind is Transform:
+        return Transform(Quaternion.from_roll_pitch_yaw(*turns), place)
+    return Transform(translation=place)
+
+
+def _turned(pose: Transform, kind: type) -> Floats:
+    """The turns that sliders have for this kind of target."""
+    turns = np.array(pose.rotation.as_roll_pitch_yaw())
+    return turns if kind is Transform else turns[2:] if kind is ScaraPose else turns[:0]
+
+
+def _spread(arm: Arm, count: int) -> Floats:
     """Postures (count, n) spread evenly between the limits: Weyl's sequence of square roots."""
-    shares = (
-        np.arange(1, count + 1)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13][: len(arm.links)])
-    ) % 1
+    roots = np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(len(arm.links)) % 6]
+    shares = (np.arange(1, count + 1)[:, None] * roots) % 1
     return arm.limits[:, 0] + shares * (arm.limits[:, 1] - arm.limits[:, 0])
 
 
-def _singular(arm, q):
-    """The names of the singularities at one posture."""
-    # an arm without an inverse has no names for them
-    tells = getattr(arm.geometry, "singular", None)
-    return [f"{name} singularity" for name, holds in tells(q).items() if holds] if tells else []
+def _singular(arm: Arm, q: Floats) -> list[str]:
+    """The names of the singularities at one posture; an arm without an inverse has none for
+    them.
+    """
+    if not isinstance(arm, ClosedFormArm):
+        return []
+    found = arm.geometry.singularities(q).items()
+    return [f"{name} singularity" for name, holds in found if holds]
 
 
-def _flags(arm, k):
+def _flags(arm: ClosedFormArm, k: int) -> str:
     flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
     return f"{k}: {flags}"
 
@@ -606,32 +567,34 @@ def _flags(arm, k):
 # --- What the page gets ---------------------------------------------------------------------------
 
 
-def _stage(arm, kind, title, alt, poses=()):
+def _stage(arm: Arm, kind: str, title: str, alt: str, poses: Sequence[Transform] = ()) -> Page:
     """What stands still: the chain, and a scene that holds what the arm reaches above the floor and
     not too far out. (The page shrinks the picture for what leaves it.)
     """
     name, size = _length(arm)
     postures = _spread(arm, 2000)
     points = arm_points(arm, postures)
-    near = (points[..., 2] > -0.01 * reach(arm)) & (
-        np.hypot(points[..., 0], points[..., 1]) < 0.5 * reach(arm)
+    near = (points[..., 2] > -0.01 * extent(arm)) & (
+        np.hypot(points[..., 0], points[..., 1]) < 0.5 * extent(arm)
     )
     scene = _scene(
-        [arm], [postures[near.all(axis=-1)][None]], named_targets(poses), [], reach(arm)
+        [arm], [postures[near.all(axis=-1)][None]], named_targets(poses), [], extent(arm)
     ) | {"grows": True}
     return {
         "kind": kind,
         "title": title,
         "alt": alt,
         "name": arm.name,
-        "chain": _chain(arm),
+        "chain": _chain(arm.links),
         "scene": scene,
         "styles": list(plots.JOINT_STYLES),
         "unit": {"name": name, "size": size},
     }
 
 
-def _slider(name, low, high, value, step=1, form=None):
+def _slider(
+    name: str, low: float, high: float, value: float, step: float = 1, form: str | None = None
+) -> Any:
     form = form or (".0f" if step >= 1 else ".3f")
     return ipywidgets.FloatSlider(
         round(value, 9),
@@ -645,7 +608,7 @@ def _slider(name, low, high, value, step=1, form=None):
     )
 
 
-def _menu(name, words):
+def _menu(name: str, words: Sequence[str]) -> Any:
     return ipywidgets.Dropdown(
         options=words,
         description=name,
@@ -654,39 +617,46 @@ def _menu(name, words):
     )
 
 
-def _length(arm):
+def _length(arm: Arm) -> tuple[str, float]:
     """The unit of lengths: its name, and its size in metres."""
-    return ("mm", mm) if reach(arm) <= 2 else ("m", 1.0)
+    return length_unit(extent(arm))
 
 
-def _units(arm):
+def _units(arm: Arm) -> Floats:
     """The unit of each joint, in radians or metres."""
     return np.where(arm.prismatic, _length(arm)[1], deg)
 
 
-def _bytes(values):
+def _bytes(values: ArrayLike) -> bytes:
     return np.asarray(values, dtype="<f8").tobytes()
 
 
-def _one_sign(wxyz):
+def _one_sign(wxyz: Floats) -> Floats:
     return -wxyz if wxyz[0] < 0 else wxyz
 
 
-def _number(value, decimals):
+def _number(value: float, decimals: int) -> str:
     text = f"{np.floor(value * 10**decimals + 0.5 + 1e-7) / 10**decimals + 0.0:.{decimals}f}"
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def _picture(alt, arm, q, others=(), targets=None, frames=()):
+def _picture(
+    alt: str,
+    arm: Arm,
+    q: Floats,
+    others: Sequence[Floats] = (),
+    targets: Mapping[str, Transform] | None = None,
+    frames: Sequence[Transform] = (),
+) -> plots.Figure:
     """One posture, strongly, and others faintly."""
     fig = plots.figure(alt, width=6.4, height=4.5)
-    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=reach(arm))
+    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
     scene.base()
     for other in others:
         scene.arm(arm, other, "between")
     scene.arm(arm, q, "last")
     for frame in frames:
-        scene.triad(frame, length=0.08 * reach(arm))
+        scene.triad(frame, length=0.08 * extent(arm))
     scene.triad(arm.fk(q), width=2.4)
     for name, pose in (targets or {}).items():
         scene.triad(pose, name)

@@ -1,14 +1,23 @@
-"""Panels of joint curves over time: limits shaded, violations marked and counted, spikes named.
+"""Panels of joint curves over time: limits shaded, violations marked and counted, jumps named.
 
 `plots.plot_joints` puts them into a figure.
 """
 
 import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import offset_copy
 
+from .._arrays import Bools, Floats, Ints
+from ..motion.recording import Jump, Recording
 from .scene import INK, SOFT, dense, number
 
 # Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
@@ -23,38 +32,79 @@ JOINT_STYLES = (
     {"color": "#56B4E9", "dash": (0.9, 1.4)},
 )
 ALARM = "#B3261E"
-SLACK = 1e-9  # a joint this little past its limit stands at it
 STRIP = 0.08  # height of the shaded strip beyond a limit, as a share of its panel
 WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleration", "acceleration")}
 PER = {"q": "", "v": "/s", "a": "/s²"}
 
 
-def panel(ax, arm, t, values, kind, joints, unit, size):
-    """One quantity of some joints, `values` (samples, k) in `unit`; returns what the alt text says
-    about it.
+@dataclass
+class Panel:
+    """One panel of a figure.
+
+    heading  the words above it, to be wrapped when its width is known
+    labels   [(words, limit, 1 above it or -1 below)] of the limits that it shows, still to be
+             placed
+    facts    what the alt text says about it
     """
-    unit_text = unit + PER[kind]
-    name = WORDS[kind][int(arm.prismatic[joints[0]])]
-    spikes = _spikes(values) if kind != "q" else np.zeros(values.shape, dtype=bool)
-    low, high = _view(np.where(spikes, np.nan, values), kind)
-    limits = _limits(arm, kind, joints, size)
-    past = (values < limits[:, 0] - SLACK) | (values > limits[:, 1] + SLACK)
-    ax.limit_labels = []
+
+    ax: Axes
+    heading: Text
+    labels: list[tuple[str, float, int]]
+    facts: list[str]
+
+
+def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
+    """Speeds or accelerations (samples, n) that a caller gives, NaN for the lone spikes that a jump
+    leaves when it is differentiated: beside a jump, and half as large again as all values
+    elsewhere.
+    """
+    beside = np.zeros(values.shape, dtype=bool)
+    for jump in _jumps(recording, kind):
+        beside[_near(jump), jump.by != 0] = True
+    spikes = np.zeros_like(beside)
+    size = np.where(np.isnan(values), 0.0, abs(values))
+    for alike in (recording.arm.prismatic, ~recording.arm.prismatic):
+        usual = np.where(beside, 0.0, size)[:, alike].max(initial=0.0)
+        spikes[:, alike] = beside[:, alike] & (size[:, alike] > 1.5 * usual)
+    return np.where(spikes, np.nan, values)
+
+
+def draw_panel(
+    ax: Axes,
+    recording: Recording,
+    drawn: Floats,
+    kind: str,
+    joints: Ints,
+    unit: str,
+    size: float,
+) -> Panel:
+    """One quantity of some joints in `unit`. `drawn` (samples, n) are the curves, and the recording
+    judges them: what is drawn and not in it is a spike, which does not set the scale.
+    """
+    t, unit_text = recording.t, unit + PER[kind]
+    name = WORDS[kind][int(recording.arm.prismatic[joints[0]])]
+    values = drawn[:, joints] / size
+    judged: Floats = getattr(recording, kind)[:, joints] / size
+    spikes = np.isfinite(values) & np.isnan(judged)
+    low, high = _view(judged, kind)
+    limits = _limits(recording, kind, joints, size)
+    past = _past(recording, kind, joints)
     ax.set_xlim(t[0], t[-1])
     ax.set_ylim(low, high)
     ax.grid(color="#E9ECEF", linewidth=0.8)
     ax.set_axisbelow(True)
     ax.tick_params(labelsize=9, color=SOFT, length=3)
-    alone = len(joints) == len(arm.links)  # else there are two columns of panels
+    alone = drawn.shape[1] == len(joints)  # else there are two columns of panels
     ax.xaxis.set_major_locator(MaxNLocator(8 if alone else 4, steps=[1, 2, 5, 10]))
     steps = [1, 1.5, 3, 4.5, 9, 10] if unit_text == "°" else [1, 2, 5, 10]
     ax.yaxis.set_major_locator(MaxNLocator(5, steps=steps))
     ax.spines[:].set_color(SOFT)
     ax.set_ylabel(f"{name}, {unit_text}", fontsize=9.5)
+    labels: list[tuple[str, float, int]] = []
     for i, joint in enumerate(joints):
-        style = JOINT_STYLES[joint % len(JOINT_STYLES)]
+        style: dict[str, Any] = JOINT_STYLES[joint % len(JOINT_STYLES)]
         line = (0, style["dash"]) if style["dash"] else "-"
-        _band(ax, limits[i], values[:, i], joint, unit_text, style["color"])
+        labels += _band(ax, limits[i], values[:, i], joint, unit_text, style["color"])
         ax.plot(
             t,
             values[:, i],
@@ -63,13 +113,18 @@ def panel(ax, arm, t, values, kind, joints, unit, size):
             linewidth=1.9,
             label=f"q{joint + 1}",
         )
-        marked = np.where(past[:, i] & ~spikes[:, i], values[:, i], np.nan)
-        if np.isfinite(marked).any():
+        if past[:, i].any():
+            marked = np.where(past[:, i], values[:, i], np.nan)
             ax.plot(
                 t, marked, color=ALARM, linewidth=7, alpha=0.3, solid_capstyle="butt", zorder=1.5
             )
-    said = _remarks(arm, t, values, kind, joints, past & ~spikes, spikes, unit, limits)
-    ax.heading = ax.text(
+    said = [
+        *_verdict(recording, kind, joints, past),
+        *_leaps(recording, kind, joints, unit, size),
+        *_spikes(recording, kind, joints, spikes, values, unit),
+        *_corners(recording, kind, joints, unit, size, np.isnan(values)),
+    ]
+    heading = ax.text(
         0.006,
         1.02,
         "; ".join(said),
@@ -78,18 +133,17 @@ def panel(ax, arm, t, values, kind, joints, unit, size):
         va="bottom",
         color=ALARM if past.any() or spikes.any() else "#5A6672",
     )
-    return [
-        _range_words(kind, name, np.where(spikes, np.nan, values), joints, unit_text),
-        *(
-            f"{remark}." if remark.startswith("q") else f"{remark[0].upper()}{remark[1:]}."
-            for remark in said
-        ),
+    facts = [
+        f"{remark}." if remark.startswith("q") else f"{remark[0].upper()}{remark[1:]}."
+        for remark in said
     ]
+    words = _range_words(recording, kind, name, joints, unit_text, size)
+    return Panel(ax, heading, labels, [words, *facts])
 
 
-def lay_out(fig, grid, title):
+def lay_out(fig: Figure, panels: Sequence[Panel], title: str | None) -> None:
     """Margins in inches, the title, and names at the ends of the curves or in a legend."""
-    legend = not all(_ends_in_view(ax) for ax in grid.flat)
+    legend = not all(_ends_in_view(panel.ax) for panel in panels)
     width, height = fig.get_size_inches()
     lines = _write_title(fig, title, height) if title else 0
     fig.set_size_inches(width, height + 0.2 * max(lines - 1, 0))
@@ -103,16 +157,40 @@ def lay_out(fig, grid, title):
         hspace=0.32,
         wspace=0.5,
     )
-    fig.align_ylabels(grid)
-    for ax in grid.flat:
-        inches = ax.get_position().width * width
-        ax.heading.set_text(textwrap.fill(ax.heading.get_text(), int(inches * 14)))
-        (_legend if legend else _end_labels)(ax)
-        _write_limits(ax)
+    fig.align_ylabels([panel.ax for panel in panels])
+    for panel in panels:
+        inches = panel.ax.get_position().width * width
+        panel.heading.set_text(textwrap.fill(panel.heading.get_text(), int(inches * 14)))
+        (_legend if legend else _end_labels)(panel.ax)
+        _write_limits(panel)
 
 
-def _limits(arm, kind, joints, size):
+def near_limits(
+    limits: Floats,
+    least: Floats | float,
+    greatest: Floats | float,
+    low: Floats | float,
+    high: Floats | float,
+) -> Bools:
+    """Which limits a panel from low to high shows: those in view that their joint passes or comes
+    near, measured by the height of the panel and by the room between the joint's limits.
+
+    limits (..., 2), the joint's least and greatest value (...), low and high (...) -> bool (...,
+    2).
+    """
+    away = np.stack([least - limits[..., 0], limits[..., 1] - greatest], axis=-1)
+    low, high = np.expand_dims(low, -1), np.expand_dims(high, -1)
+    near = np.minimum(1.2 * STRIP * (high - low), 0.1 * np.diff(limits, axis=-1))
+    shown: Bools = (low <= limits) & (limits <= high) & (away < near)
+    return shown
+
+
+# --- What a panel shows ---------------------------------------------------------------------------
+
+
+def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Floats:
     """(k, 2) the limits of the quantity in the unit of the panel, infinite where there are none."""
+    arm = recording.arm
     if kind == "q":
         return arm.limits[joints] / size
     greatest = np.full(len(joints), np.inf)
@@ -121,7 +199,14 @@ def _limits(arm, kind, joints, size):
     return np.stack([-greatest, greatest], axis=-1)
 
 
-def _view(values, kind):
+def _past(recording: Recording, kind: str, joints: Ints) -> Bools:
+    """(samples, k) which samples are past a limit."""
+    if kind == "a":
+        return np.zeros((len(recording.t), len(joints)), dtype=bool)
+    return (recording.excess if kind == "q" else recording.speed_excess)[:, joints] > 0
+
+
+def _view(values: Floats, kind: str) -> tuple[float, float]:
     """Lowest and highest value of the panel: the curves and a margin, never the noise of a
     constant.
     """
@@ -136,39 +221,11 @@ def _view(values, kind):
     return low - margin, high + margin
 
 
-def _spikes(values, longest=6):
-    """Lone samples (samples, k) that a differentiated jump leaves: in runs of at most `longest`
-    samples, and more than four times as large as all but the largest twentieth of that joint's
-    samples and of the panel's typical joint.
-    """
-    size = np.where(np.isfinite(values), abs(values), 0.0)
-    if len(size) < 40:
-        return np.zeros(values.shape, dtype=bool)
-    usual = np.quantile(size, 0.95, axis=0)
-    high = size > 4 * np.maximum(usual, max(np.median(usual), 0.01))
-    for column in high.T:
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], column, [0]])))
-        for start, stop in edges.reshape(-1, 2):
-            column[start:stop] = stop - start <= longest
-    return high
-
-
-def near_limits(limits, least, greatest, low, high):
-    """Which limits a panel from low to high shows: those in view that their joint passes or comes
-    near, measured by the height of the panel and by the room between the joint's limits.
-
-    limits (..., 2), the joint's least and greatest value (...), low and high (...) -> bool (...,
-    2).
-    """
-    away = np.stack([least - limits[..., 0], limits[..., 1] - greatest], axis=-1)
-    low, high = np.expand_dims(low, -1), np.expand_dims(high, -1)
-    near = np.minimum(1.2 * STRIP * (high - low), 0.1 * np.diff(limits, axis=-1))
-    return (low <= limits) & (limits <= high) & (away < near)
-
-
-def _band(ax, limits, values, joint, unit, color):
+def _band(
+    ax: Axes, limits: Floats, values: Floats, joint: int, unit: str, color: str
+) -> Iterator[tuple[str, float, int]]:
     """Shade the near side of what lies beyond a limit. Only a strip: with six joints in one panel,
-    what is beyond one joint's limit is inside another's.
+    what is beyond one joint's limit is inside another's. Yields the labels.
     """
     low, high = ax.get_ylim()
     near = near_limits(
@@ -179,28 +236,148 @@ def _band(ax, limits, values, joint, unit, color):
             beyond = np.clip(bound + outward * STRIP * (high - low), low, high)
             ax.axhspan(bound, beyond, color=color, alpha=0.22, linewidth=0, zorder=0)
             ax.axhline(bound, color=color, linewidth=0.9, zorder=1)
-            ax.limit_labels.append(
-                (f"limit of q{joint + 1}: {number(bound)}{_space(unit)}{unit}", bound, outward)
+            yield f"limit of q{joint + 1}: {number(bound)}{_space(unit)}{unit}", bound, outward
+
+
+def _jumps(recording: Recording, kind: str) -> list[Jump]:
+    """The jumps across which differences of this kind say nothing."""
+    return [*recording.leaps, *(recording.jumps if kind == "a" else ())]
+
+
+def _near(jump: Jump) -> slice:
+    """The samples that differences across a jump reach, of whatever kind they are."""
+    return slice(max(jump.first - 2, 0), jump.last + 3)
+
+
+# --- What a panel says ----------------------------------------------------------------------------
+
+
+def _verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
+    """Samples past a limit, or that there are none, or the share of the speed limit."""
+    limits = recording.arm.speed_limits
+    if past.any():
+        what = {"q": "limit", "v": "speed limit"}[kind]
+        counts = past.sum(axis=0)
+        said: list[str] = []
+        for i in sorted(np.flatnonzero(counts), key=lambda i: -counts[i]):
+            rest = (
+                f"past its {what} in {counts[i]} of {len(past)} samples"
+                if not said
+                else f"in {counts[i]}"
             )
+            said.append(f"joint {joints[i] + 1} {rest}")
+        either = np.any(past, axis=1).sum()
+        if either > counts.max():
+            said.append(f"one or another in {either}")
+        return [", ".join(said)]
+    if kind == "q":
+        who = "every joint inside its limits"
+        return [who if len(joints) > 1 else f"q{joints[0] + 1} inside its limits"]
+    if kind == "v" and limits is not None:
+        share = np.nan_to_num(recording.greatest_speed.value[joints]) / limits[joints]
+        most = int(share.round(9).argmax())
+        who = f"q{joints[most] + 1}"
+        return [f"at most {number(100 * share[most], 2)} % of the speed limit ({who})"]
+    return []
 
 
-def _write_limits(ax):
-    """The words beside each limit line, inside it or beyond it, where fewest curves pass."""
-    to_pixels, renderer = ax.transData.transform, ax.figure.canvas.get_renderer()
-    curves = np.concatenate(
-        [
-            dense(to_pixels(np.column_stack(line.get_data())))
-            for line in ax.lines
-            if line.get_label().startswith("q")
-        ]
+def _leaps(recording: Recording, kind: str, joints: Ints, unit: str, size: float) -> Iterator[str]:
+    """Jumps of position, joint by joint."""
+    for joint in joints if kind == "q" else ():
+        jumps = [jump for jump in recording.leaps if jump.by[joint]]
+        amounts = sorted(abs(jump.by[joint]) / size for jump in jumps)
+        if jumps:
+            alike = number(amounts[0]) == number(amounts[-1])
+            amount = f"{'' if alike else 'up to '}{number(amounts[-1])}{_space(unit)}{unit}"
+            yield f"q{joint + 1} jumps by {amount} at {_times(jumps)}"
+
+
+def _spikes(
+    recording: Recording, kind: str, joints: Ints, spikes: Bools, values: Floats, unit: str
+) -> Iterator[str]:
+    """What given values show at jumps instead of a speed or an acceleration."""
+    for jumps, what in (
+        (recording.leaps, f"{'angle jump' if unit == '°' else 'jump'} / step"),
+        (recording.jumps, "speed jump / step"),
+    ):
+        marked = [jump for jump in jumps if spikes[_near(jump)][:, jump.by[joints] != 0].any()]
+        if marked:
+            size = np.zeros_like(values)
+            for jump in marked:
+                part = _near(jump)
+                size[part] = np.where(spikes[part], abs(values[part]), 0.0)
+            where = np.unravel_index(size.round(6).argmax(), size.shape)
+            most = f"{number(size[where])} {unit}{PER[kind]} (q{joints[where[1]] + 1})"
+            yield f"spike at {_times(marked)}: {what}, up to {most}"
+            spikes = spikes & (size == 0)
+
+
+def _corners(
+    recording: Recording, kind: str, joints: Ints, unit: str, size: float, missing: Bools
+) -> Iterator[str]:
+    """Where the speed jumps and no acceleration is drawn."""
+    jumps = [
+        jump
+        for jump in (recording.jumps if kind == "a" else ())
+        if missing[jump.first : jump.last + 1][:, jump.by[joints] != 0].any()
+    ]
+    if jumps:
+        amounts = np.array([abs(jump.by[joints]) / size for jump in jumps])
+        most = amounts.max(axis=0).round(6)
+        i = int(most.argmax())
+        amount = f"{number(most[i])} {unit}/s (q{joints[i] + 1})"
+        yield f"none at {_times(jumps)}: the speed jumps, by up to {amount}"
+
+
+def _times(jumps: Sequence[Jump]) -> str:
+    if len(jumps) < 4:
+        return f"{' and '.join(number(jump.time) for jump in jumps)} s"
+    return f"{len(jumps)} places"
+
+
+def _range_words(
+    recording: Recording, kind: str, name: str, joints: Ints, unit: str, size: float
+) -> str:
+    """What the curves reach, in numbers that do not depend on the last bits."""
+    gap = _space(unit)
+    if kind == "q":
+        parts = []
+        for joint in joints:
+            reached = [recording.lowest.value[joint], recording.highest.value[joint]]
+            ends = [number((x / size).round(6).round(1), 4) for x in reached if not np.isnan(x)]
+            span = f"{' to '.join(dict.fromkeys(ends))}{gap}{unit}" if ends else "missing"
+            parts.append(f"q{joint + 1} {span}")
+        return f"{name.capitalize()}: {', '.join(parts)}."
+    extreme = recording.greatest_speed if kind == "v" else recording.greatest_acceleration
+    greatest = np.nan_to_num(extreme.value[joints] / size).round(6)
+    i = int(greatest.argmax())
+    return f"Greatest {name} {number(greatest[i], 3)}{gap}{unit}" + (
+        f" (q{joints[i] + 1})." if greatest[i] else "."
     )
-    frame, taken = ax.get_window_extent(renderer), []
-    for words, bound, outward in ax.limit_labels:
+
+
+def _space(unit: str) -> str:
+    return "" if unit == "°" else " "
+
+
+# --- Names, limits and the title ------------------------------------------------------------------
+
+
+def _write_limits(panel: Panel) -> None:
+    """The words beside each limit line, inside it or beyond it, where fewest curves pass."""
+    ax = panel.ax
+    canvas: Any = ax.figure.canvas
+    to_data: Any = ax.transData.inverted()
+    to_pixels, renderer = ax.transData.transform, canvas.get_renderer()
+    curves = np.concatenate([dense(to_pixels(line.get_xydata())) for line in _curves(ax)])
+    frame = ax.get_window_extent(renderer)
+    taken: list[tuple[Floats, float, float]] = []
+    for words, bound, outward in panel.labels:
         text = ax.text(0, bound, words, fontsize=8.5, color=INK, va="center", zorder=4)
         box = text.get_window_extent(renderer)
         w, h = box.width / 2 + 3, box.height / 2
         y = to_pixels((0, bound))[1]
-        best, least = None, np.inf
+        best, least = np.zeros(2), np.inf
         for x in np.linspace(frame.x0 + w + 4, frame.x1 - w - 4, 24):
             for side in (outward, -outward):
                 centre = np.array([x, y + side * (h + 2)])
@@ -216,92 +393,10 @@ def _write_limits(ax):
                 if cost < least:
                     best, least = centre, cost
         taken.append((best, w, h))
-        text.set_position(ax.transData.inverted().transform(best - (w - 3, 0)))
+        text.set_position(to_data.transform(best - (w - 3, 0)))
 
 
-def _remarks(arm, t, values, kind, joints, past, spikes, unit, limits):
-    """What the panel says in words: violations, jumps, spikes, the share of a speed limit."""
-    said = []
-    if past.any():
-        what = {"q": "limit", "v": "speed limit"}[kind]
-        counts = past.sum(axis=0)
-        for i in sorted(np.flatnonzero(counts), key=lambda i: -counts[i]):
-            rest = (
-                f"past its {what} in {counts[i]} of {len(t)} samples"
-                if not said
-                else f"in {counts[i]}"
-            )
-            said.append(f"joint {joints[i] + 1} {rest}")
-        if past.any(axis=1).sum() > counts.max():
-            said.append(f"one or another in {past.any(axis=1).sum()}")
-        said = [", ".join(said)]
-    elif kind == "q":
-        said.append(
-            "every joint inside its limits"
-            if len(joints) > 1
-            else f"q{joints[0] + 1} inside its limits"
-        )
-    elif kind == "v" and np.isfinite(limits).all():
-        share = np.nanmax(np.where(spikes, 0, abs(values)) / limits[:, 1], axis=0, initial=0)
-        i = int(share.round(9).argmax())
-        said.append(f"at most {number(100 * share[i], 2)} % of the speed limit (q{joints[i] + 1})")
-    if kind == "q" and unit == "°":
-        said += _turns(t, values, joints)
-    if spikes.any():
-        jump = {"v": "angle jump" if unit == "°" else "jump", "a": "speed jump"}[kind]
-        at = t[spikes.any(axis=1)]
-        where = np.unravel_index(np.where(spikes, abs(values), 0).round(6).argmax(), values.shape)
-        # Neighbouring samples are one spike, in the middle of them.
-        runs = np.split(at, np.flatnonzero(np.diff(at) > 10 * np.median(np.diff(t))) + 1)
-        said.append(
-            f"spike at {_times([run[len(run) // 2] for run in runs])}: {jump} / step, "
-            f"up to {number(abs(values[where]))} {unit}{PER[kind]} (q{joints[where[1]] + 1})"
-        )
-    return said
-
-
-def _turns(t, values, joints):
-    """Jumps by a whole turn between neighbours, as angles have that were not unwrapped."""
-    step = np.diff(values, axis=0)
-    jumps = abs(abs(step) - 360) < 30
-    said = []
-    for i, joint in enumerate(joints):
-        if jumps[:, i].any():
-            said.append(f"q{joint + 1} jumps by 360° at {_times(t[1:][jumps[:, i]])}")
-    return said
-
-
-def _times(times):
-    return f"{' and '.join(map(number, times))} s" if len(times) < 4 else f"{len(times)} places"
-
-
-def _range_words(kind, name, values, joints, unit):
-    """What the curves reach, in numbers that do not depend on the last bits."""
-    gap = _space(unit)
-    if kind == "q":
-        parts = []
-        for joint, column in zip(joints, values.T, strict=True):
-            reached = column[np.isfinite(column)].round(6)
-            ends = (
-                [number(x.round(1), 4) for x in (reached.min(), reached.max())]
-                if len(reached)
-                else []
-            )
-            span = f"{' to '.join(dict.fromkeys(ends))}{gap}{unit}" if ends else "missing"
-            parts.append(f"q{joint + 1} {span}")
-        return f"{name.capitalize()}: {', '.join(parts)}."
-    greatest = np.nanmax(abs(values), axis=0, initial=0).round(6)
-    i = int(greatest.argmax())
-    return f"Greatest {name} {number(greatest[i], 3)}{gap}{unit}" + (
-        f" (q{joints[i] + 1})." if greatest[i] else "."
-    )
-
-
-def _space(unit):
-    return "" if unit == "°" else " "
-
-
-def _ends_in_view(ax):
+def _ends_in_view(ax: Axes) -> bool:
     """Whether every curve goes on to the right edge, or nearly, and ends between the limits of the
     panel.
     """
@@ -310,21 +405,24 @@ def _ends_in_view(ax):
     return bool(((ends >= low) & (ends <= high) & (times > first + 0.9 * (last - first))).all())
 
 
-def _ends(ax):
+def _curves(ax: Axes) -> list[Line2D]:
+    """The joints' lines, and not those of their limits."""
+    return [line for line in ax.lines if str(line.get_label()).startswith("q")]
+
+
+def _ends(ax: Axes) -> tuple[Floats, Floats]:
     """Time and value of the last sample that exists, of each curve; NaN for a curve that has
     none.
     """
-    curves = [
-        np.column_stack(line.get_data()) for line in ax.lines if line.get_label().startswith("q")
-    ]
+    curves = [np.asarray(line.get_xydata()) for line in _curves(ax)]
     last = [curve[np.isfinite(curve[:, 1])][-1:] for curve in curves]
-    return np.array([end[0] if len(end) else (np.nan, np.nan) for end in last]).T
+    times, values = np.array([end[0] if len(end) else (np.nan, np.nan) for end in last]).T
+    return times, values
 
 
-def _legend(ax):
-    lines = [line for line in ax.lines if line.get_label().startswith("q")]
+def _legend(ax: Axes) -> None:
     ax.legend(
-        handles=lines,
+        handles=_curves(ax),
         loc="center left",
         bbox_to_anchor=(1.0, 0.5),
         fontsize=8.5,
@@ -335,12 +433,13 @@ def _legend(ax):
     )
 
 
-def _end_labels(ax):
+def _end_labels(ax: Axes) -> None:
     """The joint's name at the right end of each curve, moved apart where ends meet."""
-    lines = [line for line in ax.lines if line.get_label().startswith("q")]
+    figure: Any = ax.figure
+    lines = _curves(ax)
     low, high = ax.get_ylim()
     times, ends = _ends(ax)
-    points = ax.get_position().height * ax.figure.get_size_inches()[1] * 72
+    points = ax.get_position().height * figure.get_size_inches()[1] * 72
     gap = 11 / points * (high - low)
     order = ends.argsort(kind="stable")
     at = ends[order].copy()
@@ -362,7 +461,7 @@ def _end_labels(ax):
             fontsize=9.5,
             color=color,
             va="center",
-            textcoords=offset_copy(ax.get_yaxis_transform(), ax.figure, 14, 0, "points"),
+            textcoords=offset_copy(ax.get_yaxis_transform(), figure, 14, 0, "points"),
             arrowprops={
                 "arrowstyle": "-",
                 "color": color,
@@ -374,7 +473,7 @@ def _end_labels(ax):
         )
 
 
-def _write_title(fig, title, height):
+def _write_title(fig: Figure, title: str, height: float) -> int:
     """A bold title at the top left, in as many lines as it takes in a figure of this height;
     returns their number.
     """
@@ -388,5 +487,6 @@ def _write_title(fig, title, height):
         fontweight="bold",
         color=INK,
         va="top",
+        parse_math=False,
     )
     return lines

@@ -7,20 +7,46 @@ worth reading. `player.js` draws them.
 """
 
 import base64
+import contextlib
 import hashlib
 import html
 import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike
 
-from .._validate import floats, instance
-from ..arms import Arm
-from ..units import deg, mm
+from .._arrays import Bools, Floats, Ints
+from .._validate import floats, instance, length, short
+from ..arms.arm import Arm
+from ..arms.link import Link
+from ..motion.derivatives import rising
+from ..motion.recording import Jump, Recording, record
+from ..transform import Transform
+from ..units import deg, length_unit, mm
 from . import plots
 from .panels import near_limits
-from .samples import samples
-from .scene import INK, SOFT, STRAIGHT, VIEW, Scene, arm_points, named_targets, project, reach
+from .scene import (
+    INK,
+    SOFT,
+    STRAIGHT,
+    VIEW,
+    Scene,
+    Targets,
+    View,
+    arm_points,
+    extent,
+    flange,
+    in_sight,
+    named_targets,
+    plain,
+    project,
+    several,
+)
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
 # what joint values, speeds and accelerations of all motions may take; at least 41 samples
@@ -30,24 +56,32 @@ NOTHING = -32768  # the whole number that stands for "no value here"
 TIE = 2e-7 * np.sqrt(2)
 MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
 
+Page: TypeAlias = dict[str, Any]  # what the page draws, as JSON takes it
+Mark: TypeAlias = tuple[str, Floats, float]  # name, centre (3,), radius: 0 for a point
+Scale: TypeAlias = tuple[float, float, int, int]  # lowest tick, step, number of ticks, decimals
+
 
 def animate(
-    arm,
-    t,
-    q,
+    arm: Arm | Recording | Sequence[Arm] | Sequence[Recording],
+    t: ArrayLike | None = None,
+    q: ArrayLike | Sequence[ArrayLike] | None = None,
     *,
-    targets=(),
-    slider=None,
-    switch=None,
-    title=None,
-    points=(),
-    circles=(),
-    names=None,
-):
+    targets: Targets = (),
+    slider: tuple[str, ArrayLike] | None = None,
+    switch: tuple[str, Sequence[str]] | None = None,
+    title: str | None = None,
+    points: Iterable[ArrayLike] | Mapping[Any, ArrayLike] = (),
+    circles: Iterable[Any] | Mapping[Any, Any] = (),
+    names: Sequence[str] | None = None,
+) -> "Player":
     """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end
     of a cell.
 
-    arm      an Arm, or several side by side: then q and `names` are lists of the same length
+        animate(arm, t, q), animate([arm, other], t, [q, q_other])
+        animate(record(arm, t, q)), animate([recording, other])
+
+    arm      an Arm, or several side by side: then q and `names` are lists of the same length. Or
+             recordings, of the same times: then t and q are theirs
     t, q     full resolution (2001 samples, say): speeds, accelerations and the numbers below the
              curves come from all samples, and only what is drawn is thinned. Unwrapped angles
              (`follow`); a NaN row is "no solution here".
@@ -59,22 +93,19 @@ def animate(
     points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs where the arm is planar. Metres, base coordinates.
     ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
-    numbers.
+    numbers. TypeError: an arm or a target of another kind.
     """
-    arms, names, motions = _arms(arm, q, names)
-    t = _times(t)
-    slider, switch = _slider(slider), _switch(switch)
-    lead = tuple(len(control["values"]) for control in (switch, slider) if control)
-    motions = [
-        _motions(a, m, lead, len(t), n) for a, m, n in zip(arms, motions, names, strict=True)
-    ]
-    targets = named_targets(targets)
-    marks = _marks(points, circles)
-    tracks = [samples(m, t, a.prismatic) for a, m in zip(arms, motions, strict=True)]
-    data = _page(arms, names, t, tracks, targets, marks, slider, switch, title)
+    sliding, switching = _slider(slider), _switch(switch)
+    lead = tuple(len(control["values"]) for control in (switching, sliding) if control)
+    tracks, names = _tracks(arm, t, q, lead, names)
+    named, marks = named_targets(targets), _marks(points, circles)
+    for name, pose in named.items():
+        floats(pose.translation, f"target {name}")  # a pose that does not exist has no place
+    title = " and ".join(dict.fromkeys(names)) if title is None else plain(title, "title")
+    data = _page(names, tracks, named, marks, sliding, switching, title)
     for page in data["arms"]:
         page["data"] = [base64.b64encode(values).decode() for values in page["data"]]
-    still = _still(arms, names, [track.q[0] for track in tracks], targets, marks, data)
+    still = _still(names, [(track.arm, track.q[0]) for track in tracks], named, marks, data)
     return Player(data, still)
 
 
@@ -87,9 +118,15 @@ class Player:
             notebook
     """
 
-    def __init__(self, data, still):
-        self.data, self.still = data, still
-        text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    def __init__(self, data: Page, still: plots.Figure) -> None:
+        if not isinstance(data, dict):
+            raise ValueError(f"data: wanted a dict, got {short(data)}")
+        self.data, self.still = data, instance(still, plots.Figure, "still")
+        try:
+            text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+            text.encode()
+        except (TypeError, ValueError, RecursionError) as error:
+            raise ValueError(f"data: wanted what JSON can hold ({error})") from None
         self.text = (
             text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
         )
@@ -97,7 +134,7 @@ class Player:
         self.id = hashlib.sha256(self.text.encode()).hexdigest()[:12]
 
     @property
-    def html(self):
+    def html(self) -> str:
         """The player as a piece of HTML: the still picture, and the script that replaces it."""
         png = base64.b64encode(plots.palette_png(self.still)).decode()
         alt = html.escape(self.data["alt"])
@@ -108,18 +145,14 @@ class Player:
             f'<script>(() => {{\n{_script()}\nplay("{self.id}", {self.text});\n}})();</script>\n'
         )
 
-    def save(self, path):
-        """Write one self-contained page. ValueError: not a .html file, or one that is there and not
-        a saved player.
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
+        that is there and not a saved player.
         """
-        from pathlib import Path
-
-        path = Path(path)
-        if path.suffix != ".html":
-            raise ValueError(f"path: wanted a name that ends in .html, got {str(path)!r}")
-        if path.exists() and not (path.is_file() and MARK.encode() in path.read_bytes()[:200]):
+        name = _file(path)
+        if os.path.lexists(name) and not _ours(name):
             raise ValueError(
-                f"path: {str(path)!r} exists and is not a saved player; nothing is overwritten"
+                f"path: {short(name)} exists and is not a saved player; nothing is overwritten"
             )
         head = (
             f'<!DOCTYPE html>\n{MARK}\n<html lang="en">\n<meta charset="utf-8">\n'
@@ -130,72 +163,97 @@ class Player:
             f'<body style="max-width:1200px;margin:16px auto;padding:0 '
             f'8px">\n{self.html}</body>\n</html>\n'
         )
-        path.write_text(head + body, encoding="utf-8")
+        _write(name, (head + body).encode())
 
-    def _repr_mimebundle_(self, include=None, exclude=None):
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         return {"text/html": self.html, "text/plain": repr(self)}
 
-    def __repr__(self):
-        return self.data["summary"]
+    def __repr__(self) -> str:
+        return str(self.data["summary"])
 
 
 # --- What the caller gives ------------------------------------------------------------------------
 
 
-def _arms(arm, q, names):
-    """Lists of arms, names and joint values, whether one arm was given or several."""
-    if not isinstance(arm, (list, tuple)):
-        instance(arm, Arm, "arm")
-        if names is not None:
-            raise ValueError("names: wanted only with a list of arms; one arm has its own name")
-        return [arm], [arm.name], [q]
-    if not arm or not isinstance(q, (list, tuple)) or len(q) != len(arm):
-        got = len(q) if isinstance(q, (list, tuple)) else type(q).__name__
-        raise ValueError(f"q: wanted a list with one array for each of {len(arm)} arms, got {got}")
-    for one in arm:
+def _tracks(
+    arm: Any, t: Any, q: Any, lead: tuple[int, ...], names: Any
+) -> tuple[list[Recording], list[str]]:
+    """A recording for each arm, its motions in a row (C, N, n), and the names; whether one arm was
+    given or several, or recordings.
+    """
+    several = isinstance(arm, (list, tuple))
+    arms = list(arm) if several else [arm]
+    if names is not None and not several:
+        raise ValueError("names: wanted only with a list of arms; one arm has its own name")
+    if arms and all(isinstance(one, Recording) for one in arms):
+        if t is not None or q is not None:
+            raise ValueError("t and q: wanted none beside recordings, which have their own")
+        named = _names(names, [track.arm for track in arms])
+        for track, name in zip(arms, named, strict=True):
+            _shaped(track.q, lead, track.arm, len(rising(track.t)), f"recording of {name}")
+            if not np.array_equal(track.t, arms[0].t):
+                raise ValueError(f"recording of {name}: wanted the same times as of {named[0]}")
+        return [_in_a_row(track) for track in arms], named
+    for one in arms:
         instance(one, Arm, "arm")
-    names = [one.name for one in arm] if names is None else [str(name) for name in names]
-    if len(names) != len(arm):
-        raise ValueError(f"names: wanted {len(arm)} names, one for each arm, got {len(names)}")
-    return list(arm), names, list(q)
+    if several and not (arms and isinstance(q, (list, tuple)) and len(q) == len(arms)):
+        wanted = f"a list with one array for each of {len(arms)} arms"
+        raise ValueError(f"q: wanted {wanted}, got {short(q)}")
+    named, t = _names(names, arms), rising(t)
+    tracks = []
+    for one, motion, name in zip(arms, q if several else [q], named, strict=True):
+        motion = floats(motion, f"q of {name}", finite=False)
+        _shaped(motion, lead, one, len(t), f"q of {name}")
+        tracks.append(record(one, t, motion.reshape(-1, *motion.shape[-2:])))
+    return tracks, named
 
 
-def _times(t):
-    t = floats(t, "t")
-    if t.ndim != 1 or len(t) < 3:
-        raise ValueError(f"t: wanted at least three times, got shape {t.shape}")
-    if (np.diff(t) <= 0).any():
-        raise ValueError("t: wanted rising times, got a step that is not positive")
-    return t
+def _names(names: Any, arms: Sequence[Arm]) -> list[str]:
+    if names is None:
+        return [plain(arm.name, "name") for arm in arms]
+    if not isinstance(names, (list, tuple)) or len(names) != len(arms):
+        raise ValueError(f"names: wanted {len(arms)} names, one for each arm, got {short(names)}")
+    return [plain(name, "names") for name in names]
 
 
-def _motions(arm, q, lead, count, name):
-    """q as (motions, samples, n), the switch before the slider."""
-    q = floats(q, f"q of {name}", finite=False)
-    wanted = (*lead, count, len(arm.links))
+def _shaped(q: Floats, lead: tuple[int, ...], arm: Arm, count: int, name: str) -> None:
+    """The switch before the slider, then samples and joints."""
+    wanted = (*lead, count, len(arm.limits))
     if q.shape != wanted:
-        axes = ", ".join(["switch", "slider"][-len(lead) :] if lead else [])
-        raise ValueError(
-            f"q of {name}: wanted shape {wanted} ({axes + ', ' if axes else ''}samples, joints), "
-            f"got {q.shape}"
+        axes = ", ".join(["switch", "slider", "samples", "joints"][2 - len(lead) :])
+        raise ValueError(f"{name}: wanted shape {wanted} ({axes}), got {q.shape}")
+
+
+def _in_a_row(recording: Recording) -> Recording:
+    """The same with its motions in one row: (C, N, n)."""
+    lead = recording.shape
+
+    def placed(jumps: Iterable[Jump]) -> tuple[Jump, ...]:
+        return tuple(
+            replace(jump, motion=(int(np.ravel_multi_index(jump.motion, lead)) if lead else 0,))
+            for jump in jumps
         )
-    return q.reshape(-1, *wanted[-2:])
+
+    q, v, a = (x.reshape(-1, *x.shape[-2:]) for x in (recording.q, recording.v, recording.a))
+    missing, gaps = (x.reshape(-1, x.shape[-1]) for x in (recording.missing, recording.gaps))
+    leaps, jumps = placed(recording.leaps), placed(recording.jumps)
+    return replace(recording, q=q, v=v, a=a, missing=missing, gaps=gaps, leaps=leaps, jumps=jumps)
 
 
-def _pair(value, name, what):
+def _pair(value: Any, name: str, what: str) -> tuple[str, Any]:
     if not (isinstance(value, (list, tuple)) and len(value) == 2 and isinstance(value[0], str)):
-        raise ValueError(f"{name}: wanted (name, {what}), got {value!r:.60}")
-    return value
+        raise ValueError(f"{name}: wanted (name, {what}), got {short(value)}")
+    return plain(value[0], name), value[1]
 
 
-def _slider(slider):
+def _slider(slider: Any) -> Page | None:
     if slider is None:
         return None
-    label, values = _pair(slider, "slider", "values")
-    values = floats(values, "slider values")
+    label, given = _pair(slider, "slider", "values")
+    values = floats(given, "slider values")
     if values.ndim != 1 or len(values) < 2:
         raise ValueError(f"slider values: wanted at least two numbers, got shape {values.shape}")
-    if (np.diff(values) <= 0).any():
+    if (values[1:] <= values[:-1]).any():
         raise ValueError("slider values: wanted rising numbers")
     decimals = next(
         (d for d in range(6) if np.allclose(values, values.round(d), rtol=0, atol=1e-9)), 6
@@ -203,47 +261,59 @@ def _slider(slider):
     return {"label": label, "values": [_tidy(v, decimals) for v in values], "decimals": decimals}
 
 
-def _switch(switch):
+def _switch(switch: Any) -> Page | None:
     if switch is None:
         return None
     label, values = _pair(switch, "switch", "words")
-    if isinstance(values, str) or len(values) < 2 or not all(isinstance(v, str) for v in values):
-        raise ValueError(f"switch: wanted a list of at least two words, got {values!r:.60}")
-    return {"label": label, "values": list(values)}
+    if not isinstance(values, (list, tuple)) or len(values) < 2:
+        raise ValueError(f"switch: wanted a list of at least two words, got {short(values)}")
+    return {"label": label, "values": [plain(value, "switch") for value in values]}
 
 
-def _marks(points, circles):
-    """Points are circles without a radius: [(name, centre (3,), radius)]."""
-    named = points.items() if isinstance(points, dict) else [("", p) for p in points]
-    marks = [(str(name), _place(p, "points"), 0.0) for name, p in named]
-    for name, circle in (
-        circles.items() if isinstance(circles, dict) else [("", c) for c in circles]
-    ):
-        if len(circle) != 2:
-            raise ValueError(f"circles: wanted (centre, radius), got {circle!r:.60}")
-        radius = floats(circle[1], "radius")
-        if radius.shape or radius <= 0:
-            raise ValueError(f"radius: wanted one positive number, got {circle[1]!r:.60}")
-        marks.append((str(name), _place(circle[0], "circles"), float(radius)))
+def _marks(points: Any, circles: Any) -> list[Mark]:
+    """Points are circles without a radius."""
+    marks = [(name, _place(p, "points"), 0.0) for name, p in _named(points, "points")]
+    for name, circle in _named(circles, "circles"):
+        if not isinstance(circle, (list, tuple)) or len(circle) != 2:
+            raise ValueError(f"circles: wanted (centre, radius), got {short(circle)}")
+        radius = in_sight(np.array(length(circle[1], "radius")), "radius")
+        marks.append((name, _place(circle[0], "circles"), float(radius)))
     return marks
 
 
-def _place(point, name):
+def _named(places: Any, name: str) -> list[tuple[str, Any]]:
+    what = "a list or a dict of them"
+    if isinstance(places, Mapping):
+        return [(plain(str(k), name), v) for k, v in several(places.items(), name, what)]
+    return [("", value) for value in several(places, name, what, most=1000)]
+
+
+def _place(point: ArrayLike, name: str) -> Floats:
     point = floats(point, name)
     if point.shape not in ((2,), (3,)):
         raise ValueError(f"{name}: wanted places (x, y, z), got shape {point.shape}")
-    return np.append(point, [0.0] * (3 - len(point)))
+    return in_sight(np.append(point, [0.0] * (3 - len(point))), name)
 
 
 # --- What the page gets ---------------------------------------------------------------------------
 
 
-def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=None):
+def _page(
+    names: Sequence[str],
+    tracks: Sequence[Recording],
+    targets: Mapping[str, Transform],
+    marks: Sequence[Mark],
+    slider: Page | None,
+    switch: Page | None,
+    title: str,
+    scene: Page | None = None,
+) -> Page:
     """What the page draws; joint values, speeds, accelerations as bytes. `scene`: the one of
     `_scene`, if at hand.
     """
-    motions, size = len(tracks[0].q), max(reach(arm) for arm in arms)
-    unit = {"name": "mm", "size": mm} if size <= 2 else {"name": "m", "size": 1}
+    arms, t = [track.arm for track in tracks], tracks[0].t
+    motions, size = len(tracks[0]), max(extent(arm) for arm in arms)
+    unit: Page = dict(zip(("name", "size"), length_unit(size), strict=True))
     units = [np.where(arm.prismatic, unit["size"], deg) for arm in arms]
     alone = motions == 1 and scene is None  # else what is drawn changes while a slider moves
     kept = _thin(len(t), tracks, SAMPLES if alone else SAMPLES_UNDER_SLIDER)
@@ -251,8 +321,8 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=N
         [x / u for x in (track.q, track.v, track.a)] for track, u in zip(tracks, units, strict=True)
     ]
     via = targets.get("via")
-    page = {
-        "title": title if title is not None else " and ".join(dict.fromkeys(names)),
+    page: Page = {
+        "title": title,
         "times": [_tidy(x, 6) for x in t[kept]],
         "slider": slider,
         "switch": switch,
@@ -261,7 +331,7 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=N
         "scene": scene
         or _scene(arms, [track.q[:, kept] for track in tracks], targets, marks, size),
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
-        "decimals": [_decimals(arms, curves, k) for k in (1, 2)],
+        "decimals": [_decimals([c[k] for c in curves]) for k in (1, 2)],
         "arms": [],
     }
     for arm, name, track, curve, u in zip(arms, names, tracks, curves, units, strict=True):
@@ -269,7 +339,7 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=N
         page["arms"].append(
             {
                 "name": name,
-                "chain": _chain(arm),
+                "chain": _chain(arm.links),
                 "limits": [_rounded(arm.limits.T[i] / u, 3) for i in (0, 1)],
                 "speedLimits": None
                 if arm.speed_limits is None
@@ -277,8 +347,8 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=N
                 "steps": steps,
                 "data": blobs,
                 "via": _closest(arm, track.q, via, unit["size"]) if via is not None else None,
-                **_numbers(arm, t, track, curve, u, unit["name"], page["decimals"]),
-                **_flaws(arm, t, kept, track, u, unit["name"]),
+                **_numbers(track, u, unit["name"], page["decimals"]),
+                **_flaws(track, kept, u, unit["name"]),
             }
         )
     page["ticks"] = _scale(t[0], t[-1])
@@ -286,7 +356,7 @@ def _page(arms, names, t, tracks, targets, marks, slider, switch, title, scene=N
     return page
 
 
-def _chain(arm):
+def _chain(links: Iterable[Link]) -> list[Page]:
     return [
         {
             "before": _matrix(link.before),
@@ -294,19 +364,19 @@ def _chain(arm):
             "after": _matrix(link.after),
             "prismatic": link.prismatic,
         }
-        for link in arm.links
+        for link in links
     ]
 
 
-def _thin(count, tracks, wanted):
+def _thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
     """Which samples the page gets: evenly spread, and those on both sides of every jump."""
     values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
     wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 2 * 4 / 3))))
-    extra = set()
+    extra: set[int] = set()
     for track in tracks:
-        for _, first, last, *_ in track.jumps:
-            extra.update((first - 2, first, last, last + 2))
-        for motion in track.breaks[track.breaks.any(axis=-1)]:
+        for jump in track.jumps:
+            extra.update((jump.first - 2, jump.first, jump.last, jump.last + 2))
+        for motion in track.gaps[np.any(track.gaps, axis=-1)]:
             edges = np.flatnonzero(motion[1:] != motion[:-1]) + 1
             extra.update(
                 np.concatenate(
@@ -320,7 +390,7 @@ def _thin(count, tracks, wanted):
     return np.array(sorted({*even.tolist(), *extra}))
 
 
-def _encoded(values, prismatic):
+def _encoded(values: Floats, prismatic: Bools) -> tuple[list[float], bytes]:
     """(motions, samples, n) as whole numbers of 16 bits, little-endian, and the step of each
     joint.
     """
@@ -336,16 +406,16 @@ def _encoded(values, prismatic):
     return [float(f"{step:.0e}") for step in steps], whole.tobytes()
 
 
-def _step(least):
+def _step(least: float) -> float:
     """The first number of the series 1, 2, 5, 10, ... that is not below `least`, from a millionth
     on.
     """
     least = max(least, 1e-6)
     power = 10.0 ** np.floor(np.log10(least) + 1e-12)
-    return next(power * k for k in (1, 2, 5, 10) if power * k >= least * (1 - 1e-12))
+    return float(next(power * k for k in (1, 2, 5, 10) if power * k >= least * (1 - 1e-12)))
 
 
-def _panel(arms, curves, unit, order):
+def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Page, order: int) -> Page:
     """Scales of one panel: [lowest tick, step, number of ticks, decimals] for turning ("turn") and
     shifting joints, and for each arm the limits [joint, 0 lower or 1 upper] that the panel shows
     ("near").
@@ -383,7 +453,8 @@ def _panel(arms, curves, unit, order):
         for both in zip(*(zip(*pair, strict=True) for pair in ranges.values()), strict=True)
     ]
     word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
-    panel = {"own": own, "near": []}
+    panel: Page = {"own": own, "near": []}
+    seen = {}  # (motions, 2) lowest and highest tick
     for key, of in zip(ranges, zip(*scales, strict=True), strict=True):
         unique = sorted(set(of))
         panel[key] = {
@@ -392,29 +463,28 @@ def _panel(arms, curves, unit, order):
             "of": [unique.index(scale) for scale in of] if own else None,
         }
         panel.setdefault("label", f"{word}, {panel[key]['unit']}")
-        ranges[key] = np.array([(low, low + step * (count - 1)) for low, step, count, _ in of])
+        seen[key] = np.array([(low, low + step * (count - 1)) for low, step, count, _ in of])
     for arm, pair in zip(arms, ends, strict=True):
         limits = arm.limits if order == 0 else arm.speed_limits if order == 1 else None
         shown = np.zeros((len(arm.links), 2), dtype=bool)
         if limits is not None:
             limits = limits if order == 0 else limits[:, None] * [-1, 1]
             limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
-            seen = np.stack(
-                [ranges["shift" if shifts else "turn"] for shifts in arm.prismatic], axis=1
-            )
-            shown = near_limits(limits, *pair, seen[..., 0], seen[..., 1]).any(axis=0)
+            ticks = np.stack([seen["shift" if x else "turn"] for x in arm.prismatic], axis=1)
+            shown = np.any(near_limits(limits, *pair, ticks[..., 0], ticks[..., 1]), axis=0)
         panel["near"].append(np.argwhere(shown).tolist())
     return panel
 
 
-def _scales(ranges):
+def _scales(ranges: Sequence[Any]) -> list[Scale]:
     """The scale for one range (low, high); or for two in one panel, with zeros and ticks at the
     same heights.
     """
     ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
     if len(ranges) == 1:
         return [_scale(*ranges[0])]
-    best, most = None, 0.0
+    best: list[Scale] = []
+    most = 0.0
     for below, above in ((i, n - i) for n in range(2, 6) for i in range(n + 1)):
         if all((below or low >= 0) and (above or high <= 0) for low, high in ranges):
             least = [max(high / (above or 1), -low / (below or 1)) for low, high in ranges]
@@ -423,7 +493,7 @@ def _scales(ranges):
                 (max(high, 0) - min(low, 0)) / step
                 for (low, high), step in zip(ranges, steps, strict=True)
             )
-            if filled / (below + above) > most * 1.001 or best is None:
+            if filled / (below + above) > most * 1.001 or not best:
                 best, most = (
                     [_ticks(-below * x, x, below + above + 1) for x in steps],
                     filled / (below + above),
@@ -431,7 +501,7 @@ def _scales(ranges):
     return best
 
 
-def _scale(low, high):
+def _scale(low: float, high: float) -> Scale:
     """Matplotlib's choice of ticks, the outermost ones at or beyond the data."""
     low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
     if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
@@ -441,7 +511,7 @@ def _scale(low, high):
     return _ticks(float(f"{ticks[0]:.6g}"), float(f"{ticks[1] - ticks[0]:.6g}"), len(ticks))
 
 
-def _ticks(low, step, count):
+def _ticks(low: float, step: float, count: int) -> Scale:
     """(lowest tick, step, number of ticks, decimals to write them with)"""
     return (
         low + 0.0,
@@ -451,49 +521,48 @@ def _ticks(low, step, count):
     )
 
 
-def _decimals(arms, curves, k):
+def _decimals(curves: Iterable[Floats]) -> int:
     """How many decimals show the greatest value of this quantity with three digits; at least
     one.
     """
-    greatest = max(np.nanmax(abs(c[k]), initial=0, where=~np.isnan(c[k])) for c in curves)
+    greatest = max(np.nanmax(abs(c), initial=0, where=~np.isnan(c)) for c in curves)
     return 1 if greatest >= 10 else 2 if greatest >= 1 else 3
 
 
-def _numbers(arm, t, track, curve, units, length, decimals):
+def _numbers(track: Recording, units: Floats, length: str, decimals: Sequence[int]) -> Page:
     """For every motion and joint: greatest speed, its share of the limit in percent, greatest
     acceleration.
     """
-    speed = np.nanmax(abs(curve[1]), axis=1, initial=0, where=~np.isnan(curve[1]))
-    acceleration = np.nanmax(abs(curve[2]), axis=1, initial=0, where=~np.isnan(curve[2]))
-    for motion, _, _, before, after in track.jumps:
-        speed[motion] = np.fmax(speed[motion], np.fmax(abs(before), abs(after)) / units)
-    rows = [[_tidy(x, decimals[1]) for x in row] for row in acceleration]
+    arm, limits = track.arm, track.arm.speed_limits
+    speed = np.nan_to_num(track.greatest_speed.value)
+    acceleration = np.nan_to_num(track.greatest_acceleration.value) / units
+    rows: list[list[float | str]] = [[_tidy(x, decimals[1]) for x in row] for row in acceleration]
     jumps = np.zeros_like(speed)
-    for motion, _, _, before, after in track.jumps:
-        jumps[motion] = np.fmax(jumps[motion], abs(after - before) / units)
+    for jump in track.jumps:
+        jumps[jump.motion] = np.fmax(jumps[jump.motion], abs(jump.by) / units)
     for motion, joint in np.argwhere(jumps > 0):
         name = length if arm.prismatic[joint] else "°"
         rows[motion][joint] = (
             f"jump {_tidy(jumps[motion, joint], decimals[0]):.{decimals[0]}f} {name}/s"
         )
     share = None
-    if arm.speed_limits is not None:
-        share = [[int(_tidy(x, 0)) for x in row] for row in 100 * speed * units / arm.speed_limits]
+    if limits is not None:
+        share = [[int(_tidy(x, 0)) for x in row] for row in 100 * speed / limits]
     return {
-        "speed": [[_tidy(x, decimals[0]) for x in row] for row in speed],
+        "speed": [[_tidy(x, decimals[0]) for x in row] for row in speed / units],
         "share": share,
         "acceleration": rows,
     }
 
 
-def _closest(arm, q, via, unit):
+def _closest(arm: Arm, q: Floats, via: Transform, unit: float) -> list[list[float] | None]:
     """For every motion [smallest distance from the via point in the length unit, x, y, z of that
     place in metres].
 
     The path is the polyline through all samples; NaN interrupts it. None where there is no path.
     """
     place = via.translation
-    path = arm.fk(q).translation - place
+    path = flange(arm, q).translation - place
     side = np.diff(path, axis=1)
     length = (side**2).sum(axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -501,7 +570,7 @@ def _closest(arm, q, via, unit):
     near = path[:, :-1] + along[..., None] * side
     distance = np.where(np.isnan(near[..., 0]), np.inf, np.linalg.norm(near, axis=-1))
     best = distance.argmin(axis=-1)
-    found = []
+    found: list[list[float] | None] = []
     for c, i in enumerate(best):
         d = distance[c, i]
         found.append(
@@ -512,29 +581,34 @@ def _closest(arm, q, via, unit):
     return found
 
 
-def _flaws(arm, t, kept, track, units, length):
+def _flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Page:
     """What is wrong with each motion, for those with something wrong: gaps between kept samples,
     jumps to mark with their words, sentences to read.
     """
-    gaps, jumps, leaps, notes = {}, {}, {}, {}
-    joints = range(len(arm.links))
+    gaps: dict[int, list[int]] = {}
+    jumps: dict[int, list[Any]] = {}
+    leaps: dict[int, list[Any]] = {}
+    notes: dict[int, list[str]] = {}
+    arm, count = track.arm, len(track.t)
 
-    def amount(values, j, per=""):
-        space, value = "" if not arm.prismatic[j] and not per else " ", abs(values[j]) / units[j]
+    def amount(value: float, j: int, per: str = "") -> str:
+        space, value = "" if not arm.prismatic[j] and not per else " ", abs(value) / units[j]
         # One decimal, or two significant digits.
         decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
         unit = length if arm.prismatic[j] else "°"
         return f"{_tidy(value, decimals):.{decimals}f}{space}{unit}{per}"
 
-    for c, breaks in enumerate(track.breaks):
-        inside = np.add.reduceat(breaks, kept[:-1]) if breaks.any() else np.zeros(1)
+    def worst(jump: Jump) -> int:
+        return int((abs(jump.by) / units).argmax())
+
+    for c, motion in enumerate(track.gaps):
+        inside = np.add.reduceat(motion, kept[:-1]) if motion.any() else np.zeros(1)
         if inside.any():
             gaps[c] = np.flatnonzero(inside).tolist()
-    for c, first, last, before, after in track.jumps:
-        worst = max(joints, key=lambda j: abs(after - before)[j] / units[j])
-        when = (t[first] + t[last]) / 2
-        words = f"speed jumps by {amount(after - before, worst, '/s')}"
-        jumps.setdefault(c, []).append([_tidy(when, 6), words])
+    for jump in track.jumps:
+        j = worst(jump)
+        words = f"speed jumps by {amount(jump.by[j], j, '/s')}"
+        jumps.setdefault(jump.motion[0], []).append([_tidy(jump.time, 6), words])
     for c, marked in jumps.items():
         times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
         more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
@@ -542,61 +616,57 @@ def _flaws(arm, t, kept, track, units, length):
             f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
             "finite-difference value would only tell the time step."
         )
-    for c, i, steps in track.leaps:
-        worst = max(joints, key=lambda j: abs(steps[j]) / units[j])
-        text = f"q{worst + 1} jumps by {amount(steps, worst)}"
-        leaps.setdefault(c, []).append([_tidy((t[i] + t[i + 1]) / 2, 6), text])
+    for jump in track.leaps:
+        j = worst(jump)
+        words = f"q{j + 1} jumps by {amount(jump.by[j], j)}"
+        leaps.setdefault(jump.motion[0], []).append([_tidy(jump.time, 6), words])
     for c, marked in leaps.items():
         first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
         more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""
         notes.setdefault(c, []).append(f"Jumps of position: {first}{more}.")
-    low, high = arm.limits[:, 0] - plots.SLACK, arm.limits[:, 1] + plots.SLACK
-    over = np.fmax(low - track.q, track.q - high)
-    fast = abs(track.v) - (np.inf if arm.speed_limits is None else arm.speed_limits * (1 + 1e-9))
-    missing = np.isnan(track.q).any(axis=-1)
-    for c in np.flatnonzero(
-        missing.any(axis=-1) | (over > 0).any(axis=(1, 2)) | (fast > 0).any(axis=(1, 2))
-    ):
-        for j in joints:
-            count = int((over[c, :, j] > 0).sum())
-            if count:
-                most = np.nanmax(over[c], axis=0, initial=0, where=~np.isnan(over[c]))
+    for c in range(len(track)):
+        for j, excess in enumerate(track.excess[c].T):
+            if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its limit in {count} of {len(t)} samples, "
-                    f"by up to {amount(most, j)}."
+                    f"q{j + 1} is past its limit in {(excess > 0).sum()} of {count} samples, "
+                    f"by up to {amount(np.nanmax(excess), j)}."
                 )
-        for j in joints:
-            count = int((fast[c, :, j] > 0).sum())
-            if count:
+        for j, excess in enumerate(track.speed_excess[c].T):
+            if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its speed limit in {count} of {len(t)} samples."
+                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples."
                 )
-        if missing[c].any():
+        if track.missing[c].any():
             notes.setdefault(c, []).append(
-                f"No solution in {int(missing[c].sum())} of {len(t)} samples."
+                f"No solution in {track.missing[c].sum()} of {count} samples."
             )
+    found: dict[str, dict[int, Any]] = {"gaps": gaps, "jumps": jumps, "leaps": leaps}
+    found["notes"] = notes
     return {
-        name: {str(int(c)): value for c, value in sorted(found.items())}
-        for name, found in (("gaps", gaps), ("jumps", jumps), ("leaps", leaps), ("notes", notes))
+        name: {str(c): value for c, value in sorted(flaws.items())} for name, flaws in found.items()
     }
 
 
-def _scene(arms, postures, targets, marks, size):
+def _scene(
+    arms: Sequence[Arm],
+    postures: Sequence[Floats],
+    targets: Mapping[str, Transform],
+    marks: Sequence[Mark],
+    size: float,
+) -> Page:
     """Where the camera stands, what it has to see, the floor and what lies in the space."""
     flat, foot = _plane(arms), 0.08 * size * np.array([[-1], [1]])
-    seen = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
-    tools = [arm.fk(q) for arm, q in zip(arms, postures, strict=True)]
+    parts = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
+    tools = [flange(arm, q) for arm, q in zip(arms, postures, strict=True)]
     tips = [
         (pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3)
         for pose in (*tools, *targets.values())
     ]
-    seen += [pose.translation[None] for pose in targets.values()]
-    seen += [centre + radius * sign * np.eye(3) for _, centre, radius in marks for sign in (1, -1)]
-    seen = np.concatenate(
-        [foot * np.eye(3)[k] for k in range(3) if k != (2 if flat is None else flat)] + seen
-    )
-    low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
+    parts += [pose.translation[None] for pose in targets.values()]
+    parts += [centre + radius * sign * np.eye(3) for _, centre, radius in marks for sign in (1, -1)]
     across = [k for k in range(3) if k != (2 if flat is None else flat)]
+    seen = np.concatenate([*(foot * np.eye(3)[k] for k in across), *parts])
+    low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
     step = _step(max(*(high - low)[across], size / 3) * (1 + TIE) / 8)
     low[across] = np.floor(low[across] / step + 0.1) * step
     high[across] = np.ceil(high[across] / step - 0.1) * step
@@ -617,11 +687,11 @@ def _scene(arms, postures, targets, marks, size):
     }
 
 
-def _stations(targets):
+def _stations(targets: Mapping[str, Transform]) -> list[Page]:
     return [{"name": name, "pose": _matrix(pose)} for name, pose in targets.items()]
 
 
-def _outermost(points):
+def _outermost(points: Floats) -> list[list[float]]:
     """The points (k, 3) that a camera has to see, some fifty: those farthest out in evenly spread
     directions.
 
@@ -641,7 +711,7 @@ def _outermost(points):
     ]
 
 
-def _view(tools, flat):
+def _view(tools: Floats, flat: int | None) -> View:
     """Azimuth and elevation of the camera: straight at a plane, else from where the tool's path
     spreads widest, on the tool's side of the base.
     """
@@ -665,7 +735,7 @@ def _view(tools, flat):
     return best
 
 
-def _plane(arms):
+def _plane(arms: Sequence[Arm]) -> int | None:
     """0, 1 or 2 if every arm can move only in the plane where that coordinate is zero, else
     None.
     """
@@ -681,7 +751,7 @@ def _plane(arms):
     return None
 
 
-def _words(page, t, targets):
+def _words(page: Page, t: Floats, targets: Iterable[str]) -> tuple[str, str]:
     """The player in one sentence, rounded, and the alternative text of its still picture."""
     who = " and ".join(dict.fromkeys(arm["name"] for arm in page["arms"]))
     parts = [f"{_tidy(t[-1] - t[0], 3):g} s"]
@@ -716,20 +786,35 @@ def _words(page, t, targets):
 # --- The still picture ----------------------------------------------------------------------------
 
 
-def _still(arms, names, postures, targets, marks, page):
+def _still(
+    names: Sequence[str],
+    motions: Sequence[tuple[Arm, Floats]],
+    targets: Mapping[str, Transform],
+    marks: Sequence[Mark],
+    page: Page,
+) -> plots.Figure:
     """The first and the last posture of each arm with the path of its tool."""
-    figure = plots.figure(page["alt"], width=4.5 * len(arms) if len(arms) > 1 else 6.4, height=4.5)
-    figure.text(0.016, 0.985, page["title"], fontsize=11, fontweight="bold", va="top")
-    for k, (arm, q) in enumerate(zip(arms, postures, strict=True)):
-        ax = figure.add_axes((k / len(arms), 0, 1 / len(arms), 0.93))
+    count = len(motions)
+    figure = plots.figure(page["alt"], width=4.5 * count if count > 1 else 6.4, height=4.5)
+    figure.text(
+        0.016,
+        0.985,
+        page["title"],
+        fontsize=11,
+        fontweight="bold",
+        va="top",
+        parse_math=False,
+    )
+    for k, (arm, q) in enumerate(motions):
+        ax = figure.add_axes((k / count, 0, 1 / count, 0.93))
         scene = Scene(ax, size=page["scene"]["size"], like=page["scene"])
         exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
-        path = arm.fk(q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
+        path = flange(arm, q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
         scene.base()
         if len(exists):
             scene.arm(arm, q[exists[0]], "first")
             scene.arm(arm, q[exists[-1]], "last")
-            scene.triad(arm.fk(q[exists[-1]]), width=2.4)
+            scene.triad(flange(arm, q[exists[-1]]), width=2.4)
         if np.isfinite(path).all(axis=-1).any():
             scene.trace(path)
         for name, pose in targets.items():
@@ -739,7 +824,7 @@ def _still(arms, names, postures, targets, marks, page):
             if name:
                 scene.label(name, centre)
         scene.finish()
-        if len(arms) > 1:
+        if count > 1:
             ax.text(
                 0.03,
                 1,
@@ -749,6 +834,7 @@ def _still(arms, names, postures, targets, marks, page):
                 fontweight="bold",
                 color=INK,
                 va="top",
+                parse_math=False,
             )
     return figure
 
@@ -756,22 +842,22 @@ def _still(arms, names, postures, targets, marks, page):
 # --- Rounding, the same on every processor --------------------------------------------------------
 
 
-def _tidy(x, decimals):
+def _tidy(x: float, decimals: int) -> float:
     """x rounded; an exact half and the noise around it always go up, and there is no minus zero."""
     scale = 10.0**decimals
     return float(np.floor(float(x) * scale + 0.5 + TIE) / scale) + 0.0
 
 
-def _rounded(values, decimals=9):
+def _rounded(values: ArrayLike, decimals: int = 9) -> list[float]:
     return [_tidy(x, decimals) for x in np.ravel(values)]
 
 
-def _matrix(pose):
+def _matrix(pose: Transform) -> list[float]:
     """The upper three rows of the homogeneous matrix, one after the other."""
     return _rounded(pose.as_matrix()[:3])
 
 
-def _script(name="player.js"):
+def _script(name: str = "player.js") -> str:
     """A script of this folder without the lines that only people read, as it stands in every
     output.
     """
@@ -779,3 +865,38 @@ def _script(name="player.js"):
 
     lines = files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()
     return "\n".join(line for line in map(str.strip, lines) if line and not line.startswith("//"))
+
+
+# --- Files ----------------------------------------------------------------------------------------
+
+
+def _file(path: Any) -> str:
+    """`path` as a name that ends in .html."""
+    name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
+    if not isinstance(name, str) or os.path.splitext(name)[1] != ".html" or "\0" in name:
+        raise ValueError(f"path: wanted a name that ends in .html, got {short(path)}")
+    folder = os.path.dirname(name) or os.curdir
+    if not os.path.isdir(folder):
+        raise ValueError(f"path: wanted a folder that exists, got {short(folder)}")
+    return name
+
+
+def _ours(name: str) -> bool:
+    """Whether a saved player lies there: itself, and not a link to it."""
+    if os.path.islink(name) or not os.path.isfile(name):
+        return False
+    with open(name, "rb") as file:
+        return MARK.encode() in file.read(200)
+
+
+def _write(name: str, content: bytes) -> None:
+    """Beside it first, so that a reader, or a full disk, never sees half of it."""
+    beside = os.path.join(os.path.dirname(name), f".{os.urandom(8).hex()}.html.part")
+    try:
+        with open(beside, "xb") as file:
+            file.write(content)
+        os.replace(beside, name)
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(beside)
+        raise

@@ -9,22 +9,43 @@ import base64
 import html
 import io
 import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as MatplotlibFigure
+from numpy.typing import ArrayLike
 from PIL import Image
 
-from .._validate import floats, instance
+from .._arrays import Floats, sealed
+from .._validate import floats, instance, length, positive, short
 from ..arms.arm import Arm
+from ..motion.recording import Recording, record
 from ..transform import Transform
-from ..units import deg, mm
-from .panels import JOINT_STYLES, SLACK, lay_out, panel
-from .scene import FAINT, INK, SOFT, Scene, arm_points, is_flat, named_targets, number, reach
+from ..units import deg, length_unit, mm
+from .panels import JOINT_STYLES, draw_panel, lay_out, without_spikes
+from .scene import (
+    FAINT,
+    INK,
+    SOFT,
+    Scene,
+    Targets,
+    arm_points,
+    extent,
+    flange,
+    in_sight,
+    is_flat,
+    named_targets,
+    number,
+    plain,
+    several,
+)
 
 __all__ = [
     "JOINT_STYLES",
-    "SLACK",
     "Figure",
     "figure",
     "palette_png",
@@ -34,17 +55,18 @@ __all__ = [
 ]
 
 DPI = 100
+INCHES = "one positive number of inches"
 
 
 class Figure(MatplotlibFigure):
     """A Matplotlib figure that carries its alt text and shows itself in a notebook."""
 
-    def __init__(self, alt, **keywords):
+    def __init__(self, alt: str, **keywords: Any) -> None:
         super().__init__(dpi=DPI, facecolor="white", **keywords)
         FigureCanvasAgg(self)
         self.alt = alt
 
-    def _repr_mimebundle_(self, include=None, exclude=None):
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the
         # metadata of an image/png output. Both keep <img alt> in text/html, an untrusted notebook
         # included, and show it once.
@@ -56,30 +78,34 @@ class Figure(MatplotlibFigure):
         )
         return {"text/html": image, "text/plain": self.alt}
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return self.alt
 
 
-def figure(alt, width=9, height=4):
+def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
     """An empty figure of width x height inches (100 pixels each): `ax = fig.subplots()`, and `fig`
     ends the cell.
 
     `alt` says in words what a sighted reader concludes; it is the image's alternative text and what
-    a test compares.
+    a test compares. ValueError: no words, a size that is not positive or above 100.
     """
     if not (isinstance(alt, str) and alt.strip()):
-        raise ValueError(f"alt: wanted words that say what the figure shows, got {alt!r}")
-    return Figure(alt, figsize=(width, height))
+        raise ValueError(f"alt: wanted words that say what the figure shows, got {short(alt)}")
+    sizes = [positive(width, "width", INCHES), positive(height, "height", INCHES)]
+    if max(sizes) > 100:
+        raise ValueError(f"width and height: wanted at most 100 inches, got {max(sizes):g}")
+    return Figure(plain(alt, "alt"), figsize=sizes)
 
 
-def palette_png(fig):
+def palette_png(fig: MatplotlibFigure) -> bytes:
     """The figure as the bytes of a PNG with a palette: a third of the size of a plain one.
 
     Pillow's octree keeps the colours of thin lines to 1/100; its median cut turns the green of a
     triad blue.
     """
-    fig.canvas.draw()
-    image = Image.fromarray(np.asarray(fig.canvas.buffer_rgba())).convert("RGB")
+    canvas: Any = fig.canvas
+    canvas.draw()
+    image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     file = io.BytesIO()
     image.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(
         file, "PNG", optimize=True
@@ -87,7 +113,14 @@ def palette_png(fig):
     return file.getvalue()
 
 
-def plot_postures(arm, q, *, targets=(), title=None, alt=None):
+def plot_postures(
+    arm: Arm,
+    q: ArrayLike,
+    *,
+    targets: Targets = (),
+    title: str | None = None,
+    alt: str | None = None,
+) -> Figure:
     """Postures along one path, in a spatial view with true proportions.
 
     q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
@@ -98,22 +131,22 @@ def plot_postures(arm, q, *, targets=(), title=None, alt=None):
              name -> Transform
     alt      the alternative text, where the numbers alone do not say it
     """
-    q = _samples(arm, q)
-    targets = named_targets(targets)
-    exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
+    q, targets = _samples(arm, q), named_targets(targets)
+    title, alt = _words(title, "title"), _words(alt, "alt")
+    exists = np.flatnonzero(np.all(np.isfinite(q), axis=-1))
     if not len(exists):
         raise ValueError("q: wanted at least one posture, got only NaN rows")
-    size, flange = reach(arm), arm.fk(q)
-    fig = Figure(alt or _postures_alt(arm, flange[exists], len(exists), title, targets, size))
+    size, tool = extent(arm), flange(arm, q)
+    fig = Figure(alt or _postures_alt(arm, tool[exists], len(exists), title, targets, size))
     scene = Scene(_canvas(fig, title), size, flat=is_flat(arm, q))
     scene.base()
     first, last = exists[0], exists[-1]
-    moves = _moves(flange[exists])
+    moves = _moves(tool[exists])
     for i in np.unique(np.linspace(0, len(exists) - 1, 9).round().astype(int))[:-1]:
         scene.arm(arm, q[exists[i]], "between" if moves and i else "first")
     if moves:
-        scene.trace(flange.translation)
-        scene.triad(flange[first], length=0.07 * size, width=2.4)
+        scene.trace(tool.translation)
+        scene.triad(tool[first], length=0.07 * size, width=2.4)
         # The names stand where the two postures differ most, on the half next to the base: the tool
         # has its own names.
         half = slice(1, len(arm.links) + 1)
@@ -122,14 +155,22 @@ def plot_postures(arm, q, *, targets=(), title=None, alt=None):
         scene.label("first", ends[0, where], SOFT)
         scene.label("last", ends[1, where])
     scene.arm(arm, q[last], "last" if moves or len(exists) == 1 else "first")
-    scene.triad(flange[last], length=0.07 * size, width=3.2, letters=True)
+    scene.triad(tool[last], length=0.07 * size, width=3.2, letters=True)
     for name, pose in targets.items():
         scene.triad(pose, name, width=1.4)
     scene.finish(fit=(9, 6.2))
     return fig
 
 
-def plot_frames(frames, *, names=None, title=None, size=None, chain=False, alt=None):
+def plot_frames(
+    frames: Transform | Iterable[Transform],
+    *,
+    names: Sequence[str] | None = None,
+    title: str | None = None,
+    size: float | None = None,
+    chain: bool = False,
+    alt: str | None = None,
+) -> Figure:
     """Frames as triads (x red, y green, z blue) with names, beside the base frame, in true
     proportions.
 
@@ -140,16 +181,20 @@ def plot_frames(frames, *, names=None, title=None, size=None, chain=False, alt=N
     chain   join the origins in their order, from the base, as the links of an arm do
     """
     frames = _frames(frames)
-    origins = np.stack([frame.translation for frame in frames])
+    title, alt = _words(title, "title"), _words(alt, "alt")
+    origins = in_sight(np.stack([frame.translation for frame in frames]), "frames")
     if names is None:
         names = [""] * len(frames)
-    if isinstance(names, str) or len(names) != len(frames):
-        raise ValueError(f"names: wanted {len(frames)} names, one for each frame, got {names!r}")
+    if not isinstance(names, (list, tuple)) or len(names) != len(frames):
+        raise ValueError(
+            f"names: wanted {len(frames)} names, one for each frame, got {short(names)}"
+        )
+    names = [plain(name, "names") for name in names]
     extent = np.nanmax(np.linalg.norm(origins, axis=-1), initial=0)
-    size = size or (0.22 * extent if extent > 0 else 0.1)
-    if not (np.isfinite(size) and size > 0):
-        raise ValueError(f"size: wanted a positive length in metres, got {size!r}")
-    unit, unit_name = (1, "m") if extent > 2 else (mm, "mm")
+    if size is None:
+        size = 0.22 * extent if extent > 0 else 0.1
+    size = float(in_sight(np.array(length(size, "size")), "size"))
+    unit_name, unit = length_unit(extent)
     fig = Figure(alt or _frames_alt(frames, names, title, unit, unit_name))
     scene = Scene(_canvas(fig, title), max(extent, 2 * size))
     at_base = [np.allclose(frame.as_matrix(), np.eye(4), atol=1e-9) for frame in frames]
@@ -164,55 +209,82 @@ def plot_frames(frames, *, names=None, title=None, size=None, chain=False, alt=N
     return fig
 
 
-def plot_joints(arm, t, q, v=None, a=None, *, title=None, alt=None):
+def plot_joints(
+    arm: Arm | Recording,
+    t: ArrayLike | None = None,
+    q: ArrayLike | None = None,
+    v: ArrayLike | None = None,
+    a: ArrayLike | None = None,
+    *,
+    title: str | None = None,
+    alt: str | None = None,
+) -> Figure:
     """Joint values over time and, where given, speeds and accelerations: one panel each, with one
     time axis.
+
+        plot_joints(arm, t, q), plot_joints(arm, t, q, v), plot_joints(arm, t, q, v, a)
+        plot_joints(record(arm, t, q))      all three, speeds and accelerations the recording's own
 
     t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
     gap, a jump by a whole turn is a jump. Prismatic joints have panels of their own, in mm.
     A limit is shaded where its joint comes near it; samples past it are marked and counted. Samples
-    past a limit are judged as drawn, so q + 360 degrees may still be inside (`within` says). A lone
-    spike, which a jump leaves when it is differentiated, does not set the scale: it leaves the
-    panel and is named.
+    past a limit are judged as drawn, so q + 360 degrees may still be inside (`within` says). Jumps
+    are those of `record`. A lone spike, which a jump leaves in v or a when it is differentiated,
+    does not set the scale: it leaves the panel and is named.
     """
-    t = floats(t, "t")
-    q = _samples(arm, q)
-    if t.ndim != 1 or len(t) != len(q):
-        raise ValueError(f"t: wanted {len(q)} times, one for each sample of q, got shape {t.shape}")
-    if len(t) < 2 or (np.diff(t) <= 0).any():
-        raise ValueError(
-            f"t: wanted two or more rising times, got {number(t[0])} ... {number(t[-1])}"
-        )
-    rows = [
-        (kind, _samples(arm, values, kind, len(q)))
-        for kind, values in (("q", q), ("v", v), ("a", a))
-        if values is not None
-    ]
+    title, alt = _words(title, "title"), _words(alt, "alt")
+    given = {kind: values for kind, values in (("v", v), ("a", a)) if values is not None}
+    if isinstance(arm, Recording):
+        if t is not None or q is not None:
+            raise ValueError("t and q: wanted none beside a recording, which has its own")
+        if arm.shape:
+            raise ValueError(f"recording: wanted one of a single motion, got shape {arm.shape}")
+        recording, kinds = arm, ["q", "v", "a"]
+    else:
+        q = _samples(arm, q)
+        recording, kinds = record(arm, floats(t, "t"), q), ["q", *given]
+    arm = recording.arm
+    drawn = {"q": recording.q, "v": recording.v, "a": recording.a}
+    drawn |= {k: _samples(arm, values, k, len(recording.t)) for k, values in given.items()}
+    judged: dict[str, Any] = {k: sealed(without_spikes(recording, k, drawn[k])) for k in given}
+    recording = replace(recording, **judged)
     groups = [
-        (np.flatnonzero(arm.prismatic == kind), unit, size)
-        for kind, unit, size in ((False, "°", deg), (True, "mm", mm))
-        if (arm.prismatic == kind).any()
+        (np.flatnonzero(arm.prismatic == shifts), unit, size)
+        for shifts, unit, size in ((False, "°", deg), (True, "mm", mm))
+        if (arm.prismatic == shifts).any()
     ]
-    fig = Figure("", figsize=(9, (0.45 if title else 0.1) + 0.45 + 2.05 * len(rows)))
+    fig = Figure("", figsize=(9, (0.45 if title else 0.1) + 0.45 + 2.05 * len(kinds)))
     grid = fig.subplots(
-        len(rows),
+        len(kinds),
         len(groups),
         sharex=True,
         squeeze=False,
         width_ratios=[1.7, 1] if len(groups) > 1 else None,
     )
-    facts = [f"{arm.name}, joint curves over {number(t[-1] - t[0])} s."]
-    for (kind, values), line in zip(rows, grid, strict=True):
-        for (joints, unit, size), ax in zip(groups, line, strict=True):
-            facts += panel(ax, arm, t, values[:, joints] / size, kind, joints, unit, size)
+    panels = [
+        draw_panel(ax, recording, drawn[kind], kind, joints, unit, size)
+        for kind, line in zip(kinds, grid, strict=True)
+        for (joints, unit, size), ax in zip(groups, line, strict=True)
+    ]
     for ax in grid[-1]:
         ax.set_xlabel("t, s", labelpad=2)
-    lay_out(fig, grid, title)
-    fig.alt = alt or " ".join([*([title.rstrip(".") + "."] if title else []), *facts])
+    lay_out(fig, panels, title)
+    duration = number(recording.t[-1] - recording.t[0])
+    facts = [f"{arm.name}, joint curves over {duration} s."]
+    facts += [fact for panel in panels for fact in panel.facts]
+    fig.alt = alt or " ".join([*_sentence(title), *facts])
     return fig
 
 
-def _canvas(fig, title):
+def _words(value: str | None, name: str) -> str | None:
+    return None if value is None else plain(value, name)
+
+
+def _sentence(title: str | None) -> list[str]:
+    return [title.rstrip(".") + "."] if title else []
+
+
+def _canvas(fig: Figure, title: str | None) -> Axes:
     """Axes over the whole figure, below the title."""
     fig.set_size_inches(9, 6)
     if title:
@@ -224,11 +296,14 @@ def _canvas(fig, title):
             fontweight="bold",
             color=INK,
             va="top",
+            parse_math=False,
         )
     return fig.add_axes((0, 0, 1, 0.93 if title else 1))
 
 
-def _samples(arm, values, name="q", count=None):
+def _samples(
+    arm: Arm, values: ArrayLike | None, name: str = "q", count: int | None = None
+) -> Floats:
     values = floats(values, name, len(instance(arm, Arm, "arm").links), finite=False)
     if values.ndim == 1:
         values = values[None]
@@ -238,11 +313,11 @@ def _samples(arm, values, name="q", count=None):
     return values
 
 
-def _frames(frames):
+def _frames(frames: Transform | Iterable[Transform]) -> list[Transform]:
     """A list of single Transforms."""
     if isinstance(frames, Transform):
         frames = list(frames) if frames.shape else [frames]
-    frames = list(frames)
+    frames = several(frames, "frames", "Transforms", error=TypeError)
     for frame in frames:
         if instance(frame, Transform, "frames").shape:
             raise ValueError(
@@ -253,7 +328,7 @@ def _frames(frames):
     return frames
 
 
-def _naming_axis(frames, i):
+def _naming_axis(frames: Sequence[Transform], i: int) -> int | None:
     """Frames with one origin are told apart at the tips of an axis: of the one (0, 1, 2) whose tips
     lie farthest apart. None for a frame that has its origin to itself.
     """
@@ -265,11 +340,18 @@ def _naming_axis(frames, i):
     return int(apart.min(axis=0).argmax()) if len(here) > 1 else None
 
 
-def _postures_alt(arm, flange, count, title, targets, size):
-    unit, name = (1, "m") if size > 2 else (mm, "mm")
-    words = [title.rstrip(".") + "."] if title else []
-    start, end = (_place(flange.translation[i], unit) for i in (0, -1))
-    if _moves(flange):
+def _postures_alt(
+    arm: Arm,
+    tool: Transform,
+    count: int,
+    title: str | None,
+    targets: dict[str, Transform],
+    size: float,
+) -> str:
+    name, unit = length_unit(size)
+    words = _sentence(title)
+    start, end = (_place(tool.translation[i], unit) for i in (0, -1))
+    if _moves(tool):
         words.append(f"{arm.name} along a path. The flange moves from {start} to {end} {name}.")
     else:
         postures = "one posture" if count == 1 else f"{count} postures"
@@ -279,13 +361,19 @@ def _postures_alt(arm, flange, count, title, targets, size):
     return " ".join(words)
 
 
-def _moves(flange):
+def _moves(tool: Transform) -> bool:
     """Whether the poses (k,) differ."""
-    return bool(abs(flange.as_matrix() - flange[0].as_matrix()).max() > 1e-6)
+    return bool(abs(tool.as_matrix() - tool[0].as_matrix()).max() > 1e-6)
 
 
-def _frames_alt(frames, names, title, unit, unit_name):
-    words = [title.rstrip(".") + "."] if title else []
+def _frames_alt(
+    frames: Sequence[Transform],
+    names: Sequence[str],
+    title: str | None,
+    unit: float,
+    unit_name: str,
+) -> str:
+    words = _sentence(title)
     parts = [
         f"{name or f'frame {i + 1}'} at {_place(frame.translation, unit)} {unit_name}"
         for i, (frame, name) in enumerate(zip(frames, names, strict=True))
@@ -293,5 +381,5 @@ def _frames_alt(frames, names, title, unit, unit_name):
     return " ".join([*words, f"Frames in base coordinates: {', '.join(parts)}."])
 
 
-def _place(point, unit):
+def _place(point: Floats, unit: float) -> str:
     return f"({', '.join(number(np.round(x / unit, 0 if unit == mm else 2), 4) for x in point)})"

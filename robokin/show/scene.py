@@ -3,84 +3,149 @@
 `plots` draws postures and frames with it, `player` its still picture.
 """
 
-import numpy as np
-from matplotlib.patches import Polygon
+import itertools
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeAlias
 
-from .._validate import instance
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+from numpy.typing import ArrayLike
+
+from .._arrays import Floats
+from .._validate import TWO_TURNS, instance, short, text
+from ..arms.arm import Arm
+from ..arms.dexterity import total_length
 from ..transform import Transform
-from ..units import deg, mm
+from ..units import deg, length_unit, wrapped
+
+View: TypeAlias = tuple[float, float]
+Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
 
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
 INK, SOFT, FAINT, GRID, TRACE = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7", "#0072B2"
 VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
+FAR, DOTS = 1e4, 200_000  # pixels; points along a polyline
+SPECK, HORIZON = 1e-3, 1e9  # metres
+LONGEST = 2000  # letters of a title or a name
 # the views straight at the planes x = 0, y = 0 and z = 0
-STRAIGHT = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
+STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
 
-def project(points, view=VIEW):
+def project(points: ArrayLike, view: View = VIEW) -> Floats:
     """Parallel projection of points (..., 3) onto the picture: (..., 2), in metres, to the right
     and up, as it is seen from `view`: azimuth about the base's z axis, counted from its x axis, and
     elevation, in radians.
     """
     (ca, ce), (sa, se) = np.cos(view), np.sin(view)
-    return np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
+    across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
+    return across
 
 
-def arm_points(arm, q):
+def posture(arm: Arm, q: Floats) -> Floats:
+    """The same postures q (..., n) within two turns. A motion that turns on and on (`follow` gives
+    such) is no slip, and nothing is to warn of degrees.
+    """
+    far = (abs(q) > TWO_TURNS) & ~arm.prismatic
+    return np.where(far, wrapped(q), q) if far.any() else q
+
+
+def arm_points(arm: Arm, q: Floats) -> Floats:
     """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange: q (..., n) ->
     (..., 2n + 1, 3).
 
     Joint i stands at index 2i + 1 (i from 0); the ends of the links are the origins of
     `arm.frames`.
     """
-    frames = arm.frames(q)
+    frames = arm.frames(posture(arm, q))
     joints = [frames[..., i] @ link.before.translation for i, link in enumerate(arm.links)]
     points = np.empty((*np.shape(q)[:-1], 2 * len(joints) + 1, 3))
     points[..., ::2, :], points[..., 1::2, :] = frames.translation, np.stack(joints, axis=-2)
     return points
 
 
-def reach(arm):
-    """The length of the stretched arm in metres, prismatic joints at their far limit: the scale of
-    its pictures.
+def flange(arm: Arm, q: Floats) -> Transform:
+    """The flange at q (..., n), of whatever turns."""
+    return arm.fk(posture(arm, q))
+
+
+def extent(arm: Arm) -> float:
+    """The length of the stretched arm in metres: the scale of its pictures. ValueError: too large
+    or too small for one.
     """
-    fixed = sum(
-        np.linalg.norm(link.before.translation) + np.linalg.norm(link.after.translation)
-        for link in arm.links
-    )
-    return float(fixed + abs(arm.limits[arm.prismatic]).max(axis=-1, initial=0).sum())
+    with np.errstate(over="ignore"):
+        size = total_length(arm)
+    if not SPECK <= size <= HORIZON:
+        raise ValueError(f"arm: wanted one from {SPECK:g} to {HORIZON:g} m long, got {size:g} m")
+    return size
 
 
-def is_flat(arm, q):
+def is_flat(arm: Arm, q: Floats) -> bool:
     """Whether all of these postures lie in the plane z = 0, so that a view from above says more."""
-    return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * reach(arm))
+    return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * extent(arm))
 
 
-def named_targets(targets):
+def named_targets(targets: Targets) -> dict[str, Transform]:
     """`targets` as a dict of name -> Transform. A list of one is the target, of two start and goal,
-    of three start, via and goal; more are numbered P1, P2, ...
+    of three start, via and goal; more are numbered P1, P2, ... TypeError: other things than poses.
     """
     if isinstance(targets, Transform):
-        targets = [targets] if not targets.shape else list(targets)
-    if not isinstance(targets, dict):
-        targets = list(targets)
+        targets = list(targets) if targets.shape else [targets]
+    if isinstance(targets, Mapping):
+        pairs = several(targets.items(), "targets", "Transforms")
+        named = {plain(str(name), "targets"): pose for name, pose in pairs}
+    else:
+        poses = several(targets, "targets", "Transforms", error=TypeError)
         names = {1: ["target"], 2: ["start", "goal"], 3: ["start", "via", "goal"]}.get(
-            len(targets), [f"P{i + 1}" for i in range(len(targets))]
+            len(poses), [f"P{i + 1}" for i in range(len(poses))]
         )
-        targets = dict(zip(names, targets, strict=True))
-    for name, pose in targets.items():
+        named = dict(zip(names, poses, strict=True))
+    for name, pose in named.items():
         if instance(pose, Transform, f"target {name}").shape:
             raise ValueError(
                 f"target {name}: wanted one single pose, got a batch of shape {pose.shape}"
             )
-    return targets
+        in_sight(pose.translation, f"target {name}")
+    return named
+
+
+def in_sight(lengths: Floats, name: str) -> Floats:
+    """Lengths (...) in metres, if a figure can hold them; ValueError otherwise. NaN passes."""
+    if (abs(lengths) > HORIZON).any():
+        raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
+    return lengths
+
+
+def several(
+    value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
+) -> list[Any]:
+    """What is in `value`, if it is a list or the like; else the error, which says that `what` was
+    wanted. ValueError: more of them than there is room for in a figure.
+    """
+    alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
+    if alone or not isinstance(value, Iterable):
+        raise error(f"{name}: wanted {what}, got {short(value)}")
+    found = list(itertools.islice(value, most + 1))
+    if len(found) > most:
+        raise ValueError(f"{name}: wanted at most {most}, got more")
+    return found
+
+
+def plain(value: Any, name: str) -> str:
+    """`value`, if it is words for a figure or a page; ValueError otherwise. Half characters (lone
+    surrogates), which no file can hold, are replaced by the sign for what cannot be shown.
+    """
+    if len(text(value, name)) > LONGEST:
+        raise ValueError(f"{name}: wanted at most {LONGEST} letters, got {len(value)}")
+    return str(value).encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 class Scene:
     """A spatial view with true proportions on plain 2-D axes: draw into it, then call `finish()`
     once.
 
-        scene = Scene(fig.add_axes((0, 0, 1, 1)), size=reach(arm))
+        scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
         scene.arm(arm, q);  scene.trace(points);  scene.triad(pose, "goal");  scene.finish()
 
     size  metres; what the scene is about, the measure of triads and of the base
@@ -92,29 +157,34 @@ class Scene:
     proportions.
     """
 
-    def __init__(self, ax, size, flat=False, like=None):
+    def __init__(
+        self,
+        ax: Axes,
+        size: float,
+        flat: bool = False,
+        like: Mapping[str, Any] | None = None,
+    ) -> None:
         like = like or {"flat": 2 if flat else None, "view": STRAIGHT[2] if flat else VIEW}
-        self.ax, self.size, self.like, self.view, self.flat = (
-            ax,
-            size,
-            like,
-            like["view"],
-            like["flat"] is not None,
-        )
+        self.ax, self.size, self.like = ax, size, like
+        self.view: View = like["view"]
+        self.flat = like["flat"] is not None
         # the axes of the grid
         self.across = [k for k in range(3) if k != (like["flat"] if self.flat else 2)]
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
-        self.corners = [np.zeros((1, 3))]  # what the floor has to lie under
-        self.labels = []  # text, where, colour
-        self.drawn = []  # projected lines and their widths, which labels keep off
+        # what the floor has to lie under
+        self.corners: list[Floats] = [np.zeros((1, 3))]
+        # words, where, colour, size
+        self.labels: list[tuple[str, Floats, str, float]] = []
+        # projected lines and their widths, which labels keep off
+        self.drawn: list[tuple[Floats, float]] = []
         ax.set_axis_off()
         ax.set_aspect("equal")
 
-    def project(self, points):
+    def project(self, points: ArrayLike) -> Floats:
         """Points (..., 3) as they are seen: (..., 2), in metres."""
         return project(points, self.view)
 
-    def line(self, points, corner=True, **style):
+    def line(self, points: Any, corner: bool = True, **style: Any) -> Line2D:
         """A polyline through points (..., 3); NaN interrupts it."""
         points = np.asarray(points, dtype=float).reshape(-1, 3)
         flat = self.project(points)
@@ -126,7 +196,7 @@ class Scene:
             *flat.T, **{"solid_capstyle": "round", "solid_joinstyle": "round", **style}
         )[0]
 
-    def arm(self, arm, q, strength="last"):
+    def arm(self, arm: Arm, q: Floats, strength: str = "last") -> None:
         """One posture q (n,), as "last" (dark, with joints and shadow), "first" (lighter) or
         "between" (faint).
         """
@@ -158,7 +228,7 @@ class Scene:
             zorder=z + 0.1,
         )
 
-    def base(self):
+    def base(self) -> None:
         """The foot of the arm at the origin."""
         angle = np.linspace(0, 2 * np.pi, 60)
         ring = (
@@ -175,11 +245,11 @@ class Scene:
         self.corners.append(ring)
         self.drawn.append((self.project(ring), 1))
 
-    def trace(self, points):
+    def trace(self, points: Floats) -> None:
         """The path of the tool: points (samples, 3); NaN is a gap."""
         self.line(points, color=TRACE, linewidth=1.6, zorder=6)
 
-    def drop(self, point):
+    def drop(self, point: Floats) -> None:
         """A thin line from a point (3,) to the floor, which tells how high it stands."""
         if not self.flat and np.isfinite(point).all():
             self.line(
@@ -190,7 +260,16 @@ class Scene:
                 zorder=1,
             )
 
-    def triad(self, pose, name=None, length=None, width=1.8, letters=False, color=INK, at=None):
+    def triad(
+        self,
+        pose: Transform,
+        name: str | None = None,
+        length: float | None = None,
+        width: float = 1.8,
+        letters: bool = False,
+        color: str = INK,
+        at: int | None = None,
+    ) -> None:
         """The axes of one pose: x red, y green, z blue. `letters` names the axes at their tips; the
         pose's name stands at its origin, or at the tip of axis `at` (0, 1, 2).
         """
@@ -211,37 +290,35 @@ class Scene:
         if name and at is None:
             self.label(name, pose.translation, color)
 
-    def label(self, text, point, color=INK, size=9.5):
+    def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
         """Words beside a point (3,); `finish` finds them a free place."""
         where = self.project(point)
         if not any(
-            text == other and np.allclose(where, there, rtol=0, atol=1e-6)
+            words == other and np.allclose(where, there, rtol=0, atol=1e-6)
             for other, there, *_ in self.labels
         ):
-            self.labels.append((text, where, color, size))
+            self.labels.append((words, where, color, size))
 
-    def finish(self, footnote="", fit=None):
+    def finish(self, footnote: str = "", fit: tuple[float, float] | None = None) -> None:
         """Floor, scale, limits and labels. `fit` (width, height) in inches: the figure shrinks to
         what is drawn.
         """
         low, high, step = self._floor()
-        unit, name = (1, "m") if self.size > 2 else (mm, "mm")
+        name, unit = length_unit(self.size)
         self._grid(low, high, step, unit)
         words = (
             f"floor grid {number(step / unit)} {name}"
             if not self.flat
             else f"grid {number(step / unit)} {name}"
         )
-        seen = (
+        lines = (
             [self.project(self.like["seen"])]
             if "seen" in self.like
             else [line for line, _ in self.drawn]
         )
-        seen.append(
-            self.project([self._at(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])])
-        )
-        seen = np.concatenate(seen)
-        seen = seen[np.isfinite(seen).all(axis=-1)]
+        corners = [self._at(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
+        seen = np.concatenate([*lines, self.project(corners)])
+        seen = seen[np.all(np.isfinite(seen), axis=-1)]
         (x0, y0), (x1, y1) = seen.min(axis=0), seen.max(axis=0)
         self._fit(x0, x1, y0, y1, fit)
         self.ax.text(
@@ -254,14 +331,17 @@ class Scene:
         )
         self._place_labels()
 
-    def _fit(self, x0, x1, y0, y1, fit):
+    def _fit(
+        self, x0: float, x1: float, y0: float, y1: float, fit: tuple[float, float] | None
+    ) -> None:
         """Limits that fill the axes with this range (metres), and leave room for words at the edges
         (pixels).
         """
-        figure, box = self.ax.figure, self.ax.get_position(original=True)
+        figure: Any = self.ax.figure
+        box = self.ax.get_position(original=True)
         side, below, above = 42, 46, 26
         width, height = (
-            (fit or figure.get_size_inches()) * np.array([box.width, box.height]) * figure.dpi
+            np.array(fit or figure.get_size_inches()) * [box.width, box.height] * figure.dpi
         )
         # pixels per metre
         scale = min((width - 2 * side) / (x1 - x0), (height - below - above) / (y1 - y0))
@@ -275,7 +355,7 @@ class Scene:
         self.ax.set_xlim(middle - width / scale / 2, middle + width / scale / 2)
         self.ax.set_ylim(y0 - spare / 2 - below / scale, y1 + spare / 2 + above / scale)
 
-    def _floor(self):
+    def _floor(self) -> tuple[Floats, Floats, float]:
         """Corners (2,), (2,) of the floor and the step of its grid: under all that is drawn, in
         whole steps.
         """
@@ -292,7 +372,7 @@ class Scene:
         low, high = np.floor(low / step - 0.05), np.ceil(high / step + 0.05)
         return low * step, high * step, step
 
-    def _grid(self, low, high, step, unit):
+    def _grid(self, low: Floats, high: Floats, step: float, unit: float) -> None:
         """The lines of the floor, with coordinates along its two front edges (left and lower ones,
         seen flat).
         """
@@ -337,53 +417,63 @@ class Scene:
             every = 1 if len(numbers) <= 4 else 2
             for point, value in zip(points, numbers, strict=True):
                 if round(value / step) % every == 0:
-                    text = number(value / unit) if abs(value) > step / 2 else f"{'xyz'[axis]} = 0"
-                    self.ax.text(
-                        *self.project(point), f" {text} ", fontsize=8, color="#6B7681", ha=ha, va=va
-                    )
+                    words = number(value / unit) if abs(value) > step / 2 else f"{'xyz'[axis]} = 0"
+                    x, y = self.project(point)
+                    self.ax.text(x, y, f" {words} ", fontsize=8, color="#6B7681", ha=ha, va=va)
 
-    def _at(self, x, y):
+    def _at(self, x: float, y: float) -> Floats:
         """The point (3,) of the floor with these two coordinates."""
         point = np.array([0.0, 0.0, self.ground])
         point[self.across] = x, y
         return point
 
-    def _place_labels(self):
+    def _place_labels(self) -> None:
         """Each label at the free place nearest to its point: off the lines, off other labels,
         inside the picture.
         """
-        figure, to_pixels = self.ax.figure, self.ax.transData.transform
-        renderer = figure.canvas.get_renderer()
-        lines, widths = zip(
-            *((dense(to_pixels(line)), width) for line, width in self.drawn), strict=True
-        )
-        margin = np.repeat(np.array(widths) * 0.8 + 2, [len(line) for line in lines])[:, None]
-        lines = np.concatenate(lines)
-        frame, taken = self.ax.get_window_extent(renderer), []
-        for text, point, color, size in self.labels:
+        canvas: Any = self.ax.figure.canvas
+        to_data: Any = self.ax.transData.inverted()
+        to_pixels, renderer = self.ax.transData.transform, canvas.get_renderer()
+        dots = [dense(to_pixels(line)) for line, _ in self.drawn]
+        widths = np.array([width for _, width in self.drawn])
+        margin = np.repeat(widths * 0.8 + 2, [len(line) for line in dots])[:, None]
+        lines = np.concatenate(dots)
+        frame = self.ax.get_window_extent(renderer)
+        # The places: twelve ways from the point, at four distances, in pixels.
+        angle = np.tile(np.arange(0, 360, 30) * deg, 4)
+        way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        ring = np.repeat(np.arange(4), 12)
+        gap = np.array([5, 14, 26, 40])[ring, None]
+        taken, sizes = np.empty((0, 2)), np.empty((0, 2))
+        for words, point, color, size in self.labels:
             artist = self.ax.text(
-                0, 0, text, fontsize=size, color=color, zorder=9, va="center", ha="center"
+                0,
+                0,
+                words,
+                fontsize=size,
+                color=color,
+                zorder=9,
+                va="center",
+                ha="center",
+                parse_math=False,
             )
             box = artist.get_window_extent(renderer)
-            w, h = box.width / 2 + 2, box.height / 2 + 1
-            best, least = None, np.inf
-            for ring, gap in enumerate((5, 14, 26, 40)):
-                for angle in np.arange(0, 360, 30) * deg:
-                    c, s = np.cos(angle), np.sin(angle)
-                    centre = to_pixels(point) + (gap + np.array([w, h])) * (c, s)
-                    inside = (abs(lines - centre) < (w, h) + margin).all(axis=-1).sum()
-                    hits = sum(
-                        (abs(centre - other) < (w + ow, h + oh)).all() for other, ow, oh in taken
-                    )
-                    out = (centre - (w, h) < frame.min).any() or (centre + (w, h) > frame.max).any()
-                    cost = 5 * inside + 200 * hits + 1000 * out + 6 * ring + (1 - c) + (1 - s)
-                    if cost < least:
-                        best, least = centre, cost
-            artist.set_position(self.ax.transData.inverted().transform(best))
-            taken.append((best, w, h))
+            half = np.array([box.width / 2 + 2, box.height / 2 + 1])
+            here = to_pixels(point)
+            places = here + (gap + half) * way
+            near = np.all(abs(lines - here) < 2 * half + gap.max() + margin, axis=-1)
+            inside, hits = (
+                np.all(abs(places[:, None] - others) < half + room, axis=-1).sum(axis=-1)
+                for others, room in ((lines[near], margin[near]), (taken, sizes))
+            )
+            out = np.any((places - half < frame.min) | (places + half > frame.max), axis=-1)
+            cost = 5 * inside + 200 * hits + 1000 * out + 6 * ring + (1 - way[:, 0])
+            best = places[(cost + (1 - way[:, 1])).argmin()]
+            artist.set_position(to_data.transform(best))
+            taken, sizes = np.vstack([taken, best]), np.vstack([sizes, half])
 
 
-def number(value, digits=3):
+def number(value: float, digits: int = 3) -> str:
     """A number for people: three significant digits, a real minus sign, no minus zero."""
     value = round(float(value), 9)  # so that noise of the processor cannot decide a tie
     text = f"{value:.{digits}g}"
@@ -392,9 +482,11 @@ def number(value, digits=3):
     return text.replace("-", "\N{MINUS SIGN}") if float(text) else "0"
 
 
-def dense(line, step=4):
-    """Points along a polyline (k, 2), every few pixels."""
-    line = line[np.isfinite(line).all(axis=-1)]
+def dense(line: Floats, step: float = 4) -> Floats:
+    """Points along a polyline (k, 2), every few pixels; the parts far out of any picture apart."""
+    line = np.clip(line[np.all(np.isfinite(line), axis=-1)], -FAR, FAR)
+    if not len(line):
+        return line
     along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=-1))])
-    at = np.linspace(0, along[-1], int(along[-1] / step) + 2)
+    at = np.linspace(0, along[-1], min(int(along[-1] / step) + 2, DOTS))
     return np.stack([np.interp(at, along, line[:, i]) for i in range(2)], axis=-1)

@@ -1,0 +1,351 @@
+"""One recording of a motion: what is known of it, worked out once, for all who draw or judge it.
+
+Differences across a jump say nothing about the motion: a corner's "acceleration" is the jump of the
+speed divided by the time step (errata S1-m), a wrapped angle's "speed" is 2 pi divided by it
+(S1-e). Here both are found and named, and no difference is taken across them.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._arrays import Bools, Floats, Ints, frozen, sealed
+from .._validate import floats, instance, short, warn_if_degrees
+from ..arms.arm import Arm
+from ..arms.branches import SLACK
+from .derivatives import differentiate, rising
+
+LEAP = 0.1  # rad or m: a smaller step from one sample to the next is never taken for a jump
+# motion, first and last sample, time, values before and after (n,)
+Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
+
+
+@dataclass(frozen=True, eq=False)
+class Jump:
+    """A place where joint values, or speeds, of one motion jump.
+
+    motion         which motion of the batch, so that `recording.q[jump.motion]` is it; () if single
+    first, last    the jump lies between these two samples; at a sample if they are the same
+    time           of the jump, s: half-way between these two
+    before, after  (n,) the values on both sides of it, taken on from the samples beside it: rad and
+                   m, of speeds per second; equal for the joints that do not take part
+    """
+
+    motion: tuple[int, ...]
+    first: int
+    last: int
+    time: float
+    before: Floats
+    after: Floats
+
+    @property
+    def by(self) -> Floats:
+        """(n,) by how much each joint's value jumps; 0 for those that do not take part."""
+        return self.after - self.before
+
+
+class Extreme(NamedTuple):
+    """The greatest (or lowest) value of each joint and its time in seconds, of the first such
+    sample: both (..., n). NaN for a joint without values.
+    """
+
+    value: Floats
+    time: Floats
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Recording:
+    """Motions of one arm with n joints, N samples each; the leading axes are the batch. Made by
+    `record`.
+
+    t        (N,) seconds
+    q, v, a  (..., N, n) joint values (rad; m if prismatic), speeds, accelerations. The whole q is
+             NaN where one of its joints is; v and a are NaN where there is none to show: in pieces
+             of less than three samples, and a at a jump of the speed.
+    missing  (..., N) bool: no posture here
+    gaps     (..., N - 1) bool: between this sample and the next the position jumps, or one of the
+             two is missing
+    leaps    a `Jump` for each jump of position
+    jumps    a `Jump` for each jump of speed
+
+    `recording[i]` is a part of the batch. All arrays are read-only. Who knows better speeds or
+    accelerations than differences give has them judged with `dataclasses.replace(recording, v=v)`.
+    TypeError, ValueError: parts of another kind or shape.
+    """
+
+    arm: Arm
+    t: Floats
+    q: Floats
+    v: Floats
+    a: Floats
+    missing: Bools
+    gaps: Bools
+    leaps: tuple[Jump, ...]
+    jumps: tuple[Jump, ...]
+
+    def __post_init__(self) -> None:
+        n, q = len(instance(self.arm, Arm, "arm").limits), floats(self.q, "q", finite=False)
+        if q.ndim < 2 or q.shape[-2:] != (len(rising(self.t, 2)), n):
+            raise ValueError(f"q: wanted shape (..., {len(self.t)}, {n}), got {q.shape}")
+        samples, steps = q.shape[:-1], (*q.shape[:-2], q.shape[-2] - 1)
+        for name, shape in (
+            ("t", (len(self.t),)),
+            ("q", q.shape),
+            ("v", q.shape),
+            ("a", q.shape),
+            ("missing", samples),
+            ("gaps", steps),
+        ):
+            value = getattr(self, name)
+            array = floats(value, name, finite=False)
+            if array.shape != shape:
+                raise ValueError(f"{name}: wanted shape {shape}, got {array.shape}")
+            if name in ("missing", "gaps"):
+                array = np.asarray(value, dtype=bool)
+            if array.flags.writeable:  # else nobody can change it, and it need not be copied
+                array = frozen(array)
+            object.__setattr__(self, name, array)
+        for name in ("leaps", "jumps"):
+            found = getattr(self, name)
+            if not isinstance(found, tuple) or not all(isinstance(one, Jump) for one in found):
+                raise TypeError(f"{name}: wanted a tuple of Jumps, got {short(found)}")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The batch shape; () is a single motion."""
+        return self.q.shape[:-2]
+
+    @cached_property
+    def excess(self) -> Floats:
+        """(..., N, n) how far each joint is past its limit, rad or m; 0 inside, NaN where missing.
+        As it stands: q + 2 pi k may be inside (`within` tells).
+        """
+        low, high = self.arm.limits.T
+        return _excess(np.maximum(low - self.q, self.q - high))
+
+    @cached_property
+    def speed_excess(self) -> Floats:
+        """(..., N, n) by how much each joint is too fast, rad/s or m/s; 0 where it is not, or where
+        the arm has no speed limits; NaN where there is no speed.
+        """
+        limits = self.arm.speed_limits
+        return _excess(abs(self.v) - (np.inf if limits is None else limits))
+
+    @cached_property
+    def lowest(self) -> Extreme:
+        """The lowest value of each joint, rad or m."""
+        value, time = _extreme(-self.q, self.t)
+        return Extreme(sealed(-value), time)
+
+    @cached_property
+    def highest(self) -> Extreme:
+        """The highest value of each joint, rad or m."""
+        return _extreme(self.q, self.t)
+
+    @cached_property
+    def greatest_speed(self) -> Extreme:
+        """Of all samples, either way, rad/s or m/s."""
+        return _extreme(abs(self.v), self.t)
+
+    @cached_property
+    def greatest_acceleration(self) -> Extreme:
+        """Of all samples that have one, either way, rad/s² or m/s²."""
+        return _extreme(abs(self.a), self.t)
+
+    def __len__(self) -> int:
+        if not self.shape:
+            raise TypeError("one single Recording has no length")
+        return self.shape[0]
+
+    def __iter__(self) -> Iterator["Recording"]:
+        return (self[i] for i in range(len(self)))
+
+    def __getitem__(self, index: Any) -> "Recording":
+        index = index if isinstance(index, tuple) else (index,)
+        if not self.shape:
+            raise TypeError("one single Recording has no parts")
+        chosen = np.arange(self.missing[..., 0].size).reshape(self.shape)[index]
+        moved = {int(k): i for i, k in np.ndenumerate(chosen)}
+
+        def mine(jumps: tuple[Jump, ...]) -> tuple[Jump, ...]:
+            places = (moved.get(int(np.ravel_multi_index(j.motion, self.shape))) for j in jumps)
+            return tuple(
+                replace(j, motion=i) for j, i in zip(jumps, places, strict=True) if i is not None
+            )
+
+        q, v, a = (sealed(x[index]) for x in (self.q, self.v, self.a))
+        missing, gaps = (sealed(x[index]) for x in (self.missing, self.gaps))
+        leaps, jumps = mine(self.leaps), mine(self.jumps)
+        return Recording(self.arm, self.t, q, v, a, missing, gaps, leaps, jumps)
+
+    def __repr__(self) -> str:
+        samples = f"{len(self.t)} samples over {self.t[-1] - self.t[0]:g} s"
+        return f"Recording({self.arm.name!r}, {samples}, shape={self.shape})"
+
+
+def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
+    """What is known of the motion q (..., N, n) at the rising times t (N,), two or more: a
+    `Recording`.
+
+    q is taken as it is: give it unwrapped angles (`follow` does), for a turn by 2 pi from one
+    sample to the next is a jump. NaN is "no posture here". Speeds and accelerations are those of
+    `differentiate`, of each unbroken piece for itself. A UserWarning where a motion begins so far
+    outside the limits that degrees were likely meant. ValueError: shapes that do not fit, times
+    that do not rise, infinite numbers.
+    """
+    limits, prismatic = instance(arm, Arm, "arm").limits, arm.prismatic
+    t, q = frozen(rising(t, 2)), floats(q, "q", len(limits), finite=False)
+    if q.ndim < 2 or q.shape[-2] != len(t):
+        raise ValueError(f"q: wanted shape (..., {len(t)}, {len(limits)}), got {q.shape}")
+    lead, q = q.shape[:-2], q.reshape(-1, *q.shape[-2:])
+    missing: Bools = np.any(np.isnan(q), axis=-1)
+    q = np.where(missing[..., None], np.nan, q)
+    _warn(limits, prismatic, q, missing)
+    with np.errstate(over="ignore"):
+        steps = np.diff(q, axis=1)
+        parts = _parts(steps, prismatic)
+        gaps = parts.any(axis=-1) | missing[:, 1:] | missing[:, :-1]
+        speeds = np.where(gaps[..., None], np.nan, steps) / np.diff(t)[:, None]
+    v, a = _derivatives(q, t, gaps)
+    leaps = _leaps(q, t, speeds, parts)
+    jumps = _jumps(speeds, t)
+    for c, first, last, _, before, after in jumps:
+        around = np.arange(max(first - 1, 0), min(last + 2, len(t)))
+        a[c, around[:, None], np.flatnonzero(before != after)] = np.nan
+    q, v, a = (sealed(x.reshape(*lead, *x.shape[1:])) for x in (q, v, a))
+    missing, gaps = (sealed(x.reshape(*lead, x.shape[1])) for x in (missing, gaps))
+    return Recording(arm, t, q, v, a, missing, gaps, _named(leaps, lead), _named(jumps, lead))
+
+
+def _parts(steps: Floats, prismatic: Bools) -> Bools:
+    """Which steps (C, N - 1, n) are jumps: a turn by more than pi, or ten times as far as the steps
+    beside it.
+    """
+    size = abs(steps)
+    beside = np.fmax(_shifted(size, 1), _shifted(size, -1))
+    return ((size > np.pi) & ~prismatic) | ((size > LEAP) & (size > 10 * beside))
+
+
+def _leaps(q: Floats, t: Floats, speeds: Floats, parts: Bools) -> list[Found]:
+    """The jumps of position, in the middle between two samples: both sides go on to there."""
+    c, i = np.nonzero(parts.any(axis=-1))
+    half, count = (t[i + 1] - t[i])[:, None] / 2, speeds.shape[1]
+
+    def slope(j: Ints) -> Floats:
+        exists = (j >= 0) & (j < count)
+        return np.nan_to_num(np.where(exists[:, None], speeds[c, j % count], 0.0))
+
+    before = q[c, i] + half * slope(i - 1)
+    after = np.where(parts[c, i], q[c, i + 1] - half * slope(i + 1), before)
+    times = t[i] + half[:, 0]
+    sides = sealed(before), sealed(after)
+    return list(zip(c.tolist(), i.tolist(), (i + 1).tolist(), times.tolist(), *sides, strict=True))
+
+
+def _derivatives(q: Floats, t: Floats, gaps: Bools) -> tuple[Floats, Floats]:
+    """Speeds and accelerations, each unbroken piece for itself; NaN where a piece has fewer than
+    three samples.
+    """
+    v, a = np.full_like(q, np.nan), np.full_like(q, np.nan)
+    whole = ~gaps.any(axis=-1) & (len(t) >= 3)
+    if whole.any():
+        v[whole] = differentiate(q[whole], t)
+        a[whole] = differentiate(v[whole], t)
+    for c in np.flatnonzero(~whole):
+        ends = np.flatnonzero(np.concatenate([[True], gaps[c], [True]]))
+        for start, stop in zip(ends[:-1], ends[1:], strict=True):
+            if stop - start >= 3:
+                piece = slice(start, stop)
+                v[c, piece] = differentiate(q[c, piece], t[piece])
+                a[c, piece] = differentiate(v[c, piece], t[piece])
+    return v, a
+
+
+def _jumps(speeds: Floats, t: Floats) -> list[Found]:
+    """Where the speeds between samples (C, N - 1, n) jump: a change far greater than the changes
+    beside it.
+
+    A smooth motion's changes are all of the size acceleration x step; those two and three samples
+    away tell it (the next one shares a corner that lies between two samples). Less than a hundredth
+    of the greatest speed is no jump, nor is what has no neighbours on both sides.
+    """
+    change = abs(np.diff(speeds, axis=1))
+    beside = np.maximum(
+        *(np.fmax(_shifted(change, 2 * side), _shifted(change, 3 * side)) for side in (-1, 1))
+    )
+    greatest = np.fmax.reduce(abs(speeds), axis=1, keepdims=True)
+    sure = change > 8 * beside + 0.01 * greatest + 1e-9
+    part = change > 3 * beside + 1e-9
+    found = []
+    for c in np.flatnonzero(sure.any(axis=(1, 2))):
+        for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
+            first, last = run[0], run[-1]
+            # A corner between two samples shows in two changes, in one of them perhaps faintly.
+            first -= bool(first > 0 and part[c, first - 1].any())
+            last += bool(last + 1 < len(part[c]) and part[c, last + 1].any())
+            time = float((t[first + 1] + t[last + 1]) / 2)
+            before = _towards(speeds[c], t, time, first, -1)
+            after = _towards(speeds[c], t, time, last + 1, 1)
+            joins = part[c, first : last + 1].any(axis=0)
+            after = np.where(joins, after, before)
+            sides = frozen(before), frozen(after)
+            found.append((int(c), int(first) + 1, int(last) + 1, time, *sides))
+    return found
+
+
+def _towards(speeds: Floats, t: Floats, time: float, i: int, side: int) -> Floats:
+    """The speeds (n,) at `time`, on the straight line through those of interval i and of the next
+    one on its side.
+    """
+    here: Floats = speeds[i]
+    j = i + side
+    if not 0 <= j < len(speeds) or np.isnan(speeds[j]).any():
+        return here
+    ti, tj = (t[i] + t[i + 1]) / 2, (t[j] + t[j + 1]) / 2
+    on: Floats = (speeds[j] - here) * (time - ti) / (tj - ti)
+    return here + on
+
+
+def _groups(numbers: Ints) -> list[Ints]:
+    """Ascending whole numbers, split where two are more than 2 apart."""
+    return np.split(numbers, np.flatnonzero(np.diff(numbers) > 2) + 1)
+
+
+def _shifted(values: Floats, k: int) -> Floats:
+    """values (C, m, n) with entry i + k in place i; NaN where there is none."""
+    out = np.full_like(values, np.nan)
+    m = values.shape[1]
+    if abs(k) < m:
+        out[:, max(-k, 0) : m - max(k, 0)] = values[:, max(k, 0) : m + min(k, 0)]
+    return out
+
+
+def _named(found: list[Found], lead: tuple[int, ...]) -> tuple[Jump, ...]:
+    """The same with the motions' places in the batch."""
+    places = list(np.ndindex(lead))
+    return tuple(Jump(places[c], *rest) for c, rest in ((one[0], one[1:]) for one in found))
+
+
+def _excess(over: Floats) -> Floats:
+    return sealed(np.where(over <= SLACK, 0.0, over))
+
+
+def _extreme(values: Floats, t: Floats) -> Extreme:
+    """The greatest of values (..., N, n) along the samples, and when."""
+    values = np.where(np.isnan(values), -np.inf, values)
+    at = values.argmax(axis=-2)
+    greatest = np.take_along_axis(values, at[..., None, :], axis=-2)[..., 0, :]
+    none = np.isneginf(greatest)
+    return Extreme(*(sealed(np.where(none, np.nan, x)) for x in (greatest, t[at])))
+
+
+def _warn(limits: Floats, prismatic: Bools, q: Floats, missing: Bools) -> None:
+    """A motion may turn on beyond all limits, but it begins inside them or near to them."""
+    begin = np.take_along_axis(q, missing.argmin(axis=1)[:, None, None], axis=1)[:, 0]
+    outside = (begin < limits[:, 0]) | (begin > limits[:, 1])
+    farthest = abs(np.where(outside & ~prismatic, begin, 0.0)).max(initial=0.0)
+    warn_if_degrees(np.array(farthest), "q", stacklevel=4)

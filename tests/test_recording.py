@@ -1,0 +1,447 @@
+"""What a recording says of a motion: the derivatives that `differentiate` gives, and where they
+say nothing.
+"""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from robokin import (
+    IRB140,
+    SCARA,
+    Quaternion,
+    Recording,
+    Transform,
+    blend,
+    deg,
+    differentiate,
+    follow,
+    lin,
+    linear,
+    ptp,
+    quintic,
+    record,
+    trapezoidal,
+)
+
+X, Y, Z = np.eye(3)
+ROW = IRB140.branch(+1, +1, -1)
+# The chain of 001, tasks 3 and 4.
+START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
+VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
+GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
+T = np.linspace(0, 20, 2001)
+# The jump of the speeds at the via pose, rad/s: errata S1, "chain", by other code.
+CORNER_JUMP = np.array(
+    [
+        0.107946862582,
+        0.457852830604,
+        0.920011415539,
+        0.030116525407,
+        -0.456073919364,
+        -0.216939050457,
+    ]
+)
+UNEVEN = np.cumsum(np.random.default_rng(7).uniform(0.5, 1.5, 300)) * 0.01
+
+
+def chain(fraction, t=T):
+    s = linear(t[-1])(t)
+    return follow(IRB140, IRB140.ik(blend(START, VIA, GOAL, fraction, s)), ROW)
+
+
+def wave(t=UNEVEN, size=1.0):
+    """Six joints, each with its own speed, inside the limits of the IRB-140."""
+    return size * np.sin(np.outer(t, 1 + np.arange(6) / 2))
+
+
+@pytest.fixture(scope="module")
+def motions():
+    return chain(np.array([0, 0.1, 0.25, 0.5])[:, None])
+
+
+# --- Speeds and accelerations ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("t", [T, UNEVEN], ids=["even", "uneven"])
+def test_a_smooth_motion_has_the_derivatives_that_differentiate_gives(t):
+    q = wave(t)
+    found = record(IRB140, t, q)
+    assert (found.v == differentiate(q, t)).all()
+    assert (found.a == differentiate(q, t, 2)).all()
+    assert (found.q == q).all() and (found.t == t).all()
+    assert not found.gaps.any() and not found.missing.any() and found.leaps == found.jumps == ()
+
+
+def test_each_piece_beside_a_gap_is_differentiated_for_itself():
+    q = wave()
+    q[100:120] = np.nan
+    found = record(IRB140, UNEVEN, q)
+    for piece in (slice(0, 100), slice(120, 300)):
+        assert (found.v[piece] == differentiate(q[piece], UNEVEN[piece])).all()
+        assert (found.a[piece] == differentiate(q[piece], UNEVEN[piece], 2)).all()
+    assert np.isnan(found.v[100:120]).all() and np.isnan(found.a[100:120]).all()
+    assert np.flatnonzero(found.missing).tolist() == list(range(100, 120))
+    assert np.flatnonzero(found.gaps).tolist() == list(range(99, 120))
+    assert found.leaps == ()
+
+
+@pytest.mark.parametrize("length", [1, 2, 3])
+def test_a_piece_of_less_than_three_samples_has_no_speed(length):
+    q = wave()
+    q[100], q[101 + length] = np.nan, np.nan
+    found = record(IRB140, UNEVEN, q)
+    piece = slice(101, 101 + length)
+    assert np.isfinite(found.q[piece]).all()
+    assert np.isfinite(found.v[piece]).all() == (length == 3)
+    assert np.isfinite(found.v[:100]).all() and np.isfinite(found.v[102 + length :]).all()
+    assert np.isfinite(found.a[piece]).all() == (length == 3)
+
+
+def test_two_samples_are_a_motion_without_speeds():
+    found = record(IRB140, [0, 1], wave(np.array([0, 0.1])))
+    assert np.isnan(found.v).all() and np.isnan(found.a).all() and np.isfinite(found.q).all()
+    assert np.isnan(found.greatest_speed.value).all() and np.isnan(found.speed_excess).all()
+
+
+def test_a_row_with_one_missing_joint_is_missing():
+    q = wave()
+    q[50, 3] = np.nan
+    found = record(IRB140, UNEVEN, q)
+    assert np.isnan(found.q[50]).all() and found.missing[50]
+    assert found.missing.sum() == 1 and np.isfinite(found.q[[49, 51]]).all()
+
+
+# --- Jumps of the speed ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("count, tolerance", [(2001, 1e-4), (2000, 2e-3), (100, 0.03)])
+def test_the_jump_of_the_speed_does_not_depend_on_the_step(count, tolerance):
+    t = np.linspace(0, 20, count)
+    [jump] = record(IRB140, t, chain(0.0, t)).jumps
+    assert t[jump.first] <= 10 + 1e-9 and t[jump.last] >= 10 - 1e-9
+    assert jump.last - jump.first <= 1 and jump.time == pytest.approx(10, abs=1e-9)
+    assert np.allclose(jump.by, CORNER_JUMP, atol=tolerance)
+
+
+def test_the_speeds_on_both_sides_of_a_corner_are_those_of_the_two_pieces():
+    # Two parabolas that meet at t = 1.5 with different slopes: known without any difference.
+    t = np.linspace(0, 3, 301)
+    u = t - 1.5
+    q = np.zeros((301, 6))
+    q[:, 0] = np.where(u < 0, 0.5 * u + 0.1 * u**2, -0.3 * u + 0.2 * u**2)
+    q[:, 1] = 0.2 * u**2  # takes no part
+    [jump] = record(IRB140, t, q).jumps
+    assert (jump.first, jump.last) == (150, 150) and jump.time == 1.5 and jump.motion == ()
+    assert jump.before[0] == pytest.approx(0.5, abs=1e-9)
+    assert jump.after[0] == pytest.approx(-0.3, abs=1e-9)
+    assert jump.by[0] == pytest.approx(-0.8, abs=1e-9) and (jump.by[1:] == 0).all()
+    assert jump.before[1] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_corner_between_two_samples_is_found_between_them():
+    t = np.linspace(0, 3, 300)  # no sample at 1.5
+    u = t - 1.5
+    q = np.zeros((300, 6))
+    q[:, 2] = np.where(u < 0, 0.5 * u, -0.3 * u)
+    [jump] = record(IRB140, t, q).jumps
+    assert (jump.first, jump.last) == (149, 150) and jump.time == pytest.approx(1.5)
+    assert jump.before[2] == pytest.approx(0.5, abs=1e-9)
+    assert jump.after[2] == pytest.approx(-0.3, abs=1e-9)
+
+
+def test_there_is_no_acceleration_at_a_jump_of_the_speed_and_only_there():
+    t = np.linspace(0, 3, 301)
+    u = t - 1.5
+    q = np.zeros((301, 6))
+    q[:, 0], q[:, 1] = np.where(u < 0, 0.5 * u, -0.3 * u), 0.2 * u**2
+    found = record(IRB140, t, q)
+    plain = differentiate(q, t, 2)
+    missing = np.isnan(found.a)
+    assert np.flatnonzero(missing[:, 0]).tolist() == [149, 150, 151]
+    assert not missing[:, 1:].any()
+    assert (found.a[~missing] == plain[~missing]).all()
+    # The spike that a plain difference shows is the jump divided by the step.
+    assert abs(plain[149:152, 0]).max() > 10 and abs(found.a[~missing]).max() < 0.5
+    assert (found.v == differentiate(q, t)).all()  # the speeds stay
+
+
+@pytest.mark.parametrize("count", [100, 2001])
+def test_a_smooth_motion_has_no_jump(count):
+    t = np.linspace(0, 20, count)
+    q0, q1 = chain(0.0, np.array([0, 10.0, 20]))[[0, 2]]
+    for law in (linear(20), quintic(20), trapezoidal(20)):
+        s = law(t)
+        for q in (ptp(q0, q1, s), follow(IRB140, IRB140.ik(lin(START, GOAL, s)), ROW)):
+            found = record(IRB140, t, q)
+            assert found.jumps == () and found.leaps == () and not found.gaps.any()
+            assert np.isfinite(found.a).all()
+    assert record(IRB140, t, chain(0.1, t)).jumps == ()
+
+
+def test_a_jump_of_less_than_a_hundredth_of_the_greatest_speed_is_none():
+    t = np.linspace(0, 2, 401)
+    corner = np.maximum(t - 1, 0)
+    for share, count in ((0.008, 0), (0.02, 1)):
+        q = np.zeros((401, 6))
+        q[:, 0] = t + share * corner
+        assert len(record(IRB140, t, q).jumps) == count
+
+
+def test_two_corners_are_two_jumps():
+    t = np.linspace(0, 3, 301)
+    q = np.zeros((301, 6))
+    q[:, 0] = np.interp(t, [0, 1, 2, 3], [0, 0.5, 0.2, 0.2])
+    jumps = record(IRB140, t, q).jumps
+    assert [jump.time for jump in jumps] == pytest.approx([1, 2])
+    assert [jump.by[0] for jump in jumps] == pytest.approx([-0.8, 0.3])
+
+
+# --- Jumps of position ----------------------------------------------------------------------------
+
+
+def test_a_turn_by_two_pi_from_one_sample_to_the_next_is_a_jump():
+    q = wave()
+    q[200:, 3] += 2 * np.pi
+    found = record(IRB140, UNEVEN, q)
+    [leap] = found.leaps
+    assert (leap.first, leap.last, leap.motion) == (199, 200, ())
+    assert leap.time == (UNEVEN[199] + UNEVEN[200]) / 2
+    assert leap.by[3] == pytest.approx(2 * np.pi, abs=1e-3) and (np.delete(leap.by, 3) == 0).all()
+    middle = np.sin(2.5 * leap.time)
+    assert leap.before[3] == pytest.approx(middle, abs=1e-3)
+    assert leap.after[3] == pytest.approx(middle + 2 * np.pi, abs=1e-3)
+    assert np.flatnonzero(found.gaps).tolist() == [199] and found.jumps == ()
+    whole = record(IRB140, UNEVEN, wave())
+    assert abs(found.v - whole.v).max() < 0.01 and abs(found.v).max() < 4
+    for piece in (slice(0, 200), slice(200, 300)):
+        assert (found.v[piece] == differentiate(q[piece], UNEVEN[piece])).all()
+
+
+@pytest.mark.parametrize("size, leap", [(0.09, False), (0.2, True), (3.0, True)])
+def test_a_step_far_beyond_those_beside_it_is_a_jump_if_it_is_a_tenth(size, leap):
+    t = np.linspace(0, 1, 101)
+    q = np.zeros((101, 6))
+    q[50:, 0] = size
+    found = record(IRB140, t, q)
+    assert [jump.first for jump in found.leaps] == [49] * leap
+    assert found.gaps[49] == leap and found.gaps.sum() == leap
+
+
+def test_a_fast_motion_is_no_jump():
+    t = np.linspace(0, 1, 11)
+    q = np.zeros((11, 6))
+    q[:, 0] = 2.0 * t  # 0.2 rad from one sample to the next, everywhere
+    assert record(IRB140, t, q).leaps == ()
+
+
+def test_a_long_stroke_is_no_jump_and_half_a_turn_is():
+    t = np.linspace(0, 10, 11)
+    q = np.zeros((11, 4))
+    q[:, 2] = 3.2 * t / 1  # every step is more than half a turn
+    assert len(record(SCARA, t, q).leaps) == 10
+    q = np.zeros((11, 4))
+    q[:, 3] = 3.2 * t  # metres
+    assert record(SCARA, t, q).leaps == ()
+
+
+def test_beside_a_gap_a_jump_has_the_value_of_its_sample():
+    t = np.linspace(0, 1, 101)
+    q = np.zeros((101, 6))
+    q[:, 0] = t
+    q[50:, 0] += 3
+    q[48] = np.nan  # between the gap and the jump stands one sample
+    [leap] = record(IRB140, t, q).leaps
+    assert (leap.first, leap.last) == (49, 50)
+    assert leap.before[0] == t[49] and leap.after[0] == pytest.approx(3.495)
+
+
+@pytest.mark.parametrize("first", [0, 98])
+def test_a_jump_at_an_end_is_found_too(first):
+    t = np.linspace(0, 0.99, 100)
+    q = np.zeros((100, 6))
+    q[:, 0] = 0.1 * t
+    q[first + 1 :, 0] += 2
+    [leap] = record(IRB140, t, q).leaps
+    assert (leap.first, leap.last) == (first, first + 1)
+    assert leap.by[0] == pytest.approx(2, abs=0.0011)
+
+
+# --- Limits and greatest values -------------------------------------------------------------------
+
+
+def test_excess_is_how_far_each_sample_is_past_its_limit():
+    q = wave(size=2.5)
+    q[40:50] = np.nan
+    found = record(IRB140, UNEVEN, q)
+    for k in range(0, 300, 7):
+        for j in range(6):
+            low, high = IRB140.limits[j]
+            wanted = max(low - q[k, j], q[k, j] - high, 0)
+            assert found.excess[k, j] == pytest.approx(wanted, abs=1e-12, nan_ok=True)
+    past = found.excess > 0
+    assert past[:, 1].any() and not past[:, 0].any() and not past[:, 3].any()
+    assert np.isnan(found.excess[40:50]).all() and np.isfinite(found.excess[:40]).all()
+    assert found.excess[np.isfinite(found.excess)].min() == 0
+
+
+def test_at_its_limit_a_joint_is_not_past_it():
+    q = np.broadcast_to(IRB140.limits[:, 1], (5, 6)) + 1e-10
+    assert (record(IRB140, np.arange(5), q).excess == 0).all()
+    q = np.broadcast_to(IRB140.limits[:, 0], (5, 6)) - 2e-9
+    assert (record(IRB140, np.arange(5), q).excess > 0).all()
+
+
+def test_speed_excess_is_by_how_much_a_joint_is_too_fast_either_way():
+    t = np.linspace(0, 2, 201)
+    q = np.zeros((201, 6))
+    q[:, 1], q[:, 2] = -4 * t + 4, 0.1 * np.sin(t)  # 4 rad/s, limit 200 °/s
+    found = record(IRB140, t, q)
+    assert np.allclose(found.speed_excess[:, 1], 4 - 200 * deg, rtol=0, atol=1e-9)
+    assert (np.delete(found.speed_excess, 1, axis=1) == 0).all()
+    assert SCARA.speed_limits is None
+    assert (record(SCARA, t, q[:, :4]).speed_excess == 0).all()
+
+
+def test_greatest_values_and_when(motions):
+    q = motions[1]
+    found = record(IRB140, T, q)
+    for extreme, values in (
+        (found.greatest_speed, abs(np.gradient(q, T, axis=0, edge_order=2))),
+        (found.greatest_acceleration, abs(found.a)),
+        (found.highest, q),
+        (found.lowest, q),
+    ):
+        for j in range(6):
+            column = values[:, j].tolist()
+            most = min(column) if extreme is found.lowest else max(column)
+            assert extreme.value[j] == most and extreme.time[j] == T[column.index(most)]
+
+
+def test_greatest_values_leave_out_what_is_missing():
+    q = wave()
+    q[:150] = np.nan
+    found = record(IRB140, UNEVEN, q)
+    assert (found.highest.value == q[150:].max(axis=0)).all()
+    assert (found.lowest.value == q[150:].min(axis=0)).all()
+    assert (found.highest.time >= UNEVEN[150]).all() and (found.lowest.time >= UNEVEN[150]).all()
+    none = record(IRB140, UNEVEN, np.full((300, 6), np.nan))
+    for extreme in (none.highest, none.lowest, none.greatest_speed, none.greatest_acceleration):
+        assert np.isnan(extreme.value).all() and np.isnan(extreme.time).all()
+    assert none.missing.all() and none.gaps.all() and none.leaps == none.jumps == ()
+
+
+# --- Batches --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shape", [(), (4,), (2, 1, 2), (0,)])
+def test_a_batch_is_recorded_motion_by_motion(motions, shape):
+    q = motions.copy()
+    q[2, 700:710] = np.nan
+    q[3, 500:, 5] += 2 * np.pi
+    q = q[0] if shape == () else q[: shape[0]] if shape == (0,) else q.reshape(*shape, 2001, 6)
+    found = record(IRB140, T, q)
+    assert found.shape == shape
+    for name, part in (("q", (6,)), ("v", (6,)), ("a", (6,)), ("excess", (6,)), ("missing", ())):
+        assert getattr(found, name).shape == (*shape, 2001, *part)
+    assert found.gaps.shape == (*shape, 2000)
+    assert found.greatest_speed.value.shape == found.lowest.time.shape == (*shape, 6)
+    for place in np.ndindex(shape):
+        one, part = record(IRB140, T, q[place]), found[place] if shape else found
+        for name in ("q", "v", "a", "missing", "gaps", "excess", "speed_excess"):
+            assert np.array_equal(getattr(one, name), getattr(part, name), equal_nan=True)
+        assert one.shape == part.shape == ()
+        for name in ("leaps", "jumps"):
+            mine = [jump for jump in getattr(found, name) if jump.motion == place]
+            for jumps in (mine, getattr(part, name)):
+                assert [j.time for j in jumps] == [j.time for j in getattr(one, name)]
+            assert all(jump.motion == () for jump in getattr(part, name))
+    if len(shape) == 1:
+        assert len(found) == len(list(found)) == shape[0]
+
+
+def test_parts_of_a_batch_keep_their_jumps(motions):
+    both = record(IRB140, T, np.stack([motions, motions[::-1]]))
+    assert [jump.motion for jump in both.jumps] == [(0, 0), (1, 3)]
+    assert [jump.motion for jump in both[1].jumps] == [(3,)]
+    assert [jump.motion for jump in both[:, 3].jumps] == [(1,)]
+    assert [jump.motion for jump in both[1:, 2:].jumps] == [(0, 1)]
+    assert both[1:, 2:].shape == (1, 2) and both[0, 1].jumps == ()
+    for jump in both.jumps:
+        assert np.array_equal(both.q[jump.motion], motions[0])
+
+
+def test_a_single_recording_has_no_parts(motions):
+    one = record(IRB140, T, motions[0])
+    for call in (lambda: len(one), lambda: one[0], lambda: list(one)):
+        with pytest.raises(TypeError, match="one single Recording"):
+            call()
+
+
+# --- What a recording is --------------------------------------------------------------------------
+
+
+def test_nobody_changes_a_recording(motions):
+    t, q = T.copy(), motions[0].copy()
+    found = record(IRB140, t, q)
+    q[:] = t[:] = 99
+    assert found.q.max() < 9 and found.t[1] == T[1]
+    arrays = [found.t, found.q, found.v, found.a, found.missing, found.gaps]
+    arrays += [found.excess, found.speed_excess, *found.lowest, *found.highest]
+    arrays += [*found.greatest_speed, *found.greatest_acceleration]
+    arrays += [found.jumps[0].before, found.jumps[0].after]
+    q = wave()
+    q[200:, 3] += 2 * np.pi
+    [leap] = record(IRB140, UNEVEN, q).leaps
+    for array in (*arrays, leap.before, leap.after, record(IRB140, T, motions)[1].v):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    with pytest.raises(AttributeError):
+        found.q = q
+    with pytest.raises(AttributeError):
+        leap.first = 3
+
+
+def test_a_recording_says_what_it_is_and_can_be_pickled(motions):
+    found = record(IRB140, T, motions[:2])
+    assert repr(found) == "Recording('IRB-140', 2001 samples over 20 s, shape=(2,))"
+    again = pickle.loads(pickle.dumps(found))
+    assert isinstance(again, Recording) and np.array_equal(again.v, found.v)
+
+
+def test_a_motion_in_degrees_is_warned_of():
+    t = np.linspace(0, 1, 50)
+    q = np.linspace([90, 0, 0, 0, 0, 0], [100, 10, 0, 0, 0, 0], 50)
+    with pytest.warns(UserWarning, match="q: 90 rad is many turns; were degrees meant"):
+        record(IRB140, t, q)
+
+
+def test_turning_on_and_on_is_no_slip(recwarn):
+    t = np.linspace(0, 1, 500)
+    q = np.linspace(np.zeros(6), [0, 0, 0, 0, 0, 30], 500)
+    q[:20] = np.nan
+    record(IRB140, t, q)
+    record(SCARA, t, np.full((500, 4), 20.0) * [0, 0, 0, 1])  # metres
+    assert not recwarn.list
+
+
+@pytest.mark.parametrize(
+    "wrong, kind, message",
+    [
+        (lambda q: record("IRB140", T, q), TypeError, "arm: wanted an Arm"),
+        (lambda q: record(None, T, q), TypeError, "arm: wanted an Arm"),
+        (lambda q: record(IRB140, T[:-1], q), ValueError, r"wanted shape \(..., 2000, 6\)"),
+        (lambda q: record(IRB140, T[::-1], q), ValueError, "rising"),
+        (lambda q: record(IRB140, [0.0], q[:1]), ValueError, "at least two times"),
+        (lambda q: record(IRB140, T, q[0]), ValueError, "q: wanted shape"),
+        (lambda q: record(IRB140, T, q[:, :5]), ValueError, r"q: wanted shape \(..., 6\)"),
+        (lambda q: record(IRB140, T, np.full_like(q, np.inf)), ValueError, "q: wanted finite"),
+        (lambda q: record(IRB140, T * np.nan, q), ValueError, "t: wanted finite"),
+        (lambda q: record(IRB140, T, None), ValueError, "q: wanted numbers"),
+        (lambda q: record(IRB140, None, q), ValueError, "t: wanted numbers"),
+    ],
+)
+def test_wrong_calls_say_what_is_wanted(wrong, kind, message, motions):
+    with pytest.raises(kind, match=message):
+        wrong(motions[1])
