@@ -1,5 +1,5 @@
-"""The examples in docstrings are true: each runs with NumPy as `np` and the public names of
-`robokin`, as in a notebook that began with them.
+"""The examples in docstrings are true: each runs with NumPy as `np`, the public names of `robokin`
+and those of its own module, as in a notebook that began with them.
 """
 
 import doctest
@@ -41,8 +41,10 @@ PUBLIC = public()
 def examples(name):
     """The examples in the docstring of a public name, and of its methods."""
     value = PUBLIC[name]
+    module = value if inspect.ismodule(value) else inspect.getmodule(value)
+    names = {key: item for key, item in vars(module).items() if key[0] != "_"} | NAMES
     finder = doctest.DocTestFinder(recurse=not inspect.ismodule(value), exclude_empty=True)
-    return [test for test in finder.find(value, name, globs=NAMES) if test.examples]
+    return [test for test in finder.find(value, name, globs=names) if test.examples]
 
 
 @pytest.mark.parametrize("name", [name for name in PUBLIC if examples(name)])

@@ -449,7 +449,7 @@ LENIENT = ("Recording", "Jump", "Extreme", "obstacles.Plan", "visit_collect.faul
 # ---- The wrong things
 
 HUGE = 10**400
-NEARLY_NUMBERS = np.zeros(10**7)
+NEARLY_NUMBERS = np.zeros(4 * 10**6)
 NEARLY_NUMBERS[-1] = np.nan
 MANY = np.zeros(300_000)
 
@@ -528,7 +528,7 @@ WRONG = {
     "ragged": ragged,
     "nested five thousand times": deep,
     "many numbers": lambda: MANY,
-    "ten million numbers, one NaN": lambda: NEARLY_NUMBERS,
+    "millions of numbers, one NaN": lambda: NEARLY_NUMBERS,
     "a list that holds itself": lambda: (lambda a: a.append(a) or a)([1.0]),
     "object": object,
     "a list of an object": lambda: [object()],
@@ -679,7 +679,7 @@ def test_the_watch_is_awake():
     # The checks above would see what they are there for.
     with np.errstate(all="warn"):
         for call, seen in (
-            (lambda x: time.sleep(60), "took longer"),
+            (lambda x: next(i for i in iter(int, 1) if i), "took longer"),
             (lambda x: np.float64(0) / 0, "RuntimeWarning"),
             (lambda x: {}[x], "KeyError"),
             (lambda x: len(None), FOREIGN),
@@ -696,7 +696,7 @@ class TooLong(BaseException):
 
 def _outcome(call, arguments, seconds=SECONDS):
     """The error of a call (or None), and what is wrong with that in words (or "")."""
-    error, complaint, start = None, "", time.perf_counter()
+    error, complaint, start = None, "", time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", UserWarning)  # hints: likely a slip, and legal
@@ -710,26 +710,28 @@ def _outcome(call, arguments, seconds=SECONDS):
             complaint = f"took longer than {seconds} s"
         except Exception as caught:
             complaint = f"{type(caught).__name__}: {caught}"[:200]
-    if not complaint and time.perf_counter() - start > seconds:
-        complaint = f"took {time.perf_counter() - start:.1f} s"
+    if not complaint and time.process_time() - start > seconds:
+        complaint = f"took {time.process_time() - start:.1f} s"
     return error, complaint
 
 
 class _watch:
-    """Raises TooLong after so many seconds, where the system has such an alarm."""
+    """Raises TooLong after so many seconds of work (what else the machine does is not counted),
+    where the system has such an alarm.
+    """
 
     def __init__(self, seconds):
         self.seconds = seconds
 
     def __enter__(self):
         if hasattr(signal, "setitimer"):
-            self.before = signal.signal(signal.SIGALRM, self._ring)
-            signal.setitimer(signal.ITIMER_REAL, self.seconds)
+            self.before = signal.signal(signal.SIGPROF, self._ring)
+            signal.setitimer(signal.ITIMER_PROF, self.seconds)
 
     def __exit__(self, *_):
         if hasattr(signal, "setitimer"):
-            signal.setitimer(signal.ITIMER_REAL, 0)
-            signal.signal(signal.SIGALRM, self.before)
+            signal.setitimer(signal.ITIMER_PROF, 0)
+            signal.signal(signal.SIGPROF, self.before)
 
     def _ring(self, *_):
         raise TooLong
