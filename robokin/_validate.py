@@ -81,7 +81,9 @@ def shape_of(value: Any, name: str) -> tuple[int, ...]:
     if not (good and all(type(n) is int and n >= 0 for n in value)):
         raise ValueError(f"{name}: wanted a tuple of whole numbers, got {short(value)}")
     if math.prod(value) > GREATEST:
-        raise ValueError(f"{name}: wanted at most {GREATEST:g} values, got {math.prod(value):g}")
+        raise ValueError(
+            f"{name}: wanted at most {GREATEST:g} values, got {short(math.prod(value))}"
+        )
     return tuple(value)
 
 

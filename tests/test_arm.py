@@ -143,7 +143,7 @@ def test_dh_links_are_the_product_of_four_matrices():
     a, alpha, d, theta, q = RNG.normal(size=(5, 4))
     frame = (1, 0, 0, 0), (0, 0, 0)  # a quaternion and an origin, on components
     for link, q_i in zip(dh_links(a, alpha, d, theta), q, strict=True):
-        _, frame = link.carry(frame, q_i)
+        _, frame = link._carry(frame, q_i)
     m = np.eye(4)
     for i in range(4):
         m = (

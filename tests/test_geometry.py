@@ -306,7 +306,7 @@ def test_a_link_about_any_axis_and_after_any_turn():
         link = Link(before, axis)
         other = Link(before @ Transform(crooked.inverse()), crooked @ axis, Transform(crooked))
         q = np.array(rng.uniform(-3, 3))
-        frames = [part.carry(((1, 0, 0, 0), (0, 0, 0)), q)[1] for part in (link, other)]
+        frames = [part._carry(((1, 0, 0, 0), (0, 0, 0)), q)[1] for part in (link, other)]
         (r1, o1), (r2, o2) = frames
         assert abs(abs(np.dot(r1, r2)) - 1) < 1e-14 and np.allclose(o1, o2, rtol=0, atol=1e-14)
 

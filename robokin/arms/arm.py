@@ -15,6 +15,8 @@ from ..transform import Transform
 from .geometry import ClosedForm, Geometry
 from .link import BASE, Frame, Link
 
+SCALARS = (int, float, np.number)
+
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
 class Arm:
@@ -142,7 +144,7 @@ class Arm:
         """For each link the frame of its joint and the frame after it, base to flange."""
         frame = BASE
         for link, q in zip(self.links, joints, strict=True):
-            joint, frame = link.carry(frame, q)
+            joint, frame = link._carry(frame, q)
             yield joint, frame
 
     def _evaluate(self, work: Callable[[Sequence[Any]], list[Any]], q: ArrayLike) -> Floats:
@@ -182,7 +184,7 @@ class ClosedFormArm(Arm):
         flags.
         """
         for row, wanted in enumerate(self.branches.tolist()):
-            if all(np.ndim(flag) == 0 for flag in flags) and list(flags) == wanted:
+            if all(isinstance(flag, SCALARS) for flag in flags) and list(flags) == wanted:
                 return row
         count = self.branches.shape[1]
         raise ValueError(f"{self.name}: wanted {count} flags of +1 or -1, got {short(flags)}")

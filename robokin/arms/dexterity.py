@@ -26,6 +26,7 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
     orientation, and of these what the arm can move at all.
     Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
     """
+    instance(arm, Arm, "arm")
     jacobian = _scaled(arm, q)[..., _movable(arm), :]
     missing = np.isnan(jacobian.sum(axis=(-1, -2), keepdims=True))
     whole = np.where(missing, 0.0, jacobian)

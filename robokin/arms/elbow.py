@@ -53,6 +53,7 @@ class ElbowGeometry:
     elbow: "Elbow"
     reach: float
 
+    @np.errstate(over="ignore", invalid="ignore")  # of lengths whose squares are none
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 3 or any(link.prismatic for link in links):
@@ -70,7 +71,7 @@ class ElbowGeometry:
         def solve(place: Sequence[Floats]) -> list[Floats]:
             return self.elbow.solve(*place)[0]
 
-        with np.errstate(invalid="ignore", divide="ignore"):
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             q = by_blocks(solve, point.reshape(-1, 3), rest=(2, 2))
         return np.moveaxis(q.reshape(3, 4, *point.shape[:-1]), (0, 1), (-1, -2))
 
@@ -231,7 +232,7 @@ class Elbow:
         solution.
         """
         rho = float(np.hypot(*point[:2]))
-        r2 = rho**2 - self.lateral**2
+        r2 = rho * rho - self.lateral * self.lateral
         # A point at the border by rounding lies on it: no other border is passed there.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
             return Gap("axis", abs(self.lateral) - rho, self.carried)

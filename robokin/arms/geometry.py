@@ -135,6 +135,7 @@ def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bo
     exists = (stretch >= -slack) & (fold >= -slack)
     stretch, around = np.maximum(stretch, 0), upper + fore + d
     short, long = np.maximum(d - (upper - fore), 0), np.maximum(d + (upper - fore), 0)
-    ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
-    turn = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
+    with np.errstate(over="ignore"):  # 1e200 m away is out of reach, and that is all
+        ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
+        turn = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
     return ahead, turn, exists

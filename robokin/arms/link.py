@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,9 +52,11 @@ class Link:
         object.__setattr__(self, "axis", direction)
         object.__setattr__(self, "after", after)
         object.__setattr__(self, "prismatic", instance(prismatic, bool, "prismatic"))
-        object.__setattr__(self, "_parts", (_Fixed(before), _coordinate(direction), _Fixed(after)))
+        object.__setattr__(
+            self, "_parts", (_Fixed.of(before), _coordinate(direction), _Fixed.of(after))
+        )
 
-    def carry(self, frame: Frame, q: Floats) -> tuple[Frame, Frame]:
+    def _carry(self, frame: Frame, q: Floats) -> tuple[Frame, Frame]:
         """The joint's own frame and the frame after this link, from the frame before it and q (...)
         in radians, metres if prismatic; all frames on components (`BASE` to begin with).
         """
@@ -117,16 +119,20 @@ def home(links: Sequence[Link]) -> tuple[list[Floats], list[Floats], Transform]:
     return points, axes, frame
 
 
-class _Fixed:
-    """A fixed transform in as few steps as it takes: shifts along coordinate axes, then a turn
-    about one of them or about any axis, or none.
+class _Fixed(NamedTuple):
+    """A fixed transform in as few steps as it takes: shifts (axis, length) along coordinate axes,
+    then a turn w, x, y, z about one of them or about any axis, or none.
     """
 
-    def __init__(self, fixed: Transform) -> None:
-        turn = fixed.rotation.wxyz.tolist()
-        self.shifts = [(k, x) for k, x in enumerate(fixed.translation.tolist()) if x]
-        self.axes = [k for k in range(3) if turn[k + 1]]
-        self.turn = turn
+    shifts: tuple[tuple[int, float], ...]
+    axes: tuple[int, ...]
+    turn: tuple[float, ...]
+
+    @classmethod
+    def of(cls, fixed: Transform) -> "_Fixed":
+        turn = tuple(fixed.rotation.wxyz.tolist())
+        shifts = tuple((k, x) for k, x in enumerate(fixed.translation.tolist()) if x)
+        return cls(shifts, tuple(k for k in range(3) if turn[k + 1]), turn)
 
     def step(self, frame: Frame) -> Frame:
         """The frame after the transform."""

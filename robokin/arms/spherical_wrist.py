@@ -60,6 +60,7 @@ class SphericalWristGeometry:
     wrist: "Wrist"
     reach: float
 
+    @np.errstate(over="ignore", invalid="ignore")  # of lengths whose squares are none
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 6 or any(link.prismatic for link in links):
@@ -75,7 +76,7 @@ class SphericalWristGeometry:
         """See `ClosedFormArm.ik`: Transform of shape (...) -> (..., 8, 6)."""
         instance(pose, Transform, "pose", hint=" (Transform.from_matrix takes a 4 x 4 array)")
         columns = pose.rotation.wxyz.reshape(-1, 4), pose.translation.reshape(-1, 3)
-        with np.errstate(invalid="ignore", divide="ignore"):
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             q = by_blocks(self._solve, *columns, rest=(2, 2, 2))
         return np.moveaxis(q.reshape(6, 8, *pose.shape), (0, 1), (-1, -2))
 
