@@ -17,6 +17,7 @@ from conftest import ROOT
 from machines import oracle
 
 from robokin import spbu_arm
+from robokin.jobs import visit_collect
 from robokin.jobs.visit_collect import (
     ABOVE_LIMIT,
     EXACT_LIMIT,
@@ -856,7 +857,7 @@ def test_itinerary_over_the_axis():
         spbu_arm(4, 4).fk(q).translation[1:], task.points[list(visit(task).order)], atol=1e-12
     )
     up = make(p0=(0, 0, 5), points=[(0, 0, 6)], T=100)
-    assert np.isfinite(itinerary(up, visit(up))[1]).all()
+    assert (itinerary(up, visit(up))[1][:, 0] == 0).all(), "nobody has said how joint 1 stands"
     assert itinerary(make(T=0), visit(make(T=0)))[1] == pytest.approx(make().q[:1])
 
 
@@ -997,6 +998,31 @@ def test_wrong_joint_values_are_found():
     rows = spbu_arm(5, 4).ik((2, 3, 2))
     assert misfit(5, 4, rows, (2, 3, 2))[1:].tolist() == [np.inf] * 3, "past the limits"
     assert np.isnan(misfit(5, 4, spbu_arm(5, 4).ik((9, 9, 9)), (9, 9, 9))).all()
+
+
+@pytest.mark.parametrize("k", [1e-3, 1e3])
+def test_an_inverse_that_is_off_is_found_out(k, monkeypatch):
+    """What the arm answers is put back into its forward kinematics, point by point."""
+    right = principal_postures
+    given = GOOD | {"L1": 5 * k, "L2": 4 * k, "p0": [k, k, k], "pi": [[0, 9 * k, 0]] * 12}
+
+    def off(by, rows):
+        def wrong(l1, l2, points):
+            q = right(l1, l2, points)
+            q[rows] += by
+            return q
+
+        monkeypatch.setattr(visit_collect, "principal_postures", wrong)
+        return faults(given)
+
+    assert off([0.5e-6, 0, 0], 3) == []  # 0.5e-6 of the reach
+    assert off([2e-6, 0, 0], 3) == [
+        f"point 3 = pi[2] (0, {9 * k:.12g}, 0) fails the check of its joint values: "
+        f"off by {1.8e-5 * k:.4g} m"
+    ]
+    assert [text.split()[-2:] for text in off(np.nan, [0, 12])] == [["nan", "m"]] * 2
+    many = off([1, 0, 0], slice(None))
+    assert len(many) == 11 and many[-1] == "and 3 more points fail it"
 
 
 WRONG = {

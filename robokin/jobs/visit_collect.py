@@ -705,11 +705,13 @@ def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> lis
 
     inside = np.flatnonzero(~broken.any(axis=-1))
     gaps = misfit(l1, l2, principal_postures(l1, l2, p[inside]), p[inside])
-    wrong = ~(gaps <= 1e-6 * (l1 + l2))
+    wrong = np.flatnonzero(~(gaps <= 1e-6 * (l1 + l2)))
     found += [
-        f"{named(i)} fails the check of its joint values: off by {gap:.4g} m"
-        for i, gap in list(zip(inside[wrong], gaps[wrong], strict=True))[:FAULTS_SHOWN]
+        f"{named(inside[i])} fails the check of its joint values: off by {gaps[i]:.4g} m"
+        for i in wrong[:FAULTS_SHOWN]
     ]
+    if more := _more(len(wrong), FAULTS_SHOWN, "and {} points fail it"):
+        found.append(more)
     return found
 
 
