@@ -220,6 +220,15 @@ def test_a_recording_is_animated_as_its_arrays_are(blended, motions):
     assert made.text == given.text
 
 
+def test_joint_values_may_be_lists():
+    t, q = [0, 1, 2], np.linspace(0, 0.2, 18).reshape(3, 6)
+    assert animate(IRB140, t, q.tolist()).text == animate(IRB140, t, q).text
+    both = np.stack([q, 2 * q])
+    slow = animate(IRB140, t, both.tolist(), slider=("x", [1, 2]))
+    assert slow.text == animate(IRB140, t, both, slider=("x", [1, 2])).text
+    assert animate([IRB140], t, (q,)).text == animate([IRB140], t, [q.tolist()]).text
+
+
 def test_given_speeds_of_a_recording_are_drawn_and_judged(motions):
     """A recording whose speeds are exact, by whatever means, keeps them."""
     exact = record(IRB140, T, motions[1])

@@ -3,9 +3,11 @@
 from .derivatives import differentiate
 from .laws import TimeLaw, linear, quintic, trapezoidal
 from .paths import blend, lin, lin_lin, ptp
-from .recording import Recording, record
+from .recording import Extreme, Jump, Recording, record
 
 __all__ = [
+    "Extreme",
+    "Jump",
     "Recording",
     "TimeLaw",
     "blend",

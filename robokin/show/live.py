@@ -587,7 +587,7 @@ def _stage(arm: Arm, kind: str, title: str, alt: str, poses: Sequence[Transform]
         "name": arm.name,
         "chain": _chain(arm.links),
         "scene": scene,
-        "styles": list(plots.JOINT_STYLES),
+        "styles": [dict(style) for style in plots.JOINT_STYLES],
         "unit": {"name": name, "size": size},
     }
 

@@ -4,8 +4,9 @@
 """
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -23,13 +24,16 @@ from .scene import INK, SOFT, dense, number
 # Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
 # Ito, Color Universal Design, 2008; they stay apart for colour-blind readers, and the dashes stay
 # apart in grey print.
-JOINT_STYLES = (
-    {"color": "#0072B2", "dash": ()},
-    {"color": "#D55E00", "dash": (5, 1.8)},
-    {"color": "#009E73", "dash": (1.6, 1.3)},
-    {"color": "#CC79A7", "dash": (6, 1.6, 1.4, 1.6)},
-    {"color": "#E69F00", "dash": (2.8, 1.2)},
-    {"color": "#56B4E9", "dash": (0.9, 1.4)},
+JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
+    MappingProxyType({"color": color, "dash": dash})  # for all to read
+    for color, dash in (
+        ("#0072B2", ()),
+        ("#D55E00", (5, 1.8)),
+        ("#009E73", (1.6, 1.3)),
+        ("#CC79A7", (6, 1.6, 1.4, 1.6)),
+        ("#E69F00", (2.8, 1.2)),
+        ("#56B4E9", (0.9, 1.4)),
+    )
 )
 ALARM = "#B3261E"
 STRIP = 0.08  # height of the shaded strip beyond a limit, as a share of its panel
@@ -102,7 +106,7 @@ def draw_panel(
     ax.set_ylabel(f"{name}, {unit_text}", fontsize=9.5)
     labels: list[tuple[str, float, int]] = []
     for i, joint in enumerate(joints):
-        style: dict[str, Any] = JOINT_STYLES[joint % len(JOINT_STYLES)]
+        style = JOINT_STYLES[joint % len(JOINT_STYLES)]
         line = (0, style["dash"]) if style["dash"] else "-"
         labels += _band(ax, limits[i], values[:, i], joint, unit_text, style["color"])
         ax.plot(

@@ -182,29 +182,29 @@ def _tracks(
     given or several, or recordings.
     """
     several = isinstance(arm, (list, tuple))
-    arms = list(arm) if several else [arm]
+    given = list(arm) if several else [arm]
+    recorded = bool(given) and all(isinstance(one, Recording) for one in given)
+    arms = [one.arm if recorded else instance(one, Arm, "arm") for one in given]
     if names is not None and not several:
         raise ValueError("names: wanted only with a list of arms; one arm has its own name")
-    if arms and all(isinstance(one, Recording) for one in arms):
-        if t is not None or q is not None:
-            raise ValueError("t and q: wanted none beside recordings, which have their own")
-        named = _names(names, [track.arm for track in arms])
-        for track, name in zip(arms, named, strict=True):
-            _shaped(track.q, lead, track.arm, len(rising(track.t)), f"recording of {name}")
-            if not np.array_equal(track.t, arms[0].t):
-                raise ValueError(f"recording of {name}: wanted the same times as of {named[0]}")
-        return [_in_a_row(track) for track in arms], named
-    for one in arms:
-        instance(one, Arm, "arm")
-    if several and not (arms and isinstance(q, (list, tuple)) and len(q) == len(arms)):
+    if recorded and (t is not None or q is not None):
+        raise ValueError("t and q: wanted none beside recordings, which have their own")
+    motions = [q] if not several else q if not recorded else [None] * len(arms)
+    if not (arms and isinstance(motions, (list, tuple)) and len(motions) == len(arms)):
         wanted = f"a list with one array for each of {len(arms)} arms"
         raise ValueError(f"q: wanted {wanted}, got {short(q)}")
-    named, t = _names(names, arms), rising(t)
+    named, t = _names(names, arms), rising(given[0].t if recorded else t)
     tracks = []
-    for one, motion, name in zip(arms, q if several else [q], named, strict=True):
-        motion = floats(motion, f"q of {name}", finite=False)
-        _shaped(motion, lead, one, len(t), f"q of {name}")
-        tracks.append(record(one, t, motion.reshape(-1, *motion.shape[-2:])))
+    for track, motion, name in zip(given, motions, named, strict=True):
+        if recorded:
+            _shaped(track.q, lead, len(t), track.arm, f"recording of {name}")
+            if not np.array_equal(track.t, t):
+                raise ValueError(f"recording of {name}: wanted the same times as of {named[0]}")
+            tracks.append(_in_a_row(track))
+        else:
+            motion = floats(motion, f"q of {name}", finite=False)
+            _shaped(motion, lead, len(t), track, f"q of {name}")
+            tracks.append(record(track, t, motion.reshape(-1, *motion.shape[-2:])))
     return tracks, named
 
 
@@ -216,7 +216,7 @@ def _names(names: Any, arms: Sequence[Arm]) -> list[str]:
     return [plain(name, "names") for name in names]
 
 
-def _shaped(q: Floats, lead: tuple[int, ...], arm: Arm, count: int, name: str) -> None:
+def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -> None:
     """The switch before the slider, then samples and joints."""
     wanted = (*lead, count, len(arm.limits))
     if q.shape != wanted:
@@ -327,7 +327,7 @@ def _page(
         "slider": slider,
         "switch": switch,
         "unit": unit,
-        "styles": plots.JOINT_STYLES,
+        "styles": [dict(style) for style in plots.JOINT_STYLES],
         "scene": scene
         or _scene(arms, [track.q[:, kept] for track in tracks], targets, marks, size),
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
