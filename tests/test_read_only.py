@@ -30,13 +30,18 @@ from robokin import (
     follow,
     lin,
     loader_arm,
+    nearest,
     quintic,
+    record,
+    representative,
     scara_arm,
+    singular_values,
     spbu_arm,
     spherical_wrist,
     three_lever,
     trapezoidal,
     two_link,
+    within,
 )
 from robokin.jobs import obstacles, steppers
 from robokin.jobs.visit_collect import KEYS, Task, itinerary, visit
@@ -61,6 +66,13 @@ MACHINES = {
 
 def task():
     return Task(2.0, 1.5, 20.0, [0.5] * 3, [1.0, 0.0, 1.0], POINTS.tolist(), "visit")
+
+
+def recording():
+    """With a gap, a jump of position, and one of speed."""
+    q = np.sin(TIMES)[:, None] * np.ones(6) + 2 * (TIMES > 0.8)[:, None]
+    q[3] = np.nan
+    return record(IRB140, TIMES, q)
 
 
 def plan():
@@ -90,6 +102,8 @@ ROOTS = {
     "SCARA's poses": lambda: lin(ScaraPose((0.3, 0.1, 0.1)), ScaraPose((0.1, 0.3, 0.1)), TIMES),
     "quintic": lambda: quintic(2.0),
     "trapezoidal": lambda: trapezoidal(2.0),
+    "recording": recording,
+    "recordings": lambda: record(SCARA, TIMES, np.zeros((2, 9, 4))),
     "task": task,
     "result": lambda: visit(task()),
     "move": lambda: steppers.synchronised([0, 0, 0], [40, -20, 8]),
@@ -118,6 +132,8 @@ KEEPS = {
         MACHINES["spbu_arm"].limits,
     ),
     "base": (lambda base: two_link(0.5, 0.4, base), [0.1, 0.2]),
+    "times of a recording": (lambda t: record(IRB140, t, np.ones((9, 6))), TIMES),
+    "joints of a recording": (lambda q: record(IRB140, TIMES, q), np.ones((9, 6))),
     "times of a move": (lambda t: steppers.Move(t, np.array([[0.0], [2], [4]])), [0.0, 1, 2]),
     "positions of a move": (lambda p: steppers.Move(np.arange(3.0), p), [[0.0], [2], [4]]),
     "speeds of a task": (
@@ -134,6 +150,10 @@ KEEPS = {
 # What gives an array: the caller may write into it, and it is given alike the next time.
 GIVES = {
     "ik": lambda: IRB140.ik(A),
+    "within": lambda: within(IRB140, np.ones(6)),
+    "nearest": lambda: nearest(IRB140, IRB140.ik(A), np.ones(6)),
+    "representative": lambda: representative(IRB140, np.ones(6)),
+    "singular values": lambda: singular_values(IRB140, np.ones(6)),
     "ik of a SCARA": lambda: SCARA.ik(ScaraPose((0.3, 0.1, 0.1))),
     "jacobian": lambda: IRB140.jacobian(np.ones(6)),
     "matrix": A.as_matrix,

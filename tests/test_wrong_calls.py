@@ -290,7 +290,6 @@ CALLS = {
             circles=(),
             names=["one", "two"],
         ),
-        "arm",
         "q",
         "slider",
         "switch",
