@@ -104,6 +104,20 @@ def test_on_the_axis_alpha_stays_as_it_was():
     assert np.isfinite(q).all() and q[3, 2] == pytest.approx(np.pi)
 
 
+def test_gamma_lies_in_three_quarters_of_a_turn():
+    """With a longer outer lever the inner one can point down and backwards, up to 270 degrees."""
+    arm = loader_arm(1.0, 2.0)
+    q = np.array(
+        [(0.3, gamma, beta) for gamma in (1, 89, 179, 181, 269, 269.9) for beta in (20, 70)]
+    )
+    q[:, 1:] *= deg
+    places = arm.fk(q).translation
+    high = places[:, 2] >= 0
+    assert high[q[:, 1] > 268 * deg].any() and high.sum() >= 6
+    back = station_postures(arm, places)
+    np.testing.assert_allclose(back[high][:, 1:], q[high][:, 1:], atol=1e-9)
+
+
 def test_alpha_goes_on_by_the_shortest_turn():
     angle = np.array([170, -170, -20, 170, -100, 79]) * deg
     points = np.stack([np.cos(angle), np.sin(angle), 0 * angle + 0.3], axis=-1)
@@ -180,6 +194,8 @@ def test_the_check_of_the_coordinates():
     # the inner bound, S3-r
     assert out_of_reach(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
     assert len(out_of_reach(arm, (2, 0, -1))) == 2
+    # rounding does not sink: 1e-12 of the reach
+    assert out_of_reach(arm, (1, 0.5, -1.8e-12)) == [] and out_of_reach(arm, (1, 0.5, -2e-12))
     assert out_of_reach(arm, (1.9, 0, 0)) == [] and out_of_reach(arm, (0, 0, 0.5)) == []
     assert "were millimetres meant" in explain(arm, (1200, 0, 300), 1)
     assert "183.8 mm too near" in explain(arm, Transform(translation=(0.3, 0, 0.1)), 1)

@@ -37,6 +37,29 @@ TASKS = int(os.environ.get("ROBOKIN_TASKS", 60))
 ARM = three_lever(1.0)
 KEPT = ARM.lever / 7
 cases = pytest.mark.parametrize("case", CASES)
+# Least S (radians) of some of the random tasks by brute force: SciPy's Dijkstra on a grid of 2
+# degrees whose edges keep L/7 (tests/benchmarks/obstacle_tasks.py, `brute_force`).
+BRUTE = {
+    0: 2.3075,
+    2: 3.3259,
+    3: 2.4217,
+    5: 3.3916,
+    6: 5.2527,
+    7: 3.8858,
+    8: 5.6599,
+    9: 4.6517,
+    10: 1.294,
+    11: 2.2095,
+    12: 2.4412,
+    13: 4.8266,
+    14: 4.6026,
+    15: 2.1133,
+    16: 3.6588,
+    17: 7.0104,
+    20: 5.6286,
+    22: 3.406,
+    23: 3.0209,
+}
 
 
 def seen(q, H, L=1.0):
@@ -299,9 +322,15 @@ def test_work_without_end_is_refused(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def answers():
+def drawn():
+    """Random tasks (q0, target, obstacle)."""
+    return list(tasks(max(TASKS, 62)))
+
+
+@pytest.fixture(scope="module")
+def answers(drawn):
     """(q0, target, obstacle, plan) of the random tasks."""
-    return [(*task, plan(ARM, *task)) for task in tasks(TASKS)]
+    return [(*task, plan(ARM, *task)) for task in drawn[:TASKS]]
 
 
 def test_plans_keep_their_clearance_or_say_that_there_is_none(answers):
@@ -358,18 +387,68 @@ def test_the_way_round_is_taut(answers):
     little towards its neighbours, and the target reached from the last one in no nearer posture.
     """
     searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
-    nearer = 0
-    for H, K1, path in searched:
-        assert not keeps(ARM, path[:-2], path[2:], H, KEPT).any()
-        for a, via, b in zip(path, path[1:], path[2:], strict=False):
-            between = np.clip(via, np.minimum(a, b), np.maximum(a, b))
-            pulled = via + (between - via) / 32
-            slack = abs(between - via).sum() > 1e-9
-            assert not (slack and keeps(ARM, [a, pulled], [pulled, b], H, KEPT).all())
-        goals = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 300))
-        gain = abs(path[-1] - path[-2]).sum() - abs(goals - path[-2]).sum(axis=1)
-        nearer += keeps(ARM, path[-2], goals[gain > 1 * deg], H, KEPT).any()
-    assert len(searched) > 0.7 * TASKS and nearer <= 0.05 * len(searched)
+    nearer = [is_taut(path, K1, H, KEPT) for H, K1, path in searched]
+    assert len(searched) > 0.7 * TASKS and sum(nearer) <= 0.05 * len(searched)
+
+
+def is_taut(path, K1, H, distance):
+    """Asserts it of the via postures; True if a nearer end is within reach."""
+    assert not keeps(ARM, path[:-2], path[2:], H, distance).any()
+    for a, via, b in zip(path, path[1:], path[2:], strict=False):
+        between = np.clip(via, np.minimum(a, b), np.maximum(a, b))
+        pulled = via + (between - via) / 32
+        slack = abs(between - via).sum() > 1e-9
+        assert not (slack and keeps(ARM, [a, pulled], [pulled, b], H, distance).all())
+    goals = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 300))
+    gain = abs(path[-1] - path[-2]).sum() - abs(goals - path[-2]).sum(axis=1)
+    return bool(keeps(ARM, path[-2], goals[gain > 1 * deg], H, distance).any())
+
+
+def test_the_way_round_costs_no_more_than_brute_force_finds(drawn):
+    ratios = []
+    for i, least in BRUTE.items():
+        q0, K1, H = drawn[i]
+        S = abs(np.diff(way_round(ARM, q0, K1, H, KEPT), axis=0)).sum()
+        assert S < 1.03 * least, (i, S, least)
+        ratios.append(S / least)
+    assert np.mean(ratios) < 0.985  # its via postures lie where they are best, not on a grid
+
+
+def test_small_clearances_are_found(drawn):
+    """Where a step of the grid can jump over the obstacle. In the last three a goal further along
+    its curve saves movement.
+    """
+    found = []
+    for q0, K1, H in [*drawn[:12], drawn[21], drawn[30], drawn[61]]:
+        path = way_round(ARM, q0, K1, H, 0.02)
+        found.append(path is not None)
+        if path is not None:
+            assert seen(dense(path), H).min() >= 0.02 and (path[0] == q0).all()
+            assert not is_taut(path, K1, H, 0.02)
+    assert sum(found) >= 13
+
+
+def test_the_way_to_a_target_that_few_postures_reach():
+    """Near the stretched arm the family is short; at the stretched arm it is one posture; beyond it
+    there is none, and no way.
+    """
+    for r in (2.9, 2.9999, 2.99999999, 3.0):
+        K1 = r * np.array([np.cos(1.0), np.sin(1.0)])
+        path = way_round(ARM, Q0, K1, (-2.0, 0.5), 0.1)
+        np.testing.assert_allclose(ARM.points(path[-1])[3], K1, atol=1e-7)
+        least = ARM.least(K1, Q0)[1]
+        assert least - 1e-9 <= abs(np.diff(path, axis=0)).sum() < least + 2 * deg
+    assert way_round(ARM, Q0, (3.001, 0), (-2.0, 0.5), 0.1) is None
+    assert way_round(ARM, Q0, (0.5, 0.5), (-2.0, 0.5), 0.1) is None
+
+
+def test_a_start_on_its_limits_is_the_start():
+    """Past a limit by rounding, too: the path begins where the arm stands."""
+    for q0 in ([-5e-10, 2.0, 1.5], [np.pi + 5e-10, 2.0, 1.5], [0.0, np.pi, 2.0], [1.0, 0.3, np.pi]):
+        path = way_round(ARM, q0, (1.8, 0.6), (1.0, -1.5), 0.1)
+        assert (path[0] == q0).all() and within(ARM, path).all()
+    with pytest.raises(ValueError, match="from 0 to 180"):
+        way_round(ARM, [-5e-9, 2.0, 1.5], (1.8, 0.6), (1.0, -1.5), 0.1)
 
 
 def test_the_way_round_exists_where_a_path_was_made_first():
