@@ -70,6 +70,15 @@ def test_ptp_takes_angles_as_they_are():
     assert np.allclose(ptp([0.0, 7.0], [10.0, -7.0], [0.0, 0.5, 1.0]), [[0, 7], [5, 0], [10, -7]])
 
 
+def test_ptp_between_postures_in_degrees_is_hinted_at(recwarn):
+    ptp(np.zeros(6), np.full(6, 2 * np.pi), 0.5)
+    ptp([0.0, -12.0], [12.0, 0.0], 0.5)
+    assert not recwarn.list
+    for ends, name in ((([0.0, 90.0], [1.0, 1.0]), "q0"), (([1.0, 1.0], [-90.0, 0.0]), "q1")):
+        with pytest.warns(UserWarning, match=f"{name}: 90 rad is many turns; were degrees meant"):
+            ptp(*ends, 0.5)
+
+
 def test_lin_lin_is_the_two_lines():
     s = np.linspace(0, 1, 101)
     T = lin_lin(START, VIA, GOAL, s)

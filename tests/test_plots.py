@@ -613,6 +613,14 @@ def test_titles_and_names_are_plain_text(rounded):
     assert shown in figs[1].alt and shown in figs[2].alt
 
 
+def test_postures_in_degrees_are_hinted_at(recwarn):
+    plot_postures(IRB140, np.full((5, 6), 13.0))  # a motion may turn on and on
+    assert not recwarn.list
+    for q in ([0, 45, 0, 0, 0, 0], [[0, 0, 0, 0, 0, 0], [0, 90, 0, 0, 0, 0]]):
+        with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
+            plot_postures(IRB140, q)
+
+
 def test_a_caller_can_say_more(rounded):
     assert plot_joints(IRB140, T, rounded, alt="All calm.").alt == "All calm."
     assert (

@@ -417,6 +417,14 @@ def test_a_motion_in_degrees_is_warned_of():
         record(IRB140, t, q)
 
 
+def test_so_is_one_that_begins_at_home():
+    q = np.linspace(np.zeros(6), [90, 0, 0, 0, 0, 0], 50)
+    with pytest.warns(UserWarning, match="were degrees meant"):
+        record(IRB140, np.linspace(0, 1, 50), q)
+    with pytest.warns(UserWarning, match="q: 13 rad is many turns"):
+        record(IRB140, np.linspace(0, 1, 50), np.full((50, 6), -13.0) * [1, 0, 0, 0, 0, 0])
+
+
 def test_turning_on_and_on_is_no_slip(recwarn):
     t = np.linspace(0, 1, 500)
     q = np.linspace(np.zeros(6), [0, 0, 0, 0, 0, 30], 500)

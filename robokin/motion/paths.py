@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._arrays import Floats
-from .._validate import broadcast, choice, floats
+from .._validate import broadcast, choice, floats, warn_if_degrees
 
 CORNERS = ("parabola", "quintic")
 
@@ -39,7 +39,8 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     at s (...).
 
     Returns (..., n). Joint values are taken as they are: to turn the short way, choose q1 with
-    `nearest`. Source: 001, listing 8. ValueError: s outside [0, 1], shapes that do not fit.
+    `nearest`. Source: 001, listing 8. A UserWarning where a joint stands beyond two turns: degrees
+    were likely meant. ValueError: s outside [0, 1], shapes that do not fit.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
@@ -47,6 +48,8 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
             f"q0 and q1: wanted joint values of one length, got shapes {q0.shape} and {q1.shape}"
         )
     broadcast("q0, q1 and s", q0.shape[:-1], q1.shape[:-1], s.shape)
+    for name, q in (("q0", q0), ("q1", q1)):
+        warn_if_degrees(q, name, posture=1)
     return q0 + s[..., None] * (q1 - q0)
 
 

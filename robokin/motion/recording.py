@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._arrays import Bools, Floats, Ints, frozen, sealed
-from .._validate import floats, instance, short, warn_if_degrees
+from .._validate import TWO_TURNS, floats, instance, short, warn_if_degrees
 from ..arms.arm import Arm
 from ..arms.branches import SLACK
 from .derivatives import differentiate, rising
@@ -193,9 +193,9 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
 
     q is taken as it is: give it unwrapped angles (`follow` does), for a turn by 2 pi from one
     sample to the next is a jump. NaN is "no posture here". Speeds and accelerations are those of
-    `differentiate`, of each unbroken piece for itself. A UserWarning where a motion begins so far
-    outside the limits that degrees were likely meant. ValueError: shapes that do not fit, times
-    that do not rise, infinite numbers.
+    `differentiate`, of each unbroken piece for itself. A UserWarning where degrees were likely
+    meant: a motion begins more than two turns away and outside its limits, or passes eight.
+    ValueError: shapes that do not fit, times that do not rise, infinite numbers.
     """
     limits, prismatic = instance(arm, Arm, "arm").limits, arm.prismatic
     t, q = frozen(rising(t, 2)), floats(q, "q", len(limits), finite=False)
@@ -348,4 +348,5 @@ def _warn(limits: Floats, prismatic: Bools, q: Floats, missing: Bools) -> None:
     begin = np.take_along_axis(q, missing.argmin(axis=1)[:, None, None], axis=1)[:, 0]
     outside = (begin < limits[:, 0]) | (begin > limits[:, 1])
     farthest = abs(np.where(outside & ~prismatic, begin, 0.0)).max(initial=0.0)
-    warn_if_degrees(np.array(farthest), "q", stacklevel=4)
+    turning = np.array(farthest) if farthest > TWO_TURNS else q[..., ~prismatic]
+    warn_if_degrees(turning, "q", stacklevel=4)

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from PIL import Image
 
 from .._arrays import Floats, sealed
-from .._validate import floats, instance, length, positive, short
+from .._validate import floats, instance, length, positive, short, warn_if_degrees
 from ..arms.arm import Arm
 from ..motion.recording import Recording, record
 from ..transform import Transform
@@ -132,6 +132,8 @@ def plot_postures(
     alt      the alternative text, where the numbers alone do not say it
     """
     q, targets = _samples(arm, q), named_targets(targets)
+    turning = q[..., ~arm.prismatic]
+    warn_if_degrees(turning if len(q) > 1 else turning[0], "q", posture=1)
     title, alt = _words(title, "title"), _words(alt, "alt")
     exists = np.flatnonzero(np.all(np.isfinite(q), axis=-1))
     if not len(exists):
