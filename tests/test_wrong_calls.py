@@ -259,6 +259,8 @@ CALLS = {
     "differentiate": (differentiate, dict(values=MOTION, t=TIMES, order=2)),
     "record": (motion.record, dict(arm=IRB140, t=TIMES, q=MOTION)),
     "Recording": (motion.Recording, _fields(RECORDING)),
+    "Jump": (motion.Jump, _fields(RECORDING.leaps[0])),
+    "Extreme": (motion.Extreme, dict(value=SIX, time=SIX)),
     "Recording.__getitem__": (lambda index: RECORDINGS[index], dict(index=1)),
     # robokin.show
     "animate": (
@@ -440,7 +442,7 @@ CALLS = {
 }
 
 # What is made for us to answer with, and what says in words what is wrong with anything.
-LENIENT = ("Recording", "obstacles.Plan", "visit_collect.faults")
+LENIENT = ("Recording", "Jump", "Extreme", "obstacles.Plan", "visit_collect.faults")
 
 # ---- The wrong things
 
