@@ -575,6 +575,8 @@ def test_above_floor_refuses_such_moves():
     for T, why in ((needed * 0.99, "not enough time"), (needed, "what is in time dips")):
         given = vars_of(brought) | {"points": places[:1]}
         assert why in report(make(**given, T=T), Result((), (), (0,)))
+        given["kind"] = "visit"
+        assert why in report(make(**given, T=T / 2), Result((), (), (0,)))
 
 
 @pytest.mark.parametrize("k", [1e-3, 1, 1e3])
@@ -804,6 +806,13 @@ def test_the_optimum_is_the_best_of_all_orders(seed):
     greedy = visit(task)
     assert len(greedy.order) <= len(best.order)
     assert len(greedy.order) < len(best.order) or greedy.time >= best.time * (1 - 1e-12)
+
+
+def test_what_is_left_is_in_order():
+    points = np.full((10, 3), (2.0, 3, 2))
+    points[[1, 8]] = (-2, -3, 2)
+    for method, T in ((visit, 10), (best_visit, 10), (collect, 60)):
+        assert method(make(points=points, T=T)).left == (1, 8)
 
 
 def test_a_longer_time_never_serves_less():
