@@ -108,15 +108,12 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     (..., 3)? bool (...).
 
     As certain as `clearance` and quicker, since a motion is given up at the first stretch that is
-    too near. ValueError: motions that take more than `WORK` stretches.
+    too near. One that comes to the distance within 1e-9 of a lever's length may count as too near.
+    ValueError: motions that take more than `WORK` stretches.
     """
     instance(arm, ThreeLeverArm, "arm")
-    a, b, H, distance = (
-        _angles(a, "a"),
-        _angles(b, "b"),
-        _point(H, "H"),
-        length(distance, "distance"),
-    )
+    a, b = _angles(a, "a"), _angles(b, "b")
+    H, distance = _point(H, "H"), length(distance, "distance")
     warn_if_degrees(a, "a", posture=1)
     warn_if_degrees(b, "b", posture=1)
     shape = broadcast("a and b", a.shape, b.shape)
@@ -455,9 +452,10 @@ def _bounds(
     """For stretches of the motions a -> b (3, n) between two `ends` (2, n): the smaller of the
     distances (3, n) at the ends, and lower bounds for all between.
 
-    Seen from a lever, the obstacle goes from one place to another, almost straight: between them it
-    strays from the line by an eighth of its greatest acceleration. The distance from a lever is a
-    convex function along that line, and so it lies above its tangents at both ends.
+    Seen from a lever, the obstacle goes from one place to another, almost straight: it strays from
+    the line by at most an eighth of its greatest acceleration, the stretch being the unit of time.
+    The distance from a lever is a convex function along that line, and so it lies above its
+    tangents at both ends.
     """
     change, L = b - a, arm.lever
     d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], H)

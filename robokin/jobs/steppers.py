@@ -77,7 +77,8 @@ def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     if places.ndim != 2:
         raise ValueError(f"points: wanted shape (stations, 3), got {places.shape}")
     alpha, gamma, beta = arm.ik(places)[:, arm.branch(+1, -1)].T
-    free = np.hypot(places[:, 0], places[:, 1]) <= FREE * reach
+    with np.errstate(over="ignore"):
+        free = np.hypot(places[:, 0], places[:, 1]) <= FREE * reach
     before = 0.0
     for i in np.flatnonzero(~np.isnan(alpha)):
         alpha[i] = before = before if free[i] else float(wrapped(alpha[i], before))
