@@ -648,3 +648,16 @@ def test_a_batch_of_motions_is_followed_as_each_alone():
         alone = np.stack([follow(IRB140, track, row) for track in rows])
         np.testing.assert_array_equal(together, alone)
         assert np.isnan(together[1, :3]).all() and np.isfinite(together[:3, 3:]).all()
+
+
+def test_after_a_missing_start_a_motion_begins_inside_its_limits():
+    """Joint 3 of the IRB-140 reaches -230 degrees: -200 is inside where 160 is not."""
+    s = np.linspace(0, 1, 20)[:, None]
+    q = (np.array([10, 20, -200, 30, 40, 50]) + [5, 5, -5, 5, 5, 5] * s) * deg
+    rows = IRB140.ik(IRB140.fk(q))
+    row = int(np.nanargmin(gap(IRB140, rows[0], q[0]).max(-1)))
+    for missing in (0, 1, 7):
+        rows[:missing] = np.nan
+        motion = follow(IRB140, rows, row)
+        assert np.isnan(motion[:missing]).all()
+        np.testing.assert_allclose(motion[missing:], q[missing:], rtol=0, atol=1e-9)

@@ -194,3 +194,21 @@ def test_places_of_a_batch():
     assert repr(batch) == "ScaraPose(shape=(2, 3))"
     assert repr(batch[0, 1]) == "ScaraPose(position=[0.3, 0.4, 0.5], angle=1.)"
     assert not hasattr(batch.angle, "nothing") and not batch.angle.flags.writeable
+
+
+def test_a_place_without_an_angle_has_the_angle_zero():
+    assert ScaraPose((0.3, 0.1, 0.2)).angle == 0
+    assert (ScaraPose(np.ones((4, 3))).angle == np.zeros(4)).all()
+    rows = SCARA.ik(ScaraPose((0.3, 0.1, 0.1)))
+    assert np.allclose(rows[:, :3].sum(-1), 0, rtol=0, atol=1e-15)
+
+
+def test_stretched_and_folded_are_told_by_joint_2_alone():
+    for q, wanted in (
+        ([0.3, 0.0, 0.4, 0.1], True),
+        ([0.3, np.pi, 0.4, 0.1], True),
+        ([0.0, 0.5, 0.0, 0.0], False),
+        ([0.3, 5e-7, 0.4, 0.1], True),
+        ([0.3, 5e-6, 0.4, 0.1], False),
+    ):
+        assert SCARA.geometry.singularities(np.array(q)) == {"elbow": wanted}
