@@ -19,6 +19,7 @@ from robokin import (
     Transform,
     deg,
     dh_links,
+    linear,
     loader_arm,
     mm,
     spbu_arm,
@@ -218,6 +219,7 @@ def test_equal_parts_do_not_make_equal_arms():
         (Quaternion.identity(), Quaternion.identity()),
         (ScaraPose((0, 0, 0)), ScaraPose((0, 0, 0))),
         (two_link(1, 1), two_link(1, 1)),
+        (linear(2.0), linear(2.0)),
         (dataclasses.replace(IRB140), IRB140),
     ):
         assert (a == b) is False and a == a and len({a, b, a}) == 2
