@@ -1389,3 +1389,15 @@ def test_a_result_of_another_task(given):
         with pytest.raises(ValueError, match="result: wanted one of this task with its 2 points"):
             method(make(), Result(order, range(len(order)), left))
     itinerary(make(), Result((1,), (5.0,), (0,)))
+
+
+def test_the_lowest_place_of_a_way_is_that_of_the_way_back():
+    """And of no sample of it, in whatever sense the joints turn."""
+    rng = np.random.default_rng(23)
+    for l1, l2 in ((5, 4), (3, 1), (2, 2), (1, 3)):
+        a, b = rng.uniform(-np.pi / 2, np.pi / 2, (2, 100, 3))
+        there, back = lowest(l1, l2, a, b), lowest(l1, l2, b, a)
+        assert np.allclose(there, back, rtol=0, atol=2e-9 * (l1 + l2))
+        s = np.linspace(0, 1, 501)[:, None, None]
+        z = spbu_arm(l1, l2).fk(a + s * (b - a)).translation[..., 2].min(axis=0)
+        assert (there <= z + 1e-9 * (l1 + l2)).all() and (z - there < 1e-3 * (l1 + l2)).all()

@@ -165,7 +165,6 @@ class Recording:
         return (self[i] for i in range(len(self)))
 
     def __getitem__(self, index: Any) -> "Recording":
-        index = index if isinstance(index, tuple) else (index,)
         if not self.shape:
             raise TypeError("one single Recording has no parts")
         chosen = np.arange(self.missing[..., 0].size).reshape(self.shape)[index]
