@@ -413,7 +413,7 @@ def run(sample):
     with tempfile.TemporaryDirectory(prefix="robokin-mutants-") as folder:
         base = Path(folder) / "base"
         shutil.copytree(ROOT / "robokin", base / "robokin", ignore=_no_cache)
-        failing = _baseline(base, sorted({m.module for m in sample}))
+        quickest = _Sorted(_baseline(base, sorted({m.module for m in sample})))
         waiting = list(enumerate(sample))[::-1]
         while waiting or alive:
             while waiting and len(alive) < WORKERS:
@@ -422,7 +422,7 @@ def run(sample):
                 shutil.copytree(base, home, copy_function=os.link)
                 (home / mutant.module).unlink()  # the link, not the file
                 (home / mutant.module).write_text(sample[mutant], encoding="utf-8")
-                alive[_fork(home, _tests(mutant.module), failing)] = number, home, time.monotonic()
+                alive[_fork(home, _tests(mutant.module), quickest)] = number, home, time.monotonic()
             time.sleep(0.02)
             for child, (number, home, since) in list(alive.items()):
                 ended, status = os.waitpid(child, os.WNOHANG)
@@ -473,7 +473,7 @@ def _tests(module):
     return runs
 
 
-def _fork(home, runs, failing=(), report=None):
+def _fork(home, runs, plugin):
     """A child that runs tests on the package in `home`, one list of pytest's arguments after the
     other; its id. It ends with 0 if nothing failed.
     """
@@ -496,7 +496,7 @@ def _fork(home, runs, failing=(), report=None):
         sys.dont_write_bytecode = True
         sys.path[:0] = [str(home)]
         os.chdir(home)
-        status = _run_tests(home, runs, failing, report)
+        status = _run_tests(home, runs, plugin)
     except BaseException as error:
         print(f"{type(error).__name__}: {error}")
     finally:
@@ -504,7 +504,7 @@ def _fork(home, runs, failing=(), report=None):
         os._exit(status)
 
 
-def _run_tests(home, runs, failing, report):
+def _run_tests(home, runs, plugin):
     import pytest
 
     import robokin
@@ -513,47 +513,64 @@ def _run_tests(home, runs, failing, report):
     options = ["-c", str(ROOT / "pyproject.toml"), "-o", "addopts=", "-p", "no:cacheprovider"]
     options += ["-p", "no:nbval", "-q", "--tb=no", "-rfE", "--no-header"]
     options += ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # Hypothesis is loaded already
-    options += [] if report else ["-x"]
-    options += [f"--deselect={test}" for test in failing if "::" in test]
+    options += [] if isinstance(plugin, _Watch) else ["-x"]
     for run in runs:
-        if any(run[0].endswith(test) for test in failing):  # the file cannot even be read
-            continue
-        status = pytest.main([*options, *run], plugins=[report] if report else [])
-        if status not in (0, 5) and not report:  # 5: nothing was chosen
+        name = f"tests/{Path(run[0]).name}"
+        if isinstance(plugin, _Sorted) and plugin.seconds.get(name) == float("inf"):
+            continue  # it cannot even be read
+        status = pytest.main([*options, *run], plugins=[plugin])
+        if status not in (0, 5) and "-x" in options:  # 5: nothing was chosen
             return 1
     return 0
 
 
-class _Failed:
-    """A pytest plugin that writes down what fails."""
+class _Watch:
+    """A pytest plugin that writes down how long each test takes, and which fail."""
 
     def __init__(self, path):
         self.path = path
 
     def pytest_runtest_logreport(self, report):
-        if report.failed:
-            with open(self.path, "a") as file:
-                file.write(f"{report.nodeid}\n")
+        with open(self.path, "a") as file:
+            file.write(f"{'inf' if report.failed else report.duration} {report.nodeid}\n")
 
     def pytest_collectreport(self, report):
-        self.pytest_runtest_logreport(report)
+        if report.failed:
+            with open(self.path, "a") as file:
+                file.write(f"inf {report.nodeid}\n")
+
+
+class _Sorted:
+    """A pytest plugin that runs the quickest tests first, and leaves out what fails anyway."""
+
+    def __init__(self, seconds):
+        self.seconds = seconds
+
+    def pytest_collection_modifyitems(self, items):
+        items[:] = [i for i in items if self.seconds.get(i.nodeid, 0) < float("inf")]
+        items.sort(key=lambda item: self.seconds.get(item.nodeid, 0))
 
 
 def _baseline(base, modules):
-    """The tests that fail without any fault: they are named and left out."""
-    start, path, alive = time.monotonic(), base / "failed", set()
+    """How long each test takes without any fault: test -> seconds. What fails has no end: it is
+    named, and left out.
+    """
+    start, path, alive = time.monotonic(), base / "seen", set()
     waiting = list({tuple(run) for module in modules for run in _tests(module)})
     while waiting or alive:
         while waiting and len(alive) < WORKERS:
-            alive.add(_fork(base, [waiting.pop()], report=_Failed(path)))
+            alive.add(_fork(base, [waiting.pop()], _Watch(path)))
         alive.discard(os.wait()[0])
-    failing = sorted(set(path.read_text().split("\n")) - {""}) if path.exists() else []
-    for test in failing:
+    seconds = Counter()
+    for line in path.read_text().splitlines():
+        span, test = line.split(" ", 1)
+        seconds[test] += float(span)  # set-up, call and end
+    for test in sorted(test for test, span in seconds.items() if span == float("inf")):
         print(f"  fails without a fault, left out: {test}")
-    for name in ("failed", "log"):
+    for name in ("seen", "log"):
         (base / name).unlink(missing_ok=True)
     print(f"  without a fault: {time.monotonic() - start:.0f} s", flush=True)
-    return failing
+    return seconds
 
 
 def _verdict(status, home, slow):
