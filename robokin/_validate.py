@@ -126,9 +126,10 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int
 
     posture  1 if the last axis are the joints of one posture, 0 if every angle stands for itself
     """
-    beyond = abs(angles) > (TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS)
-    if beyond.any() if angles.ndim else beyond:
-        text = f"{name}: {np.nanmax(abs(angles)):.6g} rad is many turns; were degrees meant?"
+    limit = TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS
+    greatest, least = angles.max(initial=0), angles.min(initial=0)
+    if greatest > limit or least < -limit:
+        text = f"{name}: {max(greatest, -least):.6g} rad is many turns; were degrees meant?"
         warnings.warn(f"{text} (90 * deg)", UserWarning, stacklevel=stacklevel)
 
 

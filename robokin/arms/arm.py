@@ -91,6 +91,15 @@ class Arm:
         prismatic.flags.writeable = False
         return prismatic
 
+    @cached_property
+    def turning(self) -> slice | Bools:
+        """What picks the joints that turn out of the last axis: all of them, or a mask (n,)."""
+        if not self.prismatic.any():
+            return slice(None)
+        turning = ~self.prismatic
+        turning.flags.writeable = False
+        return turning
+
     def fk(self, q: ArrayLike) -> Transform:
         """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
         poses.
@@ -151,9 +160,7 @@ class Arm:
         """The numbers that `work` makes of the joints' values, for every q (..., n): (..., k)."""
         n = len(self.links)
         values = floats(q, "q", n, finite=False)
-        warn_if_degrees(
-            values if not self.prismatic.any() else values[..., ~self.prismatic], "q", 4
-        )
+        warn_if_degrees(values[..., self.turning], "q", 4, posture=1)
         if values.ndim == 1:
             return np.array(work(values.tolist()), dtype=float)
         parts = by_blocks(work, values.reshape(-1, n))

@@ -32,8 +32,7 @@ def within(arm: Arm, q: ArrayLike) -> Bools:
     array([ True, False,  True,  True,  True,  True])
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
-    turning = values[..., ~arm.prismatic] if arm.prismatic.any() else values
-    warn_if_degrees(turning, "q", posture=1)
+    warn_if_degrees(values[..., arm.turning], "q", posture=1)
     return _within(arm, values)
 
 

@@ -245,7 +245,7 @@ class ThreeLeverArm(Arm):
             raise ValueError(f"previous: wanted one posture (3,), got shape {before.shape}")
         if not len(rows):
             return np.full(3, np.nan), np.full((), np.nan)
-        S = abs(rows - before).sum(axis=-1)
+        S = sum(abs(rows[:, i] - before[i]) for i in range(3))
         best = S.argmin()
         return rows[best], S[best]
 
