@@ -432,6 +432,9 @@ def run(sample):
                     _, status = os.waitpid(child, 0)
                 if ended or slow:
                     results[number] = _verdict(status, home, slow and not ended)
+                    if not results[number][0]:
+                        mutant = next(itertools.islice(sample, number, None))
+                        print("NOT NOTICED", *mutant.key, sep="\n    ", flush=True)
                     del alive[child]
                     shutil.rmtree(home)
                     if len(results) % 20 == 0:
@@ -590,8 +593,6 @@ def _report(sample, results, seconds):
         by_module[mutant.module][1] += 1
         if noticed:
             killers[by.split("::")[0].split(":")[0]] += 1
-        else:
-            print(f"\nNOT NOTICED  {mutant.module}\n    {mutant.line}\n    {mutant.change}")
     print()
     for module, (noticed, count) in sorted(by_module.items()):
         print(f"{module:36} {noticed:4} of {count:4}  {noticed / count:7.1%}")
