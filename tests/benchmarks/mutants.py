@@ -62,7 +62,7 @@ TESTS = {
     "robokin/arms/planar.py": ["planar", "two_link", "geometry", "branches"],
     "robokin/arms/scara.py": ["scara", "geometry", "branches", "errata_s1"],
     "robokin/arms/spherical_wrist.py": ["spherical_wrist", "geometry", "branches", "oracle_irb140"],
-    "robokin/motion/laws.py": ["laws"],
+    "robokin/motion/laws.py": ["laws", "arm"],
     "robokin/motion/paths.py": ["paths", "errata_s1"],
     "robokin/motion/derivatives.py": ["derivatives", "recording"],
     "robokin/motion/recording.py": ["recording", "plots"],
