@@ -122,3 +122,12 @@ def test_a_matrix_may_be_a_list():
     assert np.allclose(T @ (1, 0, 0), [1, 3, 3])
     batch = Transform.from_matrix([rows, np.eye(4).tolist()])
     assert batch.shape == (2,) and batch[1].translation.tolist() == [0, 0, 0]
+
+
+def test_a_last_row_that_is_off_either_way_is_refused():
+    for column in range(4):
+        for off in (1e-6, -1e-6):
+            m = np.eye(4)
+            m[3, column] += off
+            with pytest.raises(ValueError, match="0 0 0 1 as the last row"):
+                Transform.from_matrix(m)
