@@ -160,7 +160,9 @@ def _within(arm: Arm, q: Floats) -> Bools:
     """
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
     lowest = q + TURN * np.ceil((low - q) / TURN)
-    return np.where(arm.prismatic, np.where(q < low, np.inf, q), lowest) <= high
+    if arm.prismatic.any():
+        lowest = np.where(arm.prismatic, np.where(q < low, np.inf, q), lowest)
+    return lowest <= high
 
 
 def _unwrapped(arm: Arm, q: Floats, near: Floats) -> Floats:
