@@ -17,6 +17,10 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
     shape of `values`. `order` 2 differentiates twice, and so on up to 10. It takes what it gets:
     give it unwrapped angles (`follow` does). A NaN spreads to its neighbours. ValueError: fewer
     than three samples, shapes that do not fit, times that do not rise, slopes beyond all numbers.
+
+    >>> t = np.array([0, 0.1, 0.2, 0.3])
+    >>> differentiate(5 * t**2, t).round(3), differentiate(5 * t**2, t, 2).round(3)
+    (array([0., 1., 2., 3.]), array([10., 10., 10., 10.]))
     """
     values, t = floats(values, "values", finite=False), rising(t)
     axis = 0 if values.ndim == 1 else -2

@@ -63,6 +63,10 @@ def trapezoidal(duration: float, ramp: float = 0.25) -> TimeLaw:
 def quintic(duration: float) -> TimeLaw:
     """s = 10 x^3 - 15 x^4 + 6 x^5 with x = t / T: speed and acceleration are zero at both ends.
     Source: Craig, Introduction to Robotics, section 7.3 (quintic polynomials).
+
+    >>> law = quintic(duration=4)
+    >>> law([0, 1, 2, 3, 4]).round(4)
+    array([0.    , 0.1035, 0.5   , 0.8965, 1.    ])
     """
     return TimeLaw(duration, _quintic)
 

@@ -30,6 +30,12 @@ def lin(start: P, goal: P, s: ArrayLike) -> P:
 
     Source: 001, listing 7. ValueError: s outside [0, 1]. TypeError: values without `lerp`, or of
     two kinds.
+
+    >>> start, goal = Transform(translation=(0.4, 0, 0.5)), Transform(translation=(0.4, 0.2, 0.5))
+    >>> lin(start, goal, [0, 0.25, 1]).translation
+    array([[0.4 , 0.  , 0.5 ],
+           [0.4 , 0.05, 0.5 ],
+           [0.4 , 0.2 , 0.5 ]])
     """
     return _pose(start, "start").lerp(goal, _share(s))
 

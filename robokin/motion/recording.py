@@ -195,6 +195,13 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     `differentiate`, of each unbroken piece for itself. A UserWarning where degrees were likely
     meant: a motion begins more than two turns away and outside its limits, or passes eight.
     ValueError: shapes that do not fit, times that do not rise, infinite numbers.
+
+    >>> t = np.linspace(0, 2, 201)
+    >>> motion = record(SCARA, t, ptp([0, 0, 0, 0], [1, 1.5, 0, 0.1], quintic(2)(t)))
+    >>> motion.greatest_speed.value.round(3)
+    array([0.937, 1.406, 0.   , 0.094])
+    >>> motion.greatest_speed.time[:2]
+    array([1., 1.])
     """
     limits, prismatic = instance(arm, Arm, "arm").limits, arm.prismatic
     t, q = frozen(rising(t, 2)), floats(q, "q", len(limits), finite=False)
