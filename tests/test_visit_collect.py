@@ -22,9 +22,7 @@ from robokin.jobs.visit_collect import (
     ABOVE_LIMIT,
     EXACT_LIMIT,
     KEYS,
-    LONGEST,
     NEAREST_LIMIT,
-    SHORTEST,
     TASK_LIMIT,
     Result,
     Task,
@@ -380,6 +378,7 @@ def test_minus_zero_is_zero():
     )
     assert visit(plus) == visit(minus) and (plus.q == minus.q).all()
     assert "-0" not in report(minus, visit(minus)).replace("-1", "")
+    assert "(0, 20, 1) is too far" in faults(GOOD | {"pi": [[-0.0, 20, 1]]})[0]
     mixed = make(p0=(-2, 0.0, 2), points=[(-2, -0.0, 2)])
     assert visit(mixed).times == (0.0,)
 
@@ -1172,7 +1171,7 @@ def test_a_path_that_is_no_file(tmp_path):
         (tmp_path, "is not a file but a folder"),
         (tmp_path / "no.json", "cannot be read: No such"),
     ):
-        with pytest.raises(TaskError, match=wanted):
+        with pytest.raises(TaskError, match=f"^{wanted}"):
             read_task(path)
 
 
@@ -1281,10 +1280,10 @@ def test_a_result_is_plain_numbers():
 
 
 def test_lengths_have_a_range():
-    for number in (SHORTEST, LONGEST):
+    for number in (1e-6, 1e6):
         assert workspace(number, number, (0, 0, number)).all()
         make(l1=number, l2=number, p0=(0, 0, number), points=[(0, 0, number)])
-    for wrong in (SHORTEST * 0.99, LONGEST * 1.01):
+    for wrong in (0.99e-6, 1e6 + 0.5):
         with pytest.raises(ValueError, match="l1: wanted a length from 1e-06 to 1e.06 m, got"):
             workspace(wrong, 4, (1, 1, 1))
         with pytest.raises(ValueError, match="l2: wanted a length from"):
