@@ -1269,6 +1269,20 @@ def test_what_a_task_holds_cannot_be_changed():
     assert make() != make(), "tasks are compared by identity"
 
 
+def test_arrays_that_hold_no_numbers():
+    """Not even where each would come out as one: nanoseconds are whole numbers to NumPy."""
+    for p0 in (
+        np.array([1, 1, 1], dtype="datetime64[ns]"),
+        np.array([1, 1, 1], dtype="timedelta64[ns]"),
+        np.ma.array([1.0, 1, 1], mask=[False, False, False]),
+        np.ones(3, dtype=complex),
+        np.ones(3, dtype=bool),
+        np.array(["1", "1", "1"]),
+    ):
+        with pytest.raises(TaskError, match="^p0: wanted an array of 3 finite numbers, m, got"):
+            make(p0=p0)
+
+
 def test_a_result_is_plain_numbers():
     result = Result(np.array([1, 0]), np.array([1, 2.5]), [])
     assert result == Result((1, 0), (1.0, 2.5), ()) and result.time == 2.5
