@@ -158,7 +158,7 @@ def _numbers(value: Any, name: str) -> Floats:
             return array
         if array.dtype.kind == "O" and array.size and all(map(_is_real, array.flat)):
             return array.astype(float)  # whole numbers too great for NumPy, fractions
-    except (TypeError, ValueError, OverflowError):
+    except Exception:  # an object may offer itself as an array and fail in any way
         raise ValueError(f"{name}: wanted numbers, got {short(value)}") from None
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{name}: wanted numbers, got {short(value)}")

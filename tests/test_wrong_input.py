@@ -45,6 +45,14 @@ MIRROR = np.diag([1.0, 1, -1])
 LIMITS = [(-1, 1)] * 6
 ONE = SimpleNamespace(links=(Link(),), target=Transform, reach=1.0)
 
+
+class Failing:
+    """What offers itself as an array and cannot be one."""
+
+    def __array__(self, *_, **__):
+        raise RuntimeError("no array today")
+
+
 WRONG = {
     # quaternions
     "three components": (lambda: Quaternion([1, 0, 0]), r"\(3,\)"),
@@ -178,6 +186,7 @@ WRONG = {
     "dates": (lambda: IRB140.fk(np.zeros(6, "datetime64[s]")), "wanted numbers"),
     "a number beyond floats": (lambda: IRB140.fk([10**400] * 6), "wanted numbers"),
     "None among numbers": (lambda: IRB140.fk([0, 0, None, 0, 0, 0]), "wanted numbers"),
+    "an array that fails": (lambda: IRB140.fk(Failing()), "q: wanted numbers, got"),
     "shape 3": (lambda: Quaternion.identity(3), "tuple of whole numbers, got 3"),
     "endless shape": (lambda: Transform.identity((10**6, 10**6)), "at most 1e.08"),
     "NaN length": (lambda: itmo_arm(0.1, NAN, 0.2, 0.2), "nan"),
