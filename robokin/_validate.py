@@ -32,9 +32,9 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     array = _numbers(value, name)
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
-    bad = ~np.isfinite(array) if finite else np.isinf(array)
-    if bad.any():
-        where = tuple(int(i) for i in np.argwhere(bad)[0])
+    good = np.isfinite(array) if finite else ~np.isinf(array)
+    if np.count_nonzero(good) < array.size:  # of a few numbers three times as fast as `all`
+        where = tuple(int(i) for i in np.argwhere(~good)[0])
         raise ValueError(f"{name}: wanted finite numbers, got {array[where]} at index {where}")
     return array
 
@@ -127,9 +127,9 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int
     posture  1 if the last axis are the joints of one posture, 0 if every angle stands for itself
     """
     limit = TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS
-    greatest, least = angles.max(initial=0), angles.min(initial=0)
-    if greatest > limit or least < -limit:
-        text = f"{name}: {max(greatest, -least):.6g} rad is many turns; were degrees meant?"
+    far = abs(angles) > limit
+    if np.count_nonzero(far):
+        text = f"{name}: {abs(angles[far]).max():.6g} rad is many turns; were degrees meant?"
         warnings.warn(f"{text} (90 * deg)", UserWarning, stacklevel=stacklevel)
 
 
@@ -150,7 +150,7 @@ def _numbers(value: Any, name: str) -> Floats:
     """`value` as floats, if it holds real numbers and nothing else."""
     if type(value) is np.ndarray and value.dtype is FLOAT:
         return value
-    if isinstance(value, np.ma.MaskedArray):
+    if masked(value):
         raise ValueError(f"{name}: wanted numbers, got a masked array (`filled` makes a plain one)")
     try:
         array = np.asarray(value)
@@ -164,6 +164,11 @@ def _numbers(value: Any, name: str) -> Floats:
         raise ValueError(f"{name}: wanted numbers, got {short(value)}")
     with np.errstate(over="ignore"):  # of numbers longer than 64 bits
         return array.astype(float)
+
+
+def masked(value: Any) -> bool:
+    """Whether it is a masked array. Naming `np.ma` would load it, 8 ms that nobody else needs."""
+    return isinstance(value, np.ndarray) and hasattr(value, "mask")
 
 
 def _is_real(value: Any) -> bool:

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from typing import Any, Self, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ._arrays import Floats, components, sealed, stack
+from ._arrays import ArrayLike, Floats, components, fixed, sealed, stack
 from ._validate import broadcast, floats, instance, shape_of, warn_if_degrees
 
 UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
+CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 class Batch:
@@ -23,6 +23,7 @@ class Batch:
     only.
     """
 
+    __setattr__ = __delattr__ = fixed
     __array_ufunc__ = None  # so that `array @ value` is a TypeError and not an array of objects
 
     @property
@@ -42,7 +43,7 @@ class Batch:
         return (self[i] for i in range(len(self)))
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
+@dataclass(init=False, repr=False, eq=False)
 class Quaternion(Batch):
     """A rotation of any batch shape, as a unit quaternion `wxyz` of shape (..., 4).
 
@@ -62,11 +63,13 @@ class Quaternion(Batch):
         object.__setattr__(self, "wxyz", sealed(unit(value, "wxyz", "unit quaternions")))
 
     @classmethod
-    def _of(cls, *wxyz: Floats) -> "Quaternion":
-        """From components already known to be of unit length: nothing is checked, NaN rows pass."""
-        self, array = object.__new__(cls), wxyz[0] if len(wxyz) == 1 else stack(wxyz)
-        array.setflags(write=False)
-        object.__setattr__(self, "wxyz", array)
+    def _of(cls, wxyz: Floats) -> "Quaternion":
+        """From quaternions already known to be of unit length: nothing is checked, NaN rows
+        pass.
+        """
+        self = object.__new__(cls)
+        wxyz.setflags(write=False)
+        object.__setattr__(self, "wxyz", wxyz)
         return self
 
     @classmethod
@@ -88,7 +91,7 @@ class Quaternion(Batch):
     @classmethod
     def _turn(cls, angle: Floats, axis: Floats) -> "Quaternion":
         """As `from_angle_axis`, unchecked: a NaN angle gives a NaN rotation."""
-        return cls._of(*half_angles(angle, components(axis)))
+        return cls._of(stack(half_angles(angle, components(axis))))
 
     @classmethod
     def from_roll_pitch_yaw(cls, roll: ArrayLike, pitch: ArrayLike, yaw: ArrayLike) -> "Quaternion":
@@ -201,7 +204,7 @@ class Quaternion(Batch):
     def __matmul__(self, other: Any) -> Any:
         if isinstance(other, Quaternion):
             broadcast("the two rotations", self.shape, other.shape)
-            return Quaternion._of(*hamilton(components(self.wxyz), components(other.wxyz)))
+            return Quaternion._of(stack(hamilton(components(self.wxyz), components(other.wxyz))))
         if isinstance(other, Batch):
             return NotImplemented
         points = floats(other, "points", 3, finite=False)
@@ -210,7 +213,7 @@ class Quaternion(Batch):
 
     def inverse(self) -> "Quaternion":
         """The rotation back."""
-        return Quaternion._of(self.wxyz * [1.0, -1.0, -1.0, -1.0])
+        return Quaternion._of(self.wxyz * CONJUGATE)
 
     def slerp(self, goal: "Quaternion", s: ArrayLike) -> "Quaternion":
         """Along the shorter arc from here (s = 0) to `goal` (s = 1), at constant angular velocity.
@@ -229,7 +232,7 @@ class Quaternion(Batch):
         of_a = np.where(none, 1 - share, np.sin((1 - share) * angle) / whole)
         of_b = np.where(none, share, np.sin(share * angle) / whole)
         ends = zip(components(a), components(b), strict=True)
-        return Quaternion._of(*(of_a * a_ + of_b * b_ for a_, b_ in ends))
+        return Quaternion._of(stack([of_a * a_ + of_b * b_ for a_, b_ in ends]))
 
     def __repr__(self) -> str:
         if self.shape:
@@ -308,7 +311,7 @@ def unit(vectors: Floats, name: str, what: str) -> Floats:
     with np.errstate(over="ignore"):
         length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
     off = abs(length - 1)
-    if (off > UNIT).any():
+    if np.count_nonzero(off > UNIT):
         worst = np.unravel_index(off[..., 0].argmax(), off.shape[:-1])
         got = f"{vectors[worst]} of length {length[worst][0]:.6g}"
         raise ValueError(f"{name}: wanted {what}, got {got}")

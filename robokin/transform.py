@@ -9,16 +9,15 @@ from dataclasses import dataclass
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ._arrays import Floats, components, sealed, stack
+from ._arrays import ArrayLike, Floats, components, sealed, stack
 from ._validate import broadcast, floats, instance, shape_of
 from .quaternion import Batch, Quaternion, rounded
 
 HERE = Quaternion.identity()
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
+@dataclass(init=False, repr=False, eq=False)
 class Transform(Batch):
     """A pose or a change of frame: first `rotation`, then `translation` (..., 3) in metres.
 

@@ -6,9 +6,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, Ints, by_blocks, frozen
+from .._arrays import ArrayLike, Bools, Floats, Ints, by_blocks, fixed, frozen
 from .._validate import floats, short, text, warn_if_degrees
 from ..quaternion import Quaternion, cross, turned
 from ..transform import Transform
@@ -18,7 +17,7 @@ from .link import BASE, Frame, Link
 SCALARS = (int, float, np.number)
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
+@dataclass(init=False, repr=False, eq=False)
 class Arm:
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 
@@ -35,6 +34,8 @@ class Arm:
     geometry: Geometry
     limits: Floats
     speed_limits: Floats | None
+
+    __setattr__ = __delattr__ = fixed
 
     def __init__(
         self,
@@ -170,7 +171,6 @@ class Arm:
         return f"Arm({self.name!r}, {len(self.links)} joints)"
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
 class ClosedFormArm(Arm):
     """An `Arm` with all solutions of its inverse in closed form: `ik`."""
 

@@ -7,9 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats
+from .._arrays import ArrayLike, Bools, Floats
 from .._validate import broadcast, floats, instance, warn_if_degrees, whole
 from ..transform import Transform
 from ..units import deg, mm, wrapped
@@ -132,8 +131,8 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
         raise ValueError(f"pose: wanted one single pose, got a batch of shape {rows.shape[:-2]}")
     row = whole(row, "row", 0, len(rows) - 1)
     q, signs = rows[row], ", ".join(f"{flag:+d}" for flag in arm.branches[row])
-    gap = arm.geometry.gap(pose, row) if np.isnan(q).any() else None
-    if gap is not None:
+    if np.isnan(q).any():
+        gap = arm.geometry.gap(pose, row)
         meant = gap.metres > 10 and not np.isnan(arm.ik(_shrunk(pose))).all()
         hint = SENTENCES["millimetres"] if meant else "."
         return SENTENCES["missing"].format(row=row, flags=signs, reason=gap.words, hint=hint)

@@ -1,9 +1,8 @@
 """How near a singularity is: the singular values of the Jacobian, with one length for all."""
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats, Ints
+from .._arrays import ArrayLike, Floats, Ints
 from .._validate import instance
 from .arm import Arm
 

@@ -6,17 +6,15 @@ centre.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, by_blocks
+from .._arrays import ArrayLike, Bools, Floats, by_blocks, fixed
 from .._validate import floats
 from ..transform import Transform
 from .arm import ClosedFormArm
-from .geometry import FREE, ROUNDING, SINGULAR, STRAIGHT, Gap, fixed, flags, worst
+from .geometry import FREE, ROUNDING, SINGULAR, STRAIGHT, Gap, flags, worst
 from .link import Link, chain, home
 
 Pair: TypeAlias = tuple[Any, Any]  # cosine and sine of one angle
@@ -75,12 +73,9 @@ class ElbowGeometry:
             q = by_blocks(solve, point.reshape(-1, 3), rest=(2, 2))
         return np.moveaxis(q.reshape(3, 4, *point.shape[:-1]), (0, 1), (-1, -2))
 
-    def gap(self, pose: Any, row: int) -> Gap | None:
-        """Why `row` does not exist for one single pose; None if it exists."""
-        point = _point(pose)
-        if not np.isnan(self.ik(point)[row]).any():
-            return None
-        return self.elbow.gap(point, self.branches[row, 0])
+    def gap(self, pose: Any, row: int) -> Gap:
+        """Why one single pose has no `row`."""
+        return self.elbow.gap(_point(pose), self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
         """Which singularities hold at q (..., 3): dict of name -> bool (...); see
@@ -97,8 +92,7 @@ class ElbowGeometry:
         return np.where(free[..., None] & (np.arange(3) == 0), previous, q)
 
 
-@dataclass(frozen=True, eq=False)
-class Elbow:
+class Elbow(NamedTuple):
     """Three joints and the point they carry, measured at q = 0.
 
     carried      what the point is called
@@ -124,9 +118,7 @@ class Elbow:
     reach: float
 
     @classmethod
-    def measured(
-        cls, points: Sequence[Floats], axes: Sequence[Floats], point: Floats, carried: str
-    ) -> "Elbow":
+    def measured(cls, points: Floats, axes: Floats, point: Floats, carried: str) -> "Elbow":
         """From a point on each of the three axes, the axes, and the carried point, all at q = 0.
         ValueError: other directions than `elbow_arm` wants, a lever without length.
         """

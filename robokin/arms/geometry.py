@@ -7,9 +7,8 @@ and its inverse have in common, so that the two cannot disagree. Two protocols s
 How near is near stands here too, once for all geometries. Distances are shares of the arm's reach.
 """
 
-from dataclasses import dataclass
 from itertools import product
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -58,8 +57,8 @@ class ClosedForm(Geometry, Protocol):
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`."""
 
-    def gap(self, pose: Any, row: int) -> "Gap | None":
-        """Why `row` does not exist for one single pose; None if it exists."""
+    def gap(self, pose: Any, row: int) -> "Gap":
+        """Why one single pose has no `row` (asked only where `ik` has none)."""
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
         """Which singularities hold at q (..., n): dict of name -> bool (...)."""
@@ -70,8 +69,7 @@ class ClosedForm(Geometry, Protocol):
         """
 
 
-@dataclass(frozen=True)
-class Gap:
+class Gap(NamedTuple):
     """Why a row does not exist: which border is passed, and by how much.
 
     kind     names a sentence of `verdicts.SENTENCES`
@@ -99,11 +97,6 @@ def flags(count: int) -> Ints:
     rows = np.array(list(product((1, -1), repeat=count)))
     rows.flags.writeable = False
     return rows
-
-
-def fixed(self: object, name: str, *_: object) -> None:
-    """In place of __setattr__ and __delattr__: a geometry is measured once and never changed."""
-    raise AttributeError(f"{type(self).__name__} cannot be changed: {name}")
 
 
 def worst(gaps: dict[str, Any], what: str) -> Gap:

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats, sealed
+from .._arrays import ArrayLike, Floats, fixed, sealed
 from .._validate import broadcast, floats, instance
 from ..quaternion import Quaternion, along, half_angles, hamilton, spun, turned, unit
 from ..transform import Transform
@@ -19,7 +18,7 @@ HERE = Transform()
 BASE: Frame = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-@dataclass(frozen=True, eq=False, init=False)
+@dataclass(init=False, eq=False)
 class Link:
     """One joint between two fixed transforms: the frame after it is
     `frame @ before @ motion @ after`.
@@ -33,6 +32,8 @@ class Link:
     axis: Floats
     after: Transform
     prismatic: bool
+
+    __setattr__ = __delattr__ = fixed
 
     def __init__(
         self,
@@ -56,7 +57,7 @@ class Link:
             self, "_parts", (_Fixed.of(before), _coordinate(direction), _Fixed.of(after))
         )
 
-    def _carry(self, frame: Frame, q: Floats) -> tuple[Frame, Frame]:
+    def _carry(self, frame: Frame, q: Any) -> tuple[Frame, Frame]:
         """The joint's own frame and the frame after this link, from the frame before it and q (...)
         in radians, metres if prismatic; all frames on components (`BASE` to begin with).
         """
@@ -106,17 +107,16 @@ def chain(links: Iterable[Link]) -> tuple[Link, ...]:
     return tuple(instance(link, Link, f"links[{i}]") for i, link in enumerate(links))
 
 
-def home(links: Sequence[Link]) -> tuple[list[Floats], list[Floats], Transform]:
+def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
     """A point on each joint's axis (n, 3), the axes (n, 3) and the flange, in base coordinates at
     q = 0.
     """
-    frame, points, axes = Transform(), [], []
+    frame, points, axes = BASE, [], []
     for link in links:
-        joint = frame @ link.before
-        points.append(joint.translation)
-        axes.append(joint.rotation @ link.axis)
-        frame = joint @ link.after
-    return points, axes, frame
+        (rotation, origin), frame = link._carry(frame, 0.0)
+        points.append(origin)
+        axes.append(turned(rotation, link.axis.tolist()))
+    return np.array(points), np.array(axes), Transform(Quaternion(frame[0]), frame[1])
 
 
 class _Fixed(NamedTuple):

@@ -5,19 +5,17 @@
 of the plane needs.
 """
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats
+from .._arrays import ArrayLike, Bools, Floats, fixed
 from .._validate import broadcast, floats, length, positive, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, in_words, wrapped
 from .arm import Arm, ClosedFormArm
-from .geometry import FREE, ROUNDING, SINGULAR, Gap, distance, fixed, flags, two_levers, worst
+from .geometry import FREE, ROUNDING, SINGULAR, Gap, distance, flags, two_levers, worst
 from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
@@ -88,11 +86,9 @@ class TwoLinkGeometry:
         q = wrapped(np.stack(rows, axis=-2)) + 0.0  # and no -0.0
         return np.where(exists[..., None, None], q, np.nan)
 
-    def gap(self, pose: Any, row: int) -> Gap | None:
-        """Why `row` does not exist for one single pose; None if it exists."""
+    def gap(self, pose: Any, row: int) -> Gap:
+        """Why one single pose has no `row`."""
         _, _, d, off = self._way(_single(pose))
-        if not np.isnan(self.ik(pose)[row]).any():
-            return None
         borders = {"stretched": d - (self.l1 + self.l2), "base": abs(self.l1 - self.l2) - d}
         return worst(borders | {"plane": off}, self.carried)
 
@@ -153,7 +149,6 @@ class ThreeLeverGeometry:
     __setattr__ = __delattr__ = fixed
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
 class ThreeLeverArm(Arm):
     """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of
     postures, one for every value of the free angle alpha: `family` takes the place of `ik`.

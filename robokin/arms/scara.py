@@ -6,21 +6,20 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, components, sealed, stack
+from .._arrays import ArrayLike, Bools, Floats, components, fixed, sealed, stack
 from .._validate import broadcast, floats, instance, length, number
 from ..quaternion import Batch, Quaternion, rounded
 from ..transform import Transform
 from ..units import wrapped
 from .arm import ClosedFormArm
-from .geometry import FREE, SINGULAR, UPRIGHT, Gap, distance, fixed, flags, two_levers, worst
+from .geometry import FREE, SINGULAR, UPRIGHT, Gap, distance, flags, two_levers, worst
 from .link import Link
 
 X, Y, Z = np.eye(3)
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
+@dataclass(init=False, repr=False, eq=False)
 class ScaraPose(Batch):
     """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...)
     about the vertical. The arrays are read-only copies.
@@ -124,7 +123,7 @@ class ScaraGeometry:
         tool is out of reach.
         """
         position, angle, tilt = _parts(pose)
-        x, y, z = (part[..., None] for part in components(position))
+        x, y, z = components(position[..., None, :])
         ahead, turn, exists = two_levers(self.upper, self.fore, distance(x, y))
         elbow = self.branches[:, 0]
         q1, q2 = np.arctan2(y, x) - elbow * ahead, elbow * turn + 0.0  # no -0.0
@@ -133,11 +132,9 @@ class ScaraGeometry:
         reached = exists & (tilt < UPRIGHT)[..., None]
         return np.where(reached[..., None], q, np.nan)
 
-    def gap(self, pose: Any, row: int) -> Gap | None:
-        """Why `row` does not exist for one single pose; None if it exists."""
+    def gap(self, pose: Any, row: int) -> Gap:
+        """Why one single pose has no `row`."""
         position, _, tilt = _parts(pose)
-        if not np.isnan(self.ik(pose)[row]).any():
-            return None
         if tilt >= UPRIGHT:
             return Gap("tilted", 0.0, self.carried, float(np.rad2deg(tilt)))
         r, borders = np.hypot(*position[:2]), (self.upper + self.fore, abs(self.upper - self.fore))

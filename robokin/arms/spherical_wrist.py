@@ -6,20 +6,18 @@ the tool with joints 4 to 6.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, by_blocks
+from .._arrays import ArrayLike, Bools, Floats, by_blocks, fixed
 from .._validate import instance
-from ..quaternion import Quaternion, hamilton, matrix_rows
+from ..quaternion import Quaternion, cross, hamilton, matrix_rows
 from ..transform import Transform
 from ..units import wrapped
 from .arm import ClosedFormArm
 from .elbow import Elbow, parallel, rotated
-from .geometry import SINGULAR, Gap, fixed, flags
+from .geometry import SINGULAR, Gap, flags
 from .link import Link, chain, home
 
 FREE = 1e-13  # below this sine of joint 5 the angle of joint 4 is noise, and the joint is free
@@ -122,10 +120,8 @@ class SphericalWristGeometry:
         same = [(q_i, q_i) for q_i in first]
         return [*same, *zip((q4, q5, q6), other, strict=True)]
 
-    def gap(self, pose: Any, row: int) -> Gap | None:
-        """Why `row` does not exist for one single pose; None if it exists."""
-        if not np.isnan(self.ik(pose)[row]).any():
-            return None
+    def gap(self, pose: Any, row: int) -> Gap:
+        """Why one single pose has no `row`."""
         turn = Quaternion(self.wrist.from_flange)
         centre = pose.translation + pose.rotation @ turn @ self.wrist.centre_from_flange
         return self.elbow.gap(centre, self.branches[row, 0])
@@ -155,8 +151,7 @@ class SphericalWristGeometry:
         return out
 
 
-@dataclass(frozen=True, eq=False)
-class Wrist:
+class Wrist(NamedTuple):
     """The last three joints, measured on the links at q = 0.
 
     sign5, sign6  +1 or -1: axis 5 along +y or -y, axis 6 along axis 4 or against it
@@ -174,21 +169,20 @@ class Wrist:
     centre_from_flange: tuple[float, ...]
 
     @classmethod
-    def measured(
-        cls, points: Sequence[Floats], axes: Sequence[Floats], flange: Transform
-    ) -> tuple["Wrist", Floats]:
+    def measured(cls, points: Floats, axes: Floats, flange: Transform) -> tuple["Wrist", Floats]:
         """From a point on each of the axes 4 to 6, the axes, and the flange; and the wrist centre.
         ValueError: other directions than `spherical_wrist` wants.
         """
         (e4, e5, e6), (p4, p5, p6) = axes, points
         parallel(5, e5, 1)
-        _need(abs(e4[1]) < 1e-9, f"axis 4 square to axis 5, got {e4}")
-        _need(abs(abs(e4 @ e6) - 1) < 1e-9, f"axis 6 parallel to axis 4, got {e6}")
+        _need(abs(e4[1]) < 1e-9, "axis 4 square to axis 5, got {}", e4)
+        _need(abs(abs(e4 @ e6) - 1) < 1e-9, "axis 6 parallel to axis 4, got {}", e6)
         centre = p4 + ((p5 - p4) @ e4) * e4  # axis 5 is square to axis 4: its foot on axis 4
         for number, point, axis in ((5, p5, e5), (6, p6, e6)):
-            beside = np.linalg.norm(np.cross(centre - point, axis))
-            _need(beside < 1e-9, f"axis {number} through {centre}, got it {beside:.3g} m beside")
-        frame = Quaternion.from_matrix(np.stack([np.cross(e5, e4), e5, e4], axis=-1))
+            beside = np.linalg.norm(cross(centre - point, axis))
+            met = "axis {} through {}, got it {:.3g} m beside"
+            _need(beside < 1e-9, met, number, centre, beside)
+        frame = Quaternion.from_matrix(np.stack([cross(e5, e4), e5, e4], axis=-1))
         wrist = cls(
             sign5=float(np.sign(e5[1])),
             sign6=float(np.sign(e4 @ e6)),
@@ -199,6 +193,6 @@ class Wrist:
         return wrist, centre
 
 
-def _need(true: Any, wanted: str) -> None:
+def _need(true: Any, wanted: str, *got: object) -> None:
     if not true:
-        raise ValueError(f"links: wanted {wanted} at q = 0")
+        raise ValueError(f"links: wanted {wanted.format(*got)} at q = 0")

@@ -20,9 +20,8 @@ from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, Ints, frozen
+from .._arrays import ArrayLike, Bools, Floats, Ints, frozen
 from .._validate import broadcast, choice, floats, instance, length, short, text, warn_if_degrees
 from ..arms.planar import ThreeLeverArm
 from ..units import deg, in_words

@@ -21,9 +21,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats, Ints, frozen
+from .._arrays import ArrayLike, Floats, Ints, frozen
 from .._validate import (
     broadcast,
     choice,
@@ -57,8 +56,9 @@ def out_of_reach(arm: ClosedFormArm, point: ArrayLike) -> list[str]:
     Source: 003, paper 1, (1), and the inner bound |A - B| that it lacks (errata S3-r).
     """
     geometry, place = _loader(arm), _place(point, "point")
-    gap = geometry.gap(place, arm.branch(+1, -1))
-    reasons = [gap.words] if gap else []
+    row = arm.branch(+1, -1)
+    missing = np.isnan(arm.ik(place)[row]).any()
+    reasons = [geometry.gap(place, row).words] if missing else []
     if place[2] < -ROUNDING * geometry.elbow.reach:
         reasons.append(f"the point is under the floor: z = {place[2]:.4g} m")
     return reasons
@@ -374,7 +374,7 @@ def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
 
 def _counted(positions: Floats, name: str) -> Floats:
     """Motor positions that a float counts."""
-    if (abs(positions) > COUNTED).any():
+    if np.count_nonzero(abs(positions) > COUNTED):
         most = abs(positions).max()
         raise ValueError(f"{name}: wanted at most 2**52 pulses from zero, got {most:.6g}")
     return positions

@@ -28,10 +28,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, Ints, by_blocks, components, frozen
-from .._validate import TWO_TURNS, broadcast, floats, instance, length, short, text, warn_if_degrees
+from .._arrays import ArrayLike, Bools, Floats, Ints, by_blocks, components, frozen
+from .._validate import (
+    TWO_TURNS,
+    broadcast,
+    floats,
+    instance,
+    length,
+    masked,
+    short,
+    text,
+    warn_if_degrees,
+)
 from ..arms import spbu_arm, within
 from ..arms.geometry import FREE, ROUNDING
 
@@ -495,7 +504,8 @@ def _travel(start: Floats, end: Floats, speeds: Floats, short_way: bool) -> Floa
         if short_way:
             turn[..., 0] = abs((turn[..., 0] + np.pi) % (2 * np.pi) - np.pi)
         one, two, three = components(turn / speeds)
-        return np.fmax(np.fmax(one, two), three)
+        longest: Floats = np.fmax(np.fmax(one, two), three)
+    return longest
 
 
 def _kept(q: Floats, here: Floats | float) -> Floats:
@@ -801,9 +811,8 @@ def _plain(value: Any, depth: int = 2) -> Any:
     no numbers, stays as it is, and `faults` refuses it.
     """
     if isinstance(value, (np.ndarray, np.generic)):
-        masked = isinstance(value, np.ma.MaskedArray)
         fit = value.dtype.kind not in "mM" and value.size <= 3 * TASK_LIMIT
-        return value.tolist() if fit and not masked else value
+        return value.tolist() if fit and not masked(value) else value
     if not (depth and isinstance(value, (list, tuple)) and len(value) <= TASK_LIMIT):
         return value
     return [_plain(v, depth - 1) for v in value]

@@ -1,9 +1,8 @@
 """Speeds and accelerations from samples."""
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats
+from .._arrays import ArrayLike, Floats
 from .._validate import floats, short, whole
 
 ORDERS = 10  # each order divides the rounding errors by the step once more

@@ -5,15 +5,14 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats
+from .._arrays import ArrayLike, Floats, fixed
 from .._validate import floats, positive, short
 
 RAMP = "a number above 0 and at most 0.5"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(init=False, eq=False)
 class TimeLaw:
     """s(t) over `duration` seconds: 0 before the motion, 1 after it.
 
@@ -25,11 +24,13 @@ class TimeLaw:
     duration: float
     progress: Callable[[Floats], Floats]
 
-    def __post_init__(self) -> None:
-        duration = positive(self.duration, "duration", "one positive number of seconds")
-        if not callable(self.progress):
-            raise TypeError(f"progress: wanted a function, got {short(self.progress)}")
-        object.__setattr__(self, "duration", duration)
+    __setattr__ = __delattr__ = fixed
+
+    def __init__(self, duration: float, progress: Callable[[Floats], Floats]) -> None:
+        duration = positive(duration, "duration", "one positive number of seconds")
+        if not callable(progress):
+            raise TypeError(f"progress: wanted a function, got {short(progress)}")
+        vars(self).update(duration=duration, progress=progress)
 
     def __call__(self, t: ArrayLike) -> Floats:
         """s at the times t (...) in seconds. ValueError: no times, not finite; a `progress` that
@@ -38,10 +39,12 @@ class TimeLaw:
         t = floats(t, "t")
         if not t.size:
             raise ValueError("t: wanted times, got an empty array")
-        s = floats(self.progress(np.clip(t, 0, self.duration) / self.duration), "progress")
+        s = floats(
+            self.progress(np.minimum(np.maximum(t, 0), self.duration) / self.duration), "progress"
+        )
         if s.shape != t.shape:
             raise ValueError(f"progress: wanted s of shape {t.shape}, got shape {s.shape}")
-        return np.clip(s, 0, 1)  # a polynomial near 1 rounds beyond it
+        return np.minimum(np.maximum(s, 0), 1)  # a polynomial near 1 rounds beyond it
 
 
 def linear(duration: float) -> TimeLaw:

@@ -7,9 +7,8 @@
 from typing import Protocol, Self, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats
+from .._arrays import ArrayLike, Floats
 from .._validate import broadcast, choice, floats, warn_if_degrees
 
 CORNERS = ("parabola", "quintic")
@@ -115,9 +114,9 @@ def _share(s: ArrayLike) -> Floats:
     s = floats(s, "s")
     if not s.size:
         raise ValueError("s: wanted shares of the path, got an empty array")
-    if ((s < -1e-12) | (s > 1 + 1e-12)).any():
+    if np.count_nonzero((s < -1e-12) | (s > 1 + 1e-12)):
         raise ValueError(f"s: wanted shares of the path in [0, 1], got {s.min():g} to {s.max():g}")
-    return np.clip(s, 0, 1)
+    return np.minimum(np.maximum(s, 0), 1)
 
 
 def _pose(value: P, name: str) -> P:

@@ -11,9 +11,8 @@ from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, Ints, frozen, sealed
+from .._arrays import ArrayLike, Bools, Floats, Ints, fixed, frozen, sealed
 from .._validate import TWO_TURNS, floats, instance, short, warn_if_degrees
 from ..arms.arm import Arm
 from ..arms.branches import SLACK
@@ -57,7 +56,7 @@ class Extreme(NamedTuple):
     time: Floats
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(init=False, repr=False, eq=False)
 class Recording:
     """Motions of one arm with n joints, N samples each; the leading axes are the batch. Made by
     `record`.
@@ -87,32 +86,45 @@ class Recording:
     leaps: tuple[Jump, ...]
     jumps: tuple[Jump, ...]
 
-    def __post_init__(self) -> None:
-        n, q = len(instance(self.arm, Arm, "arm").limits), floats(self.q, "q", finite=False)
-        if q.ndim < 2 or q.shape[-2:] != (len(rising(self.t, 2)), n):
-            raise ValueError(f"q: wanted shape (..., {len(self.t)}, {n}), got {q.shape}")
-        samples, steps = q.shape[:-1], (*q.shape[:-2], q.shape[-2] - 1)
-        for name, shape in (
-            ("t", (len(self.t),)),
-            ("q", q.shape),
-            ("v", q.shape),
-            ("a", q.shape),
-            ("missing", samples),
-            ("gaps", steps),
+    __setattr__ = __delattr__ = fixed
+
+    def __init__(
+        self,
+        arm: Arm,
+        t: ArrayLike,
+        q: ArrayLike,
+        v: ArrayLike,
+        a: ArrayLike,
+        missing: ArrayLike,
+        gaps: ArrayLike,
+        leaps: tuple[Jump, ...],
+        jumps: tuple[Jump, ...],
+    ) -> None:
+        n, count = len(instance(arm, Arm, "arm").limits), len(rising(t, 2))
+        q = floats(q, "q", finite=False)
+        shape = q.shape
+        if q.ndim < 2 or shape[-2:] != (count, n):
+            raise ValueError(f"q: wanted shape (..., {count}, {n}), got {shape}")
+        for name, value, wanted in (
+            ("t", t, (count,)),
+            ("q", q, shape),
+            ("v", v, shape),
+            ("a", a, shape),
+            ("missing", missing, shape[:-1]),
+            ("gaps", gaps, (*shape[:-2], count - 1)),
         ):
-            value = getattr(self, name)
-            array = floats(value, name, finite=False)
-            if array.shape != shape:
-                raise ValueError(f"{name}: wanted shape {shape}, got {array.shape}")
+            array: Any = floats(value, name, finite=False)
+            if array.shape != wanted:
+                raise ValueError(f"{name}: wanted shape {wanted}, got {array.shape}")
             if name in ("missing", "gaps"):
                 array = np.asarray(value, dtype=bool)
             if array.flags.writeable:  # else nobody can change it, and it need not be copied
                 array = frozen(array)
-            object.__setattr__(self, name, array)
-        for name in ("leaps", "jumps"):
-            found = getattr(self, name)
+            vars(self)[name] = array
+        for name, found in (("leaps", leaps), ("jumps", jumps)):
             if not isinstance(found, tuple) or not all(isinstance(one, Jump) for one in found):
                 raise TypeError(f"{name}: wanted a tuple of Jumps, got {short(found)}")
+        vars(self).update(arm=arm, leaps=leaps, jumps=jumps)
 
     @property
     def shape(self) -> tuple[int, ...]:

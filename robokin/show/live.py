@@ -21,7 +21,6 @@ import anywidget
 import ipywidgets
 import numpy as np
 import traitlets
-from numpy.typing import ArrayLike
 
 from .. import (
     Arm,
@@ -42,7 +41,7 @@ from .. import (
     trapezoidal,
     within,
 )
-from .._arrays import Bools, Floats
+from .._arrays import ArrayLike, Bools, Floats
 from .._validate import instance
 from ..units import deg, length_unit, mm
 from . import plots
@@ -369,7 +368,7 @@ class TargetExplorer(Explorer):
             )
         if self.controls["branch"].value == NEAREST and not self._exists.any():
             gaps = [self.arm.geometry.gap(target, k) for k in range(len(self.rows))]
-            row = int(np.argmin(np.round([gap.metres if gap else 0.0 for gap in gaps], 9)))
+            row = int(np.argmin(np.round([gap.metres for gap in gaps], 9)))
         return f"No branch is usable. {explain(self.arm, target, row)}"
 
     def _words(self) -> str:

@@ -18,9 +18,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import ArrayLike
 
-from .._arrays import Bools, Floats, Ints
+from .._arrays import ArrayLike, Bools, Floats, Ints
 from .._validate import floats, instance, length, short
 from ..arms.arm import Arm
 from ..arms.link import Link

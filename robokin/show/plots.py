@@ -17,10 +17,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as MatplotlibFigure
-from numpy.typing import ArrayLike
 from PIL import Image
 
-from .._arrays import Floats, sealed
+from .._arrays import ArrayLike, Floats, sealed
 from .._validate import floats, instance, length, positive, short, warn_if_degrees
 from ..arms.arm import Arm
 from ..motion.recording import Recording, record

@@ -11,9 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
-from numpy.typing import ArrayLike
 
-from .._arrays import Floats
+from .._arrays import ArrayLike, Floats
 from .._validate import TWO_TURNS, instance, short, text
 from ..arms.arm import Arm
 from ..arms.dexterity import total_length
