@@ -69,7 +69,7 @@ class Quaternion(Batch):
         """
         self = object.__new__(cls)
         wxyz.setflags(write=False)
-        object.__setattr__(self, "wxyz", wxyz)
+        self.__dict__["wxyz"] = wxyz
         return self
 
     @classmethod

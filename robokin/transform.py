@@ -50,9 +50,8 @@ class Transform(Batch):
     def _of(cls, rotation: Quaternion, translation: Floats) -> "Transform":
         """From parts of one batch shape: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
-        object.__setattr__(self, "rotation", rotation)
         translation.setflags(write=False)
-        object.__setattr__(self, "translation", translation)
+        self.__dict__["rotation"], self.__dict__["translation"] = rotation, translation
         return self
 
     @classmethod

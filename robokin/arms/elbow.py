@@ -246,6 +246,8 @@ def parallel(number: int, axis: Floats, along: int) -> None:
 
 def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
     """The pair (cosine, sine) of an angle, turned on by a constant angle."""
+    if angle == 0:
+        return cosine, sine
     c, s = np.cos(angle), np.sin(angle)
     return cosine * c - sine * s, sine * c + cosine * s
 

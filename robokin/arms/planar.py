@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, fixed
+from .._arrays import ArrayLike, Bools, Floats, fixed, stack
 from .._validate import broadcast, floats, length, positive, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
@@ -81,9 +81,9 @@ class TwoLinkGeometry:
         x, y, d, off = self._way(pose)
         ahead, turn, exists = two_levers(self.l1, self.l2, d)
         exists = exists & (off <= ROUNDING * self.reach)
-        direction = np.arctan2(y, x)
-        rows = [np.stack([direction - f * ahead, f * turn], axis=-1) for f in (1, -1)]
-        q = wrapped(np.stack(rows, axis=-2)) + 0.0  # and no -0.0
+        elbow = self.branches[:, 0]
+        q1 = np.arctan2(y, x)[..., None] - elbow * ahead[..., None]
+        q = wrapped(stack([q1, elbow * turn[..., None]])) + 0.0  # and no -0.0
         return np.where(exists[..., None, None], q, np.nan)
 
     def gap(self, pose: Any, row: int) -> Gap:

@@ -169,7 +169,7 @@ class Move:
         direction, too, no two pulses come faster than the frequencies allow. ValueError: a move of
         more than `LISTED` pulses or `STRETCHES` stretches.
         """
-        count, stretches = abs(np.diff(self.positions, axis=0)).sum(), len(self.t) - 1
+        count, stretches = abs(self.positions[1:] - self.positions[:-1]).sum(), len(self.t) - 1
         if count > LISTED or stretches > STRETCHES:
             wanted = f"wanted a move of at most {LISTED} in {STRETCHES} stretches"
             raise ValueError(f"pulses: {wanted}, got one of {count:.0f} in {stretches}")
@@ -348,7 +348,7 @@ def _place(value: ArrayLike, name: str) -> Floats:
 
 def _per_degree(value: ArrayLike) -> Floats:
     per_degree = floats(value, "per_degree")
-    if per_degree.ndim > 1 or (per_degree <= 0).any():
+    if per_degree.ndim > 1 or np.count_nonzero(per_degree <= 0):
         wanted = "wanted positive numbers of pulses, one for each motor"
         raise ValueError(f"per_degree: {wanted}, got {short(per_degree.tolist())}")
     return per_degree
@@ -368,14 +368,14 @@ def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
     """Motor positions, not rounded."""
     per_degree = _per_degree(per_degree)
     broadcast("q and per_degree", q.shape, per_degree.shape)
-    with np.errstate(over="ignore"):
-        return q / deg * per_degree
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.multiply(q, per_degree / deg, order="F")  # each motor's in one run
 
 
 def _counted(positions: Floats, name: str) -> Floats:
     """Motor positions that a float counts."""
-    if np.count_nonzero(abs(positions) > COUNTED):
-        most = abs(positions).max()
+    most = abs(positions).max(initial=0)
+    if not most <= COUNTED:
         raise ValueError(f"{name}: wanted at most 2**52 pulses from zero, got {most:.6g}")
     return positions
 

@@ -40,11 +40,11 @@ class TimeLaw:
         if not t.size:
             raise ValueError("t: wanted times, got an empty array")
         s = floats(
-            self.progress(np.minimum(np.maximum(t, 0), self.duration) / self.duration), "progress"
+            self.progress(np.minimum(np.maximum(t, 0.0), self.duration) / self.duration), "progress"
         )
         if s.shape != t.shape:
             raise ValueError(f"progress: wanted s of shape {t.shape}, got shape {s.shape}")
-        return np.minimum(np.maximum(s, 0), 1)  # a polynomial near 1 rounds beyond it
+        return np.minimum(np.maximum(s, 0.0), 1.0)  # a polynomial near 1 rounds beyond it
 
 
 def linear(duration: float) -> TimeLaw:
@@ -83,8 +83,10 @@ def _linear(x: Floats) -> Floats:
 
 def _trapezoidal(ramp: float, x: Floats) -> Floats:
     peak = 1 / (1 - ramp)  # the cruising speed, so that the area is 1
-    up, down = (peak * np.minimum(y, ramp) ** 2 / (2 * ramp) for y in (x, 1 - x))
-    return np.where(x < ramp, up, np.where(x > 1 - ramp, 1 - down, peak * (x - ramp / 2)))
+    left = np.minimum(x, 1 - x)  # to the nearer end: the two halves are alike
+    on_ramp = np.minimum(left, ramp)
+    s: Floats = peak * (on_ramp * on_ramp / (2 * ramp) + (left - on_ramp))
+    return np.where(x > 0.5, 1 - s, s)
 
 
 def _quintic(x: Floats) -> Floats:
