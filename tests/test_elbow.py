@@ -227,6 +227,14 @@ def test_joint_1_is_0_on_the_axis_whatever_the_sign_of_zero(x, y):
     assert spbu_arm(5, 4).ik((-1, y, 2))[0, 0] == np.pi == principal_postures(5, 4, (-1, y, 2))[0]
 
 
+def test_a_free_joint_does_not_touch_the_other_rows_of_a_batch():
+    """Equal levers folded onto joint 2, among points that are not so."""
+    arm = loader_arm(1, 1)
+    points = np.array([(1, 0.3, 0.2), (0, 0, 0), (0.5, -1, 0.4)])
+    assert np.isfinite(arm.ik(points)).all()
+    np.testing.assert_array_equal(arm.ik(points), [arm.ik(point) for point in points])
+
+
 def test_wrong_arms_and_points_are_refused():
     for call, evidence in (
         (lambda: workspace(0, 4, (1, 1, 1)), "l1: wanted one positive length in metres, got 0"),

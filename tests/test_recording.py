@@ -23,6 +23,7 @@ from robokin import (
     quintic,
     record,
     trapezoidal,
+    two_link,
 )
 
 X, Y, Z = np.eye(3)
@@ -151,6 +152,22 @@ def test_a_corner_between_two_samples_is_found_between_them():
     assert jump.after[2] == pytest.approx(-0.3, abs=1e-9)
 
 
+@pytest.mark.parametrize("share", [0.02, 0.3, 0.7, 0.98])
+@pytest.mark.parametrize("sample", [4, 50, 94])
+def test_a_faint_part_of_a_corner_belongs_to_it(share, sample):
+    """A corner shortly behind (or before) a sample changes the speeds of two pairs of intervals,
+    one of them by 2 % of the jump: too little for a jump of its own.
+    """
+    t = np.linspace(0, 1, 100)
+    corner = t[sample] + share * (t[sample + 1] - t[sample])
+    q = np.stack([t + 0.1 * np.maximum(t - corner, 0), 0 * t], axis=-1)
+    (jump,) = record(two_link(1, 1), t, q).jumps
+    assert (jump.first, jump.last) == (sample, sample + 1)
+    np.testing.assert_allclose(jump.time, t[sample : sample + 2].mean(), rtol=1e-12)
+    np.testing.assert_allclose(jump.before, [1, 0], atol=1e-9)
+    np.testing.assert_allclose(jump.after, [1.1, 0], atol=1e-9)
+
+
 def test_there_is_no_acceleration_at_a_jump_of_the_speed_and_only_there():
     t = np.linspace(0, 3, 301)
     u = t - 1.5
@@ -196,6 +213,17 @@ def test_two_corners_are_two_jumps():
     jumps = record(IRB140, t, q).jumps
     assert [jump.time for jump in jumps] == pytest.approx([1, 2])
     assert [jump.by[0] for jump in jumps] == pytest.approx([-0.8, 0.3])
+    assert [repr(jump.motion) for jump in jumps] == ["()", "()"]
+
+
+def test_two_corners_three_samples_apart_are_two_jumps():
+    t = np.linspace(0, 1, 101)
+    q = np.interp(t, [0, 0.5, 0.53, 1], [0, 0.5, 0.47, 0.94])[:, None] * [1.0, 0]
+    jumps = record(two_link(1, 1), t, np.stack([q, q])).jumps
+    assert [(repr(jump.motion), jump.first) for jump in jumps] == [
+        (f"({i},)", first) for i in (0, 1) for first in (50, 53)
+    ]
+    assert [jump.by[0] for jump in jumps] == pytest.approx([-2, 2] * 2)
 
 
 # --- Jumps of position ----------------------------------------------------------------------------

@@ -642,6 +642,14 @@ def test_the_lowest_place_of_any_move(l1, l2):
     assert (got < np.minimum(*(lowest(l1, l2, q, q) for q in (start, end))) - 0.1).sum() > 5
 
 
+@pytest.mark.parametrize("l1, l2", [(5, 4), (4, 5)])
+def test_the_lowest_place_is_the_same_there_and_back(l1, l2):
+    start, end = np.random.default_rng(8).uniform(-6, 6, (2, 1000, 3))
+    there, back = lowest(l1, l2, start, end), lowest(l1, l2, end, start)
+    np.testing.assert_allclose(there, back, atol=1e-8)
+    assert (there > -l1 - l2).all() and np.ptp(there) > 1
+
+
 def test_the_floor_is_checked_for_certain():
     """Moves between points on the floor or just above it: the shallowest dips are found, and none
     that is not there. The reference halves the bracket round the least of a dense sample.

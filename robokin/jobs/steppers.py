@@ -399,7 +399,7 @@ def _stations(start: ArrayLike, goal: ArrayLike) -> tuple[Floats, Floats]:
 
 def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
     """One motor's pulses, from where it is due (k,) at the times t: (times, signs)."""
-    times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], round(due[0])
+    times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], due[0]
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]
     # the stretches before which it turns back
@@ -412,10 +412,8 @@ def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
         after = np.searchsorted(np.maximum.accumulate(way), levels - SLACK)
         before = after - 1
         share = np.minimum((levels - way[before]) / (way[after] - way[before]), 1)
-        times.append(
-            t[begin : end + 1][before]
-            + share * (t[begin : end + 1][after] - t[begin : end + 1][before])
-        )
+        since, until = t[begin + before], t[begin + after]
+        times.append(since + share * (until - since))
         signs.append(np.full(len(levels), sign))
         stands += sign * len(levels)
     return np.concatenate(times), np.concatenate(signs)

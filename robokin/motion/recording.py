@@ -287,14 +287,12 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     """Where the speeds between samples (C, N - 1, n) jump: a change far greater than the changes
     beside it.
 
-    A smooth motion's changes are all of the size acceleration x step; those two and three samples
-    away tell it (the next one shares a corner that lies between two samples). Less than a hundredth
+    A smooth motion's changes are all of the size acceleration x step; those two samples away tell it
+    (the next one shares a corner that lies between two samples). Less than a hundredth
     of the greatest speed is no jump, nor is what has no neighbours on both sides.
     """
     change = abs(np.diff(speeds, axis=1))
-    beside = np.maximum(
-        *(np.fmax(_shifted(change, 2 * side), _shifted(change, 3 * side)) for side in (-1, 1))
-    )
+    beside = np.maximum(_shifted(change, -2), _shifted(change, 2))
     greatest = np.fmax.reduce(abs(speeds), axis=1, keepdims=True)
     sure = change > 8 * beside + 0.01 * greatest + 1e-9
     part = change > 3 * beside + 1e-9
@@ -303,8 +301,9 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
         for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
             first, last = run[0], run[-1]
             # A corner between two samples shows in two changes, in one of them perhaps faintly.
-            first -= bool(first > 0 and part[c, first - 1].any())
-            last += bool(last + 1 < len(part[c]) and part[c, last + 1].any())
+            # (Beside a sure one there always are two more.)
+            first -= part[c, first - 1].any()
+            last += part[c, last + 1].any()
             time = float((t[first + 1] + t[last + 1]) / 2)
             before = _towards(speeds[c], t, time, first, -1)
             after = _towards(speeds[c], t, time, last + 1, 1)
