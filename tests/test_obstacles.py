@@ -587,6 +587,14 @@ def test_postures_along_a_path():
     np.testing.assert_allclose(along(path[[0, 0]], [0, 0.5]), path[[0, 0]])  # a path that stands
 
 
+def test_along_a_path_S_grows_evenly_whichever_way_the_joints_turn():
+    path = np.array([(0, 1, 0), (0.5, 0, -1), (-1, 0.2, 0)])
+    q = along(path, np.linspace(0, 1, 43))  # S is 2.5 and 2.7: a sample stands on no corner
+    S = abs(np.diff(q, axis=0)).sum(axis=-1)
+    inner = np.delete(S, np.searchsorted(np.linspace(0, 1, 43), 2.5 / 5.2) - 1)
+    np.testing.assert_allclose(inner, 5.2 / 42, rtol=1e-12)
+
+
 def test_postures_before_and_after_a_path_are_its_ends():
     path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
     assert (along(path, [[-1.0, 2.0], [1e300, -1e300]]) == path[[[0, 2], [2, 0]]]).all()

@@ -51,7 +51,7 @@ class ElbowGeometry:
     elbow: "Elbow"
     reach: float
 
-    @np.errstate(over="ignore", invalid="ignore")  # of lengths whose squares are none
+    @np.errstate(invalid="ignore")  # of lengths whose squares are none
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 3 or any(link.prismatic for link in links):

@@ -490,7 +490,6 @@ def _way_round(
     start = tuple(int(np.abs(axis - value).argmin()) for axis, value in zip(axes, q0, strict=True))
     for margin in MARGINS:
         free = room >= distance + margin * arm.lever
-        free[start] = True
         waves = _wave(free, start)
         path = _back(arm, grid, room, waves, _arrivals(axes, goals, waves), goals, H, distance)
         if path is not None:
