@@ -287,9 +287,9 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     """Where the speeds between samples (C, N - 1, n) jump: a change far greater than the changes
     beside it.
 
-    A smooth motion's changes are all of the size acceleration x step; those two samples away tell it
-    (the next one shares a corner that lies between two samples). Less than a hundredth
-    of the greatest speed is no jump, nor is what has no neighbours on both sides.
+    A smooth motion's changes are all of the size acceleration x step; those two samples away tell
+    it (the next one shares a corner that lies between two samples). Less than a hundredth of the
+    greatest speed is no jump, nor is what has no neighbours on both sides.
     """
     change = abs(np.diff(speeds, axis=1))
     beside = np.maximum(_shifted(change, -2), _shifted(change, 2))
