@@ -3,6 +3,7 @@ say nothing.
 """
 
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -476,6 +477,8 @@ def test_turning_on_and_on_is_no_slip(recwarn):
         (lambda q: record(IRB140, T * np.nan, q), ValueError, "t: wanted finite"),
         (lambda q: record(IRB140, T, None), ValueError, "q: wanted numbers"),
         (lambda q: record(IRB140, None, q), ValueError, "t: wanted numbers"),
+        (lambda q: replace(record(IRB140, T, q), jumps=("here",)), TypeError, "tuple of Jumps"),
+        (lambda q: replace(record(IRB140, T, q), leaps=[]), TypeError, "tuple of Jumps"),
     ],
 )
 def test_wrong_calls_say_what_is_wanted(wrong, kind, message, motions):

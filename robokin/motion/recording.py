@@ -216,7 +216,7 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     array([1., 1.])
     """
     limits, prismatic = instance(arm, Arm, "arm").limits, arm.prismatic
-    t, q = frozen(rising(t, 2)), floats(q, "q", len(limits), finite=False)
+    t, q = rising(t, 2), floats(q, "q", len(limits), finite=False)
     if q.ndim < 2 or q.shape[-2] != len(t):
         raise ValueError(f"q: wanted shape (..., {len(t)}, {len(limits)}), got {q.shape}")
     lead, q = q.shape[:-2], q.reshape(-1, *q.shape[-2:])
