@@ -166,7 +166,8 @@ class Elbow(NamedTuple):
         r2 = rho2 - b * b
         near = r2 >= -2 * ROUNDING * abs(b) * self.reach
         r = front * np.sqrt(np.where(near, np.maximum(r2, 0), np.nan))
-        free = rho2 <= (FREE * self.reach) ** 2
+        tiny = FREE * self.reach
+        free = rho2 <= tiny * tiny
         cos1 = np.where(free, front, (x * r + y * b) / rho2)
         # no minus zero: half a turn is +pi
         sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0
@@ -174,11 +175,12 @@ class Elbow(NamedTuple):
         # Joints 2 and 3: a triangle of upper arm, forearm and the line from shoulder to point. Of
         # the angle g between the levers, 1 + cos g and 1 - cos g: how far the arm is from folded
         # and from stretched. Both are differences of two squares; a cosine would lose the digits of
-        # the smaller one (equal levers, nearly folded).
+        # the smaller one (equal levers, nearly folded). The squares are products, since these are
+        # rounded alike in every language and powers are not.
         u, w = r - a, z - c
         d2, scale = u * u + w * w, 2 * upper * fore
-        unfolded = (d2 - (upper - fore) ** 2) / scale
-        unstretched = ((upper + fore) ** 2 - d2) / scale
+        unfolded = (d2 - (upper - fore) * (upper - fore)) / scale
+        unstretched = ((upper + fore) * (upper + fore) - d2) / scale
         # What one reach of distance is there, at the two borders.
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
