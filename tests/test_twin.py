@@ -86,8 +86,8 @@ PAGE = """async () => {
       text += String.fromCharCode(...bytes.subarray(i, i + 32768));
     return btoa(text);
   };
-  // a flat array as rows of n, again and again: nested([1..12], 3, 2) is [[[1, 2], [3, 4]...
-  window.nested = (flat, ...sizes) => sizes.reduceRight((all, n) =>
+  // a flat array as rows of n, these as blocks of m, and so on
+  window.nested = (flat, ...sizes) => sizes.reduce((all, n) =>
     Array.from({length: all.length / n}, (_, i) => all.slice(n * i, n * i + n)), Array.from(flat));
   window.posed = ([x, y, z, ...rest]) => rest.length === 4 ? {place: [x, y, z], rotation: rest}
     : rest.length ? {place: [x, y, z], angle: rest[0]} : {place: [x, y, z]};
@@ -216,7 +216,7 @@ def places(arm, rng):
         some["border"][:400, 2] = height + rng.uniform(-0.9, 0.9, 400) * upper
     n = SHARES["far"]
     some["far"] = around(n, rng.uniform(1.6, 30, n) * arm.reach)
-    some["far"][: n // 4] *= 1000  # millimetres
+    some["far"][: n // 4] = 1000 * some["places"][: n // 4]  # millimetres
     n = SHARES["singular"] // 2
     nearest_to_axis = abs(upper - fore) if flat else abs(lateral)
     turn, r = rng.uniform(-np.pi, np.pi, n), nearest_to_axis + tiny(rng, n) * arm.reach
@@ -334,6 +334,429 @@ def test_rows(twin, name):
             distance_from_singularity(arm, some),
             1e-14,
         )
+
+
+# --- Choosing ------------------------------------------------------------------------------------
+
+
+def half_turns(arm, rng, *shape):
+    """Rows whose joints stand whole quarters of a turn apart: half turns lie exactly between two
+    values, and many rows are equally far. Some are missing.
+    """
+    q = rng.integers(-8, 9, (*shape, len(arm.links))) * (np.pi / 2)
+    q[..., arm.prismatic] = rng.integers(-4, 5, q[..., arm.prismatic].shape) * 0.05
+    q[rng.random(shape) < 0.15] = np.nan
+    return q
+
+
+def at_limits(arm, rng, n):
+    """Joints at a limit, at the slack past it, and whole turns from there."""
+    slack = rng.choice([0, 1e-9, -1e-9, 0.9e-9, 1.1e-9, -1.1e-9, 0.1, -0.1], (n, len(arm.links)))
+    end = rng.integers(0, 2, slack.shape)
+    q = arm.limits[np.arange(len(arm.links)), end] + slack
+    return q + np.where(arm.prismatic, 0, TURN) * rng.integers(-2, 3, slack.shape)
+
+
+@every_arm
+def test_choice(twin, name):
+    """`within`, `representative`, `unwrapped` and `nearest` on the same rows: equal to the last
+    bit, for nothing but + - * / and rounding is in them.
+    """
+    arm, rng = ARMS[name], np.random.default_rng(6)
+    n = len(arm.links)
+    limits = at_limits(arm, rng, 500)
+    limits[:20, 0] = np.nan
+    q = np.concatenate([limits, half_turns(arm, rng, 500), rng.uniform(-9, 9, (500, n))])
+    near = np.nan_to_num(np.roll(q, 7, axis=0))
+    body = "const n = arm.limits.length, q = nested(a, n), near = nested(b, n); return "
+    inside = twin(body + "q.flatMap(row => within(arm, row).map(Number));", arm, q, shape=q.shape)
+    assert (inside.astype(bool) == within(arm, q)).all()
+    assert inside.any()
+    got = twin(body + "q.flatMap(row => representative(arm, row));", arm, q, shape=q.shape)
+    close(got, representative(arm, q), 0)
+    got = twin(
+        body + "q.flatMap((row, i) => unwrapped(arm, row, near[i]));", arm, q, near, shape=q.shape
+    )
+    close(got, unwrapped(arm, q, near), 0)
+
+    flat = arm.ik(poses(name)["postures"][:500])
+    for rows in (half_turns(arm, rng, 500, 4), flat):
+        here = near[: len(rows)]
+        got = twin(
+            "const n = arm.limits.length, here = nested(b, n);"
+            "return nested(a, n, c[0]).flatMap((rows, i) => nearest(arm, rows, here[i]));",
+            arm,
+            rows,
+            here,
+            [rows.shape[1]],
+            shape=here.shape,
+        )
+        close(got, nearest(arm, rows, here), 0)
+
+
+def follows(twin, arm, rows, starts):
+    """`follow` of every motion (motions, samples, rows, n) from its own row."""
+    motions, samples, count, n = rows.shape
+    body = (
+        "const [samples, count, n] = b;"
+        "return nested(a, n, count, samples).flatMap((rows, i) => follow(arm, rows, c[i]).flat());"
+    )
+    return twin(body, arm, rows, [samples, count, n], starts, shape=(motions, samples, n))
+
+
+@every_arm
+def test_follow(twin, name):
+    """One motion through Python's rows: over missing rows, from and through singularities, with
+    half turns.
+    """
+    arm, rng = ARMS[name], np.random.default_rng(7)
+    rows = half_turns(arm, rng, 60, 12, len(arm.branches))
+    rows[:10, :4] = np.nan  # nothing to begin with
+    starts = rng.integers(0, len(arm.branches), 60)
+    want = np.stack([follow(arm, r, k) for r, k in zip(rows, starts.tolist(), strict=True)])
+    close(follows(twin, arm, rows, starts), want, 1e-13)
+
+    rows = np.stack([arm.ik(motion(name, i)) for i in range(24)])
+    starts = rng.integers(0, len(arm.branches), 24)
+    want = np.stack([follow(arm, r, k) for r, k in zip(rows, starts.tolist(), strict=True)])
+    assert np.isnan(want).any()
+    close(follows(twin, arm, rows, starts), want, 1e-13)
+
+
+def corners(name, i):
+    """Three poses of a motion: joints at random, some through a wrist or shoulder singularity, some
+    from a round posture, some out of reach.
+    """
+    arm, rng = ARMS[name], np.random.default_rng(100 + i)
+    low, high = arm.limits.T
+    q = rng.uniform(low, high)
+    q = q + np.cumsum(rng.normal(size=(3, len(low))) * 0.4 * np.where(arm.prismatic, 0.1, 1), 0)
+    if i % 4 == 1 and len(low) == 6:
+        q[:2, 4], q[2, 4] = 0, 0.3
+    if i % 4 == 2 and len(low) == 6:
+        q[1, :4], q[1, 4], q[1, 5] = q[0, :4] + 0.05, -q[0, 4], q[0, 5]
+    if i % 4 == 3:
+        q[0] = np.round(q[0] / (np.pi / 4)) * (np.pi / 4) * ~arm.prismatic
+    tool = arm.fk(q)
+    if i % 6 == 5:
+        tool = Transform(tool.rotation, tool.translation * [[1], [2.2], [1]])
+    if i % 8 == 7:  # over axis 1
+        tool = Transform(tool.rotation, tool.translation * [[1, 1, 1], [1e-9, 0, 1], [-1, -1, 1]])
+    pose = _asked(arm, tool, rng)
+    return pose if arm.target is not np.ndarray else Transform(translation=pose)
+
+
+def motion(name, i, samples=61):
+    a, b, c = corners(name, i)
+    s = quintic(1.0)(np.linspace(0, 1, samples))
+    return blend(a, b, c, [0.0, 0.1, 0.25, 0.5][i % 4], s, ["parabola", "quintic"][i % 2])
+
+
+@every_arm
+def test_whole_chain(twin, name):
+    """Blend, inverse and motion in one. Where two rows are equally near, rounding chooses: such
+    motions are left out, and few may be.
+    """
+    arm = ARMS[name]
+    body = (
+        "const poses = nested(a, b[0]).map(posed), law = quintic(1);"
+        "const rows = Array.from(c, t => ik(arm, "
+        "  blend(...poses, b[1], law(t), b[2] ? 'quintic' : 'parabola')));"
+        "return follow(arm, rows, b[3]).flat();"
+    )
+    t = np.linspace(0, 1, 61)
+    ties = 0
+    for i in range(16):
+        flat = numbers(corners(name, i))
+        if arm.target is np.ndarray:
+            flat = flat[:, :3]
+        row = i % len(arm.branches)
+        want = follow(arm, arm.ik(motion(name, i)), row)
+        given = [flat.shape[1], [0.0, 0.1, 0.25, 0.5][i % 4], i % 2, row]
+        got = twin(body, arm, flat, given, t, shape=want.shape)
+        assert (np.isnan(got) == np.isnan(want)).all()
+        known = ~np.isnan(want)
+        ties += known.any() and not abs(got - want)[known].max() < 1e-6
+    assert ties <= 2
+
+
+# --- Rotations, velocities, paths ----------------------------------------------------------------
+
+
+def test_rotations(twin):
+    """Products, matrices there and back, slerp: also of equal, nearly opposite and opposite ones."""
+    rng = np.random.default_rng(8)
+    n = 2000
+    a, b = rotations(rng, n), rotations(rng, n)
+    wxyz = b.wxyz.copy()
+    wxyz[:100] = a.wxyz[:100] * rng.choice([-1, 1], (100, 1))
+    axis = rng.normal(size=(400, 3))
+    axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
+    angle = np.concatenate([10.0 ** -rng.uniform(0, 16, 200), np.full(200, np.pi)])
+    wxyz[100:500] = (a[100:500] @ Quaternion.from_angle_axis(angle, axis)).wxyz
+    wxyz[500:505] = [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1), (0.5, 0.5, 0.5, 0.5)]
+    b, s = Quaternion(wxyz), rng.random(n)
+    s[::50], s[1::50] = 0, 1
+    body = "const p = nested(a, 4), q = nested(b, 4); return p.flatMap((one, i) => "
+    given = None, a.wxyz, b.wxyz, s
+    close(twin(body + "product(one, q[i]));", *given, shape=(n, 4)), (a @ b).wxyz, 0)
+    got = twin(body + "matrix(q[i], one.slice(1)));", *given, shape=(n, 3, 4))
+    close(got[..., :3], b.as_matrix(), 0)
+    close(got[..., 3], a.wxyz[:, 1:], 0)
+    got = twin(body + "quaternion(matrix(q[i])));", *given, shape=(n, 4))
+    close(got, Quaternion.from_matrix(b.as_matrix()).wxyz, 1e-15)
+    # a half turn has two ways round; in the last bit of the product both are right
+    got = twin(body + "slerp(one, q[i], c[i]));", *given, shape=(n, 4))
+    close(got, a.slerp(b, s).wxyz, 1e-14)
+
+
+@every_arm
+def test_velocities(twin, name):
+    """The Jacobian, the ellipsoid of velocities, and the pose that a posture reaches."""
+    arm, rng = ARMS[name], np.random.default_rng(9)
+    n = len(arm.links)
+    q = rng.uniform(*arm.limits.T, (200, n))
+    q[:40] = np.round(q[:40] / (np.pi / 4)) * (np.pi / 4)
+    body = "return nested(a, arm.limits.length).flatMap(q => "
+    got = twin(body + "jacobian(arm.chain, q).flat());", arm, q, shape=(200, 6, n))
+    close(got, arm.jacobian(q), 1e-14 * max(1, arm.reach))
+    axes = twin(body + "ellipsoid(arm.chain, q).flat());", arm, q, shape=(200, 3, 3))
+    linear_part = arm.jacobian(q)[:, :3]
+    close(axes.mT @ axes, linear_part @ linear_part.mT, 1e-13 * max(1, arm.reach) ** 2)
+    lengths = np.linalg.norm(axes, axis=-1)
+    values = np.zeros((200, 3))
+    values[:, : min(3, n)] = np.linalg.svd(linear_part, compute_uv=False)
+    close(lengths, values, 1e-14 * max(1, arm.reach))
+
+    size = {Transform: 7, ScaraPose: 4, np.ndarray: 3}[arm.target]
+    got = twin(body + "unposed(pose(arm, q)));", arm, q, shape=(200, size))
+    tool = arm.fk(q)
+    close(got[:, :3] / arm.reach, tool.translation / arm.reach, 1e-14)
+    if size == 7:
+        close(Quaternion(got[:, 3:]).angle_to(tool.rotation), np.zeros(200), 3e-14)
+    if size == 4:
+        close(np.cos(got[:, 3] - q[:, :3].sum(axis=-1)), np.ones(200), 1e-14)
+
+
+@pytest.mark.parametrize("kind", ["Transform", "ScaraPose", "point"])
+def test_paths(twin, kind):
+    """Straight, in two straight parts, blended by either corner; s beyond its ends stays there."""
+    rng = np.random.default_rng(10)
+    n, s = 60, np.array([0, 0.5, 1, 0.25, 0.75, 0.5 - 1e-16, *rng.random(30)])
+    place = rng.normal(size=(3, n, 3))
+    poses = {
+        "Transform": [Transform(rotations(rng, n), p) for p in place],
+        "ScaraPose": [ScaraPose(p, rng.uniform(-9, 9, n)) for p in place],
+        "point": [Transform(translation=p) for p in place],
+    }[kind]
+    width = {"Transform": 7, "ScaraPose": 4, "point": 3}[kind]
+    fraction = rng.uniform(0, 0.5, n)
+    fraction[:6] = [0, 0.5, 0.25, 1e-9, 0, 0.5]
+    a, b, c = (pose[:, None] for pose in poses)
+    flat = np.stack([numbers(pose)[:, :width] for pose in poses], axis=1)
+    body = (
+        "return nested(a, c[0], 3).flatMap(([p, q, r], i) => Array.from(d).flatMap(s => unposed("
+        "  {})));"
+    )
+    ways = {
+        "lin(posed(p), posed(r), s)": lin(a, c, s),
+        "lin_lin(posed(p), posed(q), posed(r), s)": lin_lin(a, b, c, s),
+        "blend(posed(p), posed(q), posed(r), b[i], s)": blend(a, b, c, fraction[:, None], s),
+        "blend(posed(p), posed(q), posed(r), b[i], s, 'quintic')": blend(
+            a, b, c, fraction[:, None], s, corner="quintic"
+        ),
+    }
+    for call, want in ways.items():
+        got = twin(
+            body.replace("{}", call), None, flat, fraction, [width], s, shape=(n, len(s), width)
+        )
+        close(got, numbers(want)[..., :width], 1e-14)
+    outside = twin(
+        body.replace("{}", "lin(posed(p), posed(r), s)"),
+        None,
+        flat,
+        fraction,
+        [width],
+        [-1e-13, 1 + 1e-13],
+        shape=(n, 2, width),
+    )
+    close(outside, flat[:, [0, 2]], 1e-14)
+
+
+def test_motion(twin):
+    """Point to point, the laws, speeds and accelerations from even and uneven samples."""
+    rng = np.random.default_rng(11)
+    q, s = rng.normal(size=(2, 6)), rng.random(40)
+    got = twin(
+        "return c.length, Array.from(c).flatMap(s => ptp(Array.from(a), Array.from(b), s));",
+        None,
+        *q,
+        s,
+        shape=(40, 6),
+    )
+    close(got, ptp(*q, s), 0)
+    t = np.concatenate([[-1, 0, 3, 4], rng.uniform(0, 3, 200)])
+    for law, call in (
+        (linear(3), "linear(3)"),
+        (trapezoidal(3), "trapezoidal(3)"),
+        (trapezoidal(3, 0.5), "trapezoidal(3, 0.5)"),
+        (trapezoidal(3, 0.1), "trapezoidal(3, 0.1)"),
+        (quintic(3), "quintic(3)"),
+    ):
+        close(twin(f"return Array.from(a, {call});", None, t, shape=t.shape), law(t), 1e-15)
+    for t in (np.linspace(0, 2, 81), np.cumsum(rng.uniform(0.01, 0.05, 81)), np.arange(3) / 4):
+        values = np.sin(3 * t[:, None] + np.arange(4))
+        for missing in (False, True):
+            if missing and len(t) > 9:
+                values[[20, 21, 50]] = np.nan
+            for order in (1, 2):
+                got = twin(
+                    "return differentiate(nested(a, 4), Array.from(b), c[0]).flat();",
+                    None,
+                    values,
+                    t,
+                    [order],
+                    shape=values.shape,
+                )
+                rounding = 1e-15 / np.diff(t).min() ** order
+                close(got, differentiate(values, t, order), 10 * rounding)
+
+
+# --- In words ------------------------------------------------------------------------------------
+
+EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
+  [explain(arm, posed(pose), row), Object.entries(singularities(arm, ik(arm, posed(pose))[row]))
+    .filter(([, holds]) => holds).map(([name]) => name)])"""
+
+
+@every_arm
+def test_words(twin, name):
+    """The same sentences as Python's `explain`, for every reason."""
+    arm, rng = ARMS[name], np.random.default_rng(12)
+    asked, want = [], []
+    for kind, pose in poses(name).items():
+        # half a turn stands at 180 or -180 degrees: there noise is seen in the words
+        if twin.noisy and kind not in ("postures", "places", "far"):
+            continue
+        flat = numbers(pose)
+        for i in rng.choice(len(flat), 40, replace=False).tolist():
+            row = int(rng.integers(len(arm.branches)))
+            words = explain(arm, pose[i], row)
+            held = [] if "not exist" in words else arm.geometry.singularities(arm.ik(pose[i])[row])
+            asked.append([flat[i].tolist(), row])
+            want.append([words, [one for one in held if held[one]]])
+    assert twin.page.evaluate(EXPLAIN, [arm_data(arm), asked]) == want
+    for part in ("is usable", "not usable", "not exist", "millimetres", "singularity", "past"):
+        assert any(part in words for words, _ in want) or (part, name) in UNHEARD, part
+
+
+# one turn is room for every angle, so that no joint is past its limit
+UNHEARD = {
+    (part, name)
+    for part in ("not usable", "past")
+    for name in ARMS
+    if np.ptp(ARMS[name].limits[ARMS[name].turning], axis=-1).min() >= TURN
+}
+
+
+def test_words_of_ties(twin):
+    """A decimal exactly between two is the even one: in Python 10.25 is 10.2."""
+    arm = two_link(0.5, 0.5)
+    asked = [[[1 + gap, 0, 0], 0] for gap in (10.25, 10.75, 11.5, 12.25, 17.125, 25.75)]
+    want = [explain(arm, np.array(point), row) for point, row in asked]
+    got = twin.page.evaluate(
+        EXPLAIN.replace("[explain(", "explain(").split(", Object")[0] + ")", [arm_data(arm), asked]
+    )
+    assert got == want and "10.2 m" in got[0] and "10.8 m" in got[1]
+
+
+# --- Three levers --------------------------------------------------------------------------------
+
+
+def test_three_levers(twin):
+    """The family of a point, its ends, and the least turn. An arctangent decides where the family
+    ends, so that a point within rounding of a border of gamma is left out.
+    """
+    arm, rng = three_lever(0.3), np.random.default_rng(13)
+    L, n = arm.lever, 1500
+    r = np.concatenate([rng.uniform(0, 3.3, 1000), rng.choice([1.0, 3.0], 500) + beyond(rng, 500)])
+    phi = rng.uniform(-np.pi, np.pi, n)
+    points = L * r[:, None] * np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=-1)
+    points[::97, 2] = beyond(rng, len(points[::97])) * L
+    call = "return nested(a, 3).flatMap((point, i) => "
+    for limited in (False, True):
+        got = twin(
+            call + f"alpha_range(arm, posed(point), {str(limited).lower()}));",
+            arm,
+            points,
+            shape=(n, 2),
+        )
+        ends = np.stack(arm.alpha_range(points, limited), axis=-1)
+        # where the range is one alpha its two ends cross by rounding
+        sure = np.ones(n, dtype=bool)
+        if limited:
+            free = np.stack(arm.alpha_range(points, False), axis=-1)
+            narrow = free[:, 1] - free[:, 0] < 1e-6
+            sure = ~narrow
+        close(got[sure], ends[sure], 1e-7)
+        close(got[sure & (r > 1.001)], ends[sure & (r > 1.001)], 1e-11)
+    alpha = rng.uniform(0, 3.3, n)
+    low = arm.alpha_range(points, False)[0]
+    alpha[::3] = np.where(np.isnan(low), 1.0, low)[::3]
+    alpha[1::30] = np.pi
+    got = twin(call + "family(arm, posed(point), b[i]));", arm, points, alpha, shape=(n, 3))
+    WHERE[0] = "family"
+    close(got, arm.family(points, alpha), 1e-14)
+    exists = ~np.isnan(got[:, 0])
+    close(arm.fk(got[exists]).translation[:, :2], points[exists, :2], 1e-12)
+    for limited in (False, True):
+        before = rng.uniform(0, np.pi, (n, 3))
+        got = twin(
+            f"const q = nested(b, 3); {call}least(arm, posed(point), q[i],"
+            f" {str(limited).lower()}));",
+            arm,
+            points[:500],
+            before[:500],
+            shape=(500, 3),
+        )
+        q, S = arm.least(points[:500], before[:500], limited)
+        # the sum is flat at its minimum: there half of the digits of alpha are noise
+        WHERE[0] = "least S"
+        close(abs(got - before[:500]).sum(axis=-1), S, 1e-12)
+        WHERE[0] = "least q"
+        close(got, q, 1e-6)
+
+
+# --- What Python hands over ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arm", [*ARMS.values(), three_lever(0.3)], ids=lambda arm: arm.name)
+def test_data_is_whole(arm):
+    """JSON holds it, and every number comes back to the last bit."""
+    data = arm_data(arm)
+    assert json.loads(json.dumps(data, allow_nan=False)) == json.loads(json.dumps(data))
+    back = json.loads(json.dumps(data))
+    assert (np.array(back["limits"]) == arm.limits).all()
+    for link, sent in zip(arm.links, back["chain"], strict=True):
+        assert np.array(sent["before"]).tobytes() == link.before.as_matrix()[:3].tobytes()
+        assert sent["axis"] == link.axis.tolist()
+    assert back["geometry"]["kind"] and back["geometry"]["reach"] == arm.reach
+
+
+def test_an_unknown_geometry(twin):
+    """A page gets the chain and the limits: it can turn the joints, and ask for nothing."""
+
+    class Own:
+        links, target, reach = IRB140.links, Transform, 1.0
+
+    arm = Arm("Own", Own(), IRB140.limits)
+    data = arm_data(arm)
+    assert data["geometry"] == {"kind": None} and "branches" not in data
+    q = np.random.default_rng(14).uniform(-1, 1, (20, 6))
+    close(twin(TOOLS, arm, q, shape=(20, 3, 4)), matrices(arm.fk(q)), 1e-14)
+    rows = q[:, None]
+    got = twin("return follow(arm, nested(a, 6, 1), 0).flat();", arm, rows, shape=(20, 6))
+    close(got, follow(arm, rows, 0), 1e-14)
 
 
 def test_zz():

@@ -6,6 +6,7 @@ centre.
 """
 
 from collections.abc import Iterable, Sequence
+from math import sqrt
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -75,7 +76,7 @@ class ElbowGeometry:
 
     def gap(self, pose: Any, row: int) -> Gap:
         """Why one single pose has no `row`."""
-        return self.elbow.gap(_point(pose), self.branches[row, 0])
+        return self.elbow.gap(_point(pose).tolist(), self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
         """Which singularities hold at q (..., 3): dict of name -> bool (...); see
@@ -221,17 +222,18 @@ class Elbow(NamedTuple):
             "elbow": abs(np.sin(self.bend(q))) < SINGULAR,
         }
 
-    def gap(self, point: Floats, front: int) -> Gap:
+    def gap(self, point: Sequence[float], front: int) -> Gap:
         """Which border keeps one single point (3,) from the side `front` (+-1), where it has no
         solution.
         """
-        rho = float(np.hypot(*point[:2]))
-        r2 = rho * rho - self.lateral * self.lateral
+        x, y, z = point
+        rho2 = x * x + y * y
+        r2 = rho2 - self.lateral * self.lateral
         # A point at the border by rounding lies on it: no other border is passed there.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
-            return Gap("axis", abs(self.lateral) - rho, self.carried)
-        r = front * max(r2, 0.0) ** 0.5
-        d = np.hypot(r - self.shoulder_x, point[2] - self.shoulder_z)
+            return Gap("axis", abs(self.lateral) - sqrt(rho2), self.carried)
+        r = front * sqrt(max(r2, 0.0))
+        d = np.hypot(r - self.shoulder_x, z - self.shoulder_z)
         borders = {
             "stretched": d - (self.upper + self.fore),
             "folded": abs(self.upper - self.fore) - d,

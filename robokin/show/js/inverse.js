@@ -99,9 +99,9 @@ const elbowHeld = ({geometry: {elbow: e}, tolerances: {SINGULAR}}, q) => ({
 });
 
 function elbowGap({geometry: {elbow: e}, tolerances: {ROUNDING}}, [x, y, z], front) {
-  const rho = length2(x, y), r2 = rho * rho - e.lateral * e.lateral;
+  const rho2 = x * x + y * y, r2 = rho2 - e.lateral * e.lateral;
   if (r2 < -2 * ROUNDING * Math.abs(e.lateral) * e.reach)
-    return {kind: "axis", metres: Math.abs(e.lateral) - rho};
+    return {kind: "axis", metres: Math.abs(e.lateral) - Math.sqrt(rho2)};
   const d = length2(front * Math.sqrt(Math.max(r2, 0)) - e.shoulder_x, z - e.shoulder_z);
   return worst({stretched: d - (e.upper + e.fore), folded: Math.abs(e.upper - e.fore) - d});
 }
@@ -208,7 +208,7 @@ const twoLink = {
 };
 
 const GEOMETRIES = {elbow, wrist, scara, two_link: twoLink};
-const UNKNOWN = {held: () => ({}), choose: q => q};
+const UNKNOWN = {held: () => ({}), choose: (arm, q) => q};
 const geometryOf = arm => GEOMETRIES[arm.geometry.kind] || UNKNOWN;
 const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 
