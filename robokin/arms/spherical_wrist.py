@@ -188,8 +188,8 @@ class Wrist(NamedTuple):
         return wrist, centre
 
     def at(self, rotation: Sequence[Any], origin: Sequence[Any]) -> tuple[Any, list[Any]]:
-        """For a flange on components: the rows of the matrix of the wrist's own frame, and the wrist
-        centre. It lies at a fixed place in the flange: a step back.
+        """For a flange on components: the rows of the matrix of the wrist's own frame, and the
+        wrist centre. It lies at a fixed place in the flange: a step back.
         """
         rows = matrix_rows(hamilton(rotation, self.from_flange))
         cx, cy, cz = self.centre_from_flange
