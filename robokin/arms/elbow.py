@@ -6,6 +6,7 @@ centre.
 """
 
 from collections.abc import Iterable, Sequence
+from math import sqrt
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -75,7 +76,7 @@ class ElbowGeometry:
 
     def gap(self, pose: Any, row: int) -> Gap:
         """Why one single pose has no `row`."""
-        return self.elbow.gap(_point(pose), self.branches[row, 0])
+        return self.elbow.gap(_point(pose).tolist(), self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
         """Which singularities hold at q (..., 3): dict of name -> bool (...); see
@@ -166,7 +167,8 @@ class Elbow(NamedTuple):
         r2 = rho2 - b * b
         near = r2 >= -2 * ROUNDING * abs(b) * self.reach
         r = front * np.sqrt(np.where(near, np.maximum(r2, 0), np.nan))
-        free = rho2 <= (FREE * self.reach) ** 2
+        tiny = FREE * self.reach
+        free = rho2 <= tiny * tiny
         cos1 = np.where(free, front, (x * r + y * b) / rho2)
         # no minus zero: half a turn is +pi
         sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0
@@ -174,11 +176,12 @@ class Elbow(NamedTuple):
         # Joints 2 and 3: a triangle of upper arm, forearm and the line from shoulder to point. Of
         # the angle g between the levers, 1 + cos g and 1 - cos g: how far the arm is from folded
         # and from stretched. Both are differences of two squares; a cosine would lose the digits of
-        # the smaller one (equal levers, nearly folded).
+        # the smaller one (equal levers, nearly folded). The squares are products, since these are
+        # rounded alike in every language and powers are not.
         u, w = r - a, z - c
         d2, scale = u * u + w * w, 2 * upper * fore
-        unfolded = (d2 - (upper - fore) ** 2) / scale
-        unstretched = ((upper + fore) ** 2 - d2) / scale
+        unfolded = (d2 - (upper - fore) * (upper - fore)) / scale
+        unstretched = ((upper + fore) * (upper + fore) - d2) / scale
         # What one reach of distance is there, at the two borders.
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
@@ -219,17 +222,18 @@ class Elbow(NamedTuple):
             "elbow": abs(np.sin(self.bend(q))) < SINGULAR,
         }
 
-    def gap(self, point: Floats, front: int) -> Gap:
+    def gap(self, point: Sequence[float], front: int) -> Gap:
         """Which border keeps one single point (3,) from the side `front` (+-1), where it has no
         solution.
         """
-        rho = float(np.hypot(*point[:2]))
-        r2 = rho * rho - self.lateral * self.lateral
+        x, y, z = point
+        rho2 = x * x + y * y
+        r2 = rho2 - self.lateral * self.lateral
         # A point at the border by rounding lies on it: no other border is passed there.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
-            return Gap("axis", abs(self.lateral) - rho, self.carried)
-        r = front * max(r2, 0.0) ** 0.5
-        d = np.hypot(r - self.shoulder_x, point[2] - self.shoulder_z)
+            return Gap("axis", abs(self.lateral) - sqrt(rho2), self.carried)
+        r = front * sqrt(max(r2, 0.0))
+        d = np.hypot(r - self.shoulder_x, z - self.shoulder_z)
         borders = {
             "stretched": d - (self.upper + self.fore),
             "folded": abs(self.upper - self.fore) - d,

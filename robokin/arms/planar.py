@@ -290,10 +290,10 @@ class ThreeLeverArm(Arm):
         """In words why one single point is not reached, "" if it is. Source: 003, III.1.2: L < KO <
         3 L.
         """
-        x, y, z = (float(part) for part in _plane(_single(point)))
-        KO, L = float(np.hypot(x, y)), self.lever
+        x, y, z = _plane(_single(point))
+        KO, L = float(distance(x, y)), self.lever
         if abs(z) > ROUNDING * L:
-            return f"it lies {in_words(abs(z))} beside the plane z = 0 of the levers"
+            return f"it lies {in_words(float(abs(z)))} beside the plane z = 0 of the levers"
         if KO <= L:
             return (
                 f"it lies {in_words(KO)} from the base, not farther than one lever ({in_words(L)})"
@@ -317,7 +317,7 @@ class ThreeLeverArm(Arm):
         reach.
         """
         x, y, z = _plane(point)
-        KO = np.hypot(x, y)
+        KO = distance(x, y)
         reached = (
             (KO > self.lever)
             & (KO <= 3 * self.lever * (1 + ROUNDING))

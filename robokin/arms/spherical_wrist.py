@@ -84,14 +84,9 @@ class SphericalWristGeometry:
         """
         wrist = self.wrist
 
-        # The wrist centre lies at a fixed place in the flange: step back to it. Joints 1 to 3 bring
-        # it to its place.
-        tool = matrix_rows(hamilton(rotation, wrist.from_flange))
-        cx, cy, cz = wrist.centre_from_flange
-        x, y, z = (
-            o + row[0] * cx + row[1] * cy + row[2] * cz for o, row in zip(origin, tool, strict=True)
-        )
-        first, (cos1, sin1), fore = self.elbow.solve(x, y, z)
+        # Joints 1 to 3 bring the wrist centre to its place.
+        tool, centre = wrist.at(rotation, origin)
+        first, (cos1, sin1), fore = self.elbow.solve(*centre)
 
         # Joints 4 to 6: the wrist's frame at the tool, seen from the forearm. Its axis 4 points ce
         # ahead, se up.
@@ -122,8 +117,8 @@ class SphericalWristGeometry:
 
     def gap(self, pose: Any, row: int) -> Gap:
         """Why one single pose has no `row`."""
-        turn = Quaternion(self.wrist.from_flange)
-        centre = pose.translation + pose.rotation @ turn @ self.wrist.centre_from_flange
+        flange = pose.rotation.wxyz.tolist(), pose.translation.tolist()
+        _, centre = self.wrist.at(*flange)
         return self.elbow.gap(centre, self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
@@ -191,6 +186,15 @@ class Wrist(NamedTuple):
             centre_from_flange=tuple((frame.inverse() @ (centre - flange.translation)).tolist()),
         )
         return wrist, centre
+
+    def at(self, rotation: Sequence[Any], origin: Sequence[Any]) -> tuple[Any, list[Any]]:
+        """For a flange on components: the rows of the matrix of the wrist's own frame, and the
+        wrist centre. It lies at a fixed place in the flange: a step back.
+        """
+        rows = matrix_rows(hamilton(rotation, self.from_flange))
+        cx, cy, cz = self.centre_from_flange
+        steps = zip(origin, rows, strict=True)
+        return rows, [o + row[0] * cx + row[1] * cy + row[2] * cz for o, row in steps]
 
 
 def _need(true: Any, wanted: str, *got: object) -> None:
