@@ -21,6 +21,7 @@ import pytest
 import test_browser
 from conftest import ROOT, until
 from scipy.spatial.transform import Rotation
+from test_player import unpacked
 
 from robokin import (
     IRB140,
@@ -233,7 +234,7 @@ def test_the_motion_passes_where_the_sliders_say(arm):
         arm.prismatic, mm, deg
     )
     assert np.allclose(page["speed"][0], speed, atol=0.051)
-    whole = np.frombuffer(page["data"][0], "<i2").reshape(-1, len(arm.links)) * page["steps"][0]
+    [whole] = unpacked(page["motion"][0], len(arm.links), len(_picture(explorer).page["times"]))
     assert np.allclose(
         whole[[0, -1]] * np.where(arm.prismatic, mm, deg), explorer.q[[0, -1]], atol=0.01
     )

@@ -5,7 +5,6 @@ import json
 import os
 import re
 from dataclasses import replace
-from importlib.resources import files
 from types import SimpleNamespace
 
 import numpy as np
@@ -27,7 +26,8 @@ from robokin import (
     record,
 )
 from robokin.show import animate, plot_joints
-from robokin.show.scene import arm_points
+from robokin.show.camera import arm_points
+from robokin.show.page import script
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
@@ -104,15 +104,43 @@ def blended(motions):
     return animate(IRB140, T, motions, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
 
 
+def unpacked(packed, columns, samples):
+    """(motions, samples, columns): the rule of `Packed`, number after number."""
+    values = iter(base64.b64decode(packed["data"]))
+
+    def folded():
+        byte = next(values)
+        return byte if byte < 128 else byte - 128 + 128 * folded()
+
+    out = []
+    for step in packed["steps"]:
+        table = np.empty((samples, columns))
+        for j in range(columns):
+            whole = slope = 0
+            for i in range(samples):
+                code = folded()
+                slope += -(code + 1) // 2 if code % 2 else code // 2
+                whole += slope
+                at = step[j] if isinstance(step, list) else step
+                table[i, j] = np.nan if whole == -32768 else whole * at
+        out.append(table)
+    assert next(values, None) is None
+    return np.array(out)
+
+
 def decoded(player, arm=0):
     """Joint values, speeds, accelerations (motions, samples, n) in the shown units."""
     data = player.data["arms"][arm]
-    shape = (-1, len(player.data["times"]), len(data["chain"]))
-    out = []
-    for blob, steps in zip(data["data"], data["steps"], strict=True):
-        whole = np.frombuffer(base64.b64decode(blob), "<i2").reshape(shape)
-        out.append(np.where(whole == -32768, np.nan, whole * np.array(steps)))
-    return out
+    size = len(data["chain"]), len(player.data["times"])
+    return [unpacked(packed, *size) for packed in data["motion"]]
+
+
+def steps_of(player, arm=0):
+    """Of joint values, speeds, accelerations: (motions, n or 1)."""
+    return [
+        np.array(packed["steps"]).reshape(len(packed["steps"]), -1)
+        for packed in player.data["arms"][arm]["motion"]
+    ]
 
 
 def kept(player, t=T):
@@ -124,7 +152,7 @@ def kept(player, t=T):
 
 def test_page_holds_the_motion_within_its_step(blended, motions):
     q, v, a = decoded(blended)
-    steps = [np.array(s) for s in blended.data["arms"][0]["steps"]]
+    steps = steps_of(blended)
     at = kept(blended)
     assert at[0] == 0 and at[-1] == 2000 and len(at) <= 121 and (np.diff(at) > 0).all()
     assert abs(q - motions[:, at] / deg).max() <= 0.5001 * steps[0].max() <= 0.005
@@ -139,8 +167,8 @@ def test_page_holds_the_motion_within_its_step(blended, motions):
 
 
 def test_steps_are_of_the_series_1_2_5(blended):
-    for steps in blended.data["arms"][0]["steps"]:
-        assert all(re.fullmatch(r"[125]e[-+]\d\d", f"{step:.0e}") for step in steps)
+    for steps in steps_of(blended):
+        assert all(re.fullmatch(r"[125]e[-+]\d\d", f"{step:.0e}") for step in steps.flat)
 
 
 def test_greatest_speeds_and_accelerations_are_those_of_the_errata(blended):
@@ -243,7 +271,7 @@ def test_an_unblended_corner_is_a_speed_jump_and_no_acceleration(blended):
     assert arm["jumps"] == {"0": [[10.0, "speed jumps by 52.7 °/s"]]}
     assert all(isinstance(x, float) for row in arm["acceleration"][1:] for x in row)
     # With the spike in, the scale would reach thousands of degrees per second squared.
-    panel = blended.data["panels"][2]["turn"]
+    panel = blended.data["panels"][2]["axes"]["turn"]
     for low, step, count, _ in panel["scales"]:
         assert -100 < low < 0 < low + step * (count - 1) < 100
 
@@ -338,7 +366,8 @@ def test_two_scales_in_one_panel_share_their_zero_and_their_ticks(stroke):
         ],
         axis=-1,
     )
-    for panel, unit in zip(animate(SCARA, T, q).data["panels"], ("", "/s", "/s²"), strict=True):
+    panels = [panel["axes"] for panel in animate(SCARA, T, q).data["panels"]]
+    for panel, unit in zip(panels, ("", "/s", "/s²"), strict=True):
         [(low, step, count, _)], [(low2, step2, count2, _)] = (
             panel["turn"]["scales"],
             panel["shift"]["scales"],
@@ -349,9 +378,7 @@ def test_two_scales_in_one_panel_share_their_zero_and_their_ticks(stroke):
             and low / step == pytest.approx(low2 / step2)
             and low <= 0 <= low + step * (count - 1)
         )
-    [angles], [places] = (
-        animate(SCARA, T, q).data["panels"][0][kind]["scales"] for kind in ("turn", "shift")
-    )
+    [angles], [places] = (panels[0][kind]["scales"] for kind in ("turn", "shift"))
     for values, (low, step, count, _) in ((q[:, [0, 1, 3]] / deg, angles), (q[:, 2] / mm, places)):
         assert low <= values.min() + 1e-6 and values.max() <= low + step * (count - 1) + 1e-6
 
@@ -359,7 +386,7 @@ def test_two_scales_in_one_panel_share_their_zero_and_their_ticks(stroke):
 def test_joints_that_shift_have_their_own_scale_and_millimetres():
     q = np.stack([np.sin(T / 3), np.cos(T / 4), 0.09 + 0.05 * np.sin(T), 0.1 * T], axis=-1)
     player = animate(SCARA, T, q)
-    panel = player.data["panels"][1]
+    panel = player.data["panels"][1]["axes"]
     assert (panel["turn"]["unit"], panel["shift"]["unit"]) == ("°/s", "mm/s")
     assert decoded(player)[0][0, 0, 2] == pytest.approx(90, abs=0.01)
     assert player.data["arms"][0]["speed"][0][2] == pytest.approx(50, abs=0.1)
@@ -429,6 +456,122 @@ def test_several_arms_share_clock_and_scales(motions):
     assert [arm["name"] for arm in player.data["arms"]] == ["near", "far"]
     for k in (0, 1):
         assert abs(decoded(player, k)[0] - motions[[1, 3][k], kept(player)] / deg).max() < 0.01
+
+
+def test_one_extreme_motion_makes_no_stairs_of_the_others(motions):
+    """A step for each motion: ten times the speed for one slider value leaves the others as fine as
+    they are alone.
+    """
+    alone = animate(IRB140, T, motions[1:3], slider=("blend", FRACTIONS[1:3]))
+    wild = motions[1:].copy()
+    wild[2] += 0.3 * np.sin(40 * T)[:, None]
+    both = animate(IRB140, T, wild, slider=("blend", FRACTIONS[1:]))
+    for a, b in zip(steps_of(alone), steps_of(both), strict=True):
+        assert (a == b[:2]).all()
+    assert steps_of(both)[2][2] > 100 * steps_of(both)[2][1]
+
+
+# --- Marks that move ------------------------------------------------------------------------------
+
+CIRCLING = np.stack([0.4 * np.cos(T), 0.4 * np.sin(T), 0.3 + 0 * T], axis=-1)
+
+
+def moved(player, kind, columns):
+    """The way of the only mark or target: (motions or 1, samples or 1, columns)."""
+    [mark] = player.data["scene"][kind]
+    assert not {"at", "pose"} & set(mark)
+    way = mark["way"]
+    values = unpacked(way, columns, way["samples"])
+    assert len(values) == way["motions"]
+    return values
+
+
+def test_a_point_may_move_with_time(motions):
+    path = CIRCLING.copy()
+    path[1500:] = np.nan
+    player = animate(IRB140, T, motions[1], points={"ball": path})
+    way, at = moved(player, "marks", 3), kept(player)
+    assert way.shape == (1, len(at), 3)
+    assert np.allclose(way[0], path[at], rtol=0, atol=1e-4, equal_nan=True)
+    assert np.isnan(way[0][at >= 1500]).all()
+    still = animate(IRB140, T, motions[1], points={"ball": CIRCLING[0]})
+    assert still.data["scene"]["marks"] == [{"name": "ball", "radius": 0.0, "at": [0.4, 0.0, 0.3]}]
+    assert len(player.data["scene"]["marks"][0]["way"]["data"]) < 1100  # a byte a number
+
+
+def test_marks_may_move_with_slider_and_switch(motions):
+    q = np.stack([motions[:2], motions[2:]])
+    words = {"slider": ("x", [1, 2]), "switch": ("y", ["a", "b"])}
+    at = np.arange(12.0).reshape(2, 2, 1, 3) / 20
+    player = animate(IRB140, T, q, circles=[(at, 0.05)], **words)
+    assert np.allclose(moved(player, "marks", 3), at.reshape(4, 1, 3), atol=1e-4)
+    assert player.data["scene"]["marks"][0]["radius"] == 0.05
+    paths = CIRCLING + at
+    player = animate(IRB140, T, q, points=[paths], **words)
+    assert np.allclose(
+        moved(player, "marks", 3), paths.reshape(4, -1, 3)[:, kept(player)], atol=1e-4
+    )
+    player = animate(IRB140, T, q, points=[CIRCLING], **words)  # the same in all motions
+    assert moved(player, "marks", 3).shape[0] == 1
+
+
+def test_a_target_may_move(motions):
+    carried = IRB140.fk(motions[1])
+    for given, motion in ((carried, motions[1]), (IRB140.fk(motions[1:3]), motions[1:3])):
+        extra = {"slider": ("x", [1, 2])} if motion.ndim == 3 else {}
+        player = animate(IRB140, T, motion, targets={"part": given}, **extra)
+        way, at = moved(player, "targets", 12), kept(player)
+        wanted = given.as_matrix()[..., at, :3, :].reshape(-1, len(at), 12)
+        assert np.allclose(way, wanted, rtol=0, atol=1.1e-4)
+    gone = motions[1].copy()
+    gone[:100] = np.nan
+    player = animate(IRB140, T, motions[1], targets={"part": IRB140.fk(gone)})
+    assert np.isnan(moved(player, "targets", 12)[0, 0]).all()
+
+
+def test_a_via_point_of_each_motion_has_its_distance(motions):
+    place = np.array([[[0.6, 0, 0.8]], [[0.65, -0.1, 0.8]]])
+    via = Transform(translation=place)
+    pair = motions[[1, 1]]
+    player = animate(IRB140, T, pair, targets={"via": via}, slider=("x", [1, 2]))
+    path = IRB140.fk(motions[1]).translation
+    for (near, *at), centre in zip(player.data["arms"][0]["via"], place[:, 0], strict=True):
+        least = np.linalg.norm(path - centre, axis=-1).min()
+        assert near == pytest.approx(least / mm, abs=0.06)
+        assert np.linalg.norm(at - centre) == pytest.approx(least, abs=2e-4)
+    moving = animate(IRB140, T, motions[1], targets={"via": IRB140.fk(motions[1])})
+    assert moving.data["arms"][0]["via"] is None
+
+
+def test_the_camera_sees_all_places_of_what_moves(motions):
+    path = 3 * CIRCLING
+    player = animate(IRB140, T, motions[1], circles=[(path, 0.2)])
+    seen = np.array(player.data["scene"]["seen"])
+    for side in np.eye(3):
+        assert (seen @ side).max() >= (path @ side).max() + 0.19
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"points": [CIRCLING[:7]]}, r"points: wanted shape \(2001, 3\).*got \(7, 3\)"),
+        ({"points": [CIRCLING[:, :2]]}, "points: wanted places"),
+        ({"points": [np.stack([CIRCLING] * 3)]}, r"wanted shape \(2001, 3\)"),
+        ({"points": [np.full((2001, 3), np.inf)]}, "finite"),
+        ({"points": [(np.nan, 0, 0)]}, "finite"),
+        ({"circles": [(CIRCLING[:5], 0.1)]}, "circles: wanted shape"),
+        ({"circles": [(CIRCLING, np.ones(2001))]}, "radius"),
+        ({"points": [1e10 * CIRCLING]}, "points: wanted at most"),
+        (
+            {"targets": {"a": Transform(translation=CIRCLING[:9])}},
+            r"target a: wanted shape \(2001,\) or \(1,\), got \(9,\)",
+        ),
+        ({"targets": {"a": Transform(translation=np.zeros((2, 2001, 3)))}}, "target a: wanted"),
+    ],
+)
+def test_marks_of_unfit_shapes_are_refused(motions, change, message):
+    with pytest.raises(ValueError, match=message):
+        animate(IRB140, T, motions[1], **change)
 
 
 # --- Size and sameness ----------------------------------------------------------------------------
@@ -685,11 +828,10 @@ def ink(page, selector):
 def test_the_page_computes_the_frames_of_the_arm(page, arm):
     q = np.random.default_rng(7).uniform(arm.limits[:, 0], arm.limits[:, 1], (50, len(arm.links)))
     player = animate(arm, T, np.linspace(q[0], q[1], 2001))
-    script = files("robokin.show").joinpath("player.js").read_text(encoding="utf-8")
     got = page.evaluate(
-        "([script, chain, q]) => q.map(row => new Function(script + 'return frames')()(chain, "
-        "row))",
-        [script, player.data["arms"][0]["chain"], q.tolist()],
+        "([script, chain, q]) => q.map(row => new Function(script + 'return $kinematics')()"
+        ".frames(chain, row))",
+        [script("player"), player.data["arms"][0]["chain"], q.tolist()],
     )
     assert np.allclose(
         np.reshape(got, (50, -1, 3, 4)), arm.frames(q).as_matrix()[..., :3, :], rtol=0, atol=2e-8
@@ -851,4 +993,114 @@ def test_without_scripts_the_picture_stays(browser, blended, tmp_path):
     page.goto((tmp_path / "player.html").as_uri())
     box = page.get_by_role("img", name="IRB-140 in the first and the last posture").bounding_box()
     assert box["width"] > 400 and box["height"] > 200
+    context.close()
+
+
+def test_marks_move_on_the_page(page, motions, tmp_path):
+    """A resting arm: what changes with time and slider is the mark; where it is NaN, there is
+    none.
+    """
+    q = np.broadcast_to(motions[1, 0], (2, 2001, 6))
+    path = np.stack([CIRCLING, CIRCLING + [0, 0, 0.2]])
+    path[:, 1500:] = np.nan
+    player = animate(IRB140, T, q, points={"ball": path}, slider=("x", [1, 2]))
+    page.add_init_script("""window.written = [];
+        const write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            window.written.push(text);
+            return write.call(this, text, x, y); };""")
+    show(page, player, tmp_path)
+    clock, seen = page.get_by_label("time", exact=True), set()
+    for slider in "01":
+        page.get_by_label("x", exact=True).fill(slider)
+        for ticks in ("0", "100", "200"):
+            clock.fill(ticks)
+            ink(page, ".rk-scene")
+            page.evaluate("written.length = 0")
+            clock.fill(str(int(ticks) + 1))
+            seen.add(ink(page, ".rk-scene"))
+            assert "ball" in page.evaluate("written")
+    assert len(seen) == 6
+    page.evaluate("written.length = 0")
+    clock.fill("350")
+    ink(page, ".rk-scene")
+    assert page.evaluate("written.length") and "ball" not in page.evaluate("written")
+
+
+PAINTED = """selector => {
+    const canvas = document.querySelector(selector), w = canvas.width, h = canvas.height;
+    const data = w && h ? canvas.getContext('2d').getImageData(0, 0, w, h).data : [];
+    return data.filter((value, i) => i % 4 === 3 && value).length; }"""
+
+
+def test_a_picture_that_had_no_room_for_a_moment_is_not_blank(page, blended, tmp_path):
+    """As while JupyterLab changes its theme: asked for while it is hidden, and then of the old
+    size again, so that nobody is told of another one.
+    """
+    show(page, blended, tmp_path)
+    page.evaluate("""() => {
+        const root = document.querySelector('.robokin-player');
+        const slider = root.querySelector('input');
+        slider.value = 100;
+        slider.dispatchEvent(new Event('input'));
+        root.style.display = 'none';
+        requestAnimationFrame(() => { root.style.display = ''; }); }""")
+    after = ink(page, ".rk-scene")
+    page.wait_for_timeout(100)
+    for selector in (".rk-scene", ".rk-curves"):
+        assert page.evaluate(PAINTED, selector) > 5000
+    page.get_by_label("time", exact=True).fill("100")
+    assert after and ink(page, ".rk-scene") == ink(page, ".rk-scene") != ""
+
+
+def test_light_and_dark_follow_jupyterlab_and_else_the_system(page, blended, tmp_path):
+    show(page, blended, tmp_path)
+    theme = "name => { document.body.dataset.jpThemeLight = name; }"
+    paper = "() => getComputedStyle(document.querySelector('.rk')).backgroundColor"
+
+    def seen():
+        page.wait_for_timeout(50)
+        return ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.evaluate(paper)
+
+    light = seen()
+    page.emulate_media(color_scheme="dark")
+    dark = seen()
+    assert all(a != b for a, b in zip(light, dark, strict=True))
+    page.evaluate(theme, "true")
+    assert seen() == light
+    page.emulate_media(color_scheme="light")
+    page.evaluate(theme, "false")
+    assert seen() == dark
+    page.evaluate(theme, "true")
+    assert seen() == light
+
+
+@pytest.mark.parametrize("width", [900, 1366])
+def test_scene_curves_and_sliders_fit_into_600_pixels(page, blended, tmp_path, width):
+    page.set_viewport_size({"width": width, "height": 768})
+    show(page, blended, tmp_path)
+    box, table = (page.locator(s).bounding_box() for s in (".rk", ".rk-table"))
+    assert table["y"] - box["y"] <= 600
+
+
+def test_canvases_have_at_most_two_device_pixels_per_pixel(browser, blended, tmp_path):
+    blended.save(tmp_path / "player.html")
+    page = browser.new_page(viewport={"width": 900, "height": 900}, device_scale_factor=3)
+    page.goto((tmp_path / "player.html").as_uri())
+    for selector in (".rk-scene", ".rk-curves"):
+        ink(page, selector)
+        assert page.evaluate(
+            "s => { const c = document.querySelector(s); return c.width / c.clientWidth; }",
+            selector,
+        ) == pytest.approx(2, abs=0.01)
+    page.close()
+
+
+def test_the_still_picture_says_how_to_set_it_moving(page, browser, blended, tmp_path):
+    show(page, blended, tmp_path)
+    assert page.get_by_text("trust the notebook").count() == 0
+    context = browser.new_context(java_script_enabled=False)
+    still = context.new_page()
+    still.goto((tmp_path / "player.html").as_uri())
+    assert still.get_by_text("run this cell, or trust the notebook").is_visible()
     context.close()

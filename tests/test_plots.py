@@ -37,8 +37,10 @@ from robokin import (
     record,
 )
 from robokin.show import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+from robokin.show.camera import arm_points, project
+from robokin.show.given import named_targets
 from robokin.show.plots import palette_png
-from robokin.show.scene import arm_points, named_targets, number, project
+from robokin.show.scene import number
 
 X, Y, Z = np.eye(3)
 DOWN = Quaternion.from_angle_axis(np.pi / 2, -X)

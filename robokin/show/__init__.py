@@ -2,8 +2,9 @@
 
 try:
     from .live import joint_explorer, motion_explorer, target_explorer
+    from .palette import JOINT_STYLES
     from .player import Player, animate
-    from .plots import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+    from .plots import figure, plot_frames, plot_joints, plot_postures
 except ModuleNotFoundError as error:
     raise ImportError(f"robokin.show: {error}; pip install 'robokin[show]' brings it") from error
 

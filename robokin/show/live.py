@@ -3,7 +3,7 @@
 `joint_explorer` moves the joints, `target_explorer` the target (every branch of `ik` drawn, with a
 verdict each), and `motion_explorer` a via point with its blend, time law and branch. Ordinary
 ipywidgets sliders stand above one anywidget view, which draws with the code of the player
-(`live.js` behind `player.js`).
+(`js/live.js`).
 
 A notebook without a kernel shows a still picture and one sentence. They are an output of their own,
 because a stored widget view shows nothing and hides what else is in its output; the live view
@@ -45,10 +45,15 @@ from .._arrays import ArrayLike, Bools, Floats
 from .._validate import instance
 from ..units import deg, length_unit, mm
 from . import plots
-from .player import Page, _chain, _matrix, _page, _scene, _script, _stations, _still
-from .scene import Scene, arm_points, extent, named_targets, posture
+from .camera import arm_points, chain, extent, matrix, posture, scene_data, stations
+from .given import named_targets
+from .page import script
+from .palette import DASHES, css
+from .player import page_data, still_picture
+from .scene import Scene
 
 Pose: TypeAlias = Transform | ScaraPose
+Picture: TypeAlias = dict[str, Any]  # what the view draws
 Controls: TypeAlias = dict[str, Any]  # name -> ipywidgets slider or menu
 
 SAMPLES = 241  # of a motion: enough for its speeds, few enough to answer while the slider moves
@@ -108,7 +113,7 @@ class View(anywidget.AnyWidget):
     `still` is the id of the still picture that it covers.
     """
 
-    _esm = f"{_script()}\n{_script('live.js')}\nexport default {{render}};\n"
+    _esm = f"{script('live')}\nexport default {{render: $live.render}};\n"
     stage = traitlets.Dict().tag(sync=True)
     picture = traitlets.Dict().tag(sync=True)
     still = traitlets.Unicode().tag(sync=True)
@@ -125,11 +130,11 @@ class Explorer(ipywidgets.VBox):
     """
 
     controls: Controls = {}  # of one that was refused
-    _answer: Callable[[], Page]
+    _answer: Callable[[], Picture]
     _words: Callable[[], str]
     _draw_still: Callable[[], plots.Figure]
 
-    def __init__(self, controls: Controls, stage: Page, groups: Iterable[Iterable[str]]) -> None:
+    def __init__(self, controls: Controls, stage: Picture, groups: Iterable[Iterable[str]]) -> None:
         self.controls = controls
         self._lock, self._tickets = threading.RLock(), itertools.count(1)
         self._asked = self._answered = 0
@@ -225,7 +230,7 @@ class JointExplorer(Explorer):
         q: Floats = np.array([control.value for control in self.controls.values()])
         return q * _units(self.arm)
 
-    def _answer(self) -> Page:
+    def _answer(self) -> Picture:
         q = self.q
         pose = self.arm.fk(q)
         numbers = [
@@ -317,7 +322,7 @@ class TargetExplorer(Explorer):
         turns = np.array([value[turn] for turn in _turns(self._kind)]) * deg
         return _asked(self._kind, place, turns)
 
-    def _answer(self) -> Page:
+    def _answer(self) -> Picture:
         arm, last, target = self.arm, self.q, self.target
         # One row at a time: each takes its own values q + 2 pi k, inside the limits where it can.
         rows = nearest(arm, arm.ik(target)[:, None, :], last)
@@ -342,7 +347,7 @@ class TargetExplorer(Explorer):
             "past": _bytes(exists[:, None] & ~inside),
             "near": _bytes(distance_from_singularity(arm, rows)),
             "travel": _bytes(travel / self._travel_unit),
-            "pose": _bytes(_matrix(pose)),
+            "pose": _bytes(matrix(pose)),
             "chosen": chosen if exists[chosen] else -1,
             "faded": not exists[chosen],
             "verdicts": [self._verdict(k, inside[k]) for k in range(len(rows))],
@@ -456,21 +461,24 @@ class MotionExplorer(Explorer):
         )
         return t, follow(self.arm, self.arm.ik(poses), row), via
 
-    def _answer(self) -> Page:
+    def _answer(self) -> Picture:
         arm = self.arm
         self.t, self.q, via = self._motion(self._names.index(self.controls["branch"].value))
         self._targets = named_targets([_pose(p) for p in (self._ends[0], via, self._ends[1])])
-        page = _page(
-            [arm.name],
-            [record(arm, self.t, self.q[None])],
-            self._targets,
-            [],
-            None,
-            None,
-            self._view.stage["title"],
-            scene={"targets": _stations(self._targets)},
-        )
-        for key in ("unit", "styles"):
+        page: Picture = {
+            **page_data(
+                [arm.name],
+                [record(arm, self.t, self.q[None])],
+                self._targets,
+                [],
+                None,
+                None,
+                self._view.stage["title"],
+                scene=self._view.stage["scene"],
+            ),
+            "scene": {"targets": stations(self._targets)},
+        }
+        for key in ("unit", "dashes"):
             del page[key]  # the stage has them
         del page["arms"][0]["chain"]
         self._page = page
@@ -481,12 +489,16 @@ class MotionExplorer(Explorer):
         return f"A blended motion with sliders for via point, blend and duration. {summary}"
 
     def _draw_still(self) -> plots.Figure:
-        words = {
-            **self._page,
-            "alt": self._words(),
-            **{key: self._view.stage[key] for key in ("unit", "scene")},
-        }
-        return _still([self.arm.name], [(self.arm, self.q)], self._targets, [], words)
+        stage = self._view.stage
+        return still_picture(
+            [self.arm.name],
+            [(self.arm, self.q)],
+            self._targets,
+            [],
+            stage["scene"],
+            stage["title"],
+            self._words(),
+        )
 
 
 # --- What an arm can be asked for -----------------------------------------------------------------
@@ -566,7 +578,7 @@ def _flags(arm: ClosedFormArm, k: int) -> str:
 # --- What the page gets ---------------------------------------------------------------------------
 
 
-def _stage(arm: Arm, kind: str, title: str, alt: str, poses: Sequence[Transform] = ()) -> Page:
+def _stage(arm: Arm, kind: str, title: str, alt: str, poses: Sequence[Transform] = ()) -> Picture:
     """What stands still: the chain, and a scene that holds what the arm reaches above the floor and
     not too far out. (The page shrinks the picture for what leaves it.)
     """
@@ -576,7 +588,7 @@ def _stage(arm: Arm, kind: str, title: str, alt: str, poses: Sequence[Transform]
     near = (points[..., 2] > -0.01 * extent(arm)) & (
         np.hypot(points[..., 0], points[..., 1]) < 0.5 * extent(arm)
     )
-    scene = _scene(
+    scene = scene_data(
         [arm], [postures[near.all(axis=-1)][None]], named_targets(poses), [], extent(arm)
     ) | {"grows": True}
     return {
@@ -584,9 +596,10 @@ def _stage(arm: Arm, kind: str, title: str, alt: str, poses: Sequence[Transform]
         "title": title,
         "alt": alt,
         "name": arm.name,
-        "chain": _chain(arm.links),
+        "chain": chain(arm.links),
         "scene": scene,
-        "styles": [dict(style) for style in plots.JOINT_STYLES],
+        "dashes": DASHES,
+        "css": css(),
         "unit": {"name": name, "size": size},
     }
 

@@ -4,9 +4,8 @@
 """
 
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -19,23 +18,9 @@ from matplotlib.transforms import offset_copy
 
 from .._arrays import Bools, Floats, Ints
 from ..motion.recording import Jump, Recording
-from .scene import INK, SOFT, dense, number
+from .palette import ALARM, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
+from .scene import dense, number
 
-# Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
-# Ito, Color Universal Design, 2008; they stay apart for colour-blind readers, and the dashes stay
-# apart in grey print.
-JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
-    MappingProxyType({"color": color, "dash": dash})  # for all to read
-    for color, dash in (
-        ("#0072B2", ()),
-        ("#D55E00", (5, 1.8)),
-        ("#009E73", (1.6, 1.3)),
-        ("#CC79A7", (6, 1.6, 1.4, 1.6)),
-        ("#E69F00", (2.8, 1.2)),
-        ("#56B4E9", (0.9, 1.4)),
-    )
-)
-ALARM = "#B3261E"
 STRIP = 0.08  # height of the shaded strip beyond a limit, as a share of its panel
 WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleration", "acceleration")}
 PER = {"q": "", "v": "/s", "a": "/s²"}
@@ -95,7 +80,7 @@ def draw_panel(
     past = _past(recording, kind, joints)
     ax.set_xlim(t[0], t[-1])
     ax.set_ylim(low, high)
-    ax.grid(color="#E9ECEF", linewidth=0.8)
+    ax.grid(color=PANEL_GRID, linewidth=0.8)
     ax.set_axisbelow(True)
     ax.tick_params(labelsize=9, color=SOFT, length=3)
     alone = drawn.shape[1] == len(joints)  # else there are two columns of panels
@@ -135,7 +120,7 @@ def draw_panel(
         transform=ax.transAxes,
         fontsize=9,
         va="bottom",
-        color=ALARM if past.any() or spikes.any() else "#5A6672",
+        color=ALARM if past.any() or spikes.any() else REMARK,
     )
     facts = [
         f"{remark}." if remark.startswith("q") else f"{remark[0].upper()}{remark[1:]}."

@@ -25,23 +25,11 @@ from ..arms.arm import Arm
 from ..motion.recording import Recording, record
 from ..transform import Transform
 from ..units import deg, length_unit, mm
-from .panels import JOINT_STYLES, draw_panel, lay_out, without_spikes
-from .scene import (
-    FAINT,
-    INK,
-    SOFT,
-    Scene,
-    Targets,
-    arm_points,
-    extent,
-    flange,
-    in_sight,
-    is_flat,
-    named_targets,
-    number,
-    plain,
-    several,
-)
+from .camera import arm_points, extent, flange, is_flat
+from .given import Targets, in_sight, named_targets, plain, several
+from .palette import FAINT, INK, JOINT_STYLES, SCALE, SOFT
+from .panels import draw_panel, lay_out, without_spikes
+from .scene import Scene, number
 
 __all__ = [
     "JOINT_STYLES",
@@ -200,7 +188,7 @@ def plot_frames(
     scene = Scene(_canvas(fig, title), max(extent, 2 * size))
     at_base = [np.allclose(frame.as_matrix(), np.eye(4), atol=1e-9) for frame in frames]
     if not any(at_base):
-        scene.triad(Transform(), "base", length=size, color="#6B7681")
+        scene.triad(Transform(), "base", length=size, color=SCALE)
     if chain:
         scene.line(np.concatenate([np.zeros((1, 3)), origins]), color=FAINT, linewidth=4, zorder=2)
     for i, (frame, name) in enumerate(zip(frames, names, strict=True)):

@@ -3,9 +3,8 @@
 `plots` draws postures and frames with it, `player` its still picture.
 """
 
-import itertools
-from collections.abc import Iterable, Mapping
-from typing import Any, TypeAlias
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,131 +12,24 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from .._arrays import ArrayLike, Floats
-from .._validate import TWO_TURNS, instance, short, text
 from ..arms.arm import Arm
-from ..arms.dexterity import total_length
 from ..transform import Transform
-from ..units import deg, length_unit, wrapped
+from ..units import deg, length_unit
+from .camera import STRAIGHT, VIEW, View, arm_points, project
+from .palette import (
+    AXIS_COLORS,
+    FAINT,
+    FOOT,
+    GRID,
+    INK,
+    REMARK,
+    SCALE,
+    SHADOW,
+    SOFT,
+    TRACE,
+)
 
-View: TypeAlias = tuple[float, float]
-Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
-
-AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
-INK, SOFT, FAINT, GRID, TRACE = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7", "#0072B2"
-VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
 FAR, DOTS = 1e4, 200_000  # pixels; points along a polyline
-SPECK, HORIZON = 1e-3, 1e9  # metres
-LONGEST = 2000  # letters of a title or a name
-# the views straight at the planes x = 0, y = 0 and z = 0
-STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
-
-
-def project(points: ArrayLike, view: View = VIEW) -> Floats:
-    """Parallel projection of points (..., 3) onto the picture: (..., 2), in metres, to the right
-    and up, as it is seen from `view`: azimuth about the base's z axis, counted from its x axis, and
-    elevation, in radians.
-    """
-    (ca, ce), (sa, se) = np.cos(view), np.sin(view)
-    across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
-    return across
-
-
-def posture(arm: Arm, q: Floats) -> Floats:
-    """The same postures q (..., n) within two turns. A motion that turns on and on (`follow` gives
-    such) is no slip, and nothing is to warn of degrees.
-    """
-    far = (abs(q) > TWO_TURNS) & ~arm.prismatic
-    return np.where(far, wrapped(q), q) if far.any() else q
-
-
-def arm_points(arm: Arm, q: Floats) -> Floats:
-    """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange: q (..., n) ->
-    (..., 2n + 1, 3).
-
-    Joint i stands at index 2i + 1 (i from 0); the ends of the links are the origins of
-    `arm.frames`.
-    """
-    frames = arm.frames(posture(arm, q))
-    joints = [frames[..., i] @ link.before.translation for i, link in enumerate(arm.links)]
-    points = np.empty((*np.shape(q)[:-1], 2 * len(joints) + 1, 3))
-    points[..., ::2, :], points[..., 1::2, :] = frames.translation, np.stack(joints, axis=-2)
-    return points
-
-
-def flange(arm: Arm, q: Floats) -> Transform:
-    """The flange at q (..., n), of whatever turns."""
-    return arm.fk(posture(arm, q))
-
-
-def extent(arm: Arm) -> float:
-    """The length of the stretched arm in metres: the scale of its pictures. ValueError: too large
-    or too small for one.
-    """
-    with np.errstate(over="ignore"):
-        size = total_length(arm)
-    if not SPECK <= size <= HORIZON:
-        raise ValueError(f"arm: wanted one from {SPECK:g} to {HORIZON:g} m long, got {size:g} m")
-    return size
-
-
-def is_flat(arm: Arm, q: Floats) -> bool:
-    """Whether all of these postures lie in the plane z = 0, so that a view from above says more."""
-    return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * extent(arm))
-
-
-def named_targets(targets: Targets) -> dict[str, Transform]:
-    """`targets` as a dict of name -> Transform. A list of one is the target, of two start and goal,
-    of three start, via and goal; more are numbered P1, P2, ... TypeError: other things than poses.
-    """
-    if isinstance(targets, Transform):
-        targets = list(targets) if targets.shape else [targets]
-    if isinstance(targets, Mapping):
-        pairs = several(targets.items(), "targets", "Transforms")
-        named = {plain(str(name), "targets"): pose for name, pose in pairs}
-    else:
-        poses = several(targets, "targets", "Transforms", error=TypeError)
-        names = {1: ["target"], 2: ["start", "goal"], 3: ["start", "via", "goal"]}.get(
-            len(poses), [f"P{i + 1}" for i in range(len(poses))]
-        )
-        named = dict(zip(names, poses, strict=True))
-    for name, pose in named.items():
-        if instance(pose, Transform, f"target {name}").shape:
-            raise ValueError(
-                f"target {name}: wanted one single pose, got a batch of shape {pose.shape}"
-            )
-        in_sight(pose.translation, f"target {name}")
-    return named
-
-
-def in_sight(lengths: Floats, name: str) -> Floats:
-    """Lengths (...) in metres, if a figure can hold them; ValueError otherwise. NaN passes."""
-    if (abs(lengths) > HORIZON).any():
-        raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
-    return lengths
-
-
-def several(
-    value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
-) -> list[Any]:
-    """What is in `value`, if it is a list or the like; else the error, which says that `what` was
-    wanted. ValueError: more of them than there is room for in a figure.
-    """
-    alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
-    if alone or not isinstance(value, Iterable):
-        raise error(f"{name}: wanted {what}, got {short(value)}")
-    found = list(itertools.islice(value, most + 1))
-    if len(found) > most:
-        raise ValueError(f"{name}: wanted at most {most}, got more")
-    return found
-
-
-def plain(value: Any, name: str) -> str:
-    """`value`, if it is words for a figure or a page; ValueError otherwise. Half characters (lone
-    surrogates), which no file can hold, are replaced by the sign for what cannot be shown.
-    """
-    if len(text(value, name)) > LONGEST:
-        raise ValueError(f"{name}: wanted at most {LONGEST} letters, got {len(value)}")
-    return str(value).encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 class Scene:
@@ -149,7 +41,7 @@ class Scene:
 
     size  metres; what the scene is about, the measure of triads and of the base
     flat  look straight down
-    like  where given, the scene of a player's page (`player._scene`): the same view, floor and
+    like  where given, the scene of a player's page (`camera.scene_data`): the same view, floor and
           scale
     Matplotlib's own 3-D axes leave wide margins, cut off what stands out and need equal limits
     forced; a parallel projection is one matrix product, and `set_aspect("equal")` keeps the
@@ -212,7 +104,7 @@ class Scene:
             self.line(
                 points * [1, 1, 0] + [0, 0, self.ground],
                 corner=False,
-                color="#EDEFF2",
+                color=SHADOW,
                 linewidth=width,
                 zorder=0.5,
             )
@@ -238,9 +130,7 @@ class Scene:
                 + np.sin(angle)[:, None] * np.eye(3)[self.across[1]]
             )
         )
-        self.ax.add_patch(
-            Polygon(self.project(ring), facecolor="#D5DAE0", edgecolor=SOFT, zorder=1)
-        )
+        self.ax.add_patch(Polygon(self.project(ring), facecolor=FOOT, edgecolor=SOFT, zorder=1))
         self.corners.append(ring)
         self.drawn.append((self.project(ring), 1))
 
@@ -326,7 +216,7 @@ class Scene:
             f"{words}; {footnote}" if footnote else words,
             transform=self.ax.transAxes,
             fontsize=9,
-            color="#5A6672",
+            color=REMARK,
         )
         self._place_labels()
 
@@ -418,7 +308,7 @@ class Scene:
                 if round(value / step) % every == 0:
                     words = number(value / unit) if abs(value) > step / 2 else f"{'xyz'[axis]} = 0"
                     x, y = self.project(point)
-                    self.ax.text(x, y, f" {words} ", fontsize=8, color="#6B7681", ha=ha, va=va)
+                    self.ax.text(x, y, f" {words} ", fontsize=8, color=SCALE, ha=ha, va=va)
 
     def _at(self, x: float, y: float) -> Floats:
         """The point (3,) of the floor with these two coordinates."""

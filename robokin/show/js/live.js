@@ -1,8 +1,13 @@
-// The live views of robokin: what an arm answers to the sliders beside it. live.py sends this file behind player.js, as
-// one module, and afterwards one `picture` for every change: arrays of float64 and a few words.
+// The live views of robokin: what an arm answers to the sliders beside it. live.py sends one `picture` for every change:
+// arrays of float64 and a few words.
+
+import {origin} from "./kinematics.js";
+import {number} from "./canvas.js";
+import {sceneView} from "./scene.js";
+import {element, orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {start} from "./player.js";
 
 const LIVE = `
-.robokin-live { color-scheme: light; }
 .rk.rk.rk.rk-asked {
   & .rk-views { grid-template-columns: minmax(0, 1fr) 380px; gap: 14px; align-items: start; }
   & .rk-views.rk-broad { grid-template-columns: minmax(0, 1fr) 640px; }
@@ -15,26 +20,25 @@ const LIVE = `
   & .rk-many :is(th, td) { padding: 4px 5px; }
   & .rk-many :is(th, td):nth-child(-n+2) { text-align: left; }
   & .rk-many td:nth-child(2) { min-width: 7em; }
-  & tr[aria-current=true] > * { background: #E3EEF6; font-weight: 650; color: ${INK}; }
-  & .rk-none > * { color: ${SOFT}; }
-  & .rk-past { color: ${ALARM}; text-decoration: underline 2px; text-underline-offset: 3px; }
+  & tr[aria-current=true] > * { background: var(--rk-chosen); font-weight: 650; color: var(--rk-ink); }
+  & .rk-none > * { color: var(--rk-soft); }
+  & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
   & .rk-says { margin: 8px 0 0; min-height: 2.8em; max-width: 62em; }
-  & .rk-meant { margin: 8px 0 0; color: ${SOFT}; max-width: 62em; }
+  & .rk-meant { margin: 8px 0 0; color: var(--rk-soft); max-width: 62em; }
   @container (max-width: 640px) { & .rk-views { grid-template-columns: minmax(0, 1fr); } }
   @container (max-width: 1060px) { & .rk-views.rk-broad { grid-template-columns: minmax(0, 1fr); } }
 }`;
 
 const floats = view => new Float64Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
-const shorts = view => new Int16Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
 const row = (tag, attributes, ...cells) => element("tr", attributes,
   ...cells.map((cell, i) => cell instanceof Node ? cell
     : element(i && tag === "td" ? "td" : "th", tag === "th" ? {scope: "col"} : i ? {} : {scope: "row"}, cell)));
 
 // One view of the model; every view draws the same pictures.
-function render({model, el}) {
+export function render({model, el}) {
   const root = element("div", {class: "robokin-live"});
   // The still picture is for readers without a kernel; while a live view stands in the page nobody needs it.
-  el.append(element("style", {}, `[data-robokin-still="${model.get("still")}"] { display: none; }${LIVE}`), root);
+  el.append(element("style", {}, `[data-robokin-still="${model.get("still")}"] { display: none; }${LIVE}${model.get("stage").css}`), root);
   const stage = model.get("stage"), picture = () => model.get("picture");
   const show = (stage.kind === "motion" ? motionView : postureView)(root, stage, picture());
   const changed = () => show(picture());
@@ -46,16 +50,16 @@ function render({model, el}) {
 // A motion: the player, which takes every new motion in the place of the one before.
 function motionView(root, stage, picture) {
   const data = ({page}) => ({...stage, ...page, scene: {...stage.scene, ...page.scene},
-    arms: page.arms.map(arm => ({...arm, chain: stage.chain, data: arm.data.map(shorts)}))});
+    arms: page.arms.map(arm => ({...arm, chain: stage.chain}))});
   const update = start(root, data(picture));
   return next => update(data(next));
 }
 
 // A posture, or all the postures that reach a target: the scene and a table.
 function postureView(root, stage, first) {
-  const {unit} = stage, scene = {...stage.scene, unit, styles: stage.styles}, joints = stage.chain.length;
+  const {unit} = stage, scene = {...stage.scene, unit}, joints = stage.chain.length;
   const state = {view: [...scene.view]};
-  const canvas = sceneCanvasOf(scene, stage.alt);
+  const canvas = sceneCanvas(scene, stage.alt);
   const table = element("div", {class: `rk-table ${stage.kind === "target" ? "rk-many" : "rk-few"}`});
   const says = element("p", {class: "rk-says", role: "status"});
   root.replaceChildren(element("div", {class: "rk rk-asked", role: "group", "aria-label": stage.title},
@@ -105,15 +109,8 @@ function postureView(root, stage, first) {
                                   element("tbody", {}, ...body)));
   }
 
-  let asked = 0;
-  const ask = () => {
-    if (!asked) asked = requestAnimationFrame(() => {
-      asked = 0;
-      if (root.isConnected) inSpace.draw(state.view, [arm], "");
-    });
-  };
+  const ask = pictures(root, [canvas], () => inSpace.draw(state.view, [arm], "")); // also draws the first picture
   orbit(canvas, scene, state, ask);
-  new ResizeObserver(ask).observe(root); // also draws the first picture
   take(first);
   return picture => { take(picture); ask(); };
 }
@@ -123,6 +120,7 @@ function postureView(root, stage, first) {
 function helpControls(root) {
   const help = () => {
     const explorer = root.closest(".robokin-explorer");
+    if (!explorer) return; // taken out of the page meanwhile
     for (const slider of explorer.querySelectorAll(".widget-slider")) {
       const [name, handle, value] = ["label", "[role=slider]", ".widget-readout"].map(part => slider.querySelector(part));
       if (!name || !handle || !value) continue;

@@ -1,0 +1,229 @@
+"""What a camera must see of arms, targets and marks, and where it stands: for figures and pages."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from .._arrays import ArrayLike, Floats, Ints
+from .._validate import TWO_TURNS
+from ..arms.arm import Arm
+from ..arms.dexterity import total_length
+from ..arms.link import Link
+from ..transform import Transform
+from ..units import deg, wrapped
+from .numbers import TIE, packed, rounded, series_step, tidy
+from .page import PageLink, PageMark, PageScene, PageTarget, PageWay
+
+View: TypeAlias = tuple[float, float]
+# name, place (3,) or places (motions or 1, samples or 1, 3), radius: 0 for a point
+Mark: TypeAlias = tuple[str, Floats, float]
+
+VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
+SPECK, HORIZON = 1e-3, 1e9  # metres
+# the views straight at the planes x = 0, y = 0 and z = 0
+STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
+
+
+def project(points: ArrayLike, view: View = VIEW) -> Floats:
+    """Parallel projection of points (..., 3) onto the picture: (..., 2), in metres, to the right
+    and up, as it is seen from `view`: azimuth about the base's z axis, counted from its x axis, and
+    elevation, in radians.
+    """
+    (ca, ce), (sa, se) = np.cos(view), np.sin(view)
+    across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
+    return across
+
+
+def posture(arm: Arm, q: Floats) -> Floats:
+    """The same postures q (..., n) within two turns. A motion that turns on and on (`follow` gives
+    such) is no slip, and nothing is to warn of degrees.
+    """
+    far = (abs(q) > TWO_TURNS) & ~arm.prismatic
+    return np.where(far, wrapped(q), q) if far.any() else q
+
+
+def arm_points(arm: Arm, q: Floats) -> Floats:
+    """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange: q (..., n) ->
+    (..., 2n + 1, 3).
+
+    Joint i stands at index 2i + 1 (i from 0); the ends of the links are the origins of
+    `arm.frames`.
+    """
+    frames = arm.frames(posture(arm, q))
+    joints = [frames[..., i] @ link.before.translation for i, link in enumerate(arm.links)]
+    points = np.empty((*np.shape(q)[:-1], 2 * len(joints) + 1, 3))
+    points[..., ::2, :], points[..., 1::2, :] = frames.translation, np.stack(joints, axis=-2)
+    return points
+
+
+def flange(arm: Arm, q: Floats) -> Transform:
+    """The flange at q (..., n), of whatever turns."""
+    return arm.fk(posture(arm, q))
+
+
+def extent(arm: Arm) -> float:
+    """The length of the stretched arm in metres: the scale of its pictures. ValueError: too large
+    or too small for one.
+    """
+    with np.errstate(over="ignore"):
+        size = total_length(arm)
+    if not SPECK <= size <= HORIZON:
+        raise ValueError(f"arm: wanted one from {SPECK:g} to {HORIZON:g} m long, got {size:g} m")
+    return size
+
+
+def is_flat(arm: Arm, q: Floats) -> bool:
+    """Whether all of these postures lie in the plane z = 0, so that a view from above says more."""
+    return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * extent(arm))
+
+
+# --- What the page gets ---------------------------------------------------------------------------
+
+
+def scene_data(
+    arms: Sequence[Arm],
+    postures: Sequence[Floats],
+    targets: Mapping[str, Transform],
+    marks: Sequence[Mark],
+    size: float,
+    kept: Ints | None = None,
+) -> PageScene:
+    """Where the camera stands, what it has to see, the floor and what lies in the space. `kept` as
+    in `stations`.
+    """
+    flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
+    parts = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
+    tools = [flange(arm, q) for arm, q in zip(arms, postures, strict=True)]
+    tips = [
+        (pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3)
+        for pose in (*tools, *targets.values())
+    ]
+    parts += [pose.translation.reshape(-1, 3) for pose in targets.values()]
+    parts += [
+        (places[..., None, :] + radius * sign * np.eye(3)).reshape(-1, 3)
+        for _, places, radius in marks
+        for sign in (1, -1)
+    ]
+    across = [k for k in range(3) if k != (2 if flat is None else flat)]
+    seen = np.concatenate([*(foot * np.eye(3)[k] for k in across), *parts])
+    low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
+    step = series_step(max(*(high - low)[across], size / 3) * (1 + TIE) / 8)
+    low[across] = np.floor(low[across] / step + 0.1) * step
+    high[across] = np.ceil(high[across] / step - 0.1) * step
+    low[2] = min(low[2], 0.0) if flat is None and low[2] < -0.01 * size else 0.0
+    places = np.concatenate([pose.translation.reshape(-1, 3) for pose in tools])
+    return {
+        "size": tidy(size, 4),
+        "flat": flat,
+        "grid": tidy(step, 6),
+        "seen": outermost(np.concatenate([seen, *tips])),
+        "floor": [rounded(low, 4), rounded(high, 4)],
+        "view": rounded(best_view(places, flat), 4),
+        "targets": stations(targets, kept),
+        "marks": list(_drawn(marks, kept)),
+    }
+
+
+def stations(targets: Mapping[str, Transform], kept: Ints | None = None) -> list[PageTarget]:
+    """Targets as the page gets them; `kept` are the samples that it gets of those that move."""
+    found: list[PageTarget] = []
+    for name, pose in targets.items():
+        rows = pose.as_matrix()[..., :3, :].reshape(*pose.shape, 12)
+        if pose.shape:
+            found.append({"name": name, "way": _way(rows, kept)})
+        else:
+            found.append({"name": name, "pose": rounded(rows)})
+    return found
+
+
+def _drawn(marks: Iterable[Mark], kept: Ints | None) -> Iterator[PageMark]:
+    for name, places, radius in marks:
+        if places.ndim > 1:
+            yield {"name": name, "radius": radius, "way": _way(places, kept)}
+        else:
+            yield {"name": name, "radius": radius, "at": rounded(places)}
+
+
+def _way(rows: Floats, kept: Ints | None) -> PageWay:
+    """Rows (motions or 1, samples or 1, k) of what moves."""
+    if rows.shape[1] > 1:
+        rows = rows[:, kept]
+    return {**packed(rows, 8000), "motions": len(rows), "samples": rows.shape[1]}
+
+
+def outermost(points: Floats) -> list[list[float]]:
+    """The points (k, 3) that a camera has to see, some fifty: those farthest out in evenly spread
+    directions.
+
+    Rounded first, so that which of two equal ones is taken does not depend on noise.
+    """
+    points = np.floor(points[np.isfinite(points).all(axis=-1)] * 200 + 0.5 + TIE).astype(np.int64)
+    x, y, z = (points - points.min(axis=0)).T
+    # One number for each place: a hundred times faster to sort than rows.
+    points = points[np.unique((x << 40) + (y << 20) + z, return_index=True)[1]] / 200
+    k = np.arange(100) + 0.5
+    z, turn = 1 - 2 * k / 100, k * np.pi * (1 + 5**0.5)
+    across = np.sqrt(1 - z**2)
+    directions = np.round(np.stack([across * np.cos(turn), across * np.sin(turn), z], axis=-1), 3)
+    return [
+        rounded(points[i], 3) for i in sorted(set((directions @ points.T).argmax(axis=-1).tolist()))
+    ]
+
+
+def best_view(tools: Floats, flat: int | None) -> View:
+    """Azimuth and elevation of the camera: straight at a plane, else from where the tool's path
+    spreads widest, on the tool's side of the base.
+    """
+    if flat is not None:
+        return STRAIGHT[flat]
+    tools = tools[np.isfinite(tools).all(axis=-1)]
+    if not len(tools):
+        return VIEW
+    spread, centre = np.cov(tools.T) if len(tools) > 1 else np.eye(3), tools.mean(axis=0)
+    best, most = VIEW, 0.0
+    # In these steps no side of the floor ever lies along the line of sight.
+    for azimuth in VIEW[0] + np.array([0, 30, 90, 120, 180, 210, 270, 300]) * deg:
+        screen = project(np.eye(3), (azimuth, VIEW[1])).T
+        area = np.sqrt(max(np.linalg.det(screen @ spread @ screen.T), 0)) + 0.05 * (
+            screen[0] @ spread @ screen[0]
+        )
+        toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
+        area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
+        if area > 1.05 * most:  # the small margin keeps noise from choosing between two equal ones
+            best, most = (azimuth, VIEW[1]), area
+    return best
+
+
+def common_plane(arms: Sequence[Arm]) -> int | None:
+    """0, 1 or 2 if every arm can move only in the plane where that coordinate is zero, else
+    None.
+    """
+    for axis in (2, 1, 0):
+        if all(
+            abs(
+                arm_points(arm, np.linspace(0.1, 0.9, 5 * len(arm.links)).reshape(5, -1))[..., axis]
+            ).max()
+            < 1e-9
+            for arm in arms
+        ):
+            return axis
+    return None
+
+
+def chain(links: Iterable[Link]) -> list[PageLink]:
+    """The links of an arm as the page gets them."""
+    return [
+        {
+            "before": matrix(link.before),
+            "axis": rounded(link.axis),
+            "after": matrix(link.after),
+            "prismatic": link.prismatic,
+        }
+        for link in links
+    ]
+
+
+def matrix(pose: Transform) -> list[float]:
+    """The upper three rows of the homogeneous matrix, one after the other."""
+    return rounded(pose.as_matrix()[:3])

@@ -1,0 +1,171 @@
+"""What is found in recorded motions and said beside their curves: greatest values, the distance to
+a via point, jumps and gaps, the player in one sentence.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from .._arrays import Floats, Ints
+from ..arms.arm import Arm
+from ..motion.recording import Jump, Recording
+from ..transform import Transform
+from ..units import mm
+from .camera import flange
+from .numbers import TIE, rounded, tidy
+from .page import Flaws, Greatest, PageArm, Slider, Switch, Unit
+
+
+def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[int]) -> Greatest:
+    """For every motion and joint: greatest speed, its share of the limit in percent, greatest
+    acceleration.
+    """
+    arm, limits = track.arm, track.arm.speed_limits
+    speed = np.nan_to_num(track.greatest_speed.value)
+    acceleration = np.nan_to_num(track.greatest_acceleration.value) / units
+    rows: list[list[float | str]] = [[tidy(x, decimals[1]) for x in row] for row in acceleration]
+    jumps = np.zeros_like(speed)
+    for jump in track.jumps:
+        jumps[jump.motion] = np.fmax(jumps[jump.motion], abs(jump.by) / units)
+    for motion, joint in np.argwhere(jumps > 0):
+        name = length if arm.prismatic[joint] else "°"
+        rows[motion][joint] = (
+            f"jump {tidy(jumps[motion, joint], decimals[0]):.{decimals[0]}f} {name}/s"
+        )
+    share = None
+    if limits is not None:
+        share = [[int(tidy(x, 0)) for x in row] for row in 100 * speed / limits]
+    return {
+        "speed": [[tidy(x, decimals[0]) for x in row] for row in speed / units],
+        "share": share,
+        "acceleration": rows,
+    }
+
+
+def closest(arm: Arm, q: Floats, via: Transform, unit: float) -> list[list[float] | None]:
+    """For every motion [smallest distance from the via point in the length unit, x, y, z of that
+    place in metres].
+
+    The path is the polyline through all samples; NaN interrupts it. None where there is no path.
+    """
+    place = via.translation  # (3,), or (motions, 1, 3) where each has its own
+    path = flange(arm, q).translation - place
+    place = np.broadcast_to(place, (len(path), 1, 3))[:, 0]
+    side = np.diff(path, axis=1)
+    length = (side**2).sum(axis=-1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        along = np.clip(np.where(length > 0, -(path[:, :-1] * side).sum(axis=-1) / length, 0), 0, 1)
+    near = path[:, :-1] + along[..., None] * side
+    distance = np.where(np.isnan(near[..., 0]), np.inf, np.linalg.norm(near, axis=-1))
+    best = distance.argmin(axis=-1)
+    found: list[list[float] | None] = []
+    for c, i in enumerate(best):
+        d = distance[c, i]
+        found.append(
+            [tidy(d / unit, 1 if unit == mm else 3), *rounded(near[c, i] + place[c], 4)]
+            if np.isfinite(d)
+            else None
+        )
+    return found
+
+
+def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
+    """What is wrong with each motion, for those with something wrong: gaps between kept samples,
+    jumps to mark with their words, sentences to read.
+    """
+    gaps: dict[int, list[int]] = {}
+    jumps: dict[int, list[Any]] = {}
+    leaps: dict[int, list[Any]] = {}
+    notes: dict[int, list[str]] = {}
+    arm, count = track.arm, len(track.t)
+
+    def amount(value: float, j: int, per: str = "") -> str:
+        space, value = "" if not arm.prismatic[j] and not per else " ", abs(value) / units[j]
+        # One decimal, or two significant digits.
+        decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
+        unit = length if arm.prismatic[j] else "°"
+        return f"{tidy(value, decimals):.{decimals}f}{space}{unit}{per}"
+
+    def worst(jump: Jump) -> int:
+        return int((abs(jump.by) / units).argmax())
+
+    for c, motion in enumerate(track.gaps):
+        inside = np.add.reduceat(motion, kept[:-1]) if motion.any() else np.zeros(1)
+        if inside.any():
+            gaps[c] = np.flatnonzero(inside).tolist()
+    for jump in track.jumps:
+        j = worst(jump)
+        words = f"speed jumps by {amount(jump.by[j], j, '/s')}"
+        jumps.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
+    for c, marked in jumps.items():
+        times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
+        more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
+        notes.setdefault(c, []).append(
+            f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
+            "finite-difference value would only tell the time step."
+        )
+    for jump in track.leaps:
+        j = worst(jump)
+        words = f"q{j + 1} jumps by {amount(jump.by[j], j)}"
+        leaps.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
+    for c, marked in leaps.items():
+        first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
+        more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""
+        notes.setdefault(c, []).append(f"Jumps of position: {first}{more}.")
+    for c in range(len(track)):
+        for j, excess in enumerate(track.excess[c].T):
+            if (excess > 0).any():
+                notes.setdefault(c, []).append(
+                    f"q{j + 1} is past its limit in {(excess > 0).sum()} of {count} samples, "
+                    f"by up to {amount(np.nanmax(excess), j)}."
+                )
+        for j, excess in enumerate(track.speed_excess[c].T):
+            if (excess > 0).any():
+                notes.setdefault(c, []).append(
+                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples."
+                )
+        if track.missing[c].any():
+            notes.setdefault(c, []).append(
+                f"No solution in {track.missing[c].sum()} of {count} samples."
+            )
+
+    def told(flaws: dict[int, Any]) -> dict[str, Any]:
+        return {str(c): value for c, value in sorted(flaws.items())}
+
+    return {"gaps": told(gaps), "jumps": told(jumps), "leaps": told(leaps), "notes": told(notes)}
+
+
+def words(
+    arms: Sequence[PageArm],
+    t: Floats,
+    targets: Iterable[str],
+    unit: Unit,
+    slider: Slider | None,
+    switch: Switch | None,
+) -> tuple[str, str]:
+    """The player in one sentence, rounded, and the alternative text of its still picture."""
+    who = " and ".join(dict.fromkeys(arm["name"] for arm in arms))
+    parts = [f"{tidy(t[-1] - t[0], 3):g} s"]
+    if slider:
+        values = slider["values"]
+        parts.append(f"{slider['label']} {values[0]:g} to {values[-1]:g} in {len(values)} values")
+    if switch:
+        parts.append(f"{switch['label']} {' or '.join(switch['values'])}")
+    for arm in arms:
+        label = f"{arm['name']}: " if len(arms) > 1 else ""
+        speeds = arm["speed"]
+        fastest = max(range(len(speeds[0])), key=lambda j: max(row[j] for row in speeds))
+        name = unit["name"] if arm["chain"][fastest]["prismatic"] else "°"
+        parts.append(
+            f"{label}greatest speed {max(row[fastest] for row in speeds):g} {name}/s (joint "
+            f"{fastest + 1})"
+        )
+        if arm["via"] and any(arm["via"]):
+            near = [v[0] for v in arm["via"] if v]
+            ends = f"{min(near):g}" if min(near) == max(near) else f"{min(near):g} to {max(near):g}"
+            parts.append(f"{label}smallest distance from the via point {ends} {unit['name']}")
+    summary = f"Player of {who}: {', '.join(parts)}."
+    through = f" past {', '.join(targets)}" if targets else ""
+    alt = f"{who} in the first and the last posture, with the path of the tool{through}. {summary}"
+    return summary, alt

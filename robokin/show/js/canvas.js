@@ -1,0 +1,134 @@
+// Lines, shapes and words on a canvas, in the colours of the page; numbers as people write them.
+
+import {dot} from "./kinematics.js";
+
+/** @typedef {[number, number]} Pixel  CSS pixels from the left upper corner of a canvas */
+/** @typedef {[number, number, number]} Point  metres, base coordinates */
+
+export const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sans-serif";
+
+/** The colours of palette.py by their names, six digits each; `readColors` fills them in. */
+export const colors = {
+  paper: "", ink: "", soft: "", line: "", grid: "", border: "", rim: "", alarm: "", path: "", near: "", accent: "",
+  chosen: "", button: "", hover: "", rest: "", edge: "", link: "", shine: "", rodEdge: "", rod: "", rodShine: "", hub: "",
+  foot: "", footEdge: "", ghost: "", ballShine: "", ball: "", ballEdge: "", x: "", y: "", z: "",
+  joint1: "", joint2: "", joint3: "", joint4: "", joint5: "", joint6: "",
+};
+
+/** Reads the colours that the style sheet gives `root` now. @param {Element} root */
+export function readColors(root) {
+  const style = getComputedStyle(root);
+  for (const name of Object.keys(colors)) colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
+}
+
+/** The colour of a joint. @param {number} j from 0 */
+export const jointColor = j => colors[`joint${j % 6 + 1}`];
+
+/** A colour that lets through what is behind it. @param {string} color @param {number} share from 0 to 1 */
+export const clear = (color, share) => color + Math.round(255 * share).toString(16).padStart(2, "0");
+
+/**
+ * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at most two by two device
+ * pixels each); null where the canvas has no size now: then it keeps what it shows.
+ * @param {HTMLCanvasElement} canvas
+ * @returns {?[CanvasRenderingContext2D, number, number]} context, width and height
+ */
+export function prepared(canvas) {
+  const ratio = Math.min(2, window.devicePixelRatio || 1), w = canvas.clientWidth, h = canvas.clientHeight;
+  if (!w || !h) return null;
+  if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
+    canvas.width = Math.round(w * ratio);
+    canvas.height = Math.round(h * ratio);
+  }
+  const g = canvas.getContext("2d");
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g.clearRect(0, 0, w, h);
+  g.lineCap = g.lineJoin = "round";
+  return [g, w, h];
+}
+
+/** A line through points; null or NaN interrupts it. @param {(?Pixel)[]} points */
+export function stroke(g, points, color, width, dash = []) {
+  g.strokeStyle = color;
+  g.lineWidth = width;
+  g.setLineDash(dash);
+  g.beginPath();
+  let pen = false;
+  for (const p of points) {
+    if (!p || Number.isNaN(p[1])) pen = false;
+    else if (pen) g.lineTo(p[0], p[1]);
+    else { g.moveTo(p[0], p[1]); pen = true; }
+  }
+  g.stroke();
+  g.setLineDash([]);
+}
+
+export const upright = (g, x, top, bottom, ...look) => stroke(g, [[x, top], [x, bottom]], ...look);
+
+/** Fills and outlines what `draw` traces. */
+export function shape(g, draw, fill, edge, width) {
+  g.beginPath();
+  draw();
+  g.closePath();
+  g.fillStyle = fill;
+  g.fill();
+  if (!width) return;
+  g.strokeStyle = edge;
+  g.lineWidth = width;
+  g.stroke();
+}
+
+export const polygon = (g, points, ...look) => shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
+export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) =>
+  shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
+
+/** Words with a seam, readable over lines. */
+export function words(g, text, x, y, color = colors.ink, size = 12, align = "left", weight = "") {
+  g.font = `${weight} ${size}px ${FONT}`;
+  g.textAlign = align;
+  g.lineWidth = 3.5;
+  g.strokeStyle = clear(colors.paper, 0.9);
+  g.strokeText(text, x, y);
+  g.fillStyle = color;
+  g.fillText(text, x, y);
+}
+
+/** A number with so many decimals, a real minus sign and no minus zero. */
+export const number = (x, decimals) => x.toFixed(decimals).replace(/^-(?=0\.?0*$)/, "").replace("-", "\u2212");
+
+/** Whether a box [left, top, width, height] meets one of several. */
+export const hit = ([x, y, w, h], boxes) =>
+  boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);
+
+/** How many columns and rows several arms take in a width. */
+export function tiled(count, width) {
+  const rows = Math.ceil(count / Math.max(1, Math.min(count, Math.floor(width / 260))));
+  return [Math.ceil(count / rows), rows];
+}
+
+/**
+ * @typedef {object} Camera  a parallel projection
+ * @property {number} scale  pixels to a metre
+ * @property {Point} toward  the direction to the camera
+ * @property {(p: Point) => Pixel} to  where a point is on the canvas
+ * @property {(v: Point) => Pixel} along  the same of a direction
+ * @property {(dx: number, dy: number) => Point} across  the way in space, across the line of sight, of pixels
+ */
+
+/**
+ * The camera that fits corner points into a rectangle [left, top, width, height].
+ * @param {[number, number]} view  azimuth and elevation
+ * @param {Point[]} corners
+ * @returns {Camera}
+ */
+export function camera([azimuth, elevation], corners, [left, top, width, height]) {
+  const ca = Math.cos(azimuth), sa = Math.sin(azimuth), ce = Math.cos(elevation), se = Math.sin(elevation);
+  const right = [-sa, ca, 0], up = [-se * ca, -se * sa, ce], toward = [ce * ca, ce * sa, se];
+  const xs = corners.map(p => dot(p, right)), ys = corners.map(p => dot(p, up));
+  const x0 = Math.min(...xs), x1 = Math.max(...xs), y0 = Math.min(...ys), y1 = Math.max(...ys);
+  const scale = Math.max(1e-9, Math.min(width / (x1 - x0 || 1), height / (y1 - y0 || 1)));
+  const cx = left + width / 2 - scale * (x0 + x1) / 2, cy = top + height / 2 + scale * (y0 + y1) / 2;
+  return {scale, toward, to: p => [cx + scale * dot(p, right), cy - scale * dot(p, up)],
+          along: v => [scale * dot(v, right), -scale * dot(v, up)],
+          across: (dx, dy) => right.map((r, k) => (dx * r - dy * up[k]) / scale)};
+}

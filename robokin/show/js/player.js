@@ -1,0 +1,270 @@
+// The player: recorded motions of arms in space beside their curves. page.py says what it gets.
+
+import {frames, origin} from "./kinematics.js";
+import {number, tiled} from "./canvas.js";
+import {sceneView} from "./scene.js";
+import {curvesView} from "./curves.js";
+import {places, recording} from "./recordings.js";
+import {choice, control, element, orbit, pictures, range, sceneCanvas, seenIn, STYLE} from "./controls.js";
+
+const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
+const TICKS = 400, SPEEDS = [0.25, 0.5, 1, 2, 4];
+
+/** Fills every waiting place with this id; the same player may stand twice in a page. */
+export function play(id, data) {
+  for (const root of document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)) {
+    root.dataset.ready = "";
+    start(root, data);
+  }
+}
+
+/**
+ * A player in `root`. Returns the function that takes other motions of the same arms, in the same scene: view and time
+ * stay.
+ * @param {HTMLElement} root
+ * @param {object} data  page.py: Page
+ */
+export function start(root, data) {
+  const scene = {...data.scene, unit: data.unit}, parts = furniture(data, scene);
+  const inSpace = sceneView(parts.scene, scene), overTime = curvesView(parts.curves, data.dashes);
+  const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
+  let motions, shown;
+
+  function choose() {
+    shown = motions.choose(state.choice * (data.slider ? data.slider.values.length : 1) + state.value);
+    tell(parts, data, shown, state.value);
+  }
+  function take(next) {
+    data = next;
+    motions = motionsOf(data);
+    state.time = Math.min(data.times.at(-1), Math.max(data.times[0], state.time));
+    choose();
+  }
+  function draw(now) {
+    clock.pass(now);
+    sized(parts, inSpace, data.arms.length);
+    const moment = momentAt(data.times, state.time), arms = shown.arms.map(arm => armAt(arm, moment));
+    shown.columns.forEach((column, k) => shownAt(column, moment, shown.arms[k].gaps));
+    Object.assign(scene, motions.around(shown.motion, moment));
+    clock.tell();
+    const room = inSpace.draw(state.view, arms, `t = ${number(state.time, 2)} s`);
+    overTime.draw(shown.columns, data.times, data.ticks, state.time);
+    return room;
+  }
+
+  root.replaceChildren(parts.frame);
+  const ask = pictures(root, [parts.scene, parts.curves], draw); // also draws the first picture
+  const clock = runningClock(root, parts, state, () => data.times, ask);
+  parts.slider?.addEventListener("input", () => { state.value = +parts.slider.value; choose(); ask(); });
+  parts.menu?.addEventListener("change", () => { state.choice = +parts.menu.value; choose(); ask(); });
+  orbit(parts.scene, scene, state, ask);
+  scrubbing(parts.curves, overTime, clock);
+  take(data);
+  return next => {
+    take(next);
+    parts.scene.setAttribute("aria-label", seenIn(scene, data.alt));
+    ask();
+  };
+}
+
+// --- What is on the page --------------------------------------------------------------------------------------------
+
+function furniture(data, scene) {
+  const parts = {
+    scene: sceneCanvas(scene, data.alt),
+    curves: element("canvas", {class: "rk-curves", role: "img", "aria-label":
+      `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, speeds, accelerations. ` +
+      "The greatest values stand in the table."}),
+    icon: element("span"),
+    scrub: range("time", TICKS),
+    time: element("span", {class: "rk-value"}),
+    speed: choice("playing speed", SPEEDS.map(speed => `${speed}\u00D7`)),
+    table: element("div", {class: "rk-table"}),
+    notes: element("ul", {class: "rk-notes"}),
+  };
+  parts.button = control("button", {type: "button", "aria-label": "play", title: "play or pause (Space)"}, parts.icon);
+  parts.speed.value = SPEEDS.indexOf(1);
+  const rows = [element("div", {class: "rk-row"}, parts.button,
+    element("label", {class: "rk-long"}, parts.scrub, parts.time), element("label", {}, "playback", parts.speed))];
+  const {slider, switch: menu} = data;
+  if (slider || menu) rows.push(element("div", {class: "rk-row"}));
+  if (slider) {
+    parts.slider = range(slider.label, slider.values.length - 1);
+    parts.value = element("span", {class: "rk-value"});
+    rows[1].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
+  }
+  if (menu) rows[1].append(element("label", {}, menu.label, parts.menu = choice(menu.label, menu.values)));
+  parts.frame = element("div", {class: "rk", role: "group", "aria-label": data.title}, element("style", {}, STYLE),
+    element("div", {class: "rk-title"}, data.title),
+    element("div", {class: `rk-views${data.arms.length > 1 ? " rk-wide" : ""}`}, parts.scene, parts.curves),
+    ...rows, parts.table, parts.notes);
+  return parts;
+}
+
+// A canvas that has the whole width takes the height that its arms fill.
+function sized({scene, curves}, inSpace, count) {
+  const [, rows] = tiled(count, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
+  curves.style.height = rows > 1 ? `${rows * 330}px` : "";
+  scene.style.height = whole && scene.clientWidth
+    ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * 340, Math.max(190, inSpace.height(count, scene.clientWidth))))}px` : "";
+}
+
+// The numbers of a motion, as a table and in words.
+function tell(parts, data, {arms, motion}, value) {
+  const {slider, unit} = data, whose = arm => data.arms.length > 1 ? `${arm.name}: ` : "";
+  const near = arms.filter(arm => arm.near).map(arm => `${whose(arm)}path passes via at ${arm.near.text}`).join("; ");
+  const most = Math.max(...data.arms.map(arm => arm.chain.length));
+  const head = element("tr", {}, element("th", {scope: "col"}, near),
+    ...Array.from({length: most}, (_, j) => element("th", {scope: "col"}, `joint ${j + 1}`)));
+  const body = data.arms.flatMap(arm => {
+    const units = [...new Set(arm.chain.map(link => link.prismatic ? unit.name : "\u00B0"))];
+    const line = (name, per, limited, cell) => element("tr", {}, element("th", {scope: "row"},
+      `${whose(arm)}${name}, ${units.map(u => `${u}/${per}`).join(" or ")}${limited ? " (of limit)" : ""}`),
+      ...arm.chain.map((_, j) => cell(j)));
+    return [
+      line("greatest speed", "s", arm.share, j => element("td", {}, number(arm.speed[motion][j], data.decimals[0]) +
+        (arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : ""))),
+      line("greatest acceleration", "s\u00B2", false, j => typeof arm.acceleration[motion][j] === "string"
+        ? element("td", {class: "rk-jump"}, arm.acceleration[motion][j])
+        : element("td", {}, number(arm.acceleration[motion][j], data.decimals[1]))),
+    ];
+  });
+  parts.table.replaceChildren(element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
+  parts.notes.replaceChildren(...data.arms.flatMap(arm => (arm.notes[motion] || []).map(text =>
+    element("li", {}, whose(arm) + text))));
+  if (!slider) return;
+  parts.value.textContent = number(slider.values[value], slider.decimals);
+  parts.slider.setAttribute("aria-valuetext", parts.value.textContent);
+}
+
+// --- Motions --------------------------------------------------------------------------------------------------------
+
+// choose(motion): everything that changes with slider and switch; around(motion, moment): targets and marks then.
+function motionsOf(data) {
+  const {unit, slider, times} = data;
+  const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
+  const recordings = data.arms.map(arm => recording(arm, count, times.length, unit));
+  const targets = places(data.scene.targets, "pose"), marks = places(data.scene.marks, "at");
+  return {
+    choose(motion) {
+      const arms = data.arms.map((arm, k) => armIn(motion, arm, recordings[k], times.length, unit));
+      const columns = data.arms.map((arm, k) => ({title: arm.name,
+        panels: data.panels.map((_, order) => panelOf(data, k, order, motion, recordings[k], arms[k].gaps))}));
+      return {motion, arms, columns};
+    },
+    around: (motion, {i, share}) => ({targets: targets(motion, i, share), marks: marks(motion, i, share)}),
+  };
+}
+
+function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
+  const breaks = new Set(gaps[motion]), near = via && via[motion];
+  const trace = Array.from({length: samples}, (_, i) => tipOf(chain, recorded.q(motion, i)));
+  return {name, chain, gaps: breaks, places: trace, trace: broken(trace, breaks),
+    q: (i, share) => recorded.q(motion, i, share),
+    near: near && {place: near.slice(1), text: `${number(near[0], unit.size < 1 ? 1 : 3)} ${unit.name}`}};
+}
+
+const tipOf = (chain, q) => q.every(Number.isFinite) ? origin(frames(chain, q).at(-1)) : null;
+const broken = (places, gaps) => places.flatMap((p, i) => gaps.has(i) ? [p, null] : [p]);
+
+function panelOf(data, k, order, motion, recorded, gaps) {
+  const {label, own, axes, near} = data.panels[order], arm = data.arms[k];
+  return {
+    label: label + (own && data.slider ? `   (scale follows ${data.slider.label})` : ""),
+    axes: Object.entries(axes).map(([kind, {unit, scales, of}]) => ({unit, scale: scales[of ? of[motion] : 0],
+      joints: arm.chain.flatMap((link, j) => link.prismatic === (kind === "shift") ? [j] : [])})),
+    curves: recorded.quantity(order, motion),
+    gaps,
+    limits: order === 0 ? arm.limits
+      : order === 1 && arm.speedLimits ? [arm.speedLimits.map(x => -x), arm.speedLimits] : null,
+    near: near[k],
+    marks: [...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
+            ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""}))],
+  };
+}
+
+// --- A moment -------------------------------------------------------------------------------------------------------
+
+// The sample before a time, and the share of the way to the next.
+function momentAt(times, time) {
+  const last = times.length - 1;
+  let i = 0;
+  for (let step = 1 << 10; step; step >>= 1) if (i + step <= last && times[i + step] <= time) i += step;
+  return {i, share: i < last ? (time - times[i]) / (times[i + 1] - times[i]) : 0};
+}
+
+// The arm as the scene draws it; where there is no posture, the last one before, faded.
+function armAt(arm, {i, share}) {
+  const gap = arm.gaps.has(i);
+  let q = arm.q(i, gap ? 0 : share);
+  const faded = !q.every(Number.isFinite) || gap && share > 0 && !arm.places[i + 1];
+  for (let back = i; !q.every(Number.isFinite) && back >= 0; back--) q = arm.q(back, 0);
+  return {...arm, q, faded, tail: [...broken(arm.places.slice(0, i + 1), arm.gaps), tipOf(arm.chain, q)]};
+}
+
+function shownAt(column, {i, share}, gaps) {
+  for (const panel of column.panels) panel.now = panel.curves.map(curve =>
+    share && !gaps.has(i) ? curve[i] + share * (curve[i + 1] - curve[i]) : curve[i]);
+}
+
+// --- Time -----------------------------------------------------------------------------------------------------------
+
+// The clock of a player, with its button, its slider and the Space key. pass(now): time goes on; set(time): it stops
+// there; tell(): time and slider show it.
+function runningClock(root, parts, state, times, ask) {
+  let before = 0;
+  const begin = () => times()[0], end = () => times().at(-1), tick = () => (end() - begin()) / TICKS;
+  function run(on) {
+    state.playing = on;
+    if (on && state.time >= end()) state.time = begin();
+    before = performance.now();
+    parts.icon.innerHTML = `<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true"><path d="${on ? PAUSE : PLAY}"/></svg>`;
+    parts.button.setAttribute("aria-label", on ? "pause" : "play");
+    if (on) ask();
+  }
+  function pass(now) {
+    if (!state.playing) return;
+    // The first stamp may lie before the click.
+    state.time = Math.min(end(), state.time + Math.max(0, now - before) / 1000 * SPEEDS[parts.speed.value]);
+    before = Math.max(before, now);
+    if (state.time >= end()) run(false);
+    else ask();
+  }
+  function set(time) {
+    run(false);
+    state.time = Math.min(end(), Math.max(begin(), time));
+    ask();
+  }
+  function tell() {
+    parts.time.textContent = `${number(state.time, 2)} s`;
+    parts.scrub.value = Math.round((state.time - begin()) / tick());
+    parts.scrub.setAttribute("aria-valuetext", parts.time.textContent);
+  }
+  parts.button.addEventListener("click", () => run(!state.playing));
+  parts.scrub.addEventListener("input", () => set(begin() + parts.scrub.value * tick()));
+  parts.frame.addEventListener("keydown", event => {
+    if (event.key !== " " || ["BUTTON", "SELECT"].includes(event.target.tagName)) return;
+    event.preventDefault();
+    run(!state.playing);
+  });
+  run(false);
+  return {pass, set, tell};
+}
+
+// Pressing and dragging on the curves sets the time.
+function scrubbing(canvas, overTime, clock) {
+  let held = null;
+  const scrub = event => {
+    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, held ?? undefined);
+    held = column;
+    clock.set(time);
+  };
+  canvas.addEventListener("pointerdown", event => {
+    canvas.setPointerCapture(event.pointerId);
+    held = null;
+    scrub(event);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (canvas.hasPointerCapture(event.pointerId)) scrub(event);
+  });
+}

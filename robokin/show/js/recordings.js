@@ -1,0 +1,63 @@
+// Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over time.
+
+const NOTHING = -32768;
+
+/**
+ * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN for no value.
+ * @returns {Float64Array}
+ */
+export function unpacked({steps, data}, motions, columns, samples) {
+  const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)), values = new Float64Array(motions * columns * samples);
+  let at = 0, to = 0;
+  for (let motion = 0; motion < motions; motion++) for (let column = 0; column < columns; column++) {
+    const step = steps[motion][column] ?? steps[motion];
+    for (let i = 0, whole = 0, slope = 0; i < samples; i++) {
+      let folded = 0, shift = 0, byte;
+      do {
+        byte = bytes[at++];
+        folded |= (byte & 127) << shift;
+        shift += 7;
+      } while (byte > 127);
+      slope += folded & 1 ? -(folded + 1) / 2 : folded / 2;
+      whole += slope;
+      values[to++] = whole === NOTHING ? NaN : whole * step;
+    }
+  }
+  return values;
+}
+
+/**
+ * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown units, for each joint an
+ * array over the samples; q(motion, sample, share): joint values in radians and metres between two samples.
+ */
+export function recording(arm, motions, samples, unit) {
+  const joints = arm.chain.length, inner = arm.chain.map(link => link.prismatic ? unit.size : Math.PI / 180);
+  const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples));
+  const row = (k, motion, j) => (motion * joints + j) * samples;
+  return {
+    quantity: (k, motion) => inner.map((_, j) => all[k].subarray(row(k, motion, j), row(k, motion, j) + samples)),
+    q: (motion, i, share = 0) => inner.map((size, j) => size * between(all[0], row(0, motion, j) + i, share)),
+  };
+}
+
+/**
+ * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their `pose` or `at`.
+ * @param {object[]} things  page.py: PageTarget or PageMark
+ * @param {"pose"|"at"} key
+ */
+export function places(things, key) {
+  const columns = key === "pose" ? 12 : 3;
+  const where = things.map(({way, ...thing}) => {
+    if (!way) return () => thing;
+    const {motions, samples} = way, values = unpacked(way, motions, columns, samples);
+    return (motion, i, share) => {
+      const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
+      const now = Array.from({length: columns}, (_, k) => between(values, first + k * samples, samples > 1 ? share : 0));
+      return now.some(Number.isNaN) ? null : {...thing, [key]: now};
+    };
+  });
+  return (motion, i, share) => where.map(one => one(motion, i, share)).filter(thing => thing);
+}
+
+// NaN beside a sample that exists does not count before the time has left it.
+const between = (values, i, share) => share ? values[i] + share * (values[i + 1] - values[i]) : values[i];

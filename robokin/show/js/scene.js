@@ -1,0 +1,290 @@
+// The scene: arms, targets and marks in space, above a floor.
+
+import {dot, distance, frames, origin, plus, turned} from "./kinematics.js";
+import {camera, clear, colors, FONT, hit, jointColor, polygon, prepared, shape, spot, stroke, tiled, words} from "./canvas.js";
+
+/**
+ * @typedef {object} Shown  an arm as a picture shows it
+ * @property {string} name
+ * @property {object[]} chain  page.py: PageLink
+ * @property {number[]} q  radians and metres
+ * @property {(?Point)[]} [trace]  places of the tool, null where they break; `tail`: those behind it
+ * @property {(?Point)[]} [tail]
+ * @property {boolean} [faded]  there is no solution here
+ * @property {{place: Point, text: string}} [near]  where the path passes "via"
+ * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where `past` a limit
+ * @property {boolean} [framed]  show the frame of every link
+ */
+
+/**
+ * Draws arms in space.
+ *
+ * draw(view, arms, clock)   one picture: view [azimuth, elevation], arms Shown[], words for the right upper corner.
+ *                           Returns whether there was room for one
+ * cameras()                 those of the last picture, one for each arm: `to` projects a point to CSS pixels
+ * hold(on)                  while on, the cameras of the last picture stay: for as long as something is dragged
+ * height(count, width)      how high a canvas of this width is well filled by so many arms
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {object} scene  page.py: PageScene, and the page's `unit`. `targets` ({name, pose}) and `marks` ({name, at,
+ *   radius}) may be exchanged between two pictures
+ */
+export function sceneView(canvas, scene) {
+  const space = surroundings(scene);
+  let cameras = [], held = false;
+
+  function draw(view, arms, clock) {
+    const ready = prepared(canvas);
+    if (!ready) return false;
+    const [g, w, h] = ready, [columns, rows] = tiled(arms.length, w), cw = w / columns, ch = h / rows;
+    cameras = arms.map((arm, i) => {
+      const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
+      const corners = scene.grows ? [...space.corners, ...reached(scene, arm)] : space.corners;
+      const cam = held && cameras[i] || camera(view, corners, inside(cell));
+      g.save();
+      g.beginPath();
+      g.rect(...cell);
+      g.clip();
+      drawArmInSpace({g, cam, scene, space}, arm, cell, arms.length > 1);
+      g.restore();
+      if (i % columns) stroke(g, [[cell[0], cell[1] + 10], [cell[0], cell[1] + ch - 10]], colors.grid, 1);
+      return cam;
+    });
+    words(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+    words(g, `grid ${+(scene.grid / scene.unit.size).toPrecision(6)} ${scene.unit.name}`, 10, h - 8, colors.soft, 12);
+    return true;
+  }
+
+  function height(count, width) {
+    const [columns, rows] = tiled(count, width), [, , w] = inside([0, 0, width / columns, 1000]);
+    const {to} = camera(scene.view, space.corners, [0, 0, w, 1e6]), ys = space.corners.map(p => to(p)[1]);
+    return rows * (Math.max(...ys) - Math.min(...ys) + 1000 - inside([0, 0, w, 1000])[3]);
+  }
+
+  return {draw, height, cameras: () => cameras, hold: on => { held = on; }};
+}
+
+// Room at the rims for words: names above, the scale below.
+const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
+
+// What stands still: the axes of the grid, a point of the floor, what the camera has to see.
+function surroundings({flat, floor: [low, high], seen}) {
+  const normal = flat ?? 2, [a, b] = [0, 1, 2].filter(i => i !== normal);
+  const at = (x, y) => { const p = [0, 0, 0]; p[a] = x; p[b] = y; p[normal] = flat === null ? low[2] : 0; return p; };
+  const corners = [...seen, ...[low[a], high[a]].flatMap(x => [low[b], high[b]].map(y => at(x, y)))];
+  return {a, b, at, corners, spatial: flat === null};
+}
+
+// What a scene that grows has to hold besides.
+const reached = (scene, arm) => [...[...frames(arm.chain, arm.q), ...scene.targets.map(target => target.pose),
+  ...(arm.ghosts || []).flatMap(({q}) => frames(arm.chain, q))].map(origin), ...scene.marks.map(mark => mark.at)]
+  .filter(p => p.every(Number.isFinite));
+
+// One arm and all that is around it. A pen is {g, cam, scene, space}: on what, how seen, what is there.
+function drawArmInSpace(pen, arm, [x, y, w, h], named) {
+  const {g, cam, scene} = pen, {to} = cam, {size} = scene, {trace = [], tail = [], ghosts = []} = arm;
+  const joints = [], moved = [], all = frames(arm.chain, arm.q, joints, moved);
+  const exists = arm.q.every(Number.isFinite), rods = exists ? limbs(all, joints, moved, size) : [];
+  const thick = Math.min(15, Math.max(5, 0.045 * size * cam.scale));
+  drawFloor(pen);
+  if (pen.space.spatial) drawShadow(pen, trace, rods, thick);
+  for (const {at, radius} of scene.marks) if (radius) ball(g, to(at), radius * cam.scale);
+  drawRoute(pen);
+  stroke(g, trace.map(p => p && to(p)), clear(colors.path, 0.45), 1.4, [1, 4]);
+  drawFoot(pen, rods.length ? 1 : 0.4);
+  for (const {q, past} of ghosts)
+    stroke(g, frames(arm.chain, q).map(f => to(origin(f))), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
+  g.globalAlpha = arm.faded ? 0.3 : 1;
+  drawArm(g, cam, arm.chain, rods, joints, thick, size);
+  if (arm.framed) for (const frame of all) triad(g, cam, frame, 0.08 * size, 1.8, 1);
+  g.globalAlpha = 1;
+  if (tail.length > 1) {
+    stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
+    stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
+  }
+  const {labels, taken} = drawPlaces(pen, arm.near);
+  if (exists) {
+    g.globalAlpha = arm.faded ? 0.4 : 1;
+    const flange = all[all.length - 1];
+    triad(g, cam, flange, 0.13 * size, 3, 1, true);
+    spot(g, to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
+    g.globalAlpha = 1;
+  }
+  place(g, labels, [...trace.filter(p => p).map(to), ...taken], [x + 4, y + 24, w - 8, h - 46]);
+  compass(g, cam, [x + w - 34, y + h - 34]);
+  if (named) words(g, arm.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (arm.faded) words(g, "no solution here", x + w / 2, y + (named ? 40 : 22), colors.alarm, 14, "center", "600");
+}
+
+// Targets, points, and how near the path passes: their labels, and the places on the canvas that labels keep off.
+function drawPlaces({g, cam, scene}, near) {
+  const {to} = cam, labels = [], taken = [];
+  for (const {name, at, radius} of scene.marks) {
+    if (!radius) spot(g, to(at), 3.5, colors.path);
+    if (name) labels.push({text: name, at: to(at), color: colors.soft});
+  }
+  for (const {name, pose} of scene.targets) {
+    const from = to(origin(pose));
+    for (const tip of triad(g, cam, pose, 0.09 * scene.size, 1.8, 0.95))
+      for (let k = 1; k < 8; k++) taken.push([from[0] + k / 7 * (tip[0] - from[0]), from[1] + k / 7 * (tip[1] - from[1])]);
+    spot(g, from, 2.6, colors.path, colors.paper, 1);
+    labels.push({text: name, at: from, color: colors.ink, weight: "600"});
+  }
+  const via = near && scene.targets.find(target => target.name === "via");
+  if (via) {
+    const p = to(origin(via.pose)), q = to(near.place);
+    if (Math.hypot(p[0] - q[0], p[1] - q[1]) > 3) stroke(g, [p, q], colors.near, 1.6, [4, 3]);
+    labels.push({text: near.text, at: [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2], color: colors.near});
+  }
+  return {labels, taken};
+}
+
+function drawFloor({g, cam: {to}, scene: {grid, floor: [low, high]}, space: {a, b, at}}) {
+  const line = (p, q, value) => stroke(g, [to(p), to(q)], Math.abs(value) < grid / 9 ? colors.line : colors.grid, 1);
+  for (let x = low[a]; x < high[a] + grid / 9; x += grid) line(at(x, low[b]), at(x, high[b]), x);
+  for (let y = low[b]; y < high[b] + grid / 9; y += grid) line(at(low[a], y), at(high[a], y), y);
+}
+
+// The path and the arm on the floor.
+function drawShadow({g, cam: {to}, scene}, trace, rods, thick) {
+  const sunk = ([x, y]) => to([x, y, scene.floor[0][2]]);
+  stroke(g, trace.map(p => p && sunk(p)), clear(colors.soft, 0.16), 1.5);
+  for (const [p, q] of rods) stroke(g, [sunk(p), sunk(q)], clear(colors.soft, 0.13), thick);
+}
+
+// The straight way from target to target, where they are stations of one path.
+function drawRoute({g, cam: {to}, scene}) {
+  const stations = ["start", "via", "goal"].map(name => scene.targets.find(target => target.name === name)).filter(t => t);
+  if (stations.length > 1) stroke(g, stations.map(({pose}) => to(origin(pose))), clear(colors.soft, 0.55), 1, [7, 5]);
+}
+
+function drawFoot({g, cam: {to}, scene, space: {a, b, spatial}}, alpha) {
+  const ring = Array.from({length: 40}, (_, i) => {
+    const p = [0, 0, 0], t = i * Math.PI / 20;
+    p[a] = 0.06 * scene.size * Math.cos(t);
+    p[b] = 0.06 * scene.size * Math.sin(t);
+    return to(p);
+  });
+  const depth = scene.floor[0][2];
+  g.globalAlpha = alpha;
+  if (spatial && depth < -1e-9) stroke(g, [to([0, 0, 0]), to([0, 0, depth])], colors.line, 6);
+  polygon(g, ring, colors.foot, colors.footEdge, 1.2);
+  g.globalAlpha = 1;
+}
+
+// The straight pieces of a posture: [from, to, is the rod of a prismatic joint].
+function limbs(all, joints, moved, size) {
+  const pieces = joints.flatMap((joint, i) => [[origin(all[i]), origin(joint), false],
+    [origin(joint), origin(moved[i]), true], [origin(moved[i]), origin(all[i + 1]), false]]);
+  return pieces.filter(([p, q]) => distance(p, q) > 1e-6 * size);
+}
+
+// Links and joints, the farther ones first.
+function drawArm(g, cam, chain, rods, joints, thick, size) {
+  const things = rods.map(([p, q, rod]) => ({
+    depth: dot(plus(p, q), cam.toward) / 2,
+    draw: () => limb(g, cam.to(p), cam.to(q), rod ? 0.55 * thick : thick, rod)}));
+  if (rods.length) joints.forEach((joint, i) => {
+    const axis = turned(joint, chain[i].axis), p = origin(joint);
+    const radius = thick * (joints.length > 3 && i >= joints.length - 3 ? 0.72 : 1);
+    things.push({depth: dot(p, cam.toward) + 0.02 * size, draw: () => chain[i].prismatic
+      ? box(g, cam, p, axis, 0.8 * radius, jointColor(i))
+      : drum(g, cam, p, axis, 0.72 * radius, jointColor(i))});
+  });
+  things.sort((p, q) => p.depth - q.depth).forEach(thing => thing.draw());
+}
+
+function limb(g, p, q, width, rod) {
+  const [edge, body, light] = rod ? [colors.rodEdge, colors.rod, colors.rodShine] : [colors.edge, colors.link, colors.shine];
+  const lift = [-0.16 * width, -0.2 * width], up = ([x, y]) => [x + lift[0], y + lift[1]];
+  stroke(g, [p, q], clear(colors.paper, 0.9), width + 3);
+  stroke(g, [p, q], edge, width);
+  stroke(g, [p, q], body, width - 2);
+  stroke(g, [up(p), up(q)], light, 0.22 * width);
+}
+
+// A joint that turns, as a drum around its axis, with a band of the joint's colour.
+function drum(g, cam, p, axis, radius, color) {
+  const [cx, cy] = cam.to(p), [dx, dy] = cam.along(axis), long = Math.hypot(dx, dy) / cam.scale;
+  const facing = Math.abs(dot(axis, cam.toward)), angle = Math.atan2(dy, dx);
+  const half = 0.85 * radius * long, side = dot(axis, cam.toward) > 0 ? 1 : -1; // half its length on the screen
+  g.save();
+  g.translate(cx, cy);
+  g.rotate(angle);
+  const arc = (place, r, from, to) => g.ellipse(side * place, 0, r * facing + 1e-6, r, 0, from, to, side < 0);
+  const body = () => { arc(half, radius, -Math.PI / 2, Math.PI / 2); arc(-half, radius, Math.PI / 2, -Math.PI / 2); };
+  const face = r => () => g.ellipse(side * half, 0, r * facing + 1e-6, r, 0, 0, 2 * Math.PI);
+  shape(g, body, color, colors.paper, 3);
+  shape(g, body, color, colors.edge, 1.2);
+  shape(g, face(radius), color, colors.edge, 1);
+  shape(g, face(0.45 * radius), colors.hub);
+  g.restore();
+}
+
+// A joint that shifts, as a square guide.
+function box(g, cam, p, axis, radius, color) {
+  const [x, y] = cam.to(p), [dx, dy] = cam.along(axis), angle = Math.atan2(dy, dx) + Math.PI / 4, r = Math.SQRT2 * radius;
+  const corners = [0, 1, 2, 3].map(k => angle + k * Math.PI / 2).map(t => [x + r * Math.cos(t), y + r * Math.sin(t)]);
+  polygon(g, corners, color, colors.edge, 1.2);
+}
+
+function ball(g, [x, y], radius) {
+  const shade = g.createRadialGradient(x - radius / 3, y - radius / 3, radius / 8, x, y, radius);
+  shade.addColorStop(0, clear(colors.ballShine, 0.75));
+  shade.addColorStop(1, clear(colors.ball, 0.75));
+  spot(g, [x, y], radius, shade, colors.ballEdge, 1.2);
+}
+
+// The axes of a frame; returns their tips on the screen.
+function triad(g, cam, pose, length, width, alpha, letters = false) {
+  const p = origin(pose), from = cam.to(p), before = g.globalAlpha;
+  const axes = [0, 1, 2].map(k => [k, [pose[k], pose[4 + k], pose[8 + k]]]);
+  axes.sort((m, n) => dot(m[1], cam.toward) - dot(n[1], cam.toward));
+  g.globalAlpha = before * alpha;
+  const tips = axes.map(([k, axis]) => {
+    const tip = cam.to(plus(p, axis, length));
+    stroke(g, [from, tip], colors.paper, width + 2);
+    stroke(g, [from, tip], colors["xyz"[k]], width);
+    return [k, tip];
+  });
+  if (letters) for (const [k, tip] of tips) {
+    const d = [tip[0] - from[0], tip[1] - from[1]], l = Math.hypot(...d);
+    if (l > 0.35 * length * cam.scale) words(g, "xyz"[k], tip[0] + 8 * d[0] / l, tip[1] + 8 * d[1] / l + 4, colors["xyz"[k]], 12, "center", "600");
+  }
+  g.globalAlpha = before;
+  return tips.map(([, tip]) => tip);
+}
+
+// Where x, y and z of the base point, in a corner.
+function compass(g, cam, [x, y]) {
+  [[1, 0, 0], [0, 1, 0], [0, 0, 1]].forEach((axis, k) => {
+    const [dx, dy] = cam.along(axis), l = Math.hypot(dx, dy) / cam.scale;
+    if (l < 0.1) return;
+    const tip = [x + 18 * dx / cam.scale, y + 18 * dy / cam.scale];
+    stroke(g, [[x, y], tip], colors["xyz"[k]], 1.4);
+    words(g, "xyz"[k], tip[0] + 7 * dx / cam.scale / l, tip[1] + 7 * dy / cam.scale / l + 3.5, colors["xyz"[k]], 10, "center");
+  });
+}
+
+// Writes each label beside its point where it covers least: other labels, lines, the rim.
+function place(g, labels, taken, [left, top, width, height]) {
+  const done = [];
+  for (const label of labels) {
+    g.font = `${label.weight || ""} 12px ${FONT}`;
+    const w = g.measureText(label.text).width + 4, h = 16, [px, py] = label.at;
+    let best = null;
+    for (const gap of [5, 14, 26, 40]) for (let k = 0; k < 12; k++) {
+      const c = Math.cos(k * Math.PI / 6), s = -Math.sin(k * Math.PI / 6);
+      const x = px + c * (gap + w / 2) - w / 2, y = py + s * (gap + h / 2) - h / 2;
+      let cost = gap / 6 + (1 - c) / 2 + (1 + s) / 2;
+      for (const [qx, qy] of taken) if (qx > x - 3 && qx < x + w + 3 && qy > y - 2 && qy < y + h + 2) cost += 3;
+      if (hit([x, y, w, h], done)) cost += 100;
+      cost += 3 * (Math.max(0, left - x) + Math.max(0, x + w - left - width)
+                   + Math.max(0, top - y) + Math.max(0, y + h - top - height));
+      if (!best || cost < best[0]) best = [cost, x, y];
+    }
+    const [, x, y] = best;
+    done.push([x, y, w, h]);
+    words(g, label.text, x + 2, y + 12, label.color, 12, "left", label.weight);
+  }
+}

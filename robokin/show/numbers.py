@@ -1,0 +1,165 @@
+"""Numbers for pages and figures, the same on every processor: rounding, ticks, which samples to
+keep, and whole numbers in few bytes.
+"""
+
+import base64
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeAlias, TypedDict
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from .._arrays import ArrayLike, Bools, Floats, Ints
+from ..motion.recording import Recording
+
+Scale: TypeAlias = tuple[float, float, int, int]  # lowest tick, step, number of ticks, decimals
+
+# what joint values, speeds and accelerations of all motions may take; at least 41 samples
+DATA_BYTES = 570_000
+NOTHING = -32768  # the whole number that stands for "no value here"
+# added before rounding: an exact half falls the same way on every processor
+TIE = 2e-7 * np.sqrt(2)
+
+
+class Packed(TypedDict):
+    """Numbers (motions, samples, columns) in few bytes: whole numbers of 16 bits times a step.
+
+    steps  of each motion: one for all of its columns, or one for each
+    data   in base64: motion after motion, column after column, the second differences of the whole
+           numbers over the samples (as if two zeros stood before the first), each as 2 d or
+           -2 d - 1, in groups of seven bits, the lowest first; a byte above 127 is not the last.
+           -32768 is "no value here".
+    """
+
+    steps: list[Any]
+    data: str
+
+
+def tidy(x: float, decimals: int) -> float:
+    """x rounded; an exact half and the noise around it always go up, and there is no minus zero."""
+    scale = 10.0**decimals
+    return float(np.floor(float(x) * scale + 0.5 + TIE) / scale) + 0.0
+
+
+def rounded(values: ArrayLike, decimals: int = 9) -> list[float]:
+    """All values in a row, rounded as `tidy` does."""
+    return [tidy(x, decimals) for x in np.ravel(values)]
+
+
+def packed(values: Floats, finest: float, groups: Sequence[Bools] = ()) -> Packed:
+    """(motions, samples, columns) as `Packed`, the greatest of each motion about `finest` steps.
+    Columns of one group have one step; without groups all have.
+
+    A step for each motion: one extreme value among many motions would make stairs of the others.
+    Second differences: of 241 samples of a smooth curve nearly all fit into one byte.
+    """
+    steps = np.empty((len(values), 1, values.shape[-1]))
+    for group in groups or [np.ones(values.shape[-1], dtype=bool)]:
+        if group.any():
+            part = np.nan_to_num(values[..., group])
+            greatest = abs(part).max(axis=(1, 2), initial=0)
+            least = [series_step(x * (1 + TIE) / finest) for x in greatest]
+            steps[..., group] = np.array(least)[:, None, None]
+    whole = np.floor(values / steps + 0.5 + TIE)
+    whole = np.where(np.isnan(whole), NOTHING, whole).astype(np.int64)
+    rows = [[float(f"{step:.0e}") for step in row] for row in steps[:, 0]]
+    return {
+        "steps": [row[0] if len(set(row)) == 1 else row for row in rows],
+        "data": base64.b64encode(_differences(whole)).decode(),
+    }
+
+
+def _differences(whole: Ints) -> bytes:
+    second = np.diff(np.diff(whole, axis=1, prepend=0), axis=1, prepend=0)
+    second = second.transpose(0, 2, 1).ravel()
+    folded = np.where(second < 0, -2 * second - 1, 2 * second)
+    places = folded[:, None] >> np.array([0, 7, 14])
+    last = 0 + (folded > 127) + (folded > 16383)
+    sevens: Ints = (places & 127) + 128 * (np.arange(3) < last[:, None])
+    return bytes(sevens[np.arange(3) <= last[:, None]].tolist())
+
+
+def series_step(least: float) -> float:
+    """The first number of the series 1, 2, 5, 10, ... that is not below `least`, from a millionth
+    on.
+    """
+    least = max(least, 1e-6)
+    power = 10.0 ** np.floor(np.log10(least) + 1e-12)
+    return float(next(power * k for k in (1, 2, 5, 10) if power * k >= least * (1 - 1e-12)))
+
+
+def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
+    """Which of `count` samples the page gets: evenly spread, and those on both sides of every
+    jump.
+    """
+    values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
+    wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 1.1 * 4 / 3))))
+    extra: set[int] = set()
+    for track in tracks:
+        for jump in track.jumps:
+            extra.update((jump.first - 2, jump.first, jump.last, jump.last + 2))
+        for motion in track.gaps[np.any(track.gaps, axis=-1)]:
+            edges = np.flatnonzero(motion[1:] != motion[:-1]) + 1
+            extra.update(
+                np.concatenate(
+                    [edges, edges + 1] + [[i, i + 1] for i in np.flatnonzero(motion)[:1]]
+                ).tolist()
+            )
+    extra = {i for i in extra if 0 < i < count - 1}
+    if len(extra) > wanted // 3:
+        extra = set()
+    even = np.floor(np.linspace(0, count - 1, wanted - len(extra)) + 0.5 + TIE).astype(int)
+    return np.array(sorted({*even.tolist(), *extra}))
+
+
+def scales(ranges: Sequence[Any]) -> list[Scale]:
+    """The scale for one range (low, high); or for two in one panel, with zeros and ticks at the
+    same heights.
+    """
+    ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
+    if len(ranges) == 1:
+        return [scale(*ranges[0])]
+    best: list[Scale] = []
+    most = 0.0
+    for below, above in ((i, n - i) for n in range(2, 6) for i in range(n + 1)):
+        if all((below or low >= 0) and (above or high <= 0) for low, high in ranges):
+            least = [max(high / (above or 1), -low / (below or 1)) for low, high in ranges]
+            steps = [float(f"{series_step(x):.6g}") if x else 1.0 for x in least]
+            filled = sum(
+                (max(high, 0) - min(low, 0)) / step
+                for (low, high), step in zip(ranges, steps, strict=True)
+            )
+            if filled / (below + above) > most * 1.001 or not best:
+                best, most = (
+                    [_ticks(-below * x, x, below + above + 1) for x in steps],
+                    filled / (below + above),
+                )
+    return best
+
+
+def scale(low: float, high: float) -> Scale:
+    """Matplotlib's choice of ticks, the outermost ones at or beyond the data."""
+    low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
+    if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
+        pad = 0.5 * max(abs(low), 1.0)
+        low, high = low - pad, high + pad
+    ticks = MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return _ticks(float(f"{ticks[0]:.6g}"), float(f"{ticks[1] - ticks[0]:.6g}"), len(ticks))
+
+
+def _ticks(low: float, step: float, count: int) -> Scale:
+    """(lowest tick, step, number of ticks, decimals to write them with)"""
+    return (
+        low + 0.0,
+        step,
+        count,
+        next(d for d in range(12) if abs(step - round(step, d)) < 1e-9 * step),
+    )
+
+
+def decimals(curves: Iterable[Floats]) -> int:
+    """How many decimals show the greatest value of this quantity with three digits; at least
+    one.
+    """
+    greatest = max(np.nanmax(abs(c), initial=0, where=~np.isnan(c)) for c in curves)
+    return 1 if greatest >= 10 else 2 if greatest >= 1 else 3

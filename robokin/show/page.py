@@ -1,0 +1,296 @@
+"""What a page draws: the one description of its data; its script, joined from modules; its HTML,
+and saving it.
+"""
+
+import base64
+import contextlib
+import html
+import os
+import re
+from importlib.resources import files
+from typing import Any, NotRequired, TypedDict
+
+from .._validate import short
+from .numbers import Packed, Scale
+from .palette import css
+
+MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
+STILL = "A still picture. To see it move: run this cell, or trust the notebook and open it again."
+
+
+# --- The data -------------------------------------------------------------------------------------
+#
+# Metres and radians in the scene; in the curves degrees and the unit of lengths. A rigid transform
+# is 12 numbers: the rows of [R | p]. A motion is one value of the switch with one of the slider:
+# their number is switch * slider values + slider.
+
+
+class Unit(TypedDict):
+    """The unit of lengths beside the curves: its name, and its size in metres."""
+
+    name: str
+    size: float
+
+
+class Slider(TypedDict):
+    """A value to choose a motion by, and the decimals to write it with."""
+
+    label: str
+    values: list[float]
+    decimals: int
+
+
+class Switch(TypedDict):
+    """Words to choose a motion by."""
+
+    label: str
+    values: list[str]
+
+
+class PageLink(TypedDict):
+    """One link of a chain: the way to its joint, the joint's axis, the way to its end."""
+
+    before: list[float]
+    axis: list[float]
+    after: list[float]
+    prismatic: bool
+
+
+class PageWay(Packed):
+    """What moves: places (columns x, y, z) or poses (12 columns), for each motion or one for all,
+    for each sample or one for all.
+    """
+
+    motions: int
+    samples: int
+
+
+class PageTarget(TypedDict):
+    """A pose to mark: `pose` where it stands still, else `way`."""
+
+    name: str
+    pose: NotRequired[list[float]]
+    way: NotRequired[PageWay]
+
+
+class PageMark(TypedDict):
+    """A point (radius 0) or a ball: `at` where it stands still, else `way`."""
+
+    name: str
+    radius: float
+    at: NotRequired[list[float]]
+    way: NotRequired[PageWay]
+
+
+class PageScene(TypedDict):
+    """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
+    floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
+    camera. With `grows` the picture shrinks where an arm or a target leaves it.
+    """
+
+    size: float
+    flat: int | None
+    grid: float
+    seen: list[list[float]]
+    floor: list[list[float]]
+    view: list[float]
+    targets: list[PageTarget]
+    marks: list[PageMark]
+    grows: NotRequired[bool]
+
+
+class Axis(TypedDict):
+    """The scales of turning or of shifting joints in one panel; `of` motion -> which, or None: all
+    have the first.
+    """
+
+    unit: str
+    scales: list[Scale]
+    of: list[int] | None
+
+
+class PagePanel(TypedDict):
+    """One panel of curves. `own`: each motion has its own scale. `near`: for each arm the limits
+    to show, [joint, 0 lower or 1 upper]. `axes`: those of "turn" and "shift" joints, if any.
+    """
+
+    label: str
+    own: bool
+    near: list[list[list[int]]]
+    axes: dict[str, Axis]
+
+
+class Greatest(TypedDict):
+    """For each motion and joint: the greatest speed, its share of the limit in percent, the
+    greatest acceleration or words where the speed jumps.
+    """
+
+    speed: list[list[float]]
+    share: list[list[int]] | None
+    acceleration: list[list[float | str]]
+
+
+class Flaws(TypedDict):
+    """What is wrong with a motion, by its number: the samples after which its curves break, [[time,
+    words]] of jumps of speed and of position, sentences.
+    """
+
+    gaps: dict[str, list[int]]
+    jumps: dict[str, list[Any]]
+    leaps: dict[str, list[Any]]
+    notes: dict[str, list[str]]
+
+
+class PageArm(Greatest, Flaws):
+    """One arm and its motions: `Packed` joint values, speeds and accelerations; [lower, upper]
+    limits of the joints, their speed limits; for each motion [smallest distance from "via", x, y,
+    z of that place], or None.
+    """
+
+    name: str
+    chain: list[PageLink]
+    motion: list[Packed]
+    limits: list[list[float]]
+    speedLimits: list[float] | None
+    via: list[list[float] | None] | None
+
+
+class Page(TypedDict):
+    """Everything that a player draws. `decimals` are those of speeds and accelerations, `ticks`
+    the scale of the time, `dashes` the dashes of the joints' lines.
+    """
+
+    title: str
+    summary: str
+    alt: str
+    times: list[float]
+    ticks: Scale
+    slider: Slider | None
+    switch: Switch | None
+    unit: Unit
+    dashes: list[list[float]]
+    scene: PageScene
+    panels: list[PagePanel]
+    decimals: list[int]
+    arms: list[PageArm]
+
+
+# --- The script -----------------------------------------------------------------------------------
+
+IMPORT = re.compile(r'import \{ ?([\w$]+(?:, [\w$]+)*),? ?\} from "\./(\w+)\.js";')
+EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
+
+
+def script(name: str) -> str:
+    """The module `name` of the folder js and all that it imports, each once and in its own scope,
+    as one script: `$name` holds what it exports. Without blank lines, leading blanks, and lines
+    that begin with //, /* or *, which only people read.
+
+    ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and
+    `export function`, `const` or `class`.
+    """
+    modules: dict[str, str] = {}
+    _add(modules, name, (), f"{name}.js")
+    return "\n".join(modules.values())
+
+
+def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: str) -> None:
+    """Put `name` behind what it imports."""
+    file = files(__package__).joinpath("js", f"{name}.js")
+    if name in importers or not file.is_file():
+        raise ValueError(f"{place}: there is no module {name}.js, or it imports itself")
+    lines, exports, begun = [], [], ""
+    for i, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+        line, place = line.strip(), f"{name}.js, line {i}"
+        if not line or line.startswith(("//", "/*", "*")):
+            continue
+        if begun or re.match(r"import\b", line):
+            begun = f"{begun} {line}".strip()
+            if not begun.endswith(";"):
+                continue
+            found = IMPORT.fullmatch(begun)
+            if not found:
+                raise ValueError(f"{place}: wanted an import of names, got {short(begun)}")
+            if found[2] not in modules:
+                _add(modules, found[2], (*importers, name), place)
+            line, begun = f"const {{{found[1]}}} = ${found[2]};", ""
+        elif re.match(r"export\b", line):
+            found = EXPORT.match(line)
+            if not found:
+                raise ValueError(f"{place}: wanted an export of one name, got {short(line)}")
+            exports.append(found[2])
+            line = line.removeprefix("export ")
+        lines.append(line)
+    if begun:
+        raise ValueError(f"{place}: an import does not end")
+    body = "\n".join(lines)
+    modules[name] = f"const ${name} = (() => {{\n{body}\nreturn {{{', '.join(exports)}}};\n}})();"
+
+
+# --- HTML -----------------------------------------------------------------------------------------
+
+
+def output(name: str, text: str, png: bytes, alt: str) -> str:
+    """A player as a piece of HTML: the still picture, and the script that replaces it by what
+    `text`, a `Page` as JSON, describes.
+    """
+    image = base64.b64encode(png).decode()
+    return (
+        f'<div class="robokin-player" data-player="{name}"><img alt="{html.escape(alt)}" '
+        f'style="max-width:100%" src="data:image/png;base64,{image}"><p>{STILL}</p></div>\n'
+        f"<style>{css()}</style>\n"
+        f'<script>(() => {{\n{script("player")}\n$player.play("{name}", {text});\n}})();</script>\n'
+    )
+
+
+def save(path: str | os.PathLike[str], title: str, body: str) -> None:
+    """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
+    that is there and not a saved player.
+    """
+    name = _file(path)
+    if os.path.lexists(name) and not _ours(name):
+        raise ValueError(
+            f"path: {short(name)} exists and is not a saved player; nothing is overwritten"
+        )
+    head = (
+        f'<!DOCTYPE html>\n{MARK}\n<html lang="en">\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width">\n'
+        '<meta name="color-scheme" content="light dark">\n'
+        f"<title>{html.escape(title)}</title>\n"
+    )
+    body = (
+        f'<body style="max-width:1200px;margin:16px auto;padding:0 8px">\n{body}</body>\n</html>\n'
+    )
+    _write(name, (head + body).encode())
+
+
+def _file(path: Any) -> str:
+    """`path` as a name that ends in .html."""
+    name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
+    if not isinstance(name, str) or os.path.splitext(name)[1] != ".html" or "\0" in name:
+        raise ValueError(f"path: wanted a name that ends in .html, got {short(path)}")
+    folder = os.path.dirname(name) or os.curdir
+    if not os.path.isdir(folder):
+        raise ValueError(f"path: wanted a folder that exists, got {short(folder)}")
+    return name
+
+
+def _ours(name: str) -> bool:
+    """Whether a saved player lies there: itself, and not a link to it."""
+    if os.path.islink(name) or not os.path.isfile(name):
+        return False
+    with open(name, "rb") as file:
+        return MARK.encode() in file.read(200)
+
+
+def _write(name: str, content: bytes) -> None:
+    """Beside it first, so that a reader, or a full disk, never sees half of it."""
+    beside = os.path.join(os.path.dirname(name), f".{os.urandom(8).hex()}.html.part")
+    try:
+        with open(beside, "xb") as file:
+            file.write(content)
+        os.replace(beside, name)
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(beside)
+        raise

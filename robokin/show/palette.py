@@ -1,0 +1,98 @@
+"""Every colour of figures and pages, and the styles of the joints.
+
+A page gets the colours as CSS custom properties (`--rk-ink`, ...) of its root elements, in a light
+and in a dark set; its scripts read them from there. Figures are light.
+"""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any
+
+# Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
+# Ito, Color Universal Design, 2008; they stay apart for colour-blind readers, and the dashes stay
+# apart in grey print.
+JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
+    MappingProxyType({"color": color, "dash": dash})  # for all to read
+    for color, dash in (
+        ("#0072B2", ()),
+        ("#D55E00", (5, 1.8)),
+        ("#009E73", (1.6, 1.3)),
+        ("#CC79A7", (6, 1.6, 1.4, 1.6)),
+        ("#E69F00", (2.8, 1.2)),
+        ("#56B4E9", (0.9, 1.4)),
+    )
+)
+DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # as the page gets them
+AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
+ALARM, TRACE = "#B3261E", "#0072B2"
+
+# Figures: lines and words, postures from strong to faint, the floor.
+INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
+REMARK, SCALE = "#5A6672", "#6B7681"
+PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
+
+# Pages: name -> (light, dark), six digits each.
+PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        "paper": ("#FFFFFF", "#1B2026"),  # behind everything, and the seams between lines
+        "ink": ("#1F2933", "#E4E9EE"),
+        "soft": ("#5F6B76", "#A3AFBA"),
+        "line": ("#C9D0D6", "#56616C"),
+        "grid": ("#E4E8EB", "#343D46"),
+        "border": ("#D5DADF", "#3B4550"),
+        "rim": ("#9AA5AF", "#66727E"),  # around a panel of curves
+        "alarm": (ALARM, "#FF8A80"),
+        "path": ("#1B2A41", "#D3DEEE"),
+        "near": ("#9C4A00", "#FFB26B"),  # the way from the path to the via point
+        "accent": ("#0072B2", "#5AB4EA"),
+        "chosen": ("#E3EEF6", "#26384A"),
+        "button": ("#F4F6F8", "#2A323A"),
+        "hover": ("#E8ECEF", "#36404A"),
+        "rest": ("#A9B3BC", "#5E6A76"),  # the border of a button
+        # the arm: outline, body and light of links and of the rods of prismatic joints
+        "edge": ("#27323C", "#0C1014"),
+        "link": ("#4B5966", "#7C8A97"),
+        "shine": ("#7D8B98", "#B3BFCA"),
+        "rodEdge": ("#5F6B76", "#0C1014"),
+        "rod": ("#AEB8C1", "#A8B3BD"),
+        "rodShine": ("#D5DCE2", "#DDE4EA"),
+        "hub": ("#FFFFFF", "#E4E9EE"),  # the middle of a joint, the dot of the flange
+        "foot": ("#D3D9DE", "#3A444E"),
+        "footEdge": ("#8A96A1", "#6E7B87"),
+        "ghost": ("#475563", "#9AA8B5"),
+        "ballShine": ("#E2BD8C", "#E8C698"),
+        "ball": ("#B07C3E", "#B98747"),
+        "ballEdge": ("#7A5426", "#E2BD8C"),
+        "x": (AXIS_COLORS[0], "#FF7B72"),
+        "y": (AXIS_COLORS[1], "#6CC573"),
+        "z": (AXIS_COLORS[2], "#82AAFF"),
+        **{
+            f"joint{i + 1}": (style["color"], dark)
+            for i, (style, dark) in enumerate(
+                zip(
+                    JOINT_STYLES,
+                    ("#3D9BDC", "#F0803C", "#2BBF94", "#DE97BF", "#F0B840", "#8CCBF2"),
+                    strict=True,
+                )
+            )
+        },
+    }
+)
+
+
+def css() -> str:
+    """The palette as CSS: light; dark where JupyterLab or a page that it exported says so, else
+    where the reader's system does; light again on paper.
+    """
+    light, dark = (
+        ";".join(f"--rk-{name}:{pair[k]}" for name, pair in PAGE.items()) for k in (0, 1)
+    )
+    dark = f"{dark};color-scheme:dark"
+    roots = ":is(.robokin-player,.rk)"
+    return (
+        f"{roots}{{{light};color-scheme:light}}\n"
+        f"@media screen{{[data-jp-theme-light=false] {roots}{{{dark}}}}}\n"
+        "@media screen and (prefers-color-scheme:dark)"
+        f"{{body:not([data-jp-theme-light]) {roots}{{{dark}}}}}\n"
+        ".robokin-player>img{background:#fff;padding:8px;border-radius:8px}\n"
+    )

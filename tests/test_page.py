@@ -1,0 +1,148 @@
+"""The page: its colours stand once, its script is joined from modules, its numbers come back."""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+from conftest import ROOT
+from test_player import unpacked
+
+from robokin.show import JOINT_STYLES, page, palette
+from robokin.show.numbers import packed
+
+SCRIPTS = sorted((ROOT / "robokin" / "show" / "js").glob("*.js"))
+COLOUR = r"#[0-9A-Fa-f]{3,8}\b|rgba?\(|hsla?\("
+
+
+# --- Colours --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
+def test_no_script_has_a_colour_of_its_own(path):
+    text = path.read_text(encoding="utf-8")
+    assert not re.findall(COLOUR, text) and not re.findall(r'"(?:white|black)"', text)
+
+
+def test_figures_take_their_colours_from_the_palette():
+    for path in (ROOT / "robokin" / "show").glob("*.py"):
+        if path.name != "palette.py":
+            assert not re.findall(r'"#[0-9A-F]{6}"', path.read_text(encoding="utf-8")), path.name
+
+
+def test_scripts_know_every_colour_and_no_other():
+    text = (ROOT / "robokin/show/js/canvas.js").read_text(encoding="utf-8")
+    listed = re.search(r"export const colors = \{(.*?)\};", text, re.S)[1]
+    assert re.findall(r"(\w+): \"\"", listed) == [*palette.PAGE]
+    used = "".join(path.read_text(encoding="utf-8") for path in SCRIPTS)
+    assert set(re.findall(r"--rk-(\w+)", used)) <= set(palette.PAGE)
+    assert set(re.findall(r"\bcolors\.(\w+)", used)) <= set(palette.PAGE)
+
+
+def test_words_can_be_read_in_both_themes():
+    """A contrast of 4.5 to the paper (WCAG AA), 3 for lines: W3C, 2008."""
+
+    def light(color):
+        parts = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255
+        linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+        return linear @ [0.2126, 0.7152, 0.0722]
+
+    for k in (0, 1):
+        lights = {name: light(pair[k]) for name, pair in palette.PAGE.items()}
+        for name, least in (("ink", 7), ("soft", 4.5), ("alarm", 4.5), ("near", 4.5), ("path", 7)):
+            low, high = sorted([lights[name], lights["paper"]])
+            assert (high + 0.05) / (low + 0.05) >= least, (name, k)
+    assert [palette.PAGE[f"joint{i + 1}"][0] for i in range(6)] == [
+        s["color"] for s in JOINT_STYLES
+    ]
+
+
+# --- The joiner -----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def modules(tmp_path, monkeypatch):
+    """Write modules into a folder of their own; the joiner reads those."""
+    (tmp_path / "js").mkdir()
+    monkeypatch.setattr(page, "files", lambda _: tmp_path)
+
+    def write(**texts):
+        for name, text in texts.items():
+            (tmp_path / "js" / f"{name}.js").write_text(text)
+
+    return write
+
+
+def run(script, ending):
+    """What `ending` gives behind the script, in Node."""
+    code = f"{script}\nconsole.log(JSON.stringify({ending}));"
+    done = subprocess.run(["node", "-e", code], text=True, capture_output=True, check=True)
+    return done.stdout.strip()
+
+
+def test_each_module_stands_once_in_its_own_scope(modules):
+    modules(
+        base="// words\nconst hidden = 2;\nexport const twice = x => hidden * x;\n",
+        left='import {twice} from "./base.js";\n\nconst hidden = 1;\n'
+        "export function left() { return twice(hidden); }\n",
+        top='/**\n * words\n */\nimport {left} from "./left.js";\nimport {\n  twice,\n} from '
+        '"./base.js";\nexport class Top {}\nexport async function late() {}\n'
+        "export const CSS = `\n  & p { margin: 0; }\n`, hidden = 3;\n"
+        "export const all = () => [left(), twice(hidden)];\n",
+        other="export const never = 1;\n",
+    )
+    script = page.script("top")
+    assert script.count("const $base") == 1 and "words" not in script and "never" not in script
+    assert run(script, "[$top.all(), Object.keys($top), $top.CSS]") == (
+        '[[2,6],["Top","late","CSS","all"],"\\n& p { margin: 0; }\\n"]'
+    )
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ('import base from "./base.js";', r"top\.js, line 2: wanted an import of names"),
+        ('import {a as b} from "./base.js";', r"top\.js, line 2"),
+        ('import * as base from "./base.js";', r"top\.js, line 2"),
+        ('import {a} from "https://x.y/base.js";', r"top\.js, line 2"),
+        ("import {a,\n  b}", r"top\.js, line 3: an import does not end"),
+        ("export default 3;", r"top\.js, line 2: wanted an export of one name"),
+        ("export {a};", r"top\.js, line 2"),
+        ('import {a} from "./none.js";', r"top\.js, line 2: there is no module none\.js"),
+        ('import {a} from "./top.js";', r"top\.js, line 2: .* imports itself"),
+    ],
+)
+def test_an_import_of_another_form_is_refused_by_file_and_line(modules, text, message):
+    modules(base="export const a = 1;\n", top=f"// words\n{text}\n")
+    with pytest.raises(ValueError, match=message):
+        page.script("top")
+
+
+def test_a_player_has_the_modules_that_it_uses_and_no_words_for_people():
+    script = page.script("player")
+    assert "$live" not in script and script.count("(() => {\n") >= 6
+    assert not re.findall(r"^\s*(?://|/\*|\*)|^\s|^$", script, re.M)
+
+
+# --- Numbers --------------------------------------------------------------------------------------
+
+
+def test_packed_numbers_come_back_within_half_a_step():
+    random = np.random.default_rng(3)
+    values = np.cumsum(random.normal(size=(4, 50, 3)), axis=1) * [[[1]], [[1e-3]], [[40]], [[0]]]
+    values[2, 10:20, 1] = np.nan
+    shifts = np.array([False, True, False])
+    out = packed(values, 16000, (shifts, ~shifts))
+    back = unpacked(out, 3, 50)
+    assert (np.isnan(back) == np.isnan(values)).all()
+    for k in range(4):
+        for group in (shifts, ~shifts):
+            greatest = np.nanmax(abs(values[k][:, group]))
+            error = np.nanmax(abs(back[k] - values[k])[:, group])
+            assert error <= max(greatest / 16000 * 2.5, 1e-6) * 0.51
+
+
+def test_smooth_curves_take_little_more_than_a_byte_a_value():
+    t = np.linspace(0, 1, 121)[:, None]
+    values = np.array([np.sin(2 * np.pi * t + k) * (k + 1) for k in range(5)])
+    assert len(packed(values, 16000)["data"]) < 1.2 * values.size * 4 / 3
