@@ -1,7 +1,7 @@
 """Figures and players for notebooks: arrays in, pictures out."""
 
 try:
-    from .live import joint_explorer, motion_explorer, target_explorer
+    from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
     from .palette import JOINT_STYLES
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_joints, plot_postures
@@ -10,6 +10,7 @@ except ModuleNotFoundError as error:
 
 __all__ = [
     "JOINT_STYLES",
+    "Explorer",
     "Player",
     "animate",
     "figure",

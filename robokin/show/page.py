@@ -181,6 +181,58 @@ IMPORT = re.compile(r'import \{ ?([\w$]+(?:, [\w$]+)*),? ?\} from "\./(\w+)\.js"
 EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
 
 
+class Control(TypedDict):
+    """A slider: its name, unit and range, the step of its handle, the decimals to write it with."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    step: float
+    decimals: int
+
+
+class PageExplorer(TypedDict, total=False):
+    """Everything that an explorer is given. `kind`: "joint", "target" or "motion"; `arm`: see
+    `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence it
+    says; `code`: the lines of Python behind it, with blanks; `meant`: what stands below.
+
+    joint   q, rows of numbers
+    target  target, turns in radians, the posture q before it, names of branches, heads of the
+            table, the unit of travel in radians
+    motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
+    """
+
+    kind: str
+    title: str
+    summary: str
+    alt: str
+    meant: str
+    arm: dict[str, Any]
+    unit: dict[str, Any]
+    units: list[dict[str, Any]]
+    dashes: list[list[float]]
+    scene: PageScene
+    controls: list[Control]
+    words: dict[str, str]
+    code: str
+    q: list[float]
+    rows: list[dict[str, Any]]
+    target: dict[str, Any]
+    turns: list[float]
+    branches: list[str]
+    heads: list[str]
+    travel: float
+    start: dict[str, Any]
+    via: dict[str, Any]
+    goal: dict[str, Any]
+    start_values: dict[str, Any]
+    laws: list[str]
+    corners: list[str]
+    panels: list[str]
+    samples: int
+
+
 def script(name: str) -> str:
     """The module `name` of the folder js and all that it imports, each once and in its own scope,
     as one script: `$name` holds what it exports. Without blank lines, leading blanks, and lines
@@ -213,7 +265,7 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
                 raise ValueError(f"{place}: wanted an import of names, got {short(begun)}")
             if found[2] not in modules:
                 _add(modules, found[2], (*importers, name), place)
-            line, begun = f"const {{{found[1]}}} = ${found[2]};", ""
+            line, begun = f"const {{{found[1].strip(' ,')}}} = ${found[2]};", ""
         elif re.match(r"export\b", line):
             found = EXPORT.match(line)
             if not found:
@@ -230,16 +282,17 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
 # --- HTML -----------------------------------------------------------------------------------------
 
 
-def output(name: str, text: str, png: bytes, alt: str) -> str:
-    """A player as a piece of HTML: the still picture, and the script that replaces it by what
-    `text`, a `Page` as JSON, describes.
+def output(call: str, name: str, text: str, png: bytes, alt: str) -> str:
+    """A piece of HTML: the still picture, and the script that replaces it by what `text`, a `Page`
+    or `PageExplorer` as JSON, describes. `call`: the module and its function, "player.play".
     """
+    module, _ = call.split(".")
     image = base64.b64encode(png).decode()
     return (
         f'<div class="robokin-player" data-player="{name}"><img alt="{html.escape(alt)}" '
         f'style="max-width:100%" src="data:image/png;base64,{image}"><p>{STILL}</p></div>\n'
         f"<style>{css()}</style>\n"
-        f'<script>(() => {{\n{script("player")}\n$player.play("{name}", {text});\n}})();</script>\n'
+        f'<script>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
     )
 
 

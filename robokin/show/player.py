@@ -9,6 +9,7 @@ worth reading. `js/player.js` draws them; `page` says what it gets.
 import hashlib
 import json
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -81,16 +82,19 @@ def animate(
     return Player(data, still)
 
 
-class Player:
-    """An arm and its curves, animated by the browser. Shows itself in a notebook; `save` writes it
-    as a page.
+class Output:
+    """A piece of a page that the browser brings to life. Shows itself in a notebook; `save` writes
+    it as a page.
 
-    data    what the page draws, as JSON takes it: a `page.Page`
+    data    what the page draws, as JSON takes it
     still   the figure that stands in its place until the script runs, in print and in an untrusted
             notebook
+    call    the module of js/ that shows it, and its function
     """
 
-    def __init__(self, data: Page, still: plots.Figure) -> None:
+    call = "player.play"
+
+    def __init__(self, data: Any, still: plots.Figure) -> None:
         if not isinstance(data, dict):
             raise ValueError(f"data: wanted a dict, got {short(data)}")
         self.data, self.still = data, instance(still, plots.Figure, "still")
@@ -103,12 +107,16 @@ class Player:
             text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
         )
         # Of the data and not of the picture: another zlib packs the same pixels into other bytes.
-        self.id = hashlib.sha256(self.text.encode()).hexdigest()[:12]
+        # Of full floats, too, only what every processor agrees on.
+        agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
+        self.id = hashlib.sha256(agreed.encode()).hexdigest()[:12]
 
     @property
     def html(self) -> str:
         """The player as a piece of HTML: the still picture, and the script that replaces it."""
-        return output(self.id, self.text, plots.palette_png(self.still), self.data["alt"])
+        return output(
+            self.call, self.id, self.text, plots.palette_png(self.still), self.data["alt"]
+        )
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
@@ -121,6 +129,10 @@ class Player:
 
     def __repr__(self) -> str:
         return str(self.data["summary"])
+
+
+class Player(Output):
+    """An arm and its curves, animated by the browser: see `animate`. `data` is a `page.Page`."""
 
 
 # --- What the page gets ---------------------------------------------------------------------------

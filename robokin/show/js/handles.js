@@ -1,0 +1,171 @@
+// Handles: what a hand takes hold of in a scene. Buttons that lie over the canvas, so that a finger
+// on one does not scroll the page, a keyboard reaches it, and it has a name.
+
+import {cross, dot, frames, origin, plus, turned} from "./kinematics.js";
+import {element, control} from "./controls.js";
+
+const NEAR = 12; // px: no handle is drawn nearer to the edge of the scene
+
+/** How far arrows and arcs stand off what they move, in metres for a camera: the same on every screen. */
+export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
+
+/**
+ * @typedef {Object} Handle
+ * @property {string} id
+ * @property {string} name  what a screen reader says: "target along x"
+ * @property {string} look  the class of the button: rk-free, rk-arrow, rk-arc or rk-joint
+ * @property {string} [mark]  a letter on it
+ * @property {string} [color]  a name of palette.py
+ * @property {(camera: Object) => number[]} at  where it is, in metres
+ * @property {() => string} value  what it stands at, in words
+ * @property {(camera: Object) => (dx: number, dy: number) => void} grab  called when it is taken;
+ *   what it returns is told how far the pointer is from where it was taken, in px
+ * @property {(right: number, up: number, big: boolean) => void} step  an arrow key
+ * @property {() => void} home  where it began
+ */
+
+/**
+ * A layer of handles over a canvas.
+ * @param {HTMLElement} canvas
+ * @param {() => Object} camera  the camera of the last picture
+ * @param {(held: boolean) => void} hold  told when a handle is taken, and when it is let go
+ * @param {() => void} changed  something has moved
+ * @returns {{layer: HTMLElement, set: Function, place: Function}}
+ */
+export function handleLayer(canvas, camera, hold, changed) {
+  const layer = element("div", {class: "rk-handles"});
+  let handles = [];
+
+  function button(handle) {
+    const node = control("button", {type: "button", class: `rk-handle ${handle.look}`,
+                                    "data-handle": handle.id}, handle.mark || "");
+    if (handle.color) node.style.setProperty("--rk-own", `var(--rk-${handle.color})`);
+    let from = null, move = null;
+    node.addEventListener("pointerdown", event => {
+      event.preventDefault(); // no text is selected, no scrolling begins
+      node.focus();
+      node.setPointerCapture(event.pointerId);
+      [from, move] = [[event.clientX, event.clientY], handle.grab(camera())];
+      hold(true);
+    });
+    node.addEventListener("pointermove", event => {
+      if (!move) return;
+      move(event.clientX - from[0], event.clientY - from[1]);
+      changed();
+    });
+    const drop = () => {
+      if (!move) return;
+      move = null;
+      hold(false);
+      changed();
+    };
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+      node.addEventListener(end, drop);
+    node.addEventListener("keydown", event => {
+      const [right, up] = STEPS[event.key] || [];
+      if (event.key === "Home") handle.home();
+      else if (right !== undefined) handle.step(right, up, event.shiftKey);
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+      changed();
+    });
+    return node;
+  }
+
+  return {
+    layer,
+    /** @param {Handle[]} next */
+    set(next) {
+      handles = next.map(handle => ({...handle, node: button(handle)}));
+      layer.replaceChildren(...handles.map(handle => handle.node));
+    },
+    /** To be called behind every picture. */
+    place() {
+      const seen = camera(), {to} = seen, w = canvas.clientWidth, h = canvas.clientHeight;
+      for (const {node, name, at, value} of handles) {
+        const p = at(seen);
+        node.hidden = !p.every(Number.isFinite);
+        const [x, y] = to(p);
+        // One that has left the scene waits at its edge, and can still be taken.
+        const [left, top] = [Math.min(Math.max(x, NEAR), w - NEAR),
+                             Math.min(Math.max(y, NEAR), h - NEAR)];
+        node.classList.toggle("rk-outside", left !== x || top !== y);
+        node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+        const says = `${name}, ${value()}`;
+        if (node.getAttribute("aria-label") !== says) node.setAttribute("aria-label", says);
+      }
+    },
+  };
+}
+
+const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+
+/**
+ * How a drag changes one number whose handle moves along a curve: the way of the pointer along the
+ * curve's direction on the screen, taken anew as the handle moves on.
+ * @param {Object} camera
+ * @param {(value: number) => number[]} place  where the handle is at a value, in metres
+ * @param {number} value  at the start
+ * @param {number} step  a small change of the value
+ * @returns {(dx: number, dy: number) => number}  the value for a pointer that far away
+ */
+export function alongCurve(camera, place, value, step) {
+  const start = camera.to(place(value));
+  let now = value;
+  return (dx, dy) => {
+    const wanted = [start[0] + dx, start[1] + dy];
+    // Newton's steps to the foot of the pointer on the curve; none where it points at the eye.
+    for (let i = 0; i < 4; i++) {
+      const here = camera.to(place(now)), there = camera.to(place(now + step));
+      const along = [(there[0] - here[0]) / step, (there[1] - here[1]) / step];
+      const length = along[0] * along[0] + along[1] * along[1];
+      if (length < (MOVES * camera.scale) ** 2) break;
+      const way = ((wanted[0] - here[0]) * along[0] + (wanted[1] - here[1]) * along[1]) / length;
+      now += Math.max(-20 * step, Math.min(20 * step, way));
+    }
+    return now;
+  };
+}
+const MOVES = 0.02; // m of screen per unit of the value: less is no movement that a hand could mean
+
+/**
+ * How a drag moves a point freely in the plane of the screen.
+ * @param {Object} camera
+ * @param {number[]} place  at the start, in metres
+ * @returns {(dx: number, dy: number) => number[]}
+ */
+export const inScreen = (camera, place) => (dx, dy) =>
+  plus(place, camera.across(dx, dy));
+
+/**
+ * A vector square to `axis`, and one square to both.
+ * @param {number[]} axis
+ * @returns {number[][]}
+ */
+export function squareTo(axis) {
+  const least = axis.map(Math.abs).indexOf(Math.min(...axis.map(Math.abs)));
+  const other = [0, 1, 2].map(k => Number(k === least));
+  const a = plus(other, axis, -dot(other, axis)), length = Math.sqrt(dot(a, a));
+  const first = a.map(x => x / length);
+  return [first, cross(axis, first)];
+}
+
+/**
+ * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob beside it.
+ * @param {Object[]} chain
+ * @param {number[]} q
+ * @param {number} i
+ * @param {Object} camera
+ * @returns {number[]}
+ */
+export function gripOf(chain, q, i, camera) {
+  const joints = [], moved = [], all = frames(chain, q, joints, moved), here = origin(moved[i]), reach = reachOf(camera);
+  if (chain[i].prismatic) return plus(here, turned(joints[i], chain[i].axis), 0.5 * reach);
+  for (const frame of all.slice(i + 1)) {
+    const way = plus(origin(frame), here, -1);
+    const across = plus(way, turned(joints[i], chain[i].axis), -dot(way, turned(joints[i], chain[i].axis)));
+    if (Math.sqrt(dot(across, across)) > reach) return plus(here, way, 0.6);
+  }
+  return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);
+}

@@ -1,0 +1,219 @@
+// What all explorers share: the frame in the page, the picture and its redrawing, sliders, tables.
+
+import {number} from "./canvas.js";
+import {sceneView} from "./scene.js";
+import {control, element, orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {handleLayer} from "./handles.js";
+
+/**
+ * The places in the page that wait for this output; each only once.
+ * @param {string} id
+ * @returns {HTMLElement[]}
+ */
+export function waiting(id) {
+  const roots = [...document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)];
+  for (const root of roots) root.dataset.ready = "";
+  return roots;
+}
+
+/**
+ * The frame of an explorer: a scene with handles over it, a column of controls beside it, room below.
+ *
+ * run(answer)  from now on `answer()` is asked for what is to be drawn, once for every picture in which
+ *              something has changed; it returns the arms that scene.js shows
+ * changed()    something has changed
+ *
+ * @param {HTMLElement} root
+ * @param {object} data  page.py: PageExplorer
+ */
+export function stageOf(root, data) {
+  const scene = {...data.scene, unit: data.unit}, state = {view: [...scene.view]};
+  const canvas = sceneCanvas(scene, data.alt), view = sceneView(canvas, scene), camera = () => view.cameras()[0];
+  const handles = handleLayer(canvas, camera, on => view.hold(on), changed);
+  const side = element("div", {class: "rk-side"}), below = element("div", {class: "rk-below"});
+  const says = element("p", {class: "rk-says", role: "status"});
+  let arms = null, stale = true, ask = () => {};
+  function changed() {
+    stale = true;
+    ask();
+  }
+  root.replaceChildren(element("div", {class: "rk", role: "group", "aria-label": data.title},
+    element("style", {}, STYLE + LOOK), element("div", {class: "rk-title"}, data.title),
+    element("div", {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`}, element("div", {class: "rk-space"}, canvas, handles.layer), side),
+    below, element("p", {class: "rk-meant"}, data.meant)));
+
+  return {scene, side, below, says, handles, camera, changed,
+    say(text) { if (says.textContent !== text) says.textContent = text; },
+    run(answer, canvases = []) {
+      ask = pictures(root, [canvas, ...canvases], () => {
+        if (stale) arms = answer();
+        stale = false;
+        const room = view.draw(state.view, arms, "");
+        if (room) handles.place();
+        return room;
+      });
+      orbit(canvas, scene, state, ask);
+    }};
+}
+
+const LOOK = `
+.rk.rk.rk {
+  & .rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); align-items: start; }
+  & .rk-asked canvas { height: clamp(300px, 38cqw, 350px); }
+  & .rk-space { position: relative; }
+  & .rk-handles { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
+  & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px; margin: -13px 0 0 -13px; padding: 0;
+    border: 2px solid var(--rk-own, var(--rk-accent)); border-radius: 50%; font-size: 12px; font-weight: 650; line-height: 1;
+    background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink); pointer-events: auto;
+    touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
+  & .rk-handle:hover, & .rk-handle:active { background: var(--rk-paper); }
+  & .rk-free { border-style: double; border-width: 4px; background: transparent; }
+  & .rk-arc { width: 22px; height: 22px; margin: -11px 0 0 -11px; }
+  & .rk-outside { opacity: .55; }
+  & .rk-slide { display: grid; grid-template-columns: 4.6em minmax(60px, 1fr) 5.4em 1.8em; gap: 6px; align-items: center; margin: 1px 0; }
+  & .rk-slide select { grid-column: 2 / -1; }
+  & .rk-slide input[type=number] { font: inherit; width: 100%; height: 24px; margin: 0; padding: 0 2px; text-align: right;
+    color: var(--rk-ink); background: var(--rk-paper); border: 1px solid var(--rk-rest); border-radius: 4px; }
+  & .rk-columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr)); gap: 0 18px; margin-top: 4px; }
+  & .rk-word, & .rk-choose { width: auto; }
+  & .rk-choose { height: 20px; padding: 0 6px; background: none; border-color: transparent; white-space: nowrap; }
+  & .rk-table { margin-top: 4px; }
+  & .rk-asked .rk-table th:first-child, & .rk-many th:first-child { min-width: 0; white-space: nowrap; }
+  & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
+  & .rk-many :is(th, td) { padding: 0 4px; line-height: 21px; }
+  & .rk-many thead th { white-space: normal; vertical-align: bottom; line-height: 1.15; }
+  & .rk-many td:nth-child(2) { text-align: left; }
+  & .rk-few :is(th, td) { padding: 1px 4px; }
+  & .rk-few td { min-width: 6.5em; text-align: left; }
+  & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen); font-weight: 650; color: var(--rk-ink); }
+  & .rk-none > * { color: var(--rk-soft); }
+  & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
+  & .rk-says { margin: 4px 0 0; min-height: 2.8em; flex: 1 1 260px; }
+  & .rk-meant { margin: 4px 0 0; color: var(--rk-soft); font-size: 12px; }
+  @container (max-width: 640px) {
+    & .rk-asked, & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr); }
+    & .rk-asked canvas { height: 320px; }
+  }
+  @media (pointer: coarse) {
+    & .rk-handle { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
+    & .rk-arc { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
+    & .rk-slide input, & .rk-slide select, & .rk-choose { height: 32px; }
+  }
+  @media print { & .rk-handles, & .rk-side .rk-slide, & .rk-columns, & .rk-word { display: none; } }
+}`;
+
+/**
+ * A slider with its value to read and to type.
+ * @param {{name: string, unit: string, low: number, high: number, step: number, decimals: number}} spec
+ * @param {(value: number) => void} take
+ * @returns {{row: HTMLElement, set: (value: number) => void}}
+ */
+export function slider({name, unit, low, high, step, decimals}, take) {
+  const range = control("input", {type: "range", min: low, max: high, step, "aria-label": `${name}, ${unit}`});
+  const exact = control("input", {type: "number", step, "aria-label": `${name}, ${unit}, exactly`});
+  const row = element("div", {class: "rk-slide"}, element("span", {}, name), range, exact, element("span", {}, unit));
+  range.addEventListener("input", () => take(+range.value));
+  exact.addEventListener("change", () => { if (Number.isFinite(exact.valueAsNumber)) take(exact.valueAsNumber); });
+  return {row, reach(most) { range.max = most; range.step = most / 1000; }, set(value) {
+    const text = String(+value.toFixed(decimals));
+    range.value = value;
+    range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`);
+    if (document.activeElement !== exact && exact.value !== text) exact.value = text;
+  }};
+}
+
+/**
+ * A menu of words.
+ * @param {string} name
+ * @param {string[]} texts
+ * @param {(k: number) => void} take
+ */
+export function menu(name, texts, take) {
+  const select = control("select", {"aria-label": name}, ...texts.map((text, k) => element("option", {value: k}, text)));
+  select.addEventListener("change", () => take(+select.value));
+  return {row: element("label", {class: "rk-slide"}, element("span", {}, name), select), set(k) { select.value = k; }};
+}
+
+/**
+ * A box to tick.
+ * @param {string} name
+ * @param {() => void} take
+ */
+export function tick(name, take) {
+  const box = control("input", {type: "checkbox"});
+  box.addEventListener("change", take);
+  return {row: element("label", {}, box, name), on: () => box.checked};
+}
+
+/**
+ * A table whose cells are written anew without being made anew.
+ * @param {string[]} names  of the rows
+ * @param {string[]} heads  of the columns; none: no head
+ * @param {number[]} widths  how many cells a row has, or one for each column
+ * @param {(row: number) => void} [take]  told which row was chosen: its name is a button then
+ */
+export function table(names, heads, widths, take) {
+  const count = k => (heads.length ? widths.length : widths[k]);
+  const lines = names.map((name, k) => {
+    const button = take ? control("button", {type: "button", class: "rk-choose"}, name) : null;
+    button?.addEventListener("click", () => take(k));
+    const cells = Array.from({length: count(k)}, () => element("td"));
+    const row = element("tr", {}, element("th", {scope: "row"}, button || name), ...cells);
+    if (take) row.addEventListener("click", () => take(k));
+    return {row, cells, button};
+  });
+  const head = heads.length ? [element("thead", {}, element("tr", {}, ...heads.map(text =>
+    element("th", {scope: "col"}, text))))] : [];
+  const node = element("div", {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}`}, element("table", {}, ...head,
+    element("tbody", {}, ...lines.map(line => line.row))));
+  return {node, set(rows, chosen = -1, exists = null) {
+    rows.forEach((texts, k) => {
+      const {row, cells, button} = lines[k];
+      row.classList.toggle("rk-none", !!exists && !exists[k]);
+      if (take) {
+        if (k === chosen) row.setAttribute("aria-current", "true");
+        else row.removeAttribute("aria-current");
+        button.setAttribute("aria-pressed", String(k === chosen));
+      }
+      texts.forEach((cell, j) => {
+        const {text, past} = typeof cell === "string" ? {text: cell, past: false} : cell;
+        if (cells[j].textContent !== text) cells[j].textContent = text;
+        cells[j].classList.toggle("rk-past", past);
+      });
+    });
+  }};
+}
+
+/**
+ * A sentence with its blanks filled.
+ * @param {string} sentence
+ * @param {Object<string, *>} facts
+ * @returns {string}
+ */
+export const fill = (sentence, facts) => sentence.replace(/\{(\w+)\}/g, (_, name) => facts[name]);
+
+/**
+ * "Copy as Python": puts lines of code where they can be pasted from.
+ * @param {object} words  copy, copied
+ * @param {() => string} code
+ */
+export function copyButton(words, code) {
+  const button = control("button", {type: "button", class: "rk-word"}, words.copy);
+  button.addEventListener("click", async () => {
+    const text = code();
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch { // a page from a file may not: the old way
+      const area = element("textarea", {});
+      area.value = text;
+      button.after(area);
+      area.select();
+      document.execCommand("copy");
+      area.remove();
+      button.focus();
+    }
+    button.textContent = words.copied;
+    setTimeout(() => { button.textContent = words.copy; }, 1500);
+  });
+  return button;
+}

@@ -1,0 +1,39 @@
+// Turns as people set them, and values as Python is given them.
+
+import {ellipsoid, fk, origin, product} from "./kinematics.js";
+
+export const radians = x => x * Math.PI / 180;
+export const degrees = x => x * 180 / Math.PI;
+export const aboutAxis = ([x, y, z], angle) => {
+  const s = Math.sin(angle / 2);
+  return [Math.cos(angle / 2), x * s, y * s, z * s];
+};
+export const normal = q => { const length = Math.sqrt(q.reduce((sum, x) => sum + x * x, 0)); return q.map(x => x / length); };
+
+// As Quaternion.from_roll_pitch_yaw.
+export const rotationOf = ([roll, pitch, yaw]) => product(product(aboutAxis([0, 0, 1], yaw), aboutAxis([0, 1, 0], pitch)),
+                                                   aboutAxis([1, 0, 0], roll));
+
+// As Quaternion.as_roll_pitch_yaw: at a pitch of a quarter turn roll is given as zero.
+export function rollPitchYaw(m) {
+  const flat = Math.sqrt(m[0] * m[0] + m[4] * m[4]), pitch = Math.atan2(-m[8], flat);
+  if (flat < 1e-9) return [0, pitch, Math.atan2(-m[1], m[5])];
+  return [Math.atan2(m[9], m[10]), pitch, Math.atan2(m[4], m[0])];
+}
+
+export const plain = (x, decimals) => String(+x.toFixed(decimals));
+// Joint values in code: "90.0 * deg, ...".
+export const inUnits = (units, q) => q.map((x, j) => `${plain(x / units[j].size, 3)} * ${units[j].code}`).join(", ");
+// A target's values for the blanks of a line of code.
+export const inCode = (state, unit) => ({
+  x: plain(state.place[0] / unit.size, 3), y: plain(state.place[1] / unit.size, 3), z: plain(state.place[2] / unit.size, 3),
+  ...(state.turns ? {roll: plain(degrees(state.turns[0]), 3), pitch: plain(degrees(state.turns[1]), 3),
+                     yaw: plain(degrees(state.turns[2]), 3)} : {}),
+  ...("angle" in state ? {angle: plain(degrees(state.angle), 3)} : {}),
+});
+
+// The ellipsoid of tool velocities, in a size that can be seen beside the arm.
+export function blobOf(arm, q) {
+  const axes = ellipsoid(arm.chain, q), longest = Math.sqrt(axes[0].reduce((sum, x) => sum + x * x, 0)) || 1;
+  return {at: origin(fk(arm.chain, q)), axes: axes.map(axis => axis.map(x => x * 0.3 * arm.reach / longest))};
+}
