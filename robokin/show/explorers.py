@@ -319,8 +319,9 @@ def _spread(arm: Arm, count: int, most: float = np.inf) -> Floats:
     inner = ~arm.prismatic & (low < most) & (high > -most)
     low, high = (np.where(inner, np.clip(x, -most, most), x) for x in (low, high))
     roots = np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(len(arm.links)) % 6]
-    shares: Floats = (np.arange(1, count + 1)[:, None] * roots) % 1
-    return low + shares * (high - low)
+    shares = (np.arange(1, count + 1)[:, None] * roots) % 1
+    spread: Floats = low + shares * (high - low)
+    return spread
 
 
 # --- Targets --------------------------------------------------------------------------------------
