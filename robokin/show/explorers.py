@@ -64,6 +64,7 @@ WORDS: Mapping[str, str] = {
     "someUsable": "{count} of {all} branches are usable. {why}",
     "noneUsable": "No branch is usable. {why}",
     "ellipsoid": "ellipsoid of tool velocities",
+    "axes": "joint axes",
     "copy": "Copy as Python",
     "copied": "Copied",
     "takeJoint": "joint {joint}",

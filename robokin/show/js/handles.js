@@ -82,11 +82,13 @@ export function handleLayer(canvas, camera, hold, changed) {
     },
     /** To be called behind every picture. */
     place() {
-      const seen = camera(), {to} = seen, w = canvas.clientWidth, h = canvas.clientHeight;
-      for (const {node, name, at, value} of handles) {
+      const seen = camera(), {to} = seen, w = canvas.clientWidth, h = canvas.clientHeight, taken = [];
+      const room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
+      for (const {node, name, at, value} of [...handles].sort((a, b) => isHeld(b) - isHeld(a))) {
         const p = at(seen);
         node.hidden = !p.every(Number.isFinite);
-        const [x, y] = to(p);
+        const [x, y] = apart(to(p), taken, room);
+        taken.push([x, y]);
         // One that has left the scene waits at its edge, and can still be taken.
         const [left, top] = [Math.min(Math.max(x, NEAR), w - NEAR),
                              Math.min(Math.max(y, NEAR), h - NEAR)];
@@ -100,6 +102,19 @@ export function handleLayer(canvas, camera, hold, changed) {
 }
 
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+
+const isHeld = ({node}) => Number(node.matches(":active"));
+
+// A place that is `room` pixels away from those that are taken.
+function apart([x, y], taken, room) {
+  for (let i = 0; i < 8; i++) {
+    const near = taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
+    if (!near) break;
+    const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3], length = Math.sqrt(dx * dx + dy * dy);
+    [x, y] = [near[0] + room * dx / length, near[1] + room * dy / length];
+  }
+  return [x, y];
+}
 
 /**
  * How a drag changes one number whose handle moves along a curve: the way of the pointer along the

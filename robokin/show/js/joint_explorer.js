@@ -7,7 +7,7 @@ import {number} from "./canvas.js";
 import {element} from "./controls.js";
 import {alongCurve, gripOf} from "./handles.js";
 import {copyButton, fill, slider, stageOf, table, tick, waiting} from "./stage.js";
-import {blobOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
+import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
 /**
  * Fills every waiting place with this id.
@@ -24,8 +24,8 @@ function jointExplorer(stage, data) {
     stage.changed();
   }));
   const numbers = table(data.rows.map(row => row.name), [], data.rows.map(row => row.heads.length));
-  const more = tick(words.ellipsoid, stage.changed);
-  stage.side.append(...sliders.map(s => s.row), element("div", {class: "rk-row"}, more.row,
+  const more = tick(words.ellipsoid, stage.changed), axes = tick(words.axes, stage.changed);
+  stage.side.append(...sliders.map(s => s.row), element("div", {class: "rk-row"}, more.row, axes.row,
     copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}))), stage.says);
   stage.below.append(numbers.node);
 
@@ -57,6 +57,6 @@ function jointExplorer(stage, data) {
     const held = Object.entries(arm.geometry.kind ? singularities(arm, q) : {}).filter(([, holds]) => holds)
       .map(([name]) => fill(words.singularity, {name}));
     stage.say(held.length ? fill(words.singular, {names: held.join(words.and)}) : words.regular);
-    return [{name: arm.name, chain: arm.chain, q, framed: true, ...(more.on() ? {blob: blobOf(arm, q)} : {})}];
+    return [{name: arm.name, chain: arm.chain, q, framed: true, axes: axes.on(), ellipsoid: more.on() && ellipsoidOf(arm, q)}];
   });
 }

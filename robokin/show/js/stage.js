@@ -1,6 +1,7 @@
 // What all explorers share: the frame in the page, the picture and its redrawing, sliders, tables.
 
-import {number} from "./canvas.js";
+import {frames, origin, plus, turned} from "./kinematics.js";
+import {clear, colors, jointColor, number, stroke} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {control, element, orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
 import {handleLayer} from "./handles.js";
@@ -49,11 +50,36 @@ export function stageOf(root, data) {
         if (stale) arms = answer();
         stale = false;
         const room = view.draw(state.view, arms, "");
-        if (room) handles.place();
+        if (room) {
+          drawAids(canvas.getContext("2d"), camera(), arms[0], scene.size);
+          handles.place();
+        }
         return room;
       });
       orbit(canvas, scene, state, ask);
     }};
+}
+
+// What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose outline
+// is that of the ellipse that its semi-axes make on the screen.
+function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
+  if (!q.every(Number.isFinite)) return;
+  const joints = [], tip = origin(frames(chain, q, joints).at(-1));
+  if (axes) joints.forEach((joint, j) => {
+    const way = turned(joint, chain[j].axis), ends = [-0.14, 0.14].map(k => camera.to(plus(origin(joint), way, k * size)));
+    stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
+  });
+  if (!ellipsoid) return;
+  const [a, b, c] = [[0, 0], [0, 1], [1, 1]].map(([i, j]) =>
+    ellipsoid.map(axis => camera.along(axis)).reduce((sum, s) => sum + s[i] * s[j], 0));
+  const middle = (a + c) / 2, apart = Math.sqrt((a - c) * (a - c) / 4 + b * b), [x, y] = camera.to(tip);
+  g.beginPath();
+  g.ellipse(x, y, Math.sqrt(middle + apart), Math.sqrt(Math.max(0, middle - apart)), Math.atan2(2 * b, a - c) / 2, 0, 2 * Math.PI);
+  g.fillStyle = clear(colors.accent, 0.14);
+  g.fill();
+  g.strokeStyle = colors.accent;
+  g.lineWidth = 1.6;
+  g.stroke();
 }
 
 const LOOK = `

@@ -7,7 +7,7 @@ import {number} from "./canvas.js";
 import {element} from "./controls.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
 import {copyButton, fill, menu, slider, stageOf, table, tick, waiting} from "./stage.js";
-import {aboutAxis, blobOf, degrees, inCode, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
+import {aboutAxis, ellipsoidOf, degrees, inCode, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
 
 /**
  * Fills every waiting place with this id.
@@ -32,8 +32,8 @@ function targetExplorer(stage, data) {
     stage.changed();
   }));
   const choice = menu(words.branch, [words.nearest, ...data.branches], k => { state.wanted = k - 1; stage.changed(); });
-  const more = tick(words.ellipsoid, stage.changed);
-  stage.side.append(...sliders.map(s => s.row), choice.row, element("div", {class: "rk-row"}, more.row,
+  const more = tick(words.ellipsoid, stage.changed), axes = tick(words.axes, stage.changed);
+  stage.side.append(...sliders.map(s => s.row), choice.row, element("div", {class: "rk-row"}, more.row, axes.row,
     copyButton(words, () => fill(data.code, {...inCode(state, unit), row: state.chosen}))), stage.says);
   const rows = table(data.branches, data.heads, data.heads.slice(1).map(() => 1), k => {
     state.wanted = k;
@@ -76,7 +76,7 @@ function targetExplorer(stage, data) {
     stage.scene.marks = asked ? [] : [{name: words.target, at: state.place, radius: 0}];
     return [{name: arm.name, chain: arm.chain, q: state.q, faded: !exists[chosen],
              ghosts: found.flatMap((q, k) => (exists[k] && k !== chosen ? [{q, past: !usable[k]}] : [])),
-             ...(more.on() ? {blob: blobOf(arm, state.q)} : {})}];
+             axes: axes.on(), ellipsoid: more.on() && ellipsoidOf(arm, state.q)}];
   });
 }
 

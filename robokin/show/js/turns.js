@@ -1,6 +1,6 @@
 // Turns as people set them, and values as Python is given them.
 
-import {ellipsoid, fk, origin, product} from "./kinematics.js";
+import {ellipsoid, product} from "./kinematics.js";
 
 export const radians = x => x * Math.PI / 180;
 export const degrees = x => x * 180 / Math.PI;
@@ -32,8 +32,8 @@ export const inCode = (state, unit) => ({
   ...("angle" in state ? {angle: plain(degrees(state.angle), 3)} : {}),
 });
 
-// The ellipsoid of tool velocities, in a size that can be seen beside the arm.
-export function blobOf(arm, q) {
+// The semi-axes of the ellipsoid of tool velocities, in a size that can be seen beside the arm.
+export function ellipsoidOf(arm, q) {
   const axes = ellipsoid(arm.chain, q), longest = Math.sqrt(axes[0].reduce((sum, x) => sum + x * x, 0)) || 1;
-  return {at: origin(fk(arm.chain, q)), axes: axes.map(axis => axis.map(x => x * 0.3 * arm.reach / longest))};
+  return axes.map(axis => axis.map(x => x * 0.25 * arm.reach / longest));
 }
