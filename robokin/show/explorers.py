@@ -18,6 +18,7 @@ from .._validate import floats, instance, whole
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import explain, follow, nearest, within
 from ..arms.dexterity import distance_from_singularity
+from ..arms.planar import ThreeLeverArm
 from ..arms.scara import ScaraPose
 from ..motion.laws import quintic
 from ..motion.paths import blend
@@ -77,6 +78,14 @@ WORDS: Mapping[str, str] = {
     "law": "time law",
     "corner": "corner",
     "time": "time",
+    "costs": "The sum S of the angles' changes over the free angle alpha.",
+    "costTitle": "S, the sum of the angles' changes",
+    "costAxis": "free angle alpha",
+    "costSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {S}°. Least at alpha = {best}°: "
+    "{least}°.",
+    "outside": "No posture reaches this point.",
+    "least": "Least S",
+    "begin": "Begin here",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values stand in "
     "the table.",
     "speed": "greatest speed",
@@ -134,14 +143,17 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
     return Explorer(data, still)
 
 
-def target_explorer(arm: ClosedFormArm) -> "Explorer":
+def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     """A target to take by rings and arrows; every branch of `ik` drawn, the chosen one strongly,
     with a row of a table for each. A click on a row chooses it; the menu, too, or the usable one
     nearest to the last posture.
 
     Six-axis arms: place, and roll, pitch, yaw as in `joint_explorer`. SCARA: place and the tool's
-    angle. Positioning arms: the place. TypeError: an arm without `ik`.
+    angle. Positioning arms: the place. Three levers: the place, the free angle alpha, and the curve
+    of what it costs to come there from the posture before. TypeError: an arm with neither.
     """
+    if isinstance(arm, ThreeLeverArm):
+        return _levers_explorer(arm)
     instance(arm, ClosedFormArm, "arm")
     place, turns, q = _showcase(arm)
     name, size = length_unit(extent(arm))
@@ -267,6 +279,31 @@ class Explorer(Output):
     def call(self) -> str:  # type: ignore[override]
         """The script that shows it."""
         return f"{self.data['kind']}_explorer.explore"
+
+
+def _levers_explorer(arm: ThreeLeverArm) -> Explorer:
+    name, size = length_unit(extent(arm))
+    place = np.array([0.55, 0.35, 0.0]) * extent(arm)
+    before, _ = arm.least(place, arm.limits.mean(axis=-1))
+    most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
+    step = 1 if size == mm else 0.001
+    controls = [_control(letter, name, -most, most, step) for letter in "xy"]
+    controls.append(_control("alpha", "°", 0, 180, 1))
+    where = ", ".join(_number(x, 0 if size == mm else 3) for x in place[:2] / size)
+    summary = (
+        f"{arm.name} and a point to be moved, at ({where}) {name}, with a free angle: gamma, beta, "
+        f"alpha {', '.join(_number(x, 1) for x in before / deg)}°."
+    )
+    data = _page(arm, "levers", f"{arm.name}: move the point", summary, controls)
+    unit = " * mm" if size == mm else ""
+    data |= {
+        "q": before.tolist(),
+        "target": {"place": place.tolist()},
+        "meant": TAKE + "The broken posture is where S is counted from.",
+        "code": f"{_imports(arm)}\n# arm = three_lever(...)\n"
+        f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",
+    }
+    return Explorer(data, _picture(summary, arm, before))
 
 
 # --- Where it opens -------------------------------------------------------------------------------
