@@ -4,7 +4,7 @@
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
 // to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
 
-import {TURN, wrapped, rint, product, matrix} from "./kinematics.js";
+import {TURN, matrix, origin, product, rint, wrapped} from "./kinematics.js";
 
 const SIGNS = [1, -1];
 const exists = q => !q.some(Number.isNaN);
@@ -126,12 +126,10 @@ function wristFrame({geometry: {wrist}}, {rotation, place}) {
   return m;
 }
 
-const centre = m => [m[3], m[7], m[11]];
-
 const wrist = {
   ik(arm, pose) {
     const {wrist: {sign5, sign6}, turns} = arm.geometry, m = wristFrame(arm, pose);
-    return elbowRows(arm, centre(m)).flatMap(row => {
+    return elbowRows(arm, origin(m)).flatMap(row => {
       if (!row) return [nowhere(6), nowhere(6)];
       // seen from the forearm: axis 4 points ce ahead, se up
       const [cos1, sin1] = row.plane, [ce, se] = onward(row.ahead, turns.axis4);
@@ -157,7 +155,7 @@ const wrist = {
     const half = wrapped(q[3] - previous[3] + sense * (q[5] - previous[5])) / 2;
     return [q[0], q[1], q[2], previous[3] + half, q[4], previous[5] + sense * half];
   },
-  gap: (arm, pose, row) => elbowGap(arm, centre(wristFrame(arm, pose)), arm.branches[row][0]),
+  gap: (arm, pose, row) => elbowGap(arm, origin(wristFrame(arm, pose)), arm.branches[row][0]),
 };
 
 // Equal levers that fold leave joint 1 free.
