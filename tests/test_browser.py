@@ -133,6 +133,31 @@ def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
     assert page.outside == [] and page.errors == []
 
 
+def test_a_change_of_theme_leaves_no_canvas_blank(jupyter, page):
+    jupyter.open(page, "00_start_here.ipynb")
+    jupyter.run_all(page, "00_start_here.ipynb")
+    player = page.locator(PLAYER).first
+    player.scroll_into_view_if_needed()
+    _sliders(player)
+    before = _seen(player)
+    for theme, light in (("JupyterLab Dark", "false"), ("JupyterLab Light", "true")):
+        page.get_by_role("menuitem", name="Settings", exact=True).click()
+        for item in ("Theme", theme):
+            label = page.locator(".lm-Menu-itemLabel").get_by_text(item, exact=True)
+            label.hover()
+        label.click()
+        page.locator(f"body[data-jp-theme-light='{light}']").wait_for(
+            state="attached", timeout=20_000
+        )
+        until(
+            lambda light=light: (_seen(player) == before) == (light == "true"),
+            10,
+            f"the player does not follow {theme}",
+            page,
+        )
+    assert page.errors == []
+
+
 def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     jupyter.open(page, "03_irb140_motion.ipynb")
     jupyter.run_all(page, "03_irb140_motion.ipynb")

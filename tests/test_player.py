@@ -28,6 +28,7 @@ from robokin import (
 from robokin.show import animate, plot_joints
 from robokin.show.camera import arm_points
 from robokin.show.page import script
+from robokin.show.palette import css
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
@@ -1104,3 +1105,40 @@ def test_the_still_picture_says_how_to_set_it_moving(page, browser, blended, tmp
     still.goto((tmp_path / "player.html").as_uri())
     assert still.get_by_text("run this cell, or trust the notebook").is_visible()
     context.close()
+
+
+def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):
+    """For handles over the canvas: `cameras` project as the picture does; while the scene is held,
+    a target that leaves it moves nothing else.
+    """
+    scene = blended.data["scene"] | {"grows": True, "unit": blended.data["unit"]}
+    page.set_content(
+        f"<style>{css()}</style><div class='rk'><canvas style='width:400px;height:300px'></div>"
+        f"<script>{script('scene')}</script>"
+    )
+    got = page.evaluate(
+        """([scene, chain]) => {
+            const canvas = document.querySelector("canvas"), view = $scene.sceneView(canvas, scene);
+            $canvas.readColors(canvas);
+            const arm = {name: "", chain, q: [0, 0, 0, 0, 0, 0]};
+            const seen = () => {
+                const room = view.draw(scene.view, [arm], "");
+                const [camera] = view.cameras(), [x, y] = camera.to([0, 0, 0]);
+                const [ax, ay] = camera.to(camera.across(30, -20));
+                return [room, x, y, ax - x, ay - y];
+            };
+            const found = [seen()];
+            view.hold(true);
+            scene.targets = [{name: "far", pose: [1, 0, 0, 3, 0, 1, 0, 3, 0, 0, 1, 0]}];
+            found.push(seen());
+            view.hold(false);
+            found.push(seen());
+            canvas.style.display = "none";
+            return [...found, view.draw(scene.view, [arm], "")];
+        }""",
+        [scene, blended.data["arms"][0]["chain"]],
+    )
+    first, held, after, hidden = got
+    assert first[0] is True and 0 < first[1] < 400 and 0 < first[2] < 300
+    assert np.allclose(first[3:], (30, -20))
+    assert held == first and after[1:3] != first[1:3] and hidden is False

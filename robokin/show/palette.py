@@ -94,5 +94,7 @@ def css() -> str:
         f"@media screen{{[data-jp-theme-light=false] {roots}{{{dark}}}}}\n"
         "@media screen and (prefers-color-scheme:dark)"
         f"{{body:not([data-jp-theme-light]) {roots}{{{dark}}}}}\n"
-        ".robokin-player>img{background:#fff;padding:8px;border-radius:8px}\n"
+        ".robokin-player:not([data-ready]){background:var(--rk-paper);color:var(--rk-ink);"
+        "padding:10px;border-radius:8px}\n"
+        ".robokin-player>img{background:#fff}\n"
     )

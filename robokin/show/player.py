@@ -66,6 +66,12 @@ def animate(
              has a menu
     points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs where the arm is planar. Metres, base coordinates.
+
+    Points, centres of circles and targets may move: a place is then (samples, 3), or with the
+    leading axes of q (..., samples, 3) or, where it depends on slider and switch alone, (..., 1,
+    3); a target is a Transform of such a shape without the 3. NaN where it is not there. No
+    distance is told from a "via" that moves with time.
+
     ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
     numbers. TypeError: an arm or a target of another kind.
     """

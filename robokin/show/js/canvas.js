@@ -15,9 +15,9 @@ export const colors = {
   joint1: "", joint2: "", joint3: "", joint4: "", joint5: "", joint6: "",
 };
 
-/** Reads the colours that the style sheet gives `root` now. @param {Element} root */
-export function readColors(root) {
-  const style = getComputedStyle(root);
+/** Reads the colours that the style sheet gives an element in .rk now. @param {Element} place */
+export function readColors(place) {
+  const style = getComputedStyle(place);
   for (const name of Object.keys(colors)) colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
 }
 

@@ -11,7 +11,7 @@ export const STYLE = `
   & .rk-views { display: grid; grid-template-columns: minmax(0, 9fr) minmax(0, 10fr); gap: 8px; }
   & .rk-views.rk-wide { grid-template-columns: minmax(0, 1fr); }
   & canvas { display: block; width: 100%; height: clamp(380px, 48cqw, 450px); border-radius: 4px; margin: 0; }
-  & .rk-wide .rk-curves { height: 330px; }
+  & .rk-wide .rk-curves { height: 300px; }
   & .rk-scene { cursor: grab; touch-action: pan-y; }
   & .rk-scene.rk-flat { cursor: default; }
   & .rk-curves { cursor: crosshair; touch-action: pan-y; }
@@ -123,16 +123,18 @@ export function pictures(root, canvases, draw) {
       if (root.isConnected && draw(now) === false) watch();
     });
   };
-  const dark = matchMedia("(prefers-color-scheme: dark)"), theme = new MutationObserver(look), sizes = new ResizeObserver(look);
+  const media = ["(prefers-color-scheme: dark)", "print"].map(query => matchMedia(query));
+  const theme = new MutationObserver(look), sizes = new ResizeObserver(look);
+  const turned = () => { look(); if (root.isConnected) draw(performance.now()); }; // paper does not wait
   function look() {
     if (root.isConnected) {
-      readColors(root);
+      readColors(canvases[0]); // inside .rk, which has them
       theme.observe(document.body, {attributeFilter: ["data-jp-theme-light"]});
-      dark.addEventListener("change", look);
+      for (const one of media) one.addEventListener("change", turned);
       ask();
     } else { // taken out; if it is put back, its canvases get a size again
       theme.disconnect();
-      dark.removeEventListener("change", look);
+      for (const one of media) one.removeEventListener("change", turned);
     }
   }
   // Observed anew, a canvas is reported as soon as it has a size, even one that it had before.

@@ -106,7 +106,7 @@ function sized({scene, curves}, inSpace, count) {
   const [, rows] = tiled(count, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
   curves.style.height = rows > 1 ? `${rows * 330}px` : "";
   scene.style.height = whole && scene.clientWidth
-    ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * 340, Math.max(190, inSpace.height(count, scene.clientWidth))))}px` : "";
+    ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * (count > 1 ? 290 : 340), Math.max(190, inSpace.height(count, scene.clientWidth))))}px` : "";
 }
 
 // The numbers of a motion, as a table and in words.
@@ -224,8 +224,8 @@ function runningClock(root, parts, state, times, ask) {
   }
   function pass(now) {
     if (!state.playing) return;
-    // The first stamp may lie before the click.
-    state.time = Math.min(end(), state.time + Math.max(0, now - before) / 1000 * SPEEDS[parts.speed.value]);
+    // The first stamp may lie before the click; and what was hidden for a while goes on where it was.
+    state.time = Math.min(end(), state.time + Math.min(500, Math.max(0, now - before)) / 1000 * SPEEDS[parts.speed.value]);
     before = Math.max(before, now);
     if (state.time >= end()) run(false);
     else ask();

@@ -67,11 +67,12 @@ export function sceneView(canvas, scene) {
 // Room at the rims for words: names above, the scale below.
 const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
 
-// What stands still: the axes of the grid, a point of the floor, what the camera has to see.
-function surroundings({flat, floor: [low, high], seen}) {
+// What stands still: the axes of the grid, a point of the floor, what the camera has to see: everything and its shadow.
+// The rest of the floor may leave the picture.
+function surroundings({flat, floor: [low], seen}) {
   const normal = flat ?? 2, [a, b] = [0, 1, 2].filter(i => i !== normal);
   const at = (x, y) => { const p = [0, 0, 0]; p[a] = x; p[b] = y; p[normal] = flat === null ? low[2] : 0; return p; };
-  const corners = [...seen, ...[low[a], high[a]].flatMap(x => [low[b], high[b]].map(y => at(x, y)))];
+  const corners = flat === null ? seen.flatMap(p => [p, at(p[0], p[1])]) : seen;
   return {a, b, at, corners, spatial: flat === null};
 }
 
