@@ -27,7 +27,7 @@ from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, length_unit, mm
 from . import plots
-from .camera import arm_points, extent, scene_data
+from .camera import VIEW, arm_points, extent, scene_data
 from .given import named_targets
 from .page import Control, PageExplorer, PageScene
 from .palette import DASHES
@@ -437,13 +437,14 @@ def _scene(arm: Arm, posed: Mapping[str, Transform]) -> PageScene:
     """
     postures = _spread(arm, 2000)
     points = arm_points(arm, postures)
-    near = (points[..., 2] > -0.01 * extent(arm)) & (
-        np.hypot(points[..., 0], points[..., 1]) < 0.34 * extent(arm)
-    )
-    scene = scene_data(
-        [arm], [postures[near.all(axis=-1)][None]], named_targets(posed), [], extent(arm)
-    )
-    return {**scene, "grows": True}
+    far = np.hypot(points[..., 0], points[..., 1]) / extent(arm)
+    near = (points[..., 2] > -0.01 * extent(arm)) & (far < (0.7 if _flat(arm) else 0.34))
+    kept = postures[near.all(axis=-1)][None]
+    scene = scene_data([arm], [kept], named_targets(posed), [], extent(arm))
+    scene["grows"] = True
+    if not _flat(arm):
+        scene["view"] = list(VIEW)
+    return scene
 
 
 def _control(

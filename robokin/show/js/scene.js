@@ -77,9 +77,14 @@ function surroundings({flat, floor: [low], seen}) {
 }
 
 // What a scene that grows has to hold besides.
-const reached = (scene, arm) => [...[...frames(arm.chain, arm.q), ...scene.targets.map(target => target.pose),
-  ...(arm.ghosts || []).flatMap(({q}) => frames(arm.chain, q))].map(origin), ...scene.marks.map(mark => mark.at)]
-  .filter(p => p.every(Number.isFinite));
+function reached(scene, arm) {
+  const all = [arm.q, ...(arm.ghosts || []).map(({q}) => q)].flatMap(q => {
+    const joints = [];
+    return [...frames(arm.chain, q, joints), ...joints];
+  });
+  return [...[...all, ...scene.targets.map(target => target.pose)].map(origin), ...scene.marks.map(mark => mark.at)]
+    .filter(p => p.every(Number.isFinite));
+}
 
 // One arm and all that is around it. A pen is {g, cam, scene, space}: on what, how seen, what is there.
 function drawArmInSpace(pen, arm, [x, y, w, h], named) {
