@@ -1142,3 +1142,12 @@ def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):
     assert first[0] is True and 0 < first[1] < 400 and 0 < first[2] < 300
     assert np.allclose(first[3:], (30, -20))
     assert held == first and after[1:3] != first[1:3] and hidden is False
+
+
+def test_who_is_quicker_than_the_first_picture_gets_its_colours(page, blended):
+    """Asked for in the very task that made the player, before any canvas has told its size."""
+    page.set_content(
+        f"{blended.html}<script>document.querySelector('input')"
+        ".dispatchEvent(new Event('input'));</script>"
+    )
+    assert ink(page, ".rk-curves") and page.evaluate(PAINTED, ".rk-curves") > 5000

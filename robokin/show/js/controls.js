@@ -1,6 +1,6 @@
 // What surrounds the canvases: elements, the style sheet, dragging the view, and when to draw again.
 
-import {FONT, readColors} from "./canvas.js";
+import {colors, FONT, readColors} from "./canvas.js";
 
 /** Colours are those of palette.py. JupyterLab styles tables, labels and buttons of its own: .rk.rk.rk outdoes it. */
 export const STYLE = `
@@ -120,7 +120,9 @@ export function pictures(root, canvases, draw) {
   const ask = () => {
     if (!asked) asked = requestAnimationFrame(now => {
       asked = 0;
-      if (root.isConnected && draw(now) === false) watch();
+      if (!root.isConnected) return;
+      if (!colors.ink) readColors(canvases[0]); // asked for before any canvas has told its size
+      if (draw(now) === false) watch();
     });
   };
   const media = ["(prefers-color-scheme: dark)", "print"].map(query => matchMedia(query));
