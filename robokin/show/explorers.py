@@ -250,7 +250,12 @@ def motion_explorer(
         "branches": [_flags(arm, k) for k in range(len(usable))],
         "samples": SAMPLES,
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
-        "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
+        "words": {
+            **WORDS,
+            "near": WORDS["near"].replace("}", f"}} {unit}"),
+            "speed": f"{WORDS['speed']}, {_per(arm, 's')}",
+            "acceleration": f"{WORDS['acceleration']}, {_per(arm, 's²')}",
+        },
         "meant": TAKE + "Start and goal move, too. A click on a curve sets the clock.",
         "code": _motion_code(arm, stations),
     }
@@ -469,6 +474,10 @@ def _units(arm: Arm) -> list[dict[str, Any]]:
     return [
         shift if link.prismatic else {"name": "°", "size": deg, "code": "deg"} for link in arm.links
     ]
+
+
+def _per(arm: Arm, time: str) -> str:
+    return " or ".join(dict.fromkeys(f"{unit['name']}/{time}" for unit in _units(arm)))
 
 
 def _sizes(arm: Arm) -> Floats:

@@ -117,7 +117,7 @@ function panelOf({arm, panels, units}, {t, gaps, jump}, rows, order) {
     return curve.some(x => sign * (x - limits[side][j]) > -room);
   }).map(side => [j, side])) : [];
   const marks = jump > 0 && order > 0 ? [{time: t[jump], text: ""}] : [];
-  return {label: panels[order], axes, curves, gaps, limits, near, marks};
+  return {label: `${panels[order]}, ${axes[0].unit}`, axes, curves, gaps, limits, near, marks};
 }
 
 // A scale of some ticks round the values: lowest tick, step, count, decimals.
