@@ -108,7 +108,7 @@ const LOOK = `
   & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
   & .rk-many :is(th, td) { padding: 0 4px; line-height: 21px; }
   & .rk-many thead th { white-space: normal; vertical-align: bottom; line-height: 1.15; }
-  & .rk-many td:nth-child(2) { text-align: left; }
+  & .rk-rows :is(td, th):nth-child(2) { text-align: left; }
   & .rk-few :is(th, td) { padding: 1px 4px; }
   & .rk-few td { min-width: 6.5em; text-align: left; }
   & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen); font-weight: 650; color: var(--rk-ink); }
@@ -190,7 +190,7 @@ export function table(names, heads, widths, take) {
   });
   const head = heads.length ? [element("thead", {}, element("tr", {}, ...heads.map(text =>
     element("th", {scope: "col"}, text))))] : [];
-  const node = element("div", {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}`}, element("table", {}, ...head,
+  const node = element("div", {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}${take ? " rk-rows" : ""}`}, element("table", {}, ...head,
     element("tbody", {}, ...lines.map(line => line.row))));
   return {node, set(rows, chosen = -1, exists = null) {
     rows.forEach((texts, k) => {
