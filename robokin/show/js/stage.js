@@ -63,7 +63,7 @@ const LOOK = `
   & .rk-space { position: relative; }
   & .rk-handles { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
   & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px; margin: -13px 0 0 -13px; padding: 0;
-    border: 2px solid var(--rk-own, var(--rk-accent)); border-radius: 50%; font-size: 12px; font-weight: 650; line-height: 1;
+    border: 2px solid var(--own, var(--rk-accent)); border-radius: 50%; font-size: 12px; font-weight: 650; line-height: 1;
     background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink); pointer-events: auto;
     touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
   & .rk-handle:hover, & .rk-handle:active { background: var(--rk-paper); }
