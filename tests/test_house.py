@@ -48,7 +48,7 @@ LAYERS = {
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
-    "robokin.show.live": ("robokin",),
+    "robokin.show.explorers": ("robokin",),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
 HEAVY = DRAWING | {
@@ -166,14 +166,12 @@ def test_the_package_itself_needs_numpy_only():
         extra: {Requirement(text).name.lower() for text in texts}
         for extra, texts in PROJECT["optional-dependencies"].items()
     }
-    # What `robokin.show` imports is its extra; IPython and traitlets come with the widgets.
+    # What `robokin.show` imports is its extra.
     drawn = {
         name.split(".")[0] for m in MODULES if m.startswith("robokin.show") for name in _imports(m)
     }
-    assert (drawn & DRAWING) - {"IPython", "traitlets"} == {
-        "PIL" if name == "pillow" else name for name in extras["show"]
-    }
-    assert extras["labs"] == {"robokin", "jupyterlab", "scipy", "sympy"}
+    assert drawn & DRAWING == {"PIL" if name == "pillow" else name for name in extras["show"]}
+    assert extras["labs"] == {"robokin", "jupyterlab", "ipywidgets", "scipy", "sympy"}
 
 
 def test_show_without_its_extra_says_what_to_install():

@@ -115,6 +115,7 @@ RECORDING = motion.record(IRB140, TIMES, np.where(TIMES[:, None] < 0.5, MOTION, 
 RECORDINGS = motion.record(IRB140, TIMES, np.stack([MOTION, MOTION]))
 PAGE = "page.html, in a folder of the test"
 PLAYER = figures.animate(IRB140, TIMES, MOTION)
+EXPLORER = figures.joint_explorer(IRB140)
 
 # "name" or "name (case)": callable and its arguments, all of them, each legal; then the arguments
 # that are replaced, if not all. A name in a module of robokin.jobs begins with the module's.
@@ -298,14 +299,20 @@ CALLS = {
         "names",
     ),
     "Player": (figures.Player, dict(data=PLAYER.data, still=PLAYER.still)),
-    "Player.save": (lambda path: PLAYER.save(path), dict(path=PAGE)),
+    "Explorer": (figures.Explorer, dict(data=EXPLORER.data, still=EXPLORER.still)),
+    "Output.save": (lambda path: PLAYER.save(path), dict(path=PAGE)),
+    "Output.save (explorer)": (lambda path: EXPLORER.save(path), dict(path=PAGE)),
     "figure": (figures.figure, dict(alt="words", width=3, height=2)),
-    "joint_explorer": (figures.joint_explorer, dict(arm=SCARA)),
+    "joint_explorer": (figures.joint_explorer, dict(arm=IRB140, q=SIX)),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
     "motion_explorer": (
         figures.motion_explorer,
         dict(
-            arm=SCARA, start=PLACE, via=ScaraPose((0.2, 0.2, 0.1)), goal=ScaraPose((0.1, 0.3, 0.1))
+            arm=SCARA,
+            start=PLACE,
+            via=ScaraPose((0.2, 0.2, 0.1)),
+            goal=ScaraPose((0.1, 0.3, 0.1)),
+            row=1,
         ),
     ),
     "plot_frames": (

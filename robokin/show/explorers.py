@@ -499,7 +499,7 @@ def _code(arm: Arm) -> str:
 
 def _imports(arm: Arm, *more: str) -> str:
     names = {"deg", "mm", *more, *({_code(arm)} - {"arm"})}
-    return f"import numpy as np\nfrom robokin import {', '.join(sorted(names))}\n"
+    return f"import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
 
 
 def _target_code(arm: Arm, size: float) -> str:
@@ -530,7 +530,7 @@ def _motion_code(arm: Arm, stations: Mapping[str, Pose]) -> str:
             'poses = robokin.blend(start, via, goal, {blend}, law(t), corner="{corner}")',
             f"q = robokin.follow({_code(arm)}, {_code(arm)}.ik(poses), {{row}})",
         ]
-    ).replace("import numpy as np\n", "import numpy as np\nimport robokin\n")
+    )
 
 
 # --- The still picture ----------------------------------------------------------------------------

@@ -39,7 +39,7 @@ export function handleLayer(canvas, camera, hold, changed) {
   function button(handle) {
     const node = control("button", {type: "button", class: `rk-handle ${handle.look}`,
                                     "data-handle": handle.id}, handle.mark || "");
-    if (handle.color) node.style.setProperty("--rk-own", `var(--rk-${handle.color})`);
+    if (handle.color) node.style.setProperty("--own", `var(--rk-${handle.color})`);
     let from = null, move = null;
     node.addEventListener("pointerdown", event => {
       event.preventDefault(); // no text is selected, no scrolling begins

@@ -19,8 +19,9 @@ export const explore = (id, data) => waiting(id).forEach(root => jointExplorer(s
 // A slider for each joint and a handle on it.
 function jointExplorer(stage, data) {
   const {arm, words, units} = data, state = {q: [...data.q]}, sizes = units.map(unit => unit.size);
+  const limited = (j, value) => Math.min(Math.max(value, arm.limits[j][0]), arm.limits[j][1]);
   const sliders = data.controls.map((spec, j) => slider(spec, value => {
-    state.q[j] = value * sizes[j];
+    state.q[j] = limited(j, value * sizes[j]);
     stage.changed();
   }));
   const numbers = table(data.rows.map(row => row.name), [], data.rows.map(row => row.heads.length));
@@ -29,9 +30,8 @@ function jointExplorer(stage, data) {
     copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}))), stage.says);
   stage.below.append(numbers.node);
 
-  const limited = (j, value) => Math.min(Math.max(value, arm.limits[j][0]), arm.limits[j][1]);
   stage.handles.set(arm.chain.map((link, j) => {
-    const step = sizes[j];
+    const step = data.controls[j].step * sizes[j];
     const place = (camera, value) => gripOf(arm.chain, state.q.map((x, k) => (k === j ? value : x)), j, camera);
     return {
       id: `q${j + 1}`, name: fill(words.takeJoint, {joint: j + 1}), look: "rk-joint", mark: String(j + 1),

@@ -35,7 +35,7 @@ function motionExplorer(stage, data) {
   const menus = [menu(words.law, data.laws, k => set("law", k)), menu(words.corner, data.corners, k => set("corner", k)),
                  menu(words.branch, data.branches, k => set("row", k))];
   const scrub = slider({name: words.time, unit: "s", low: 0, high: 1, step: 0.001, decimals: 2}, value => {
-    state.time = value / state.duration;
+    state.time = Math.min(Math.max(value / state.duration, 0), 1);
     stage.changed();
   });
   const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": words.curves});

@@ -89,10 +89,11 @@ const LOOK = `
   & .rk-space { position: relative; }
   & .rk-handles { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
   & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px; margin: -13px 0 0 -13px; padding: 0;
-    border: 2px solid var(--rk-own, var(--rk-accent)); border-radius: 50%; font-size: 12px; font-weight: 650; line-height: 1;
+    border: 2px solid var(--own, var(--rk-accent)); border-radius: 50%; font-size: 12px; font-weight: 650; line-height: 1;
     background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink); pointer-events: auto;
     touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
   & .rk-handle:hover, & .rk-handle:active { background: var(--rk-paper); }
+  & .rk-handle:focus { z-index: 1; }
   & .rk-free { border-style: double; border-width: 4px; background: transparent; }
   & .rk-arc { width: 22px; height: 22px; margin: -11px 0 0 -11px; }
   & .rk-outside { opacity: .55; }
@@ -135,16 +136,22 @@ const LOOK = `
  * @returns {{row: HTMLElement, set: (value: number) => void}}
  */
 export function slider({name, unit, low, high, step, decimals}, take) {
-  const range = control("input", {type: "range", min: low, max: high, step, "aria-label": `${name}, ${unit}`});
-  const exact = control("input", {type: "number", step, "aria-label": `${name}, ${unit}, exactly`});
+  const label = [name, unit].filter(Boolean).join(", ");
+  const range = control("input", {type: "range", min: low, max: high, step, "aria-label": label});
+  const exact = control("input", {type: "number", step, "aria-label": `${label}, exactly`});
   const row = element("div", {class: "rk-slide"}, element("span", {}, name), range, exact, element("span", {}, unit));
   range.addEventListener("input", () => take(+range.value));
-  exact.addEventListener("change", () => { if (Number.isFinite(exact.valueAsNumber)) take(exact.valueAsNumber); });
+  let typing = false; // what is being typed is not written over; what was taken is shown
+  exact.addEventListener("input", () => { typing = true; });
+  exact.addEventListener("change", () => {
+    typing = false;
+    if (Number.isFinite(exact.valueAsNumber)) take(exact.valueAsNumber);
+  });
   return {row, reach(most) { range.max = most; range.step = most / 1000; }, set(value) {
     const text = String(+value.toFixed(decimals));
     range.value = value;
-    range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`);
-    if (document.activeElement !== exact && exact.value !== text) exact.value = text;
+    range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
+    if (!typing && exact.value !== text) exact.value = text;
   }};
 }
 

@@ -125,7 +125,7 @@ function targetHandles(stage, state, home, data, turnBy) {
       const to = alongCurve(camera, x => rim(camera, x + Math.PI / 4, a, b), 0, 0.02);
       return (dx, dy) => { state.rotation = from; turnBy(about, to(dx, dy)); };
     },
-    step(right, up, big) { turnBy(axis(k), (right + up) * radians(big ? 15 : 1)); },
+    step(right, up, big) { turnBy(axis(k), (right + up) * radians(big ? 10 : 1)); },
     home() { [state.turns, state.rotation] = [[...home.turns], rotationOf(home.turns)]; },
   });
   if (arm.target === "ScaraPose") handles.push({
@@ -136,7 +136,7 @@ function targetHandles(stage, state, home, data, turnBy) {
       const to = alongCurve(camera, x => rim(camera, x, [1, 0, 0], [0, 1, 0]), state.angle, 0.02);
       return (dx, dy) => { state.angle = to(dx, dy); };
     },
-    step(right, up, big) { state.angle += (right + up) * radians(big ? 15 : 1); },
+    step(right, up, big) { state.angle += (right + up) * radians(big ? 10 : 1); },
     home() { state.angle = home.angle; },
   });
   return handles;
