@@ -139,7 +139,7 @@ def test_a_change_of_theme_leaves_no_canvas_blank(jupyter, page):
     player = page.locator(PLAYER).first
     player.scroll_into_view_if_needed()
     _sliders(player)
-    before = _seen(player)
+    before = _settled(page, player)
     for theme, light in (("JupyterLab Dark", "false"), ("JupyterLab Light", "true")):
         page.get_by_role("menuitem", name="Settings", exact=True).click()
         for item in ("Theme", theme):
@@ -283,6 +283,17 @@ def _seen(player):
     )
     assert pixels and all(len(one) > 2000 for one in pixels), "a canvas is empty"
     return SimpleNamespace(pixels=pixels, numbers=player.locator("table").inner_text())
+
+
+def _settled(page, player):
+    """What is seen once the page has come to rest: what is above may still move and widen it."""
+    seen = _seen(player)
+    for _ in range(20):
+        page.wait_for_timeout(300)
+        before, seen = seen, _seen(player)
+        if before == seen:
+            return seen
+    pytest.fail("the picture does not come to rest")
 
 
 def _sliders(player):
