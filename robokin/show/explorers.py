@@ -451,7 +451,8 @@ def _code(arm: Arm) -> str:
 
 def _imports(arm: Arm, *more: str) -> str:
     names = {"deg", "mm", *more, *({_code(arm)} - {"arm"})}
-    return f"import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
+    own = "" if _code(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
+    return f"{own}import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
 
 
 def _target_code(arm: Arm, size: float) -> str:

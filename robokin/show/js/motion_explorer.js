@@ -19,6 +19,7 @@ import {plain} from "./turns.js";
 export const explore = (id, data) => waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
 
 const LAWS = {quintic, trapezoidal, linear};
+const LEAP = 0.1; // rad or m, as in motion/recording.py
 const STATIONS = ["start", "via", "goal"];
 
 function motionExplorer(stage, data) {
@@ -81,11 +82,12 @@ function motionOf({arm, laws, corners, samples}, state) {
   const t = Float64Array.from({length: samples}, (_, i) => state.duration * i / (samples - 1));
   const rows = Array.from(t, x => ik(arm, blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner])));
   const q = follow(arm, rows, state.row), missing = q.map(row => row.some(Number.isNaN));
-  // No difference is taken across a jump: where the branch ends, and at a corner without a blend.
-  const breaks = new Set();
-  for (let i = 1; i < samples; i++)
-    if (missing[i] !== missing[i - 1] || q[i].some((x, j) => Math.abs(x - q[i - 1][j]) > (arm.prismatic[j] ? 0.1 * arm.reach : 0.5)))
-      breaks.add(i);
+  // No difference is taken across a jump: where the branch ends, where a joint leaps (as `record`
+  // says: by more than half a turn, or ten times as far as beside), at a corner without a blend.
+  const breaks = new Set(), step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
+  const leaps = (i, j) => (step(i, j) > Math.PI && !arm.prismatic[j])
+    || (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
+  for (let i = 1; i < samples; i++) if (missing[i] !== missing[i - 1] || q[i].some((_, j) => leaps(i, j))) breaks.add(i);
   const gaps = new Set([...breaks].map(i => i - 1)), corner = state.blend === 0 ? (samples - 1) / 2 : -1;
   const nothing = () => q.map(row => row.map(() => NaN)), v = nothing(), a = nothing();
   const ends = [0, ...breaks, samples].sort((x, y) => x - y);
