@@ -78,8 +78,8 @@ WORDS: Mapping[str, str] = {
     "time": "time",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values stand in "
     "the table.",
-    "speed": "greatest speed",
-    "acceleration": "greatest acceleration",
+    "speed": "greatest speed, per s",
+    "acceleration": "greatest acceleration, per s\N{SUPERSCRIPT TWO}",
     "near": "The path passes via at {distance}.",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
@@ -218,6 +218,7 @@ def motion_explorer(
     controls = [_control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
     controls.append(_control("blend", "", 0, 0.5, 0.01, 3))
     controls.append(_control("duration", "s", 0.5, 20, 0.5, 2))
+    turn = unit if arm.prismatic.all() else "\N{DEGREE SIGN}"
     posed = {name: _transform(pose) for name, pose in stations.items()}
     fastest = record(arm, t, motions[row]).greatest_speed.value
     j = int(np.nanargmax(np.nan_to_num(fastest) / _sizes(arm)))
@@ -236,7 +237,8 @@ def motion_explorer(
         "corners": list(CORNERS),
         "branches": [_flags(arm, k) for k in range(len(usable))],
         "samples": SAMPLES,
-        "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
+        "panels": [f"joint values q, {turn}", f"speeds q\N{PRIME}, {turn}/s"]
+        + [f"accelerations q\N{DOUBLE PRIME}, {turn}/s\N{SUPERSCRIPT TWO}"],
         "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
         "meant": TAKE + "Start and goal move, too. A click on a curve sets the clock.",
         "code": _motion_code(arm, stations),
@@ -452,7 +454,9 @@ def _code(arm: Arm) -> str:
 def _imports(arm: Arm, *more: str) -> str:
     names = {"deg", "mm", *more, *({_code(arm)} - {"arm"})}
     own = "" if _code(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
-    return f"{own}import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
+    return (
+        f"{own}import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
+    )
 
 
 def _target_code(arm: Arm, size: float) -> str:

@@ -41,7 +41,7 @@ function motionExplorer(stage, data) {
   });
   const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": words.curves});
   const curves = curvesView(canvas, data.dashes);
-  const numbers = table([words.speed, words.acceleration], ["", ...units.map((_, j) => `q${j + 1}`)], units.map(() => 1));
+  const numbers = table([words.speed, words.acceleration], ["", ...units.map(({name}, j) => `q${j + 1} ${name}`)], units.map(() => 1));
   stage.side.append(canvas);
   stage.below.append(element("div", {class: "rk-columns"}, ...[...sliders, ...menus, scrub].map(s => s.row)),
     numbers.node, element("div", {class: "rk-row"}, stage.says, copyButton(words, () => inCode(data, state))));
@@ -66,8 +66,8 @@ function motionExplorer(stage, data) {
     const i = Math.round(time * (samples - 1));
     for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
     curves.draw([{title: arm.name, panels}], t, scaleOf(0, state.duration, 5), time * state.duration);
-    numbers.set([v, a].map((rows, order) => units.map((u, j) => number(most(rows, j) / u.size, 1)
-      + (order === 0 && arm.speed_limits ? ` (${Math.round(100 * most(rows, j) / arm.speed_limits[j])}\u00A0%)` : ""))));
+    numbers.set([v, a].map((rows, order) => units.map((u, j) => (Number.isNaN(most(rows, j)) ? words.none : number(most(rows, j) / u.size, 1)
+      + (order === 0 && arm.speed_limits ? ` (${Math.round(100 * most(rows, j) / arm.speed_limits[j])}\u00A0%)` : "")))));
     stage.say([nearWords(data, state, tool), ...notes(data, found)].join(" "));
     stage.scene.targets = STATIONS.map(name => ({name, pose: matrix(state[name].rotation ||
       [Math.cos((state[name].angle || 0) / 2), 0, 0, Math.sin((state[name].angle || 0) / 2)], state[name].place)}));
@@ -135,7 +135,8 @@ function scaleOf(low, high, wanted) {
   return [first * step, step, last - first + 1, power >= 10 ? 0 : decimals];
 }
 
-const most = (rows, j) => rows.reduce((best, row) => (Math.abs(row[j]) > best ? Math.abs(row[j]) : best), 0);
+// NaN where there is nothing.
+const most = (rows, j) => rows.reduce((best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])), NaN);
 
 // How near the tool passes the via station.
 function nearWords({words, unit}, {via}, tool) {
