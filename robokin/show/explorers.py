@@ -231,6 +231,7 @@ def motion_explorer(
     controls = [_control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
     controls.append(_control("blend", "", 0, 0.5, 0.01, 3))
     controls.append(_control("duration", "s", 0.5, 20, 0.5, 2))
+    turn = unit if arm.prismatic.all() else "\N{DEGREE SIGN}"
     posed = {name: _transform(pose) for name, pose in stations.items()}
     fastest = record(arm, t, motions[row]).greatest_speed.value
     j = int(np.nanargmax(np.nan_to_num(fastest) / _sizes(arm)))
@@ -499,7 +500,10 @@ def _code(arm: Arm) -> str:
 
 def _imports(arm: Arm, *more: str) -> str:
     names = {"deg", "mm", *more, *({_code(arm)} - {"arm"})}
-    return f"import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
+    own = "" if _code(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
+    return (
+        f"{own}import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
+    )
 
 
 def _target_code(arm: Arm, size: float) -> str:

@@ -72,7 +72,11 @@ TESTS = {
     "robokin/jobs/steppers.py": ["steppers", "loader"],
 }
 # After these, for every module; drawing is slow, and sees little of them.
-ALL = ["wrong_input", "read_only", "wrong_calls -k not (plot or animate or explorer or Explorer or Player or Output)"]
+ALL = [
+    "wrong_input",
+    "read_only",
+    "wrong_calls -k not (plot or animate or explorer or Explorer or Player or Output)",
+]
 
 
 # ---- The faults

@@ -130,14 +130,18 @@ export function alongCurve(camera, place, value, step) {
   let now = value;
   return (dx, dy) => {
     const wanted = [start[0] + dx, start[1] + dy];
-    // Newton's steps to the foot of the pointer on the curve; none where it points at the eye.
-    for (let i = 0; i < 4; i++) {
-      const here = camera.to(place(now)), there = camera.to(place(now + step));
-      const along = [(there[0] - here[0]) / step, (there[1] - here[1]) / step];
-      const length = along[0] * along[0] + along[1] * along[1];
+    // Newton's steps to the foot of the pointer on the curve; none where it points at the eye. The
+    // bend of the curve counts: without it a pointer far outside a ring would throw it to and fro.
+    for (let i = 0; i < 40; i++) {
+      const [before, here, after] = [-step, 0, step].map(x => camera.to(place(now + x)));
+      const along = [0, 1].map(k => (after[k] - before[k]) / (2 * step));
+      const bend = [0, 1].map(k => (after[k] - 2 * here[k] + before[k]) / (step * step));
+      const off = [0, 1].map(k => wanted[k] - here[k]), length = along[0] ** 2 + along[1] ** 2;
       if (length < (MOVES * camera.scale) ** 2) break;
-      const way = ((wanted[0] - here[0]) * along[0] + (wanted[1] - here[1]) * along[1]) / length;
+      const rise = length - off[0] * bend[0] - off[1] * bend[1];
+      const way = (off[0] * along[0] + off[1] * along[1]) / (rise > 0.1 * length ? rise : length);
       now += Math.max(-20 * step, Math.min(20 * step, way));
+      if (Math.abs(way) < 0.01 * step) break;
     }
     return now;
   };

@@ -19,6 +19,7 @@ import {plain} from "./turns.js";
 export const explore = (id, data) => waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
 
 const LAWS = {quintic, trapezoidal, linear};
+const LEAP = 0.1; // rad or m, as in motion/recording.py
 const STATIONS = ["start", "via", "goal"];
 
 function motionExplorer(stage, data) {
@@ -40,7 +41,7 @@ function motionExplorer(stage, data) {
   });
   const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": words.curves});
   const curves = curvesView(canvas, data.dashes);
-  const numbers = table([words.speed, words.acceleration], ["", ...units.map((_, j) => `q${j + 1}`)], units.map(() => 1));
+  const numbers = table([words.speed, words.acceleration], ["", ...units.map(({name}, j) => `q${j + 1} ${name}`)], units.map(() => 1));
   stage.side.append(canvas);
   stage.below.append(element("div", {class: "rk-columns"}, ...[...sliders, ...menus, scrub].map(s => s.row)),
     numbers.node, element("div", {class: "rk-row"}, stage.says, copyButton(words, () => inCode(data, state))));
@@ -65,8 +66,8 @@ function motionExplorer(stage, data) {
     const i = Math.round(time * (samples - 1));
     for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
     curves.draw([{title: arm.name, panels}], t, scaleOf(0, state.duration, 5), time * state.duration);
-    numbers.set([v, a].map((rows, order) => units.map((u, j) => number(most(rows, j) / u.size, 1)
-      + (order === 0 && arm.speed_limits ? ` (${Math.round(100 * most(rows, j) / arm.speed_limits[j])}\u00A0%)` : ""))));
+    numbers.set([v, a].map((rows, order) => units.map((u, j) => (Number.isNaN(most(rows, j)) ? words.none : number(most(rows, j) / u.size, 1)
+      + (order === 0 && arm.speed_limits ? ` (${Math.round(100 * most(rows, j) / arm.speed_limits[j])}\u00A0%)` : "")))));
     stage.say([nearWords(data, state, tool), ...notes(data, found)].join(" "));
     stage.scene.targets = STATIONS.map(name => ({name, pose: matrix(state[name].rotation ||
       [Math.cos((state[name].angle || 0) / 2), 0, 0, Math.sin((state[name].angle || 0) / 2)], state[name].place)}));
@@ -81,11 +82,12 @@ function motionOf({arm, laws, corners, samples}, state) {
   const t = Float64Array.from({length: samples}, (_, i) => state.duration * i / (samples - 1));
   const rows = Array.from(t, x => ik(arm, blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner])));
   const q = follow(arm, rows, state.row), missing = q.map(row => row.some(Number.isNaN));
-  // No difference is taken across a jump: where the branch ends, and at a corner without a blend.
-  const breaks = new Set();
-  for (let i = 1; i < samples; i++)
-    if (missing[i] !== missing[i - 1] || q[i].some((x, j) => Math.abs(x - q[i - 1][j]) > (arm.prismatic[j] ? 0.1 * arm.reach : 0.5)))
-      breaks.add(i);
+  // No difference is taken across a jump: where the branch ends, where a joint leaps (as `record`
+  // says: by more than half a turn, or ten times as far as beside), at a corner without a blend.
+  const breaks = new Set(), step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
+  const leaps = (i, j) => (step(i, j) > Math.PI && !arm.prismatic[j])
+    || (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
+  for (let i = 1; i < samples; i++) if (missing[i] !== missing[i - 1] || q[i].some((_, j) => leaps(i, j))) breaks.add(i);
   const gaps = new Set([...breaks].map(i => i - 1)), corner = state.blend === 0 ? (samples - 1) / 2 : -1;
   const nothing = () => q.map(row => row.map(() => NaN)), v = nothing(), a = nothing();
   const ends = [0, ...breaks, samples].sort((x, y) => x - y);
@@ -133,7 +135,8 @@ function scaleOf(low, high, wanted) {
   return [first * step, step, last - first + 1, power >= 10 ? 0 : decimals];
 }
 
-const most = (rows, j) => rows.reduce((best, row) => (Math.abs(row[j]) > best ? Math.abs(row[j]) : best), 0);
+// NaN where there is nothing.
+const most = (rows, j) => rows.reduce((best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])), NaN);
 
 // How near the tool passes the via station.
 function nearWords({words, unit}, {via}, tool) {

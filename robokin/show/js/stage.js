@@ -97,7 +97,7 @@ const LOOK = `
   & .rk-free { border-style: double; border-width: 4px; background: transparent; }
   & .rk-arc { width: 22px; height: 22px; margin: -11px 0 0 -11px; }
   & .rk-outside { opacity: .55; }
-  & .rk-slide { display: grid; grid-template-columns: 4.6em minmax(60px, 1fr) 5.4em 1.8em; gap: 6px; align-items: center; margin: 1px 0; }
+  & .rk-slide { display: grid; grid-template-columns: 4.8em minmax(60px, 1fr) 5.4em 2.2em; gap: 6px; align-items: center; margin: 1px 0; }
   & .rk-slide select { grid-column: 2 / -1; }
   & .rk-slide input[type=number] { font: inherit; width: 100%; height: 24px; margin: 0; padding: 0 2px; text-align: right;
     color: var(--rk-ink); background: var(--rk-paper); border: 1px solid var(--rk-rest); border-radius: 4px; }
