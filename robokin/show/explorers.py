@@ -231,7 +231,6 @@ def motion_explorer(
     controls = [_control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
     controls.append(_control("blend", "", 0, 0.5, 0.01, 3))
     controls.append(_control("duration", "s", 0.5, 20, 0.5, 2))
-    turn = unit if arm.prismatic.all() else "\N{DEGREE SIGN}"
     posed = {name: _transform(pose) for name, pose in stations.items()}
     fastest = record(arm, t, motions[row]).greatest_speed.value
     j = int(np.nanargmax(np.nan_to_num(fastest) / _sizes(arm)))
