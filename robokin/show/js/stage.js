@@ -84,6 +84,7 @@ const LOOK = `
   & .rk-many :is(th, td) { padding: 0 4px; line-height: 21px; }
   & .rk-many thead th { white-space: normal; vertical-align: bottom; line-height: 1.15; }
   & .rk-many td:nth-child(2) { text-align: left; }
+  & .rk-halves ~ .rk-below .rk-many td:nth-child(2) { text-align: right; }
   & .rk-few :is(th, td) { padding: 1px 4px; }
   & .rk-few td { min-width: 6.5em; text-align: left; }
   & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen); font-weight: 650; color: var(--rk-ink); }
@@ -91,7 +92,7 @@ const LOOK = `
   & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
   & .rk-says { margin: 4px 0 0; min-height: 2.8em; flex: 1 1 260px; }
   & .rk-meant { margin: 4px 0 0; color: var(--rk-soft); font-size: 12px; }
-  @container (max-width: 640px) {
+  @container (max-width: 600px) {
     & .rk-asked, & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr); }
     & .rk-asked canvas { height: 320px; }
   }
