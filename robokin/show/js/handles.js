@@ -34,7 +34,7 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
  */
 export function handleLayer(canvas, camera, hold, changed) {
   const layer = element("div", {class: "rk-handles"});
-  let handles = [];
+  let handles = [], held = null;
 
   function button(handle) {
     const node = control("button", {type: "button", class: `rk-handle ${handle.look}`,
@@ -46,6 +46,7 @@ export function handleLayer(canvas, camera, hold, changed) {
       node.focus();
       node.setPointerCapture(event.pointerId);
       [from, move] = [[event.clientX, event.clientY], handle.grab(camera())];
+      held = handle.id;
       hold(true);
     });
     node.addEventListener("pointermove", event => {
@@ -55,7 +56,7 @@ export function handleLayer(canvas, camera, hold, changed) {
     });
     const drop = () => {
       if (!move) return;
-      move = null;
+      move = held = null;
       hold(false);
       changed();
     };
@@ -84,10 +85,13 @@ export function handleLayer(canvas, camera, hold, changed) {
     place() {
       const seen = camera(), {to} = seen, w = canvas.clientWidth, h = canvas.clientHeight, taken = [];
       const room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
-      for (const {node, name, at, value} of [...handles].sort((a, b) => isHeld(b) - isHeld(a))) {
-        const p = at(seen);
+      // The one that is held keeps its way to its place, so that it stays under the pointer; the
+      // others make room.
+      for (const handle of [...handles].sort((a, b) => (b.id === held) - (a.id === held))) {
+        const {node, name, at, value} = handle, p = at(seen), place = to(p);
         node.hidden = !p.every(Number.isFinite);
-        const [x, y] = apart(to(p), taken, room);
+        const [x, y] = handle.id === held ? place.map((c, k) => c + handle.shift[k]) : apart(place, taken, room);
+        handle.shift = [x - place[0], y - place[1]];
         taken.push([x, y]);
         // One that has left the scene waits at its edge, and can still be taken.
         const [left, top] = [Math.min(Math.max(x, NEAR), w - NEAR),
@@ -102,8 +106,6 @@ export function handleLayer(canvas, camera, hold, changed) {
 }
 
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
-
-const isHeld = ({node}) => Number(node.matches(":active"));
 
 // A place that is `room` pixels away from those that are taken.
 function apart([x, y], taken, room) {

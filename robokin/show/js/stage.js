@@ -117,7 +117,7 @@ const LOOK = `
   & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
   & .rk-says { margin: 4px 0 0; min-height: 2.8em; flex: 1 1 260px; }
   & .rk-meant { margin: 4px 0 0; color: var(--rk-soft); font-size: 12px; }
-  @container (max-width: 640px) {
+  @container (max-width: 600px) {
     & .rk-asked, & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr); }
     & .rk-asked canvas { height: 320px; }
   }
