@@ -37,8 +37,8 @@ from robokin import (
     record,
 )
 from robokin.show import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+from robokin.show.arguments import named_targets
 from robokin.show.camera import arm_points, project
-from robokin.show.given import named_targets
 from robokin.show.plots import palette_png
 from robokin.show.scene import number
 

@@ -2,8 +2,8 @@
 
 `joint_explorer` has its joints taken and turned, `target_explorer` a target moved, with every
 branch of `ik` drawn and judged, `motion_explorer` the stations of a blended motion. The page
-computes by the scripts of `js/`; `twin.py` says what they are told of an arm, and every sentence
-that a page says stands here or in `arms/verdicts.py`.
+computes by the scripts of `js/`; `twin.py` says what they are told of an arm, and what an explorer
+says stands here or in `arms/verdicts.py`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,8 +27,8 @@ from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, length_unit, mm
 from . import plots
+from .arguments import named_targets
 from .camera import VIEW, arm_points, extent, scene_data
-from .given import named_targets
 from .page import Control, PageExplorer, PageScene
 from .palette import DASHES
 from .player import Output, still_picture

@@ -175,12 +175,6 @@ class Page(TypedDict):
     arms: list[PageArm]
 
 
-# --- The script -----------------------------------------------------------------------------------
-
-IMPORT = re.compile(r'import \{ ?([\w$]+(?:, [\w$]+)*),? ?\} from "\./(\w+)\.js";')
-EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
-
-
 class Control(TypedDict):
     """A slider: its name, unit and range, the step of its handle, the decimals to write it with."""
 
@@ -193,11 +187,12 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target" or "motion"; `arm`: see
-    `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence it
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion" or "levers"; `arm`:
+    see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence it
     says; `code`: the lines of Python behind it, with blanks; `meant`: what stands below.
 
     joint   q, rows of numbers
+    levers  the point `target`, the posture q before it
     target  target, turns in radians, the posture q before it, names of branches, heads of the
             table, the unit of travel in radians
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
@@ -231,6 +226,12 @@ class PageExplorer(TypedDict, total=False):
     corners: list[str]
     panels: list[str]
     samples: int
+
+
+# --- The script -----------------------------------------------------------------------------------
+
+IMPORT = re.compile(r'import \{ ?([\w$]+(?:, [\w$]+)*),? ?\} from "\./(\w+)\.js";')
+EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
 
 
 def script(name: str) -> str:

@@ -21,9 +21,9 @@ from ..arms.arm import Arm
 from ..motion.recording import Recording
 from ..transform import Transform
 from ..units import deg, length_unit
-from . import findings, given, plots
+from . import arguments, findings, plots
+from .arguments import Targets
 from .camera import Mark, chain, extent, flange, scene_data
-from .given import Targets
 from .numbers import decimals, packed, rounded, scale, scales, thin, tidy
 from .page import Axis, Page, PageArm, PagePanel, PageScene, Slider, Switch, Unit, output, save
 from .palette import DASHES, INK, SOFT
@@ -75,13 +75,13 @@ def animate(
     ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
     numbers. TypeError: an arm or a target of another kind.
     """
-    sliding, switching = given.slider(slider), given.switch(switch)
+    sliding, switching = arguments.slider(slider), arguments.switch(switch)
     lead = tuple(len(control["values"]) for control in (switching, sliding) if control)
-    tracks, names = given.tracks(arm, t, q, lead, names)
+    tracks, names = arguments.tracks(arm, t, q, lead, names)
     count = len(tracks[0].t)
-    named = given.targets_over_time(targets, lead, count)
-    marks = given.marks(points, circles, lead, count)
-    title = " and ".join(dict.fromkeys(names)) if title is None else given.plain(title, "title")
+    named = arguments.targets_over_time(targets, lead, count)
+    marks = arguments.marks(points, circles, lead, count)
+    title = " and ".join(dict.fromkeys(names)) if title is None else arguments.plain(title, "title")
     data = page_data(names, tracks, named, marks, sliding, switching, title)
     motions = [(track.arm, track.q[0]) for track in tracks]
     still = still_picture(names, motions, named, marks, data["scene"], title, data["alt"])

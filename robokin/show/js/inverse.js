@@ -1,4 +1,4 @@
-// The inverse kinematics of every geometry, and the choice among its rows. As arms/elbow.py,
+// The inverse kinematics of every geometry (three levers: `family`, `least`), and the choice among its rows. As arms/elbow.py,
 // spherical_wrist.py, scara.py, planar.py, branches.py, which are the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
