@@ -1196,7 +1196,7 @@ def test_a_trusted_notebook_is_alive_without_a_kernel_and_in_every_theme(jupyter
     pictures = {True: set(), False: set()}
     for k in range(20):
         light = bool(k % 2)
-        if k % 5 < 2:  # by JupyterLab, which takes long
+        if k % 4 < 2:  # by JupyterLab, which takes long
             page.get_by_role("menuitem", name="Settings", exact=True).click()
             menu = page.locator(".lm-Menu-item")
             menu.filter(has_text=re.compile(r"^Theme$")).click()
