@@ -918,16 +918,17 @@ def test_sliders_and_menus_have_their_names_and_say_their_values(opened):
     assert scara.rk.get_by_role("slider", name="angle, °", exact=True).count() == 1
 
 
-@pytest.mark.xfail(strict=True, reason="scene.js does not draw `blob` yet")
-def test_the_ellipsoid_of_tool_velocities_comes_and_goes(opened):
+def test_the_ellipsoid_and_the_axes_come_and_go(opened):
     for kind in ("joint", "target"):
         shown = opened(KINDS[kind](), IRB140)
         before = shown.look()
-        shown.rk.get_by_role("checkbox", name="ellipsoid of tool velocities").check()
-        drawn = shown.look()
-        assert drawn.pixels != before.pixels and drawn.code == before.code
-        shown.rk.get_by_role("checkbox").uncheck()
-        assert shown.look().pixels == before.pixels
+        for name in ("ellipsoid of tool velocities", "joint axes"):
+            box = shown.rk.get_by_role("checkbox", name=name)
+            box.check()
+            drawn = shown.look()
+            assert drawn.pixels != before.pixels and drawn.code == before.code
+            box.uncheck()
+            assert shown.look().pixels == before.pixels
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
