@@ -79,7 +79,7 @@ def normalised(notebook, pictures):
     """
     notebook.metadata = nbformat.from_dict(METADATA)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
-    count, views = 0, 0
+    count = 0
     for cell in notebook.cells:
         cell.metadata = nbformat.from_dict(
             {k: v for k, v in cell.metadata.items() if k in KEPT_CELL_METADATA}
@@ -90,20 +90,13 @@ def normalised(notebook, pictures):
         if cell.source.strip():
             count += 1
             cell.execution_count = count
-        # A view alone is of no use without its kernel; an explorer's still picture is an output of
-        # its own.
-        cell.outputs = [
-            output for output in cell.outputs if set(output.get("data", ())) != {WIDGET_VIEW}
-        ]
         for output in cell.outputs:
             if output.output_type == "execute_result":
                 output.execution_count = count
+            # of no use without its kernel: a reader would find an error in its place
+            output.get("data", {}).pop(WIDGET_VIEW, None)
             for kind, value in output.get("data", {}).items():
-                # its number is drawn by lot, and without the kernel it is nobody's
-                if kind == WIDGET_VIEW:
-                    views += 1
-                    value["model_id"] = f"{views:032x}"
-                elif isinstance(value, str):
+                if isinstance(value, str):
                     output.data[kind] = PNG.sub(lambda m: pictures.get(_pixels(m[0]), m[0]), value)
     return nbformat.writes(notebook, version=4).rstrip("\n")
 

@@ -21,7 +21,9 @@ from PIL import Image
 
 # Not recursively: JupyterLab keeps checkpoints in a folder below.
 PATHS = sorted(NOTEBOOKS.glob("*.ipynb"))
-IMPORTS = {"matplotlib", "numpy", "robokin", "scipy", "sympy"} | set(sys.stdlib_module_names)
+IMPORTS = {"ipywidgets", "matplotlib", "numpy", "robokin", "scipy", "sympy"} | set(
+    sys.stdlib_module_names
+)
 LONGEST_CELL = 35
 UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
 HEADINGS = ("You will be able to", "Your turn", "In short", "Next")

@@ -26,7 +26,7 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
     Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
     """
     instance(arm, Arm, "arm")
-    jacobian = _scaled(arm, q)[..., _movable(arm), :]
+    jacobian = _scaled(arm, q)[..., movable(arm), :]
     missing = np.isnan(jacobian.sum(axis=(-1, -2), keepdims=True))
     whole = np.where(missing, 0.0, jacobian)
     values = np.linalg.svd(whole, compute_uv=False)
@@ -52,7 +52,7 @@ def _scaled(arm: Arm, q: ArrayLike) -> Floats:
     return jacobian
 
 
-def _movable(arm: Arm) -> Ints:
+def movable(arm: Arm) -> Ints:
     """Which rows of the Jacobian any posture can make other than zero."""
     n = len(arm.links)
     shares = (np.arange(1, 65)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(n) % 6]) % 1

@@ -13,7 +13,7 @@ import numpy as np
 from .._validate import instance
 from ..arms import branches, geometry
 from ..arms.arm import Arm, ClosedFormArm
-from ..arms.dexterity import _movable
+from ..arms.dexterity import movable
 from ..arms.elbow import ElbowGeometry
 from ..arms.link import Link
 from ..arms.planar import ThreeLeverGeometry, TwoLinkGeometry
@@ -72,7 +72,7 @@ def arm_data(arm: Arm) -> dict[str, Any]:
         "prismatic": arm.prismatic.tolist(),
         "units": [{"name": name, "size": size} for name, size in units],
         "speed_limits": None if arm.speed_limits is None else arm.speed_limits.tolist(),
-        "movable": _movable(arm).tolist(),
+        "movable": movable(arm).tolist(),
         "geometry": inverse_data(arm),
         "tolerances": TOLERANCES,
     }
