@@ -120,7 +120,9 @@ class Quaternion(Batch):
         if not error <= UNIT:
             differs = f"one whose R R^T differs from 1 by {error:.3g}"
             raise ValueError(f"matrix: wanted a rotation, got {differs}")
-        if (np.linalg.det(m) < 0).any():
+        x, y, z = (components(m[..., k, :]) for k in range(3))
+        volume = sum(a * b for a, b in zip(cross(x, y), z, strict=True))  # the determinant
+        if np.count_nonzero(volume < 0):
             raise ValueError("matrix: wanted a rotation, got a reflection (determinant -1)")
         xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
         wx, wy, wz = (

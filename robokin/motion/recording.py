@@ -23,7 +23,7 @@ LEAP = 0.1  # rad or m: a smaller step from one sample to the next is never take
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(init=False, eq=False)
 class Jump:
     """A place where joint values, or speeds, of one motion jump.
 
@@ -40,6 +40,20 @@ class Jump:
     time: float
     before: Floats
     after: Floats
+
+    __setattr__ = __delattr__ = fixed
+
+    def __init__(
+        self,
+        motion: tuple[int, ...],
+        first: int,
+        last: int,
+        time: float,
+        before: Floats,
+        after: Floats,
+    ) -> None:
+        sides = {"before": before, "after": after}
+        vars(self).update(motion=motion, first=first, last=last, time=time, **sides)
 
     @property
     def by(self) -> Floats:
