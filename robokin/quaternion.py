@@ -5,6 +5,7 @@ quaternions q and -q are one rotation. Angles in radians. The leading axes of ev
 batch.
 """
 
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Self, overload
@@ -27,12 +28,12 @@ class Batch:
     __array_ufunc__ = None  # so that `array @ value` is a TypeError and not an array of objects
 
     @property
+    @abstractmethod
     def shape(self) -> tuple[int, ...]:
         """The batch shape."""
-        raise NotImplementedError
 
-    def __getitem__(self, index: Any) -> Self:
-        raise NotImplementedError
+    @abstractmethod
+    def __getitem__(self, index: Any) -> Self: ...
 
     def __len__(self) -> int:
         if not self.shape:

@@ -54,8 +54,18 @@ def _scaled(arm: Arm, q: ArrayLike) -> Floats:
 
 def movable(arm: Arm) -> Ints:
     """Which rows of the Jacobian any posture can make other than zero."""
-    n = len(arm.links)
-    shares = (np.arange(1, 65)[:, None] * np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(n) % 6]) % 1
-    postures = arm.limits[:, 0] + shares * (arm.limits[:, 1] - arm.limits[:, 0])
-    moved = abs(_scaled(arm, postures)).max(axis=(0, 2)) > 1e-9
-    return np.flatnonzero(moved[:3] if n <= 3 else moved)
+    moved = abs(_scaled(arm, spread(arm, 64))).max(axis=(0, 2)) > 1e-9
+    return np.flatnonzero(moved[:3] if len(arm.links) <= 3 else moved)
+
+
+def spread(arm: Arm, count: int, most: float = np.inf) -> Floats:
+    """Postures (count, n) spread evenly between the limits, turns within +-`most` where limits let
+    them: Weyl's sequence of square roots.
+    """
+    low, high = arm.limits.T
+    inner = ~arm.prismatic & (low < most) & (high > -most)
+    low, high = (np.where(inner, np.clip(x, -most, most), x) for x in (low, high))
+    roots = np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(len(arm.links)) % 6]
+    shares = (np.arange(1, count + 1)[:, None] * roots) % 1
+    postures: Floats = low + shares * (high - low)
+    return postures

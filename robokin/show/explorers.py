@@ -17,7 +17,7 @@ from .._arrays import ArrayLike, Floats
 from .._validate import floats, instance, whole
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import explain, follow, nearest, within
-from ..arms.dexterity import distance_from_singularity
+from ..arms.dexterity import distance_from_singularity, spread
 from ..arms.planar import ThreeLeverArm
 from ..arms.scara import ScaraPose
 from ..motion.laws import quintic
@@ -28,7 +28,8 @@ from ..transform import Transform
 from ..units import deg, length_unit, mm
 from . import plots
 from .arguments import named_targets
-from .camera import VIEW, arm_points, extent, scene_data
+from .camera import VIEW, arm_points, common_plane, extent, scene_data
+from .numbers import tidy
 from .page import Control, PageExplorer, PageScene
 from .palette import DASHES
 from .player import Output, still_picture
@@ -159,7 +160,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     name, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
     step = 1 if size == mm else 0.001
-    letters = "xy" if _flat(arm) else "xyz"
+    letters = "xyz" if common_plane([arm]) is None else "xy"
     controls = [_control(letter, name, -most, most, step) for letter in letters]
     controls += [_control(turn, "°", -180, 180, 1) for turn in _turns(arm)]
     target = _asked(arm, place, turns)
@@ -322,7 +323,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
     """
     middle, size = arm.limits.mean(axis=-1), extent(arm)
     best, most = (arm.fk(middle).translation, _turned(arm, arm.fk(middle)), middle), -1.0
-    for q in _spread(arm, 160):
+    for q in spread(arm, 160):
         pose = arm.fk(q)
         place = np.round(pose.translation / (50 * mm)) * 50 * mm
         if place[0] < 0.2 * size or (arm.target is Transform and place[2] < 0.1 * size):
@@ -344,7 +345,7 @@ def _open(arm: Arm) -> Floats:
     floor.
     """
     unit, size = _sizes(arm), extent(arm)
-    q = np.round(_spread(arm, 160, 75 * deg) / unit / 5) * 5 * unit
+    q = np.round(spread(arm, 160, 75 * deg) / unit / 5) * 5 * unit
     q = q[((q >= arm.limits[:, 0]) & (q <= arm.limits[:, 1])).all(axis=-1)]
     tool, near = arm.fk(q), distance_from_singularity(arm, q)
     place, forward = tool.translation, tool.rotation @ (0, 0, 1)
@@ -352,19 +353,6 @@ def _open(arm: Arm) -> Floats:
     score = np.where(good, 1.0, 0.5) * near - 0.2 * abs(place[:, 1]) / size
     best: Floats = q[np.round(score, 6).argmax()] + 0.0
     return best
-
-
-def _spread(arm: Arm, count: int, most: float = np.inf) -> Floats:
-    """Postures (count, n) spread evenly between the limits, turns within +-`most` where limits let
-    them: Weyl's sequence of square roots.
-    """
-    low, high = arm.limits.T
-    inner = ~arm.prismatic & (low < most) & (high > -most)
-    low, high = (np.where(inner, np.clip(x, -most, most), x) for x in (low, high))
-    roots = np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(len(arm.links)) % 6]
-    shares = (np.arange(1, count + 1)[:, None] * roots) % 1
-    spread: Floats = low + shares * (high - low)
-    return spread
 
 
 # --- Targets --------------------------------------------------------------------------------------
@@ -397,11 +385,6 @@ def _pose_data(pose: Pose) -> dict[str, Any]:
     if isinstance(pose, ScaraPose):
         return {"place": pose.position.tolist(), "angle": float(pose.angle)}
     return {"place": pose.translation.tolist(), "rotation": pose.rotation.wxyz.tolist()}
-
-
-def _flat(arm: Arm) -> bool:
-    """Whether it moves in the plane z = 0 only."""
-    return bool(abs(arm_points(arm, _spread(arm, 5))[..., 2]).max() < 1e-9)
 
 
 def _flags(arm: ClosedFormArm, k: int) -> str:
@@ -440,14 +423,15 @@ def _scene(arm: Arm, posed: Mapping[str, Transform]) -> PageScene:
     """A scene that holds what the arm reaches above the floor and not too far out; the page shrinks
     the picture for what leaves it.
     """
-    postures = _spread(arm, 2000)
+    postures = spread(arm, 2000)
     points = arm_points(arm, postures)
     far = np.hypot(points[..., 0], points[..., 1]) / extent(arm)
-    near = (points[..., 2] > -0.01 * extent(arm)) & (far < (0.7 if _flat(arm) else 0.34))
+    flat = common_plane([arm]) is not None
+    near = (points[..., 2] > -0.01 * extent(arm)) & (far < (0.7 if flat else 0.34))
     kept = postures[near.all(axis=-1)][None]
     scene = scene_data([arm], [kept], named_targets(posed), [], extent(arm))
     scene["grows"] = True
-    if not _flat(arm):
+    if not flat:
         scene["view"] = list(VIEW)
     return scene
 
@@ -485,8 +469,7 @@ def _sizes(arm: Arm) -> Floats:
 
 
 def _number(value: float, decimals: int) -> str:
-    text = f"{np.floor(value * 10**decimals + 0.5 + 1e-7) / 10**decimals + 0.0:.{decimals}f}"
-    return text.replace("-", "\N{MINUS SIGN}")
+    return f"{tidy(value, decimals):.{decimals}f}".replace("-", "\N{MINUS SIGN}")
 
 
 # --- In code --------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import numpy as np
 
 from .._arrays import Floats, Ints
 from ..arms.arm import Arm
-from ..motion.recording import Jump, Recording
+from ..motion.recording import Recording
 from ..transform import Transform
 from ..units import mm
 from .camera import flange
@@ -87,17 +87,18 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         unit = length if arm.prismatic[j] else "°"
         return f"{tidy(value, decimals):.{decimals}f}{space}{unit}{per}"
 
-    def worst(jump: Jump) -> int:
-        return int((abs(jump.by) / units).argmax())
-
     for c, motion in enumerate(track.gaps):
         inside = np.add.reduceat(motion, kept[:-1]) if motion.any() else np.zeros(1)
         if inside.any():
             gaps[c] = np.flatnonzero(inside).tolist()
-    for jump in track.jumps:
-        j = worst(jump)
-        words = f"speed jumps by {amount(jump.by[j], j, '/s')}"
-        jumps.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
+    for found, marks, what, per in (
+        (track.jumps, jumps, "speed jumps by {by}", "/s"),
+        (track.leaps, leaps, "q{j} jumps by {by}", ""),
+    ):
+        for jump in found:
+            j = int((abs(jump.by) / units).argmax())  # the joint that jumps most
+            words = what.format(j=j + 1, by=amount(jump.by[j], j, per))
+            marks.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
     for c, marked in jumps.items():
         times = ", ".join(f"{when:.2f}" for when, _ in marked[:3])
         more = f" and {len(marked) - 3} more times" if len(marked) > 3 else ""
@@ -105,10 +106,6 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
             f"The speed jumps at {times} s{more}: there is no acceleration there, and a "
             "finite-difference value would only tell the time step."
         )
-    for jump in track.leaps:
-        j = worst(jump)
-        words = f"q{j + 1} jumps by {amount(jump.by[j], j)}"
-        leaps.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
     for c, marked in leaps.items():
         first = "; ".join(f"{text} at {when:.2f} s" for when, text in marked[:3])
         more = f"; and {len(marked) - 3} more" if len(marked) > 3 else ""

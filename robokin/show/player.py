@@ -152,16 +152,14 @@ def page_data(
     slider: Slider | None,
     switch: Switch | None,
     title: str,
-    scene: PageScene | None = None,
 ) -> Page:
-    """What the page draws. `scene`: the one of `scene_data`, if at hand."""
+    """What the page draws."""
     arms, t = [track.arm for track in tracks], tracks[0].t
     motions, size = len(tracks[0]), max(extent(arm) for arm in arms)
     name, length = length_unit(size)
     unit: Unit = {"name": name, "size": length}
     units = [np.where(arm.prismatic, length, deg) for arm in arms]
-    alone = motions == 1 and scene is None  # else what is drawn changes while a slider moves
-    kept = thin(len(t), tracks, SAMPLES if alone else SAMPLES_UNDER_SLIDER)
+    kept = thin(len(t), tracks, SAMPLES if motions == 1 else SAMPLES_UNDER_SLIDER)
     curves = [
         [x / u for x in (track.q, track.v, track.a)] for track, u in zip(tracks, units, strict=True)
     ]
@@ -197,7 +195,7 @@ def page_data(
         "switch": switch,
         "unit": unit,
         "dashes": DASHES,
-        "scene": scene or scene_data(arms, postures, targets, marks, size, kept),
+        "scene": scene_data(arms, postures, targets, marks, size, kept),
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
         "decimals": places,
         "arms": drawn,

@@ -53,6 +53,17 @@ export const STYLE = `
   }
 }`;
 
+/**
+ * The places in the page that wait for this output: each only once, and the same one may stand twice in a page.
+ * @param {string} id
+ * @returns {HTMLElement[]}
+ */
+export function waiting(id) {
+  const roots = [...document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)];
+  for (const root of roots) root.dataset.ready = "";
+  return roots;
+}
+
 /** @returns {HTMLElement} */
 export function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
@@ -72,11 +83,8 @@ export const choice = (name, texts) => control("select", {"aria-label": name},
 export const range = (name, most) =>
   control("input", {type: "range", min: 0, max: most, step: 1, value: 0, "aria-label": name});
 
-/** What a reader who does not see the scene is told. */
-export const seenIn = (scene, alt) => alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : "");
-
 export const sceneCanvas = (scene, alt) => control("canvas", {class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
-  role: "img", tabindex: 0, "aria-label": seenIn(scene, alt)});
+  role: "img", tabindex: 0, "aria-label": alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : "")});
 
 const KEYS = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 

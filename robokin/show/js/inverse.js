@@ -332,7 +332,13 @@ export function follow(arm, samples, row) {
 const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);
 // as `in_words` of units.py
 const metresInWords = x => (x < 10 ? `${oneDecimal(x / 1e-3)} mm` : `${oneDecimal(x)} m`);
-const fill = (sentence, facts) => sentence.replace(/\{(\w+)\}/g, (_, name) => facts[name]);
+/**
+ * A sentence with its blanks filled.
+ * @param {string} sentence
+ * @param {Object<string, *>} facts
+ * @returns {string}
+ */
+export const fill = (sentence, facts) => sentence.replace(/\{(\w+)\}/g, (_, name) => facts[name]);
 
 // How joint j stands past its limit.
 function excess(arm, q, j) {

@@ -2,11 +2,11 @@
 // Python (page.py: PageExplorer).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
-import {singularities} from "./inverse.js";
+import {fill, singularities} from "./inverse.js";
 import {number} from "./canvas.js";
-import {element} from "./controls.js";
+import {element, waiting} from "./controls.js";
 import {alongCurve, gripOf} from "./handles.js";
-import {copyButton, fill, slider, stageOf, table, tick, waiting} from "./stage.js";
+import {copyButton, slider, stageOf, table, tick} from "./stage.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
 /**

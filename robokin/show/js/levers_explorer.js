@@ -3,11 +3,11 @@
 // comes from Python (page.py: PageExplorer).
 
 import {plus} from "./kinematics.js";
-import {alpha_range, family, least} from "./inverse.js";
+import {alpha_range, family, fill, least} from "./inverse.js";
 import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
-import {control, element} from "./controls.js";
+import {control, element, waiting} from "./controls.js";
 import {inScreen} from "./handles.js";
-import {copyButton, fill, slider, stageOf, waiting} from "./stage.js";
+import {copyButton, slider, stageOf} from "./stage.js";
 import {degrees, plain, radians} from "./turns.js";
 
 /**

@@ -2,13 +2,13 @@
 // number of the arm, comes from Python (page.py: PageExplorer).
 
 import {fk, matrix, origin, plus} from "./kinematics.js";
-import {follow, ik} from "./inverse.js";
+import {fill, follow, ik} from "./inverse.js";
 import {blend, differentiate, linear, quintic, trapezoidal} from "./motion.js";
 import {number} from "./canvas.js";
 import {curvesView} from "./curves.js";
-import {element} from "./controls.js";
+import {element, waiting} from "./controls.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {copyButton, fill, menu, slider, stageOf, table, waiting} from "./stage.js";
+import {copyButton, menu, slider, stageOf, table} from "./stage.js";
 import {plain} from "./turns.js";
 
 /**

@@ -5,40 +5,29 @@ import {number, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {places, recording} from "./recordings.js";
-import {choice, control, element, orbit, pictures, range, sceneCanvas, seenIn, STYLE} from "./controls.js";
+import {choice, control, element, orbit, pictures, range, sceneCanvas, STYLE, waiting} from "./controls.js";
 
 const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
 const TICKS = 400, SPEEDS = [0.25, 0.5, 1, 2, 4];
 
-/** Fills every waiting place with this id; the same player may stand twice in a page. */
-export function play(id, data) {
-  for (const root of document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)) {
-    root.dataset.ready = "";
-    start(root, data);
-  }
-}
+/** Fills every waiting place with this id. */
+export const play = (id, data) => waiting(id).forEach(root => start(root, data));
 
 /**
- * A player in `root`. Returns the function that takes other motions of the same arms, in the same scene: view and time
- * stay.
+ * A player in `root`.
  * @param {HTMLElement} root
  * @param {object} data  page.py: Page
  */
-export function start(root, data) {
+function start(root, data) {
   const scene = {...data.scene, unit: data.unit}, parts = furniture(data, scene);
   const inSpace = sceneView(parts.scene, scene), overTime = curvesView(parts.curves, data.dashes);
   const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
-  let motions, shown;
+  const motions = motionsOf(data);
+  let shown;
 
   function choose() {
     shown = motions.choose(state.choice * (data.slider ? data.slider.values.length : 1) + state.value);
     tell(parts, data, shown, state.value);
-  }
-  function take(next) {
-    data = next;
-    motions = motionsOf(data);
-    state.time = Math.min(data.times.at(-1), Math.max(data.times[0], state.time));
-    choose();
   }
   function draw(now) {
     clock.pass(now);
@@ -54,17 +43,12 @@ export function start(root, data) {
 
   root.replaceChildren(parts.frame);
   const ask = pictures(root, [parts.scene, parts.curves], draw); // also draws the first picture
-  const clock = runningClock(root, parts, state, () => data.times, ask);
+  const clock = runningClock(root, parts, state, data.times, ask);
   parts.slider?.addEventListener("input", () => { state.value = +parts.slider.value; choose(); ask(); });
   parts.menu?.addEventListener("change", () => { state.choice = +parts.menu.value; choose(); ask(); });
   orbit(parts.scene, scene, state, ask);
   scrubbing(parts.curves, overTime, clock);
-  take(data);
-  return next => {
-    take(next);
-    parts.scene.setAttribute("aria-label", seenIn(scene, data.alt));
-    ask();
-  };
+  choose();
 }
 
 // --- What is on the page --------------------------------------------------------------------------------------------
@@ -213,10 +197,10 @@ function shownAt(column, {i, share}, gaps) {
 // there; tell(): time and slider show it.
 function runningClock(root, parts, state, times, ask) {
   let before = 0;
-  const begin = () => times()[0], end = () => times().at(-1), tick = () => (end() - begin()) / TICKS;
+  const begin = times[0], end = times.at(-1), tick = (end - begin) / TICKS;
   function run(on) {
     state.playing = on;
-    if (on && state.time >= end()) state.time = begin();
+    if (on && state.time >= end) state.time = begin;
     before = performance.now();
     parts.icon.innerHTML = `<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true"><path d="${on ? PAUSE : PLAY}"/></svg>`;
     parts.button.setAttribute("aria-label", on ? "pause" : "play");
@@ -225,23 +209,23 @@ function runningClock(root, parts, state, times, ask) {
   function pass(now) {
     if (!state.playing) return;
     // The first stamp may lie before the click; and what was hidden for a while goes on where it was.
-    state.time = Math.min(end(), state.time + Math.min(500, Math.max(0, now - before)) / 1000 * SPEEDS[parts.speed.value]);
+    state.time = Math.min(end, state.time + Math.min(500, Math.max(0, now - before)) / 1000 * SPEEDS[parts.speed.value]);
     before = Math.max(before, now);
-    if (state.time >= end()) run(false);
+    if (state.time >= end) run(false);
     else ask();
   }
   function set(time) {
     run(false);
-    state.time = Math.min(end(), Math.max(begin(), time));
+    state.time = Math.min(end, Math.max(begin, time));
     ask();
   }
   function tell() {
     parts.time.textContent = `${number(state.time, 2)} s`;
-    parts.scrub.value = Math.round((state.time - begin()) / tick());
+    parts.scrub.value = Math.round((state.time - begin) / tick);
     parts.scrub.setAttribute("aria-valuetext", parts.time.textContent);
   }
   parts.button.addEventListener("click", () => run(!state.playing));
-  parts.scrub.addEventListener("input", () => set(begin() + parts.scrub.value * tick()));
+  parts.scrub.addEventListener("input", () => set(begin + parts.scrub.value * tick));
   parts.frame.addEventListener("keydown", event => {
     if (event.key !== " " || ["BUTTON", "SELECT"].includes(event.target.tagName)) return;
     event.preventDefault();

@@ -7,17 +7,6 @@ import {control, element, orbit, pictures, sceneCanvas, STYLE} from "./controls.
 import {handleLayer} from "./handles.js";
 
 /**
- * The places in the page that wait for this output; each only once.
- * @param {string} id
- * @returns {HTMLElement[]}
- */
-export function waiting(id) {
-  const roots = [...document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)];
-  for (const root of roots) root.dataset.ready = "";
-  return roots;
-}
-
-/**
  * The frame of an explorer: a scene with handles over it, a column of controls beside it, room below.
  *
  * run(answer)  from now on `answer()` is asked for what is to be drawn, once for every picture in which
@@ -216,14 +205,6 @@ export function table(names, heads, widths, take) {
     });
   }};
 }
-
-/**
- * A sentence with its blanks filled.
- * @param {string} sentence
- * @param {Object<string, *>} facts
- * @returns {string}
- */
-export const fill = (sentence, facts) => sentence.replace(/\{(\w+)\}/g, (_, name) => facts[name]);
 
 /**
  * "Copy as Python": puts lines of code where they can be pasted from.

@@ -2,11 +2,11 @@
 // every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {distance_from_singularity, matrix, plus, product} from "./kinematics.js";
-import {explain, ik, nearest, representative, singularities, within} from "./inverse.js";
+import {explain, fill, ik, nearest, representative, singularities, within} from "./inverse.js";
 import {number} from "./canvas.js";
-import {element} from "./controls.js";
+import {element, waiting} from "./controls.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {copyButton, fill, menu, slider, stageOf, table, tick, waiting} from "./stage.js";
+import {copyButton, menu, slider, stageOf, table, tick} from "./stage.js";
 import {aboutAxis, ellipsoidOf, degrees, inCode, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
 
 /**
