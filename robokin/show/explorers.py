@@ -89,8 +89,8 @@ WORDS: Mapping[str, str] = {
     "begin": "Begin here",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values stand in "
     "the table.",
-    "speed": "greatest speed",
-    "acceleration": "greatest acceleration",
+    "speed": "greatest speed, per s",
+    "acceleration": "greatest acceleration, per s²",
     "near": "The path passes via at {distance}.",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
@@ -251,12 +251,7 @@ def motion_explorer(
         "branches": [_flags(arm, k) for k in range(len(usable))],
         "samples": SAMPLES,
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
-        "words": {
-            **WORDS,
-            "near": WORDS["near"].replace("}", f"}} {unit}"),
-            "speed": f"{WORDS['speed']}, {_per(arm, 's')}",
-            "acceleration": f"{WORDS['acceleration']}, {_per(arm, 's²')}",
-        },
+        "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
         "meant": TAKE + "Start and goal move, too. A click on a curve sets the clock.",
         "code": _motion_code(arm, stations),
     }
@@ -458,10 +453,6 @@ def _units(arm: Arm) -> list[dict[str, Any]]:
     return [
         shift if link.prismatic else {"name": "°", "size": deg, "code": "deg"} for link in arm.links
     ]
-
-
-def _per(arm: Arm, time: str) -> str:
-    return " or ".join(dict.fromkeys(f"{unit['name']}/{time}" for unit in _units(arm)))
 
 
 def _sizes(arm: Arm) -> Floats:

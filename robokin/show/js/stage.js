@@ -115,7 +115,7 @@ const LOOK = `
     & .rk-arc { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
     & .rk-slide input, & .rk-slide select, & .rk-choose { height: 32px; }
   }
-  @media print { & .rk-handles, & .rk-side .rk-slide, & .rk-columns, & .rk-word { display: none; } }
+  @media print { & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns, & .rk-word { display: none; } }
 }`;
 
 /**
