@@ -25,6 +25,7 @@ from robokin import (
     ITMO6R,
     PUMA560,
     SCARA,
+    ClosedFormArm,
     Quaternion,
     ScaraPose,
     Transform,
@@ -709,8 +710,18 @@ def _place(target):
     return target.translation if isinstance(target, Transform) else np.array(target)
 
 
-def test_a_drag_out_of_reach_and_through_a_singularity_leaves_no_wrong_picture(opened):
-    shown = opened(target_explorer(IRB140), IRB140)
+# What puts the target where the arm is singular: joint 1 free, or the levers stretched.
+SINGULAR = {
+    IRB140: {"x": 0, "y": 0, "roll": 0, "pitch": 0},
+    SCARA: {"x": SCARA.reach / mm, "y": 0},
+    LOADER: {"x": 0, "y": 0, "z": 1.2},
+    FLAT: {"x": FLAT.reach / mm, "y": 0},
+}
+
+
+@named(SINGULAR)
+def test_a_drag_out_of_reach_and_through_a_singularity_leaves_no_wrong_picture(opened, arm):
+    shown = opened(target_explorer(arm), arm)
     start = np.array(shown.look().handles["free"]["at"], dtype=float)
     kinds, pixels, hub = [], set(), PAGE["hub"][0]
 
@@ -722,8 +733,8 @@ def test_a_drag_out_of_reach_and_through_a_singularity_leaves_no_wrong_picture(o
         assert _color(shown, now.seen.handles["free"]["at"]) == hub or not now.exists.any()
         if not now.exists.any():
             assert all(row[1] == "does not exist" for row in now.seen.rows)
-            assert re.search(r"\d+(\.\d+)? mm", now.seen.says), "by how much"
-            assert _color(shown, now.seen.handles["free"]["at"]) != hub
+            assert re.search(r"\d+(\.\d+)? m", now.seen.says), "by how much"
+            assert arm is FLAT or _color(shown, now.seen.handles["free"]["at"]) != hub
 
     out = [start + (way, way / 2) for way in (0, 30, 60, 120, 200, 300)]
     across = [start + (-way, 0) for way in (15, 35, 45, 60)]  # over the first axis
@@ -732,10 +743,8 @@ def test_a_drag_out_of_reach_and_through_a_singularity_leaves_no_wrong_picture(o
     assert not all(kinds), "and is out of reach between"
     assert len(pixels) > 7
     shown.press("free", "Home")
-    shown.type("x", 0)
-    shown.type("y", 0)
-    shown.slide("roll", 0)
-    shown.slide("pitch", 0)
+    for name, value in SINGULAR[arm].items():
+        shown.type(name, value) if name in "xyz" else shown.slide(name, value)
     over = shows_every_branch(shown, exact=False)
     assert "singular" in over.seen.says.lower() or "singular" in str(over.seen.rows)
 
@@ -1071,11 +1080,14 @@ def test_on_paper_the_picture_stays(opened, kind):
 
 def test_wrong_calls_say_what_is_wanted():
     two = IRB140.fk(np.zeros((2, 6)))
+    inverse = type("Unknown", (type(FLAT.geometry),), {})
+    unknown = ClosedFormArm("unknown", inverse(0.3, 0.2, (0, 0)), FLAT.limits)
     for call, kind, words in (
         (lambda: joint_explorer("IRB-140"), TypeError, "arm: wanted an Arm"),
         (lambda: joint_explorer(IRB140, np.zeros(5)), ValueError, "q: wanted"),
         (lambda: joint_explorer(IRB140, np.zeros((2, 6))), ValueError, "q: wanted one posture"),
         (lambda: target_explorer(3), TypeError, "arm: wanted a ClosedFormArm"),
+        (lambda: target_explorer(unknown), TypeError, "arm: Unknown has no inverse for pages"),
         (lambda: motion_explorer(SCARA, START, VIA, GOAL), TypeError, "start: wanted a ScaraPose"),
         (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), TypeError, "goal: wanted"),
         (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted one"),

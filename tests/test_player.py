@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.patches import Circle
 from matplotlib.text import Text
 
 from robokin import (
@@ -26,7 +27,7 @@ from robokin import (
     record,
 )
 from robokin.show import animate, plot_joints
-from robokin.show.camera import arm_points
+from robokin.show.camera import arm_points, project
 from robokin.show.page import script
 from robokin.show.palette import css
 
@@ -497,6 +498,9 @@ def test_a_point_may_move_with_time(motions):
     assert np.isnan(way[0][at >= 1500]).all()
     still = animate(IRB140, T, motions[1], points={"ball": CIRCLING[0]})
     assert still.data["scene"]["marks"] == [{"name": "ball", "radius": 0.0, "at": [0.4, 0.0, 0.3]}]
+    balls = animate(IRB140, T, motions[1], circles=[(CIRCLING, 0.07)])
+    [ball], view = balls.still.findobj(Circle), balls.data["scene"]["view"]
+    assert ball.radius == 0.07 and np.allclose(ball.center, project(CIRCLING[-1], view))
     assert len(player.data["scene"]["marks"][0]["way"]["data"]) < 1100  # a byte a number
 
 

@@ -76,7 +76,7 @@ SHARES = {"postures": 4000, "places": 3000, "singular": 1200, "border": 1200, "f
 every_arm = pytest.mark.parametrize("name", ARMS)
 
 PAGE = """async () => {
-  for (const name of ["kinematics", "inverse", "motion"])
+  for (const name of ["kinematics", "geometries", "branches", "levers", "motion"])
     Object.assign(window, await import(`/${name}.js`));
   window.f64 = text => new Float64Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
   window.b64 = numbers => {

@@ -47,6 +47,9 @@ class ClosedForm(Geometry, Protocol):
 
     branches   (rows, flags) of +-1, read-only: the configuration of every row
     carried    what is brought to its place by the first joints: "wrist centre", "point", ...
+
+    The names that `gap` and `singularities` give are keys of `verdicts.SENTENCES`. The same
+    inverse for pages: `show/js/geometries.js`.
     """
 
     @property

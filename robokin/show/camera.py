@@ -1,4 +1,8 @@
-"""What a camera must see of arms, targets and marks, and where it stands: for figures and pages."""
+"""What a camera must see of arms, targets and marks, and where it stands: for figures and pages.
+
+`project` gives metres on the picture. Pixels come of them in `scene.Scene._fit` and matplotlib, in
+a page in `js/camera.js`.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias

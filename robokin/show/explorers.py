@@ -2,8 +2,9 @@
 
 `joint_explorer` has its joints taken and turned, `target_explorer` a target moved, with every
 branch of `ik` drawn and judged, `motion_explorer` the stations of a blended motion. The page
-computes by the scripts of `js/`; `twin.py` says what they are told of an arm, and what an explorer
-says stands here or in `arms/verdicts.py`.
+computes by the scripts of `js/`; `twin.py` says what they are told of an arm. Why a row of `ik`
+does not exist or cannot be used stands in `arms/verdicts.py`, everything else that is said in
+`WORDS`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -34,7 +35,7 @@ from .page import Control, PageExplorer, PageScene
 from .palette import DASHES
 from .player import Output, still_picture
 from .scene import Scene
-from .twin import arm_data
+from .twin import KINDS, arm_data
 
 Pose: TypeAlias = Transform | ScaraPose
 
@@ -58,7 +59,7 @@ WORDS: Mapping[str, str] = {
     "singularity": "{name} singularity",
     "singular": "Singular: {names}.",
     "regular": "Not singular.",
-    "missing": "does not exist",
+    "missingRow": "does not exist",
     "past": "past limit: {joints}",
     "usable": "usable",
     "usableSingular": "usable, singular",
@@ -155,7 +156,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     """
     if isinstance(arm, ThreeLeverArm):
         return _levers_explorer(arm)
-    instance(arm, ClosedFormArm, "arm")
+    _inverted(arm)
     place, turns, q = _showcase(arm)
     name, size = length_unit(extent(arm))
     most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
@@ -214,7 +215,7 @@ def motion_explorer(
     Poses are what `arm.ik` takes (Transform, or ScaraPose for a SCARA), one of each. ValueError: a
     batch of poses, no such row. TypeError: other poses, an arm without `ik`.
     """
-    instance(arm, ClosedFormArm, "arm")
+    _inverted(arm)
     kind = ScaraPose if arm.target is ScaraPose else Transform
     stations = {"start": start, "via": via, "goal": goal}
     for name, pose in stations.items():
@@ -348,6 +349,15 @@ def _open(arm: Arm) -> Floats:
     score = np.where(good, 1.0, 0.5) * near - 0.2 * abs(place[:, 1]) / size
     best: Floats = q[np.round(score, 6).argmax()] + 0.0
     return best
+
+
+def _inverted(arm: ClosedFormArm) -> None:
+    """TypeError: not an arm with an inverse, or one whose inverse no page knows."""
+    kind = type(instance(arm, ClosedFormArm, "arm").geometry)
+    if kind not in KINDS:
+        raise TypeError(
+            f"arm: {kind.__name__} has no inverse for pages; see KINDS in robokin/show/twin.py"
+        )
 
 
 # --- Targets --------------------------------------------------------------------------------------

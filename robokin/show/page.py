@@ -1,5 +1,5 @@
-"""What a page draws: the one description of its data; its script, joined from modules; its HTML,
-and saving it.
+"""What a page draws: the description of its data (an explorer's arm: `twin.arm_data`; numbers in
+few bytes: `numbers.Packed`); its script, joined from modules; its HTML, and saving it.
 """
 
 import base64
@@ -236,7 +236,8 @@ EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
 
 def script(name: str) -> str:
     """The module `name` of the folder js and all that it imports, each once and in its own scope,
-    as one script: `$name` holds what it exports. Without blank lines, leading blanks, and lines
+    as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
+    `explorers.Explorer`. Without blank lines, leading blanks, and lines
     that begin with //, /* or *, which only people read.
 
     ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and

@@ -70,7 +70,8 @@ def animate(
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, where it depends on slider and switch alone, (..., 1,
     3); a target is a Transform of such a shape without the 3. NaN where it is not there. No
-    distance is told from a "via" that moves with time.
+    distance is told from a "via" that moves with time. Several arms side by side have the same
+    targets, points and circles; nothing else is drawn beside them, no line and no face.
 
     ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
     numbers. TypeError: an arm or a target of another kind.
@@ -302,11 +303,14 @@ def still_picture(
             scene.trace(path)
         for name, pose in targets.items():
             scene.triad(pose[0, -1] if pose.shape else pose, name)
-        for name, places, _ in marks:
+        for name, places, radius in marks:
             centre = places[0, -1] if places.ndim > 1 else places
             if not np.isfinite(centre).all():
                 continue
-            scene.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
+            if radius:
+                scene.ball(centre, radius)
+            else:
+                scene.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
             if name:
                 scene.label(name, centre)
         scene.finish()

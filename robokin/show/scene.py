@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
+from matplotlib.patches import Circle, Polygon
 
 from .._arrays import ArrayLike, Floats
 from ..arms.arm import Arm
@@ -178,6 +178,12 @@ class Scene:
         )
         if name and at is None:
             self.label(name, pose.translation, color)
+
+    def ball(self, centre: Floats, radius: float) -> None:
+        """A ball, or in a flat view a disc."""
+        self.corners.append(centre[None])
+        x, y = self.project(centre)
+        self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0))
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
         """Words beside a point (3,); `finish` finds them a free place."""

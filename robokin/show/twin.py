@@ -101,7 +101,7 @@ def chain(links: Sequence[Link]) -> list[dict[str, Any]]:
 
 
 def inverse_data(arm: Arm) -> dict[str, Any]:
-    """The numbers of an arm's inverse: `kind`, which inverse.js has to know (None: it does not),
+    """The numbers of an arm's inverse: `kind`, which geometries.js has to know (None: it does not),
     and the fields of the geometry by their names.
 
     turns  cosine and sine of the fixed angles by which the inverse turns a direction on: they

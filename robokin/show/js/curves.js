@@ -148,7 +148,7 @@ function noted(g, marks, x, [left, right, top]) {
 // The words of the limits, as above: beside their lines, off other words and, nearly, off the curves. At most three;
 // where there is no such place, the band alone has to do.
 function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], notes) {
-  const found = [], curves = panel.curves.flatMap((curve, j) => Array.from(curve, (v, i) => [x(times[i]), ys[j](v)]));
+  const found = [];
   const each = (right - left) / times.length, lines = panel.near.map(([j, side]) => ys[j](panel.limits[side][j]));
   g.font = `10px ${FONT}`;
   panel.near.forEach(([j, side], k) => {
@@ -156,12 +156,18 @@ function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], n
     const text = `q${j + 1} limit ${number(limit, +!Number.isInteger(limit))}${unit[0] === "\u00B0" ? "" : " "}${unit}`;
     const w = g.measureText(text).width, taken = [...notes, ...found].map(([, place]) => place);
     let best = null, least = 16; // pixels of curves that the words may cover
-    for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) for (let px = left + 5; px + w + 5 < right; px += 6) {
-      const place = [px, y, w, 11];
-      if (y < top + 1 || y + 11 > bottom - 1 || hit([px - 4, y, w + 8, 11], taken)) continue;
-      const cost = each * curves.filter(([cx, cy]) => cx > px - 3 && cx < px + w + 3 && cy > y - 1 && cy < y + 12).length
-        + 20 * lines.filter(line => line > y && line < y + 11).length;
-      if (cost < least) [best, least] = [place, cost];
+    for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
+      if (y < top + 1 || y + 11 > bottom - 1) continue;
+      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length, beside = [];
+      panel.curves.forEach((curve, i) => {
+        const on = ys[i];
+        curve.forEach((v, k) => { if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[k])); });
+      });
+      for (let px = left + 5; px + w + 5 < right; px += 6) {
+        if (hit([px - 4, y, w + 8, 11], taken)) continue;
+        const cost = each * beside.filter(cx => cx > px - 3 && cx < px + w + 3).length + crossed;
+        if (cost < least) [best, least] = [[px, y, w, 11], cost];
+      }
     }
     if (best && found.length < 3) found.push([text, best, shade(jointColor(j)), 10]);
   });

@@ -2,7 +2,8 @@
 // Python (page.py: PageExplorer).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
-import {fill, singularities} from "./inverse.js";
+import {singularities} from "./geometries.js";
+import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {element, waiting} from "./controls.js";
 import {alongCurve, gripOf} from "./handles.js";

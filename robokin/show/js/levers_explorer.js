@@ -3,12 +3,13 @@
 // comes from Python (page.py: PageExplorer).
 
 import {plus} from "./kinematics.js";
-import {alpha_range, family, fill, least} from "./inverse.js";
+import {alpha_range, family, least} from "./levers.js";
+import {fill} from "./blanks.js";
 import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
 import {control, element, waiting} from "./controls.js";
 import {inScreen} from "./handles.js";
 import {copyButton, slider, stageOf} from "./stage.js";
-import {degrees, plain, radians} from "./turns.js";
+import {degrees, inCode, plain, radians} from "./turns.js";
 
 /**
  * Fills every waiting place with this id.
@@ -36,7 +37,7 @@ function leversExplorer(stage, data) {
   stage.side.append(...sliders.map(s => s.row), element("div", {class: "rk-row"},
     button(says.least, () => { state.alpha = least(arm, state, state.before)[2]; }),
     button(says.begin, () => { if (shown) state.before = family(arm, state, state.alpha); }),
-    copyButton(says, () => fill(data.code, {x: plain(state.place[0] / unit.size, 3), y: plain(state.place[1] / unit.size, 3),
+    copyButton(says, () => fill(data.code, {...inCode({place: state.place}, unit),
       alpha: plain(degrees(state.alpha), 3)}))), canvas, stage.says);
   const pick = event => {
     if (shown) state.alpha = shown.alphaAt(event.offsetX);

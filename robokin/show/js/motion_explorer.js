@@ -2,14 +2,16 @@
 // number of the arm, comes from Python (page.py: PageExplorer).
 
 import {fk, matrix, origin, plus} from "./kinematics.js";
-import {fill, follow, ik} from "./inverse.js";
+import {ik} from "./geometries.js";
+import {follow} from "./branches.js";
+import {fill} from "./blanks.js";
 import {blend, differentiate, linear, quintic, trapezoidal} from "./motion.js";
 import {number} from "./canvas.js";
 import {curvesView} from "./curves.js";
 import {element, waiting} from "./controls.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
 import {copyButton, menu, slider, stageOf, table} from "./stage.js";
-import {plain} from "./turns.js";
+import {lengths, plain} from "./turns.js";
 
 /**
  * Fills every waiting place with this id.
@@ -202,7 +204,7 @@ function stationHandles(stage, state, copied, data) {
 // The lines of Python that make the same motion.
 function inCode(data, state) {
   const {unit, code, laws, corners} = data;
-  const numbers = place => place.map(x => `${plain(x / unit.size, 3)} * ${unit.code}`).join(", ");
+  const numbers = place => lengths(place, unit).map(x => `${x} * ${unit.code}`).join(", ");
   return fill(code, {start: numbers(state.start.place), via: numbers(state.via.place), goal: numbers(state.goal.place),
     law: laws[state.law], duration: state.duration, blend: plain(state.blend, 3), corner: corners[state.corner], row: state.row});
 }

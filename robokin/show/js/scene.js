@@ -1,7 +1,8 @@
 // The scene: arms, targets and marks in space, above a floor.
 
 import {dot, distance, frames, origin, plus, turned} from "./kinematics.js";
-import {camera, clear, colors, FONT, hit, jointColor, polygon, prepared, shape, spot, stroke, tiled, words} from "./canvas.js";
+import {clear, colors, FONT, hit, jointColor, polygon, prepared, shape, spot, stroke, tiled, words} from "./canvas.js";
+import {camera} from "./camera.js";
 
 /**
  * @typedef {object} Shown  an arm as a picture shows it

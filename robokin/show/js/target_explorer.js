@@ -2,7 +2,9 @@
 // every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {distance_from_singularity, matrix, plus, product} from "./kinematics.js";
-import {explain, fill, ik, nearest, representative, singularities, within} from "./inverse.js";
+import {ik, singularities} from "./geometries.js";
+import {explain, nearest, representative, within} from "./branches.js";
+import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {element, waiting} from "./controls.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
@@ -143,7 +145,7 @@ function targetHandles(stage, state, home, data, turnBy) {
 }
 
 function verdict(arm, words, q, inside, exists) {
-  if (!exists) return words.missing;
+  if (!exists) return words.missingRow;
   const past = inside.flatMap((good, j) => (good ? [] : [`q${j + 1}`]));
   if (past.length) return fill(words.past, {joints: past.join(", ")});
   return Object.values(singularities(arm, q)).some(Boolean) ? words.usableSingular : words.usable;

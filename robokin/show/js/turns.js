@@ -24,9 +24,11 @@ export function rollPitchYaw(m) {
 export const plain = (x, decimals) => String(+x.toFixed(decimals));
 // Joint values in code: "90.0 * deg, ...".
 export const inUnits = (units, q) => q.map((x, j) => `${plain(x / units[j].size, 3)} * ${units[j].code}`).join(", ");
+// A place in code, to a thousandth of a millimetre.
+export const lengths = (place, unit) => place.map(x => plain(x / unit.size, unit.size < 1 ? 3 : 6));
 // A target's values for the blanks of a line of code.
 export const inCode = (state, unit) => ({
-  x: plain(state.place[0] / unit.size, 3), y: plain(state.place[1] / unit.size, 3), z: plain(state.place[2] / unit.size, 3),
+  ...Object.fromEntries(lengths(state.place, unit).map((text, k) => ["xyz"[k], text])),
   ...(state.turns ? {roll: plain(degrees(state.turns[0]), 3), pitch: plain(degrees(state.turns[1]), 3),
                      yaw: plain(degrees(state.turns[2]), 3)} : {}),
   ...("angle" in state ? {angle: plain(degrees(state.angle), 3)} : {}),
