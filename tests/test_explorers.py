@@ -787,6 +787,32 @@ def test_stations_follow_the_pointer_and_no_other_moves(opened, arm):
         follows_the_pointer(shown, f"via {c}", "Shift+ArrowRight", {f"via {c}"})
 
 
+CANVASES = {
+    "motion": lambda: (motion_explorer(IRB140, START, VIA, GOAL), IRB140),
+    "levers": lambda: (target_explorer(LEVERS), LEVERS),
+}
+SIZES = """rk => [...rk.querySelectorAll("canvas")].map(c =>
+  [c.width / c.clientWidth, c.height / c.clientHeight])"""
+
+
+@pytest.mark.parametrize("kind", CANVASES)
+def test_every_canvas_is_drawn_anew_in_another_theme_and_size(opened, kind):
+    """Each by itself: the curves hung on the state and kept the colours of the theme before."""
+    shown = opened(*CANVASES[kind]())
+    shown.page.emulate_media(color_scheme="light")
+    light = shown.look().pixels
+    shown.page.emulate_media(color_scheme="dark")
+    dark = shown.look().pixels
+    assert len(light) == 2 and all(a != b for a, b in zip(light, dark, strict=True))
+    shown.page.emulate_media(color_scheme="light")
+    assert shown.look().pixels == light
+    for width in (560, 1366, 390, 900):
+        shown.page.set_viewport_size({"width": width, "height": 800})
+        shown.look()
+        ratios = np.array(shown.rk.evaluate(SIZES))
+        assert np.allclose(ratios, ratios[0, 0], rtol=0.01), (width, ratios)
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_last_of_many_places_is_shown(opened, kind):
     """Many moves before one picture, and far ones: where the pointer is at last is what counts."""

@@ -15,7 +15,10 @@ from .numbers import Packed, Scale
 from .palette import css
 
 MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
-STILL = "A still picture. To see it move: run this cell, or trust the notebook and open it again."
+STILL = (
+    "A still picture. To see it move: run all cells (Run > Run All Cells), or trust the notebook "
+    "(Ctrl+Shift+C, then Trust Notebook)."
+)
 
 
 # --- The data -------------------------------------------------------------------------------------

@@ -58,21 +58,22 @@ function leversExplorer(stage, data) {
     home() { state.place = [...home]; },
   }]);
 
+  let costs = null;
   stage.run(() => {
     const [low, high] = alpha_range(arm, state), exists = !Number.isNaN(low);
     if (exists) state.alpha = Math.min(Math.max(state.alpha, low), high);
     const q = exists ? family(arm, state, state.alpha) : state.before;
     [state.place[0] / unit.size, state.place[1] / unit.size, degrees(state.alpha)].forEach((x, k) => sliders[k].set(x));
     const best = exists ? least(arm, state, state.before) : null;
-    shown = drawCosts(canvas, says, exists ? {low, high, alpha: state.alpha, best: best[2],
-      at: alpha => cost(family(arm, state, alpha))} : null);
+    costs = exists ? {low, high, alpha: state.alpha, best: best[2],
+      at: alpha => cost(family(arm, state, alpha))} : null;
     stage.say(exists ? fill(says.costSays, {gamma: number(degrees(q[0]), 1), beta: number(degrees(q[1]), 1),
       alpha: number(degrees(q[2]), 1), S: number(degrees(cost(q)), 1), best: number(degrees(best[2]), 1),
       least: number(degrees(cost(best)), 1)}) : says.outside);
     stage.scene.marks = [{name: says.target, at: state.place, radius: 0}];
     const ghosts = exists ? [0, 1, 2, 3, 4].map(k => ({q: family(arm, state, low + (high - low) * k / 4), past: false})) : [];
     return [{name: arm.name, chain: arm.chain, q, faded: !exists, ghosts: [...ghosts, {q: state.before, past: true}]}];
-  }, [canvas]);
+  }, [canvas], () => { shown = drawCosts(canvas, says, costs); });
 }
 
 // The sum S of the angles' changes over the free angle; returns which angle a place stands for.

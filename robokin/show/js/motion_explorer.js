@@ -55,7 +55,7 @@ function motionExplorer(stage, data) {
   };
   stage.handles.set(stationHandles(stage, state, copied, data));
 
-  let known = "", found = null;
+  let known = "", found = null, drawn = [];
   stage.run(() => {
     const {time, ...asked} = state, key = JSON.stringify(asked);
     if (key !== known) [known, found] = [key, motionOf(data, state)]; // the clock alone changes nothing
@@ -67,7 +67,7 @@ function motionExplorer(stage, data) {
     const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order));
     const i = Math.round(time * (samples - 1));
     for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
-    curves.draw([{title: arm.name, panels}], t, scaleOf(0, state.duration, 5), time * state.duration);
+    drawn = [[{title: arm.name, panels}], t, scaleOf(0, state.duration, 5), time * state.duration];
     numbers.set([v, a].map((rows, order) => units.map((u, j) => (Number.isNaN(most(rows, j)) ? words.none : number(most(rows, j) / u.size, 1)
       + (order === 0 && arm.speed_limits ? ` (${Math.round(100 * most(rows, j) / arm.speed_limits[j])}\u00A0%)` : "")))));
     stage.say([nearWords(data, state, tool), ...notes(data, found)].join(" "));
@@ -75,7 +75,7 @@ function motionExplorer(stage, data) {
       [Math.cos((state[name].angle || 0) / 2), 0, 0, Math.sin((state[name].angle || 0) / 2)], state[name].place)}));
     const posture = q[i].some(Number.isNaN) ? q.slice(0, i).findLast(row => !row.some(Number.isNaN)) || new Array(n).fill(NaN) : q[i];
     return [{name: arm.name, chain: arm.chain, q: posture, faded: missing[i], trace: tool, tail: tool.slice(0, i + 1)}];
-  }, [canvas]);
+  }, [canvas], () => curves.draw(...drawn));
 }
 
 // The motion for what is asked: times, joint values, speeds, accelerations, the tool's places.

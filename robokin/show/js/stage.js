@@ -34,10 +34,11 @@ export function stageOf(root, data) {
 
   return {scene, side, below, says, handles, camera, changed,
     say(text) { if (says.textContent !== text) says.textContent = text; },
-    run(answer, canvases = []) {
+    run(answer, canvases = [], beside = () => {}) {
       ask = pictures(root, [canvas, ...canvases], () => {
         if (stale) arms = answer();
         stale = false;
+        beside();
         const room = view.draw(state.view, arms, "");
         if (room) {
           drawAids(canvas.getContext("2d"), camera(), arms[0], scene.size);
@@ -115,7 +116,11 @@ const LOOK = `
     & .rk-arc { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
     & .rk-slide input, & .rk-slide select, & .rk-choose { height: 32px; }
   }
-  @media print { & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns, & .rk-word { display: none; } }
+  @media print {
+    & .rk-table { overflow: visible; }
+    & .rk-table :is(th, td) { font-size: 9.5px; padding: 1px 2px; white-space: normal; }
+    & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns, & .rk-word { display: none; }
+  }
 }`;
 
 /**
