@@ -49,6 +49,7 @@ LAYERS = {
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
     "robokin.show.explorers": ("robokin",),
+    "robokin.course": ("robokin",),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
 HEAVY = DRAWING | {

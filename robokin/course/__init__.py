@@ -1,0 +1,114 @@
+"""The course: exercises that name the mistake, predictions, hints, a student's own numbers.
+
+    from robokin.course import check, hint, predict, progress, solution, variant
+
+Each lab has a file here with its exercises and predictions, and one in `solutions/`.
+"""
+
+import re
+import textwrap
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+from .book import find, lab
+from .exercises import Verdict
+from .predictions import predict
+from .variants import key, variant
+
+if TYPE_CHECKING:
+    from ..show.explorers import Explorer
+
+__all__ = [
+    "Verdict",
+    "check",
+    "hint",
+    "key",
+    "pose_explorer",
+    "predict",
+    "progress",
+    "solution",
+    "variant",
+]
+
+_verdicts: dict[str, Verdict] = {}  # the last one for each exercise, in this kernel
+
+
+def check(name: str, answer: Any = None, who: Any = None) -> Verdict:
+    """A `Verdict` on the answer to an exercise, "irb140_motion.1"; it shows itself in a cell.
+
+    who  the student, where the exercise has numbers of one's own (`variant`)
+
+    Never raises. An answer that does, that prints, changes its input or never ends is told so.
+    """
+    try:
+        exercise = find(name, "EXERCISES")
+    except ValueError as error:
+        return Verdict(str(name), answered=False, says=(str(error),))
+    try:
+        verdict: Verdict = exercise.judge(str(name), answer, who)
+    except Exception as error:
+        says = f"This cannot be judged: {type(error).__name__}: {error}"
+        verdict = Verdict(str(name), says=(says,))
+    _verdicts[verdict.exercise] = verdict
+    return verdict
+
+
+def pose_explorer(name: str) -> "Explorer":
+    """The target explorer of an exercise whose answer is a pose: it tells in the page whether the
+    task is fulfilled, and "Copy as Python" gives the pose. ValueError: no such exercise.
+    """
+    from ..arms.catalogue import IRB140
+    from ..show.explorers import Explorer, target_explorer
+
+    exercise = find(name, "EXERCISES")
+    goal = getattr(exercise, "goal", None)
+    if goal is None:
+        raise ValueError(f"id: {name} is not an exercise whose answer is a pose")
+    made = target_explorer(IRB140)
+    title = f"Exercise {name}: {exercise.task}"
+    return Explorer(made.data | {"task": dict(goal), "title": title}, made.still)
+
+
+class Note(str):
+    """Words that show themselves as they are."""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+def hint(name: str, n: int = 1) -> Note:
+    """Hint n of an exercise, from 1: each says more. ValueError: no such exercise."""
+    hints = find(name, "EXERCISES").hints
+    if not isinstance(n, int) or not 1 <= n <= len(hints):
+        return Note(f"There are {len(hints)} hints: 1 to {len(hints)}.")
+    more = f" ({len(hints) - n} more)" if n < len(hints) else ""
+    return Note(f"Hint {n}{more}: {hints[n - 1]}")
+
+
+def solution(name: str) -> Note:
+    """A solution of an exercise, as text to read; it is not run. ValueError: no such exercise."""
+    find(name, "EXERCISES")
+    slug, _, number = name.partition(".")
+    file = files(__package__).joinpath("solutions", f"{slug}.py")
+    if not file.is_file():
+        return Note("The solutions are not part of this copy: ask your teacher.")
+    text = file.read_text(encoding="utf-8")
+    found = re.search(rf"^# --- {number}: .*?(?=^# --- |\Z)", text, re.M | re.S)
+    return Note(found[0].strip() if found else "There is no solution here yet.")
+
+
+def progress(name: str | None = None) -> Note:
+    """Which objectives hold in this kernel, lab by lab (`name`: of one lab)."""
+    slugs = dict.fromkeys(k.partition(".")[0] for k in _verdicts) if name is None else [name]
+    lines = ["What was checked since this kernel began:"] if _verdicts else []
+    for slug in slugs:
+        book = lab(slug)
+        lines.append(f"{slug}:")
+        for k, objective in enumerate(book.OBJECTIVES, 1):
+            mine = {f"{slug}.{n}": e for n, e in book.EXERCISES.items() if e.objective == k}
+            got = [i for i in mine if i in _verdicts and _verdicts[i].holds]
+            tried = [i for i in mine if i in _verdicts and _verdicts[i].answered]
+            word = "holds" if len(got) == len(mine) else "begun" if tried else "not yet"
+            text = f"{word:8} {', '.join(mine)}: {objective}"
+            lines += textwrap.wrap(text, 88, initial_indent="  ", subsequent_indent=" " * 11)
+    return Note("\n".join(lines) or "Nothing has been checked in this kernel.")

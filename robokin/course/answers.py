@@ -1,0 +1,183 @@
+"""Running a student's answer: nothing it does gets out. Not an exception, not a print, not a loop
+without an end, not a change of what it was given.
+"""
+
+import contextlib
+import copy
+import ctypes
+import dis
+import io
+import sys
+import threading
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+SECONDS = 4.0  # for all cases of a check together
+QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
+
+
+class TimeUp(BaseException):
+    """Not an Exception: `except Exception` in an answer does not catch it."""
+
+
+class Outcome(NamedTuple):
+    """What came of one call: a result, or what went wrong (`name`, and a sentence `says`)."""
+
+    result: Any = None
+    name: str | None = None
+    says: str = ""
+
+
+# the names of what goes wrong before anything can be judged
+TROUBLE = {
+    "raises an error",
+    "changes its input",
+    "returns None",
+    "prints instead of returning",
+    "never ends",
+}
+NEVER = Outcome(
+    name="never ends",
+    says=f"It does not come to an end, or is far too slow (stopped after {SECONDS:.0f} s).",
+)
+UNWRITTEN = Outcome(name="no answer yet")
+
+
+def is_stub(answer: Any) -> bool:
+    """Whether nothing was written yet: `...` itself, or a function of nothing else."""
+    if answer is ... or answer is None:
+        return True
+    code = getattr(answer, "__code__", None)
+    if code is None:
+        return False
+    steps = list(dis.get_instructions(code))
+    given = [step.argval for step in steps if step.opname in ("LOAD_CONST", "RETURN_CONST")]
+    return {step.opname for step in steps} <= QUIET and given[-1] in (None, ...)
+
+
+def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
+    """What `answer` makes of every case, up to the first one that does not end in time or says that
+    there is no answer yet.
+    """
+    outcomes: list[Outcome] = []
+    watch, streams = Watch(), (sys.stdout, sys.stderr)
+    threading.Thread(target=watch.run, daemon=True).start()
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            for case in cases:
+                outcomes.append(_call(answer, case))
+                if outcomes[-1].name in (NEVER.name, UNWRITTEN.name):
+                    break
+    except TimeUp:
+        outcomes.append(NEVER)
+    finally:
+        while True:  # it may come while we are here
+            try:
+                watch.over = True
+                while not watch.gone:
+                    time.sleep(0.001)
+                _raise_in(watch.thread, None)
+                break
+            except TimeUp:
+                continue
+        sys.stdout, sys.stderr = streams
+    return outcomes[: len(cases)]
+
+
+def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
+    given, printed = copy.deepcopy(case), io.StringIO()
+    try:
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(io.StringIO()):
+            result = answer(*given)
+    except TimeUp:
+        return NEVER
+    except NotImplementedError:
+        return UNWRITTEN
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # SystemExit, too: nothing gets out
+        return Outcome(
+            name="raises an error", says=f"It raises {_told(error)}{_where(answer, error)}."
+        )
+    if not unchanged(given, case):
+        return Outcome(name="changes its input", says="It changes what it is given. Copy it first.")
+    if result is None:
+        text = " ".join(printed.getvalue().split())
+        if text:
+            says = f'It prints ("{text[:60]}") and returns nothing. Use return.'
+            return Outcome(name="prints instead of returning", says=says)
+        return Outcome(name="returns None", says="It returns None: is there a return missing?")
+    return Outcome(result)
+
+
+def _where(answer: Callable[..., Any], error: BaseException) -> str:
+    """The last line of the answer's own file or cell that the error came through."""
+    code, line, trace = getattr(answer, "__code__", None), 0, error.__traceback__
+    while trace is not None:
+        if code is not None and trace.tb_frame.f_code.co_filename == code.co_filename:
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    return f" (line {line} of its cell)" if line else ""
+
+
+def _told(error: BaseException) -> str:
+    with contextlib.suppress(Exception):
+        text = " ".join(str(error).split())
+        return f"{type(error).__name__}: {text[:160]}" if text else type(error).__name__
+    return type(error).__name__
+
+
+class Watch:
+    """Raises `TimeUp` in the thread that made it, again and again, from `SECONDS` on until `over`.
+    Between two steps of Python: a call into C is not interrupted. Without a lock, which an
+    exception in the wrong place would leave locked.
+    """
+
+    def __init__(self) -> None:
+        self.thread, self.over, self.gone = threading.get_ident(), False, False
+
+    def run(self) -> None:
+        """In a thread of its own."""
+        end = time.monotonic() + SECONDS
+        while not self.over:
+            if time.monotonic() > end:
+                _raise_in(self.thread, TimeUp)
+            time.sleep(0.01)
+        self.gone = True
+
+
+def _raise_in(thread: int, error: type[BaseException] | None) -> None:
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(
+        ctypes.c_ulong(thread), ctypes.py_object(error) if error else None
+    )
+
+
+def unchanged(given: Any, before: Any) -> bool:
+    """Whether two inputs are the same, wherever an array stands."""
+    if isinstance(before, np.ndarray):
+        return (
+            isinstance(given, np.ndarray)
+            and given.shape == before.shape
+            and given.dtype == before.dtype
+            and np.array_equal(given, before, equal_nan=before.dtype.kind == "f")
+        )
+    if isinstance(before, (list, tuple)):
+        return (
+            type(given) is type(before)
+            and len(given) == len(before)
+            and all(map(unchanged, given, before))
+        )
+    if isinstance(before, dict):
+        return (
+            isinstance(given, dict)
+            and given.keys() == before.keys()
+            and all(unchanged(given[key], before[key]) for key in before)
+        )
+    if isinstance(before, (str, int, float, bool)):
+        return bool(given == before or (given != given and before != before))
+    return True  # transforms, arms, functions: nobody can change them

@@ -1,0 +1,60 @@
+"""A student's own numbers: the same on every machine, however the name is written."""
+
+import hashlib
+import random
+import unicodedata
+from typing import Any
+
+from .book import lab as _lab
+
+
+def normalised(who: Any) -> str:
+    """A name without differences that are none: case, ways to type an accent, spaces. ValueError:
+    nothing is left.
+    """
+    text = unicodedata.normalize("NFKC", str(who)).casefold()
+    text = " ".join(unicodedata.normalize("NFKC", text).split())
+    if not text:
+        raise ValueError("who: wanted a name or a number, got an empty one")
+    return text
+
+
+def dice(lab: str, who: Any) -> random.Random:
+    """Dice for a student in a lab. Draw whole numbers (`randrange`): they are the same on every
+    machine and in every version of Python.
+    """
+    return random.Random(int(hashlib.sha256(f"{lab}\n{normalised(who)}".encode()).hexdigest(), 16))
+
+
+class Numbers(dict[str, Any]):
+    """A student's numbers: `numbers["height"]`. Shows itself as a table, with the unit of each.
+
+    units  name -> unit; values are in SI units times `sizes`
+    """
+
+    def __init__(self, values: dict[str, Any], units: dict[str, tuple[str, float]]) -> None:
+        super().__init__(values)
+        self.units = units
+
+    def __repr__(self) -> str:
+        lines = []
+        for name, value in self.items():
+            unit, size = self.units.get(name, ("", 1.0))
+            shown = f"{value / size:g}" if isinstance(value, (int, float)) else str(value)
+            lines.append(f"{name:12} {shown} {unit}".rstrip())
+        return "\n".join(lines)
+
+
+def variant(lab: str, who: Any) -> Numbers:
+    """The numbers of the student `who` (a name or a number) for the design exercise of a lab.
+
+    The same on every machine; upper and lower case and spaces make no difference. ValueError: no
+    such lab, an empty name.
+    """
+    made: Numbers = _lab(lab).given(who)
+    return made
+
+
+def key(lab: str, names: Any) -> dict[str, Numbers]:
+    """The numbers of many students, for the teacher: name -> numbers."""
+    return {str(name): variant(lab, name) for name in names}

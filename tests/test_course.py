@@ -1,0 +1,439 @@
+"""The machinery of the course: what a check says of answers of every kind, on exercises made here;
+and that nothing an answer does gets out. The labs' own exercises have a file each.
+"""
+
+import subprocess
+import sys
+import threading
+import time
+import types
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robokin import Quaternion, Transform, course, deg, mm
+from robokin.course import answers, book, check, hint, key, progress, solution, variant, variants
+from robokin.course.exercises import Catch, Function, Value
+from robokin.course.mistakes import INPUTS, RESULTS, TOOLS, Mistake, Tools, general
+from robokin.units import wrapped
+
+TIP = Transform(Quaternion.from_angle_axis(0.4, (0.6, 0, 0.8)), (0.1, 0.2, 0.3))
+
+
+def angles(rng):
+    small = [(0.5, 1.0), (2.5, 0.3)]
+    return small + [tuple(map(float, rng.uniform(-3, 3, 2))) for _ in range(10)]
+
+
+def pose(tools, height, angle):
+    turn = Transform(Quaternion.from_angle_axis(angle, (0, 0, 1)), (0.2, 0.1, height))
+    return tools.product(turn, TIP)
+
+
+def formed(result, case):
+    if not isinstance(result, Transform):
+        raise ValueError(f"wanted a Transform, got {type(result).__name__}")
+    return result
+
+
+def near(a, b):
+    return np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-9)
+
+
+def law(case, result):
+    wanted = pose(Tools(), *case)
+    return None if near(result, wanted) else f"should be at {wanted.translation}"
+
+
+POSE = Function(
+    task="a pose",
+    objective=1,
+    hints=("first", "second"),
+    inputs=("height", "angle"),
+    right=pose,
+    cases=angles,
+    form=formed,
+    law=law,
+    same=near,
+    mistakes=(
+        Mistake("no tip", "The tip is left out.", lambda h, a: pose(Tools(), h, a) @ TIP.inverse()),
+        Mistake("fixed height", "", lambda h, a: pose(Tools(), 0.5, a)),
+        Mistake("fixed height, said otherwise", "", lambda h, a: pose(Tools(), 0.5, a)),
+    ),
+)
+HALF = Value(
+    task="a half",
+    objective=2,
+    hints=("one",),
+    form=lambda answer, given: float(answer),
+    faults=lambda x, given: [] if 0.3 < x <= given else [("too long", f"{x} is too long")],
+    count=1,
+    given=lambda who: 0.5,
+    slips=("percent", "mm for m"),
+)
+STEEP = Catch(
+    task="a test",
+    objective=3,
+    hints=("one",),
+    rights=(("plain", lambda x: 2 * x), ("by sums", lambda x: x + x)),
+    mistakes=(
+        Mistake("one more", "It adds one.", lambda x: 2 * x + 1),
+        Mistake("square", "It squares.", lambda x: x * x),
+    ),
+)
+
+
+@pytest.fixture(autouse=True)
+def lab(monkeypatch):
+    """A lab with one exercise of each kind."""
+    made = types.SimpleNamespace(
+        OBJECTIVES=("turn", "choose", "catch"),
+        EXERCISES={"1": POSE, "2": HALF, "3": STEEP},
+        PREDICTIONS={},
+    )
+    monkeypatch.setattr(book, "LABS", ("made",))
+    monkeypatch.setattr(book, "lab", lambda name: made)
+    monkeypatch.setattr(variants, "_lab", lambda name: made)
+    monkeypatch.setattr(course, "lab", lambda name: made)
+    monkeypatch.setattr(course, "_verdicts", {})
+    return made
+
+
+def right(height, angle):
+    return pose(Tools(), height, angle)
+
+
+def test_a_right_answer_holds_and_says_how_much_was_tried():
+    verdict = check("made.1", right)
+    assert verdict.holds and verdict and verdict.answered and verdict.points == 1
+    assert verdict.mistake is None and verdict.case is None
+    assert "12 cases" in repr(verdict) and "made.1: holds." in repr(verdict)
+
+
+def stub(height, angle):
+    """Words, and nothing else."""
+    ...
+
+
+def raises(height, angle):
+    raise NotImplementedError
+
+
+@pytest.mark.parametrize("answer", [stub, raises, ..., None, lambda h, a: ...])
+def test_nothing_written_yet_is_told_kindly(answer):
+    verdict = check("made.1", answer)
+    assert not verdict.answered and not verdict.holds and verdict.mistake is None
+    assert "not answered yet" in repr(verdict)
+
+
+def prints(height, angle):
+    print("the pose is", right(height, angle))
+
+
+def loops(height, angle):
+    while True:
+        height += 1
+
+
+def stubborn(height, angle):
+    while True:
+        try:
+            height += 1
+        except:  # noqa: E722
+            pass
+
+
+def late(height, angle):
+    while angle < 0:
+        height += 1
+    return right(height, angle)
+
+
+TROUBLE = {
+    "raises an error": (lambda h, a: h / 0, "ZeroDivisionError"),
+    "returns None": (lambda h, a: None if h else 1, "return missing"),
+    "prints instead of returning": (prints, "the pose is"),
+    "another kind or shape": (lambda h, a: [h, a], "wanted a Transform, got list"),
+}
+
+
+@pytest.mark.parametrize("name", TROUBLE)
+def test_trouble_is_told_by_its_name(name, capsys):
+    answer, words = TROUBLE[name]
+    verdict = check("made.1", answer)
+    assert verdict.mistake == name and not verdict.holds and words in repr(verdict)
+    assert "height = 0.5, angle = 1" in verdict.case
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("answer", [loops, stubborn, late])
+def test_a_loop_without_an_end_is_told_in_five_seconds(answer):
+    begin = time.monotonic()
+    verdict = check("made.1", answer)
+    assert time.monotonic() - begin < 5
+    assert verdict.mistake == "never ends" and not verdict.holds
+    assert check("made.1", right).holds  # and whoever asks lives on
+
+
+def test_an_interrupt_of_the_reader_is_not_an_answer():
+    def interrupted(height, angle):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        check("made.1", interrupted)
+
+
+def test_a_time_limit_leaves_nothing_behind(monkeypatch):
+    """Neither an exception that comes too late, nor a redirected output, nor a waiting thread."""
+    monkeypatch.setattr(answers, "SECONDS", 0.02)
+    out, before = sys.stdout, threading.active_count()
+    told = set()
+    for k in range(150):
+        pause = 0.0005 * k  # some end just before the limit, some just after
+
+        def ends(height, pause=pause):
+            end = time.monotonic() + pause
+            while time.monotonic() < end:
+                height += 1
+            return height
+
+        [outcome] = answers.run(ends, [(0,)])
+        assert outcome.name in (None, "never ends") and sys.stdout is out
+        told.add(outcome.name)
+        assert sum(range(1000)) == 499500
+    assert told == {None, "never ends"}
+    for answer in (loops, stubborn):
+        assert answers.run(answer, [(0, 1)] * 3) == [answers.NEVER]
+    time.sleep(0.05)
+    assert threading.active_count() <= before
+
+
+def test_a_changed_input_is_told(lab, monkeypatch):
+    def twice(tools, q):
+        return 2 * q
+
+    arrays = Function(
+        task="twice",
+        objective=1,
+        hints=("one",),
+        inputs=("q",),
+        right=twice,
+        cases=lambda rng: [(np.arange(3.0),), (np.ones((2, 2)),)],
+        form=lambda result, case: np.asarray(result, dtype=float),
+        law=lambda case, result: None if np.allclose(result, 2 * case[0]) else "should be twice",
+        same=lambda a, b: a.shape == b.shape and np.allclose(a, b),
+    )
+    monkeypatch.setitem(lab.EXERCISES, "4", arrays)
+
+    def spoils(q):
+        q *= 2
+        return q
+
+    assert check("made.4", spoils).mistake == "changes its input"
+    assert check("made.4", lambda q: 2 * q).holds
+    assert check("made.4", lambda q: (2 * q).tolist()).holds
+    assert check("made.4", lambda q: q * np.nan).mistake == "NaN"
+
+
+# --- The name of a mistake ------------------------------------------------------------------------
+
+
+def test_a_wrong_answer_is_named_by_what_it_agrees_with_in_all_cases():
+    verdict = check("made.1", lambda h, a: pose(Tools(), h, a) @ TIP.inverse())
+    assert verdict.mistake == "no tip" and "The tip is left out." in verdict.says
+    assert "height = 0.5, angle = 1" in verdict.case and "should be at" in verdict.case
+
+
+def test_two_mistakes_that_agree_are_both_named():
+    verdict = check("made.1", lambda h, a: pose(Tools(), 0.5, a))
+    assert verdict.mistake == "fixed height or fixed height, said otherwise"
+    assert "height = 2.5" in verdict.case, "the smallest case that shows it"
+    assert 0 < verdict.points < 0.5
+
+
+def test_a_mistake_in_some_cases_only_is_not_named():
+    def sometimes(height, angle):
+        return right(height, angle) if angle > 0 else right(0.1, angle)
+
+    verdict = check("made.1", sometimes)
+    assert verdict.mistake is None and not verdict.holds and "not recognised" in repr(verdict)
+    assert verdict.case
+
+
+def test_an_input_that_is_not_used_is_named():
+    verdict = check("made.1", lambda height, angle: right(height, 2.0) if height else None)
+    assert verdict.mistake == "angle is not used"
+    assert check("made.1", lambda height, angle: TIP).mistake == (
+        "height is not used or angle is not used"
+    )
+
+
+GENERAL = {
+    "order of a product": lambda h, a: TIP @ (right(h, a) @ TIP.inverse()),
+    "inverse for the thing": lambda h, a: right(h, a).inverse(),
+    "degrees for radians": lambda h, a: right(h, a * deg),
+    "mm for m": lambda h, a: right(h / mm, a),
+    "sign": lambda h, a: right(h, -a),
+    "sign of an axis": lambda h, a: Transform(
+        right(h, a).rotation, right(h, a).translation * (1, -1, 1)
+    ),
+    "transposed": lambda h, a: Transform(right(h, a).rotation.inverse(), right(h, a).translation),
+}
+
+
+@pytest.mark.parametrize("name", GENERAL)
+def test_a_general_mistake_is_named(name):
+    verdict = check("made.1", GENERAL[name])
+    assert not verdict.holds and verdict.mistake == name
+
+
+ARRAYS = {
+    "wrapped angle": lambda t: wrapped(2 * t),
+    "degrees for radians": lambda t: 2 * t / deg,
+    "percent": lambda t: 200 * t,
+    "a factor of two": lambda t: t,
+    "off by one sample": lambda t: 2 * np.concatenate([t[:1], t[:-1]]),
+    "sign": lambda t: -2 * t,
+}
+
+
+@pytest.mark.parametrize("name", ARRAYS)
+def test_a_general_mistake_with_numbers_is_named(name, lab, monkeypatch):
+    def same(a, b):
+        return a.shape == b.shape and np.allclose(a, b, rtol=0, atol=1e-9)
+
+    samples = Function(
+        task="twice",
+        objective=1,
+        hints=("one",),
+        inputs=("t",),
+        right=lambda tools, t: 2 * t,
+        cases=lambda rng: [(np.linspace(0, 3, 20),), (rng.uniform(0.1, 9, 30),)],
+        form=lambda result, case: np.asarray(result, dtype=float),
+        law=lambda case, x: None if same(x, 2 * case[0]) else "should be twice",
+        same=same,
+    )
+    monkeypatch.setitem(lab.EXERCISES, "4", samples)
+    assert check("made.4", ARRAYS[name]).mistake == name
+    assert check("made.4", lambda t: t + t).holds
+
+
+def test_every_general_mistake_is_tried():
+    names = {m.name for m in general(pose, 2)}
+    assert names == {name for name, *_ in (*TOOLS, *RESULTS, *INPUTS)}
+    assert {m.name for m in general(pose, 0)} <= names
+
+
+# --- Values, and tests that catch -----------------------------------------------------------------
+
+
+def test_a_value_is_judged_with_the_numbers_of_a_student():
+    assert check("made.2", 0.4, who="Ada").holds
+    assert not check("made.2", ..., who="Ada").answered
+    assert "Whose numbers" in repr(check("made.2", 0.4))
+    verdict = check("made.2", 0.6, who="Ada")
+    assert verdict.mistake == "too long" and "0.6" in verdict.case
+    assert check("made.2", 40, who="Ada").mistake == "percent"
+    assert "mm for m" in check("made.2", 400, who="Ada").mistake
+    assert check("made.2", "long", who="Ada").mistake == "another kind or shape"
+
+
+def test_a_test_has_to_accept_and_to_refuse():
+    def good(program):
+        return program(3) == 6 and program(2) == 4
+
+    def asserts(program):
+        assert program(3) == 6
+
+    assert check("made.3", good).holds and check("made.3", asserts).holds
+    assert check("made.3", lambda program: True).mistake == "accepts every program"
+    assert check("made.3", lambda program: False).mistake == "refuses every program"
+    verdict = check("made.3", lambda program: program(2) == 4)
+    assert verdict.mistake == "accepts: square" and verdict.points == 0.75
+    assert check("made.3", lambda program: program.__name__ == "no").mistake
+    assert check("made.3", lambda program: "yes").mistake == "another kind or shape"
+    assert not check("made.3", lambda program: ...).answered
+
+
+@given(
+    st.one_of(
+        st.none(),
+        st.integers(),
+        st.floats(),
+        st.text(max_size=5),
+        st.lists(st.integers(), max_size=3),
+        st.dictionaries(st.text(max_size=3), st.floats(), max_size=2),
+        st.just(object()),
+        st.just(lambda *a: object()),
+        st.just(Transform.identity()),
+    ),
+    st.sampled_from(["made.1", "made.2", "made.3", "made.9", "other.1", "", "made"]),
+)
+def test_a_check_never_raises(answer, name):
+    for who in (None, "Ada", 7, ""):
+        verdict = check(name, answer, who=who)
+        assert isinstance(repr(verdict), str) and 0 <= verdict.points <= 1
+        assert not verdict.holds or verdict.points == 1
+
+
+def test_markup_in_an_answer_stays_words():
+    text = check("made.1", lambda h, a: "<script>alert(1)</script>")._repr_html_()
+    assert "<script" not in text and "&lt;script" in text
+
+
+# --- Beside the checks ----------------------------------------------------------------------------
+
+
+def test_hints_come_one_by_one():
+    assert "first" in hint("made.1") and "1 more" in hint("made.1")
+    assert "second" in hint("made.1", 2) and "more" not in hint("made.1", 2)
+    assert "2 hints" in hint("made.1", 3) and "2 hints" in hint("made.1", 0)
+    with pytest.raises(ValueError, match="made.1"):
+        hint("made.7")
+
+
+def test_a_class_may_leave_the_solutions_out():
+    assert "not part of this copy" in solution("made.1")
+
+
+def test_progress_tells_what_holds():
+    assert "Nothing" in progress()
+    check("made.1", right)
+    check("made.2", 0.9, who="Ada")
+    lines = progress().splitlines()
+    assert [line.split()[0] for line in lines] == ["What", "made:", "holds", "begun", "not"]
+    assert progress("made") == progress()
+    check("made.1", stub)
+    assert "holds" not in progress()
+
+
+def test_a_students_numbers_do_not_depend_on_how_the_name_is_written(lab):
+    from robokin.course.variants import Numbers, dice
+
+    lab.given = lambda who: Numbers({"x": dice("made", who).randrange(10**6)}, {"x": ("mm", 1)})
+    same = ["Ada Lovelace", " ada  lovelace", "ADA LOVELACE", "Ada\u00a0Lovelace"]
+    assert len({variant("made", who)["x"] for who in same}) == 1
+    assert variant("made", "Zo\u00eb") == variant("made", "Zoe\u0308")
+    assert variant("made", 17) == variant("made", "17")
+    assert len({variant("made", k)["x"] for k in range(300)}) > 295
+    assert key("made", ["a", "b"]) == {"a": variant("made", "a"), "b": variant("made", "b")}
+    with pytest.raises(ValueError, match="who"):
+        variant("made", " ")
+    assert repr(variant("made", "Ada")).endswith("mm")
+
+
+def test_a_students_numbers_are_the_same_in_another_process():
+    code = "from robokin.course.variants import dice; print(dice('made', 'Ada').randrange(10**9))"
+    made = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={"PYTHONHASHSEED": seed, "PATH": ""},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert len(made) == 1 and made.pop().strip().isdigit()
