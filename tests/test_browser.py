@@ -221,7 +221,11 @@ def test_every_player_of_an_exported_lab_works_without_a_network(page, exported,
     page.goto(exported[lab].as_uri())
     players = page.locator(PLAYER)
     assert players.count() == _stored_players(lab) > 0
-    for player in players.all():
+    for question in page.locator(".rk-ask").all():
+        _opens(question)
+    for player in players.all():  # those behind a question, too
+        if player.locator(":scope > .rk-ask").count():
+            continue
         player.locator("canvas").first.wait_for(timeout=10_000)
         if player.locator(".rk-handle").count():
             _answers(page, player)
@@ -367,6 +371,18 @@ def _html_outputs(lab):
     return "\n".join(
         o.get("data", {}).get("text/html", "") for cell in cells for o in cell.get("outputs", ())
     )
+
+
+def _opens(question):
+    """A prediction answers a guess."""
+    assert not question.locator(".rk-answer").inner_text()
+    typed = question.locator("fieldset input[type=number]")
+    if typed.count():
+        typed.fill("1")
+    else:
+        question.locator("input[type=radio]").first.check()
+    question.get_by_role("button", name="This is my guess").click()
+    assert "ight" in question.locator(".rk-answer").inner_text()
 
 
 def _stored_players(lab):

@@ -28,7 +28,7 @@ from robokin import (
 )
 from robokin.show import animate, plot_joints
 from robokin.show.camera import arm_points, project
-from robokin.show.page import script
+from robokin.show.page import STILL, script
 from robokin.show.palette import css
 
 X, Y, Z = np.eye(3)
@@ -1107,7 +1107,7 @@ def test_the_still_picture_says_how_to_set_it_moving(page, browser, blended, tmp
     context = browser.new_context(java_script_enabled=False)
     still = context.new_page()
     still.goto((tmp_path / "player.html").as_uri())
-    assert still.get_by_text("run this cell, or trust the notebook").is_visible()
+    assert still.get_by_text(STILL).is_visible()
     context.close()
 
 

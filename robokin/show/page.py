@@ -5,6 +5,7 @@ few bytes: `numbers.Packed`); its script, joined from modules; its HTML, and sav
 import base64
 import contextlib
 import html
+import json
 import os
 import re
 from importlib.resources import files
@@ -197,7 +198,9 @@ class PageExplorer(TypedDict, total=False):
     joint   q, rows of numbers
     levers  the point `target`, the posture q before it
     target  target, turns in radians, the posture q before it, names of branches, heads of the
-            table, the unit of travel in radians
+            table, the unit of travel in radians; `task`, an exercise: how many different
+            postures have to reach the target (`wanted`), what it says then (`holds`) and before
+            (`open`)
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
     """
 
@@ -229,6 +232,36 @@ class PageExplorer(TypedDict, total=False):
     corners: list[str]
     panels: list[str]
     samples: int
+    task: dict[str, Any]
+
+
+class PageAnswer(TypedDict):
+    """An answer to a question: what it says, why it is right or not, the confusion behind a wrong
+    one and a second case that shows it; of a number to type its value.
+    """
+
+    text: str
+    reason: str
+    confusion: str | None
+    second: str
+    value: NotRequired[float]
+
+
+class PageQuestion(TypedDict):
+    """Everything that a prediction is given. `unit` and `within` (a share): of a number to type.
+    `choice`: what was chosen in the notebook, if anything. `view`: what opens after the choice, as
+    HTML.
+    """
+
+    name: str
+    title: str
+    question: str
+    options: list[PageAnswer]
+    right: int
+    unit: str | None
+    within: float
+    choice: str | None
+    view: str
 
 
 # --- The script -----------------------------------------------------------------------------------
@@ -287,15 +320,33 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
 # --- HTML -----------------------------------------------------------------------------------------
 
 
-def output(call: str, name: str, text: str, png: bytes, alt: str) -> str:
-    """A piece of HTML: the still picture, and the script that replaces it by what `text`, a `Page`
-    or `PageExplorer` as JSON, describes. `call`: the module and its function, "player.play".
-    """
-    module, _ = call.split(".")
+def inert(data: Any) -> str:
+    """`data` as JSON that may stand in a script. ValueError: nothing that JSON can hold."""
+    try:
+        text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+        text.encode()
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ValueError(f"data: wanted what JSON can hold ({error})") from None
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def still_image(png: bytes, alt: str) -> str:
+    """The still picture that stands in the place of a player or an explorer until it wakes."""
     image = base64.b64encode(png).decode()
     return (
-        f'<div class="robokin-player" data-player="{name}"><img alt="{html.escape(alt)}" '
-        f'style="max-width:100%" src="data:image/png;base64,{image}"><p>{STILL}</p></div>\n'
+        f'<img alt="{html.escape(alt)}" style="max-width:100%" '
+        f'src="data:image/png;base64,{image}"><p>{STILL}</p>'
+    )
+
+
+def output(call: str, name: str, text: str, still: str) -> str:
+    """A piece of HTML: `still`, and the script that replaces it by what `text`, a `Page`,
+    `PageExplorer` or `PageQuestion` as JSON, describes. `call`: the module and its function,
+    "player.play".
+    """
+    module, _ = call.split(".")
+    return (
+        f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
         f"<style>{css()}</style>\n"
         f'<script>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
     )

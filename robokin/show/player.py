@@ -7,7 +7,6 @@ worth reading. `js/player.js` draws them; `page` says what it gets.
 """
 
 import hashlib
-import json
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -25,7 +24,20 @@ from . import arguments, findings, plots
 from .arguments import Targets
 from .camera import Mark, chain, extent, flange, scene_data
 from .numbers import decimals, packed, rounded, scale, scales, thin, tidy
-from .page import Axis, Page, PageArm, PagePanel, PageScene, Slider, Switch, Unit, output, save
+from .page import (
+    Axis,
+    Page,
+    PageArm,
+    PagePanel,
+    PageScene,
+    Slider,
+    Switch,
+    Unit,
+    inert,
+    output,
+    save,
+    still_image,
+)
 from .palette import DASHES, INK, SOFT
 from .panels import near_limits
 from .scene import Scene
@@ -105,14 +117,7 @@ class Output:
         if not isinstance(data, dict):
             raise ValueError(f"data: wanted a dict, got {short(data)}")
         self.data, self.still = data, instance(still, plots.Figure, "still")
-        try:
-            text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-            text.encode()
-        except (TypeError, ValueError, RecursionError) as error:
-            raise ValueError(f"data: wanted what JSON can hold ({error})") from None
-        self.text = (
-            text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-        )
+        self.text = inert(data)
         # Of the data and not of the picture: another zlib packs the same pixels into other bytes.
         # Of full floats, too, only what every processor agrees on.
         agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
@@ -121,9 +126,8 @@ class Output:
     @property
     def html(self) -> str:
         """The player as a piece of HTML: the still picture, and the script that replaces it."""
-        return output(
-            self.call, self.id, self.text, plots.palette_png(self.still), self.data["alt"]
-        )
+        still = still_image(plots.palette_png(self.still), self.data["alt"])
+        return output(self.call, self.id, self.text, still)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one

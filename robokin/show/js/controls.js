@@ -1,6 +1,7 @@
-// What surrounds the canvases: elements, the style sheet, dragging the view, and when to draw again.
+// What surrounds the canvases: the style sheet, dragging the view, and when to draw again.
 
 import {colors, FONT, readColors} from "./canvas.js";
+import {control} from "./elements.js";
 
 /** Colours are those of palette.py. JupyterLab styles tables, labels and buttons of its own: .rk.rk.rk outdoes it. */
 export const STYLE = `
@@ -52,36 +53,6 @@ export const STYLE = `
     & select { appearance: none; background: none; border: 0; padding: 0; }
   }
 }`;
-
-/**
- * The places in the page that wait for this output: each only once, and the same one may stand twice in a page.
- * @param {string} id
- * @returns {HTMLElement[]}
- */
-export function waiting(id) {
-  const roots = [...document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)];
-  for (const root of roots) root.dataset.ready = "";
-  return roots;
-}
-
-/** @returns {HTMLElement} */
-export function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
-}
-
-/** JupyterLab takes arrow keys and Space for itself unless the very element with the focus forbids it. */
-export const control = (tag, attributes, ...children) =>
-  element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
-
-export const choice = (name, texts) => control("select", {"aria-label": name},
-  ...texts.map((text, i) => element("option", {value: i}, text)));
-
-/** A slider over whole numbers from 0 on. */
-export const range = (name, most) =>
-  control("input", {type: "range", min: 0, max: most, step: 1, value: 0, "aria-label": name});
 
 export const sceneCanvas = (scene, alt) => control("canvas", {class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
   role: "img", tabindex: 0, "aria-label": alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : "")});

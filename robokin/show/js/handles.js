@@ -2,7 +2,7 @@
 // on one does not scroll the page, a keyboard reaches it, and it has a name.
 
 import {cross, dot, frames, origin, plus, turned} from "./kinematics.js";
-import {element, control} from "./controls.js";
+import {element, control} from "./elements.js";
 
 const NEAR = 12; // px: no handle is drawn nearer to the edge of the scene
 

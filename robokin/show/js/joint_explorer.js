@@ -5,7 +5,7 @@ import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js
 import {singularities} from "./geometries.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
-import {element, waiting} from "./controls.js";
+import {element, waiting} from "./elements.js";
 import {alongCurve, gripOf} from "./handles.js";
 import {copyButton, slider, stageOf, table, tick} from "./stage.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";

@@ -6,7 +6,7 @@ import {plus} from "./kinematics.js";
 import {alpha_range, family, least} from "./levers.js";
 import {fill} from "./blanks.js";
 import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
-import {control, element, waiting} from "./controls.js";
+import {control, element, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
 import {copyButton, slider, stageOf} from "./stage.js";
 import {degrees, inCode, plain, radians} from "./turns.js";

@@ -5,7 +5,8 @@ import {number, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {places, recording} from "./recordings.js";
-import {choice, control, element, orbit, pictures, range, sceneCanvas, STYLE, waiting} from "./controls.js";
+import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {choice, control, element, range, waiting} from "./elements.js";
 
 const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
 const TICKS = 400, SPEEDS = [0.25, 0.5, 1, 2, 4];

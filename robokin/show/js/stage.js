@@ -3,7 +3,8 @@
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, stroke} from "./canvas.js";
 import {sceneView} from "./scene.js";
-import {control, element, orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 
 /**
@@ -137,10 +138,12 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   range.addEventListener("input", () => take(+range.value));
   let typing = false; // what is being typed is not written over; what was taken is shown
   exact.addEventListener("input", () => { typing = true; });
-  exact.addEventListener("change", () => {
+  const taken = () => {
     typing = false;
     if (Number.isFinite(exact.valueAsNumber)) take(exact.valueAsNumber);
-  });
+  };
+  exact.addEventListener("change", taken);
+  exact.addEventListener("keydown", event => { if (event.key === "Enter") taken(); }); // JupyterLab keeps it from the field
   return {row, reach(most) { range.max = most; range.step = most / 1000; }, set(value) {
     const text = String(+value.toFixed(decimals));
     range.value = value;

@@ -1,12 +1,12 @@
 // The target explorer: a target taken by the hand, and all branches that reach it. What is said, and
 // every number of the arm, comes from Python (page.py: PageExplorer).
 
-import {distance_from_singularity, matrix, plus, product} from "./kinematics.js";
+import {distance_from_singularity, matrix, plus, product, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
 import {explain, nearest, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
-import {element, waiting} from "./controls.js";
+import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
 import {copyButton, menu, slider, stageOf, table, tick} from "./stage.js";
 import {aboutAxis, ellipsoidOf, degrees, inCode, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
@@ -71,7 +71,7 @@ function targetExplorer(stage, data) {
       ...q.map((x, j) => (exists[k] ? {text: number(x / sizes[j], 1), past: !inside[k][j]} : words.none)),
       exists[k] ? number(distance_from_singularity(arm, q), 3) : words.none,
       exists[k] ? number(travel[k] / data.travel, 1) : words.none]), exists[chosen] ? chosen : -1, exists);
-    stage.say(summary(arm, words, state, usable, chosen));
+    stage.say(told(data.task, found, exists) + summary(arm, words, state, usable, chosen));
 
     const asked = oriented ? matrix(state.rotation, state.place) : null;
     stage.scene.targets = asked ? [{name: words.target, pose: asked}] : [];
@@ -149,6 +149,15 @@ function verdict(arm, words, q, inside, exists) {
   const past = inside.flatMap((good, j) => (good ? [] : [`q${j + 1}`]));
   if (past.length) return fill(words.past, {joints: past.join(", ")});
   return Object.values(singularities(arm, q)).some(Boolean) ? words.usableSingular : words.usable;
+}
+
+// Whether an exercise's task is fulfilled, in words.
+function told(task, rows, exists) {
+  if (!task) return "";
+  // at a singularity two rows may be one posture
+  const same = (a, b) => a.every((x, j) => Math.abs(wrapped(x - b[j])) < 1e-6);
+  const count = rows.filter((q, k) => exists[k] && !rows.some((other, i) => i < k && exists[i] && same(q, other))).length;
+  return `${fill(count === task.wanted ? task.holds : task.open, {count, wanted: task.wanted})} `;
 }
 
 function summary(arm, words, state, usable, chosen) {

@@ -1,0 +1,316 @@
+"""Predictions: what a page says before a choice, and after each; by hand, by keyboard, typed,
+remembered, printed in the notebook.
+"""
+
+import re
+
+import numpy as np
+import pytest
+import test_browser
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+from robokin import IRB140, deg
+from robokin.course.predictions import ASLEEP, Asked, Option, Prediction, filled
+from robokin.show import animate, figure
+
+REASON = "Half the distance costs 12.5 units."
+
+
+def words(view=lambda: "The view opens.\nIt has two lines."):
+    return Prediction(
+        question="What does half the distance cost? It is {now:.1f} now.",
+        options=(
+            Option("the same", "It does not.", "distance does not matter", "At a tenth it is {x}."),
+            Option("twice as much", "Half the distance costs {cost} units."),
+            Option(
+                "half as much", "It goes the other way.", "in proportion", "At double it is {x}."
+            ),
+        ),
+        facts=lambda: {"now": 6.25, "cost": 6.25 * 2, "x": 99},
+        right=lambda facts: int(facts["cost"] > facts["now"]),
+        view=view,
+    )
+
+
+TYPED = Prediction(
+    question="How long is it?",
+    options=(
+        Option("{half:.0f}", "You took the radius.", "radius for diameter", "A ball of 10 is 20."),
+        Option("{whole:.0f}", "Twice the radius."),
+        Option("{long:.0f}", "You took the way round.", "way round", "Round it is more."),
+    ),
+    facts=lambda: {"half": 100, "whole": 200.0, "long": 628.3},
+    right=lambda facts: 1,
+    view=lambda: "The view opens.",
+    unit="mm",
+    within=0.05,
+)
+
+
+page, exported = test_browser.page, test_browser.exported
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """`opened(asked, width)`: a saved page with it; nothing may complain there."""
+    contexts, errors = [], []
+
+    def made(asked, width=900, within=None, **options):
+        context = within or browser.new_context(viewport={"width": width, "height": 800}, **options)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda m: m.type == "error" and errors.append(m.text))
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        # pages that share a memory share an address
+        path = tmp_path / ("one.html" if within else f"{len(contexts)}.html")
+        asked.save(path)
+        page.goto(path.as_uri())
+        return page
+
+    yield made
+    for context in contexts:
+        context.close()
+    assert errors == []
+
+
+def seen(page):
+    return page.locator(".robokin-player").first.inner_text()
+
+
+def guess(page):
+    return page.get_by_role("button", name="This is my guess")
+
+
+@pytest.mark.parametrize("width", [900, 390])
+@pytest.mark.parametrize("k", range(3))
+def test_every_answer_can_be_chosen_and_is_answered(opened, k, width):
+    asked = Asked("made.p1", words(), None)
+    page = opened(asked, width)
+    before = seen(page)
+    assert "It is 6.2 now." in before and "twice as much" in before
+    for hidden in ("view opens", REASON, "Not so", "in proportion", "99"):
+        assert hidden not in before, "something shows before the choice"
+    assert guess(page).is_disabled()
+    page.get_by_label(f"{'abc'[k]})").check()
+    assert "view opens" not in seen(page), "a choice is not yet a guess"
+    guess(page).click()
+    after = seen(page)
+    assert REASON in after and "view opens" in after and "It has two lines." in after
+    option = asked.options[k]
+    assert option.reason in after and f'predict("made.p1", "{"abc"[k]}")' in after
+    assert ("Not so" in after) == (k != 1) and ("Right." in after) == (k == 1)
+    if k != 1:
+        assert option.confusion in after and option.second in after
+        assert "Right is b) twice as much." in after
+    rows = page.locator(".rk-option").all_inner_texts()
+    assert [("right" in row, "your guess" in row) for row in rows] == [
+        (i == 1, i == k) for i in range(3)
+    ]
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_the_keyboard_is_enough(opened):
+    page = opened(Asked("made.p1", words(), None))
+    page.keyboard.press("Tab")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    assert "Not so: in proportion." in seen(page)
+    assert page.evaluate("document.activeElement.textContent") == "Ask me again"
+    page.keyboard.press("Enter")
+    assert "view opens" not in seen(page) and guess(page).is_disabled()
+    page.keyboard.press("Space")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert "Not so: distance does not matter." in seen(page)
+
+
+@pytest.mark.parametrize(
+    ("typed", "says"),
+    [
+        ("200", "Right. Twice the radius."),
+        ("191", "Right."),
+        ("98", "Not so: radius for diameter."),
+        ("640", "Not so: way round."),
+        ("-5", "Not so."),
+        ("0", "Right is 200 mm."),
+    ],
+)
+def test_a_number_is_judged_alike_in_page_and_notebook(opened, typed, says):
+    page = opened(Asked("made.p2", TYPED, None))
+    assert "100" not in seen(page) and "200" not in seen(page)
+    page.get_by_label("your guess, mm").fill(typed)
+    guess(page).click()
+    assert says in seen(page) and f'predict("made.p2", {float(typed):g})' in seen(page)
+    assert says in repr(Asked("made.p2", TYPED, float(typed)))
+
+
+def test_the_page_remembers_and_forgets(opened, browser):
+    context = browser.new_context()
+    asked = Asked("made.p1", words(), None)
+    page = opened(asked, within=context)
+    page.get_by_label("c)").check()
+    guess(page).click()
+    again = opened(asked, within=context)
+    assert "Not so: in proportion." in seen(again) and "view opens" in seen(again)
+    again.get_by_role("button", name="Ask me again").click()
+    assert "view opens" not in seen(opened(asked, within=context))
+
+
+def test_a_browser_that_forbids_memory_is_no_harm(opened, browser):
+    context = browser.new_context()
+    context.add_init_script(
+        "Object.defineProperty(window, 'localStorage', {get() { throw new Error('no'); }});"
+    )
+    page = opened(Asked("made.p1", words(), None), within=context)
+    page.get_by_label("b)").check()
+    guess(page).click()
+    assert REASON in seen(page)
+
+
+def test_a_choice_in_the_notebook_opens_at_once_and_says_the_same(opened):
+    asked = Asked("made.p1", words(), "a")
+    page = opened(asked)
+    text = seen(page)
+    for line in repr(asked).split("\n")[-2:]:
+        assert line in text
+    assert "Your choice: a." in repr(asked) and "view opens" in text
+    assert not page.get_by_role("button").count() and "For your report" not in text
+    right = Asked("made.p1", words(), "b")
+    assert repr(right).endswith(f"Right. {REASON}")
+
+
+def test_a_view_may_be_a_figure_or_a_player(opened):
+    t = np.linspace(0, 2, 41)
+    q = t[:, None] * deg * np.array([45, 30, -30, 20, 10, 5])
+    fig = figure("An empty figure with a long alternative text for the reader.", 6, 2)
+    for made in (fig, animate(IRB140, t, q, title="A turn")):
+        page = opened(Asked("made.p1", words(lambda made=made: made), None))
+        assert page.locator("img, canvas").count() == 0
+        page.get_by_label("b)").check()
+        guess(page).click()
+        if made is fig:
+            assert page.locator("img").get_attribute("alt") == fig.alt
+        else:
+            page.locator(".rk-scene").wait_for()
+            page.get_by_label("time", exact=True).fill("200")
+            expect(page.locator(".rk-ask .rk .rk-value").first).to_have_text("1.00 s")
+            # the style of a player leaves the question alone
+            again = page.get_by_role("button", name="Ask me again").bounding_box()
+            assert again["width"] > 100 and 30 < again["height"] < 50
+
+
+def test_without_scripts_the_question_stands_there(opened):
+    page = opened(Asked("made.p1", words(), None), java_script_enabled=False)
+    text = seen(page)
+    assert "It is 6.2 now." in text and "c) half as much" in text and ASLEEP in text
+    assert "view opens" not in text and REASON not in text
+
+
+def test_markup_stays_words(opened):
+    asked = Prediction(
+        question="Is 1 < 2 & <b>3</b>?",
+        options=(Option("<i>yes</i>", "</script>"), Option("no", "a", "b", "c")),
+        facts=dict,
+        right=lambda facts: 0,
+    )
+    page = opened(Asked("made.p1", asked, None))
+    assert "Is 1 < 2 & <b>3</b>?" in seen(page) and "<i>yes</i>" in seen(page)
+    page.get_by_label("a)").check()
+    guess(page).click()
+    assert "</script>" in seen(page)
+
+
+# the cell itself and those before and after it: their kinds and sources
+NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibling].map(e =>
+  e && [e.classList.contains("jp-CodeCell"),
+        e.querySelector(".jp-InputArea")?.innerText.slice(0, 80)])"""
+
+
+def test_in_jupyterlab_a_question_is_alive_and_keys_are_its_own(jupyter, page):
+    """Trusted and never run: by keyboard, and no key of it is a command of the notebook."""
+    name = test_browser._variant(jupyter, "asked.ipynb")
+    jupyter.trust(name)
+    jupyter.open(page, name)
+    cell = page.locator(".jp-CodeCell").filter(has_text='predict("irb140_motion.p1")')
+    cell.scroll_into_view_if_needed()
+    question = cell.locator(".rk-ask")
+    question.wait_for(timeout=30_000)
+    beside = [cell.evaluate(NEIGHBOURS)]
+    first = question.locator("input[type=radio]").first
+    first.focus()
+    for key in ("b", "a", "x", "d", "d", "m", "z"):
+        page.keyboard.press(key)
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowUp")
+    assert "limits" not in question.locator(".rk-answer").inner_text()
+    page.keyboard.press("Enter")
+    expect(question.locator(".rk-answer")).to_contain_text("bent line in the joints")
+    question.locator(".rk-answer img").wait_for()
+    beside.append(cell.evaluate(NEIGHBOURS))
+    assert beside[0] == beside[1] and beside[0][1] and first.is_visible(), "a cell came or went"
+    assert page.errors == [] and page.outside == []
+
+
+def test_in_jupyterlab_an_untrusted_question_says_how_to_answer(jupyter, page):
+    name = test_browser._variant(jupyter, "not_asked.ipynb")
+    jupyter.open(page, name)
+    cell = page.locator(".jp-CodeCell").filter(has_text='predict("irb140_motion.p1")')
+    cell.scroll_into_view_if_needed()
+    cell.get_by_text(ASLEEP).wait_for(timeout=30_000)
+    text = cell.inner_text()
+    assert "a) None of them." in text and "bent line" not in text
+    assert cell.locator(".rk-ask").count() == 0 and page.errors == []
+
+
+@pytest.mark.parametrize("lab", ["02_irb140_kinematics", "03_irb140_motion"])
+def test_an_exported_lab_asks_on_a_phone(browser, exported, lab):
+    """Opened from a file at 390 px with a finger; every question by keyboard once more."""
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
+    page = context.new_page()
+    page.route(re.compile("^https?:"), lambda route: route.abort())
+    page.goto(exported[lab].as_uri())
+    questions = page.locator(".rk-ask")
+    questions.first.wait_for()
+    assert questions.count() == 10
+    for question in questions.all():
+        answer = question.locator(":scope > .rk-answer")
+        typed = question.locator("fieldset input[type=number]")
+        if typed.count():
+            typed.tap()
+            typed.fill("3")
+        else:
+            question.locator(".rk-option").last.tap()
+        question.get_by_role("button", name="This is my guess").tap()
+        assert "ight" in answer.inner_text()
+        assert question.bounding_box()["width"] <= 390
+        assert answer.evaluate("e => e.scrollWidth <= e.clientWidth + 1")
+        question.get_by_role("button", name="Ask me again").press("Enter")
+        assert answer.inner_text() == ""
+        field = question.locator("fieldset input").first
+        field.press("3" if typed.count() else "Space")
+        field.press("Enter")
+        assert "ight" in answer.inner_text()
+    context.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(opened, scheme):
+    for asked in (Asked("made.p1", words(), None), Asked("made.p1", words(), "a")):
+        page = opened(asked, color_scheme=scheme)
+        page.locator(".rk-ask").wait_for()
+        found = Axe().run(page, context=".rk").response["violations"]
+        assert [
+            (r["id"], r["nodes"][0]["html"][:100], r["nodes"][0].get("failureSummary", "")[:300])
+            for r in found
+            if r["impact"] in ("serious", "critical")
+        ] == []
+
+
+def test_wrong_choices_are_refused():
+    for prediction, choice in ((words(), "d"), (words(), ""), (words(), 1), (TYPED, "b")):
+        with pytest.raises(ValueError, match="choice: wanted"):
+            Asked("made.p1", prediction, choice)
+    question, options, right = filled(words())
+    assert right == 1 and options[1].reason == REASON and "6.2" in question
