@@ -1,0 +1,92 @@
+"""How long a check takes, and whether every student's design task can be solved.
+
+    python tests/benchmarks/bench_checks.py            checks: right and every listed wrong answer
+    python tests/benchmarks/bench_checks.py 1000       also so many variants of every design
+
+Wanted: median below 0.3 s, none above 2 s; an endless loop told within 5 s; every variant solved by
+the method of the solution.
+"""
+
+import contextlib
+import io
+import re
+import statistics
+import sys
+import time
+
+from robokin.course import book, check, solution
+from robokin.course.exercises import Catch, Function
+
+
+def timed(name, answer, **who):
+    begin = time.perf_counter()
+    verdict = check(name, answer, **who)
+    return time.perf_counter() - begin, verdict
+
+
+def endless(*inputs):
+    while True:
+        pass
+
+
+def answers(name, exercise):
+    """The solution, and every listed wrong one."""
+    space = {}
+    with contextlib.redirect_stdout(io.StringIO()):
+        exec(solution(name), space)
+    if isinstance(exercise, (Function, Catch)):
+        made = [v for k, v in space.items() if callable(v) and k in CALLS[name]]
+        yield from made
+        if isinstance(exercise, Function):
+            yield from (mistake.program for mistake in exercise.mistakes)
+    else:
+        yield from (v for k, v in space.items() if k in CALLS[name])
+
+
+CALLS = {
+    "irb140_kinematics.1": "tip",
+    "irb140_kinematics.2": "my_pose",
+    "irb140_kinematics.3": "my_design",
+    "irb140_motion.1": "fraction_for",
+    "irb140_motion.2": "ptp_short",
+    "irb140_motion.3": "speeds_are_right",
+}
+
+
+def checks():
+    everything = []
+    for lab in book.LABS:
+        for n, exercise in book.lab(lab).EXERCISES.items():
+            name = f"{lab}.{n}"
+            times = [timed(name, each, who="your name")[0] for each in answers(name, exercise)]
+            everything += times
+            print(
+                f"{name:20} {len(times):4} answers: median {statistics.median(times):.3f} s, "
+                f"longest {max(times):.3f} s"
+            )
+            if isinstance(exercise, (Function, Catch)):
+                seconds, verdict = timed(name, endless)
+                print(f"{'':20} an endless loop: told after {seconds:.2f} s ({verdict.mistake})")
+    print(f"all: median {statistics.median(everything):.3f} s, longest {max(everything):.3f} s")
+
+
+def variants(count):
+    for lab in book.LABS:
+        for n, exercise in book.lab(lab).EXERCISES.items():
+            if not getattr(exercise, "given", None):
+                continue
+            name = f"{lab}.{n}"
+            text, solved, begin = solution(name), 0, time.perf_counter()
+            for k in range(count):
+                space, who = {}, f"student {k}"
+                with contextlib.redirect_stdout(io.StringIO()):
+                    exec(re.sub(r"^who = .*$", f"who = {who!r}", text, flags=re.M), space)
+                solved += check(name, space[CALLS[name]], who=who).holds
+            seconds = time.perf_counter() - begin
+            print(f"{name}: {solved} of {count} variants solved, {seconds:.0f} s")
+
+
+if __name__ == "__main__":
+    checks()
+    if len(sys.argv) > 1:
+        variants(int(sys.argv[1]))

@@ -1,0 +1,350 @@
+"""Lab 2: right answers pass, every mistake is refused and named; predictions are computed."""
+
+import itertools
+import re
+
+import numpy as np
+import pytest
+
+import robokin.course.irb140_kinematics as lab
+from robokin import IRB140, Quaternion, Transform, deg, differentiate, mm, within
+from robokin.course import check, hint, pose_explorer, solution, variant
+from robokin.course.predictions import filled, shown
+
+TIP, POSE, DESIGN = (f"irb140_kinematics.{k}" for k in (1, 2, 3))
+X, Y, Z = np.eye(3)
+turned = Quaternion.from_angle_axis
+FOUR = Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm)
+
+
+def test_every_objective_has_an_exercise_and_hints():
+    assert len(lab.OBJECTIVES) == 3
+    assert [e.objective for e in lab.EXERCISES.values()] == [1, 2, 3]
+    assert all(len(e.hints) == 3 for e in lab.EXERCISES.values())
+    assert "more" in hint(TIP)
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"), [(TIP, "tip"), (POSE, "my_pose"), (DESIGN, "my_design")]
+)
+def test_a_solution_stands_on_its_own_and_holds(name, answer, capsys):
+    space: dict = {}
+    exec(compile(solution(name), name, "exec"), space)
+    capsys.readouterr()
+    verdict = check(name, space[answer], who="your name")
+    assert verdict.holds, verdict
+
+
+# --- 1: the tip -----------------------------------------------------------------------------------
+
+
+def by_chain(q, length, turn):
+    "As in the lab, with lists, the gripper in two steps."
+    steps = [
+        Transform(turned(q[0], Z), [0, 0, 0.352]),
+        Transform(turned(q[1], -Y), [0.070, 0, 0]),
+        Transform(turned(q[2], Y), [0, 0, 0.350]),
+        Transform(turned(q[3], X) @ turned(q[4], Y), [0.380, 0, 0]),
+        Transform(turned(q[5], X) @ turned(90 * deg, Y), [0.065, 0, 0]),
+        Transform(translation=[0, 0, length]),
+        Transform(turned(turn, Z)),
+    ]
+    pose = Transform.identity()
+    for step in steps:
+        pose = pose @ step
+    return pose
+
+
+def by_joint_6(q, length, turn):
+    "A turn about the flange's z axis is more of joint 6."
+    more = q.copy()
+    more[5] += turn
+    flange = IRB140.fk(more)
+    return Transform(flange.rotation, flange @ (0, 0, length))
+
+
+def by_matrices(q, length, turn):
+    c, s = np.cos(turn), np.sin(turn)
+    tool = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, length], [0, 0, 0, 1]])
+    return Transform.from_matrix(IRB140.fk(q).as_matrix() @ tool)
+
+
+def by_parts(q, length, turn):
+    flange = IRB140.frames(q)[-1]
+    z = flange.rotation.as_matrix()[:, 2]
+    half = Quaternion([np.cos(turn / 2), 0, 0, np.sin(turn / 2)])
+    return Transform(flange.rotation @ half, flange.translation + length * z)
+
+
+@pytest.mark.parametrize("right", [by_chain, by_joint_6, by_matrices, by_parts])
+def test_right_tips_hold(right):
+    verdict = check(TIP, right)
+    assert verdict.holds, verdict
+
+
+def results(program):
+    exercise = lab.EXERCISES["1"]
+    return [exercise.form(program(*case), case) for case in exercise.seeded()]
+
+
+@pytest.mark.filterwarnings("ignore:.*degrees")
+def test_mistakes_differ_from_each_other_and_from_the_right_tip():
+    exercise = lab.EXERCISES["1"]
+    programs = {f"{k} {m.name}": results(m.program) for k, m in enumerate(exercise.mistakes)}
+    programs["right"] = [exercise.right_result(case) for case in exercise.seeded()]
+    for (one, a), (two, b) in itertools.combinations(programs.items(), 2):
+        assert not all(map(exercise.same, a, b)), f"{one} is {two}"
+
+
+@pytest.mark.parametrize("mistake", lab.TIP_MISTAKES, ids=lambda m: m.name)
+def test_a_wrong_tip_is_refused_and_named(mistake):
+    verdict = check(TIP, mistake.program)
+    assert not verdict.holds and verdict.mistake == mistake.name and mistake.says in verdict.says
+    assert "should" in verdict.case
+
+
+GENERAL = {
+    "order of a product": lambda q, length, turn: lab.gripper(length, turn) @ IRB140.fk(q),
+    "mm for m": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length * mm, turn),
+    "degrees for radians": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length, turn * deg),
+    "sign": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length, -turn),
+    "inverse for the thing": lambda q, length, turn: by_chain(q, length, turn).inverse(),
+    "another kind or shape": lambda q, length, turn: by_chain(q, length, turn).translation,
+}
+
+
+@pytest.mark.parametrize("name", GENERAL)
+def test_general_mistakes_in_a_tip_are_named(name):
+    assert check(TIP, GENERAL[name]).mistake == name
+
+
+# --- 2: four ways ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("side", (-40, 0, 100))
+@pytest.mark.parametrize("ahead", (680, 700, 760))
+def test_poses_with_four_ways_hold(ahead, side):
+    pose = Transform(turned(180 * deg, Y), np.array([ahead, side, 287]) * mm)
+    assert (~np.isnan(IRB140.ik(pose)[:, 0])).sum() == 4
+    assert check(POSE, pose).holds
+
+
+def test_limits_do_not_count():
+    pose = Transform(turned(170 * deg, X), np.array([720, 0, 100]) * mm)
+    assert not within(IRB140, IRB140.ik(pose)).all(axis=1).sum() == 4
+    assert check(POSE, pose).holds
+
+
+def test_too_near_in_front_counts_as_well():
+    centre = np.array([70 + 20, 0, 352]) * mm  # 20 mm from the shoulder: the arm cannot fold so far
+    pose = Transform(turned(30 * deg, X), centre + 65 * mm * (turned(30 * deg, X) @ Z))
+    assert np.isnan(IRB140.ik(pose)[:4]).all() and check(POSE, pose).holds
+
+
+SINGULAR = IRB140.fk(np.array([0, -70, -60, 0, 0, 20]) * deg)
+WRONG_POSES = {
+    "all eight ways": IRB140.fk(np.array([10, 20, -30, 40, 50, 60]) * deg),
+    "limits counted": Transform(turned(90 * deg, Y), np.array([300, 200, 600]) * mm),
+    "no way: out of reach": Transform(translation=(0.9, 0, 0.3)),
+    "mm for m": Transform(turned(180 * deg, Y), (720, 0, 287)),
+    "rows twice: a singular pose": SINGULAR,
+}
+
+
+@pytest.mark.parametrize("name", WRONG_POSES)
+def test_wrong_poses_are_named(name):
+    verdict = check(POSE, WRONG_POSES[name])
+    assert not verdict.holds and verdict.mistake == name
+
+
+@pytest.mark.parametrize(
+    "answer", [4, np.zeros(6), FOUR.as_matrix(), FOUR.translation, "four", [FOUR]]
+)
+def test_other_kinds_of_pose_are_told(answer):
+    assert check(POSE, answer).mistake == "another kind or shape"
+
+
+def test_the_pose_explorer_knows_the_goal():
+    task = pose_explorer(POSE).data["task"]
+    assert task["wanted"] == 4 and "{count}" in task["open"]
+
+
+# --- 3: a target of one's own ---------------------------------------------------------------------
+
+
+def design(who, factor=1.1, height=None):
+    "A right design, found another way than in the solution: the quickest of a few heights."
+    numbers = variant("irb140_kinematics", who)
+    p, best = np.linspace(0, 1, 801), []
+    for z in (0.65, 0.7, 0.75, 0.8) if height is None else (height,):
+        rows = IRB140.ik(lab.target(numbers, p, z))
+        for row, flags in enumerate(IRB140.branches.tolist()):
+            q = np.unwrap(rows[:, row], axis=0)
+            turns = q[:, :, None] + 2 * np.pi * np.arange(-2, 3)
+            low, high = IRB140.limits[:, :1], IRB140.limits[:, 1:]
+            inside = ((turns >= low) & (turns <= high)).all(axis=0).any(axis=1)
+            if inside.all():
+                used = (abs(differentiate(q, p)) / IRB140.speed_limits).max()
+                best.append((used / numbers["share"], z, tuple(flags)))
+    shortest, z, flags = min(best)
+    return {"height": z, "flags": flags, "duration": factor * shortest}
+
+
+@pytest.mark.parametrize("k", range(50))
+def test_variants_can_be_solved(k):
+    verdict = check(DESIGN, design(k), who=k)
+    assert verdict.holds, verdict
+
+
+def test_variants_differ():
+    assert len({repr(variant("irb140_kinematics", k)) for k in range(50)}) > 45
+
+
+def test_the_first_guesses_fail_for_everyone():
+    for k in range(20):
+        task_1 = {"height": 0.5, "flags": (1, 1, 1), "duration": 20}
+        assert check(DESIGN, task_1, who=k).mistake.startswith("past a limit: joint")
+        high = {"height": 1.1, "flags": (-1, -1, 1), "duration": 20}
+        assert check(DESIGN, high, who=k).mistake == "out of reach"
+
+
+def test_wrong_designs_are_named():
+    good = design("anna")
+    longest = design("anna", 1.19)
+    assert check(DESIGN, good, who="anna").holds and check(DESIGN, longest, who=" Anna ").holds
+    for change, name in (
+        ({"duration": 0.8 * good["duration"]}, "too fast: joint"),
+        ({"duration": 1.25 * good["duration"]}, "slower than asked"),
+        ({"height": good["height"] * 1000}, "mm for m"),
+        ({"height": good["height"] * 100}, "cm for m"),
+        ({"height": 0.3}, "past a limit: joint"),
+        ({"flags": (1, 1, 1)}, "past a limit: joint"),
+        ({"flags": 4}, "another kind or shape"),
+        ({"flags": (0, 1, 1)}, "another kind or shape"),
+        ({"duration": "five"}, "another kind or shape"),
+        ({"duration": -1}, "another kind or shape"),
+    ):
+        verdict = check(DESIGN, good | change, who="anna")
+        assert not verdict.holds and verdict.mistake.startswith(name), (change, verdict)
+    left = check(
+        DESIGN,
+        good | {"duration": good["duration"] * variant(*"irb140_kinematics anna".split())["share"]},
+        who="anna",
+    )
+    assert "share left out" in " ".join(left.says)
+    assert check(DESIGN, {"height": 0.7}, who="anna").mistake == "another kind or shape"
+    assert not check(DESIGN, good | {"flags": ...}, who="anna").answered
+    assert "Whose" in check(DESIGN, good).says[0]
+    lists = {
+        "height": np.float64(good["height"]),
+        "flags": np.array(good["flags"]),
+        "duration": good["duration"],
+    }
+    assert check(DESIGN, lists, who="anna").holds
+
+
+def test_a_fault_tells_time_joint_and_number():
+    says = " ".join(check(DESIGN, design("anna") | {"flags": (1, 1, 1)}, who="anna").says)
+    assert re.search(r"Joint 1 is past its limit of −?-?180° by \d+\.\d° at t = \d\.\d\d s", says)
+
+
+# --- Predictions ----------------------------------------------------------------------------------
+
+
+def key(name):
+    return filled(lab.PREDICTIONS[name])[2]
+
+
+def test_predictions_are_well_formed():
+    assert list(lab.PREDICTIONS) == [f"p{k}" for k in range(1, 11)]
+    for prediction in lab.PREDICTIONS.values():
+        question, options, right = filled(prediction)
+        assert 3 <= len(options) <= 4 and len({o.text for o in options}) == len(options)
+        for k, option in enumerate(options):
+            assert option.reason.endswith(".") and (option.confusion is None) == (k == right)
+            assert bool(option.second) == (k != right)
+        assert not re.search(r"[{}$\\]", question + " ".join(o.text + o.reason for o in options))
+        assert shown(prediction.view())
+
+
+def jacobian(q, k, point=(0, 0, 0)):
+    "Speed of a flange point when joint k turns, from its axis: another way than differences."
+    frame = IRB140.frames(q)[k + 1]
+    axis = frame.rotation @ IRB140.links[k].axis if k < 5 else IRB140.fk(q).rotation @ Z
+    return np.linalg.norm(np.cross(axis, IRB140.fk(q) @ point - frame.translation))
+
+
+def test_p1_by_the_axes():
+    still = [k + 1 for k in range(6) if jacobian(np.zeros(6), k) < 1e-12]
+    assert still == [4, 6] and "joints 4 and 6" in filled(lab.PREDICTIONS["p1"])[1][key("p1")].text
+
+
+def test_p2_by_the_axes():
+    q = np.random.default_rng(2).uniform(*IRB140.limits.T)
+    assert max(jacobian(q, k, (0, 0, -0.065)) for k in (3, 4, 5)) < 1e-12 and key("p2") == 2
+
+
+def test_p3_by_the_plane_of_the_arm():
+    text = filled(lab.PREDICTIONS["p3"])[1][key("p3")].text
+    q1 = float(text.rstrip("°").replace("−", "-")) * deg
+    front = np.arctan2(-230.94, 400)
+    assert abs(abs(q1 - front) - np.pi) < 1e-3
+
+
+def test_p4_by_the_law_of_cosines():
+    a, b, d = 0.38, 0.35, 0.1
+    angle = np.arccos((b**2 + d**2 - a**2) / (2 * b * d))
+    assert angle > np.pi / 2 and key("p4") == 3
+    chord = 2 * b * np.sin(angle - np.pi / 2)  # the elbow goes on a circle of the upper arm ...
+    facts = lab.PREDICTIONS["p4"].facts()
+    assert facts["obtuse"] == pytest.approx(angle / deg)
+    assert facts["acute"] == pytest.approx(180 - angle / deg)
+    # ... and the whole triangle with it: the wrist centre, d away, goes on a chord of its own
+    assert facts["miss"] == pytest.approx(chord * d / b / mm)
+
+
+def test_p5_by_half_turns():
+    text = filled(lab.PREDICTIONS["p5"])[1][key("p5")].text
+    wrist = [float(x.strip("°").replace("−", "-")) for x in text.split(", ")]
+    assert wrist == [25 - 180, -35, -50 + 180]
+
+
+def test_p6_by_the_jacobian():
+    columns = [
+        [*np.cross(e, IRB140.fk(np.zeros(6)).translation - p), *e]
+        for e, p in (
+            (X, [0.45, 0, 0.702]),
+            (Y, [0.45, 0, 0.702]),
+            (X, [0.515, 0, 0.702]),
+        )
+    ]
+    assert np.linalg.matrix_rank(columns) == 2 and key("p6") == 3
+
+
+def test_p7_by_counting():
+    assert [q for q in range(-400, 401) if (q - 30) % 360 == 0] == [-330, 30, 390]
+    assert key("p7") == 2
+
+
+def test_p8_by_the_distance_from_the_shoulder():
+    for shoulder, end in ((0.07, "last"), (-0.07, "first")):
+        xs = np.arange(250, 900)
+        poses = [lab.pull(x * mm) for x in xs]
+        centres = np.array([pose @ (0, 0, -0.065) for pose in poses])
+        away = np.hypot(np.hypot(centres[:, 0], centres[:, 1]) - shoulder, centres[:, 2] - 0.352)
+        assert xs[np.argmax(away > 0.73)] == lab.PREDICTIONS["p8"].facts()[end]
+    assert key("p8") == 0
+
+
+def test_p9_by_the_limits_alone():
+    rows = IRB140.ik(lab.task_1()[2])[:2000, 0]
+    low, high = IRB140.limits.T
+    past = ((rows > high + 1e-9) | (rows < low - 1e-9)).any(axis=1)
+    assert past[:673].all() and not past[673:].any() and key("p9") == 2
+
+
+def test_p10_by_the_size_of_a_turn():
+    facts = lab.PREDICTIONS["p10"].facts()
+    for name, step in (("coarse", 0.01), ("fine", 0.005)):
+        assert facts[name] == pytest.approx(2 * np.pi / step, rel=1e-3)
+    assert key("p10") == 2

@@ -1,0 +1,498 @@
+"""The exercises and predictions of lab 03: right answers hold in every style, wrong ones are named,
+and every prediction's key is computed a second time, another way.
+"""
+
+import itertools
+import json
+import re
+import types
+
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS
+
+import robokin.course.irb140_motion as book
+from robokin import IRB140, blend, deg, differentiate, mm, nearest, ptp
+from robokin.course import check, hint, predict, solution
+from robokin.course.answers import run
+from robokin.course.mistakes import Tools
+from robokin.course.predictions import filled, judged
+
+FUNCTIONS = ("1", "2")
+START, VIA, GOAL = book.START, book.VIA, book.GOAL
+NAN = float("nan")
+
+
+def _solved(number):
+    """The answer of a solution, run in a namespace of its own."""
+    space = types.ModuleType("solved").__dict__
+    exec(solution(f"irb140_motion.{number}"), space)  # noqa: S102
+    name = {"1": "fraction_for", "2": "ptp_short", "3": "speeds_are_right"}[number]
+    return space[name]
+
+
+@pytest.mark.parametrize("number", "123")
+def test_the_solution_holds(number):
+    verdict = check(f"irb140_motion.{number}", _solved(number))
+    assert verdict.holds and verdict.points == 1, verdict
+
+
+def test_every_objective_has_an_exercise_and_hints():
+    assert [e.objective for e in book.EXERCISES.values()] == [2, 1, 3]
+    assert len(book.OBJECTIVES) == 3
+    for number, exercise in book.EXERCISES.items():
+        assert len(exercise.hints) == 3
+        assert str(hint(f"irb140_motion.{number}", 3)).startswith("Hint 3: ")
+
+
+# --- 1 --------------------------------------------------------------------------------------------
+
+
+def _by_table(distance, corner):
+    values = np.linspace(0, 0.5, 6)
+    gaps = [_gap(b, corner) for b in values]
+    return NAN if distance > gaps[-1] else np.interp(distance, gaps, values)
+
+
+def _by_bisection(distance, corner):
+    low, high = 0.0, 0.5
+    if _gap(high, corner) < distance:
+        return None or NAN
+    for _ in range(30):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _gap(middle, corner) < distance else (low, middle)
+    return high
+
+
+def _gap(b, corner):
+    middle = blend(START, VIA, GOAL, b, 0.5, corner=corner).translation
+    return np.linalg.norm(middle - VIA.translation)
+
+
+def _by_the_middle(distance, corner):
+    middle = (START.translation + GOAL.translation) / 2
+    reach = np.linalg.norm(middle - VIA.translation)
+    if corner == "quintic":
+        reach *= 0.75
+    b = np.array([distance / reach])
+    b[b > 0.5] = np.nan
+    return b
+
+
+def _by_one_call(distance, corner):
+    fraction = 0.5 * distance / _gap(0.5, corner)
+    return round(fraction, 9) if fraction < 0.5 else np.float64("nan")
+
+
+def _by_hand(distance, corner):
+    x, y, z = (2 * VIA.translation - START.translation - GOAL.translation).tolist()
+    d = (x * x + y * y + z * z) ** 0.5
+    b = 2 * distance / d
+    if corner != "parabola":
+        b = b * 4 / 3
+    if b > 0.5:
+        return float("nan")
+    return b
+
+
+@pytest.mark.parametrize(
+    "answer", [_by_table, _by_bisection, _by_the_middle, _by_one_call, _by_hand]
+)
+def test_a_blend_found_in_another_way_holds(answer):
+    verdict = check("irb140_motion.1", answer)
+    assert verdict.holds, verdict
+
+
+def test_the_blend_of_the_document_that_the_task_names():
+    wanted = book.EXERCISES["1"].right(Tools(), 0.05, "parabola")
+    assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
+    assert book.EXERCISES["1"].law((0.05, "parabola"), 0.06) == (
+        "should be 0.06652: in the middle of the parabola the tool is then 50.0 mm from via; with "
+        "0.06 it is 45.1 mm"
+    )
+
+
+# --- 2 --------------------------------------------------------------------------------------------
+
+
+def _by_nearest(q0, q1, s):
+    return ptp(q0, nearest(IRB140, q1[None], q0), s)
+
+
+def _by_loops(q0, q1, s):
+    rows = []
+    for share in s:
+        row = []
+        for a, b, (low, high) in zip(q0, q1, IRB140.limits, strict=True):
+            best = None
+            for k in range(-3, 4):
+                value = b + k * 2 * np.pi
+                if low <= value <= high and (best is None or abs(value - a) < abs(best - a)):
+                    best = value
+            row.append(float(a + share * (best - a)))
+        rows.append(row)
+    return rows
+
+
+def _by_recursion(q0, q1, s):
+    def shifted(value, near, low, high):
+        if value - near > np.pi and value - 2 * np.pi >= low or value > high:
+            return shifted(value - 2 * np.pi, near, low, high)
+        if near - value > np.pi and value + 2 * np.pi <= high or value < low:
+            return shifted(value + 2 * np.pi, near, low, high)
+        return value
+
+    end = np.array([shifted(b, a, *pair) for a, b, pair in zip(q0, q1, IRB140.limits, strict=True)])
+    return np.outer(1 - s, q0) + np.outer(s, end)
+
+
+def _by_masks(q0, q1, s):
+    values = q1 + 2 * np.pi * np.arange(-2, 3)[:, None]
+    low, high = IRB140.limits.T
+    travel = np.ma.masked_array(abs(values - q0), (values < low) | (values > high))
+    end = values[travel.argmin(axis=0), range(6)]
+    return np.stack([q0 + share * (end - q0) for share in s])
+
+
+def _by_rounding(q0, q1, s):
+    end = q1 + 2 * np.pi * np.round((q0 - q1) / (2 * np.pi))
+    end = np.where(end > IRB140.limits[:, 1], end - 2 * np.pi, end)
+    end = np.where(end < IRB140.limits[:, 0], end + 2 * np.pi, end)
+    return (q0 + s[:, None] * (end - q0)).round(9)
+
+
+@pytest.mark.parametrize("answer", [_by_nearest, _by_loops, _by_recursion, _by_masks, _by_rounding])
+def test_a_short_way_found_in_another_way_holds(answer):
+    verdict = check("irb140_motion.2", answer)
+    assert verdict.holds, verdict
+
+
+def test_the_right_motion_has_its_laws():
+    exercise = book.EXERCISES["2"]
+    for q0, q1, s in exercise.seeded():
+        end = exercise.right(Tools(), q0, q1, np.array([0.0, 1.0]))
+        assert (end[0] == q0).all()
+        pose, wanted = IRB140.fk(end[1]).as_matrix(), IRB140.fk(q1).as_matrix()
+        assert np.allclose(pose, wanted, rtol=0, atol=1e-9)
+        low, high = IRB140.limits.T
+        assert ((low - 1e-9 <= end) & (end <= high + 1e-9)).all()
+        for k in range(-4, 5):  # no other value inside the limits is nearer
+            other = q1 + 2 * np.pi * k
+            inside = (low <= other) & (other <= high)
+            assert (~inside | (abs(other - q0) >= abs(end[1] - q0) - 1e-9)).all()
+        motion = exercise.right(Tools(), q0, q1, s)
+        assert np.allclose(motion, ptp(q0, end[1], s), rtol=0, atol=1e-12)
+
+
+# --- both functions -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", FUNCTIONS)
+def test_every_listed_mistake_is_named(number):
+    for mistake in book.EXERCISES[number].mistakes:
+        verdict = check(f"irb140_motion.{number}", mistake.program)
+        assert not verdict.holds and verdict.points < 1
+        assert verdict.mistake == mistake.name, verdict
+        assert verdict.case and mistake.says in verdict.says
+
+
+@pytest.mark.parametrize("number", FUNCTIONS)
+def test_every_two_mistakes_differ_on_a_case(number):
+    exercise = book.EXERCISES[number]
+    cases = exercise.seeded()
+    results = []
+    for mistake in exercise.mistakes:
+        outcomes = run(mistake.program, cases)
+        results.append([exercise._formed(o, c) for o, c in zip(outcomes, cases, strict=True)])
+    for first, second in itertools.combinations(range(len(results)), 2):
+        same = (
+            a.name == b.name if a.name or b.name else exercise.same(a.result, b.result)
+            for a, b in zip(results[first], results[second], strict=True)
+        )
+        names = exercise.mistakes[first].name, exercise.mistakes[second].name
+        assert not all(same), names
+
+
+@pytest.mark.parametrize("number", FUNCTIONS)
+def test_a_stranger_is_refused_without_a_name(number):
+    def stranger(*case):
+        if number == "1":
+            return 0.2 + 0.1 * np.sin(50 * case[0]) + 0.03 * (case[1] == "quintic")
+        q0, q1, s = case
+        return q0 * np.cos(s)[:, None] + q1 * np.sin(3 * s)[:, None]
+
+    verdict = check(f"irb140_motion.{number}", stranger)
+    assert not verdict.holds and verdict.mistake is None and verdict.case
+
+
+@pytest.mark.parametrize(
+    ("number", "answer", "name"),
+    [
+        ("1", lambda d, corner: str(d), "another kind or shape"),
+        ("1", lambda d, corner: [0.1, 0.2], "another kind or shape"),
+        ("1", lambda d, corner: [].append(d), "returns None"),
+        ("1", lambda d, corner: print(d), "prints instead of returning"),
+        ("2", lambda q0, q1, s: q0 + s @ (q1[:2] - q0), "raises an error"),
+        ("2", lambda q0, q1, s: IRB140.fk(q1), "another kind or shape"),
+        ("2", lambda q0, q1, s: _by_nearest(q0, q1, s).T, "transposed"),
+        ("2", lambda q0, q1, s: _by_nearest(q0, q1, s) / deg, "degrees for radians"),
+        ("2", lambda q0, q1, s: s[:, None] * q1, "q0 is not used"),
+        ("1", lambda d, corner: 0.123, "distance is not used or corner is not used"),
+    ],
+)
+def test_another_kind_of_answer(number, answer, name):
+    verdict = check(f"irb140_motion.{number}", answer)
+    assert not verdict.holds and verdict.mistake == name, verdict
+
+
+# --- 3 --------------------------------------------------------------------------------------------
+
+
+def _wrapped(q):
+    return np.angle(np.exp(1j * q))
+
+
+def _by_one_sine(speeds):
+    t = np.concatenate([np.arange(2, 6, 0.01), np.arange(6, 9, 0.004)])
+    q = 3 + 1.5 * np.sin(2 * t)[:, None] * np.array([1, -1, 1, -1, 1, -1])
+    v = 3 * np.cos(2 * t)[:, None] * np.array([1, -1, 1, -1, 1, -1])
+    got = speeds(_wrapped(q), t)
+    return (
+        got.shape == v.shape
+        and np.allclose(got[1:-1], v[1:-1], rtol=0, atol=1e-3)
+        and (np.allclose(got, v, rtol=0, atol=0.1))
+    )
+
+
+def _by_assertions(speeds):
+    t = np.linspace(-1, 1, 500) + 0.0015 * np.sin(np.arange(500))
+    q = np.array([3.0, -3, 3, -3, 3, -3]) + np.outer(t**3 + t**2 - t, [1, 1, -1, -1, 1, -1])
+    v = np.outer(3 * t**2 + 2 * t - 1, [1, 1, -1, -1, 1, -1])
+    got = np.asarray(speeds(_wrapped(q), t))
+    assert got.shape == (500, 6)
+    assert np.nanmax(abs(got - v)[1:-1]) < 1e-3 and not np.isnan(got).any()
+    assert abs(got - v)[[0, -1]].max() < 0.1
+
+
+def _by_several_motions(speeds):
+    rng = np.random.default_rng(5)
+    t = 10 + np.cumsum(rng.choice([0.005, 0.01], 800))
+    for size, rate in ((1.0, 1.5), (3.0, 1.0), (0.8, 2.0)):
+        q = np.pi + size * np.sin(rate * t[:, None] + rng.uniform(0, 6, 6))
+        got = speeds(_wrapped(q), t)
+        reference = np.gradient(q, t, axis=0, edge_order=2)
+        if got.shape != q.shape:
+            return False
+        error = abs(got - reference)
+        if not (error[1:-1] <= 1e-3).all() or not (error <= 0.1).all():
+            return False
+    return True
+
+
+def _by_summing_up(speeds):
+    """Integrates the speeds, and looks at single samples."""
+    t = 1 + np.cumsum(np.tile([0.01, 0.01, 0.005], 300))
+    phase = np.linspace(0, 3, 6)
+    q = 3 * np.sin(1.2 * t[:, None] + phase) + 1
+    v = 3.6 * np.cos(1.2 * t[:, None] + phase)
+    got = speeds(_wrapped(q), t)
+    if np.shape(got) != (900, 6) or not np.isfinite(got).all():
+        return False
+    way = ((got[1:] + got[:-1]) / 2 * np.diff(t)[:, None]).cumsum(axis=0)
+    if abs(way - (q[1:] - q[0])).max() > 0.01:
+        return False
+    worst = max(abs(got[k, j] - v[k, j]) for k in range(1, 899) for j in range(6))
+    return bool(
+        worst < 1e-3 and abs(got[0] - v[0]).max() < 0.1 and abs(got[-1] - v[-1]).max() < 0.1
+    )
+
+
+@pytest.mark.parametrize(
+    "test", [_by_one_sine, _by_assertions, _by_several_motions, _by_summing_up]
+)
+def test_a_fair_test_of_another_style_holds(test):
+    verdict = check("irb140_motion.3", test)
+    assert verdict.holds, verdict
+
+
+def test_right_programs_keep_their_promise_and_wrong_ones_do_not():
+    exercise = book.EXERCISES["3"]
+    rng = np.random.default_rng(2)
+    for _ in range(5):
+        t = rng.uniform(-5, 5) + np.cumsum(rng.uniform(0.002, 0.01, 400))
+        rate = rng.uniform(0.8, 1.5, 6)
+        phase, size = rng.uniform(0, 6, 6), np.minimum(10 / rate**3, 3)
+        q = np.pi + size * np.sin(rate * t[:, None] + phase)
+        v = size * rate * np.cos(rate * t[:, None] + phase)
+        for what, program in exercise.rights:
+            error = abs(program(_wrapped(q), t) - v)
+            assert error[1:-1].max() < 3e-4 and error.max() < 0.06, what
+    for name in ("refuses every program", "accepts every program"):
+        verdict = check("irb140_motion.3", lambda speeds, name=name: name.startswith("accepts"))
+        assert verdict.mistake == name and not verdict.holds
+
+
+@pytest.mark.parametrize(
+    ("test", "slips"),
+    [
+        (dict(turns=0), "no unwrap"),
+        (dict(even=True), "the first step for all"),
+        (dict(begin=0.0), "times that begin at 0"),
+        (dict(within=0.2), "off by half a sample (forward)"),
+        (dict(ends=False), "the ends are zero"),
+    ],
+)
+def test_what_a_weak_test_accepts_is_named(test, slips):
+    def weak(speeds, turns=np.pi, even=False, begin=2.0, within=1e-3, ends=True):
+        step = np.full(600, 0.008) if even else np.tile([0.005, 0.01], 300)
+        t = begin + np.cumsum(step) - step[0]
+        phase = np.arange(6)
+        size = 2.0 if turns else 1.0
+        q = turns + size * np.sin(t[:, None] + phase)
+        error = abs(np.resize(speeds(_wrapped(q), t), q.shape) - size * np.cos(t[:, None] + phase))
+        if np.shape(speeds(_wrapped(q), t)) != q.shape:
+            return False
+        return bool((error[1:-1] < within).all() and (not ends or (error < 0.1 + within).all()))
+
+    verdict = check("irb140_motion.3", lambda speeds: weak(speeds, **test))
+    assert not verdict.holds and verdict.mistake == f"accepts: {slips}", verdict
+
+
+def test_differentiate_is_a_right_program_only_after_unwrapping():
+    t = np.linspace(0, 2, 201)
+    q = 3 + np.outer(t, np.arange(6))
+    assert abs(differentiate(_wrapped(q), t)).max() > 100
+    assert re.search("unwrap", book.EXERCISES["3"].rights[0][0])
+
+
+# --- The predictions ------------------------------------------------------------------------------
+
+NOTEBOOK = json.loads((NOTEBOOKS / "03_irb140_motion.ipynb").read_text(encoding="utf-8"))
+CELLS = {cell["id"]: cell for cell in NOTEBOOK["cells"]}
+
+
+def _right(name):
+    _, options, right = filled(book.PREDICTIONS[name])
+    return options[right].text
+
+
+@pytest.mark.parametrize("name", book.PREDICTIONS)
+def test_every_wrong_answer_is_a_confusion_with_a_second_case(name):
+    prediction = book.PREDICTIONS[name]
+    question, options, right = filled(prediction)
+    assert len(options) in ((3, 4) if prediction.unit is None else (4, 5, 6, 7))
+    assert [k for k, option in enumerate(options) if option.confusion is None] == [right]
+    assert len({option.confusion for option in options}) == len(options)
+    assert len({option.text for option in options}) == len(options)
+    for option in options:
+        assert option.reason and bool(option.second) == (option.confusion is not None)
+        assert not re.search(r"nan|[{}$]|\bjust\b|\bsimply\b", option.text + question)
+    if prediction.unit:
+        for option in options:
+            assert judged(prediction, options, right, float(option.text)) == options.index(option)
+
+
+def _line_speeds(a, b, x, seconds):
+    """Joint speeds at progress x of the line from a to b, by the Jacobian."""
+    angle, axis = (b.rotation @ a.rotation.inverse()).as_angle_axis()
+    twist = np.concatenate([b.translation - a.translation, angle * axis]) / seconds
+    return np.linalg.solve(IRB140.jacobian(IRB140.ik(a.lerp(b, x))[book.ROW]), twist)
+
+
+def test_the_keys_found_in_another_way():
+    speeds = abs(
+        np.array([_line_speeds(book.LEFT, book.RIGHT, x, 20) for x in np.arange(0, 1, 0.02)])
+    )
+    assert (speeds.max(axis=0) > 1.1 * speeds.min(axis=0)).all()
+    assert _right("p1") == "None of them."
+
+    turns = abs(IRB140.ik(book.RIGHT)[book.ROW] - IRB140.ik(book.LEFT)[book.ROW])
+    least, line = (turns / IRB140.speed_limits).max(), 20 * (speeds / IRB140.speed_limits).max()
+    assert _right("p2").startswith(f"{least:.2f} s") and least < 0.6 * line
+
+    q0, q1 = np.zeros(6), np.zeros(6)
+    q0[5], q1[5] = 350 * deg, 60 * deg
+    assert _right("p3") == f"{(nearest(IRB140, q1[None], q0)[5] - q0[5]) / deg:.0f}"
+
+    slope = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6]).deriv()
+    assert _right("p4") == f"{100 * slope(0.5):.1f}" and slope.deriv()(0.5) == 0
+
+    before, after = _line_speeds(START, VIA, 1.0, 10), _line_speeds(VIA, GOAL, 0.0, 10)
+    number = float(_right("p5").split()[1])
+    assert number == pytest.approx((after - before)[2] / 0.01, rel=0.01)
+
+    assert _right("p6").startswith(f"{20 * 2**0.5:.1f} s")
+
+    found = []
+    clock = np.linspace(0, 20, 4001)
+    for b, corner in ((0.1, "parabola"), (0.1 / 0.75, "quintic"), (0.1, "quintic")):
+        rows = IRB140.ik(blend(START, VIA, GOAL, b, clock / 20, corner=corner))[:, book.ROW]
+        found.append(abs(np.diff(np.unwrap(rows[:, 2]), 2)).max() / 0.005**2)
+    assert 1.1 < found[1] / found[0] < 1.13 and found[2] / found[0] > 1.5
+    assert f"{found[1]:.2f}" in _right("p7")
+
+    x, places = 1 / 22, [pose.translation for pose in (START, VIA, GOAL)]
+    a, c = places[0] - 0.1 * (places[1] - places[0]), places[2] + 0.1 * (places[2] - places[1])
+    curve = (1 - x) ** 2 * a + 2 * x * (1 - x) * places[1] + x**2 * c
+    assert _right("p8").startswith(f"{np.linalg.norm(curve - places[0]) / mm:.2f} mm")
+
+    def at(t):
+        return IRB140.ik(book.LEFT.lerp(book.RIGHT, t / 20))[book.ROW]
+
+    def speed(t):
+        return _line_speeds(book.LEFT, book.RIGHT, t / 20, 20)
+
+    exact = (speed(7 + 1e-4) - speed(7 - 1e-4)) / 2e-4
+    errors = [
+        abs((at(7 + h) - 2 * at(7) + at(7 - h)) / h**2 - exact).max() for h in (1e-1, 1e-3, 1e-7)
+    ]
+    assert errors[1] < errors[0] / 100 and errors[1] < errors[2] / 1e4
+    assert _right("p9").startswith("About 0.001 s")
+
+    far = book._pose(900, -100, 800, 45, [0, 1, 0])
+    hole = np.isnan(IRB140.ik(blend(START, far, GOAL, 0, book.S))[:, book.ROW]).any(axis=-1)
+    assert _right("p10").startswith(f"{hole.argmax()}:")
+
+
+@pytest.mark.parametrize("name", book.PREDICTIONS)
+def test_a_prediction_stands_in_the_lab_with_its_view(name):
+    places = [f'predict("irb140_motion.{n}")' for n in book.PREDICTIONS]
+    sources = ["".join(cell["source"]) for cell in NOTEBOOK["cells"]]
+    order = [sources.index(place) for place in places]
+    assert order == sorted(order)
+    assert len(predict(f"irb140_motion.{name}").html) > 10_000
+
+
+def test_nothing_outside_the_predictions_gives_an_answer_away():
+    seen = "\n".join(
+        "".join(cell["source"])
+        + "".join("".join(o.get("text", "")) for o in cell.get("outputs", ()))
+        + "".join("".join(o.get("data", {}).get("text/plain", "")) for o in cell.get("outputs", ()))
+        for id_, cell in CELLS.items()
+        if not id_.startswith("predict-")
+    )
+    answers = ["0.62 s", "290", "187.5", "1.875", "91.7", "28.3", "0.1705", "3.42", "413"]
+    assert not [answer for answer in answers if answer in seen]
+    assert not re.search(r"quicker|no joint keeps|doubles whenever|after the first NaN", seen)
+
+
+def test_the_poses_are_those_of_the_lab():
+    space = {}
+    exec("".join(CELLS["player"]["source"]).split("row =")[0], space)
+    exec("".join(CELLS["lin-code"]["source"]).split("straight =")[0], space)
+    for name in ("start", "via", "goal", "left", "right"):
+        mine = getattr(book, name.upper()).as_matrix()
+        assert np.allclose(space[name].as_matrix(), mine, rtol=0, atol=1e-15)
+
+
+def test_the_stubs_of_the_lab_are_not_answered_yet():
+    for number, id_ in zip(
+        "123", ("your-turn-code", "your-turn-stub-2", "your-turn-stub-3"), strict=True
+    ):
+        space = {}
+        exec("".join(CELLS[id_]["source"]), space)
+        (stub,) = (value for name, value in space.items() if name != "__builtins__")
+        assert not check(f"irb140_motion.{number}", stub).answered
+        assert f'check("irb140_motion.{number}", {stub.__name__})' in [
+            "".join(cell["source"]) for cell in NOTEBOOK["cells"]
+        ]

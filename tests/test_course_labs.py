@@ -1,0 +1,192 @@
+"""What holds of the exercises and predictions of every lab, whichever they are. What is special
+about a lab's own stands in test_course_<lab>.py.
+"""
+
+import json
+import re
+
+import nbformat
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS
+from nbclient import NotebookClient
+
+from robokin import course
+from robokin.course import book, check, hint, progress, solution
+from robokin.course.exercises import Catch, Function
+from robokin.course.predictions import filled
+
+LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.LABS}
+EXERCISES = [f"{lab}.{n}" for lab in book.LABS for n in book.lab(lab).EXERCISES]
+PREDICTIONS = [f"{lab}.{n}" for lab in book.LABS for n in book.lab(lab).PREDICTIONS]
+FUNCTIONS = [e for e in EXERCISES if isinstance(book.find(e, "EXERCISES"), Function)]
+every_lab = pytest.mark.parametrize("lab", book.LABS)
+
+
+def cells(lab):
+    return json.loads(LABS[lab].read_text(encoding="utf-8"))["cells"]
+
+
+def code(lab):
+    return "\n".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "code")
+
+
+@every_lab
+def test_a_lab_asks_what_its_file_has_in_this_order(lab):
+    asked = re.findall(r'^predict\("([\w.]+)"\)$', code(lab), re.M)
+    assert asked == [p for p in PREDICTIONS if p.startswith(f"{lab}.")]
+    checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
+    assert checked == [e for e in EXERCISES if e.startswith(f"{lab}.")]
+    assert len(asked) <= 10 and len(checked) == 3
+
+
+@every_lab
+def test_every_objective_is_practised_and_stands_in_the_lab(lab, monkeypatch):
+    monkeypatch.setattr(course, "_verdicts", {})
+    made = book.lab(lab)
+    assert len(made.OBJECTIVES) == 3
+    assert {e.objective for e in made.EXERCISES.values()} == {1, 2, 3}
+    kinds = {type(e) for e in made.EXERCISES.values()}
+    assert kinds - {Function}, "one of another kind than a function"
+    assert "not yet" in progress(lab) and all(f"{lab}.{n}" in progress(lab) for n in made.EXERCISES)
+    words = " ".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "markdown")
+    plain = re.sub(r"[*\s]+", " ", words)
+    for objective in made.OBJECTIVES:
+        assert objective.rstrip(".;") in plain, objective
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_the_untouched_lab_is_not_answered_yet(name):
+    lab, _, number = name.partition(".")
+    kept = [
+        "".join(c["outputs"][0]["data"]["text/plain"])
+        for c in cells(lab)
+        if "".join(c["source"]).startswith(f'check("{name}"')
+    ]
+    assert len(kept) == 1 and kept[0].startswith(f"{name}: not answered yet.")
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_hints_rise_and_the_solution_holds(name):
+    exercise = book.find(name, "EXERCISES")
+    assert len(exercise.hints) == 3 and len(set(exercise.hints)) == 3
+    assert all(text in hint(name, k) for k, text in enumerate(exercise.hints, 1))
+    [call] = re.findall(rf'^(check\("{re.escape(name)}".*\))$', code(name.partition(".")[0]), re.M)
+    space = {"check": check}
+    exec(compile(solution(name), name, "exec"), space)  # in a namespace of its own
+    space.setdefault("who", "your name")
+    verdict = eval(call, space)
+    assert verdict.holds and verdict.points == 1, verdict
+
+
+def zeros(value):
+    try:
+        return np.zeros_like(np.asarray(value, dtype=float))
+    except (TypeError, ValueError):
+        return 0.0
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_no_exercise_accepts_nothing(name):
+    """Zeros, NaN, the input itself, an empty answer."""
+    exercise = book.find(name, "EXERCISES")
+    right = [exercise.right_result(case) for case in exercise.seeded()]
+    like = right[0]
+    nothing = {
+        "zeros": lambda *case: zeros(like),
+        "nan": lambda *case: zeros(like) * np.nan,
+        **{f"input {k}": (lambda *case, k=k: case[k]) for k in range(len(exercise.inputs))},
+        "the first right one": lambda *case: like,
+        "empty": lambda *case: [],
+    }
+    for what, answer in nothing.items():
+        verdict = check(name, answer)
+        assert verdict.answered and not verdict.holds, f"{name} accepts {what}"
+        assert verdict.case and verdict.points < 1
+
+
+@pytest.mark.parametrize("name", [e for e in EXERCISES if e not in FUNCTIONS])
+def test_no_value_and_no_test_is_right_by_chance(name):
+    exercise = book.find(name, "EXERCISES")
+    if isinstance(exercise, Catch):
+        for answer in (lambda p: True, lambda p: False, lambda p: 1 / 0, lambda p: "x"):
+            assert not check(name, answer).holds
+    else:
+        for answer in (0, np.nan, np.zeros(6), {}, "answer", [], object(), {"height": 0}):
+            verdict = check(name, answer, who="Ada")
+            assert verdict.answered and not verdict.holds and verdict.says
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_every_two_mistakes_differ_on_a_case(name):
+    exercise = book.find(name, "EXERCISES")
+    cases, seen = exercise.seeded(), {}
+    from robokin.course.answers import run
+
+    for mistake in exercise.mistakes:
+        outcomes = [
+            exercise._formed(o, c) for o, c in zip(run(mistake.program, cases), cases, strict=True)
+        ]
+        assert any(exercise._wrong(o, c) for o, c in zip(outcomes, cases, strict=True)), (
+            f"{mistake.name} is right"
+        )
+        agreeing = {
+            m.name for m in exercise.mistakes if exercise.agrees(m.program, outcomes, cases)
+        }
+        assert agreeing == {mistake.name}
+        seen[mistake.name] = True
+    assert len(seen) >= 6
+
+
+@pytest.mark.parametrize("name", PREDICTIONS)
+def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
+    question, options, right = filled(book.find(name, "PREDICTIONS"))
+    typed = book.find(name, "PREDICTIONS").unit is not None
+    assert 3 <= len(options) <= (7 if typed else 4)
+    assert question.rstrip().endswith(("?", ".", ".)"))
+    assert [option.confusion is None for option in options] == [
+        k == right for k in range(len(options))
+    ]
+    for k, option in enumerate(options):
+        assert option.text and option.reason.rstrip().endswith((".", "!", "?", ".)"))
+        assert k == right or (option.confusion and option.second)
+    assert len({option.text for option in options}) == len(options)
+    assert "{" not in question + "".join(map(str, options)), "a blank is not filled"
+
+
+@pytest.mark.parametrize("name", PREDICTIONS)
+def test_nothing_behind_a_prediction_stands_open(name):
+    lab, _, number = name.partition(".")
+    _, options, right = filled(book.find(name, "PREDICTIONS"))
+    open_words = []
+    for cell in cells(lab):
+        open_words.append("".join(cell["source"]))
+        for output in cell.get("outputs", []):
+            if not open_words[-1].startswith("predict("):
+                open_words.append("".join(output.get("text", "")))
+                open_words.append("".join(output.get("data", {}).get("text/plain", "")))
+    text = " ".join(" ".join(open_words).split())
+    for option in options:
+        for hidden in (option.reason, option.second):
+            assert not hidden or " ".join(hidden.split()) not in text
+
+
+def test_in_a_kernel_an_endless_answer_is_told_and_the_kernel_lives():
+    notebook = nbformat.v4.new_notebook(
+        cells=[
+            nbformat.v4.new_code_cell(source)
+            for source in (
+                "from robokin.course import check, progress",
+                "def fraction_for(distance, corner):\n    while True:\n        try:\n"
+                "            distance += 1\n        except Exception:\n            pass\n"
+                'check("irb140_motion.1", fraction_for)',
+                "print(1 + 1)",
+                "progress()",
+            )
+        ]
+    )
+    NotebookClient(notebook, timeout=60, kernel_name="python3").execute()
+    told, alive, after = (cell["outputs"][0] for cell in notebook.cells[1:])
+    assert "does not come to an end, or" in told["data"]["text/plain"]
+    assert alive["text"] == "2\n"
+    assert "begun" in after["data"]["text/plain"]
