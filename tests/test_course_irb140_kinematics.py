@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import robokin.course.irb140_kinematics as lab
 from robokin import IRB140, Quaternion, Transform, deg, differentiate, mm, within
@@ -167,6 +168,25 @@ def test_other_kinds_of_pose_are_told(answer):
 def test_the_pose_explorer_knows_the_goal():
     task = pose_explorer(POSE).data["task"]
     assert task["wanted"] == 4 and "{count}" in task["open"]
+
+
+def test_the_page_of_the_pose_says_when_the_task_is_fulfilled(browser, tmp_path):
+    path = tmp_path / "pose.html"
+    pose_explorer(POSE).save(path)
+    page = browser.new_page(viewport={"width": 900, "height": 800})
+    page.goto(path.as_uri())
+    says = page.locator(".rk-says")
+    expect(says).to_contain_text("8 ways exist, wanted are 4.")
+    turned = {"x, mm": 720, "y, mm": 0, "z, mm": 287, "roll, °": 180, "pitch, °": 0, "yaw, °": 180}
+    for name, value in turned.items():
+        field = page.get_by_label(f"{name}, exactly")
+        field.fill(str(value))
+        field.press("Enter")
+    expect(says).to_contain_text("Fulfilled: 4 ways exist.")
+    page.get_by_label("x, mm, exactly").fill("620")
+    page.get_by_label("x, mm, exactly").press("Enter")
+    expect(says).to_contain_text("8 ways exist, wanted are 4.")
+    page.close()
 
 
 # --- 3: a target of one's own ---------------------------------------------------------------------
