@@ -1037,20 +1037,22 @@ def test_a_thousand_moves_leave_nothing_behind(opened, kind):
       go();
     })"""
     start = shown.look()
-    for moves in (100, 1000):  # the first ones warm up
+    for moves in (100, 1000, 1000, 1000):  # the first ones warm up
         shown.take(name)
         shown.handle(name).evaluate(walk, moves)
         shown.page.mouse.up()
         shown.press(name, "Home")
         heap.append(_heap(shown.page))
     assert shown.look().boxes == start.boxes
-    assert heap[1] - heap[0] < 2, f"{heap} MB"
+    # what is left behind is there after each thousand; what a collector has not got to is not
+    assert min(heap[2:]) - heap[0] < 2, f"{heap} MB"
 
 
 def _heap(page):
     """Megabytes of JavaScript in use after collecting what is not."""
     session = page.context.new_cdp_session(page)
-    session.send("HeapProfiler.collectGarbage")
+    for _ in range(3):  # what is freed may free more
+        session.send("HeapProfiler.collectGarbage")
     used = session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
     session.detach()
     return used
