@@ -10,7 +10,7 @@ from typing import Any
 
 # Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
 # Ito, Color Universal Design, 2008; they stay apart for colour-blind readers, and the dashes stay
-# apart in grey print.
+# apart in grey print. In the dark of a page: PAGE, below.
 JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
     MappingProxyType({"color": color, "dash": dash})  # for all to read
     for color, dash in (
