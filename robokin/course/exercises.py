@@ -8,7 +8,8 @@ does.
 import contextlib
 import html
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,8 +18,8 @@ import numpy as np
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .answers import NEVER, TROUBLE, Outcome, is_stub, run
-from .mistakes import VALUES, Mistake, Program, Tools, general
+from .answers import NEVER, TROUBLE, Outcome, equal, is_stub, run
+from .mistakes import Mistake, Program, Tools, general
 
 Fault = tuple[str, str]  # the name of what is wrong, and a sentence
 
@@ -71,7 +72,7 @@ class Verdict:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exercise:
+class Exercise(ABC):
     """What every kind has. `objective` is one of the lab's three, from 1; `hints` go from a nudge
     to nearly all.
     """
@@ -80,9 +81,9 @@ class Exercise:
     objective: int
     hints: Sequence[str]
 
+    @abstractmethod
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
         """The verdict on an answer of the student `who`."""
-        raise NotImplementedError
 
 
 def unanswered(name: str) -> Verdict:
@@ -127,8 +128,6 @@ class Function(Exercise):
             return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
         cases = self.seeded()
         outcomes = [self._formed(o, c) for o, c in zip(run(answer, cases), cases, strict=False)]
-        if outcomes[0].name == "no answer yet":
-            return unanswered(name)
         wrong = [self._wrong(o, c) for o, c in zip(outcomes, cases, strict=False)]
         if len(wrong) == len(cases) and not any(wrong):
             line = f"It holds in all {len(cases)} cases that were tried, edges among them."
@@ -249,9 +248,7 @@ class Value(Exercise):
     form    (answer, given) -> the answer as `faults` wants it; ValueError that says what was wanted
     faults  (answer, given) -> what does not hold, each with a name and a sentence: the first counts
     count   how many conditions there are
-    slips   the general mistakes (`VALUES`) that a wrong answer may be a right one of
     given   who -> this student's numbers; None: all have the same task
-    start   the answer that stands in the lab before anybody has changed it
     goal    for a pose taken from an explorer: what the page tells by itself (page.PageExplorer)
     """
 
@@ -259,12 +256,10 @@ class Value(Exercise):
     faults: Callable[[Any, Any], Sequence[Fault]]
     count: int
     given: Callable[[Any], Any] | None = None
-    start: Any = None
     goal: Mapping[str, Any] | None = None
-    slips: Sequence[str] = ()
 
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
-        if answer is None or answer is ... or equal(answer, self.start):
+        if is_stub(answer):
             return unanswered(name)
         if isinstance(answer, Mapping) and any(v is None or v is ... for v in answer.values()):
             return unanswered(name)
@@ -287,35 +282,13 @@ class Value(Exercise):
             if self.count > 1:
                 line = f"All {self.count} conditions hold."
             return Verdict(name, holds=True, says=(line,), points=1.0)
-        named = self._meant(answer, given) or found[:1]
-        says = tuple(dict.fromkeys([*(s for _, s in named), *(s for _, s in found)]))
         return Verdict(
             name,
-            mistake=" or ".join(dict.fromkeys(n for n, _ in named)),
-            says=says,
+            mistake=found[0][0],
+            says=tuple(dict.fromkeys(says for _, says in found)),
             case=f"  your answer is {words(answer)}",
             points=round(max(0, self.count - len(found)) / self.count, 2),
         )
-
-    def _meant(self, answer: Any, given: Any) -> list[Fault]:
-        """The general mistakes that were made with a right answer."""
-        found = []
-        for name, says, undo in (each for each in VALUES if each[0] in self.slips):
-            for meant in self._undone(answer, undo):
-                with contextlib.suppress(Exception), warnings.catch_warnings():
-                    warnings.simplefilter("ignore")
-                    if not list(self.faults(self.form(meant, given), given)):
-                        found.append((name, says))
-        return list(dict.fromkeys(found))
-
-    def _undone(self, answer: Any, undo: Program) -> Iterable[Any]:
-        if isinstance(answer, Mapping):
-            for key in answer:
-                with contextlib.suppress(Exception):
-                    yield {**answer, key: undo(answer[key])}
-        else:
-            with contextlib.suppress(Exception):
-                yield undo(answer)
 
 
 # --- Catch wrong programs -------------------------------------------------------------------------
@@ -341,8 +314,6 @@ class Catch(Exercise):
             return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
         programs = [(p,) for _, p in self.rights] + [(m.program,) for m in self.mistakes]
         outcomes = run(answer, programs)
-        if outcomes[0].name == "no answer yet":
-            return unanswered(name)
         # a test may say no by an assertion, and yes by its silence
         said = [
             False
@@ -392,23 +363,6 @@ class Catch(Exercise):
 
 
 # --- In words -------------------------------------------------------------------------------------
-
-
-def equal(a: Any, b: Any) -> bool:
-    """Whether two values of any kind are the same."""
-    if isinstance(a, Transform) or isinstance(b, Transform):
-        return (
-            isinstance(a, Transform)
-            and isinstance(b, Transform)
-            and np.shape(a.translation) == np.shape(b.translation)
-            and np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-9)
-        )
-    with contextlib.suppress(Exception):
-        if np.shape(a) == np.shape(b) and np.asarray(a).dtype != object:
-            return bool(np.array_equal(np.asarray(a), np.asarray(b)))
-    with contextlib.suppress(Exception):
-        return bool(a == b)
-    return False
 
 
 def has_nan(value: Any) -> bool:

@@ -184,25 +184,22 @@ TIP_MISTAKES = (
         "The tip is put along the x axis of the base. That is right in the home posture alone.",
         ahead_at_home,
     ),
-    Mistake(
-        "along another axis of the flange",
-        "The tip is put along the flange's x axis. A tool looks along the flange's z axis.",
-        other(X, True, False),
+    *(
+        Mistake(
+            "along another axis of the flange",
+            f"The tip is put along the flange's {name} axis. A tool looks along the flange's z "
+            "axis.",
+            other(axis, True, False),
+        )
+        for name, axis in (("x", X), ("y", Y))
     ),
-    Mistake(
-        "along another axis of the flange",
-        "The tip is put along the flange's y axis. A tool looks along the flange's z axis.",
-        other(Y, True, False),
-    ),
-    Mistake(
-        "about another axis of the flange",
-        "The gripper is turned about the flange's x axis, not about its z axis.",
-        other(X, False, True),
-    ),
-    Mistake(
-        "about another axis of the flange",
-        "The gripper is turned about the flange's y axis, not about its z axis.",
-        other(Y, False, True),
+    *(
+        Mistake(
+            "about another axis of the flange",
+            f"The gripper is turned about the flange's {name} axis, not about its z axis.",
+            other(axis, False, True),
+        )
+        for name, axis in (("x", X), ("y", Y))
     ),
     Mistake(
         "x for z",

@@ -218,15 +218,3 @@ def _fed(right: Program, k: int, change: Program) -> Program:
         return right(Tools(), *case[:k], change(value), *case[k + 1 :])
 
     return program
-
-
-# What an answer that is a number or a pose may be meant as: (name, sentence, how to undo it).
-VALUES = (
-    ("mm for m", METRES, lambda x: _place(lambda v: v * mm)(x)),
-    ("degrees for radians", DEGREES, lambda x: _numbers(lambda v: v * deg)(x)),
-    ("radians for degrees", "Angles are in degrees in this answer.", _numbers(lambda v: v / deg)),
-    ("metres for mm", "Lengths are in millimetres in this answer.", _numbers(lambda v: v / mm)),
-    ("percent", "A share is a number from 0 to 1 here.", _numbers(lambda v: v / 100)),
-    ("sign", "The sign is turned round.", _numbers(lambda v: -v)),
-    ("inverse for the thing", "This is the inverse of a right answer.", _inverse),
-)
