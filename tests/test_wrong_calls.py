@@ -327,6 +327,10 @@ CALLS = {
         figures.plot_postures,
         dict(arm=IRB140, q=MOTION, targets=[T, HIGHER], title="title", alt="words"),
     ),
+    "plot_velocity_ellipsoid": (
+        figures.plot_velocity_ellipsoid,
+        dict(arm=IRB140, q=SIX, title="title", alt="words"),
+    ),
     # robokin.jobs
     "visit_collect.workspace": (visit_collect.workspace, dict(l1=2.0, l2=1.5, points=SERVED)),
     "visit_collect.out_of_workspace": (
