@@ -555,17 +555,20 @@ SPEED_MISTAKES = (
 # --- 3: a line of one's own -----------------------------------------------------------------------
 
 UNITS = {
-    **{name: ("mm", mm) for name in ("wall", "y_start", "z_start", "y_goal", "z_goal")},
-    "fastest": ("°/s", deg),
+    "tilt": ("\N{DEGREE SIGN} about y", deg),
+    **{f"{end}_{letter}": ("mm", mm) for end in ("start", "goal") for letter in "xyz"},
+    "fastest": ("\N{DEGREE SIGN}/s", deg),
 }
 SHARES = quintic(1.0)(np.linspace(0, 1, 161))
 LONGEST = 1.05  # times the least duration
 
 
 def _ends(numbers: Mapping[str, float]) -> tuple[Transform, Transform]:
-    turn = Quaternion.from_angle_axis(90 * deg, Y)
-    y_z = [(numbers[f"y_{end}"], numbers[f"z_{end}"]) for end in ("start", "goal")]
-    first, last = (Transform(turn, np.array([numbers["wall"], y, z])) for y, z in y_z)
+    turn = Quaternion.from_angle_axis(numbers["tilt"], Y)
+    first, last = (
+        Transform(turn, np.array([numbers[f"{end}_{letter}"] for letter in "xyz"]))
+        for end in ("start", "goal")
+    )
     return first, last
 
 
@@ -596,8 +599,9 @@ class _Judged:
         self.at_start = within(PUMA560, self.q[:, 0]).all(axis=-1)
         self.at_goal = within(PUMA560, self.q[:, -1]).all(axis=-1)
         self.near = distance_from_singularity(PUMA560, self.q).min(axis=-1)
-        chord = abs(self.q[:, -1] - self.q[:, 0]).max(axis=-1)
-        self.mean = np.maximum(chord, 1e-9)
+        self.mean = np.maximum(abs(self.q[:, -1] - self.q[:, 0]).max(axis=-1), 1e-9)
+        travel = abs(self.q[:, 0] - REST).sum(axis=-1)
+        self.obvious = int(np.where(self.at_start, travel, np.inf).argmin())
 
     def least(self, fastest: float) -> Floats:
         """The least duration of each row, s; infinite where it does not serve."""
@@ -613,33 +617,40 @@ def _of(numbers: Mapping[str, float]) -> _Judged:
     return _judged(tuple(sorted((k, float(v)) for k, v in numbers.items())))
 
 
-def _plain(judged: _Judged) -> bool:
-    """Whether a line is fair: nothing in it depends on how finely it is sampled."""
-    if not np.isfinite(judged.q).all() or not judged.at_start.all():
+def _fair(judged: _Judged) -> bool:
+    """Whether a line is a fair task: some rows carry it to its end, at least two others are usable
+    at its start, the obvious one is not the quickest, and nothing depends on the samples.
+    """
+    if not np.isfinite(judged.q).all():
         return False
     serving = judged.serves
-    clear = bool((abs(judged.past) > 1.5 * deg).all())
-    calm = serving.any() and bool(judged.near[serving].min() > 0.05)
-    first = nearest(PUMA560, judged.q[:, 0], REST)  # the posture that is nearest at the start
-    trap = not serving[abs(judged.q[:, 0] - first).sum(axis=-1).argmin()]
-    return clear and calm and 1 <= int(serving.sum()) <= 3 and trap
+    most = np.sort(judged.least(1.0))
+    best = int(judged.least(1.0).argmin())
+    return bool(
+        1 <= serving.sum() <= min(4, judged.at_start.sum() - 2)
+        and (abs(judged.past) > 1 * deg).all()
+        and most[1] > 1.15 * most[0]
+        and judged.near[best] > 0.03
+        and best != judged.obvious
+    )
 
 
 def given(who: Any) -> Numbers:
-    """A line of one's own: all rows are usable at its start, one to three carry it to its end, and
-    the one nearest to the rest posture does not.
-    """
+    """A line of one's own, to be run by row and duration."""
     roll = dice(LAB, who)
     while True:
+        side, x = 1 - 2 * roll.randrange(2), roll.randrange(350, 651, 10) * mm
         numbers = {
-            "wall": roll.randrange(500, 601, 10) * mm,
-            "y_start": roll.randrange(500, 651, 10) * mm,
-            "z_start": roll.randrange(700, 901, 10) * mm,
-            "y_goal": -roll.randrange(100, 301, 10) * mm,
-            "z_goal": roll.randrange(1000, 1201, 10) * mm,
+            "tilt": roll.randrange(60, 151, 15) * deg,
+            "start_x": x,
+            "start_y": side * roll.randrange(300, 651, 10) * mm,
+            "start_z": roll.randrange(400, 1101, 10) * mm,
+            "goal_x": x,
+            "goal_y": -side * roll.randrange(100, 401, 10) * mm,
+            "goal_z": roll.randrange(400, 1201, 10) * mm,
             "fastest": roll.randrange(30, 91, 5) * deg,
         }
-        if _plain(_of(numbers)):
+        if np.isfinite(PUMA560.ik(lin(*_ends(numbers), SHARES[::8]))).all() and _fair(_of(numbers)):
             return Numbers(numbers, UNITS)
 
 
@@ -688,17 +699,15 @@ def _row_fault(judged: _Judged, row: int) -> tuple[str, str]:
         f"On row {row} joint {joint + 1} is past its limit from {100 * sample / 160:.0f} % of the "
         f"time on, by up to {most[joint] / deg:.0f}°."
     )
-    rest = abs(judged.q[:, 0] - REST).sum(axis=-1)
-    if judged.at_goal[row]:
+    if judged.at_start[row] and judged.at_goal[row]:
         return (
             "usable at both ends, not in between",
             says + " At both ends the posture is usable: look at the angles that were followed.",
         )
-    if row == int(rest.argmin()):
+    if row == judged.obvious:
         return (
             "chosen at the first sample",
-            says + " It is the nearest to the rest posture at the start, where all eight are "
-            "usable.",
+            says + " At the start it is usable, and the nearest to the rest posture.",
         )
     return "not usable to the end", says + " Follow each row to the end of the line."
 
@@ -768,9 +777,9 @@ def _forearm_view() -> Any:
     from ..show import plot_frames
 
     q = np.array([0, 0, _forearm_facts()["down"], 0, 0, 0]) * deg
-    frames = [Transform.identity(), *PUMA560.frames(q)]
-    shown = [frames[k] for k in (0, 2, 3, 4, 6)]
-    names = ["base", "1 shoulder", "2 elbow", "3", "flange"]
+    frames = PUMA560.frames(q)
+    shown = [frames[k] for k in (0, 1, 2, 3, 6)]
+    names = ["base", "shoulder", "elbow", "forearm", "flange"]
     title = f"q2 = 0, q3 = {_forearm_facts()['down']}\N{DEGREE SIGN}".translate(MINUS)
     return plot_frames(shown, chain=True, size=120 * mm, names=names, title=title)
 

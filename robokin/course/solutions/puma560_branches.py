@@ -35,14 +35,14 @@ def flange_speed(q, direction, most):
 # --- 3: A line of one's own
 import numpy as np
 
-from robokin import PUMA560, Quaternion, Transform, deg, differentiate, follow, lin, quintic
+from robokin import PUMA560, Quaternion, Transform, differentiate, follow, lin, quintic
 from robokin.course import variant
 
 who = "your name"
 own = variant("puma560_branches", who)
-level = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
-my_start = Transform(level, [own["wall"], own["y_start"], own["z_start"]])
-my_goal = Transform(level, [own["wall"], own["y_goal"], own["z_goal"]])
+tool = Quaternion.from_angle_axis(own["tilt"], [0, 1, 0])
+my_start = Transform(tool, [own["start_x"], own["start_y"], own["start_z"]])
+my_goal = Transform(tool, [own["goal_x"], own["goal_y"], own["goal_z"]])
 
 x = np.linspace(0, 1, 1001)  # one second
 my_rows = PUMA560.ik(lin(my_start, my_goal, quintic(1.0)(x)))
