@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .._arrays import Floats
-from ..arms import PUMA560, distance_from_singularity, follow, nearest, within
+from ..arms import PUMA560, distance_from_singularity, follow, within
 from ..motion import blend, differentiate, lin, quintic
 from ..quaternion import Quaternion
 from ..transform import Transform
@@ -63,9 +63,7 @@ def _height(q: Floats) -> float:
 
 def _above_line(q: Floats) -> float:
     """The elbow above the line from shoulder to wrist, at the elbow's place."""
-    return float(
-        UPPER * (np.sin(q[1]) - np.cos(q[1]) * np.divide(_height(q), _ahead(q)))
-    )
+    return float(UPPER * (np.sin(q[1]) - np.cos(q[1]) * np.divide(_height(q), _ahead(q))))
 
 
 def _named(righty: Any, above: Any, noflip: Any) -> str:
@@ -197,7 +195,8 @@ ELBOWS: tuple[tuple[str, str, Signs], ...] = (
     ),
     (
         "the sign of joint 2",
-        "Joint 2 swings the whole arm up and down. The elbow's flag belongs to the bend at joint 3.",
+        "Joint 2 swings the whole arm up and down. The elbow's flag belongs to the bend at joint "
+        "3.",
         lambda q: q[1] > 0,
     ),
 )
@@ -248,6 +247,21 @@ PRODUCTS: tuple[tuple[str, str, Callable[[bool, bool], bool]], ...] = (
 )
 
 
+def _flagged(side: Any, elbow: Any, rule: Any, wrist: Any) -> Callable[[Floats], str]:
+    """ABOVE made of the two flags."""
+
+    def name(q: Floats) -> str:
+        front = bool(side[2](q))
+        return _named(front, rule[2](front, bool(elbow[2](q))), wrist[2](q))
+
+    return name
+
+
+def _seen(side: Signs, height: Signs, wrist: Signs) -> Callable[[Floats], str]:
+    """ABOVE made of heights."""
+    return lambda q: _named(side(q), height(q), wrist(q))
+
+
 def _name_mistakes() -> list[Mistake]:
     """One thing wrong or two; a wrong side goes into ABOVE, too, or does not."""
     made: list[Mistake] = []
@@ -259,22 +273,11 @@ def _name_mistakes() -> list[Mistake]:
             made.append(Mistake(" and ".join(names), says, program))
 
     for side, elbow, rule, wrist in product(SIDES, ELBOWS, PRODUCTS, WRISTS):
-        add(
-            [part[:2] for part in (side, elbow, rule, wrist)],
-            lambda q, s=side[2], e=elbow[2], r=rule[2], w=wrist[2]: _named(
-                s(q), r(bool(s(q)), bool(e(q))), w(q)
-            ),
-        )
+        add([part[:2] for part in (side, elbow, rule, wrist)], _flagged(side, elbow, rule, wrist))
     for side, wrist in product(SIDES[1:], WRISTS):
-        add(
-            [side[:2], wrist[:2]],
-            lambda q, s=side[2], w=wrist[2]: _named(s(q), _above_line(q) > 0, w(q)),
-        )
+        add([side[:2], wrist[:2]], _seen(side[2], lambda q: _above_line(q) > 0, wrist[2]))
     for side, height, wrist in product(SIDES, HEIGHTS, WRISTS):
-        add(
-            [side[:2], height[:2], wrist[:2]],
-            lambda q, s=side[2], h=height[2], w=wrist[2]: _named(s(q), h(q), w(q)),
-        )
+        add([side[:2], height[:2], wrist[:2]], _seen(side[2], height[2], wrist[2]))
     return made
 
 
@@ -296,18 +299,17 @@ def _told_apart() -> tuple[Mistake, ...]:
 
 
 def _unit(direction: Floats) -> Floats:
-    unit: Floats = direction / np.linalg.norm(direction)
+    unit: Floats = direction / float(np.linalg.norm(direction))
     return unit
 
 
 def _rates(q: Floats, direction: Floats) -> Floats:
     """Joint speeds for 1 m/s along the direction without a turn, rad/s."""
-    rates: Floats = np.linalg.solve(PUMA560.jacobian(q), np.append(_unit(direction), np.zeros(3)))
-    return rates
+    return _solved(PUMA560.jacobian(q), _unit(direction), np.zeros(3))
 
 
 def _flange_speed(tools: Tools, q: Floats, direction: Floats, most: Floats) -> float:
-    return float(np.min(most / abs(_rates(q, direction))))
+    return float(1 / np.max(abs(_rates(q, direction)) / most))  # a joint may stand still
 
 
 def _speed_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
@@ -351,7 +353,9 @@ def _speed_law(case: tuple[Any, ...], yours: float) -> str | None:
         return says
     used = abs(_rates(q, direction)) * yours / most
     worst = int(used.argmax())
-    return f"{says}; at {yours:.4g} m/s joint {worst + 1} turns with {100 * used[worst]:.0f} % of it"
+    return (
+        f"{says}; at {yours:.4g} m/s joint {worst + 1} turns with {100 * used[worst]:.0f} % of it"
+    )
 
 
 def _same_speed(a: float, b: float) -> bool:
@@ -366,19 +370,18 @@ def _with_rates(made: Callable[..., Floats]) -> Callable[..., float]:
 
 def _upper(q: Floats, direction: Floats) -> Floats:
     """The least joint speeds that move the flange; it may turn."""
-    rates: Floats = np.linalg.pinv(PUMA560.jacobian(q)[:3]) @ _unit(direction)
+    rates: Floats = np.asarray(np.linalg.pinv(PUMA560.jacobian(q)[:3]) @ _unit(direction), float)
     return rates
 
 
 def _scaled(q: Floats, direction: Floats) -> Floats:
     jacobian = PUMA560.jacobian(q)
     jacobian[:3] /= PUMA560.reach
-    rates: Floats = np.linalg.solve(jacobian, np.append(_unit(direction), np.zeros(3)))
-    return rates
+    return _solved(jacobian, _unit(direction), np.zeros(3))
 
 
 def _solved(matrix: Floats, *parts: Floats) -> Floats:
-    rates: Floats = np.linalg.solve(matrix, np.concatenate(parts))
+    rates: Floats = np.asarray(np.linalg.solve(matrix, np.concatenate(parts)), float)
     return rates
 
 
@@ -424,9 +427,7 @@ SPEED_MISTAKES = (
     Mistake(
         "a wrong length of the direction",
         "The length of a vector is the root of the sum of squares, not the sum of its components.",
-        lambda q, d, most: (
-            _flange_speed(Tools(), q, d, most) / np.linalg.norm(d) * np.sum(abs(d))
-        ),
+        lambda q, d, most: _flange_speed(Tools(), q, d, most) / np.linalg.norm(d) * np.sum(abs(d)),
     ),
     Mistake("the worst direction", WORST, lambda q, d, most: _sigma(q) * PUMA560.reach * min(most)),
     Mistake(
@@ -470,7 +471,7 @@ SPEED_MISTAKES = (
     Mistake(
         "transposed",
         "J is transposed before the system is solved.",
-        _with_rates(lambda q, d: np.linalg.solve(PUMA560.jacobian(q).T, _twist(d))),
+        _with_rates(lambda q, d: _solved(PUMA560.jacobian(q).T, _twist(d))),
     ),
     Mistake(
         "velocity and angular velocity exchanged",
@@ -596,8 +597,8 @@ class _Judged:
         self.serves = np.isfinite(self.past) & (self.past <= SLACK)
         speeds = differentiate(self.q, np.linspace(0, 1, len(SHARES)))
         self.speed = abs(speeds).max(axis=(1, 2))
-        self.at_start = within(PUMA560, self.q[:, 0]).all(axis=-1)
-        self.at_goal = within(PUMA560, self.q[:, -1]).all(axis=-1)
+        self.at_start = np.all(within(PUMA560, self.q[:, 0]), axis=-1)
+        self.at_goal = np.all(within(PUMA560, self.q[:, -1]), axis=-1)
         self.near = distance_from_singularity(PUMA560, self.q).min(axis=-1)
         self.mean = np.maximum(abs(self.q[:, -1] - self.q[:, 0]).max(axis=-1), 1e-9)
         travel = abs(self.q[:, 0] - REST).sum(axis=-1)
@@ -759,7 +760,6 @@ def _pose(x: float, y: float, z: float) -> Transform:
 START, GOAL, VIA = _pose(550, 600, 800), _pose(550, -200, 1100), _pose(600, -100, 1000)
 
 
-
 def _forearm(q3: float) -> Floats:
     """The direction of the forearm over a level upper arm, joint 3 in degrees."""
     frames = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
@@ -807,9 +807,9 @@ def _waist_view() -> Any:
 
     facts = _waist_facts()
     fig = figure(
-        "The two values of joint 1 over the distance of the wrist centre from axis 1. Far away they "
-        f"differ by almost 180 degrees, at {facts['rho']:.0f} mm by {facts['turn']:.0f} degrees, at "
-        f"{D3 / mm:.2f} mm they are one.",
+        "The two values of joint 1 over the distance of the wrist centre from axis 1. Far away "
+        f"they differ by almost 180 degrees, at {facts['rho']:.0f} mm by {facts['turn']:.0f} "
+        f"degrees, at {D3 / mm:.2f} mm they are one.",
         7,
         3.6,
     )
@@ -894,7 +894,9 @@ def _left_view() -> Any:
     for k, value in enumerate(shares):
         ax.text(k, value + 0.7, f"{value:.1f}", ha="center", fontsize=9)
     ax.set(xlabel="rows inside the limits", ylabel="share of the poses, %", xticks=range(9))
-    ax.set(ylim=(0, 1.2 * shares.max()), title=f"{shares[0]:.0f} % of what it reaches it cannot use")
+    ax.set(
+        ylim=(0, 1.2 * shares.max()), title=f"{shares[0]:.0f} % of what it reaches it cannot use"
+    )
     fig.tight_layout()
     return fig
 
@@ -1034,7 +1036,7 @@ def _rule_facts() -> dict[str, Any]:
     tracks = follow(PUMA560, turned, 0)  # (lines, 8, 41, 6)
     serves = (_excess(tracks) <= SLACK).all(axis=(2, 3))
     can = serves.any(axis=-1)
-    at_start = within(PUMA560, rows[:, 0]).all(axis=-1)
+    at_start = np.all(within(PUMA560, rows[:, 0]), axis=-1)
     facts: dict[str, Any] = {"lines": int(can.sum())}
     for k, (_, rule) in enumerate(RULES):
         pick = np.where(at_start, rule(tracks[:, :, 0]), np.inf).argmin(axis=-1)
@@ -1085,18 +1087,31 @@ def _twin_right(facts: Mapping[str, Any]) -> int:
 
 
 def _twin_view() -> Any:
-    from ..show import animate
+    from ..show import figure
 
     t, tracks = _twins()
-    title = "Wrist twins past a via point: row 0 and row 1"
-    return animate(
-        [PUMA560, PUMA560],
-        t,
-        list(tracks),
-        targets=[START, VIA, GOAL],
-        names=["row 0", "row 1"],
-        title=title,
+    facts = _twin_facts()
+    fig = figure(
+        "Left: joint 4 of the wrist twins, row 0 and row 1, the same curve half a turn apart. Row "
+        f"0 leaves the limits, by up to {facts['by']:.0f} degrees; row 1 stays inside. Right: "
+        "their speeds are equal.",
+        9,
+        3.6,
     )
+    left, right = fig.subplots(1, 2)
+    for row, (style, color) in enumerate((("-", "#0072B2"), ("--", "#D55E00"))):
+        left.plot(t, tracks[row, :, 3] / deg, style, color=color, lw=2, label=f"row {row}")
+        speed = differentiate(tracks[row], t)[:, 3] / deg
+        right.plot(t, speed, style, color=color, lw=4 - 2 * row, label=f"row {row}")
+    for end, away in ((LOW[3], -60), (HIGH[3], 60)):
+        left.axhspan(end / deg, end / deg + away, color="#E3E7EB")
+    left.text(0.1, HIGH[3] / deg + 8, "past the limit")
+    left.set(xlabel="t, s", ylabel="q4, °", title="Half a turn apart: one is past its limit")
+    right.set(xlabel="t, s", ylabel="speed of joint 4, °/s", title="The same speeds")
+    left.legend()
+    right.legend()
+    fig.tight_layout()
+    return fig
 
 
 # --- The tables -----------------------------------------------------------------------------------
@@ -1207,9 +1222,9 @@ PREDICTIONS = {
     ),
     "p2": Prediction(
         question="On the IRB-140 the arm that faces the target and the arm that turns its back to "
-        "it differ by 180° in joint 1. The PUMA's arm is mounted 150.05 mm beside axis 1. Its wrist "
-        "centre is at twice that distance, {rho:.1f} mm from the axis. By how much do its two "
-        "values of joint 1 differ?",
+        "it differ by 180° in joint 1. The PUMA's arm is mounted 150.05 mm beside axis 1. Its "
+        "wrist centre is at twice that distance, {rho:.1f} mm from the axis. By how much do its "
+        "two values of joint 1 differ?",
         options=(
             Option(
                 "180°: front and behind are opposite.",

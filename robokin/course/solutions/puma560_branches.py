@@ -3,7 +3,7 @@
 # --- 1: Name a posture
 import numpy as np
 
-from robokin import deg, mm
+from robokin import mm
 
 
 def posture_name(q):
