@@ -171,6 +171,18 @@ SIDES: tuple[tuple[str, str, Signs], ...] = (
         "The forearm is 431.8 mm long and 20.3 mm beside the elbow (a3): near axis 1 that decides.",
         lambda q: _without_a3(q) > 0,
     ),
+    (
+        "the side of the base for the side of the arm",
+        "The y of the wrist centre is seen from the base, and joint 1 changes it. RIGHTY asks "
+        "whether the wrist centre is ahead of the shoulder in the arm's own plane.",
+        lambda q: PUMA560.fk(q).translation[1] < 0,
+    ),
+    (
+        "the forearm's share with the wrong sign",
+        "At q3 = 0 the forearm points up: its share of r is −431.8 mm · sin(q2 + q3) (and 20.3 mm "
+        "· cos of it).",
+        lambda q: UPPER * np.cos(q[1]) + FORE * np.sin(q[1] + q[2]) > 0,
+    ),
     ("always RIGHTY", "Every posture is called RIGHTY.", lambda q: True),
 )
 # whether the elbow's flag is +1
@@ -181,6 +193,12 @@ ELBOWS: tuple[tuple[str, str, Signs], ...] = (
         "The arm is stretched at q3 = −87.3°, not at 0: the sign of the bend is that of sin(q3 + "
         "87.3°).",
         lambda q: q[2] > 0,
+    ),
+    (
+        "the stretched arm at q3 = 0",
+        "The arm is stretched at q3 = −87.3°, not at 0: the sign of the bend is that of sin(q3 + "
+        "87.3°), not of sin(q3).",
+        lambda q: np.sin(q[2]) > 0,
     ),
     (
         "the stretched arm at q3 = −90°",
@@ -225,6 +243,31 @@ WRISTS: tuple[tuple[str, str, Signs], ...] = (
     ("the sign of joint 4", "FLIP and NOFLIP tell the sign of joint 5.", lambda q: q[3] > 0),
     ("the sign of joint 6", "FLIP and NOFLIP tell the sign of joint 5.", lambda q: q[5] > 0),
 )
+# a wrong bend, which goes into the side, too
+BENDS: tuple[tuple[str, str, Signs], ...] = (
+    (
+        "q3 for the bend",
+        "The bend is counted from the stretched arm: gamma = q3 + atan2(431.8, 20.3), which is q3 "
+        "+ 87.3°.",
+        lambda q: q[2],
+    ),
+    (
+        "the arguments of atan2 exchanged",
+        "It is atan2(d4, a3) = 87.3°: the long d4 first.",
+        lambda q: q[2] + np.pi / 2 - OFFSET,
+    ),
+    (
+        "the offset of the bend subtracted",
+        "At q3 = −87.3° the arm is stretched: 87.3° is added to q3.",
+        lambda q: q[2] - OFFSET,
+    ),
+    (
+        "a3 is left out",
+        "The bend is q3 + 87.3°, not q3 + 90°: the wrist centre is 20.3 mm beside the forearm's "
+        "zero line (a3).",
+        lambda q: q[2] + np.pi / 2,
+    ),
+)
 # (right arm, elbow's flag) -> above
 PRODUCTS: tuple[tuple[str, str, Callable[[bool, bool], bool]], ...] = (
     ("", "", lambda front, elbow: front != elbow),
@@ -245,6 +288,46 @@ PRODUCTS: tuple[tuple[str, str, Callable[[bool, bool], bool]], ...] = (
         lambda front, elbow: front == elbow,
     ),
 )
+
+
+# those that are made together
+USUAL = {
+    "ahead taken from joint 1",
+    "the side of the base for the side of the arm",
+    "the upper arm for the wrist",
+    "the stretched arm at q3 = 0",
+    "the elbow's flag alone, −1 for ABOVE",
+    "the elbow's flag alone, +1 for ABOVE",
+    "RIGHTY and LEFTY exchanged",
+    "ABOVE and BELOW exchanged",
+    "FLIP and NOFLIP exchanged",
+    "the sign of joint 4",
+    "the sign of joint 6",
+    "q3 for the bend",
+    "higher than the wrist",
+}
+NAIVE = {
+    "ahead taken from joint 1",
+    "the stretched arm at q3 = 0",
+    "the elbow's flag alone, −1 for ABOVE",
+}
+
+
+def _row_as_it_is(q: Floats) -> str:
+    rows = PUMA560.ik(PUMA560.fk(q))
+    front, elbow, wrist = PUMA560.branches[int(abs(rows - q).sum(axis=-1).argmin())]
+    return _named(front > 0, front * elbow < 0, wrist > 0)
+
+
+def _bent(bend: Signs, rule: Any, wrist: Signs) -> Callable[[Floats], str]:
+    """With another bend in both flags."""
+
+    def name(q: Floats) -> str:
+        gamma = float(bend(q))
+        front = bool(UPPER * np.cos(q[1]) + FORE * np.cos(q[1] + gamma) > 0)
+        return _named(front, rule[2](front, bool(np.sin(gamma) > 0)), wrist(q))
+
+    return name
 
 
 def _flagged(side: Any, elbow: Any, rule: Any, wrist: Any) -> Callable[[Floats], str]:
@@ -268,12 +351,25 @@ def _name_mistakes() -> list[Mistake]:
 
     def add(named: Sequence[tuple[str, str]], program: Callable[[Floats], str]) -> None:
         names = [name for name, _ in named if name]
-        if 1 <= len(names) <= 2:
+        together = {2: USUAL, 3: NAIVE}.get(len(names), set())
+        if len(names) == 1 or (names and set(names) <= together):
             says = " ".join(sentence for _, sentence in named if sentence)
             made.append(Mistake(" and ".join(names), says, program))
 
     for side, elbow, rule, wrist in product(SIDES, ELBOWS, PRODUCTS, WRISTS):
         add([part[:2] for part in (side, elbow, rule, wrist)], _flagged(side, elbow, rule, wrist))
+    for bend, rule, wrist in product(BENDS, PRODUCTS, WRISTS):
+        add([bend[:2], rule[:2], wrist[:2]], _bent(bend[2], rule, wrist[2]))
+    add(
+        [
+            (
+                "whole turns in the comparison of rows",
+                "A row of ik and q may differ by a whole turn of a joint and be one posture: "
+                "compare the angles modulo 360°.",
+            )
+        ],
+        _row_as_it_is,
+    )
     for side, wrist in product(SIDES[1:], WRISTS):
         add([side[:2], wrist[:2]], _seen(side[2], lambda q: _above_line(q) > 0, wrist[2]))
     for side, height, wrist in product(SIDES, HEIGHTS, WRISTS):
@@ -344,7 +440,7 @@ def _speed_form(result: Any, case: tuple[Any, ...]) -> float:
 def _speed_law(case: tuple[Any, ...], yours: float) -> str | None:
     q, direction, most = case
     wanted = _flange_speed(Tools(), *case)
-    if abs(yours - wanted) <= 1e-4 * wanted:
+    if abs(yours - wanted) <= 2e-3 * wanted:
         return None
     share = abs(_rates(q, direction)) * wanted / most
     joint = int(share.argmax())
@@ -366,12 +462,6 @@ def _same_speed(a: float, b: float) -> bool:
 def _with_rates(made: Callable[..., Floats]) -> Callable[..., float]:
     """Everything else right, with other joint speeds for 1 m/s."""
     return lambda q, direction, most: float(np.min(most / abs(made(q, direction))))
-
-
-def _upper(q: Floats, direction: Floats) -> Floats:
-    """The least joint speeds that move the flange; it may turn."""
-    rates: Floats = np.asarray(np.linalg.pinv(PUMA560.jacobian(q)[:3]) @ _unit(direction), float)
-    return rates
 
 
 def _scaled(q: Floats, direction: Floats) -> Floats:
@@ -422,6 +512,16 @@ SPEED_MISTAKES = (
     Mistake(
         "divided by the length twice",
         "The direction's length comes in twice: a unit vector, or a division, not both.",
+        lambda q, d, most: _flange_speed(Tools(), q, d, most) / np.linalg.norm(d) ** 2,
+    ),
+    Mistake(
+        "a wrong length of the direction",
+        "The length of a vector is the root of the sum of squares, not its largest component.",
+        lambda q, d, most: _flange_speed(Tools(), q, d, most) / np.linalg.norm(d) * max(abs(d)),
+    ),
+    Mistake(
+        "a wrong length of the direction",
+        "The length of a vector is the root of the sum of squares, not the sum of squares.",
         lambda q, d, most: _flange_speed(Tools(), q, d, most) * np.linalg.norm(d),
     ),
     Mistake(
@@ -442,14 +542,9 @@ SPEED_MISTAKES = (
     ),
     Mistake(
         "the tool may turn",
-        "Only the flange's velocity is asked of the joints (three rows of J): the tool turns then. "
-        "All six rows are wanted, with zeros for the angular velocity.",
-        _with_rates(_upper),
-    ),
-    Mistake(
-        "the wrist is forgotten",
-        "Joints 1 to 3 carry the wrist centre; joints 4 to 6 have to hold the tool still, and they "
-        "are the fast ones near a wrist singularity.",
+        "Joints 1 to 3 carry the flange along (three rows of J say no more than that), and the "
+        "tool turns with them. Joints 4 to 6 have to hold it: all six rows, with zeros for the "
+        "angular velocity.",
         lambda q, d, most: np.min((most / abs(_rates(q, d)))[:3]),
     ),
     Mistake(
@@ -462,6 +557,23 @@ SPEED_MISTAKES = (
         "J times something gives the velocity of the flange. The joint speeds are the unknown: "
         "np.linalg.solve(J, twist).",
         _with_rates(lambda q, d: PUMA560.jacobian(q) @ _twist(d)),
+    ),
+    Mistake(
+        "forward for inverse",
+        "J times the greatest joint speeds is the velocity with all joints at their most; a part "
+        "of it along the direction is another motion. The joint speeds are the unknown: solve.",
+        lambda q, d, most: abs((PUMA560.jacobian(q) @ most)[:3] @ _unit(d)),
+    ),
+    Mistake(
+        "forward for inverse",
+        "J times the greatest joint speeds is the velocity with all joints at their most, in "
+        "another direction. The joint speeds are the unknown: solve.",
+        lambda q, d, most: np.linalg.norm((PUMA560.jacobian(q) @ most)[:3]),
+    ),
+    Mistake(
+        "a joint's speed for the flange's",
+        "This is how fast the deciding joint turns at 1 m/s. The speed is its most over that.",
+        lambda q, d, most: abs(_rates(q, d))[int((abs(_rates(q, d)) / most).argmax())],
     ),
     Mistake(
         "transposed",
@@ -528,6 +640,16 @@ SPEED_MISTAKES = (
         "the length of the joint speeds",
         "The joints do not share a budget: each is compared with its own most.",
         lambda q, d, most: np.linalg.norm(most) / np.linalg.norm(_rates(q, d)),
+    ),
+    Mistake(
+        "the length of the joint speeds",
+        "The joints do not share a budget: each is compared with its own most.",
+        lambda q, d, most: np.min(most) / np.linalg.norm(_rates(q, d)),
+    ),
+    Mistake(
+        "the length of the joint speeds",
+        "The joints do not share a budget: each is compared with its own most.",
+        lambda q, d, most: np.max(most) / np.linalg.norm(_rates(q, d)),
     ),
     Mistake(
         "the sum of the joint speeds",
@@ -866,7 +988,7 @@ def _left_shares() -> Floats:
     """Shares of reachable poses with 0 to 8 rows inside the limits, %."""
     rows = PUMA560.ik(_random_poses(np.random.default_rng(560), (8000,)))
     rows = rows[np.isfinite(rows).all(axis=(1, 2))]
-    count = within(PUMA560, rows).all(axis=-1).sum(axis=-1)
+    count = np.all(within(PUMA560, rows), axis=-1).sum(axis=-1)
     return 100 * np.bincount(count, minlength=9) / len(count)
 
 
@@ -1034,7 +1156,7 @@ def _rule_facts() -> dict[str, Any]:
     rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]  # (lines, 41, 8, 6)
     turned = np.stack([np.roll(rows, -k, axis=2) for k in range(8)], axis=1)
     tracks = follow(PUMA560, turned, 0)  # (lines, 8, 41, 6)
-    serves = (_excess(tracks) <= SLACK).all(axis=(2, 3))
+    serves: Any = (_excess(tracks) <= SLACK).all(axis=(2, 3))
     can = serves.any(axis=-1)
     at_start = np.all(within(PUMA560, rows[:, 0]), axis=-1)
     facts: dict[str, Any] = {"lines": int(can.sum())}
