@@ -1127,7 +1127,8 @@ def _past_view() -> Any:
         wide = name == "shoulder, towards"  # the other shoulder line covers it
         look: dict[str, Any] = {"ls": "-", "lw": 6, "alpha": 0.4} if wide else {"ls": style}
         right.loglog(misses, price[:, 1], color=color, label=name, **({"lw": 2.4} | look))
-        left.text(0.09, 1.35 * price[-1, 0] / deg, name, fontsize=9)
+        above = 0.4 if name == "elbow" else 1.35
+        left.text(0.09, above * price[-1, 0] / deg, name, fontsize=9)
     left.set(xlabel="distance m, mm", ylabel="greatest joint speed, \N{DEGREE SIGN}/s")
     left.set(ylim=(10, 1e5), title="The price depends on the direction")
     right.set(xlabel="distance m, mm", ylabel="distance from singularity")
