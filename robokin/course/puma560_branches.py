@@ -1371,7 +1371,7 @@ PREDICTIONS = {
                 "90°: half the way to where they meet.",
                 "They do meet, at 150.05 mm, but not in proportion to the distance.",
                 "in proportion to the distance",
-                "At four offsets it would have to be 180°; asin(1/4) says 151°.",
+                "At three offsets it would have to be 180°; there it is 141°.",
             ),
         ),
         facts=_waist_facts,
@@ -1426,7 +1426,7 @@ PREDICTIONS = {
             ),
             Option(
                 "For about one in ten.",
-                "Joints 2 to 5 each forbid much: on average {mean:.1f} rows of eight are left.",
+                "Joints 2, 4 and 5 forbid much: on average {mean:.1f} rows of eight are left.",
                 "the limits underrated",
                 "Joint 4 may stand in 280° of 360°, joint 5 in 200° of 360°.",
             ),
@@ -1481,7 +1481,7 @@ PREDICTIONS = {
     "p6": Prediction(
         question="Now the flange passes beside axis 1, at 100 mm/s along a tangent of the cylinder "
         "of radius d3, at a distance of 1 mm from it. The distance from singularity falls to "
-        "{near:.4f}. How fast must a joint turn at most?",
+        "{near:.4f}. What is the greatest speed that a joint reaches?",
         options=(
             Option(
                 "About {over:.0f}°/s: speed over distance, as at the wrist.",
@@ -1505,7 +1505,8 @@ PREDICTIONS = {
                 "About {worst:.0f}°/s: the velocity divided by the distance from singularity.",
                 "That is the bound for the worst direction. Here the flange moves in another one.",
                 "the worst direction taken for this one",
-                "At the wrist singularity the tool can still turn about axis 6 at no price at all.",
+                "At the wrist singularity the tool still turns about axis 6, at the price of joint "
+                "6 alone.",
             ),
         ),
         facts=_past_facts,
@@ -1531,8 +1532,8 @@ PREDICTIONS = {
             ),
             Option(
                 "About {rule0:.0f} %.",
-                "Other rules for the first sample do no better. Following all eight rows takes a "
-                "fraction of a second.",
+                "Two other rules for the first sample miss {rule1:.0f} and {rule2:.0f} %. "
+                "Following all eight rows takes a fraction of a second.",
             ),
             Option(
                 "Nearly all, 85 % or more.",
