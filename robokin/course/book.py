@@ -6,7 +6,7 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion", "puma560_branches")
+LABS = ("irb140_kinematics", "irb140_motion", "motor_synchronisation", "puma560_branches")
 
 
 def lab(name: Any) -> ModuleType:
