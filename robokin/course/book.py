@@ -6,7 +6,7 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion")
+LABS = ("frames_and_quaternions", "irb140_kinematics", "irb140_motion")
 
 
 def lab(name: Any) -> ModuleType:
