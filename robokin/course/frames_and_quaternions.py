@@ -279,7 +279,7 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the chain from the wrong end",
-        "Each new row is multiplied from the left (flange = flange @ row has the base's row first), "
+        "Each new row is multiplied from the left (wanted is flange = flange @ row), "
         "or each row is inverted in the old order: (A B)⁻¹ = B⁻¹ A⁻¹.",
         _with(chain=lambda links: _product(links[::-1])),
     ),
@@ -344,18 +344,13 @@ SEEN_MISTAKES = (
         _with(link=lambda q, d, a, alpha: _dh(q, d, a, -alpha)),
     ),
     Mistake(
-        "alpha and a before q and d",
-        f"{ORDER} (With x first it is the modified convention, with other tables.)",
+        "the steps on x before those on z",
+        f"{ORDER} (With x first it is the modified convention, which has other tables; or the four factors are written from right to left.)",
         _with(
             link=lambda q, d, a, alpha: (
                 _rot(X, alpha) @ _trans(a, 0, 0) @ _rot(Z, q) @ _trans(0, 0, d)
             )
         ),
-    ),
-    Mistake(
-        "the four steps from right to left",
-        f"The factors of a row are written in the opposite order. {ORDER}",
-        _with(link=lambda q, d, a, alpha: _rot(X, alpha) @ _trans(a, 0, d) @ _rot(Z, q)),
     ),
     Mistake(
         "a before the turn",
