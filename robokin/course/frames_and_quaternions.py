@@ -345,7 +345,7 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the steps on x before those on z",
-        f"{ORDER} (With x first it is the modified convention, which has other tables; or the four factors are written from right to left.)",
+        f"{ORDER} (x first: the modified convention, or written from the right.)",
         _with(
             link=lambda q, d, a, alpha: (
                 _rot(X, alpha) @ _trans(a, 0, 0) @ _rot(Z, q) @ _trans(0, 0, d)
