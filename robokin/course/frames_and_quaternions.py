@@ -39,7 +39,10 @@ def _trans(x: float, y: float, z: float) -> Floats:
 
 
 def _rot(axis: Floats, angle: float) -> Floats:
-    return Transform(Quaternion.from_angle_axis(angle, axis)).as_matrix()
+    c, s, cross = np.cos(angle), np.sin(angle), np.cross(axis, np.eye(3)).T
+    matrix = np.eye(4)
+    matrix[:3, :3] = c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis)
+    return matrix
 
 
 # --- 1: seen from the flange ----------------------------------------------------------------------
@@ -193,6 +196,20 @@ def _difference(flange: Floats, part: Floats) -> Floats:
 def _place_only(flange: Floats, part: Floats) -> Floats:
     seen = np.linalg.inv(flange) @ part
     seen[:3, :3] = part[:3, :3]
+    return seen
+
+
+def _parts(turn: Floats, axes: Floats, flange: Floats, part: Floats) -> Floats:
+    """The part's turn by `turn`, and the way from flange to part in `axes`."""
+    seen = np.eye(4)
+    seen[:3, :3] = turn @ part[:3, :3]
+    seen[:3, 3] = axes @ (part - flange)[:3, 3]
+    return seen
+
+
+def _sided(flange: Floats, part: Floats) -> Floats:
+    seen = np.linalg.inv(flange) @ part
+    seen[:3, :3] = part[:3, :3] @ flange[:3, :3].T
     return seen
 
 
@@ -392,6 +409,122 @@ SEEN_MISTAKES = (
         "All angles are in radians already: do not multiply them by deg (np.radians).",
         _with(link=lambda q, d, a, alpha: _dh(q * deg, d, a, alpha * deg)),
     ),
+    Mistake(
+        "the inverse of the part as well",
+        "The part is inverted, too: it stands there as base_part already, and that fits.",
+        _with(seen=lambda flange, part: np.linalg.inv(flange) @ np.linalg.inv(part)),
+    ),
+    Mistake(
+        "the inverse of the other matrix",
+        "The part is inverted instead of the flange: wanted is flange_base @ base_part.",
+        _with(seen=lambda flange, part: flange @ np.linalg.inv(part)),
+    ),
+    Mistake(
+        "the inverse of the product",
+        "You multiply first and invert the product. Only the flange is to be inverted.",
+        _with(seen=lambda flange, part: np.linalg.inv(flange @ part)),
+    ),
+    Mistake(
+        "no inverse, and the other order",
+        "You multiply base_part by base_flange: no names cancel, as they do in "
+        "flange_base @ base_part.",
+        _with(seen=lambda flange, part: part @ flange),
+    ),
+    Mistake(
+        "from both sides",
+        "The matrix of the flange stands on both sides. A pose is multiplied from one side; "
+        "wanted is flange_base @ base_part.",
+        _with(seen=lambda flange, part: np.linalg.inv(flange) @ part @ flange),
+    ),
+    Mistake(
+        "the shift back is left out",
+        f"The turn is undone, the place of the flange is not. {INVERSE}",
+        _with(seen=_back(lambda r: r.T, lambda r, p: 0 * p)),
+    ),
+    Mistake(
+        "the turn back is left out",
+        f"You undo the place of the flange as it is seen from the flange, not its turn. {INVERSE}",
+        _with(seen=_back(lambda r: np.eye(3), lambda r, p: -r.T @ p)),
+    ),
+    Mistake(
+        "the place in base axes",
+        "The turn of the part is right; its place is the difference in base axes: R^T times it.",
+        _with(seen=lambda flange, part: _parts(flange[:3, :3].T, np.eye(3), flange, part)),
+    ),
+    Mistake(
+        "R for R^T, everywhere",
+        "You take the difference and turn it on by R. Turn it back, by R^T.",
+        _with(seen=lambda flange, part: _parts(flange[:3, :3], flange[:3, :3], flange, part)),
+    ),
+    Mistake(
+        "the part's turn on the wrong side",
+        "The place is right; for the turn R^T stands at the left of the part's.",
+        _with(seen=_sided),
+    ),
+    Mistake(
+        "matrices subtracted",
+        "Poses are not subtracted: the way from one to the other is inverse(one) @ other.",
+        _with(seen=lambda flange, part: part - flange),
+    ),
+    Mistake(
+        "rows added",
+        "The matrices of the rows are added. Poses are multiplied.",
+        _with(chain=lambda links: np.sum(links, axis=0)),
+    ),
+    Mistake(
+        "element-wise product",
+        "`*` multiplies element by element; the product of matrices is `@`.",
+        _with(seen=lambda flange, part: np.linalg.inv(flange) * part),
+    ),
+    Mistake(
+        "the turn of a row the other way",
+        "Each joint turns clockwise: is a sign of the sines turned round?",
+        _with(joint=lambda offset, q: -(offset + q)),
+    ),
+    Mistake(
+        "the first joint angle for all",
+        "Every row is given q[0]: each has its own.",
+        lambda table, q, part: _with()(table, np.full_like(q, q[0]), part),
+    ),
+    Mistake(
+        "only the first joint turns",
+        "All joints but the first stand at their offsets.",
+        lambda table, q, part: _with()(table, q * (np.arange(len(q)) == 0), part),
+    ),
+    Mistake(
+        "q added to the shift",
+        "These joints turn: q adds to the offset, not to d.",
+        lambda table, q, part: _with(joint=lambda offset, x: offset)(
+            table + q[:, None] * [0, 1, 0, 0], q, part
+        ),
+    ),
+    Mistake(
+        "degrees for radians",
+        "All angles are in radians already: do not divide them by deg (np.degrees).",
+        _with(link=lambda q, d, a, alpha: _dh(q / deg, d, a, alpha / deg)),
+    ),
+    Mistake("mm for m", METRES, _with(link=lambda q, d, a, alpha: _dh(q, d * mm, a * mm, alpha))),
+    Mistake("mm for m", METRES, _with(link=lambda q, d, a, alpha: _dh(q, d / mm, a / mm, alpha))),
+    Mistake(
+        "a and alpha exchanged",
+        "A row is (offset, d, a, alpha): first the length, then the angle.",
+        _with(link=lambda q, d, a, alpha: _dh(q, d, alpha, a)),
+    ),
+    Mistake(
+        "the columns in another order",
+        "A row is (offset, d, a, alpha) here, from left to right.",
+        lambda table, q, part: _with()(table[:, ::-1], q, part),
+    ),
+    Mistake(
+        "the columns in another order",
+        "A row is (offset, d, a, alpha) here: not (offset, alpha, a, d).",
+        lambda table, q, part: _with()(table[:, [0, 3, 2, 1]], q, part),
+    ),
+    Mistake(
+        "a along y",
+        "a goes along the x axis after the turn, not along y.",
+        _with(link=lambda q, d, a, alpha: _rot(Z, q) @ _trans(0, a, d) @ _rot(X, alpha)),
+    ),
 )
 
 
@@ -448,6 +581,14 @@ def _apart(a: Floats, b: Floats) -> float:
 
 def camera_faults(camera: Transform, given: Mapping[str, Any]) -> list[Fault]:
     """The place; where z goes; x is level; y points down."""
+    back = camera.inverse()
+    if _faults(camera, given) and not _faults(back, given):
+        says = "This is the base, seen from the camera: the inverse of the camera's pose."
+        return [("the base, seen from the camera", says)] * 4
+    return _faults(camera, given)
+
+
+def _faults(camera: Transform, given: Mapping[str, Any]) -> list[Fault]:
     eye, part = _places(given)
     found = [*_misplaced(camera.translation, eye, part)]
     rotation = camera.rotation.as_matrix()
@@ -496,6 +637,16 @@ def _misplaced(place: Floats, eye: Floats, part: Floats) -> list[Fault]:
     return [("not at your place", told)]
 
 
+def _swung(look: Floats) -> Quaternion:
+    """About z, until the camera's y axis has the direction of the line of sight."""
+    return Quaternion.from_angle_axis(float(np.arctan2(look[1], look[0])) - np.pi / 2, Z)
+
+
+def _tilted(look: Floats) -> Quaternion:
+    """About the level x axis, from straight up to the line of sight."""
+    return Quaternion.from_angle_axis(-_apart(Z, look), X)
+
+
 def _looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault:
     x, y, z = rotation.T
     angle = _apart(z, look)
@@ -525,10 +676,28 @@ def _looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault
         ("not turned", z, Z, "The z axis is where it was."),
         ("straight down", z, -Z, "It looks straight down."),
         (
-            "turned the wrong way",
+            "to the opposite side",
             z,
             look * [-1, -1, 1],
-            "The turn has the wrong sign: from z to the line is about z × line, counter-clockwise.",
+            "It looks to the opposite side: arctan where arctan2 belongs, or an axis with a wrong "
+            "sign.",
+        ),
+        *(
+            (
+                "a quarter turn off",
+                z,
+                np.array([-sign * look[1], sign * look[0], look[2]]),
+                "It is a quarter turn off about z: with no turn the camera's x axis, not its y "
+                "axis, lies along x of the base.",
+            )
+            for sign in (+1, -1)
+        ),
+        (
+            "the order of the turns",
+            z,
+            _tilted(look) @ _swung(look) @ Z,
+            "The two turns are in the wrong order: the tilt belongs to the turned camera, and "
+            "stands at the right.",
         ),
         ("looks up", z, look * [1, 1, -1], "It looks up as steeply as it should look down."),
         ("mirrored", z, look * [1, -1, 1], "The sign of y is turned round: the turn about z."),
