@@ -999,7 +999,7 @@ def _point_view() -> Any:
         [frame, tip],
         names=["the turned frame", "where the point goes"],
         size=60 * mm,
-        title="First the turn about the base, then the shift: 100 mm along the new x",
+        title="The point lies 100 mm along the x axis of the turned frame",
     )
 
 
@@ -1022,7 +1022,8 @@ def _orders_facts() -> dict[str, Any]:
 
 
 def _orders_view() -> Any:
-    from ..show import figure
+    from ..show import JOINT_STYLES, figure
+    from ..show.palette import REMARK
 
     fig = figure(
         f"Two arrows of {SHIFT:.0f} mm from the base, {TURN:.0f} degrees apart, and the chord "
@@ -1031,9 +1032,9 @@ def _orders_view() -> Any:
     )
     ax = fig.subplots()
     tip = SHIFT * np.array([np.cos(TURN * deg), np.sin(TURN * deg)])
-    ax.plot([0, SHIFT], [0, 0], color="#D55E00", lw=3, ls="--")
-    ax.plot([0, tip[0]], [0, tip[1]], color="#0072B2", lw=3)
-    ax.plot([SHIFT, tip[0]], [0, tip[1]], color="#56606c", lw=1.5, ls=":")
+    ax.plot([0, SHIFT], [0, 0], color=JOINT_STYLES[1]["color"], lw=3, ls="--")
+    ax.plot([0, tip[0]], [0, tip[1]], color=JOINT_STYLES[0]["color"], lw=3)
+    ax.plot([SHIFT, tip[0]], [0, tip[1]], color=REMARK, lw=1.5, ls=":")
     ax.annotate("B: shift, turn", (SHIFT, 0), (8, 0), textcoords="offset points")
     ax.annotate("A: turn, shift", (tip[0], tip[1]), (8, 0), textcoords="offset points")
     chord = float(np.hypot(*(tip - [SHIFT, 0])))
@@ -1215,7 +1216,7 @@ def _hurry_facts() -> dict[str, Any]:
 
 
 def _hurry_view() -> Any:
-    from ..show import figure
+    from ..show import JOINT_STYLES, figure
 
     ratio = _hurry_facts()["ratio"]
     fig = figure(
@@ -1224,7 +1225,10 @@ def _hurry_view() -> Any:
         height=3.2,
     )
     ax = fig.subplots()
-    styles = ("slerp", _arc, "-", "#0072B2"), ("nlerp", _normalised, "--", "#D55E00")
+    styles = (
+        ("slerp", _arc, "-", JOINT_STYLES[0]["color"]),
+        ("nlerp", _normalised, "--", JOINT_STYLES[1]["color"]),
+    )
     for name, lead, style, color in styles:
         speed = np.gradient(_turned(lead, np.pi), S, edge_order=2) / deg
         ax.plot(S, speed, style, color=color, lw=2)
@@ -1583,7 +1587,7 @@ PREDICTIONS = {
             Option(
                 "{ratio:.2f}",
                 "The chord is run through evenly. In the middle it is nearest to the centre of the "
-                "circle, nearer by the root of 2, and the angle grows with the square of that.",
+                "circle, nearer by the root of 2, and the angular speed grows with its square.",
             ),
             Option(
                 "{same:.2f}",
@@ -1604,8 +1608,8 @@ PREDICTIONS = {
                 "That is how much nearer the chord is. It counts twice: nearer, and seen more "
                 "squarely.",
                 "the distance counted once",
-                "A car that passes you at half the distance crosses your view twice as fast when "
-                "it is abeam both times.",
+                "A lamp that moves evenly along a wall turns at v · h / r²: the distance r counts "
+                "twice.",
             ),
             Option(
                 "{square:.2f}",
