@@ -1003,7 +1003,7 @@ def _point_view() -> Any:
     )
 
 
-TURN, SHIFT = 60.0, 300.0  # degrees, mm
+TURN, SHIFT = 100.0, 300.0  # degrees, mm
 
 
 def _orders_facts() -> dict[str, Any]:
@@ -1027,7 +1027,7 @@ def _orders_view() -> Any:
 
     fig = figure(
         f"Two arrows of {SHIFT:.0f} mm from the base, {TURN:.0f} degrees apart, and the chord "
-        "between their tips, which closes a triangle with three equal sides.",
+        "between their tips, which closes a triangle with two equal sides.",
         height=3.4,
     )
     ax = fig.subplots()
@@ -1049,8 +1049,8 @@ def _orders_view() -> Any:
         xlabel="x, mm",
         ylabel="y, mm",
         aspect="equal",
-        xlim=(-20, 460),
-        ylim=(-30, 300),
+        xlim=(-120, 460),
+        ylim=(-30, 330),
     )
     fig.tight_layout()
     return fig
@@ -1499,8 +1499,8 @@ PREDICTIONS = {
             ),
             Option(
                 "{one:.1f}",
-                "The z axis goes to y, and x to y and on to z: no axis stays where it was, so it "
-                "cannot be a quarter turn about one of them.",
+                "x goes to y, y to z and z to x: no axis stays where it was, so it cannot be a "
+                "quarter turn about one of them.",
                 "the second turn does not count",
                 "With joint 2 at 0 it is 90°.",
             ),
