@@ -1461,7 +1461,7 @@ PREDICTIONS = {
             Option(
                 "d: every common perpendicular will do.",
                 "Parallel lines have many common perpendiculars, at any height. d says which one "
-                "you take, and most tables take 0.",
+                "you take, and many tables take 0.",
             ),
             Option(
                 "None: all of them are given by the axes.",
