@@ -6,7 +6,12 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion", "puma560_branches")
+LABS = (
+    "frames_and_quaternions",
+    "irb140_kinematics",
+    "irb140_motion",
+    "puma560_branches",
+)
 
 
 def lab(name: Any) -> ModuleType:
