@@ -29,8 +29,8 @@ ROOT = Path(__file__).resolve().parent.parent
 KEPT_CELL_METADATA = ("tags", "reason", "jupyter")
 METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-    # What JupyterLab writes when it opens a notebook: it differs, so the lab counts as unsaved. The
-    # Python is Debian 12's; with another one, labs still count as changed once they have a kernel.
+    # What JupyterLab writes here when a kernel has come; where it differs, the lab counts as
+    # unsaved. `version` is the reader's own Python: no stored one can be right for all.
     "language_info": {
         "codemirror_mode": {"name": "ipython", "version": 3},
         "file_extension": ".py",
@@ -38,7 +38,7 @@ METADATA = {
         "name": "python",
         "nbconvert_exporter": "python",
         "pygments_lexer": "ipython3",
-        "version": "3.11.2",
+        "version": "3.11.7",
     },
 }
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
