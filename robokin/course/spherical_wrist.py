@@ -71,7 +71,9 @@ def row_matrix(tools: Tools, a: float, alpha: float, d: float, theta: float) -> 
     return made
 
 
-def dh_frames(tools: Tools, a: Any, alpha: Any, d: Any, theta: Any, row: Any = row_matrix) -> Floats:
+def dh_frames(
+    tools: Tools, a: Any, alpha: Any, d: Any, theta: Any, row: Any = row_matrix
+) -> Floats:
     """Frames 0 to n as matrices (n + 1, 4, 4)."""
     frames = [np.eye(4)]
     for each in zip(a, alpha, d, theta, strict=True):
@@ -92,9 +94,9 @@ def _axes(tools: Tools, a: Floats, alpha: Floats, d: Floats, offset: Floats, q: 
 
 def _axes_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     def case(a: Any, alpha: Any, d: Any, offset: Any, q: Any) -> tuple[Any, ...]:
-        parts = (a, d), (alpha, offset, q)
-        (a, d), (alpha, offset, q) = (tuple(np.array(x, float) for x in part) for part in parts)
-        return a * mm, alpha * deg, d * mm, offset * deg, q * deg
+        units = mm, deg, mm, deg, deg
+        columns = a, alpha, d, offset, q
+        return tuple(np.array(x, float) * unit for x, unit in zip(columns, units, strict=True))
 
     level = [300, 200, 100], [0, 0, 0], [0, 0, 0], [0, 0, 0]
     cases = [
@@ -111,10 +113,10 @@ def _axes_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         cases.append((*table, np.array(q, dtype=float) * deg))
     cases.append((A, ALPHA, D, 0 * OFFSET, _posture(30, -40, 50, 60, -70, 80)))
     for n in (3, 4, 5, 6, 7, 6, 4, 3):
-        a, d = rng.uniform(-400, 400, (2, n)).round()
-        alpha = 90.0 * rng.integers(-1, 3, n) + (15.0 * rng.integers(-2, 3, n) if n > 4 else 0)
-        offset, q = 90.0 * rng.integers(-1, 3, n), rng.uniform(-170, 170, n).round()
-        cases.append(case(a, alpha, d, offset, q))
+        lengths = rng.uniform(-400, 400, (2, n)).round()
+        twist = 90.0 * rng.integers(-1, 3, n) + (15.0 * rng.integers(-2, 3, n) if n > 4 else 0)
+        home, angles = 90.0 * rng.integers(-1, 3, n), rng.uniform(-170, 170, n).round()
+        cases.append(case(lengths[0], twist, lengths[1], home, angles))
     return cases
 
 
@@ -185,7 +187,8 @@ def _read(**places: int) -> Program:
 
 
 def _rows_for_columns(*case: Any) -> Floats:
-    frames = dh_frames(TOOLS, *case[:3], case[3] + case[4])
+    a, alpha, d, offset, q = case
+    frames = dh_frames(TOOLS, a, alpha, d, offset + q)
     return np.stack([frames[:-1, :3, 3], frames[:-1, 2, :3]])
 
 
@@ -198,8 +201,8 @@ def _local(*case: Any) -> Floats:
 
 def _always_six(*case: Any) -> Floats:
     a, alpha, d, offset, q = case
-    four = [(a[i], alpha[i], d[i], offset[i] + q[i]) for i in range(6)]
-    return read_axes(dh_frames(TOOLS, *zip(*four, strict=True)))
+    rows = np.array([(a[i], alpha[i], d[i], offset[i] + q[i]) for i in range(6)])
+    return read_axes(dh_frames(TOOLS, rows[:, 0], rows[:, 1], rows[:, 2], rows[:, 3]))
 
 
 def _modified(a: float, alpha: float, d: float, theta: float) -> Floats:
@@ -207,8 +210,8 @@ def _modified(a: float, alpha: float, d: float, theta: float) -> Floats:
 
 
 AFTER = (
-    "Joint i turns about z of the frame before it, frame i − 1: the first axis is the base's z, and "
-    "frame 6 belongs to no axis."
+    "Joint i turns about z of the frame before it, frame i − 1: the first axis is the base's z, "
+    "and the last frame belongs to no axis."
 )
 AXES_MISTAKES = [
     Mistake("the frame after the joint", AFTER, _read(point=1, along=1)),
@@ -473,7 +476,7 @@ WRIST_MISTAKES = (
     ),
     Mistake(
         "the regular formulas beside the singularity",
-        "Right at every theta of ordinary size, and at theta = 0 exactly. At theta = 1e-9 rad the "
+        "Right at every theta of ordinary size, and at theta = 0 exactly. At theta = 1e-8 rad the "
         "tool is turned wrong, or the angles are NaN: try such small angles, many of them.",
         _guarded,
     ),
@@ -705,19 +708,25 @@ LEANING = _posture(30, 110, 40, 0, 60, 0)
 def _facing_facts() -> dict[str, Any]:
     centre = ITMO6R.frames(LEANING)[4].translation
     first = float(np.arctan2(centre[1], centre[0])) / deg
-    return {
-        "q1": LEANING[0] / deg,
+    numbers = {
+        "q1": float(LEANING[0]) / deg,
         "first": first,
         "opposite": -first,
-        "less": LEANING[0] / deg - 90,
-        "x": centre[0] / mm,
-        "y": centre[1] / mm,
+        "less": float(LEANING[0]) / deg - 90,
+        "x": float(centre[0]) / mm,
+        "y": float(centre[1]) / mm,
     }
+    said = {name: f"{value:.0f}".translate(MINUS) for name, value in numbers.items()}
+    return {"numbers": numbers} | said
 
 
 def _facing_right(facts: Mapping[str, Any]) -> int:
-    guesses = [facts[name] for name in ("q1", "first", "opposite", "less")]
-    return int(np.argmin([abs(guess - facts["first"]) for guess in guesses]))
+    numbers = facts["numbers"]
+    centre = ITMO6R.frames(LEANING)[4].translation
+    guesses = [numbers[name] * deg for name in ("q1", "first", "opposite", "less")]
+    level = np.hypot(centre[0], centre[1])
+    facing = [np.cos(q1) * centre[0] + np.sin(q1) * centre[1] for q1 in guesses]
+    return int(np.argmin(abs(np.array(facing) - level)))
 
 
 def _facing_view() -> Any:
@@ -755,7 +764,7 @@ TRIPLE = 30.0, 40.0, 50.0
 def _second_facts() -> dict[str, Any]:
     phi, theta, psi = TRIPLE
     found = wrapped(mended(zyz(*np.array(TRIPLE) * deg), -1)) / deg
-    triples = {
+    triples: dict[str, Any] = {
         "given": TRIPLE,
         "found": found,
         "theta": (phi, -theta, psi),
@@ -795,13 +804,15 @@ def _noise() -> tuple[Floats, Floats]:
     for i, theta in enumerate(thetas):
         phi, psi = rng.uniform(-np.pi, np.pi, (2, 200))
         fore = zyz(*rng.uniform(-3, 3, (3, 200)))
-        h = fore.swapaxes(-1, -2) @ (fore @ zyz(phi, theta + 0 * phi, psi))  # rounded, as in the arm
+        h = fore.swapaxes(-1, -2) @ (
+            fore @ zyz(phi, theta + 0 * phi, psi)
+        )  # rounded, as in the arm
         book, mine = textbook(h, +1), mended(h, +1)
         both = np.stack([book[:, 0], mine[:, 1], book[:, 2]], axis=-1)
         for k, found in enumerate((book, both, mine)):
             error = abs(zyz(*np.nan_to_num(found).T) - h).max(axis=(-1, -2))
             worst[i, k] = np.where(np.isnan(found).any(axis=-1), 2.0, error).max()
-    return thetas, worst
+    return np.asarray(thetas, dtype=float), worst
 
 
 def _noise_facts() -> dict[str, Any]:
@@ -891,7 +902,10 @@ def _fastest(miss: float) -> float:
 @cache
 def _half_facts() -> dict[str, Any]:
     two, one = _fastest(2 * mm), _fastest(1 * mm)
+    ends = ITMO6R.ik(tilted_line(45 * deg, 2 * mm, 0, 0, np.linspace(0, 1, 2001)))
+    joint4 = follow(ITMO6R, ends, ROW)[:, 3]
     return {
+        "turn": float(abs(joint4[-1] - joint4[0])) / deg,
         "two": two,
         "one": one,
         "half": two / 2,
@@ -947,14 +961,14 @@ EXERCISES = {
             "give the matrix back. Which angles would you leave out? Take these, too.",
             "Do not compare angles with angles: there are whole turns, and in the singularity one "
             "angle is free. Compare zyz(*found) with h, and the sign of theta with wrist.",
-            "For theta in (0, 1e-9, 1e-6, 1e-4, 0.5, 2, pi − 1e-9, pi), wrist in (+1, −1) and "
-            "twenty random pairs phi, psi, 45° among them: h = zyz(phi, theta, psi); refuse if "
-            "not abs(zyz(*found) − h).max() < 1e-9, or if wrist * found[1] < −1e-9 or above "
-            "pi + 1e-9.",
+            "For theta in (0, 1e-9, 1e-8, 1e-6, 1e-4, 0.5, 2, pi − 1e-8, pi), wrist in (+1, −1) "
+            "and twenty random pairs phi, psi, 45° among them: h = zyz(phi, theta, psi); refuse if "
+            "not abs(zyz(*found) − h).max() < 1e-10, or if wrist * found[1] < −1e-10 or above "
+            "pi + 1e-10.",
         ),
         rights=WRIST_RIGHTS,
         mistakes=WRIST_MISTAKES,
-        promise="A right program gives angles whose matrix is h within 1e-9, with theta times "
+        promise="A right program gives angles whose matrix is h within 1e-10, with theta times "
         "wrist from 0 to pi; phi and psi may be whole turns away, and where one is free any "
         "choice is right.",
     ),
@@ -1053,29 +1067,29 @@ PREDICTIONS = {
         within=0.02,
     ),
     "p3": Prediction(
-        question="A posture has q1 = {q1:.0f}°, and its upper arm leans back: q2 = 110°, q3 = 40°. "
+        question="A posture has q1 = {q1}°, and its upper arm leans back: q2 = 110°, q3 = 40°. "
         "We compute the wrist centre, forget the posture, and ask atan2(y, x) of the wrist centre "
         "for joint 1. What comes out?",
         options=(
             Option(
-                "{q1:.0f}°: the joint value that made it.",
+                "{q1}°: the joint value that made it.",
                 "atan2 knows the place, not the posture. The wrist centre is behind axis 1.",
                 "the inverse must return what went in",
                 "The inverse of a square returns 3 for 9, also where −3 went in.",
             ),
             Option(
-                "{first:.0f}°: half a turn away.",
-                "The wrist centre is at x = {x:.0f} mm, y = {y:.0f} mm, behind axis 1. The arm "
+                "{first}°: half a turn away.",
+                "The wrist centre is at x = {x} mm, y = {y} mm, behind axis 1. The arm "
                 "reaches it over its back; atan2 gives the joint value of an arm that faces it.",
             ),
             Option(
-                "{opposite:.0f}°: the mirrored direction.",
+                "{opposite}°: the mirrored direction.",
                 "Mirrored in the xz plane the wrist centre would be at another place.",
                 "half a turn taken for a mirror",
                 "The direction opposite to 90° is −90°, and opposite to 0° is 180°, not 0°.",
             ),
             Option(
-                "{less:.0f}°: the lean takes 90° away.",
+                "{less}°: the lean takes 90° away.",
                 "Joint 2 tilts the arm in its own upright plane, and that plane stays.",
                 "joint 2 taken to turn about axis 1",
                 "With q2 = 80° or 100° the upper arm stands in the same plane through axis 1.",
@@ -1137,8 +1151,8 @@ PREDICTIONS = {
             ),
             Option(
                 "{found}: joints 4 and 6 half a turn on, joint 5 back.",
-                "Joint 4 turns the bend to the other side, joint 5 bends the other way, and joint 6 "
-                "takes back the half turn. So each orientation has two ways.",
+                "Joint 4 turns the bend to the other side, joint 5 bends the other way, and joint "
+                "6 takes back the half turn. So each orientation has two ways.",
             ),
         ),
         facts=_second_facts,
@@ -1165,7 +1179,7 @@ PREDICTIONS = {
                 "At the north pole a step of a millimetre takes you through any longitude.",
             ),
             Option(
-                "By {power}: half of the digits go.",
+                "By {power}: more than half of the digits go.",
                 "That is what remains when the square root is mended. φ and ψ still come from two "
                 "vanishing pairs of numbers (green in the figure).",
                 "the root alone",
@@ -1174,8 +1188,8 @@ PREDICTIONS = {
             Option(
                 "Wholly: the tool is turned wrong, or there is no number at all.",
                 "√(1 − h₃₃²) is the root of rounding, or of a negative number: NaN. Around the "
-                "singularity lies a zone where \u201cregular\u201d is true and the regular formulas "
-                "are wrong.",
+                "singularity lies a zone where \u201cregular\u201d is true and the regular "
+                "formulas are wrong.",
             ),
         ),
         facts=_noise_facts,
@@ -1224,8 +1238,8 @@ PREDICTIONS = {
         options=(
             Option(
                 "{half:.0f}°/s: the hit is easy, and we come nearer to it.",
-                "The hit needs no turn of joint 4. Every line beside it needs almost half a turn, "
-                "and the nearer the line, the less time there is.",
+                "The hit needs no turn of joint 4. The line 2 mm beside it needs {turn:.0f}°, and "
+                "the nearer the line, the less time there is.",
                 "the hit taken for a limit",
                 "A car that passes your nose by a metre makes you turn your head faster than one "
                 "across the street.",

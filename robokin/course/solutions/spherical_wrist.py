@@ -41,14 +41,14 @@ def wrist_is_right(wrist_angles):
 
     rng = np.random.default_rng(1)
     pairs = [(np.pi / 4, 0.3), (2, -0.5), *rng.uniform(-np.pi, np.pi, (20, 2))]
-    for theta in (0, 1e-9, 1e-6, 1e-4, 0.5, 2, np.pi - 1e-4, np.pi - 1e-9, np.pi):
+    for theta in (0, 1e-9, 1e-8, 1e-6, 1e-4, 0.5, 2, np.pi - 1e-4, np.pi - 1e-9, np.pi):
         for phi, psi in pairs:
             for wrist in (+1, -1):
                 h = zyz(phi, theta, psi)
                 found = wrist_angles(h, wrist)
-                if not abs(zyz(*found) - h).max() < 1e-9:  # also where it is NaN
+                if not abs(zyz(*found) - h).max() < 1e-10:  # also where it is NaN
                     return False
-                if not -1e-9 <= wrist * found[1] <= np.pi + 1e-9:
+                if not -1e-10 <= wrist * found[1] <= np.pi + 1e-10:
                     return False
     return True
 
