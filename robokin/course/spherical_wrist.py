@@ -205,6 +205,24 @@ def _always_six(*case: Any) -> Floats:
     return read_axes(dh_frames(TOOLS, rows[:, 0], rows[:, 1], rows[:, 2], rows[:, 3]))
 
 
+def _wrong_side(*case: Any) -> Floats:
+    a, alpha, d, offset, q = case
+    frames = [np.eye(4)]
+    for each in zip(a, alpha, d, offset + q, strict=True):
+        frames.append(row_matrix(TOOLS, *each) @ frames[-1])
+    return read_axes(np.array(frames))
+
+
+def _own_table(*case: Any) -> Floats:
+    q = np.array([case[4][i] for i in range(6)])
+    return _axes(TOOLS, A, ALPHA, D, OFFSET, q)
+
+
+def _upright(*case: Any) -> Floats:
+    points, ways = _axes(TOOLS, *case)
+    return np.stack([points, np.broadcast_to(Z, ways.shape)])
+
+
 def _modified(a: float, alpha: float, d: float, theta: float) -> Floats:
     return rot(0, alpha) @ shift(a, 0, 0) @ rot(2, theta) @ shift(0, 0, d)
 
@@ -306,7 +324,34 @@ AXES_MISTAKES = [
         DEGREES,
         lambda *c: _axes(TOOLS, c[0], c[1] * deg, c[2], c[3] * deg, c[4] * deg),
     ),
+    Mistake(
+        "degrees for radians",
+        DEGREES,
+        lambda *c: _axes(TOOLS, c[0], c[1], c[2], c[3] * deg, c[4] * deg),
+    ),
     Mistake("mm for m", METRES, lambda *case: _axes(TOOLS, *case) * [[[1000]], [[1]]]),
+    Mistake("mm for m", METRES, lambda *case: _axes(TOOLS, *case) * [[[mm]], [[1]]]),
+    Mistake(
+        "multiplied on the wrong side",
+        "A row says where frame i stands in frame i − 1: frame @ row, not row @ frame.",
+        _wrong_side,
+    ),
+    Mistake(
+        "the table of this lab",
+        "The columns a, alpha, d, offset come in as arguments; yours come from the lab's own arm.",
+        _own_table,
+    ),
+    Mistake(
+        "every axis upright",
+        "The direction (0, 0, 1) holds in the frame itself. In the base it is the third column of "
+        "the frame's rotation.",
+        _upright,
+    ),
+    Mistake(
+        "the opposite direction",
+        "A positive angle turns about the direction by the right-hand rule: +z, not −z.",
+        lambda *case: _axes(TOOLS, *case) * [[[1]], [[-1]]],
+    ),
     Mistake(
         "each row seen from the base",
         "A row says where frame i stands in frame i − 1. Multiply on: frame @ row.",
@@ -650,6 +695,11 @@ def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Faul
             line += "earlier or later, and as near as before."
         elif max(abs(up), abs(side)) < 1e-3:
             name = "not tilted"
+        else:
+            other = passage(given, -up, -side)[0]
+            if other >= given["least_distance"]:
+                name = "tilted to the wrong side"
+                line += f" Tilted as far to the other side it would be {other:.4f}."
         faults.append((name, line))
     speed = fastest / duration
     if speed > given["most_speed"] * (1 + 1e-9):
