@@ -1012,9 +1012,9 @@ EXERCISES = {
             "Do not compare angles with angles: there are whole turns, and in the singularity one "
             "angle is free. Compare zyz(*found) with h, and the sign of theta with wrist.",
             "For theta in (0, 1e-9, 1e-8, 1e-6, 1e-4, 0.5, 2, pi − 1e-8, pi), wrist in (+1, −1) "
-            "and eight pairs phi, psi, 45° and random ones among them: h = zyz(phi, theta, psi); refuse if "
-            "not abs(zyz(*found) − h).max() < 1e-10, or if wrist * found[1] < −1e-10 or above "
-            "pi + 1e-10.",
+            "and eight pairs phi, psi, 45° and random ones among them: h = zyz(phi, theta, psi); "
+            "refuse if not abs(zyz(*found) − h).max() < 1e-10, or if wrist * found[1] < −1e-10 or "
+            "above pi + 1e-10.",
         ),
         rights=WRIST_RIGHTS,
         mistakes=WRIST_MISTAKES,
