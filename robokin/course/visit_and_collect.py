@@ -5,7 +5,6 @@ the tables stand at the end.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from functools import cache
 from itertools import permutations
 from math import acos, asin, atan, atan2, hypot, pi
@@ -696,7 +695,7 @@ def _stretched_view() -> Any:
     )
     sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "O2", "tool"])
     sketch.levers([(L1, 0), (L1, -L2)], dashed=True)
-    sketch.angle((L1, 0), -pi / 2, 0, "−q3")
+    sketch.angle((L1, 0), -pi / 2, 0, "−q3", radius=1.5)
     return sketch
 
 
@@ -797,24 +796,28 @@ def _halves_right(facts: Mapping[str, Any]) -> int:
 
 
 def _halves_view() -> Any:
-    from ..show import animate
+    from ..show import Sketch
 
-    q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])
-    t = np.linspace(0, 32, 801)
-    motions = []
-    for time, goal in (
-        (_halves_facts()["long"], q[1]),
-        (_halves_facts()["short"], q[1] + [2 * pi, 0, 0]),
-    ):
-        motions.append(ptp(q[0], goal, np.clip(t / time, 0, 1)))
-    free = replace(ARM, limits=np.array([(-360, 360), (-90, 90), (-90, 90)]) * deg)
-    return animate(
-        [ARM, free],
-        t,
-        motions,
-        names=["a stop at 180°", "no stop"],
-        title="Two points 2 cm apart, on both sides of the half turn",
+    q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])[:, 0]
+    turned = (q[0] - q[1]) / deg
+    sketch = Sketch(
+        f"Seen from above: joint 1 turns from {q[0] / deg:.1f} to {q[1] / deg:.1f} degrees, away "
+        f"from the stop at 180 degrees and all the way round, {turned:.0f} degrees.",
+        title=f"Joint 1 turns away from its stop and goes round, {turned:.0f}°",
+        unit="m",
+        height=3.6,
     )
+    sketch.levers([(0, 0), (-2, 0.01)], ["axis 1", ""])
+    turn = np.linspace(q[0], q[1], 200)
+    sketch.ax.plot(np.cos(turn), np.sin(turn), color="black", lw=1.3)
+    sketch.ax.annotate(
+        "", (-1, -0.02), (-0.985, -0.17), arrowprops={"arrowstyle": "-|>", "color": "black"}
+    )
+    sketch.ax.text(-2.1, 0.15, "both points", ha="right")
+    sketch.ax.text(-2.1, -0.25, "stop at ±180°", ha="right")
+    sketch.ax.text(0.85, 0.85, "joint 1")
+    sketch.ax.set(xlim=(-4, 2), ylim=(-1.3, 1.4))
+    return sketch
 
 
 DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m
@@ -831,18 +834,30 @@ def _dip_right(facts: Mapping[str, Any]) -> int:
 
 
 def _dip_view() -> Any:
-    from ..show import animate
+    from ..show import Sketch
 
     q = principal_postures(L1, L2, DIP)
-    time = float(travel_time(q[0], q[1], [0.2] * 3))
-    t = np.linspace(0, time, 801)
-    return animate(
-        replace(ARM, speed_limits=np.full(3, 0.2)),
-        t,
-        ptp(q[0], q[1], t / time),
-        points={"start": DIP[0], "goal": DIP[1]},
-        title="From one allowed point to another, every joint evenly",
+    way = ptp(q[0], q[1], np.linspace(0, 1, 200))
+    side = ARM.fk(way).translation[:, [0, 2]]
+    deep = -_dip_facts()["low"]
+    sketch = Sketch(
+        f"Side view of the move: the arm at its start, dashed, and where its tool is lowest; the "
+        f"path of the tool goes {deep:.2f} m under the floor.",
+        title=f"Between two allowed points: {deep:.2f} m under the floor",
+        unit="m",
+        x="distance from the axis",
+        y="height",
     )
+    for k, dashed in ((0, True), (int(side[:, 1].argmin()), False)):
+        lean = way[k, 1]
+        elbow = L1 * np.array([np.sin(lean), np.cos(lean)])
+        sketch.levers([np.zeros(2), elbow, side[k]], dashed=dashed)
+    sketch.ax.plot(*side.T, color="black", lw=1.5)
+    sketch.ax.axhline(0, color="#009E73", lw=2)
+    sketch.ax.text(6.2, -0.3, "floor", color="#009E73")
+    sketch.point(DIP[0, [0, 2]], "start", away=(1, 0))
+    sketch.point(DIP[1, [0, 2]], "goal", away=(1, 1))
+    return sketch
 
 
 def _drawn(seed: int, count: int = 7, kind: str = "visit", **changed: Any) -> Task:
@@ -1033,13 +1048,14 @@ def _belt_view() -> Any:
     for name, line, color in (("even", "-", "#0072B2"), ("uneven", "--", "#D55E00")):
         lost = facts["lost"][name]
         ax.plot(facts["speeds"], lost, line, color=color, lw=2.2, marker="o", ms=4)
-        ax.text(141, lost[-1] + (3 if name == "uneven" else -3), name, color=color, va="center")
+        ax.text(142, lost[-1] + (3 if name == "uneven" else -3), name, color=color, va="center")
     ax.axvline(facts["rule"], color="0.4", ls=":", lw=1.3)
     ax.text(facts["rule"] - 1, 45, "c v / g = 1", color="0.4", ha="right")
     ax.set(
         xlabel="belt speed, mm/s",
         ylabel="objects missed of 200",
         xlim=(58, 150),
+        ylim=(-2, 58),
         title=f"One arm: even objects up to {facts['even']} mm/s, uneven up to {facts['uneven']}",
     )
     fig.tight_layout()
@@ -1321,7 +1337,7 @@ PREDICTIONS = {
                 "A little lower, but above the floor: the workspace ends there.",
                 "The workspace says where the tool may stop. Nothing keeps it there on the way.",
                 "the workspace taken for a fence",
-                "In p1 the joints were inside their limits with the tool under the floor.",
+                "In p1 every joint was inside its limits, and the tool under the floor.",
             ),
             Option(
                 "It touches the floor at one place and slides on.",
