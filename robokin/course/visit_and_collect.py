@@ -103,6 +103,11 @@ def _spoiled_on_axis(x: float, y: float, z: float) -> Joints:
     return (float("nan") if hypot(x, y) < 1e-12 else q1), q2, q3
 
 
+def _too_small(x: float, y: float, z: float) -> Joints:
+    lower = x - 0.1, y - 0.1, max(z - 0.1, 0.0)
+    return _principal(*lower) if L1 - L2 < hypot(*lower) < L1 + L2 else _principal(x, y, z)
+
+
 def _with(l1: float, l2: float, x: float, y: float, z: float) -> Joints:
     """The formulas with other links."""
     lean, d = atan2(hypot(x, y), z), max(hypot(x, y, z), 1e-12)
@@ -172,11 +177,6 @@ INVERSE_MISTAKES = (
         _changed(lambda x, y, z, q1, q2, q3: (0.0, q2, q3)),
     ),
     Mistake(
-        "joint 1 from 0 to 360 degrees",
-        "The tool arrives, with joint 1 past its limit of 180 degrees. Look at the limits, too.",
-        _changed(lambda x, y, z, q1, q2, q3: (q1 if q1 >= 0 else q1 + 2 * pi, q2, q3)),
-    ),
-    Mistake(
         "the other elbow",
         "The tool arrives, with the elbow on the other side and joint 3 past its limit. Look at "
         "the limits, too.",
@@ -240,10 +240,16 @@ INVERSE_MISTAKES = (
         _of_point(lambda x, y, z: (atan2(y, x), *_principal(abs(x), 0.0, z)[1:])),
     ),
     Mistake(
-        "always too near",
-        "The tool stops 1 % short of the point. A test that asks whether a difference is less "
-        "than 1e-6 lets negative differences pass: take the absolute value, or the length.",
-        _of_point(lambda x, y, z: _principal(0.99 * x, 0.99 * y, max(0.99 * z, 0.0))),
+        "1 % too near",
+        "The tool stops 1 % short of the point.",
+        _of_point(lambda x, y, z: _principal(0.99 * x, 0.99 * y, 0.99 * z)),
+    ),
+    Mistake(
+        "every coordinate too small",
+        "The tool is 0.1 m off, with every coordinate too small. A test that asks whether a "
+        "difference is less than 1e-6 lets negative differences pass: take the absolute value, or "
+        "the length.",
+        _of_point(_too_small),
     ),
     Mistake(
         "rounded to three digits",
@@ -356,10 +362,6 @@ def _same_times(a: Floats, b: Floats) -> bool:
 Moves = Callable[[Floats, Floats], Floats]
 
 
-def _total(legs: Moves) -> Program:
-    return lambda q, speeds: np.cumsum(legs(_filled(q), speeds))
-
-
 def _busiest(q: Floats, speeds: Floats) -> Floats:
     turns = abs(np.diff(q, axis=0))
     j = turns.argmax(axis=-1)
@@ -401,172 +403,319 @@ def _start_zero(q: Floats) -> Floats:
     return _filled(q)
 
 
-def _max_of(fill: Callable[[Floats], Floats]) -> Program:
-    """Right but for the free angles; a NaN that is left costs nothing."""
+def _first_known(q: Floats) -> Floats:
+    """One angle, the first known, for every stop on the axis."""
+    q = q.copy()
+    q[:, 0] = np.where(np.isnan(q[:, 0]), q[~np.isnan(q[:, 0]), 0][0], q[:, 0])
+    return q
+
+
+def _start_left(q: Floats) -> Floats:
+    """Carried on from the start, which stays NaN where it is."""
+    filled = _filled(q)
+    filled[: int((~np.isnan(q[:, 0])).argmax()), 0] = np.nan
+    return filled
+
+
+def _as_given(q: Floats) -> Floats:
+    return q
+
+
+def _quiet(needs: Floats) -> Floats:
+    """A NaN counts as 0."""
+    counted: Floats = np.nan_to_num(needs)
+    return counted
+
+
+def _loud(needs: Floats) -> Floats:
+    """A NaN stays."""
+    return needs
+
+
+Fill = tuple[str, str, Callable[[Floats], Floats], Callable[[Floats], Floats]]
+# what is made of a free joint 1: name, sentence, q with fewer NaN, what a NaN that is left becomes
+FILLS: tuple[Fill, ...] = (
+    (
+        "NaN costs nothing, both ways",
+        "The move to the axis costs joint 1 nothing, and so does yours from it. But joint 1 stands "
+        "where it stood: carry its angle along.",
+        _as_given,
+        _quiet,
+    ),
+    (
+        "NaN taken for 0",
+        "On the axis joint 1 does not turn to 0: it keeps the angle it arrives with.",
+        lambda q: np.nan_to_num(q),
+        _loud,
+    ),
+    (
+        "NaN goes through",
+        "A NaN in joint 1 makes the time NaN, and all times after it. Put in the angle that joint "
+        "1 keeps before you subtract.",
+        _as_given,
+        _loud,
+    ),
+    (
+        "turned on the way to the axis",
+        "Joint 1 turns to the next stop's angle before it is on the axis. It keeps its angle, and "
+        "turns when the arm goes on.",
+        _back_filled,
+        _quiet,
+    ),
+    (
+        "half of the turn on each side",
+        "Joint 1 makes half of its turn on the way to the axis. It keeps its angle there.",
+        _halfway,
+        _quiet,
+    ),
+    (
+        "kept for one stop only",
+        "Of two stops on the axis, one after the other, the second has no angle: carry on the one "
+        "that you filled in.",
+        _one_before,
+        _quiet,
+    ),
+    (
+        "kept for one stop only, and NaN goes through",
+        "Of two stops on the axis, one after the other, the second has no angle: carry on the one "
+        "that you filled in. And a start on the axis needs one, too.",
+        _one_before,
+        _loud,
+    ),
+    (
+        "a start on the axis taken as 0",
+        "An arm that starts on the axis may have joint 1 anywhere: it has the angle of the first "
+        "stop that has one.",
+        _start_zero,
+        _loud,
+    ),
+    (
+        "a start on the axis left out",
+        "The angle is carried on from the start, but a start on the axis has none to carry: it has "
+        "the angle of the first stop that has one.",
+        _start_left,
+        _loud,
+    ),
+    (
+        "one angle for every stop on the axis",
+        "Every stop on the axis gets the first angle known. Joint 1 keeps the angle it arrives "
+        "with, and that is the one of the stop before.",
+        _first_known,
+        _loud,
+    ),
+)
+# what is made of a move: name, sentence, (q without NaN, speeds) -> times of the moves
+LEGS: tuple[tuple[str, str, Moves], ...] = (
+    (
+        "the sum over the joints",
+        "All joints move at once: the slowest decides, not the sum.",
+        lambda q, speeds: _each(q, speeds).sum(axis=-1),
+    ),
+    (
+        "the mean over the joints",
+        "All joints have to arrive: the slowest decides, not the mean.",
+        lambda q, speeds: _each(q, speeds).mean(axis=-1),
+    ),
+    (
+        "the fastest joint",
+        "The move ends when the last joint arrives: the greatest time, not the least.",
+        lambda q, speeds: _each(q, speeds).min(axis=-1),
+    ),
+    (
+        "a length in joint space",
+        "The root of the sum of squares is a length. Joints move side by side: the slowest "
+        "decides.",
+        lambda q, speeds: np.linalg.norm(_each(q, speeds), axis=-1),
+    ),
+    (
+        "a length in joint space over the greatest speed",
+        "The joints move side by side, each at its own speed: the slowest decides, not a length.",
+        lambda q, speeds: np.linalg.norm(np.diff(q, axis=0), axis=-1) / speeds.max(),
+    ),
+    (
+        "a length in joint space over the mean speed",
+        "The joints move side by side, each at its own speed: the slowest decides, not a length.",
+        lambda q, speeds: np.linalg.norm(np.diff(q, axis=0), axis=-1) / speeds.mean(),
+    ),
+    (
+        "joint 1 alone",
+        "Only joint 1 is looked at.",
+        lambda q, speeds: _each(q, speeds)[:, 0],
+    ),
+    (
+        "joint 1 left out",
+        "Joint 1 is not looked at.",
+        lambda q, speeds: _each(q, speeds)[:, 1:].max(axis=-1),
+    ),
+    (
+        "no absolute value",
+        "A joint that turns back takes time as well: take abs before the greatest.",
+        lambda q, speeds: (np.diff(q, axis=0) / speeds).max(axis=-1),
+    ),
+    (
+        "the absolute value too late",
+        "You take abs of the greatest difference: a large negative one is lost. First abs, then "
+        "max.",
+        lambda q, speeds: abs((np.diff(q, axis=0) / speeds).max(axis=-1)),
+    ),
+    (
+        "times the speed",
+        "A faster joint needs less time: divide by the speed.",
+        lambda q, speeds: (abs(np.diff(q, axis=0)) * speeds).max(axis=-1),
+    ),
+    (
+        "speed over angle",
+        "Time is angle over speed, not speed over angle.",
+        lambda q, speeds: np.nan_to_num(speeds / abs(np.diff(q, axis=0)), nan=0.0, posinf=0.0).max(
+            axis=-1
+        ),
+    ),
+    (
+        "the speeds left out",
+        "This is the greatest angle, not a time: divide by the joint's speed.",
+        lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1),
+    ),
+    (
+        "the joint that turns most",
+        "The joint that turns most is not always the one that needs longest: divide first, then "
+        "take the greatest.",
+        _busiest,
+    ),
+    (
+        "the first joint's speed for all",
+        "Each joint has its own speed.",
+        lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds[0],
+    ),
+    (
+        "the least speed for all",
+        "Each joint has its own speed; the slowest joint need not be the one that turns most.",
+        lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds.min(),
+    ),
+    (
+        "the greatest speed for all",
+        "Each joint has its own speed.",
+        lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds.max(),
+    ),
+    (
+        "the mean speed for all",
+        "Each joint has its own speed.",
+        lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds.mean(),
+    ),
+    (
+        "all angles over all speeds",
+        "Angles are added, and speeds are added. Each joint has its own time: angle over speed.",
+        lambda q, speeds: abs(np.diff(q, axis=0)).sum(axis=-1) / speeds.sum(),
+    ),
+    (
+        "squared",
+        "The square of the angle belongs to a length; the time is the angle itself over the speed.",
+        lambda q, speeds: (np.diff(q, axis=0) ** 2 / speeds).max(axis=-1),
+    ),
+    (
+        "the short way round",
+        "Joint 1 has a stop at 180 degrees here: from 3.1 to −3.1 rad it turns nearly all the way.",
+        _short,
+    ),
+    (
+        "there and back",
+        "You count each way twice. That is collecting; here the arm goes on from stop to stop.",
+        lambda q, speeds: 2 * _each(q, speeds).max(axis=-1),
+    ),
+    (
+        "15/8 of it",
+        "15/8 belongs to the gentle start and stop of section 8. Here every joint turns at its "
+        "greatest speed at once.",
+        lambda q, speeds: 15 / 8 * _each(q, speeds).max(axis=-1),
+    ),
+)
+NOT_ADDED = "This is what each move takes. Asked is when each stop is reached: add them up."
+
+
+def _slowest(q: Floats, speeds: Floats) -> Floats:
+    legs: Floats = _each(q, speeds).max(axis=-1)
+    return legs
+
+
+def _made(fill: Fill, legs: Moves, added: bool) -> Program:
+    """A program that has a wrong angle on the axis, a wrong time of a move, or does not add up."""
 
     def program(q: Floats, speeds: Floats) -> Floats:
-        needs = np.nan_to_num(_each(fill(q), speeds))
-        times: Floats = np.cumsum(needs.max(axis=-1))
-        return times
+        filled = fill[2](q)
+        if fill[3] is _quiet:  # a joint that is free at one end of a move stands still
+            a, b = filled[:-1], filled[1:]
+            pairs = np.stack([np.where(np.isnan(a), b, a), np.where(np.isnan(b), a, b)], axis=1)
+            times = legs(np.nan_to_num(pairs.reshape(-1, 3)), speeds)[::2]
+        else:
+            times = legs(filled, speeds)
+        return np.cumsum(times) if added else times
 
     return program
 
 
-ARRIVAL_MISTAKES = (
-    Mistake(
-        "NaN costs nothing, both ways",
-        "The move to the axis costs joint 1 nothing, and so does yours from it. But joint 1 stands "
-        "where it stood: carry its angle along.",
-        _max_of(lambda q: q),
-    ),
-    Mistake(
-        "NaN taken for 0",
-        "On the axis joint 1 does not turn to 0: it keeps the angle it arrives with.",
-        _max_of(np.nan_to_num),
-    ),
-    Mistake(
-        "NaN goes through",
-        "A NaN in joint 1 makes the time NaN, and all times after it. Put in the angle that joint "
-        "1 keeps before you subtract.",
-        lambda q, speeds: np.cumsum(_each(q, speeds).max(axis=-1)),
-    ),
-    Mistake(
-        "turned on the way to the axis",
-        "Joint 1 turns to the next stop's angle before it is on the axis. It keeps its angle, and "
-        "turns when the arm goes on.",
-        _max_of(_back_filled),
-    ),
-    Mistake(
-        "half of the turn on each side",
-        "Joint 1 makes half of its turn on the way to the axis. It keeps its angle there.",
-        _max_of(_halfway),
-    ),
-    Mistake(
-        "kept for one stop only",
-        "Of two stops on the axis, one after the other, the second has no angle: carry on the one "
-        "that you filled in.",
-        _max_of(_one_before),
-    ),
-    Mistake(
-        "a start on the axis taken as 0",
-        "An arm that starts on the axis may have joint 1 anywhere: it has the angle of the first "
-        "stop that has one.",
-        _max_of(_start_zero),
-    ),
-    Mistake(
-        "times of the moves, not added up",
-        "This is what each move takes. Asked is when each stop is reached: add them up.",
-        lambda q, speeds: _each(_filled(q), speeds).max(axis=-1),
-    ),
-    Mistake(
-        "each joint added up for itself",
-        "You add up the times of each joint and take the greatest sum. At every stop all joints "
-        "wait for the slowest: first the greatest, then the sum.",
-        lambda q, speeds: _each(_filled(q), speeds).cumsum(axis=0).max(axis=-1),
-    ),
-    Mistake(
-        "each time from the start",
-        "You take each stop's distance from the start. The arm goes from stop to stop.",
-        lambda q, speeds: (abs(_filled(q)[1:] - _filled(q)[0]) / speeds).max(axis=-1),
-    ),
-    Mistake(
-        "each time from the start, and added up",
-        "You take each stop's distance from the start, as if the arm went back between two stops.",
-        lambda q, speeds: np.cumsum((abs(_filled(q)[1:] - _filled(q)[0]) / speeds).max(axis=-1)),
-    ),
-    Mistake(
-        "there and back",
-        "You count each way twice. That is collecting; here the arm goes on from stop to stop.",
-        _total(lambda q, speeds: 2 * _each(q, speeds).max(axis=-1)),
-    ),
-    Mistake(
-        "the sum over the joints",
-        "All joints move at once: the slowest decides, not the sum.",
-        _total(lambda q, speeds: _each(q, speeds).sum(axis=-1)),
-    ),
-    Mistake(
-        "the mean over the joints",
-        "All joints have to arrive: the slowest decides, not the mean.",
-        _total(lambda q, speeds: _each(q, speeds).mean(axis=-1)),
-    ),
-    Mistake(
-        "the fastest joint",
-        "The move ends when the last joint arrives: the greatest time, not the least.",
-        _total(lambda q, speeds: _each(q, speeds).min(axis=-1)),
-    ),
-    Mistake(
-        "a length in joint space",
-        "The root of the sum of squares is a length. Joints move side by side: the slowest "
-        "decides.",
-        _total(lambda q, speeds: np.linalg.norm(_each(q, speeds), axis=-1)),
-    ),
-    Mistake(
-        "joint 1 alone",
-        "Only joint 1 is looked at.",
-        _total(lambda q, speeds: _each(q, speeds)[:, 0]),
-    ),
-    Mistake(
-        "joint 1 left out",
-        "Joint 1 is not looked at.",
-        _total(lambda q, speeds: _each(q, speeds)[:, 1:].max(axis=-1)),
-    ),
-    Mistake(
-        "no absolute value",
-        "A joint that turns back takes time as well: take abs before the greatest.",
-        _total(lambda q, speeds: (np.diff(q, axis=0) / speeds).max(axis=-1)),
-    ),
-    Mistake(
-        "the absolute value too late",
-        "You take abs of the greatest difference: a large negative one is lost. First abs, then "
-        "max.",
-        _total(lambda q, speeds: abs((np.diff(q, axis=0) / speeds).max(axis=-1))),
-    ),
-    Mistake(
-        "times the speed",
-        "A faster joint needs less time: divide by the speed.",
-        _total(lambda q, speeds: (abs(np.diff(q, axis=0)) * speeds).max(axis=-1)),
-    ),
-    Mistake(
-        "speed over angle",
-        "Time is angle over speed, not speed over angle.",
-        _total(
-            lambda q, speeds: np.nan_to_num(
-                speeds / abs(np.diff(q, axis=0)), nan=0.0, posinf=0.0
-            ).max(axis=-1)
+RIGHTLY: Fill = ("", "", _filled, _loud)
+
+
+def _arrival_mistakes() -> list[Mistake]:
+    """Every mistake alone; on the axis and not added up; the three commonest on the axis with
+    every wrong time of a move.
+    """
+    found = [
+        Mistake(
+            "times of the moves, not added up",
+            NOT_ADDED,
+            _made(RIGHTLY, _slowest, False),
         ),
-    ),
-    Mistake(
-        "the speeds left out",
-        "This is the greatest angle, not a time: divide by the joint's speed.",
-        _total(lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1)),
-    ),
-    Mistake(
-        "the joint that turns most",
-        "The joint that turns most is not always the one that needs longest: divide first, then "
-        "take the greatest.",
-        _total(_busiest),
-    ),
-    Mistake(
-        "the first joint's speed for all",
-        "Each joint has its own speed.",
-        _total(lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds[0]),
-    ),
-    Mistake(
-        "the least speed for all",
-        "Each joint has its own speed; the slowest joint need not be the one that turns most.",
-        _total(lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds.min()),
-    ),
-    Mistake(
-        "the greatest speed for all",
-        "Each joint has its own speed.",
-        _total(lambda q, speeds: abs(np.diff(q, axis=0)).max(axis=-1) / speeds.max()),
-    ),
-    Mistake(
-        "the short way round",
-        "Joint 1 has a stop at 180 degrees here: from 3.1 to −3.1 rad it turns nearly all the way.",
-        _total(_short),
-    ),
-)
+        Mistake(
+            "each joint added up for itself",
+            "You add up the times of each joint and take the greatest sum. At every stop all "
+            "joints wait for the slowest: first the greatest, then the sum.",
+            lambda q, speeds: _each(_filled(q), speeds).cumsum(axis=0).max(axis=-1),
+        ),
+        Mistake(
+            "each time from the start",
+            "You take each stop's distance from the start. The arm goes from stop to stop.",
+            lambda q, speeds: (abs(_filled(q)[1:] - _filled(q)[0]) / speeds).max(axis=-1),
+        ),
+        Mistake(
+            "each time from the start, and added up",
+            "You take each stop's distance from the start, as if the arm went back between two "
+            "stops.",
+            lambda q, speeds: np.cumsum(
+                (abs(_filled(q)[1:] - _filled(q)[0]) / speeds).max(axis=-1)
+            ),
+        ),
+        Mistake(
+            "rounded",
+            "Your times are rounded to two digits; 1e-6 s is asked. Round only to print.",
+            lambda q, speeds: np.cumsum(_slowest(_filled(q), speeds)).round(2),
+        ),
+        Mistake(
+            "rounded",
+            "Your times are rounded to three digits; 1e-6 s is asked. Round only to print.",
+            lambda q, speeds: np.cumsum(_slowest(_filled(q), speeds)).round(3),
+        ),
+        Mistake(
+            "the angle of the start on the axis",
+            "Every stop on the axis gets the angle of the start. Joint 1 keeps the angle it "
+            "arrives with, and that is the one of the stop before.",
+            lambda q, speeds: np.cumsum(
+                _slowest(np.where(np.isnan(q), np.nan_to_num(q[0, 0]), q), speeds)
+            ),
+        ),
+    ]
+    for fill in FILLS:
+        name, says = fill[:2]
+        found.append(Mistake(name, says, _made(fill, _slowest, True)))
+        both, why = f"{name}, and not added up", f"{says} {NOT_ADDED}"
+        found.append(Mistake(both, why, _made(fill, _slowest, False)))
+    for name, says, legs in LEGS:
+        found.append(Mistake(name, says, _made(RIGHTLY, legs, True)))
+        if name in ("joint 1 left out", "speed over angle"):
+            continue  # the axis makes no difference, or no sense
+        for fill in FILLS[:3]:
+            both, why = f"{name}, and {fill[0]}", f"{says} {fill[1]}"
+            found.append(Mistake(both, why, _made(fill, legs, True)))
+    return found
 
 
 # --- 3: a trap for the nearest-first rule ---------------------------------------------------------
@@ -1103,7 +1252,7 @@ EXERCISES: dict[str, Exercise] = {
         form=_times,
         law=_arrivals_law,
         same=_same_times,
-        mistakes=ARRIVAL_MISTAKES,
+        mistakes=_arrival_mistakes(),
     ),
     "3": Value(
         task="Four points on which nearest first visits two fewer than the best order.",
