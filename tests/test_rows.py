@@ -103,7 +103,7 @@ def test_a_finding_is_dealt_with_where_it_says(line):
         elif match := re.fullmatch(r"(tests/\S+?\.py)(?:::(\w+))?", place):
             text = (ROOT / match[1]).read_text(encoding="utf-8")
             assert match[2] is None or re.search(rf"^def {match[2]}\(", text, re.M), place
-        elif place.startswith("robokin"):
+        elif place.startswith("robokin."):
             assert exists(place), place
         else:
             assert (ROOT / place).exists(), place
