@@ -842,7 +842,8 @@ def _stretched_view() -> Any:
         y="height",
         height=3.6,
     )
-    sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "O2", "tool"])
+    sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "", "tool"])
+    sketch.ax.text(L1, 0.25, "O2", ha="center", fontsize=12)
     sketch.levers([(L1, 0), (L1, -L2)], dashed=True)
     sketch.angle((L1, 0), -pi / 2, 0, "−q3", radius=1.5)
     return sketch
