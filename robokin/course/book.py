@@ -12,6 +12,7 @@ LABS = (
     "irb140_motion",
     "spherical_wrist",
     "puma560_branches",
+    "visit_and_collect",
 )
 
 
