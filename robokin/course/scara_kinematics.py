@@ -660,19 +660,19 @@ def _sine_angles(d: float) -> tuple[float, float, float]:
 
 @cache
 def _sine_facts() -> dict[str, Any]:
-    far, near = _sine_miss(200 * mm), _sine_miss(130 * mm)
     _, corner, sine = _sine_angles(130 * mm)
-    return {"far": far, "near": near, "corner": _angle(corner), "sine": _angle(sine)}
-
-
-def _sine_miss(d: float) -> float:
-    _, corner, sine = _sine_angles(d)
-    return float(2 * d * abs(np.sin((corner - sine) / 2)) / mm)
+    return {
+        "near": 2 * 130 * abs(np.sin((corner - sine) / 2)),
+        "corner": _angle(corner),
+        "sine": _angle(sine),
+        "border": float(np.sqrt(L2**2 - L1**2)) / mm,
+    }
 
 
 def _sine_right(facts: Mapping[str, Any]) -> int:
-    near, far = facts["near"] > 1e-3, facts["far"] > 1e-3
-    return {(False, False): 0, (True, False): 1, (False, True): 2}[near, far]
+    if not np.isfinite(facts["near"]):
+        return 2
+    return int(round(facts["near"]) == 28)
 
 
 def _sine_view() -> Any:
@@ -725,22 +725,27 @@ def _behind_view() -> Any:
     )
 
 
+STOP = 120 * deg
+
+
 @cache
 def _hole_facts() -> dict[str, Any]:
-    most = HIGH[1]
     return {
-        "hole": _distance(most) / mm,
+        "stop": STOP / deg,
+        "hole": _distance(STOP) / mm,
         "folded": (L2 - L1) / mm,
-        "wrong": _distance(np.pi - most) / mm,
-        "obtuse": float(np.sqrt(L2**2 - L1**2)) / mm,
+        "wrong": _distance(np.pi - STOP) / mm,
+        "square": _distance(np.pi / 2) / mm,
+        "bent": _distance(100 * deg) / mm,
         "reach": (L1 + L2) / mm,
         "zero": 0.0,
     }
 
 
 def _hole_right(facts: Mapping[str, Any]) -> int:
-    near = _distance(float(SCARA.limits[1, 1])) / mm
-    names = ("hole", "folded", "wrong", "obtuse", "reach", "zero")
+    bends = np.linspace(-STOP, STOP, 2401)
+    near = np.linalg.norm(_place(np.stack([0 * bends, bends], axis=-1)), axis=-1).min() / mm
+    names = ("hole", "folded", "wrong", "square", "reach", "zero")
     return int(np.argmin([abs(facts[name] - near) for name in names]))
 
 
@@ -751,44 +756,43 @@ def _hole_view() -> str:
     return "\n".join(lines)
 
 
-@cache
-def _area_facts() -> dict[str, Any]:
-    a, most = float(HIGH[0]), float(HIGH[1])
+def _areas(a: float, most: float) -> tuple[float, float]:
+    """What elbow +1 alone and both elbows reach, cm², with the stops of joints 1 and 2."""
     one = 2 * a * L1 * L2 * (1 - np.cos(most))
     b = np.pi - a
     notch = L1 * np.cos(b) + np.sqrt(L2**2 - (L1 * np.sin(b)) ** 2)
     beta = np.arccos((notch**2 - L1**2 - L2**2) / (2 * L1 * L2))
     both = a * (L1 + L2) ** 2 + L2**2 * beta + L1 * notch * np.sin(b) - np.pi * _distance(most) ** 2
+    return one * 1e4, both * 1e4
+
+
+@cache
+def _area_facts() -> dict[str, Any]:
+    a, most, more = float(HIGH[0]), float(HIGH[1]), 10 * deg
+    now, first, second = _areas(a, most), _areas(a + more, most), _areas(a, most + more)
+    full = _areas(np.pi, most)
     return {
-        "one": one * 1e4,  # cm²
-        "both": both * 1e4,
-        "more": 100 * (both / one - 1),
-        "twice": 100 * (2 * one / both - 1),
+        "one_1": 100 * (first[0] / now[0] - 1),
+        "one_2": 100 * (second[0] / now[0] - 1),
+        "both_1": 100 * (first[1] / now[1] - 1),
+        "both_2": 100 * (second[1] / now[1] - 1),
+        "rest": 100 * (full[1] - first[1]) / now[1],
     }
 
 
 def _area_right(facts: Mapping[str, Any]) -> int:
-    return int(np.argmin([abs(guess - facts["more"]) for guess in (0, 25, 50, 100)]))
+    first, second = facts["both_1"], facts["both_2"]
+    if max(first, second) < 0.1:
+        return 3
+    return 2 if abs(first - second) < 0.1 else int(second > first)
 
 
-def _area_view() -> Any:
-    from ..show import figure
-
-    step = 4.0
-    across = np.arange(-460 + step / 2, 460, step)
-    x, y = np.meshgrid(across, across)
-    grid = ScaraPose(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm)
-    ways = np.all(within(SCARA, SCARA.ik(grid)), axis=-1)
-    fig = figure(
-        "Two zones from above, that of elbow +1 and that of elbow −1: mirror images in the x axis "
-        "that cover each other but for a piece behind the arm.",
-        height=4,
-    )
-    for ax, k, name in zip(fig.subplots(1, 2), (0, 1), ("elbow +1", "elbow −1"), strict=True):
-        ax.contourf(x, y, ways[..., k], levels=[0.5, 1.5], colors=["#8FBBDA"])
-        ax.set(title=f"Zone of {name}", xlabel="x, mm", ylabel="y, mm", aspect="equal")
-    fig.tight_layout()
-    return fig
+def _area_view() -> str:
+    lines = ["Area that the tool reaches, elbow +1 alone and both elbows together:"]
+    for a, most in ((140, 150), (150, 150), (140, 160)):
+        one, both = _areas(a * deg, most * deg)
+        lines.append(f"stops ±{a}° and ±{most}°: {one:.0f} cm² and {both:.0f} cm²")
+    return "\n".join(lines)
 
 
 @cache
@@ -1050,35 +1054,36 @@ PREDICTIONS = {
     ),
     "p4": Prediction(
         question="Somebody takes the angle of the triangle at joint 1 from the law of sines, "
-        "arcsin(l2 sin q2 / d), and leaves all else as it is. Where does the arm end?",
+        "arcsin(l2 sin q2 / d). At d = 300, 200 and 160 mm the table below finds it right. And at "
+        "d = 130 mm, inside all limits?",
         options=(
             Option(
-                "At the target: the law of sines is as exact as the law of cosines.",
-                "The law holds, but an angle is not known from its sine: at d = 130 mm it is "
-                "{corner} and the arcsine says {sine}. The tool misses by {near:.0f} mm.",
+                "Right, too: the law of sines holds in every triangle.",
+                "The law holds, but an angle is not known from its sine: here it is {corner}, and "
+                "the arcsine says {sine}. The tool ends {near:.0f} mm beside the target.",
                 "the sine taken for the angle",
                 "sin 80° and sin 100° are the same number.",
             ),
             Option(
-                "At the target where it is far away; beside it, without any warning, where it is "
-                "near.",
-                "At d = 130 mm the angle is {corner}, more than a right one, and the arcsine gives "
-                "{sine}: {near:.0f} mm beside the target, with no error and no NaN. At 200 mm it "
-                "is right.",
+                "Wrong, and nothing says so: the tool ends about 28 mm beside the target.",
+                "The angle is {corner}, more than a right one, and an arcsine never exceeds 90°: "
+                "it says {sine}, and the tool misses by {near:.1f} mm. This begins where l2 is the "
+                "longest side of a triangle with an obtuse angle, d² < l2² − l1², below "
+                "{border:.0f} mm.",
             ),
             Option(
-                "At the target where it is near; beside it where it is far away.",
-                "Far away the triangle is slender and its angle at joint 1 acute: there an arcsine "
-                "is right. At 200 mm it misses by {far:.0f} mm, at 130 mm by {near:.0f} mm.",
-                "the obtuse angle sought at the wrong end",
-                "Nearly stretched, all angles but the one at the elbow are near 0.",
-            ),
-            Option(
-                "Nowhere: where the arcsine does not fit, it is NaN.",
+                "An error, or NaN: no angle has such a sine.",
                 "NaN comes where l2 sin q2 / d is above 1, and in a triangle it never is. The "
-                "arcsine always answers; at 130 mm it says {sine} for {corner}.",
+                "arcsine always answers; here it says {sine} for {corner}.",
                 "an error expected where there is none",
                 "arcsin(sin 100°) is 80°: a number like any other.",
+            ),
+            Option(
+                "Right, but with the other elbow.",
+                "The other elbow has the angle on the other side of the line to the target, "
+                "−{corner}. The arcsine gives {sine}, which is neither: {near:.0f} mm beside.",
+                "180° less an angle taken for its negative",
+                "For an angle of 60° the arcsine gives 60°, not −60°.",
             ),
         ),
         facts=_sine_facts,
@@ -1120,33 +1125,32 @@ PREDICTIONS = {
         view=_behind_view,
     ),
     "p6": Prediction(
-        question="The levers are 200 and 250 mm long, and joint 2 stops at ±150°. How near to the "
-        "axis of joint 1 can the tool come, in mm?",
+        question="The levers are 200 and 250 mm long. Suppose joint 2 stopped at ±{stop:.0f}°. How "
+        "near to the axis of joint 1 could the tool come, in mm?",
         options=(
             Option(
                 "{hole:.1f}",
-                "At q2 = 150° the law of cosines gives {hole:.1f} mm, more than twice the "
-                "{folded:.0f} mm of the folded arm: the last 30° would have brought it there.",
+                "At q2 = {stop:.0f}° the law of cosines gives {hole:.1f} mm. The folded arm would "
+                "come to {folded:.0f} mm.",
             ),
             Option(
                 "{folded:.0f}",
-                "That is the folded arm, q2 = 180°. Joint 2 stops at 150°: {hole:.1f} mm.",
+                "That is the folded arm, q2 = 180°. Joint 2 stops at {stop:.0f}°: {hole:.1f} mm.",
                 "the limit forgotten",
-                "A door that opens to 150° does not lie against the wall.",
+                "A door that opens to 120° does not lie against the wall.",
             ),
             Option(
                 "{wrong:.1f}",
-                "You have taken 150° for the angle inside the triangle. q2 is counted from the "
-                "stretched arm, so the triangle has 30° there.",
+                "You have taken {stop:.0f}° for the angle inside the triangle. q2 is counted from "
+                "the stretched arm, so the triangle has 60° there.",
                 "q2 taken for the angle inside the triangle",
                 "At q2 = 0 the arm is stretched: 450 mm, not 50 mm.",
             ),
             Option(
-                "{obtuse:.0f}",
-                "At that distance the angle at joint 1 is a right one. It is no border of the "
-                "zone: joint 2 stands at 143.1° there and can go on.",
-                "the right angle taken for the border",
-                "At 140 mm joint 2 stands at 145.9°, inside its limit.",
+                "{square:.1f}",
+                "That is the distance at q2 = 90°. The arm bends farther, and comes nearer.",
+                "a right angle taken for the most bent arm",
+                "At q2 = 100° it is {bent:.1f} mm already.",
             ),
             Option(
                 "{reach:.0f}",
@@ -1161,40 +1165,41 @@ PREDICTIONS = {
                 "A ladder of 250 mm folded onto one of 200 mm sticks out by 50 mm.",
             ),
         ),
-        facts=lambda: _hole_facts() | {"square": _distance(np.pi / 2) / mm},
+        facts=_hole_facts,
         right=_hole_right,
         view=_hole_view,
         unit="mm",
         within=0.03,
     ),
     "p7": Prediction(
-        question="Elbow +1 alone reaches an area of {one:.0f} cm². How much more do both elbows "
-        "reach together?",
+        question="You may move one stop by 10°: that of joint 1 from ±140° to ±150°, or that of "
+        "joint 2 from ±150° to ±160°. Which gains more area for the arm with both its elbows?",
         options=(
             Option(
-                "Nothing: every place has both elbows, they are mirror images.",
-                "In front it does, behind the arm it does not: joint 1 stops at ±140°, and each "
-                "elbow reaches places there that the other one does not. {more:.0f} % more.",
-                "two solutions taken for two usable ones",
-                "p5 asked for a place with one elbow only.",
+                "Joint 1: it swings the whole arm.",
+                "That is so for one elbow alone, {one_1:.1f} % against {one_2:.1f} %. With two "
+                "elbows the other one reaches most of these places already: {both_1:.1f} %.",
+                "one elbow taken for both",
+                "From ±150° to ±180° joint 1 gains {rest:.1f} % more, and then nothing.",
             ),
             Option(
-                "About a quarter more.",
-                "Together {both:.0f} cm², {more:.0f} % more. The zones are mirror images in the x "
-                "axis and cover each other but for a piece on either side, behind.",
+                "Joint 2: it makes the hole smaller.",
+                "{both_2:.1f} % against {both_1:.1f} %. Behind the arm the two elbows help each "
+                "other out; in the hole neither can.",
             ),
             Option(
-                "About half as much again.",
-                "It is {more:.0f} %: the pieces that only one elbow reaches lie behind the arm, "
-                "beyond what joint 1 can turn to.",
-                "the overlap taken too small",
-                "In front of the arm, between −40° and 40°, every place has both elbows.",
+                "Both the same: 10° are 10°.",
+                "Area does not go with angle: joint 2 gains {both_2:.1f} %, joint 1 {both_1:.1f} "
+                "%. The factor l1 l2 sin q2 stands between the two.",
+                "equal angles taken for equal areas",
+                "Nearly stretched, 10° of joint 2 hardly move the tool outwards.",
             ),
             Option(
-                "Twice as much: two elbows, two zones.",
-                "The zones overlap, so their areas must not be added: {more:.0f} %, not 100 %.",
-                "areas of overlapping sets added",
-                "Two torches on one wall do not light twice the wall.",
+                "Neither: the reach stays 450 mm.",
+                "The outer border stays where it is there already; area is won in the hole "
+                "({both_2:.1f} %) and behind the arm ({both_1:.1f} %).",
+                "reach taken for area",
+                "A ring and a disc of the same outer radius have unlike areas.",
             ),
         ),
         facts=_area_facts,
