@@ -90,6 +90,8 @@ def _posture(result: Any, case: tuple[Any, ...]) -> Floats:
 
 def _other_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     [q] = case
+    if (abs(yours[:3]) > 30).any():
+        return f"joints 1 to 3 should be radians; yours would be up to {abs(yours[:3]).max():.0f}"
     there, wanted = _place(yours) / mm, _place(q) / mm
     if not np.linalg.norm(there - wanted) <= 1e-4:
         return (
@@ -139,11 +141,11 @@ def _corner(q2: float) -> float:
     return float(np.arccos(np.clip((L1**2 + d**2 - L2**2) / (2 * L1 * d), -1, 1)))
 
 
-def _by_rows(q: Floats) -> Floats:
+def _by_rows(q: Floats, row: int | None = None) -> Floats:
     """By SCARA.ik, which wraps."""
     x, y = _place(q)
     rows = SCARA.ik(ScaraPose([x, y, L0 - q[3]], q[:3].sum()))
-    return np.array(rows[1 if q[1] >= 0 else 0])
+    return np.array(rows[(1 if q[1] >= 0 else 0) if row is None else row])
 
 
 PHI = "The tool's angle q1 + q2 + q3 has to stay what it was, so q3 makes up for q1 and q2."
@@ -186,6 +188,55 @@ OTHER_MISTAKES = (
         "joint 3 turned the wrong way",
         "Joint 3 goes with joints 1 and 2 where it should go against them.",
         _with(lambda a, b, c, d, i: (a + 2 * i, -b, c - 2 * b + 2 * i, d)),
+    ),
+    *(
+        Mistake(
+            "joint 3 turned the wrong way",
+            "Joint 3 has to go against what joints 1 and 2 have done, with both signs turned.",
+            _with(change),
+        )
+        for change in (
+            lambda a, b, c, d, i: (a + 2 * i, -b, c + 2 * i, d),
+            lambda a, b, c, d, i: (a + 2 * i, -b, c - 2 * b, d),
+            lambda a, b, c, d, i: (a + 2 * i, -b, c + 2 * b + 2 * i, d),
+            lambda a, b, c, d, i: (a + 2 * i, -b, c - 2 * b - 2 * i, d),
+        )
+    ),
+    Mistake(
+        "q3 for the tool's angle",
+        "The tool's angle is q1 + q2 + q3 of the given posture, not its q3.",
+        _with(lambda a, b, c, d, i: (a + 2 * i, -b, c + b - a - 2 * i, d)),
+    ),
+    Mistake(
+        "q3 left out of the tool's angle",
+        "The tool's angle is q1 + q2 + q3, not q1 + q2: that is the direction of the second lever.",
+        _with(lambda a, b, c, d, i: (a + 2 * i, -b, 2 * b - 2 * i, d)),
+    ),
+    Mistake(
+        "l2 cos q2 left out of the triangle",
+        "Along the first lever the target is l1 + l2 cos q2 away, not l1.",
+        _by(lambda b: np.arctan2(L2 * np.sin(b), L1)),
+    ),
+    Mistake(
+        "joint 1 added to the mirror, not taken off",
+        "With the direction to the target t the mirror image of q1 is 2 t − q1, not 2 t + q1.",
+        _with(lambda a, b, c, d, i: (3 * a + 2 * i, -b, c + 2 * b - 2 * a - 2 * i, d)),
+    ),
+    Mistake(
+        "mirrored in the y axis",
+        "The triangle is mirrored in the line from joint 1 to the target, not in the y axis.",
+        _with(lambda a, b, c, d, i: (np.pi - a, -b, 2 * a + 2 * b + c - np.pi, d)),
+    ),
+    Mistake(
+        "half a turn of joint 1",
+        "Joint 1 turned by 180° brings the tool to the other side of the column.",
+        _with(lambda a, b, c, d, i: (a + np.pi, -b, c + 2 * b - np.pi, d)),
+    ),
+    Mistake(
+        "levers taken as equal, and joint 3 left as it is",
+        "q1 + q2 is right for two equal levers. Here they are 200 and 250 mm long. And q3 has to "
+        "keep the tool's angle.",
+        _with(lambda a, b, c, d, i: (a + b, -b, c, d)),
     ),
     Mistake(
         "the sign of joint 3",
@@ -249,6 +300,15 @@ OTHER_MISTAKES = (
         "always elbow +1",
         "Asked is the other elbow: for a posture with the elbow +1 that is −1.",
         lambda q: _other(Tools(), q) if q[1] < 0 else np.array(q),
+    ),
+    *(
+        Mistake(
+            f"always elbow {flag}, and the tool's angle wrapped",
+            "Asked is the elbow that q does not have. And `ik` wraps q3: take it from q1 + q2 + q3 "
+            "of the given posture.",
+            lambda q, row=row: _by_rows(q, row),
+        )
+        for row, flag in ((0, "+1"), (1, "−1"))
     ),
     Mistake(
         "mirrored in the x axis",
