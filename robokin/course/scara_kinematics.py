@@ -775,14 +775,24 @@ def _behind_right(facts: Mapping[str, Any]) -> int:
 
 
 def _behind_view() -> Any:
-    from ..show import plot_postures
+    from ..show import Sketch
 
-    return plot_postures(
-        SCARA,
-        SCARA.ik(BEHIND),
-        targets=[BEHIND.as_transform()],
-        title="Two ways to one place behind the arm",
+    fig = Sketch(
+        "From above: a place behind the arm and both elbows. The first lever of elbow +1 stands "
+        "inside the stops of joint 1, that of elbow −1 (dashed) in the shaded sector beyond them.",
+        title="The shaded sector is closed to the first lever",
     )
+    closed = np.linspace(HIGH[0], 2 * np.pi - HIGH[0], 40)
+    x, y = 230 * np.cos(closed), 230 * np.sin(closed)
+    fig.ax.fill([0, *x], [0, *y], color="0.85", zorder=0)
+    target = BEHIND.position[:2]
+    for q, dashed in zip(SCARA.ik(BEHIND), (False, True), strict=True):
+        joint_2 = L1 * np.array([np.cos(q[0]), np.sin(q[0])])
+        fig.levers(np.array([np.zeros(2), joint_2, target]), dashed=dashed)
+        fig.point(joint_2, "elbow −1" if dashed else "elbow +1", away=joint_2)
+    fig.point(target, "target", away=(-1, 0))
+    fig.ax.set(xlim=(-420, 120))
+    return fig
 
 
 STOP = 120 * deg
