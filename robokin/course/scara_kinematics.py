@@ -754,7 +754,7 @@ def _sine_view() -> Any:
     return fig
 
 
-BEHIND = ScaraPose([-300 * mm, 80 * mm, 120 * mm], 0.0)
+BEHIND = ScaraPose([-320 * mm, 140 * mm, 120 * mm], 0.0)
 
 
 @cache
@@ -1161,7 +1161,7 @@ PREDICTIONS = {
         view=_sine_view,
     ),
     "p5": Prediction(
-        question="The place (−300, 80) mm lies behind the arm, in the direction {towards}. Joint 1 "
+        question="The place (−320, 140) mm lies behind the arm, in the direction {towards}. Joint 1 "
         "stops at ±{limit}, joint 2 at ±150°. Which elbow reaches it?",
         options=(
             Option(
