@@ -1161,8 +1161,8 @@ PREDICTIONS = {
         view=_sine_view,
     ),
     "p5": Prediction(
-        question="The place (−320, 140) mm lies behind the arm, in the direction {towards}. Joint 1 "
-        "stops at ±{limit}, joint 2 at ±150°. Which elbow reaches it?",
+        question="The place (−320, 140) mm lies behind the arm, in the direction {towards}. Joint "
+        "1 stops at ±{limit}, joint 2 at ±150°. Which elbow reaches it?",
         options=(
             Option(
                 "Both: the two are mirror images, what one can the other can.",
