@@ -10,6 +10,7 @@ LABS = (
     "frames_and_quaternions",
     "irb140_kinematics",
     "irb140_motion",
+    "scara_kinematics",
     "spherical_wrist",
     "puma560_branches",
     "visit_and_collect",
