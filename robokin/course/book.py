@@ -6,7 +6,7 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion")
+LABS = ("irb140_kinematics", "irb140_motion", "three_levers")
 
 
 def lab(name: Any) -> ModuleType:
