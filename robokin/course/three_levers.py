@@ -396,8 +396,10 @@ def _swept(
 RIGHT_LEAST: tuple[tuple[str, Program], ...] = (
     ("the exact least of the package", _exact),
     ("a sweep in steps of 0.01°, up to 0.012° above the least in what we tried", _swept),
-    ("a sweep from 180° down, which takes the last of equal rows", lambda p, q: _backward(p, q)),
-    ("a list of numbers, rounded to 7 digits", lambda p, q: np.round(_swept(p, q), 7).tolist()),
+    (
+        "a sweep from 180° down, which takes the last of equal rows, as a list of rounded numbers",
+        lambda p, q: np.round(_backward(p, q), 7).tolist(),
+    ),
 )
 
 
@@ -992,6 +994,7 @@ def _still_facts() -> dict[str, Any]:
         "turning": 3 - int(np.argmax(shares)),
         "one": 100 * shares[1],
         "none": 100 * shares[0],
+        "two": int((still == 2).sum()),
         "squares": 100 * float((change > 0.05 * deg).all(axis=-1).mean()),
     }
 
@@ -1487,7 +1490,7 @@ PREDICTIONS = {
             Option(
                 "One; the other two stand still.",
                 "K has two coordinates: one joint alone moves it on one circle, and the target "
-                "hardly ever lies on it. It happened in none of {count} random moves.",
+                "hardly ever lies on it: in {two} of {count} random moves.",
                 "two equations with one unknown",
                 "Turn gamma alone: K keeps its distance from O.",
             ),
@@ -1558,8 +1561,8 @@ PREDICTIONS = {
         view=_time_view,
     ),
     "p9": Prediction(
-        question="We draw {tours} random tours of {stops} targets each. In how many of them does the "
-        "arm that saves on each task lose more than 5 % against the one that plans the whole tour?",
+        question="We draw {tours} random tours of {stops} targets each. In how many of them does "
+        "the arm that saves on each task lose more than 5 % against one that plans the whole tour?",
         options=(
             Option(
                 "In none: the least of each adds up to the least in all.",
