@@ -751,6 +751,7 @@ def _bend_view() -> Any:
     sketch.levers(ARM.points(UPRIGHT), dashed=True)
     sketch.levers(ARM.points(BENT), ["O", "B", "A", "K"])
     sketch.angle(ARM.points(BENT)[2], 270 * deg, 390 * deg, "α = 120°", radius=0.3)
+    sketch.ax.set_xlim(-2.5, 3.5)
     return sketch
 
 
@@ -1021,13 +1022,13 @@ def _still_view() -> Any:
         style = JOINT_STYLES[joint]
         dash = (0, style["dash"]) if style["dash"] else "-"
         ax.plot(alphas / deg, change[:, joint], color=style["color"], linewidth=1.8, ls=dash)
-        at = abs(alphas / deg - 88).argmin()
-        ax.text(87.6, change[at, joint], name, color=style["color"], ha="right", va="center")
+        at = abs(alphas / deg - 119).argmin()
+        ax.text(119.3, change[at, joint] - 1.5, name, color=style["color"], va="top")
     stays = int(np.argmin(abs(exact - before)))
     ax.set(
         xlabel="α, °",
         ylabel="change, °",
-        xlim=(86, 120),
+        xlim=(86, 121),
         ylim=(0, 45),
         title=f"S is least where {'γβα'[stays]} stays as it was",
     )
@@ -1091,6 +1092,7 @@ def _scale_view() -> Any:
         ax.plot(rows[:, 2] / deg, abs(rows - before).sum(axis=-1) / deg, "o", color="#D55E00")
         ax.plot(exact[2] / deg, S / deg, "kD", markersize=7)
         ax.ticklabel_format(useOffset=False)
+        ax.locator_params(axis="x", nbins=5)
         ax.set(xlabel="α, °", ylabel="S, °", title=f"rows {step:g}° apart, ◆ exact")
     fig.tight_layout()
     return fig
@@ -1137,13 +1139,12 @@ def _time_view() -> Any:
         height=3.5,
     )
     ax = fig.subplots()
-    for curve, style, name in zip(
-        curves, ("-", "--"), ("S, the sum", "the longest motor: the time"), strict=True
-    ):
+    names = ("S, the sum", 166, 68), ("the longest motor: the time", 160, 25)
+    for curve, style, (name, x, y) in zip(curves, ("-", "--"), names, strict=True):
         ax.plot(alphas / deg, curve, style, color="black", linewidth=2)
         k = int(curve.argmin())
         ax.plot(alphas[k] / deg, curve[k], "kD", markersize=7)
-        ax.text(alphas[-60] / deg, curve[-60] + 2, name, ha="right")
+        ax.text(x, y, name, ha="right" if style == "-" else "left")
     ax.set(
         xlabel="α, °",
         ylabel="°",
@@ -1455,7 +1456,7 @@ PREDICTIONS = {
                 "In the direction 90° it is all of it, from {none_from:.1f}° on nothing.",
             ),
             Option(
-                "In about 1 % of it: gamma begins just below 180° and grows.",
+                "In about 1 % of it: gamma begins a little below 180° and grows.",
                 "gamma goes from {first:.1f}° to {last:.1f}°: {share:.2f} % of the range is left.",
             ),
             Option(
