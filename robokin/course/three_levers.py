@@ -104,7 +104,13 @@ def _levers_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case(0.25, 0.1, 75, [0.35, 0.3, 0.2]),  # a table-top arm
         case(0.3, -0.4, 60, [0.5, 0.3, 0.45]),  # K nearer than a lever
     ]
-    while len(cases) < 30:
+    cases += [
+        case(1.9, 0.0, 60, [1, 1, 1]),  # beta is above 180 degrees
+        case(1.2, 0.8, 50, [0.9, 0.8, 0.7]),
+        case(0.9, 0.4, 40, [0.8, 0.4, 1.0]),  # beta_2 is above 90 degrees
+        case(-0.7, 0.5, 30, [0.7, 0.5, 0.9]),
+    ]
+    while len(cases) < 34:
         lengths = rng.uniform(0.3, 1.2, 3).round(2)
         alpha = rng.uniform(15, 175)
         r, phi = rng.uniform(0.2, 2.8), rng.uniform(-180, 180) * deg
@@ -130,7 +136,7 @@ def _posture_form(result: Any, case: tuple[Any, ...]) -> Floats:
     if q.size != 3:
         raise ValueError(f"{wanted}, got {words(result)}")
     q = q.reshape(3)
-    return np.full(3, np.nan) if np.isnan(q).all() else q
+    return np.full(3, np.nan) if np.isnan(q[:2]).any() else q  # [nan, nan, alpha] says it, too
 
 
 def _levers_law(case: tuple[Any, ...], yours: Floats) -> str | None:
@@ -204,6 +210,42 @@ def _changed(**steps: Program) -> Program:
 
 def _quotient(y: Any, x: Any) -> Any:
     return np.arctan(np.divide(y, x))
+
+
+def _sides(point: Floats, alpha: float, lengths: Floats) -> tuple[float, float]:
+    """KO and KB."""
+    return float(np.hypot(*point)), float(_square(0, lengths[1], lengths[2], alpha))
+
+
+def _unless(gone: Program) -> Program:
+    """NaN where `gone` says so; elsewhere clipped."""
+
+    def program(point: Floats, alpha: float, lengths: Floats) -> Floats:
+        lost = gone(*_sides(point, alpha, lengths), lengths)
+        return np.full(3, np.nan) if lost else _all_clipped(point, alpha, lengths)
+
+    return program
+
+
+def _refused(bad: Program) -> Program:
+    """Right, but NaN where `bad` says so, too."""
+
+    def program(point: Floats, alpha: float, lengths: Floats) -> Floats:
+        q = _levers(point, alpha, lengths)
+        return np.full(3, np.nan) if bad(q, np.hypot(*point), lengths) else q
+
+    return program
+
+
+def _unrooted(point: Floats, alpha: float, lengths: Floats) -> Floats:
+    return _levers(point * np.hypot(*point), alpha, lengths)
+
+
+def _angle_at_K(point: Floats, alpha: float, lengths: Floats) -> Floats:
+    KO, KB = _sides(point, alpha, lengths)
+    q = _levers(point, alpha, lengths)
+    found: Floats = q + [_corner(KO, KB, lengths[0]) - _corner(KO, lengths[0], KB), 0, 0]
+    return found
 
 
 LEVER_MISTAKES = (
@@ -344,6 +386,92 @@ LEVER_MISTAKES = (
         "the angles in another order",
         "q is (gamma, beta, alpha): from the base to the gripper.",
         lambda point, alpha, lengths: _levers(point, alpha, lengths)[::-1],
+    ),
+    Mistake(
+        "KO without the root",
+        "KO is a length: the root of x² + y².",
+        lambda point, alpha, lengths: _unrooted(point, alpha, lengths),
+    ),
+    Mistake(
+        "the mean length of BA and AK",
+        "KB is the third side of a triangle of BA, AK and alpha; their mean length does not give "
+        "it. Law of cosines.",
+        _changed(
+            KB=lambda a, b, c, alpha: (b + c) * np.sin(alpha / 2),
+            beta_2=_is_half,
+        ),
+    ),
+    Mistake(
+        "alpha for beta_2",
+        "In the triangle B, A, K alpha is the angle at A, opposite KB. beta_2 is the one at B, "
+        "opposite AK.",
+        _changed(beta_2=lambda b, c, alpha: alpha),
+    ),
+    Mistake(
+        "arcsin for beta_2",
+        "Where AK is the longest side beta_2 may be above 90°, and arcsin never is. Take arctan2, "
+        "or the law of cosines.",
+        _changed(beta_2=lambda b, c, alpha: np.arcsin(c * np.sin(alpha) / _square(0, b, c, alpha))),
+    ),
+    Mistake(
+        "arctan of a quotient for beta_2",
+        "Where beta_2 is above 90° the quotient is negative, and arctan gives a negative angle. "
+        "Take arctan2 of both.",
+        _changed(
+            beta_2=lambda b, c, alpha: np.arctan(c * np.sin(alpha) / (b - c * np.cos(alpha))),
+        ),
+    ),
+    Mistake(
+        "the angle at K for gamma_1",
+        "In the triangle O, B, K gamma_1 is the angle at O, between KO and OB, opposite KB. You "
+        "take the one at K.",
+        lambda point, alpha, lengths: _angle_at_K(point, alpha, lengths),
+    ),
+    Mistake(
+        "the turn for alpha",
+        "alpha is returned as it was given: the interior angle, not 180° minus it.",
+        lambda point, alpha, lengths: (
+            _levers(point, alpha, lengths) * [1, 1, 0] + [0, 0, np.pi - alpha]
+        ),
+    ),
+    Mistake(
+        "K too near is forgotten",
+        "A triangle may fail in two ways: K too far away, KO above OB + KB, and K too near, KO "
+        "below |OB - KB|.",
+        _unless(lambda KO, KB, lengths: KO > lengths[0] + KB),
+    ),
+    Mistake(
+        "K too far is forgotten",
+        "A triangle may fail in two ways: K too near, KO below |OB - KB|, and K too far away, KO "
+        "above OB + KB.",
+        _unless(lambda KO, KB, lengths: KO < abs(lengths[0] - KB)),
+    ),
+    Mistake(
+        "the reach of the stretched arm",
+        "With alpha given the arm cannot stretch: what counts is OB + KB, not the sum of the "
+        "three lengths.",
+        _unless(lambda KO, KB, lengths: KO > sum(lengths)),
+    ),
+    Mistake(
+        "the rule KO > OB kept",
+        "That K keeps away from the inner disc is a rule of the lab's arm. Here NaN stands only "
+        "where O, B, K are no triangle.",
+        _refused(lambda q, KO, lengths: KO <= lengths[0]),
+    ),
+    Mistake(
+        "limits are looked at",
+        "Limits are not asked for: gamma or beta above 180°, or below 0°, is no reason for NaN.",
+        _refused(lambda q, KO, lengths: (q < 0).any() or (q > np.pi).any()),
+    ),
+    Mistake(
+        "the limit of beta is looked at",
+        "Limits are not asked for: beta above 180° is no reason for NaN.",
+        _refused(lambda q, KO, lengths: q[1] > np.pi),
+    ),
+    Mistake(
+        "zeros instead of NaN",
+        "Zeros are a posture, too: the arm would go there. Where there is none return NaN.",
+        lambda point, alpha, lengths: np.nan_to_num(_levers(point, alpha, lengths)),
     ),
     Mistake(
         "gamma_1 and beta_1 exchanged",
@@ -855,7 +983,7 @@ def _equal_view() -> Any:
         right.plot(alphas / deg, family[:, joint], color=style["color"], linewidth=2.2, ls=dash)
         right.text(182, family[-1, joint], name, color=style["color"], va="center")
     right.plot(same, same, "ko", markersize=7)
-    right.annotate(f"{same:.1f}°", (same, same), (8, 6), textcoords="offset points")
+    right.annotate(f"{same:.1f}°", (same, same), (12, -3), textcoords="offset points")
     right.set(xlabel="free angle α, °", ylabel="γ, β, α, °", title="β = α at one place")
     fig.tight_layout()
     return fig
