@@ -474,6 +474,13 @@ LEVER_MISTAKES = (
         lambda point, alpha, lengths: np.nan_to_num(_levers(point, alpha, lengths)),
     ),
     Mistake(
+        "zeros instead of NaN, beside alpha",
+        "Zeros are angles, too: the arm would go there. Where there is no posture return NaN.",
+        lambda point, alpha, lengths: np.append(
+            np.nan_to_num(_levers(point, alpha, lengths))[:2], alpha
+        ),
+    ),
+    Mistake(
         "gamma_1 and beta_1 exchanged",
         "In the triangle O, B, K gamma_1 is the angle at O, opposite KB, and beta_1 the angle at "
         "B, opposite KO.",
