@@ -144,8 +144,12 @@ def test_readme_names_every_lab_and_its_links_resolve():
     ]
     for link in links + re.findall(r"\]\(([^)\s]+)\)", " ".join(others)):
         assert link.startswith(("https:", "#")) or (ROOT / link).exists(), link
-    for lab in (ROOT / "notebooks").glob("*.ipynb"):
-        assert f"notebooks/{lab.name}" in links, f"{lab.name} is not in the README"
+    for lab in (ROOT / "notebooks").glob("**/[!.]*.ipynb"):
+        if ".ipynb_checkpoints" not in lab.parts:
+            name = lab.relative_to(ROOT).as_posix()
+            assert name in links, f"{name} is not in the README"
+    trusted = re.findall(r"jupyter trust (.*?)(?: &&|\)\.FullName)", README)
+    assert len(trusted) == 2 and all("documents" in names for names in trusted)
 
 
 def test_pins_are_exact_installed_and_within_the_ranges():
