@@ -25,7 +25,8 @@ OBJECTIVES = (
     "point",
     "choose the posture with the least movement, by a sweep and exactly, and test a program that "
     "claims to",
-    "say what least movement leaves out (time, weight, the next task), and plan two tasks at once",
+    "say what least movement leaves out, above all the time and the next task, and plan two tasks "
+    "at once",
 )
 LAB = "three_levers"
 L = 1.0  # m, as in the lab
