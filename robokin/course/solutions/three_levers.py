@@ -25,13 +25,16 @@ from robokin import deg, three_lever
 arm = three_lever(1.0)
 
 
+# the tasks, made once
+rng = np.random.default_rng(2)
+r, phi = rng.uniform(1.1, 2.9, 40), rng.uniform(0, 145, 40) * deg
+points = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
+before = rng.uniform(20, 170, (40, 3)) * deg
+least = arm.least(points, before)[1]  # S, all at once; NaN: not reached
+
+
 def is_least(program):
     """Whether the program least(K, previous) finds the least movement."""
-    rng = np.random.default_rng(2)
-    r, phi = rng.uniform(1.1, 2.9, 60), rng.uniform(0, 145, 60) * deg
-    points = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
-    before = rng.uniform(20, 170, (60, 3)) * deg
-    _, least = arm.least(points, before)  # all at once; NaN: not reached
     for K, previous, S in zip(points, before, least, strict=True):
         if np.isnan(S):
             continue
