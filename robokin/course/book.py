@@ -14,6 +14,7 @@ LABS = (
     "spherical_wrist",
     "puma560_branches",
     "visit_and_collect",
+    "three_levers",
 )
 
 
