@@ -4,7 +4,7 @@
     python tests/execute_notebooks.py notebooks/00_start_here.ipynb ...
 
 Each notebook runs in a fresh kernel. What is stored depends on its cells alone: no widget state, no
-times, no Python version, streams in one piece, and a picture whose pixels are unchanged keeps its
+times, streams in one piece, and a picture whose pixels are unchanged keeps its
 old bytes (another zlib packs the same pixels otherwise). So a diff shows what changed, and a second
 run changes no byte. A notebook that fails is named and left as it was, the others go on, and the
 exit status is 1.
@@ -26,19 +26,30 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernel
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
-KEPT_CELL_METADATA = ("tags", "reason")
+KEPT_CELL_METADATA = ("tags", "reason", "jupyter")
 METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    # What JupyterLab writes here when a kernel has come; where it differs, the lab counts as
+    # unsaved. `version` is the reader's own Python: no stored one can be right for all.
     "language_info": {
+        "codemirror_mode": {"name": "ipython", "version": 3},
         "file_extension": ".py",
         "mimetype": "text/x-python",
         "name": "python",
+        "nbconvert_exporter": "python",
         "pygments_lexer": "ipython3",
+        "version": "3.11.7",
     },
 }
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 ANSI = re.compile("\x1b\\[[0-9;]*m")  # colours of a traceback
 PNG = re.compile("iVBORw0KGgo[A-Za-z0-9+/]+=*")  # base64 of the eight bytes that begin every PNG
+
+
+def notebooks():
+    """All labs, and the companions to the documents."""
+    top = ROOT / "notebooks"  # not recursively: JupyterLab keeps checkpoints in a folder below
+    return [*sorted(top.glob("*.ipynb")), *sorted(top.glob("documents/*.ipynb"))]
 
 
 def execute(path, timeout=120):
@@ -122,7 +133,7 @@ def _pixels(text):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("notebooks", nargs="*", type=Path)
-    paths = parser.parse_args(arguments).notebooks or sorted((ROOT / "notebooks").glob("*.ipynb"))
+    paths = parser.parse_args(arguments).notebooks or notebooks()
     # a warning that would land in the outputs
     os.environ.setdefault("PYDEVD_DISABLE_FILE_VALIDATION", "1")
     failed = []

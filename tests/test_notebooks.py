@@ -14,18 +14,22 @@ import sys
 import tokenize
 import unicodedata
 
+import lab_sizes
 import nbformat
 import pytest
 from conftest import NOTEBOOKS, ROOT
 from PIL import Image
 
 # Not recursively: JupyterLab keeps checkpoints in a folder below.
-PATHS = sorted(NOTEBOOKS.glob("*.ipynb"))
+LABS = sorted(NOTEBOOKS.glob("*.ipynb"))
+PATHS = [*LABS, *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]  # and the companions
 IMPORTS = {"ipywidgets", "matplotlib", "numpy", "robokin", "scipy", "sympy"} | set(
     sys.stdlib_module_names
 )
 LONGEST_CELL = 35
 UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
+PARTS = ("Your turn", "In short", "Next", "Deeper")
+every_lab = pytest.mark.parametrize("lab", LABS, ids=lambda path: path.stem)
 HEADINGS = ("You will be able to", "Your turn", "In short", "Next")
 
 
@@ -54,7 +58,8 @@ def test_there_are_labs():
 
 
 def test_labs_are_numbered_without_gaps():
-    assert [int(path.stem[:2]) for path in PATHS] == list(range(len(PATHS)))
+    assert [int(path.stem[:2]) for path in LABS] == list(range(len(LABS)))
+    assert len(LABS) <= 15
 
 
 def test_cells_were_executed_from_top_to_bottom(code):
@@ -89,7 +94,10 @@ def test_no_state_of_a_session_is_stored(path):
         "run tests/execute_notebooks.py"
     )
     for cell in notebook["cells"]:
-        assert set(cell["metadata"]) <= {"tags", "reason"}
+        assert set(cell["metadata"]) <= {"tags", "reason", "jupyter"}
+        if cell["metadata"].get("jupyter"):  # folded, in an exported page as well
+            assert cell["metadata"]["jupyter"] == {"source_hidden": True}
+            assert "hide-input" in cell["metadata"]["tags"] and cell["cell_type"] == "code"
     ids = [cell["id"] for cell in notebook["cells"]]
     assert len(set(ids)) == len(ids)
 
@@ -159,13 +167,39 @@ def test_every_picture_has_words(cells):
             assert all(len(alt) > 20 for alt in re.findall(r"!\[(.*?)\]\(", cell.source, re.S))
 
 
-def test_a_lab_has_its_parts(prose):
-    text = "\n".join(prose)
-    assert re.match(r"# \S", prose[0]) and len(re.findall(r"^# ", text, re.M)) == 1
+def test_a_notebook_has_one_title(prose):
+    assert re.match(r"# \S", prose[0]) and len(re.findall(r"^# ", "\n".join(prose), re.M)) == 1
+
+
+@every_lab
+def test_a_lab_has_its_parts(lab):
+    text = _prose(lab)
     for heading in HEADINGS:
         assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"no '{heading}'"
-    places = [text.index(heading) for heading in HEADINGS[1:]]
-    assert places == sorted(places), "the parts stand in another order"
+    titles = re.findall(r"^## (.*)$", text, re.M)
+    places = [titles.index(part) for part in titles if part.split(" (")[0] in PARTS]
+    assert titles[places[0] :] == [titles[k] for k in places], "a section after 'Your turn'"
+    assert [PARTS.index(titles[k].split(" (")[0]) for k in places] == sorted(
+        PARTS.index(titles[k].split(" (")[0]) for k in places
+    ), "the parts stand in another order"
+    numbered = [title for title in titles if re.match(r"\d", title)]
+    assert [int(title.split(".")[0]) for title in numbered] == list(range(1, len(numbered) + 1))
+
+
+@every_lab
+def test_a_lab_is_an_hour(lab):
+    size = lab_sizes.measure(lab)
+    assert not lab_sizes.too_long(lab.stem, size), size
+
+
+@every_lab
+def test_a_lab_opens_with_what_moves(lab):
+    """A title with a claim, a folded set-up, and the thing itself in three lines."""
+    first, setup, thing, *_ = json.loads(lab.read_text(encoding="utf-8"))["cells"]
+    assert re.search(r"\n\*\*[^*]+[.?!]\*\*", "".join(first["source"])), "no claim in bold"
+    assert lab_sizes.folded(setup) and "import" in "".join(setup["source"])
+    assert len(thing["source"]) <= 3
+    assert any("rk" in "".join(o.get("data", {}).get("text/html", "")) for o in thing["outputs"])
 
 
 def test_joints_are_counted_from_one(prose):
@@ -173,11 +207,11 @@ def test_joints_are_counted_from_one(prose):
     assert not [title for title in titles if re.search(r"\bq_?\{?0|q₀|[Jj]oint 0", title)]
 
 
-def test_links_lead_somewhere(prose):
+def test_links_lead_somewhere(path, prose):
     for text in prose:
         for target in re.findall(r"\]\(([^)\s]+)\)", text):
             if not re.match(r"https?:|#|attachment:", target):
-                assert (NOTEBOOKS / target.split("#")[0]).exists(), target
+                assert (path.parent / target.split("#")[0]).exists(), target
 
 
 # --- tests/execute_notebooks.py -------------------------------------------------------------------
@@ -208,7 +242,7 @@ def test_executing_again_changes_no_byte(tmp_path):
     assert [cell.execution_count for cell in code] == [1, 2, 3]
     assert [len(cell.outputs) for cell in code] == [1, 1, 1] and code[0].outputs[0].text == "1\n2\n"
     assert set(notebook.metadata) == {"kernelspec", "language_info"}
-    assert "version" not in notebook.metadata.language_info
+    assert notebook.metadata.language_info.nbconvert_exporter == "python"
     assert notebook.cells[0].metadata == {"tags": ["intro"]}
     assert "unchanged" in _execute(path).stdout
     assert path.read_bytes() == once
@@ -245,6 +279,11 @@ def _assert_alt_texts(source):
     for image in re.findall(r"<img\b[^>]*>", source):
         alt = re.search(r'\balt="([^"]*)"', image)
         assert alt and len(alt[1]) > 20, image[:200]
+
+
+def _prose(path):
+    cells = nbformat.read(path, as_version=4).cells
+    return "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
 
 
 def _png(path):

@@ -36,7 +36,7 @@ from robokin import (
     mm,
     record,
 )
-from robokin.show import JOINT_STYLES, figure, plot_frames, plot_joints, plot_postures
+from robokin.show import JOINT_STYLES, Sketch, figure, plot_frames, plot_joints, plot_postures
 from robokin.show.arguments import named_targets
 from robokin.show.camera import arm_points, project
 from robokin.show.plots import palette_png
@@ -645,3 +645,44 @@ def test_nothing_here_needs_pyplot():
         ).stdout
     )
     assert "matplotlib.figure" in loaded and "matplotlib.pyplot" not in loaded
+
+
+# --- Sketches -------------------------------------------------------------------------------------
+
+
+def test_a_sketch_draws_what_it_is_given_in_true_proportions():
+    sketch = Sketch("Two levers.", title="Bent", x="ahead", y="up")
+    corners = np.array([[0, 0], [0.3, 0.4], [0.6, 0.1]])
+    sketch.levers(corners, ["O", "A", "K"])
+    sketch.length(corners[0], corners[2], "d")
+    sketch.angle(corners[1], -2 * np.pi / 3, np.pi / 6, "q2", radius=0.1)
+    sketch.point((0.7, 0.5), "target")
+    sketch.canvas.draw()
+    ax = sketch.ax
+    one, two, joints, length, begin, arc, point = (line.get_xydata() / 1000 for line in ax.lines)
+    np.testing.assert_allclose([*one, two[1]], corners)
+    np.testing.assert_allclose(joints, corners)
+    np.testing.assert_allclose(length, corners[[0, 2]])
+    np.testing.assert_allclose(np.linalg.norm(arc - corners[1], axis=-1), 0.1)
+    ways = (arc - corners[1])[[0, -1]]
+    np.testing.assert_allclose(np.arctan2(*ways.T[::-1]), [-2 * np.pi / 3, np.pi / 6])
+    np.testing.assert_allclose(np.linalg.det([begin[1] - begin[0], ways[0]]), 0, atol=1e-12)
+    np.testing.assert_allclose(point, [[0.7, 0.5]])
+    x, y = np.diff(ax.transData.transform([[0, 0], [1, 1]]), axis=0)[0]
+    assert abs(x / y - 1) < 1e-6
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("ahead, mm", "up, mm")
+
+
+def test_the_names_of_a_sketch_stand_beside_what_they_name():
+    sketch = Sketch("Two levers.", unit="m")
+    corners = np.array([[0, 0], [3, 4], [6, 1]])
+    sketch.levers(corners, list("OAK"))
+    sketch.length(corners[0], corners[2], "d")
+    sketch.angle((0, 0), 0, np.arctan2(4, 3), "q1", radius=1)
+    names = {text.get_text(): text for text in sketch.ax.texts if text.get_text()}
+    assert set(names) == {"O", "A", "K", "d", "q1"}
+    for name, corner in zip("OAK", corners, strict=True):
+        np.testing.assert_allclose(names[name].xy, corner)
+        away = np.array(names[name].get_position())  # in pixels from there
+        assert away @ (corner - corners.mean(axis=0)) > 0
+    assert names["d"].get_position()[1] > 0 and names["q1"].get_position()[0] > 0

@@ -114,6 +114,7 @@ PLAN = obstacles.plan(LEVERS, FOLDED, POINT)
 RECORDING = motion.record(IRB140, TIMES, np.where(TIMES[:, None] < 0.5, MOTION, MOTION + 2))
 RECORDINGS = motion.record(IRB140, TIMES, np.stack([MOTION, MOTION]))
 PAGE = "page.html, in a folder of the test"
+SKETCH, CORNERS = figures.Sketch("words"), np.array([[0, 0], [0.3, 0.2], [0.5, 0.1]])
 PLAYER = figures.animate(IRB140, TIMES, MOTION)
 EXPLORER = figures.joint_explorer(IRB140)
 
@@ -326,6 +327,17 @@ CALLS = {
     "plot_postures": (
         figures.plot_postures,
         dict(arm=IRB140, q=MOTION, targets=[T, HIGHER], title="title", alt="words"),
+    ),
+    "Sketch": (
+        figures.Sketch,
+        dict(alt="words", title="t", unit="mm", x="x", y="y", width=3.0, height=2.0),
+    ),
+    "Sketch.levers": (SKETCH.levers, dict(points=CORNERS, names=["O", "A"], dashed=False)),
+    "Sketch.point": (SKETCH.point, dict(place=CORNERS[0], name="K", away=(0, 1))),
+    "Sketch.length": (SKETCH.length, dict(start=CORNERS[0], end=CORNERS[1], name="d", right=False)),
+    "Sketch.angle": (
+        SKETCH.angle,
+        dict(centre=CORNERS[0], start=0.0, end=1.0, name="q1", radius=0.1),
     ),
     # robokin.jobs
     "visit_collect.workspace": (visit_collect.workspace, dict(l1=2.0, l2=1.5, points=SERVED)),

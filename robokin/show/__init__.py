@@ -5,6 +5,7 @@ try:
     from .palette import JOINT_STYLES
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_joints, plot_postures
+    from .sketch import Sketch
 except ModuleNotFoundError as error:
     raise ImportError(f"robokin.show: {error}; pip install 'robokin[show]' brings it") from error
 
@@ -12,6 +13,7 @@ __all__ = [
     "JOINT_STYLES",
     "Explorer",
     "Player",
+    "Sketch",
     "animate",
     "figure",
     "joint_explorer",

@@ -1,0 +1,291 @@
+"""Labs are read in loops: a cell is changed and run again. Does that work?
+
+    python tests/rerun.py                               all labs and companions, every value
+    python tests/rerun.py notebooks/05_scara_motion.ipynb ...
+    python tests/rerun.py --sample                      one value a cell, as the tests do
+    python tests/rerun.py --seed 7                      again in a random order, besides
+
+1. Top to bottom, then every cell again alone, last to first: the same outputs.
+2. Every value after `# try` in place of the one before it, and all cells again that it reaches: no
+   exception; and in a figure that changes, no title, label or alternative text has a number that
+   was typed in. Each value runs in a fork of the process, as the cells above have left it.
+"""
+
+import argparse
+import ast
+import contextlib
+import io
+import json
+import os
+import random
+import re
+import sys
+import time
+import traceback
+import types
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TRY = re.compile(r"^(?P<head>\s*[A-Za-z_][\w, \[\]]*? = )(?P<value>.*?)  # try (?P<more>.+)$")
+# Numbers that are names. All others in a figure's words are results or inputs, and are computed.
+NAMES = re.compile(
+    r"IRB-140|PUMA ?560|\b[23]-?D\b|\b(?:source|companion) 00\d\b"
+    r"|\b(?:[Jj]oint|[Aa]xis|[Aa]rm|[Rr]ow|[Ll]ab|[Ll]ever|[Ll]ink|[Mm]otor|[Cc]oil|[Pp]hase|[Ff]rame"
+    r"|[Ss]ection|[Ee]xercise|[Oo]bject|[Pp]oint|[Aa]xes|[Jj]oints|[Rr]ows|[Ll]evers|[Ll]inks)"
+    r"(?: \d\b(?:,| and| to| or)?)+"
+    r"|[A-Za-zα-ωΑ-Ω]_?\{?\d\}?(?!\d)|[A-Za-zα-ω]+\d\b"
+)  # q1, C2, K1, z_0, l2
+ASKED = re.compile(r"^(predict|check|progress|hint|solution|variant)\(")
+
+
+class Cell:
+    """A code cell: what it says, what it reads, and which names it leaves or changes."""
+
+    def __init__(self, source: str) -> None:
+        self.source = source
+        tree = ast.parse(source)
+        self.reads: set[str] = set()
+        self.writes: set[str] = set()
+        self.changed: set[str] = set()  # where it stands: values[3] = 1, names.append("C")
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Name):
+                (self.reads if isinstance(node.ctx, ast.Load) else self.writes).add(node.id)
+            elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+                self.writes.add(node.name)
+            elif isinstance(node, ast.alias):
+                self.writes.add((node.asname or node.name).split(".")[0])
+            elif isinstance(node, ast.Attribute) or (
+                isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
+            ):
+                base = node.value
+                while isinstance(base, (ast.Subscript, ast.Attribute)):
+                    base = base.value
+                if isinstance(base, ast.Name):
+                    self.changed.add(base.id)
+        formats = {
+            id(part)
+            for node in ast.walk(tree)
+            if isinstance(node, ast.FormattedValue) and node.format_spec
+            for part in ast.walk(node.format_spec)
+        }
+        self.typed = {
+            part.strip()
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)
+            for part in [NAMES.sub(" ", node.value)]
+            if re.search(r"\d", part) and id(node) not in formats
+        }
+
+    def tries(self) -> list[tuple[int, str]]:
+        """(line, the whole line with another value) for each value after `# try`."""
+        found = []
+        for n, line in enumerate(self.source.splitlines()):
+            if "# try" not in line:
+                continue
+            match = TRY.match(line)
+            if not match:
+                raise ValueError(f"wanted `name = value  # try value, value`, got: {line.strip()}")
+            ast.parse(f"{match['head'].strip()} {match['value']}")
+            values = ast.parse(f"({match['more']},)", mode="eval").body.elts
+            found += [(n, match["head"] + ast.unparse(value)) for value in values]
+        return found
+
+
+class Run:
+    """A lab in this process: `space` is what its kernel would hold."""
+
+    def __init__(self, path: Path) -> None:
+        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+        self.cells = [Cell(source) for source in code if source.strip()]
+        module = types.ModuleType("__main__")
+        self.space = module.__dict__
+
+    def run(self, k: int, source: str | None = None) -> "Shown":
+        """What cell k prints, and the value of its last expression."""
+        source = self.cells[k].source if source is None else source
+        body = ast.parse(source).body
+        last = body.pop() if body and isinstance(body[-1], ast.Expr) else None
+        printed, value = io.StringIO(), None
+        with contextlib.redirect_stdout(printed):
+            exec(compile(ast.Module(body, []), f"cell {k + 1}", "exec"), self.space)
+            if last is not None:
+                value = eval(
+                    compile(ast.Expression(last.value), f"cell {k + 1}", "eval"), self.space
+                )
+        if source.rstrip().endswith(";"):
+            value = None
+        return Shown(printed.getvalue(), value)
+
+    def reached(self, k: int) -> list[int]:
+        """The cells after k that what cell k leaves behind reaches."""
+        names, found = self.cells[k].writes | self.cells[k].changed, []
+        for n in range(k + 1, len(self.cells)):
+            cell = self.cells[n]
+            if ASKED.match(cell.source):
+                continue
+            if cell.reads & names:
+                found.append(n)
+                names = names | cell.writes | (cell.changed & cell.reads)
+        return found
+
+
+class Shown:
+    """What a cell shows: printed text, the text of its result; of a figure or a player its words
+    and what is drawn.
+    """
+
+    def __init__(self, printed: str, value) -> None:
+        self.text = printed + ("" if value is None else repr(value))
+        self.words: list[str] = []
+        self.drawn = ""
+        if hasattr(value, "alt") and hasattr(value, "axes"):
+            self.words, self.drawn = _figure(value)
+        elif hasattr(value, "data") and hasattr(value, "still"):
+            self.words = [value.data.get("title") or "", value.still.alt]
+            self.drawn = json.dumps({**value.data, "title": ""}, sort_keys=True, default=str)
+
+
+def _figure(fig) -> tuple[list[str], str]:
+    words, drawn = [fig.alt], []
+    words += [text.get_text() for text in fig.texts]
+    for ax in fig.axes:
+        words += [ax.get_title(loc) for loc in ("left", "center", "right")]
+        words += [ax.get_xlabel(), ax.get_ylabel(), *(text.get_text() for text in ax.texts)]
+        if ax.get_legend():
+            words += [text.get_text() for text in ax.get_legend().get_texts()]
+        drawn += [line.get_xydata().round(9).tolist() for line in ax.lines]
+        drawn += [c.get_offsets().round(9).tolist() for c in ax.collections]
+        drawn += [p.get_path().vertices.round(9).tolist() for p in ax.patches]
+        drawn += [image.get_array().tolist() for image in ax.images]
+    return [word for word in words if word], json.dumps(drawn)
+
+
+def again(path: Path, seed: int | None = None) -> list[str]:
+    """What goes wrong when each cell is run again alone: last to first, or in a random order."""
+    lab, faults = Run(path), []
+    with _in(path.parent):
+        first = [lab.run(k).text for k in range(len(lab.cells))]
+        order = list(reversed(range(len(lab.cells))))
+        if seed is not None:
+            random.Random(seed).shuffle(order)
+        for k in order:
+            try:
+                text = lab.run(k).text
+            except Exception as error:
+                faults.append(f"[{k + 1}] again: {type(error).__name__}: {error}")
+                continue
+            if text != first[k]:
+                a, b = _differ(first[k], text)
+                faults.append(f"[{k + 1}] again: {b!r} in place of {a!r}")
+    return faults
+
+
+def tried(path: Path, sample: bool = False) -> tuple[int, list[str]]:
+    """(how many values, what goes wrong with them). `sample`: one value for each line."""
+    lab, faults, reports, shown = Run(path), [], [], []
+    with _in(path.parent):
+        for k, cell in enumerate(lab.cells):
+            try:
+                lines = cell.tries()
+            except (SyntaxError, ValueError) as error:
+                faults.append(f"[{k + 1}] {error}")
+                lines = []
+            if sample:
+                lines = list(dict(random.Random(path.stem).sample(lines, len(lines))).items())
+            for n, line in lines:
+                rows = cell.source.splitlines()
+                rows[n] = line
+                reports.append((k, line.strip(), _forked(lab, k, "\n".join(rows))))
+            shown.append(lab.run(k))
+    for k, line, report in reports:
+        name = f"[{k + 1}] {line}"
+        if isinstance(report, str):
+            faults.append(f"{name}: {report}")
+            continue
+        for n, words, drawn in report:
+            if drawn == shown[n].drawn:
+                continue
+            for word in words:
+                for part in lab.cells[n].typed:
+                    if re.search(rf"(?<![\d.]){re.escape(part)}(?!\.?\d)", NAMES.sub(" ", word)):
+                        faults.append(f"{name}: [{n + 1}] has {part!r} typed in: {word!r}")
+    return len(reports), list(dict.fromkeys(faults))
+
+
+def _forked(lab: Run, k: int, source: str):
+    """The figures that a changed cell k and the cells that it reaches show, or what went wrong."""
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(read)
+        try:
+            found = []
+            for n in [k, *lab.reached(k)]:
+                shown = lab.run(n, source if n == k else None)
+                if shown.words:
+                    found.append((n, shown.words, shown.drawn))
+            answer = json.dumps(found)
+        except BaseException as error:
+            where = [f for f in traceback.extract_tb(error.__traceback__) if "cell" in f.filename]
+            at = where[-1].filename if where else "?"
+            answer = json.dumps(f"{at}: {type(error).__name__}: {error}")
+        with os.fdopen(write, "w") as pipe:
+            pipe.write(answer)
+        os._exit(0)
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        answer = pipe.read()
+    os.waitpid(child, 0)
+    return [tuple(x) for x in found] if isinstance(found := json.loads(answer), list) else found
+
+
+def _differ(a: str, b: str) -> tuple[str, str]:
+    for one, two in zip(a.splitlines(), b.splitlines(), strict=False):
+        if one != two:
+            return one[:120], two[:120]
+    return a[-120:], b[-120:]
+
+
+@contextlib.contextmanager
+def _in(folder: Path):
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("notebooks", nargs="*", type=Path)
+    parser.add_argument("--sample", action="store_true")
+    parser.add_argument("--seed", type=int)
+    given = parser.parse_args()
+    top = ROOT / "notebooks"
+    paths = given.notebooks or [
+        *sorted(top.glob("*.ipynb")),
+        *sorted(top.glob("documents/*.ipynb")),
+    ]
+    bad = 0
+    for path in (path.resolve() for path in paths):
+        start = time.perf_counter()
+        try:
+            faults = again(path)
+            if given.seed is not None:
+                faults += again(path, given.seed)
+            count, more = tried(path, given.sample)
+            faults += more
+        except Exception as error:
+            count, faults = 0, [f"does not run: {type(error).__name__}: {error}"]
+        bad += bool(faults)
+        word = f"{len(faults)} faults" if faults else "stands"
+        print(f"{path.name}: {word}, {count} values tried, {time.perf_counter() - start:.1f} s")
+        for fault in faults:
+            print("   ", fault)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

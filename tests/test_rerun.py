@@ -1,0 +1,66 @@
+"""A lab is read in loops: every cell can be run again, and every value after `# try` tried.
+
+Here one value for each `# try`; `python tests/rerun.py --seed 1` tries all of them, and the cells
+in a random order besides.
+"""
+
+import json
+import os
+
+import pytest
+import rerun
+from conftest import NOTEBOOKS
+
+PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
+every_notebook = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="a value is tried in a fork")
+# Python 3.12 warns of forking with threads about; the children here only compute
+pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
+
+
+@every_notebook
+def test_every_cell_can_be_run_again(path):
+    assert rerun.again(path) == []
+
+
+@forks
+@every_notebook
+def test_a_value_to_try_breaks_nothing_and_makes_no_words_lie(path):
+    assert rerun.tried(path, sample=True)[1] == []
+
+
+def test_a_name_with_two_meanings_is_found(tmp_path):
+    path = _lab(tmp_path, "a = 1", "print(a + 1)", "a = 5", "def f():\n    return b", "b = 2")
+    [fault] = rerun.again(path)
+    assert fault == "[2] again: '6' in place of '2'"
+    assert rerun.again(_lab(tmp_path, "a = 1", "print(a + 1)", "b = 5")) == []
+    [fault] = rerun.again(_lab(tmp_path, "a = 1", "print(a)", "del a\nc = 1"))[:1]
+    assert "NameError" in fault
+
+
+FIGURE = "from robokin.show import figure\nfig = figure({alt})\nfig.subplots().plot([0, a])\nfig"
+
+
+@forks
+def test_a_value_that_breaks_or_a_number_that_was_typed_in_is_found(tmp_path):
+    def faults(*cells):
+        return rerun.tried(_lab(tmp_path, *cells))
+
+    assert faults("a = 1  # try 2, 3", FIGURE.format(alt='f"Up to {a}, q1 and axis 2"')) == (2, [])
+    count, [two, three] = faults("a = 1  # try 2, 3", FIGURE.format(alt='"Up to 1"'))
+    assert count == 2 and "a = 3: [2] has 'Up to 1' typed in: 'Up to 1'" in three
+    # not reached by the value, so it may say what it likes
+    assert faults("a = 1\nc = 1  # try 2", FIGURE.format(alt='"Up to 1"')) == (1, [])
+    count, [fault] = faults("a = 1  # try 0, 5", "print(1 / a)", "b = 1")
+    assert count == 2 and "a = 0: cell 2: ZeroDivisionError" in fault
+    [fault] = faults("a = 1  # try other values")[1]
+    assert "invalid syntax" in fault
+    # what a value changes does not stay: the next one starts from what the cells above left
+    assert faults("x = [1]", "a = 1  # try 2, 3\nx.append(a)", "assert len(x) == 2")[1] == []
+
+
+def _lab(folder, *sources):
+    path = folder / "lab.ipynb"
+    cells = [{"cell_type": "code", "source": source.splitlines(True)} for source in sources]
+    path.write_text(json.dumps({"cells": cells}))
+    return path
