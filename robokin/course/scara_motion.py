@@ -704,12 +704,10 @@ def _angle_facts() -> dict[str, Any]:
     return {"changed": [i + 1 for i in range(4) if changed[i] > 1e-9], "most": changed[2] / deg}
 
 
-def _angle_view() -> str:
-    lines = ["The greatest change along the line where the tool starts turned by 45°:"]
-    for i, change in enumerate(_changes()):
-        unit, size = (" mm", mm) if i == 3 else ("°", deg)
-        lines.append(f"joint {i + 1}: {change / size + 0.0:.1f}{unit}")
-    return "\n".join(lines)
+def _angle_view() -> Any:
+    from ..show import target_explorer
+
+    return target_explorer(SCARA)
 
 
 @cache
@@ -1072,7 +1070,8 @@ PREDICTIONS = {
             Option(
                 "Joint 3 alone.",
                 "Joints 1 and 2 carry the tool's axis to its place, joint 4 gives the height. The "
-                "angle is left to joint 3, and at the start it differs by {most:.0f}°.",
+                "angle is left to joint 3, and at the start it differs by {most:.0f}°. Turn the "
+                "ring of the target and watch the table.",
             ),
             Option(
                 "Joints 1, 2 and 3: their sum is the tool's angle.",
@@ -1263,8 +1262,8 @@ PREDICTIONS = {
         options=(
             Option(
                 "{apart:.0f}",
-                "The one at −{off:.2f}° has a little more than half a turn to the left, so it goes to "
-                "the right, through {right:.0f}°; the other goes to the left, through "
+                "The one at −{off:.2f}° has a little more than half a turn to the left, so it "
+                "goes to the right, through {right:.0f}°; the other goes to the left, through "
                 "{left:.0f}°. As a number both turn to the left.",
             ),
             Option(
@@ -1344,41 +1343,6 @@ PREDICTIONS = {
         within=0.02,
     ),
     "p8": Prediction(
-        question="You need to pass nearer to via: the blend goes from 0.4 to 0.2. To make up for "
-        "it you allow 20 s instead of 10 s. What becomes of the stroke's acceleration in the "
-        "corner?",
-        options=(
-            Option(
-                "A quarter of it.",
-                "The duration alone would do that. Half the blend costs twice the acceleration: "
-                "the same turn in half the time.",
-                "the blend left out",
-                "At the same duration the blend 0.2 has {short:.2f} mm/s² instead of {before:.2f}.",
-            ),
-            Option(
-                "Half of it.",
-                "Half the blend doubles it, twice the time divides it by four: "
-                "{before:.2f} mm/s² become {after:.2f} mm/s².",
-            ),
-            Option(
-                "The same: half and double.",
-                "The duration counts with its square: speeds are halved, and the time in which "
-                "they change is doubled.",
-                "an acceleration in proportion to the speed",
-                "At half the speed a car needs a quarter of the braking distance.",
-            ),
-            Option(
-                "Twice as much.",
-                "That is the blend alone; the longer time divides it by four.",
-                "the duration left out",
-                "Motions that take for ever need no acceleration.",
-            ),
-        ),
-        facts=_cost_facts,
-        right=_cost_right,
-        view=_cost_view,
-    ),
-    "p9": Prediction(
         question="The parabola keeps the stroke of this lab's motion from a blend of "
         "{parabola:.3f} on. The quintic corner of lab 3, whose acceleration does not jump: from "
         "which blend on?",
@@ -1412,5 +1376,40 @@ PREDICTIONS = {
         facts=_quintic_facts,
         right=_quintic_right,
         view=_quintic_view,
+    ),
+    "p9": Prediction(
+        question="You need to pass nearer to via: the blend goes from 0.4 to 0.2. To make up for "
+        "it you allow 20 s instead of 10 s. What becomes of the stroke's acceleration in the "
+        "corner?",
+        options=(
+            Option(
+                "A quarter of it.",
+                "The duration alone would do that. Half the blend costs twice the acceleration: "
+                "the same turn in half the time.",
+                "the blend left out",
+                "At the same duration the blend 0.2 has {short:.2f} mm/s² instead of {before:.2f}.",
+            ),
+            Option(
+                "Half of it.",
+                "Half the blend doubles it, twice the time divides it by four: "
+                "{before:.2f} mm/s² become {after:.2f} mm/s².",
+            ),
+            Option(
+                "The same: half and double.",
+                "The duration counts with its square: speeds are halved, and the time in which "
+                "they change is doubled.",
+                "an acceleration in proportion to the speed",
+                "At half the speed a car needs a quarter of the braking distance.",
+            ),
+            Option(
+                "Twice as much.",
+                "That is the blend alone; the longer time divides it by four.",
+                "the duration left out",
+                "Motions that take for ever need no acceleration.",
+            ),
+        ),
+        facts=_cost_facts,
+        right=_cost_right,
+        view=_cost_view,
     ),
 }
