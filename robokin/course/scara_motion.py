@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from .._arrays import Floats
-from ..arms import SCARA, ScaraPose, follow, nearest, within
+from ..arms import SCARA, ScaraPose, follow, nearest
 from ..motion import blend, differentiate, lin, ptp
 from ..units import deg, mm, wrapped
 from .exercises import Catch, Fault, Function, Value, words
@@ -101,10 +101,11 @@ def _turn_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([100, 60, 390, 0], [300, 150, 220.2], 170),  # 550 now
         case([-100, -60, -390, 0], [300, -150, 220.2], -170),
         case([20, 60, 380, 90], [150, 300, 100.2], 160),  # the limit of joint 3 counts
-        case([60, 90, 390, 90], [300, -150, 100.2], 190),
+        case([60, 90, 385, 90], [300, -150, 100.2], 190),
         case([60, 90, 395, 90], [250, -250, 60.2], 150),
         case([-20, -60, -380, 90], [150, -300, 100.2], -160),
-        case([-60, -90, -390, 90], [300, 150, 100.2], -190),
+        case([-60, -90, -385, 90], [300, 150, 100.2], -190),
+        case([100, -60, -230, 90], [-214, 81, 100.2], -20),  # joints 1 and 2 turn by -290
         case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns on
         case([60, 90, -300, 90], [300, -150, 100.2], -1000),
     ]
@@ -185,6 +186,17 @@ def _tried(turns: Sequence[int], limits: bool) -> Callable[[Floats, Floats, floa
         inside = [x for x in ends if LOW3 <= x <= HIGH3] if limits else ends
         now = float(q0[:3].sum() - q[0] - q[1])
         return min(inside or ends, key=lambda x: abs(x - now))
+
+    return choose
+
+
+def _among(cost: Callable[[float, float], float]) -> Callable[[Floats, Floats, float], float]:
+    """The cheapest value of joint 3 inside the limits; `now`: where it would not turn the tool."""
+
+    def choose(q0: Floats, q: Floats, angle: float) -> float:
+        ends = [float(q[2] + TURN * k) for k in range(-2, 3)]
+        now = float(q0[:3].sum() - q[0] - q[1])
+        return min((x for x in ends if LOW3 <= x <= HIGH3), key=lambda x: cost(x, now))
 
     return choose
 
@@ -371,6 +383,65 @@ TURN_MISTAKES = (
         "the turn for the end",
         "This is by how much each joint turns. Wanted is the posture at the end.",
         _changed(lambda q, q0: q - q0),
+    ),
+    Mistake(
+        "the tool's angle taken for joint 3, as it is given",
+        "Joint 3 is set to the tool's angle. The angle is q1 + q2 + q3: joint 3 has to make up for "
+        "what joints 1 and 2 turn.",
+        _third(lambda q0, q, angle: angle),
+    ),
+    Mistake(
+        "the tool's angle taken for joint 3, without the limits",
+        "Joint 3 is set to the tool's angle. The angle is q1 + q2 + q3: joint 3 has to make up for "
+        "what joints 1 and 2 turn. " + NO_LIMITS,
+        _third(lambda q0, q, angle: _short(angle, q0[2])),
+    ),
+    Mistake(
+        "the tool's angle in place of joint 3",
+        "The way round is right, and the third number is the tool's angle at its end. Take q1 and "
+        "q2 away from it: that leaves joint 3.",
+        _changed(lambda q, q0: [q[0], q[1], q[:3].sum(), q[3]]),
+    ),
+    Mistake(
+        "the start is wrapped",
+        "The turn is counted from a wrapped angle. The tool stands at q1 + q2 + q3 of q0 as it is: "
+        "a joint that is a turn on has to turn back for a turn.",
+        _third(
+            lambda q0, q, angle: _into(_short(angle, _short(q0[:3].sum())) - float(q[0] + q[1]))
+        ),
+    ),
+    Mistake(
+        "the start is wrapped, without the limits",
+        "The turn is counted from a wrapped angle. The tool stands at q1 + q2 + q3 of q0 as it is. "
+        + NO_LIMITS,
+        _third(lambda q0, q, angle: _short(angle, _short(q0[:3].sum())) - float(q[0] + q[1])),
+    ),
+    Mistake(
+        "the longest way",
+        "Of the values inside the limits the one with the greatest turn is taken.",
+        _third(_among(lambda x, now: -abs(x - now))),
+    ),
+    Mistake(
+        "the lowest value inside the limits",
+        "Of the values inside the limits the lowest is taken: the first one found, or that with "
+        "the least turn, signs and all. Wanted is the least abs(turn).",
+        _third(_among(lambda x, now: x)),
+    ),
+    Mistake(
+        "the highest value inside the limits",
+        "Of the values inside the limits the highest is taken: the last one found. Wanted is the "
+        "least abs(turn).",
+        _third(_among(lambda x, now: -x)),
+    ),
+    Mistake(
+        "joint 4 in mm",
+        "Joint 4 is in metres here.",
+        _changed(lambda q, q0: [*q[:3], q[3] / mm]),
+    ),
+    Mistake(
+        "degrees and mm",
+        "Angles are in radians here, and joint 4 in metres.",
+        _changed(lambda q, q0: [*(q[:3] / deg), q[3] / mm]),
     ),
     Mistake(
         "joint 3 in degrees",
@@ -657,9 +728,8 @@ def _design_faults(answer: Mapping[str, float], given: Any) -> list[Fault]:
         return [("no such blend", says)] * 3 + _too_long(duration, given)
     if duration <= 0:
         return [("no such duration", f"A motion takes time; yours takes {duration:g} s.")] * 3
-    path = blend(*_stations(given), b, np.linspace(0, 1, 1001))
     deepest = LEVEL - float(given["via_z"]) - b * _lift(given)
-    if deepest > STROKE + 1e-9 or not within(SCARA, _joints(path))[:, :3].all():
+    if deepest > STROKE + 1e-9:  # joints 1 to 3 stay inside for every blend, see `given`
         says = (
             f"The stroke goes to {deepest / mm:.2f} mm, {(deepest - STROKE) / mm:.2f} mm past its "
             "limit. More blend lifts the tool."
@@ -757,7 +827,7 @@ def _apart_facts() -> dict[str, Any]:
 def _apart_view() -> Any:
     from ..show import animate
 
-    values = np.array([100, 150, 200, 250, 300])  # the goal's height, mm
+    values = np.array([60, 100, 140, 180, 220])  # the goal's height, mm
     ends = ScaraPose([[0.2, -0.2, z * mm] for z in values], 90 * deg)
     line = _joints(lin(START, ends[:, None], S))
     joint = ptp(SCARA.ik(START)[ROW], SCARA.ik(ends)[:, None, ROW], S)
@@ -766,7 +836,7 @@ def _apart_view() -> Any:
         T,
         [line, joint],
         names=["LIN", "PTP"],
-        slider=("height of the goal, mm", values),
+        slider=("goal z, mm", values),
         title="Two motions with the same ends, at the same heights at all times",
     )
 
