@@ -187,6 +187,7 @@ def _stroke_in_mm(q0, position, angle):
         (_tool_angle_returned, "tool's angle"),
         (_start_moves, "start is wrapped"),
         (_stroke_in_mm, "mm"),
+        (_in_360, "360"),
     ],
 )
 def test_a_wrong_turn_is_named(answer, word):

@@ -434,6 +434,46 @@ TURN_MISTAKES = (
         _third(_among(lambda x, now: -x)),
     ),
     Mistake(
+        "joint 2 is left out at the end",
+        "Joint 3 is the tool's angle less q1 and q2: joint 2 is missing.",
+        _third(lambda q0, q, angle: _into(_short(angle, q0[:3].sum()) - float(q[0]))),
+    ),
+    Mistake(
+        "joint 2 is left out at the end, without the limits",
+        "Joint 3 is the tool's angle less q1 and q2: joint 2 is missing. " + NO_LIMITS,
+        _third(lambda q0, q, angle: _short(angle, q0[:3].sum()) - float(q[0])),
+    ),
+    Mistake(
+        "joints 1 and 2 are added",
+        "Joint 3 is the tool's angle less q1 and q2, not plus: the three add up to the angle.",
+        _third(lambda q0, q, angle: _into(_short(angle, q0[:3].sum()) + float(q[0] + q[1]))),
+    ),
+    Mistake(
+        "joints 1 and 2 are added, without the limits",
+        "Joint 3 is the tool's angle less q1 and q2, not plus: the three add up to the angle. "
+        + NO_LIMITS,
+        _third(lambda q0, q, angle: _short(angle, q0[:3].sum()) + float(q[0] + q[1])),
+    ),
+    Mistake(
+        "ik's value where the short way leads out",
+        "Where the least turn leads joint 3 out of its limits you take ik's own value. Another one "
+        "inside the limits may turn the tool less.",
+        _third(
+            lambda q0, q, angle: x if LOW3 <= (x := _turned(q0, q, angle)) <= HIGH3 else float(q[2])
+        ),
+    ),
+    Mistake(
+        "one turn of ik's value, without the limits",
+        "Of ik's joint 3 and one turn up and down the least turn of the tool is taken. "
+        + NO_LIMITS,
+        _third(lambda q0, q, angle: _near_row(q0, q)),
+    ),
+    Mistake(
+        "360 for 2 pi",
+        "A whole turn is 2 pi here: angles are in radians.",
+        _third(lambda q0, q, angle: _by_360(_turned(q0, q, angle))),
+    ),
+    Mistake(
         "joint 4 in mm",
         "Joint 4 is in metres here.",
         _changed(lambda q, q0: [*q[:3], q[3] / mm]),
@@ -449,6 +489,20 @@ TURN_MISTAKES = (
         _changed(lambda q, q0: [q[0], q[1], q[2] / deg, q[3]]),
     ),
 )
+
+
+def _near_row(q0: Floats, q: Floats) -> float:
+    now = float(q0[:3].sum() - q[0] - q[1])
+    return min((float(q[2] + TURN * k) for k in (-1, 0, 1)), key=lambda x: abs(x - now))
+
+
+def _by_360(q3: float) -> float:
+    """Down and then up by 360, as degrees would be, until it is inside: two loops of `while`."""
+    while q3 > HIGH3:
+        q3 -= 360
+    while q3 < LOW3:
+        q3 += 360
+    return q3
 
 
 def _half_turns(q0: Floats, angle: float) -> float:
