@@ -1317,7 +1317,8 @@ PREDICTIONS = {
             Option(
                 "Joint 3.",
                 "Nothing between −180° and 180° is past ±400°. A limit of more than half a turn "
-                "has to be tested on angles that are unwrapped.",
+                "has to be tested on angles that are unwrapped. (robokin.within judges postures: "
+                "there whole turns are free. A motion cannot give them away.)",
             ),
             Option(
                 "Joint 4: it cannot be wrapped.",
