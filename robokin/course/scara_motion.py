@@ -1383,7 +1383,7 @@ PREDICTIONS = {
     "p6": Prediction(
         question="The tool turns from about 0° to 180°: one motion starts at −{off:.2f}°, the "
         "other at +{off:.2f}°. Both are interpolated as rotations, each on the shortest arc "
-        "(`Transform.lerp`). How far apart are their tool angles half way?",
+        "(Transform.lerp). How far apart are their tool angles half way?",
         options=(
             Option(
                 "{apart:.0f}",
