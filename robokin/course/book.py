@@ -6,7 +6,7 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion")
+LABS = ("irb140_kinematics", "irb140_motion", "obstacle_avoidance")
 
 
 def lab(name: Any) -> ModuleType:
