@@ -25,7 +25,7 @@ from ..units import deg, mm
 from .exercises import Catch, Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
-from .variants import Numbers, dice
+from .variants import Numbers, dice, normalised
 
 LAB = "obstacle_avoidance"
 OBJECTIVES = (
@@ -400,6 +400,11 @@ UNITS = {
 
 def given(who: Any) -> Numbers:
     """A start, a target, and two obstacles in between, far enough out for the folded arm."""
+    return Numbers(dict(_task(normalised(who))), UNITS)
+
+
+@cache
+def _task(who: str) -> Mapping[str, Any]:
     roll = dice(LAB, who)
     while True:
         start = np.array([100 + 5 * roll.randrange(7), 110 + 5 * roll.randrange(7), 120.0])
@@ -417,14 +422,13 @@ def given(who: Any) -> Numbers:
         least = _cheapest(start * deg, target, places)
         if least is None or _one_is_enough(start * deg, target, places):
             continue
-        values = {
+        return {
             "start": tuple(start.tolist()),
             "target": tuple(target.tolist()),
             "obstacles": tuple(tuple(place.tolist()) for place in places),
             "distance": KEPT,
             "most": (10 * np.ceil(least / deg / 10) + 30) * deg,
         }
-        return Numbers(values, UNITS)
 
 
 def _one_is_enough(q0: Floats, target: Floats, places: Sequence[Floats]) -> bool:
