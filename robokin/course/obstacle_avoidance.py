@@ -1274,7 +1274,7 @@ EXERCISES = {
 PREDICTIONS = {
     "p1": Prediction(
         question="We draw {tasks} random motions, each with a point H, and {inside} of these "
-        "points lie inside the quadrilateral. How many of the {inside} does the test of this one drawing "
+        "points lie inside the quadrilateral. How many of them does the test of this one drawing "
         "find?",
         options=(
             Option(
