@@ -160,6 +160,24 @@ def _one_turn(corners: Corners, H: Any) -> bool:
     return all(_left_of(P, Q, H) > 0 for P, Q in _sides(corners))
 
 
+def _clockwise(corners: Corners, H: Any) -> bool:
+    return all(_left_of(P, Q, H) < 0 for P, Q in _sides(corners))
+
+
+def _last_decides(corners: Corners, H: Any) -> bool:
+    inside = False
+    for P, Q in _sides(corners):
+        if (P[1] > H[1]) != (Q[1] > H[1]):
+            inside = H[0] < _crossing(P, Q, H[1])
+    return bool(inside)
+
+
+def _rising(corners: Corners, H: Any) -> bool:
+    rising = [bool(P[1] <= H[1] < Q[1]) for P, Q in _sides(corners)]
+    sides = [side for side, up in zip(_sides(corners), rising, strict=True) if up]
+    return sum(bool(H[0] < _crossing(P, Q, H[1])) for P, Q in sides) % 2 == 1
+
+
 def _convex(corners: Corners, H: Any) -> bool:
     left = [_left_of(P, Q, H) > 0 for P, Q in _sides(corners)]
     return all(left) or not any(left)
@@ -285,6 +303,12 @@ INSIDE_MISTAKES = (
         _one_turn,
     ),
     Mistake(
+        "clockwise only",
+        "It asks whether H is to the right of every side. That wants corners clockwise and a shape "
+        "without a dent.",
+        _clockwise,
+    ),
+    Mistake(
         "no dent allowed",
         "A shape with a dent, or with sides that cross, has points inside that are to the left of "
         "some sides and to the right of others. The same for sums of the triangles' areas.",
@@ -327,6 +351,22 @@ INSIDE_MISTAKES = (
         "one crossing only",
         "Three crossings are odd, too.",
         lambda corners, H: _count(corners, H) == 1,
+    ),
+    Mistake(
+        "the last side decides",
+        "Each side at the height of H overwrites what the sides before it said. Toggle: "
+        "odd = not odd.",
+        _last_decides,
+    ),
+    Mistake(
+        "rising sides only",
+        "It counts the sides that go up and leaves out those that go down.",
+        _rising,
+    ),
+    Mistake(
+        "two sides left out",
+        "The first and the closing side are missing: it goes from the second corner to the last.",
+        lambda corners, H: _open_chain(corners[1:], H),
     ),
     Mistake(
         "even for odd",
@@ -432,9 +472,12 @@ def _task(who: str) -> Mapping[str, Any]:
 
 
 def _one_is_enough(q0: Floats, target: Floats, places: Sequence[Floats]) -> bool:
-    """Whether the way round the first obstacle passes the second as well."""
-    path = way_round(ARM, q0, target, places[0], KEPT)
-    return path is not None and _distances(_sampled(path, 41), places[1]).min() > 0.8 * KEPT
+    """Whether the way round one of the obstacles passes the other as well."""
+    for one, other in ((places[0], places[1]), (places[1], places[0])):
+        path = way_round(ARM, q0, target, one, KEPT)
+        if path is not None and _distances(_sampled(path, 41), other).min() > 0.8 * KEPT:
+            return True
+    return False
 
 
 def _cheapest(q0: Floats, target: Floats, places: Sequence[Floats]) -> float | None:
