@@ -58,8 +58,8 @@ from robokin.jobs.obstacles import along, clearance
 arm = three_lever(1.0)
 rng = np.random.default_rng(1)
 tasks = []  # path, obstacle, distance, the truth
-while len(tasks) < 70:
-    path = rng.uniform(0.3, 2.3, (3, 3))  # no joint turns by more than 115°
+while len(tasks) < 60:
+    path = rng.uniform(0.7, 2.2, (3, 3))  # no joint turns by more than 86°
     points = arm.points(along(path, rng.random()))
     lever = rng.integers(3)
     H = points[lever] + rng.random() * (points[lever + 1] - points[lever])
