@@ -23,6 +23,7 @@ from PIL import Image
 
 from robokin import (
     IRB140,
+    ITMO6R,
     Arm,
     Link,
     Quaternion,
@@ -36,7 +37,16 @@ from robokin import (
     mm,
     record,
 )
-from robokin.show import JOINT_STYLES, Sketch, figure, plot_frames, plot_joints, plot_postures
+from robokin.arms.dexterity import velocity_ellipsoid
+from robokin.show import (
+    JOINT_STYLES,
+    Sketch,
+    figure,
+    plot_frames,
+    plot_joints,
+    plot_postures,
+    plot_velocity_ellipsoid,
+)
 from robokin.show.arguments import named_targets
 from robokin.show.camera import arm_points, project
 from robokin.show.plots import palette_png
@@ -534,6 +544,63 @@ class Images(HTMLParser):
     def handle_starttag(self, tag, attributes):
         if tag == "img":
             self.found.append(dict(attributes))
+
+
+# --- Velocity ellipsoids --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=repr)
+def test_the_ellipsoid_holds_the_velocities_of_a_tool_that_does_not_turn(machine):
+    """Of random joint speeds that keep the tool's orientation, by a null space of our own: none
+    leaves the ellipsoid, and its longest semi-axis is nearly reached.
+    """
+    arm = machine.arm
+    rng = np.random.default_rng(6)
+    q = rng.uniform(-1, 1, len(arm.links))
+    axes = velocity_ellipsoid(arm, q)
+    ways, longest = np.linalg.svd(axes)[0], np.linalg.norm(axes[:, 0])
+    assert (np.diff(np.linalg.norm(axes, axis=0)) <= 0).all()
+    jacobian = arm.jacobian(q)
+    jacobian[:, arm.prismatic] *= arm.reach
+    held = jacobian[3:] if len(arm.links) > 3 else np.zeros((1, len(arm.links)))
+    _, sizes, rows = np.linalg.svd(held)
+    free = rows[(sizes > 1e-9).sum() :]
+    speeds = rng.normal(size=(4000, len(free))) @ free
+    speeds /= np.linalg.norm(speeds, axis=-1, keepdims=True)
+    seen = speeds @ jacobian[:3].T @ ways
+    lengths = np.maximum(np.linalg.norm(axes, axis=0), 1e-9)
+    assert ((seen / lengths) ** 2).sum(axis=-1).max() < 1 + 1e-6
+    assert 0.9 * longest < np.linalg.norm(seen, axis=-1).max() < longest * (1 + 1e-9)
+
+
+def test_a_singular_wrist_cannot_go_one_way():
+    q = np.array([[20, 70, -60, 30, 50, 10], [20, 70, -60, 30, 0, 10]]) * deg
+    lengths = np.linalg.norm(velocity_ellipsoid(ITMO6R, q), axis=-2)
+    assert lengths[0].min() > 0.02 and lengths[1, :2].min() > 0.02 and lengths[1, 2] < 1e-12
+    assert np.isnan(velocity_ellipsoid(ITMO6R, np.full(6, np.nan))).all()
+
+
+def test_ellipsoids_stand_beside_one_another_in_one_scale():
+    q = np.array([[20, 70, -60, 30, 50, 10], [20, 70, -60, 30, 1, 10]]) * deg
+    fig = plot_velocity_ellipsoid(ITMO6R, q, title="A $1 title")
+    scales = []
+    fig.canvas.draw()
+    for ax in fig.axes:
+        scales.append(np.linalg.norm(np.diff(ax.transData.transform([(0, 0), (1, 0)]), axis=0)))
+        rim = ax.transData.transform(ax.patches[-1].get_xy())  # the outline
+        box = ax.get_window_extent()
+        assert (rim.min(axis=0) > box.min).all() and (rim.max(axis=0) < box.max).all()
+    assert len(fig.axes) == 2 and scales[0] == pytest.approx(scales[1])
+    lengths = np.linalg.norm(velocity_ellipsoid(ITMO6R, q), axis=-2) / mm
+    assert f"Posture 1: semi-axes {lengths[0, 0]:.0f} mm/s" in fig.alt and "A $1 title." in fig.alt
+    alarm = [t for ax in fig.axes for t in ax.texts if t.get_color() == "#B3261E"]
+    assert [t.get_text() for t in alarm] == [f"{number(lengths[1, 2], 2)} mm/s"]
+    assert "1 m/s is drawn" in words(fig.axes[0])
+    flat = plot_velocity_ellipsoid(PLANAR, [0.3, 1.2], alt="All calm.")
+    assert flat.alt == "All calm." and len(flat.axes) == 1
+    for bad in (np.full(6, np.nan), np.zeros((4, 6))):
+        with pytest.raises(ValueError, match="q: wanted one to 3 postures"):
+            plot_velocity_ellipsoid(ITMO6R, bad)
 
 
 def test_alt_text_reaches_the_exported_page(figures):

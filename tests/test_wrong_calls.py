@@ -328,6 +328,10 @@ CALLS = {
         figures.plot_postures,
         dict(arm=IRB140, q=MOTION, targets=[T, HIGHER], title="title", alt="words"),
     ),
+    "plot_velocity_ellipsoid": (
+        figures.plot_velocity_ellipsoid,
+        dict(arm=IRB140, q=SIX, title="title", alt="words"),
+    ),
     "Sketch": (
         figures.Sketch,
         dict(alt="words", title="t", unit="mm", x="x", y="y", width=3.0, height=2.0),

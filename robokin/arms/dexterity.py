@@ -45,6 +45,31 @@ def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
     return singular_values(arm, q)[..., -1]
 
 
+def velocity_ellipsoid(arm: Arm, q: ArrayLike) -> Floats:
+    """The semi-axes of the ellipsoid of velocities that joint speeds of length 1 can give the tool
+    point while the tool does not turn: columns of (..., 3, 3) in m/s, the longest first, for q
+    (..., n). Zero columns where it is flat, NaN for NaN.
+
+    Speeds are in rad/s, of prismatic joints in reaches (`Arm.reach`) per second. The tool of an arm
+    of up to three joints may turn: it is not asked for its orientation.
+    """
+    instance(arm, Arm, "arm")
+    jacobian = arm.jacobian(q)
+    jacobian[..., arm.prismatic] *= arm.reach
+    missing = np.isnan(jacobian.sum(axis=(-1, -2)))[..., None, None]
+    jacobian = np.where(missing, 0.0, jacobian)
+    moves, turns = jacobian[..., :3, :], jacobian[..., 3:, :]
+    if len(arm.links) > 3:  # joint speeds that turn the tool are taken away
+        moves = moves - moves @ np.linalg.pinv(turns, rcond=1e-9) @ turns
+    ways, lengths, _ = np.linalg.svd(moves, full_matrices=False)
+    lengths = np.where(lengths < 1e-12 * arm.reach, 0.0, lengths)
+    count = lengths.shape[-1]
+    largest = np.take_along_axis(ways, abs(ways).argmax(axis=-2)[..., None, :], axis=-2)
+    axes = np.zeros((*ways.shape[:-1], 3))
+    axes[..., :count] = ways * np.where(largest < 0, -1.0, 1.0) * lengths[..., None, :]
+    return np.where(missing, np.nan, axes)
+
+
 def _scaled(arm: Arm, q: ArrayLike) -> Floats:
     jacobian, size = arm.jacobian(q), arm.reach
     jacobian[..., :3, :] /= size

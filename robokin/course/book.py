@@ -6,7 +6,17 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion", "obstacle_avoidance")
+LABS = (
+    "frames_and_quaternions",
+    "irb140_kinematics",
+    "irb140_motion",
+    "scara_kinematics",
+    "spherical_wrist",
+    "puma560_branches",
+    "visit_and_collect",
+    "three_levers",
+    "obstacle_avoidance",
+)
 
 
 def lab(name: Any) -> ModuleType:

@@ -1,6 +1,7 @@
 """Figures and players for notebooks: arrays in, pictures out."""
 
 try:
+    from .ellipsoid import plot_velocity_ellipsoid
     from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
     from .palette import JOINT_STYLES
     from .player import Player, animate
@@ -21,5 +22,6 @@ __all__ = [
     "plot_frames",
     "plot_joints",
     "plot_postures",
+    "plot_velocity_ellipsoid",
     "target_explorer",
 ]

@@ -356,13 +356,8 @@ def save(path: str | os.PathLike[str], title: str, body: str) -> None:
     """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
     that is there and not a saved player.
     """
-    name = _file(path)
-    if os.path.lexists(name) and not _ours(name):
-        raise ValueError(
-            f"path: {short(name)} exists and is not a saved player; nothing is overwritten"
-        )
     head = (
-        f'<!DOCTYPE html>\n{MARK}\n<html lang="en">\n<meta charset="utf-8">\n'
+        '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width">\n'
         '<meta name="color-scheme" content="light dark">\n'
         f"<title>{html.escape(title)}</title>\n"
@@ -370,7 +365,20 @@ def save(path: str | os.PathLike[str], title: str, body: str) -> None:
     body = (
         f'<body style="max-width:1200px;margin:16px auto;padding:0 8px">\n{body}</body>\n</html>\n'
     )
-    _write(name, (head + body).encode())
+    write_page(path, head + body)
+
+
+def write_page(path: str | os.PathLike[str], page: str) -> None:
+    """Write a whole page, which begins with its doctype: wholly or not at all. ValueError: not a
+    .html file, or one that is there and was not written here.
+    """
+    name = _file(path)
+    if os.path.lexists(name) and not _ours(name):
+        raise ValueError(
+            f"path: {short(name)} exists and is not a saved player; nothing is overwritten"
+        )
+    doctype, _, rest = page.partition("\n")
+    _write(name, f"{doctype}\n{MARK}\n{rest}".encode())
 
 
 def _file(path: Any) -> str:

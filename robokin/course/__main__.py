@@ -1,0 +1,50 @@
+"""python -m robokin.course COMMAND: what a course does with its labs as files."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; the exit status: 0, or 1 if a file could not be used."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
+    parser = argparse.ArgumentParser(prog="python -m robokin.course", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    export = commands.add_parser(
+        "export",
+        help="one page for each lab, alive without a network",
+        description="Write LAB.html for each LAB.ipynb: one page that needs no network and no "
+        "Python. Players, explorers and predictions are alive in it.",
+    )
+    export.add_argument("labs", nargs="+", metavar="LAB", type=Path, help="a notebook (.ipynb)")
+    export.add_argument(
+        "--to", metavar="FOLDER", type=Path, default=Path(), help="where (default: here)"
+    )
+    given = parser.parse_args(argv)
+    return _export(given.labs, given.to)
+
+
+def _export(labs: Sequence[Path], folder: Path) -> int:
+    try:
+        from .export import export
+    except ModuleNotFoundError as error:
+        print(f"{error}; pip install 'robokin[labs]' brings it", file=sys.stderr)
+        return 1
+    failed = 0
+    for path in labs:
+        page = folder / f"{path.stem}.html"
+        try:
+            export(path, page)
+        except (OSError, ValueError) as error:
+            failed += 1
+            print(f"{path}: {error}", file=sys.stderr)
+        else:
+            print(f"{page}: {page.stat().st_size / 1e3:.0f} kB")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

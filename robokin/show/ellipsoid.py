@@ -1,0 +1,105 @@
+"""How fast the tool of an arm can move which way, as a figure."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.patches import Polygon
+
+from .._arrays import ArrayLike, Floats
+from .._validate import warn_if_degrees
+from ..arms.arm import Arm
+from ..arms.dexterity import velocity_ellipsoid
+from ..units import length_unit
+from .camera import arm_points, extent, flange, is_flat
+from .palette import ALARM, INK, TRACE
+from .plots import Figure, _samples, _sentence, _words
+from .scene import Scene, number
+
+MOST = 3  # postures beside one another
+ROUND = np.linspace(0, 2 * np.pi, 73)
+
+
+def plot_velocity_ellipsoid(
+    arm: Arm, q: ArrayLike, *, title: str | None = None, alt: str | None = None
+) -> Figure:
+    """An arm in one posture q (n,), or in up to three (k, n) beside one another, each with the
+    ellipsoid of velocities that joint speeds of length 1 rad/s can give the tool point while the
+    tool does not turn. (The tool of an arm of up to three joints may turn.)
+
+    All panels have one scale, for lengths and for velocities. The semi-axes carry their speeds; one
+    shorter than a twentieth of the longest is marked: that way the tool hardly moves.
+    `robokin.arms.dexterity.velocity_ellipsoid` has the numbers.
+
+    ValueError: more than three postures, one with a NaN.
+    """
+    q = _samples(arm, q)
+    if len(q) > MOST or not np.isfinite(q).all():
+        raise ValueError(f"q: wanted one to {MOST} postures without NaN, got {len(q)} rows")
+    warn_if_degrees(q[..., ~arm.prismatic], "q")
+    title, alt = _words(title, "title"), _words(alt, "alt")
+    axes, tool = velocity_ellipsoid(arm, q), flange(arm, q).translation
+    lengths = np.linalg.norm(axes, axis=-2)
+    size, flat = extent(arm), is_flat(arm, q)
+    longest = float(lengths.max())
+    drawn = _round(0.35 * size / longest)  # metres in the figure for 1 m/s
+    name, unit = length_unit(longest)
+    words = [[f"{number(np.round(x / unit, 6), 2)} {name}/s" for x in each] for each in lengths]
+    fig = Figure(alt or _alt(arm, title, words), figsize=(9, 4.6 if len(q) > 1 else 5.2))
+    if title:
+        style: dict[str, Any] = {"fontsize": 12, "fontweight": "bold", "color": INK}
+        fig.text(0.014, 0.985, title, va="top", parse_math=False, **style)
+    points = [arm_points(arm, q).reshape(-1, 3)]
+    # Points all over the ellipsoids, so that none leaves its panel.
+    across, up = (x.ravel() for x in np.meshgrid(ROUND[::3], ROUND[::3]))
+    ball = np.stack([np.cos(up) * np.cos(across), np.cos(up) * np.sin(across), np.sin(up)])
+    points += [tool[i] + drawn * (axes[i] @ ball).T for i in range(len(q))]
+    seen = np.concatenate(points)
+    width, (measure_name, measure) = 1 / len(q), length_unit(size)
+    for i, posture in enumerate(q):
+        ax = fig.add_axes((i * width, 0, width, 0.92 if title else 1))
+        scene = Scene(ax, size, flat=flat)
+        scene.like = {**scene.like, "seen": seen}
+        scene.corners.append(seen)
+        scene.base()
+        scene.arm(arm, posture, "first")
+        _ellipsoid(scene, tool[i], drawn * axes[i])
+        for k in np.flatnonzero(lengths[i] > 0):
+            weak = lengths[i, k] < longest / 20
+            tip = tool[i] + drawn * axes[i, :, k]
+            scene.label(words[i][k], tip, ALARM if weak else TRACE)
+        drawn_as = f"1 m/s is drawn {number(drawn / measure)} {measure_name} long"
+        scene.finish(drawn_as if i == 0 else "")
+    return fig
+
+
+def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
+    """Its outline, filled; the three ellipses through its semi-axes (3, 3), and these."""
+    flat = scene.project(axes.T).T  # (2, 3)
+    ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
+    ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
+    outline = (scene.project(centre)[:, None] + ring).T
+    scene.drawn.append((outline, 1))  # labels keep off it
+    scene.ax.add_patch(
+        Polygon(outline, facecolor=TRACE, edgecolor=TRACE, alpha=0.18, linewidth=1.2, zorder=5.5)
+    )
+    for a, b in ((0, 1), (1, 2), (0, 2)):
+        ellipse = np.outer(np.cos(ROUND), axes[:, a]) + np.outer(np.sin(ROUND), axes[:, b])
+        scene.line(centre + ellipse, corner=False, color=TRACE, linewidth=0.7, zorder=5.6)
+    for axis in axes.T:
+        scene.line([centre - axis, centre + axis], color=TRACE, linewidth=1.8, zorder=7)
+
+
+def _alt(arm: Arm, title: str | None, words: list[list[str]]) -> str:
+    facts = _sentence(title)
+    facts.append(
+        f"{arm.name} with the velocity ellipsoid of its tool, for joint speeds of 1 rad/s."
+    )
+    for i, each in enumerate(words):
+        facts.append(f"Posture {i + 1}: semi-axes {', '.join(each)}.")
+    return " ".join(facts)
+
+
+def _round(x: float) -> float:
+    """The greatest of 1, 2, 5, 10, 20, ... that is not above x."""
+    power = 10.0 ** np.floor(np.log10(x))
+    return float(power * max(step for step in (1, 2, 5) if step * power <= x * 1.0001))

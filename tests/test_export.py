@@ -1,0 +1,132 @@
+"""`python -m robokin.course export`: one page for a lab, alive without a network."""
+
+import json
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+
+import pytest
+from conftest import NOTEBOOKS, ROOT
+
+from robokin.course.export import export, mathml
+
+PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
+START = NOTEBOOKS / "00_start_here.ipynb"
+FORMULA = re.compile(r"(?<!\\)\$\$(.+?)\$\$|(?<![\\$])\$([^$]+)\$(?!\$)", re.S)
+FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
+
+
+class Fetches(HTMLParser):
+    """What a page would load, and what its scripts would."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self.math = [], 0
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.math += tag == "math"
+        address = dict(attrs).get(FETCHED.get(tag)) or ""
+        if address and not address.startswith("data:"):
+            self.found.append(address)
+
+
+def formulas(path):
+    """(TeX, whether it stands in a line of its own) for each formula of a notebook."""
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "markdown":
+            text = re.sub(r"```.*?```|`[^`\n]*`", "", "".join(cell["source"]), flags=re.S)
+            for found in FORMULA.finditer(text):
+                yield found[1] or found[2], bool(found[1])
+
+
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+def test_every_formula_becomes_mathml(path):
+    for tex, block in formulas(path):
+        made = mathml(tex, block)
+        assert made.startswith("<math") and ('display="block"' in made) == block
+        read = re.sub(r"<[^>]*>|&\w+;", "", made)
+        assert not re.search(r"[\\$&]", read), f"{tex}: {read}"
+        # every number and every word of it is there
+        said = re.sub(r"\\[A-Za-z]+", " ", tex)
+        for number in re.findall(r"\d+", re.sub(r"\[[\d.]+\w*\]", "", said)):
+            assert number in read, f"{tex}: {number} is lost"
+
+
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+def test_a_page_fetches_nothing_and_has_every_formula(path, tmp_path):
+    page = tmp_path / "page.html"
+    export(path, page)
+    text = page.read_text(encoding="utf-8")
+    fetches = Fetches(text)
+    assert fetches.found == []
+    assert "@import" not in text and "url(http" not in text
+    assert fetches.math == len(list(formulas(path)))
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    folded = sum("hide-input" in cell["metadata"].get("tags", ()) for cell in cells)
+    assert text.count('<details class="rk-folded">') == folded
+
+
+def test_a_formula_says_what_it_means():
+    assert "atan2" in mathml(r"\operatorname{atan2}(y, x)")
+    assert mathml(r"\frac{1}{2}").count("<mn>") == 2 and "<mfrac>" in mathml(r"\frac{1}{2}")
+    with pytest.raises(ValueError, match=r"formula.*nonsense"):
+        mathml(r"\nonsense{1}")
+    with pytest.raises(ValueError, match="formula"):
+        mathml(r"\frac{1")
+
+
+def command(*words, cwd):
+    return subprocess.run(
+        [sys.executable, "-m", "robokin.course", "export", *map(str, words)],
+        cwd=cwd,
+        text=True,
+        capture_output=True,
+        timeout=120,
+    )
+
+
+def test_the_command_names_a_bad_file_and_writes_the_others(tmp_path):
+    notebook = json.loads(START.read_text(encoding="utf-8"))
+    notebook["cells"][0]["source"] = [r"# A lab with $\nonsense$"]
+    (tmp_path / "odd.ipynb").write_text(json.dumps(notebook))
+    (tmp_path / "none.ipynb").write_text("{}")
+    (tmp_path / "text.ipynb").write_text("no notebook")
+    (tmp_path / "pages").mkdir()
+    bad = [tmp_path / name for name in ("odd.ipynb", "none.ipynb", "text.ipynb", "lost.ipynb")]
+    run = command(*bad, START, "--to", "pages", cwd=tmp_path)
+    assert run.returncode == 1 and "Traceback" not in run.stderr
+    for path, reason in zip(
+        bad, ("nonsense", "not a notebook", "not a notebook", "No such file"), strict=True
+    ):
+        assert re.search(rf"{re.escape(str(path))}: .*{reason}", run.stderr), run.stderr
+    assert [p.name for p in (tmp_path / "pages").iterdir()] == ["00_start_here.html"]
+    assert "00_start_here.html" in run.stdout and " kB" in run.stdout
+
+
+def test_nothing_of_yours_is_overwritten(tmp_path):
+    mine = tmp_path / "00_start_here.html"
+    mine.write_text("mine")
+    run = command(START, cwd=tmp_path)
+    assert run.returncode == 1 and "nothing is overwritten" in run.stderr
+    assert mine.read_text() == "mine"
+    mine.unlink()
+    assert command(START, cwd=tmp_path).returncode == 0
+    first = mine.read_bytes()
+    assert command(START, cwd=tmp_path).returncode == 0, "a page of ours is made anew"
+    assert mine.read_bytes() == first
+
+
+def test_links_lead_to_the_pages_beside(tmp_path):
+    page = tmp_path / "page.html"
+    export(START, page)
+    links = re.findall(r'<a href="([^"#]+)"', page.read_text(encoding="utf-8"))
+    inside = [link for link in links if not link.startswith("http")]
+    assert inside and all(link.endswith(".html") for link in inside if "_" in link)
+
+
+def test_start_here_says_how(tmp_path):
+    text = START.read_text(encoding="utf-8")
+    assert "python -m robokin.course export" in text
+    assert (ROOT / "README.md").read_text(encoding="utf-8").count("robokin.course export") >= 1

@@ -1,0 +1,109 @@
+"""Where each capability of the documents and each finding of the second reading is dealt with.
+
+The tables at the end of the companions have the 97 capabilities (S0-01 to S4-11), the file
+data/second_reading.csv the findings (A1 to H12). Every target exists.
+"""
+
+import csv
+import importlib
+import json
+import re
+
+import pytest
+from conftest import NOTEBOOKS, ROOT
+
+COUNTS = {"S0": 25, "S1": 28, "S2": 6, "S3": 27, "S4": 11}
+FINDINGS = {"A": 14, "B": 10, "C": 3, "D": 15, "E": 10, "F": 9, "G": 8, "H": 12}
+READING = ROOT / "tests" / "data" / "second_reading.csv"
+LABS = {path.stem[:2]: path for path in NOTEBOOKS.glob("*.ipynb")}
+COMPANIONS = {
+    path.stem[:3]: path for path in NOTEBOOKS.glob("documents/*.ipynb") if path.stem[:3].isdigit()
+}
+
+
+def prose(path):
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    return "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown")
+
+
+def table(source):
+    """(row, what, where, names) of each line of a companion's table."""
+    text = prose(COMPANIONS[f"00{source[1]}"])
+    lines = re.findall(rf"^\| ({source}-\d\d) \|(.*)\|$", text, re.M)
+    return [(row, *(part.strip() for part in rest.split(" | "))) for row, rest in lines]
+
+
+def has_section(path, section):
+    """Whether a notebook has it: "§3", "Deeper", "Your turn", or "" for the whole."""
+    if not section:
+        return True
+    heading = rf"{section[1:]}\. " if section.startswith("§") else section
+    return re.search(rf"^## {heading}", prose(path), re.M) is not None
+
+
+def exists(name):
+    """Whether a dotted name stands below robokin."""
+    for module in ("robokin", "robokin.arms", "robokin.motion", "robokin.show", "robokin.course"):
+        value = importlib.import_module(module)
+        for part in name.removeprefix("robokin.").split("."):
+            if not hasattr(value, part):
+                try:
+                    value = importlib.import_module(f"{value.__name__}.{part}")
+                except (ImportError, AttributeError):
+                    break
+            else:
+                value = getattr(value, part)
+        else:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("source", COUNTS)
+def test_every_capability_of_a_document_has_its_place(source):
+    rows = table(source)
+    assert [row[0] for row in rows] == [f"{source}-{k:02}" for k in range(1, COUNTS[source] + 1)]
+    for row, what, where, names in rows:
+        assert len(what) > 8, row
+        if where.startswith(("decided against:", "not yet:")):
+            assert len(where) > 40, f"{row}: no reason"
+            continue
+        links = re.findall(r"\[(\w+)(?: ([^\]]+))?\]\(([^)]+)\)", where)
+        assert links, f"{row}: {where}"
+        for lab, section, target in links:
+            path = COMPANIONS[f"00{source[1]}"]
+            if lab != "here":
+                path = LABS[lab]
+                assert target.split("#")[0] == f"../{path.name}", f"{row}: {target}"
+            assert has_section(path, section), f"{row}: {lab} {section}"
+        assert names == "–" or "`" in names, f"{row}: {names}"
+        for name in re.findall(r"`([^`]+)`", names):
+            assert exists(name), f"{row}: {name}"
+
+
+def findings():
+    with open(READING, encoding="utf-8") as file:
+        return list(csv.DictReader(file, delimiter=";"))
+
+
+def test_every_finding_of_the_second_reading_has_its_place():
+    wanted = [f"{part}{k}" for part, count in FINDINGS.items() for k in range(1, count + 1)]
+    assert [line["row"] for line in findings()] == wanted
+
+
+@pytest.mark.parametrize("line", findings(), ids=lambda line: line["row"])
+def test_a_finding_is_dealt_with_where_it_says(line):
+    assert len(line["what"]) > 10
+    for place in line["where"].split(", "):
+        if re.fullmatch(r"later|decided against", place):
+            assert len(line["what"]) > 30, "no reason"
+        elif match := re.fullmatch(r"(\d\d)(?: (.+))?", place):
+            assert has_section(LABS[match[1]], match[2] or ""), place
+        elif match := re.fullmatch(r"companion (00\d)(?: (§\d+))?", place):
+            assert has_section(COMPANIONS[match[1]], match[2] or ""), place
+        elif match := re.fullmatch(r"(tests/\S+?\.py)(?:::(\w+))?", place):
+            text = (ROOT / match[1]).read_text(encoding="utf-8")
+            assert match[2] is None or re.search(rf"^def {match[2]}\(", text, re.M), place
+        elif place.startswith("robokin."):
+            assert exists(place), place
+        else:
+            assert (ROOT / place).exists(), place
