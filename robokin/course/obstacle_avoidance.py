@@ -1327,7 +1327,7 @@ PREDICTIONS = {
                 "A key that needs four pins in place does not open every second lock.",
             ),
             Option(
-                "Few: {share:.0f} of 100.",
+                "Few: fewer than one of ten.",
                 "{found} of {inside}. Both pairs of lines have to be in the order of the drawing, "
                 "and most motions have another one.",
             ),
@@ -1368,8 +1368,8 @@ PREDICTIONS = {
                 "The half disc above a diameter has all of its area outside the chord.",
             ),
             Option(
-                "Most of it: {share:.0f} %.",
-                "{missed:.2f} of {swept:.2f} m² lie outside; and of the quadrilateral "
+                "Most of it.",
+                "{share:.0f} %: {missed:.2f} of {swept:.2f} m² lie outside; and of the quadrilateral "
                 "{false:.2f} m² are never touched.",
             ),
         ),
@@ -1445,8 +1445,8 @@ PREDICTIONS = {
                 "A lever of 1 m whose joint turns by 10° moves its end by 175 mm.",
             ),
             Option(
-                "Much less: {true:.0f} mm.",
-                "{less:.0f} mm below the nearest sample. Samples can only be too optimistic: more "
+                "Less by about a decimetre.",
+                "{true:.0f} mm, {less:.0f} mm below the nearest sample. Samples can only be too optimistic: more "
                 "of them find smaller distances, never larger ones.",
             ),
             Option(
@@ -1515,7 +1515,7 @@ PREDICTIONS = {
                 "Three blocks east and four north are seven blocks to walk, not five.",
             ),
             Option(
-                "S, the sum of what all joints turn: {sum:.0f}°.",
+                "S, the sum of what all joints turn.",
                 "Each step adds 10° to S. So whoever is reached first is reached with the least S "
                 "that this grid allows.",
             ),
@@ -1544,8 +1544,8 @@ PREDICTIONS = {
                 "An umbrella is no promise to stay dry either.",
             ),
             Option(
-                "{keep} of {count}.",
-                "Where only the gripper was too near, a larger circle mends it. {near} come nearer "
+                "About a quarter.",
+                "{keep} of {count}. Where only the gripper was too near, a larger circle mends it. {near} come nearer "
                 "all the same.",
             ),
             Option(
