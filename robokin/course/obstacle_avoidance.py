@@ -1369,7 +1369,8 @@ PREDICTIONS = {
             ),
             Option(
                 "Most of it.",
-                "{share:.0f} %: {missed:.2f} of {swept:.2f} m² lie outside; and of the quadrilateral "
+                "{share:.0f} %: {missed:.2f} of {swept:.2f} m² lie outside; and of the "
+                "quadrilateral "
                 "{false:.2f} m² are never touched.",
             ),
         ),
@@ -1446,7 +1447,8 @@ PREDICTIONS = {
             ),
             Option(
                 "Less by about a decimetre.",
-                "{true:.0f} mm, {less:.0f} mm below the nearest sample. Samples can only be too optimistic: more "
+                "{true:.0f} mm, {less:.0f} mm below the nearest sample. Samples can only be too "
+                "optimistic: more "
                 "of them find smaller distances, never larger ones.",
             ),
             Option(
@@ -1545,7 +1547,8 @@ PREDICTIONS = {
             ),
             Option(
                 "About a quarter.",
-                "{keep} of {count}. Where only the gripper was too near, a larger circle mends it. {near} come nearer "
+                "{keep} of {count}. Where only the gripper was too near, a larger circle mends "
+                "it. {near} come nearer "
                 "all the same.",
             ),
             Option(
