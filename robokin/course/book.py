@@ -6,7 +6,19 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-LABS = ("irb140_kinematics", "irb140_motion", "motor_synchronisation", "puma560_branches")
+LABS = (
+    "frames_and_quaternions",
+    "irb140_kinematics",
+    "irb140_motion",
+    "scara_kinematics",
+    "scara_motion",
+    "spherical_wrist",
+    "puma560_branches",
+    "visit_and_collect",
+    "three_levers",
+    "obstacle_avoidance",
+    "motor_synchronisation",
+)
 
 
 def lab(name: Any) -> ModuleType:

@@ -1016,9 +1016,13 @@ def _lost_facts() -> dict[str, Any]:
     for pulses, missed in ((move, lost), (-back, 0)):
         counted += pulses
         stands += pulses - missed
-    return {"lost": lost, "left": move - lost, "twice": 2 * lost, "counted": counted, "stands": stands} | {
-        "off": counted - stands
-    }
+    return {
+        "lost": lost,
+        "left": move - lost,
+        "twice": 2 * lost,
+        "counted": counted,
+        "stands": stands,
+    } | {"off": counted - stands}
 
 
 def _lost_right(facts: Mapping[str, Any]) -> int:

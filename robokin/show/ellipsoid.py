@@ -78,6 +78,7 @@ def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
     ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
     ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
     outline = (scene.project(centre)[:, None] + ring).T
+    scene.drawn.append((outline, 1))  # labels keep off it
     scene.ax.add_patch(
         Polygon(outline, facecolor=TRACE, edgecolor=TRACE, alpha=0.18, linewidth=1.2, zorder=5.5)
     )

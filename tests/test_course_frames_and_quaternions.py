@@ -1,0 +1,170 @@
+"""What is special about the exercises of lab 01: right answers in unlike styles, wrong ones with
+their names.
+"""
+
+import functools
+
+import numpy as np
+import pytest
+
+from robokin import Arm, Quaternion, Transform, deg, dh_links
+from robokin.course import book, check, variant
+
+X, Y, Z = np.eye(3)
+LAB = book.lab("frames_and_quaternions")
+invert = np.linalg.inv
+
+
+# --- 1: seen from the flange ----------------------------------------------------------------------
+
+
+def closed(q, d, a, alpha):
+    c, s, ca, sa = np.cos(q), np.sin(q), np.cos(alpha), np.sin(alpha)
+    return np.array([[c, -ca * s, sa * s, a * c], [s, ca * c, -sa * c, a * s],
+                     [0, sa, ca, d], [0, 0, 0, 1]])  # fmt: skip
+
+
+def flange(table, q, row=lambda r, x: closed(r[0] + x, *r[1:])):
+    return functools.reduce(np.matmul, map(row, table, q))
+
+
+def solved(table, q, part):
+    return np.linalg.solve(flange(table, q), part)
+
+
+def row_by_row(table, q, part):
+    seen = part
+    for row, joint in zip(table, q, strict=True):
+        seen = invert(closed(row[0] + joint, *row[1:])) @ seen
+    return seen.tolist()
+
+
+def by_the_package(table, q, part):
+    class Chain:
+        links = dh_links(a=table[:, 2], alpha=table[:, 3], d=table[:, 1], theta=table[:, 0])
+        target, reach = Transform, 1.0
+
+    arm = Arm("table", Chain(), [[-7, 7]] * len(q))
+    return arm.fk(q).inverse() @ Transform.from_matrix(part)
+
+
+@pytest.mark.parametrize("answer", [solved, row_by_row, by_the_package])
+def test_any_right_way_to_look_from_the_flange_is_accepted(answer):
+    assert check("frames_and_quaternions.1", answer).holds
+
+
+def only_turned(table, q, part):
+    rotation = flange(table, q)[:3, :3]
+    seen = np.eye(4)
+    seen[:3, :3], seen[:3, 3] = rotation.T @ part[:3, :3], rotation.T @ part[:3, 3]
+    return seen
+
+
+def joined(table, q, part):
+    seen = part
+    for row, joint in reversed(list(zip(table, q, strict=True))):
+        seen = invert(closed(row[0] + joint, *row[1:])) @ seen
+    return seen
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("the shift back is left out", only_turned),
+        ("the chain from the wrong end", joined),
+        ("the inverse of the product", lambda t, q, p: invert(flange(t, q) @ p)),
+        ("from both sides", lambda t, q, p: invert(flange(t, q)) @ p @ flange(t, q)),
+        ("matrices subtracted", lambda t, q, p: p - flange(t, q)),
+        ("element-wise product", lambda t, q, p: invert(flange(t, q)) * p),
+        ("degrees for radians", lambda t, q, p: invert(flange(t, np.radians(q))) @ p),
+        ("sign", lambda t, q, p: invert(flange(t, -q)) @ p),
+        ("another kind or shape", lambda t, q, p: (invert(flange(t, q)) @ p)[:3, 3]),
+        ("d and a exchanged", lambda t, q, p: invert(flange(t[:, [0, 2, 1, 3]], q)) @ p),
+    ],
+)
+def test_a_wrong_look_from_the_flange_is_named(name, answer):
+    verdict = check("frames_and_quaternions.1", answer)
+    assert not verdict.holds and verdict.mistake == name, verdict
+
+
+# --- 2: a camera ----------------------------------------------------------------------------------
+
+
+def places(who):
+    values = np.array(list(variant("frames_and_quaternions", who).values()))
+    return values[:3], values[3:]
+
+
+def columns(z, flip=1):
+    x = flip * np.cross(z, Z) / np.linalg.norm(np.cross(z, Z))
+    return Quaternion.from_matrix(np.transpose([x, np.cross(z, x), z]))
+
+
+def swung(yaw, tilt):
+    return Quaternion.from_angle_axis(yaw, Z) @ Quaternion.from_angle_axis(tilt, X)
+
+
+def test_a_camera_looks_at_the_part_for_every_name():
+    for k in range(200):
+        who = f"student {k}"
+        eye, part = places(who)
+        z = (part - eye) / np.linalg.norm(part - eye)
+        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "neither level nor straight down"
+        yaw, rise = np.arctan2(z[1], z[0]), np.arcsin(z[2])
+        turns = [columns(z), swung(yaw - np.pi / 2, rise - np.pi / 2)]
+        answers = [Transform(turn, eye) for turn in turns]
+        for answer in [*answers, answers[0].as_matrix()]:
+            assert check("frames_and_quaternions.2", answer, who=who).holds
+        wrong = {
+            "looks away": Transform(columns(-z), eye),
+            "upside down": Transform(columns(z, -1), eye),
+            "the inverse turn": Transform(turns[0].inverse(), eye),
+            "the part's place for the camera's": Transform(turns[0], part),
+            "mm for m": Transform(turns[0], 1000 * eye),
+            "seen from the base": Transform(columns(part / np.linalg.norm(part)), eye),
+            "the base, seen from the camera": Transform(turns[0], eye).inverse(),
+            "not turned": Transform(Quaternion.identity(), eye),
+            "a quarter turn off": Transform(swung(yaw, rise - np.pi / 2), eye),
+            "looks up": Transform(swung(yaw - np.pi / 2, -rise - np.pi / 2), eye),
+        }
+        for name, answer in wrong.items():
+            verdict = check("frames_and_quaternions.2", answer, who=who)
+            assert not verdict.holds and verdict.mistake == name, (who, name, verdict)
+
+
+# --- 3: a test for slerp --------------------------------------------------------------------------
+
+
+def unit(row):
+    return row / np.linalg.norm(row)
+
+
+def by_its_properties(lead):
+    """Unit length, even steps and the whole turn, and no other program to compare with."""
+    rng = np.random.default_rng(0)
+    for turn in (0, 0.1, 0.4, 1, 2, 3):
+        a = unit(rng.normal(size=4))
+        b = (Quaternion(a) @ Quaternion.from_angle_axis(turn, unit(rng.normal(size=3)))).wxyz
+        for end in (b, -b):
+            way = np.array([lead(a, end, s) for s in np.linspace(0, 1, 9)])
+            if way.shape != (9, 4) or not np.allclose(np.linalg.norm(way, axis=1), 1, atol=1e-6):
+                return False
+            frames = Quaternion(way)
+            steps = frames[:-1].angle_to(frames[1:])
+            ends = [frames[0].angle_to(Quaternion(a)), frames[-1].angle_to(Quaternion(b))]
+            if not (np.allclose(steps, turn / 8, atol=1e-6) and np.allclose(ends, 0, atol=1e-6)):
+                return False
+    return True
+
+
+def test_a_test_by_properties_holds_and_a_naive_one_is_told_what_slips_through():
+    assert check("frames_and_quaternions.3", by_its_properties).holds
+    a, b = (Quaternion.from_angle_axis(x * deg, Z).wxyz for x in (10, 130))
+
+    def half_way(lead):
+        middle = Quaternion.from_angle_axis(70 * deg, Z).wxyz
+        found = lead(a, b, 0.5)
+        return min(abs(found - middle).max(), abs(found + middle).max()) < 1e-6
+
+    verdict = check("frames_and_quaternions.3", half_way)
+    assert verdict.mistake.startswith("accepts: ") and verdict.points > 0.4

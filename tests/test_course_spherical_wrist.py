@@ -1,0 +1,225 @@
+"""The exercises and predictions of lab 06: right answers hold in every style, wrong ones are named,
+and every prediction's key is computed a second time, another way.
+"""
+
+import numpy as np
+import pytest
+
+import robokin.course.spherical_wrist as book
+from robokin import ITMO6R, Transform, deg, dh_links, mm
+from robokin.arms.link import home
+from robokin.course import check
+from robokin.course.predictions import filled
+
+A, ALPHA, D, OFFSET = book.A, book.ALPHA, book.D, book.OFFSET
+
+
+# --- 1 --------------------------------------------------------------------------------------------
+
+
+def _with_the_package(a, alpha, d, offset, q):
+    points, ways, _ = home(dh_links(a, alpha, d, offset + q))
+    return points, ways
+
+
+def _elsewhere_on_the_axis(a, alpha, d, offset, q):
+    points, ways = _with_the_package(a, alpha, d, offset, q)
+    return [
+        [
+            (np.asarray(p) + k * w).tolist()
+            for k, (p, w) in enumerate(zip(points, ways, strict=True))
+        ],
+        ways.tolist(),
+    ]
+
+
+def _by_transforms(a, alpha, d, offset, q):
+    frame, rows = Transform(), []
+    for link in dh_links(a, alpha, d, offset + q):
+        rows.append([*frame.translation, *frame.rotation.as_matrix()[:, 2]])
+        frame = frame @ link.before @ link.after
+    return np.array(rows)
+
+
+def _by_loops(a, alpha, d, offset, q):
+    """Rotation and origin apart, point by point."""
+    rotation, origin, out = np.eye(3), np.zeros(3), ([], [])
+    for i in range(len(a)):
+        out[0].append(origin + 0.3 * rotation[:, 2])
+        out[1].append(rotation @ [0, 0, 1])
+        angle = q[i] + offset[i]
+        along = rotation @ [np.cos(angle), np.sin(angle), 0]
+        across = np.cross(rotation[:, 2], along)
+        up = np.cos(alpha[i]) * rotation[:, 2] - np.sin(alpha[i]) * across
+        origin = origin + d[i] * rotation[:, 2] + a[i] * along
+        rotation = np.stack([along, np.cross(up, along), up], axis=1)
+    return out
+
+
+@pytest.mark.parametrize(
+    "answer", [_with_the_package, _elsewhere_on_the_axis, _by_transforms, _by_loops]
+)
+def test_axes_found_in_another_way_hold(answer):
+    verdict = check("spherical_wrist.1", answer)
+    assert verdict.holds, verdict
+
+
+@pytest.mark.parametrize("mistake", book.AXES_MISTAKES, ids=lambda m: m.name)
+def test_wrong_axes_are_named(mistake):
+    verdict = check("spherical_wrist.1", mistake.program)
+    assert not verdict.holds and verdict.mistake == mistake.name
+    assert mistake.says in verdict.says
+    assert any(word in verdict.case for word in ("should", "wanted", "IndexError"))
+
+
+@pytest.mark.parametrize(
+    ("answer", "name"),
+    [
+        (lambda *c: _by_loops(*c)[1], "another kind or shape"),
+        (lambda a, alpha, d, offset, q: _by_loops(a, alpha, d, offset, -q), "the joints turn"),
+        (lambda a, alpha, d, offset, q: _by_loops(a, alpha / deg, d, offset, q), "degrees"),
+        (lambda a, alpha, d, offset, q: _by_loops(a, alpha, 0 * d, offset, q), "d is left out"),
+    ],
+)
+def test_other_wrong_axes_are_recognised(answer, name):
+    verdict = check("spherical_wrist.1", answer)
+    assert not verdict.holds and name in verdict.mistake
+
+
+# --- 2 --------------------------------------------------------------------------------------------
+
+
+def rebuilt(phi, theta, psi):
+    """The matrix, also of NaN and of degrees taken for radians."""
+    return book.rot(2, phi)[:3, :3] @ book.rot(1, theta)[:3, :3] @ book.rot(2, psi)[:3, :3]
+
+
+def _judges(angles, exact):
+    def test(program):
+        for theta in angles:
+            for phi, psi in np.random.default_rng(3).uniform(-3, 3, (30, 2)):
+                for wrist in (1, -1):
+                    h = book.zyz(phi, theta, psi)
+                    found = np.asarray(program(h, wrist), dtype=float)
+                    if not np.isfinite(found).all() or wrist * found[1] < -exact:
+                        return False
+                    if abs(rebuilt(*found) - h).max() > exact:
+                        return False
+        return True
+
+    return test
+
+
+def test_the_programs_are_what_they_are_called():
+    for angles in ([0.3, 1.0, 3.0], [0, np.pi], [1e-9, 1e-7, 1e-5, np.pi - 1e-7]):
+        judge = _judges(angles, 1e-10)
+        assert all(judge(program) for _, program in book.WRIST_RIGHTS)
+    caught = {m.name for m in book.WRIST_MISTAKES if not _judges([0.3, 1.0, 3.0], 1e-10)(m.program)}
+    only_there = {m.name for m in book.WRIST_MISTAKES} - caught
+    assert only_there == {
+        "the regular formulas beside the singularity",
+        "a coarse threshold",
+        "the sum at theta = 180 degrees, too",
+        "NaN in the singularity",
+        "singular where h13 = h23",
+    }
+
+
+@pytest.mark.parametrize(
+    ("test", "mistake"),
+    [
+        (_judges([0.3, 1.0], 1e-10), "accepts: the regular formulas beside the singularity"),
+        (_judges([0.3, 1.0, 3.0], 1e-17), "refuses every program"),
+        (lambda p: True, "accepts every program"),
+        (
+            lambda p: bool(np.allclose(p(book.zyz(0.3, 1, 0.2), 1), (0.3, 1, 0.2))),
+            "accepts: the flag is ignored",
+        ),
+        (
+            lambda p: bool(np.allclose(p(book.zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
+            "refuses a right program",
+        ),
+    ],
+)
+def test_a_test_that_is_not_enough_is_told_so(test, mistake):
+    assert check("spherical_wrist.2", test).mistake == mistake
+
+
+def test_a_test_may_say_no_by_an_assertion():
+    def test(program):
+        for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi):
+            for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1)]:
+                for wrist in (1, -1):
+                    found = program(book.zyz(phi, theta, psi), wrist)
+                    assert abs(rebuilt(*found) - book.zyz(phi, theta, psi)).max() < 1e-11
+                    assert -1e-11 < wrist * found[1] < np.pi + 1e-11
+
+    assert check("spherical_wrist.2", test).holds
+
+
+# --- 3 --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("who", ["Ada", "Bo", "Žydrė", "student 17", 4711])
+def test_every_line_can_be_run_and_not_by_its_level_tool(who):
+    n = book.given(who)
+    least, fastest = max(
+        book.passage(n, *tilt) for tilt in book.across(n["slope"], 0.99 * n["most_tilt"])
+    )
+    up, side = next(
+        tilt
+        for tilt in book.across(n["slope"], 0.99 * n["most_tilt"])
+        if book.passage(n, *tilt)[0] == least
+    )
+    line = {"up": up, "side": side, "duration": fastest / n["most_speed"] * 1.0001}
+    assert check("spherical_wrist.3", line, who=who).holds
+    named = {
+        "not tilted": line | {"up": 0.0, "side": 0.0},
+        "tilted too far": line | {"up": 1.2 * up, "side": 1.2 * side},
+        "too fast": line | {"duration": 0.5 * line["duration"]},
+        "too slow": line | {"duration": 3 * line["duration"]},
+        "degrees for radians": line | {"up": 10.0, "side": -4.0},
+    }
+    for mistake, answer in named.items():
+        assert check("spherical_wrist.3", answer, who=who).mistake == mistake
+    tilt = 0.99 * n["most_tilt"]
+    along = [(e * tilt * np.sin(n["slope"]), e * tilt * np.cos(n["slope"])) for e in (1, -1)]
+    for up, side in along:
+        verdict = check("spherical_wrist.3", line | {"up": up, "side": side}, who=who)
+        assert verdict.mistake in ("tilted along the line", "out of reach")
+    assert not check("spherical_wrist.3", dict.fromkeys(line, ...), who=who).answered
+    assert not check("spherical_wrist.3", {"up": 0}, who=who).holds
+
+
+# --- The keys of the predictions, another way -----------------------------------------------------
+
+
+def right(name):
+    _, options, k = filled(book.PREDICTIONS[name])
+    return options[k].text
+
+
+def test_keys_of_the_first_half():
+    q = np.array([[0, 60, -60, 0, 45, 0], [0, 60, -60, 90, 45, 0]]) * deg
+    moved = np.linalg.norm(np.diff(ITMO6R.frames(q).translation, axis=0)[0], axis=-1)
+    assert right("p1") == f"{np.flatnonzero(moved > 1e-9)[0]} alone."
+    assert float(right("p2")) == pytest.approx(200 * np.sqrt(2), abs=0.5)
+    # in the arm's plane: 100 mm at 110°, then 200 mm at 150°, counted ahead
+    ahead = 100 * np.cos(110 * deg) + 200 * np.cos(150 * deg)
+    assert ahead < 0 and right("p3").startswith("−150°")
+    assert right("p4") == "(0.30, 0.40, 0.87): as before."
+
+
+def test_keys_of_the_second_half():
+    turn = book.turned
+    pairs = [(30, 40, 50), (-150, -40, -130)]
+    one, two = (
+        turn(a * deg, (0, 0, 1)) @ turn(b * deg, (0, 1, 0)) @ turn(c * deg, (0, 0, 1))
+        for a, b, c in pairs
+    )
+    assert one.angle_to(two) < 1e-7 and right("p5").startswith("(−150°, −40°, −130°)")
+    assert right("p6").startswith("Wholly")
+    assert 1 - np.cos(1e-9) == 0 and right("p7") == "Joints 1 and 6."
+    fast = [book._fastest(miss * mm) for miss in (4, 2, 1)]
+    assert np.allclose(fast[1:] / np.array(fast[:-1]), 2, rtol=0.01)
+    assert right("p8").startswith(f"{fast[1] * 2:.0f}°/s")
