@@ -48,6 +48,11 @@ TURN = 2 * np.pi
 MINUS = "\N{MINUS SIGN}"
 
 
+def _near(angle: float, other: float) -> float:
+    """The value of an angle nearest to another, whole turns left out."""
+    return float(wrapped(np.asarray(angle), np.asarray(other)))
+
+
 # --- 1: the next posture --------------------------------------------------------------------------
 
 
@@ -215,7 +220,7 @@ def _short_of(angle: Callable[[Floats], float]) -> Callable[[Floats, float], flo
     def alpha(point: Floats, before: float) -> float:
         if not (point[0] or point[1]):
             return before
-        return float(wrapped(angle(point), before))
+        return _near(angle(point), before)
 
     return alpha
 
@@ -275,7 +280,7 @@ def _with_h(length: Callable[[Floats], float]) -> Program:
 
 def _half_nan(point: Floats, before: float) -> Floats:
     q = _next_posture(Tools(), point, before)
-    alpha = before if not (point[0] or point[1]) else float(wrapped(_direction(point), before))
+    alpha = before if not (point[0] or point[1]) else _near(_direction(point), before)
     return np.array([alpha, q[1], q[2]])
 
 
@@ -307,9 +312,7 @@ POSTURE_MISTAKES = (
         "the turn for the angle",
         "This is the turn from `before` on. Wanted is where joint 1 stands after it: before + "
         "turn.",
-        _alpha(
-            lambda p, before: float(wrapped(_direction(p) - before)) if p[0] or p[1] else before
-        ),
+        _alpha(lambda p, before: _near(_direction(p) - before, 0) if p[0] or p[1] else before),
     ),
     Mistake(
         "the same sign for both long ways",
@@ -365,7 +368,7 @@ POSTURE_MISTAKES = (
         "above the base alpha does not stay",
         "At x = y = 0 every alpha will do, and arctan2(0, 0) happens to be 0. The joint has no "
         "reason to turn: alpha = before.",
-        _alpha(lambda p, before: float(wrapped(_direction(p), before))),
+        _alpha(lambda p, before: _near(_direction(p), before)),
     ),
     Mistake(
         "gamma without gamma 2",
@@ -477,7 +480,7 @@ KEYS = ("gears", "frequencies")
 def _turns(places: tuple[float, ...]) -> Floats:
     """The turns of the three joints in degrees."""
     ends = np.reshape(places, (2, 3))
-    return np.diff(station_postures(LOADER, ends), axis=0)[0] / deg
+    return np.asarray(np.diff(station_postures(LOADER, ends), axis=0)[0] / deg)
 
 
 def _places(given: Mapping[str, Any]) -> tuple[float, ...]:
@@ -487,7 +490,7 @@ def _places(given: Mapping[str, Any]) -> tuple[float, ...]:
 def _pulses(given: Mapping[str, Any], gears: Floats) -> Floats:
     """The pulses of the move, without signs."""
     q = station_postures(LOADER, np.reshape(_places(given), (2, 3)))
-    return abs(np.diff(counts(q, gears / STEP), axis=0)[0]).astype(float)
+    return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
 
 
 def _least(given: Mapping[str, Any]) -> int:
@@ -631,7 +634,7 @@ def _long(given: Any, gears: Floats) -> Floats:
     """The pulses without the short way."""
     q = station_postures(LOADER, np.reshape(_places(given), (2, 3)))
     q[:, 0] = wrapped(q[:, 0])
-    return abs(np.diff(counts(q, gears / STEP), axis=0)[0]).astype(float)
+    return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
 
 
 def _slow_fault(
