@@ -170,7 +170,7 @@ def _posture_law(case: tuple[Any, ...], yours: Floats) -> str | None:
             f"{says}: a turn of {(wanted[0] - before) / deg:.1f}° from {before / deg:.1f}°; yours "
             f"is one of {(yours[0] - before) / deg:.1f}°"
         )
-    tip = LOADER.fk(yours).translation / mm + 0.0
+    tip = LOADER.fk(wrapped(yours)).translation / mm + 0.0
     got, asked = (", ".join(f"{x:.1f}" for x in place) for place in (tip, point / mm))
     return f"{says}; your angles put the gripper at ({got}) mm, asked is ({asked}) mm"
 
@@ -179,54 +179,53 @@ def _same_angles(a: Floats, b: Floats) -> bool:
     return bool(np.allclose(a, b, rtol=0, atol=1e-6, equal_nan=True))
 
 
-def _alpha(rule: Callable[[Floats, float], float]) -> Program:
-    """The right posture with an alpha of one's own."""
-
-    def program(point: Floats, before: float) -> Floats:
-        q = _next_posture(Tools(), point, before)
-        return q if np.isnan(q).any() else np.array([rule(point, before), q[1], q[2]])
-
-    return program
+Alpha = Callable[[Floats, float], float]
+Levers = Callable[[Floats, float], tuple[float, float]]
 
 
-def _levers(rule: Callable[[Floats, float], tuple[float, float]]) -> Program:
-    """The right posture with a gamma and a beta of one's own, from the point and h."""
-
-    def program(point: Floats, before: float) -> Floats:
-        q = _next_posture(Tools(), point, before)
-        return q if np.isnan(q).any() else np.array([q[0], *rule(point, _height(point))])
-
-    return program
+def _on_axis(point: Floats) -> bool:
+    return not (point[0] or point[1])
 
 
 def _direction(point: Floats) -> float:
     return float(np.arctan2(point[1], point[0]))
 
 
-def _turned(rule: Callable[[float], float]) -> Callable[[Floats, float], float]:
-    """alpha by a rule for the turn."""
-
-    def alpha(point: Floats, before: float) -> float:
-        if not (point[0] or point[1]):
-            return before
-        return before + rule(_direction(point) - before)
-
-    return alpha
+def _staying(rule: Alpha) -> Alpha:
+    """The rule, and above the base no turn."""
+    return lambda point, before: before if _on_axis(point) else rule(point, before)
 
 
-def _short_of(angle: Callable[[Floats], float]) -> Callable[[Floats, float], float]:
+def _turned(rule: Callable[[float], float]) -> Alpha:
+    """alpha by a rule for the turn from the difference."""
+    return lambda point, before: before + rule(_direction(point) - before)
+
+
+def _short_of(angle: Callable[[Floats], float]) -> Alpha:
     """alpha the short way to a direction."""
-
-    def alpha(point: Floats, before: float) -> float:
-        if not (point[0] or point[1]):
-            return before
-        return _near(angle(point), before)
-
-    return alpha
+    return lambda point, before: _near(angle(point), before)
 
 
-def _one_sided(d: float) -> float:
+def _right_alpha(point: Floats, before: float) -> float:
+    return _near(_direction(point), before)
+
+
+def _right_levers(point: Floats, h: float) -> tuple[float, float]:
+    return _gamma_1(h) + _gamma_2(point, h), _beta(h)
+
+
+def _clipped(point: Floats, h: float) -> tuple[float, float]:
+    gamma_1 = float(np.arccos(np.clip((A**2 - B**2 + h**2) / (2 * A * h), -1, 1)))
+    beta = float(np.arccos(np.clip((A**2 + B**2 - h**2) / (2 * A * B), -1, 1)))
+    return gamma_1 + _gamma_2(point, h), beta
+
+
+def _by_size(d: float) -> float:
     return d if abs(d) <= np.pi else -(TURN - abs(d))
+
+
+def _unsigned(d: float) -> float:
+    return min(abs(d) % TURN, TURN - abs(d) % TURN)
 
 
 def _once(d: float) -> float:
@@ -247,226 +246,373 @@ def _cells(point: Floats) -> float:
     return float(np.arctan(y / abs(x))) + np.pi / 2
 
 
-def _judged(inner: float, outer: float, instead: float | None) -> Program:
-    """Other bounds of h; past the true ones the cosines are clipped, or a value stands instead."""
-
-    def program(point: Floats, before: float) -> Floats:
-        h = _height(point)
-        if not inner <= h <= outer:
-            return np.full(3, np.nan)
-        if _in_reach(h):
-            return _next_posture(Tools(), point, before)
-        if instead is not None:
-            return np.full(3, instead)
-        near = np.clip(h, A - B, A + B)
-        q = _next_posture(Tools(), point * ((near + np.sign(A - h) * 1e-12) / h), before)
-        return q
-
-    return program
+def _arctan(point: Floats) -> float:
+    x, y, _ = point
+    return float(np.arctan(y / x)) if x else float(np.sign(y) * np.pi / 2)
 
 
-def _with_h(length: Callable[[Floats], float]) -> Program:
-    """Everything with another h."""
-
-    def program(point: Floats, before: float) -> Floats:
-        h = length(point)
-        alpha = _next_posture(Tools(), point * (0.5 / _height(point)), before)[0]
-        if not _in_reach(h):
-            return np.full(3, np.nan)
-        return np.array([alpha, _gamma_1(h) + _gamma_2(point, h), _beta(h)])
-
-    return program
+def _whole(count: Callable[[float], float]) -> Alpha:
+    """So many whole turns are taken off the difference."""
+    return _turned(lambda d: d - TURN * count(d / TURN))
 
 
-def _half_nan(point: Floats, before: float) -> Floats:
-    q = _next_posture(Tools(), point, before)
-    alpha = before if not (point[0] or point[1]) else _near(_direction(point), before)
-    return np.array([alpha, q[1], q[2]])
-
-
-def _plainly(point: Floats, before: float) -> Floats:
-    """The formulas of section 1, and nothing else: alpha not followed, arccos left to itself."""
-    h = _height(point)
-    return np.array([_direction(point), _gamma_1(h) + _gamma_2(point, h), _beta(h)])
-
-
-def _long_way(point: Floats, before: float) -> Floats:
-    q = _next_posture(Tools(), point, before)
-    return np.array([np.nan if np.isnan(q[0]) else _direction(point), q[1], q[2]])
-
-
-POSTURE_MISTAKES = (
-    Mistake(
-        "the formulas of section 1 alone",
-        "alpha jumps back into ±180° instead of going on from `before`, and out of reach it is a "
-        "number beside two NaN.",
-        _plainly,
-    ),
-    Mistake(
+ROUND = "Wanted is the nearest whole number of turns: np.round. "
+# name, sentence, (point, before) -> alpha
+ALPHAS: tuple[tuple[str, str, Alpha], ...] = (
+    (
         "alpha does not go on from before",
         "arctan2 gives the direction, always within ±180°. Wanted is the value of this direction "
-        "nearest to `before`; above the base it is `before` itself.",
-        _long_way,
+        "nearest to `before`.",
+        lambda point, before: _direction(point),
     ),
-    Mistake(
+    (
+        "alpha from 0° to 360°",
+        "alpha is put into 0° to 360°. Wanted is the value nearest to `before`.",
+        lambda point, before: _direction(point) % TURN,
+    ),
+    (
         "the turn for the angle",
         "This is the turn from `before` on. Wanted is where joint 1 stands after it: before + "
         "turn.",
-        _alpha(lambda p, before: _near(_direction(p) - before, 0) if p[0] or p[1] else before),
+        lambda point, before: _near(_direction(point) - before, 0),
     ),
-    Mistake(
+    (
         "the same sign for both long ways",
         "Where the difference is more than half a turn, the rest of the turn is taken with one "
         "sign always. From 170° to \N{MINUS SIGN}170° it has to be +20°.",
-        _alpha(_turned(_one_sided)),
+        _turned(_by_size),
     ),
-    Mistake(
+    (
+        "the sign of the turn is lost",
+        "The size of the turn is right, its sign is always +: clockwise turns are negative.",
+        _turned(_unsigned),
+    ),
+    (
+        "the turn goes the other way",
+        "The difference is where to minus where from: direction \N{MINUS SIGN} before.",
+        lambda point, before: before - _near(_direction(point) - before, 0),
+    ),
+    (
         "only differences above 180° are mended",
         "A difference below \N{MINUS SIGN}180° is the long way, too: add a turn.",
-        _alpha(_turned(lambda d: d - TURN * np.ceil((d - np.pi) / TURN) if d > np.pi else d)),
+        _turned(lambda d: d - TURN if d > np.pi else d),
     ),
-    Mistake(
-        "only differences below −180° are mended".replace("−", MINUS),
+    (
+        "only differences above 180° are mended",
+        "A difference below \N{MINUS SIGN}180° is the long way, too: add turns.",
+        _turned(lambda d: d - TURN * np.ceil((d - np.pi) / TURN) if d > np.pi else d),
+    ),
+    (
+        "only differences below \N{MINUS SIGN}180° are mended",
         "A difference above 180° is the long way, too: take a turn off.",
-        _alpha(_turned(lambda d: d - TURN * np.floor((d + np.pi) / TURN) if d < -np.pi else d)),
+        _turned(lambda d: d + TURN if d < -np.pi else d),
     ),
-    Mistake(
+    (
+        "only differences below \N{MINUS SIGN}180° are mended",
+        "A difference above 180° is the long way, too: take turns off.",
+        _turned(lambda d: d - TURN * np.floor((d + np.pi) / TURN) if d < -np.pi else d),
+    ),
+    (
         "one turn at most is taken off",
         "Joint 1 keeps counting: `before` may be 700°. Take off as many whole turns as there are: "
         "round(d / turn), not one `if`.",
-        _alpha(_turned(_once)),
+        _turned(_once),
     ),
-    Mistake(
+    ("floor for round", f"{ROUND}With floor the turn is never clockwise.", _whole(np.floor)),
+    ("ceil for round", f"{ROUND}With ceil the turn is never counter-clockwise.", _whole(np.ceil)),
+    (
+        "int for round",
+        f"{ROUND}int cuts off: 0.9 turns become 0, and the long way stays.",
+        _whole(np.trunc),
+    ),
+    (
+        "half turns taken off",
+        "Only whole turns, 2 pi, bring an angle back to the same direction. After half a turn the "
+        "arm looks the other way.",
+        _turned(lambda d: d - np.pi * np.round(d / np.pi)),
+    ),
+    (
+        "360 among radians",
+        "A whole turn is 2 pi here: the angles are in radians.",
+        _turned(lambda d: d - 360 * np.round(d / 360)),
+    ),
+    (
         "arctan for arctan2",
         "arctan(y / x) is the same for a point and the one opposite to it: half of the plane is "
         "lost.",
-        _alpha(
-            _short_of(
-                lambda p: (
-                    float(np.arctan(p[1] / p[0])) if p[0] else float(np.sign(p[1]) * np.pi / 2)
-                )
-            )
-        ),
+        _short_of(_arctan),
     ),
-    Mistake(
+    (
+        "arctan for arctan2, and alpha does not go on",
+        "arctan(y / x) loses half of the plane; and alpha is not the value nearest to `before`.",
+        lambda point, before: _arctan(point),
+    ),
+    (
         "arccos for arctan2",
         "arccos(x / r) is never negative: the sign of y is lost.",
-        _alpha(_short_of(lambda p: float(np.arccos(p[0] / np.hypot(p[0], p[1]))))),
+        _short_of(lambda p: float(np.arccos(p[0] / (np.hypot(p[0], p[1]) or np.nan)))),
     ),
-    Mistake(
+    (
+        "arcsin for arctan2",
+        "arcsin(y / r) is never above 90°: the sign of x is lost.",
+        _short_of(lambda p: float(np.arcsin(p[1] / (np.hypot(p[0], p[1]) or np.nan)))),
+    ),
+    (
         "x and y exchanged",
         "np.arctan2 takes y first, then x.",
-        _alpha(_short_of(lambda p: float(np.arctan2(p[0], p[1])))),
+        _short_of(lambda p: float(np.arctan2(p[0], p[1]))),
     ),
-    Mistake(
+    (
         "table by signs, one cell wrong",
         "For x < 0 and y > 0 the angle is 180° \N{MINUS SIGN} arctan(y / |x|). With + 90° it is "
         "right on the diagonal only.",
-        _alpha(_short_of(_cells)),
+        _short_of(_cells),
     ),
-    Mistake(
-        "above the base alpha does not stay",
-        "At x = y = 0 every alpha will do, and arctan2(0, 0) happens to be 0. The joint has no "
-        "reason to turn: alpha = before.",
-        _alpha(lambda p, before: _near(_direction(p), before)),
+    (
+        "the turn for the angle",
+        "This is the turn from `before` on. Wanted is where joint 1 stands after it: before + "
+        "turn.",
+        lambda p, before: 0.0 if _on_axis(p) else _near(_direction(p) - before, 0),
     ),
-    Mistake(
+    ("joint 1 never turns", "alpha is `before`, wherever the point is.", lambda p, before: before),
+)
+
+
+def _gamma_2_by(rule: Callable[[Floats, float], float]) -> Levers:
+    return lambda point, h: (_gamma_1(h) + rule(point, h), _beta(h))
+
+
+def _beta_by(rule: Callable[[float, float, float], float]) -> Levers:
+    """Another beta from the right gamma and beta, and h."""
+    return lambda point, h: (
+        _gamma_1(h) + _gamma_2(point, h),
+        rule(_gamma_1(h) + _gamma_2(point, h), _beta(h), h),
+    )
+
+
+def _with_h(length: Callable[[Floats], float]) -> Levers:
+    return lambda point, h: _right_levers(point, length(point))
+
+
+EXCHANGED = "The angle at the base lies beside lever A: A² + h² \N{MINUS SIGN} B² over 2 A h."
+# name, sentence, (point, h) -> gamma, beta
+LEVERS: tuple[tuple[str, str, Levers], ...] = (
+    (
         "gamma without gamma 2",
         "gamma is counted from the horizon: the angle at the base of the triangle and the "
         "elevation of the point, arcsin(z / h).",
-        _levers(lambda p, h: (_gamma_1(h), _beta(h))),
+        _gamma_2_by(lambda point, h: 0.0),
     ),
-    Mistake(
+    (
         "gamma 2 alone",
         "This is the elevation of the point. Lever A stands above it by the triangle's angle "
         "gamma 1.",
-        _levers(lambda p, h: (_gamma_2(p, h), _beta(h))),
+        lambda p, h: (_gamma_2(p, h), _beta(h)),
     ),
-    Mistake(
+    (
         "the elbow below",
         "Wanted is the elbow above: gamma 1 is added to gamma 2.",
-        _levers(lambda p, h: (_gamma_2(p, h) - _gamma_1(h), _beta(h))),
+        lambda p, h: (_gamma_2(p, h) - _gamma_1(h), _beta(h)),
     ),
-    Mistake(
+    (
         "gamma 2 subtracted",
         "The elevation of the point is added: a higher point lifts the lever.",
-        _levers(lambda p, h: (_gamma_1(h) - _gamma_2(p, h), _beta(h))),
+        _gamma_2_by(lambda point, h: -_gamma_2(point, h)),
     ),
-    Mistake(
+    (
         "arctan(z / h) for arcsin(z / h)",
         "h is the slanted side of the triangle with z: its angle is arcsin(z / h), or arctan2 of z "
         "and the horizontal distance.",
-        _levers(lambda p, h: (_gamma_1(h) + float(np.arctan(p[2] / h)), _beta(h))),
+        _gamma_2_by(lambda p, h: float(np.arctan(p[2] / h))),
     ),
-    Mistake(
+    (
+        "arccos(z / h) for arcsin(z / h)",
+        "gamma is counted from the horizon, not from the vertical.",
+        _gamma_2_by(lambda p, h: float(np.arccos(p[2] / h))),
+    ),
+    (
         "x for the horizontal distance",
         "The arm's plane has turned by alpha: ahead is hypot(x, y), not x.",
-        _levers(lambda p, h: (_gamma_1(h) + float(np.arctan2(p[2], p[0])), _beta(h))),
+        _gamma_2_by(lambda p, h: float(np.arctan2(p[2], p[0]))),
     ),
-    Mistake(
+    (
+        "x for the horizontal distance",
+        "The arm's plane has turned by alpha: ahead is hypot(x, y), not x.",
+        _gamma_2_by(lambda p, h: float(np.arctan(p[2] / p[0])) if p[0] else np.pi / 2),
+    ),
+    (
         "the outer angle at the elbow",
         "beta is the angle inside the triangle: 180° for the stretched arm. The numerator is A² + "
         "B² \N{MINUS SIGN} h².",
-        _levers(lambda p, h: (_gamma_1(h) + _gamma_2(p, h), np.pi - _beta(h))),
+        _beta_by(lambda gamma, beta, h: np.pi - beta),
     ),
-    Mistake(
-        "A and B exchanged in gamma",
-        "The angle at the base lies beside lever A: A² + h² \N{MINUS SIGN} B² over 2 A h.",
-        _levers(
-            lambda p, h: (
-                float(np.arccos((B**2 - A**2 + h**2) / (2 * B * h))) + _gamma_2(p, h),
-                _beta(h),
-            )
-        ),
+    ("half of beta", "beta is half of what it should be.", _beta_by(lambda g, b, h: b / 2)),
+    (
+        "beta from the other side",
+        "beta is the angle inside the triangle, from 0 to 180°.",
+        _beta_by(lambda gamma, beta, h: -beta),
     ),
-    Mistake(
+    (
+        "beta from the other side",
+        "beta is the angle inside the triangle, from 0 to 180°.",
+        _beta_by(lambda gamma, beta, h: TURN - beta),
+    ),
+    (
+        "A B without the 2",
+        "The law of cosines has 2 A B below the line.",
+        _beta_by(lambda g, b, h: float(np.arccos((A**2 + B**2 - h**2) / (A * B)))),
+    ),
+    (
         "lever B against the horizon",
         "beta is the angle between the levers, not the one of lever B above the horizon.",
-        _levers(
-            lambda p, h: (
-                _gamma_1(h) + _gamma_2(p, h),
-                _gamma_1(h) + _gamma_2(p, h) + _beta(h) - np.pi,
-            )
+        _beta_by(lambda gamma, beta, h: gamma + beta - np.pi),
+    ),
+    (
+        "A and B exchanged in gamma",
+        EXCHANGED,
+        lambda p, h: (
+            float(np.arccos((B**2 - A**2 + h**2) / (2 * B * h))) + _gamma_2(p, h),
+            _beta(h),
         ),
     ),
-    Mistake(
+    (
+        "the sign of B² in gamma",
+        EXCHANGED,
+        lambda p, h: (
+            float(np.arccos((B**2 - A**2 + h**2) / (2 * A * h))) + _gamma_2(p, h),
+            _beta(h),
+        ),
+    ),
+    (
+        "gamma 1 from the angle at the gripper",
+        "The sine law gives one of two angles, and gamma 1 lies beside lever A, opposite to B.",
+        lambda p, h: (
+            float(np.arcsin(min(A * np.sin(_beta(h)) / h, 1))) + _gamma_2(p, h),
+            _beta(h),
+        ),
+    ),
+    (
         "beta and gamma in the wrong order",
         "The order is alpha, gamma, beta: from the base out.",
-        _levers(lambda p, h: (_beta(h), _gamma_1(h) + _gamma_2(p, h))),
+        lambda p, h: (_beta(h), _gamma_1(h) + _gamma_2(p, h)),
     ),
-    Mistake(
+    (
         "h without the height",
         "h is the distance in space: z belongs to it.",
         _with_h(lambda p: float(np.hypot(p[0], p[1])) or np.nan),
     ),
-    Mistake(
+    (
         "the root of h is missing",
         "h is the root of x² + y² + z².",
         _with_h(lambda p: float(p @ p)),
     ),
-    Mistake(
-        "the hole is not looked at",
-        "Nearer than A \N{MINUS SIGN} B to the base there is no posture either: NaN. A clipped "
-        "cosine gives the nearest posture, and nobody is told.",
-        _judged(0, A + B, None),
-    ),
-    Mistake(
-        "the cosines are clipped",
-        "A clipped cosine puts the gripper somewhere else, and nobody is told: out of reach the "
-        "answer is NaN.",
-        _judged(0, np.inf, None),
-    ),
-    Mistake(
-        "zeros instead of NaN",
-        "Zeros are a posture. Where there is none the answer is three NaN.",
-        _judged(0, np.inf, 0.0),
-    ),
-    Mistake(
-        "alpha is a number where there is no posture",
-        "Out of reach all three are NaN: an alpha beside two NaN is no posture.",
-        _half_nan,
-    ),
 )
+
+
+def _raised() -> Floats:
+    raise ValueError("out of reach")
+
+
+def _built(
+    alpha: Alpha = _right_alpha,
+    levers: Levers = _right_levers,
+    *,
+    stays: bool = True,
+    inner: Callable[[], Any] | None = lambda: np.full(3, np.nan),
+    outer: Callable[[], Any] | None = lambda: np.full(3, np.nan),
+) -> Program:
+    """A program of parts. What is returned nearer than A - B and farther than A + B; None: what the
+    formulas give there.
+    """
+    rule = _staying(alpha) if stays else alpha
+
+    def program(point: Floats, before: float) -> Any:
+        h = _height(point)
+        if inner is not None and h < A - B:
+            return inner()
+        if outer is not None and h > A + B:
+            return outer()
+        with np.errstate(all="ignore"):
+            return np.array([rule(point, before), *levers(point, h)])
+
+    return program
+
+
+LEFT = "alpha is a number where there is no posture"
+NOWHERE = "Out of reach all three are NaN: an alpha beside two NaN is no posture."
+AXIS = "above the base alpha does not stay"
+ABOVE = "At x = y = 0 every alpha will do: the joint has no reason to turn. alpha = before."
+HOLE = (
+    "Nearer than A \N{MINUS SIGN} B to the base there is no posture either: NaN. A clipped "
+    "cosine puts the gripper somewhere else, and nobody is told."
+)
+
+
+def _posture_mistakes() -> list[Mistake]:
+    """Every wrong alpha and every wrong gamma and beta, each also with what is left out beside it:
+    the axis, the reach.
+    """
+    zeros = lambda: np.zeros(3)  # noqa: E731
+    found = [
+        Mistake(AXIS, ABOVE, _built(stays=False)),
+        Mistake(LEFT, NOWHERE, _built(inner=None, outer=None)),
+        Mistake("the hole is not looked at", NOWHERE, _built(inner=None)),
+        Mistake("the hole is not looked at", HOLE, _built(levers=_clipped, inner=None)),
+        Mistake("the hole is not looked at", HOLE, _built(inner=zeros)),
+        Mistake("the far bound is not looked at", NOWHERE, _built(outer=None)),
+        Mistake("the cosines are clipped", HOLE, _built(levers=_clipped, inner=None, outer=None)),
+        Mistake(
+            "zeros instead of NaN",
+            "Zeros are a posture. Where there is none the answer is three NaN.",
+            _built(inner=zeros, outer=zeros),
+        ),
+        Mistake(
+            "an error instead of NaN",
+            "Where there is no posture the answer is three NaN; no error is raised.",
+            _built(inner=_raised, outer=_raised),
+        ),
+    ]
+    for name, says, alpha in ALPHAS:
+        found.append(Mistake(name, says, _built(alpha)))
+    for name, says, levers in LEVERS:
+        found.append(Mistake(name, says, _built(levers=levers)))
+    for name, says, alpha in ALPHAS:
+        found.append(Mistake(name, f"{says} {ABOVE}", _built(alpha, stays=False)))
+        found.append(Mistake(name, f"{says} {NOWHERE}", _built(alpha, inner=None, outer=None)))
+        loose = _built(alpha, stays=False, inner=None, outer=None)
+        found.append(Mistake(name, f"{says} {ABOVE} {NOWHERE}", loose))
+    for name, says, levers in LEVERS:
+        found.append(Mistake(name, f"{says} {ABOVE}", _built(levers=levers, stays=False)))
+        loose = _built(levers=levers, inner=None, outer=None)
+        found.append(Mistake(name, f"{says} {NOWHERE}", loose))
+    found.append(Mistake(AXIS, f"{ABOVE} {NOWHERE}", _built(stays=False, inner=None, outer=None)))
+    return found
+
+
+def _told_apart() -> tuple[Mistake, ...]:
+    """Of mistakes that no case tells apart, or from the right program, the first."""
+    cases = _posture_cases(np.random.default_rng(140))
+
+    def answers(program: Program) -> tuple[str, ...]:
+        found = []
+        for point, before in cases:
+            try:
+                found.append(str((np.round(program(point, before), 5) + 0.0).tolist()))
+            except ValueError:
+                found.append("raises")
+        return tuple(found)
+
+    seen = {answers(lambda point, before: _next_posture(Tools(), point, before))}
+    kept = []
+    for mistake in _posture_mistakes():
+        told = answers(mistake.program)
+        if told not in seen:
+            seen.add(told)
+            kept.append(mistake)
+    return tuple(kept)
+
+
+POSTURE_MISTAKES = _told_apart()
 
 
 # --- 2: gears and frequencies ---------------------------------------------------------------------
@@ -899,7 +1045,7 @@ def _counting_facts() -> dict[str, float]:
         at += float(shortest_turn(at * deg, to * deg)) / deg
     one_sided = 170.0
     for to in (there, then):
-        one_sided += _one_sided((to - one_sided) * deg) / deg
+        one_sided += _by_size((to - one_sided) * deg) / deg
     return {"right": at, "back": then, "turns": at - 170, "one": one_sided}
 
 
