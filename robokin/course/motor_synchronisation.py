@@ -1266,7 +1266,7 @@ def _iron_view() -> Any:
         ax.plot(away, np.sin(factor * away * deg), dash, color=color, lw=2.2, label=name)
     ax.axvline(90, color="black", lw=1, ls=":")
     ax.axhline(0, color="0.7", lw=0.8, zorder=0)
-    ax.legend(fontsize=9, loc="upper left")
+    ax.legend(fontsize=9, loc="center left", bbox_to_anchor=(1, 0.5))
     ax.set(
         xlabel="field ahead of the rotor, °",
         ylabel="torque, share of the greatest",
@@ -1432,7 +1432,7 @@ PREDICTIONS = {
     "p3": Prediction(
         question="Joint 1 gets 10 pulses per degree, joints 2 and 3 get 40. Motors can only stand "
         "on whole pulses, so the gripper may miss its point by a little. You may double one gear. "
-        "Which one takes most off what it can miss at `start`?",
+        "Which one takes most off what it can miss at the start of our move?",
         options=(
             Option(
                 "Gear 1, of the turn about the vertical.",
