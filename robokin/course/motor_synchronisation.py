@@ -548,6 +548,12 @@ HOLE = (
 )
 
 
+RAISES = (
+    "Past a border the arccosine has no value, and math.acos raises an error. Look at h first, and "
+    "return three NaN."
+)
+
+
 def _posture_mistakes() -> list[Mistake]:
     """Every wrong alpha and every wrong gamma and beta, each also with what is left out beside it:
     the axis, the reach.
@@ -571,6 +577,8 @@ def _posture_mistakes() -> list[Mistake]:
             "Where there is no posture the answer is three NaN; no error is raised.",
             _built(inner=_raised, outer=_raised),
         ),
+        Mistake("the hole is not looked at", RAISES, _built(inner=_raised)),
+        Mistake("the far bound is not looked at", RAISES, _built(outer=_raised)),
     ]
     for name, says, alpha in ALPHAS:
         found.append(Mistake(name, says, _built(alpha)))
@@ -581,10 +589,18 @@ def _posture_mistakes() -> list[Mistake]:
         found.append(Mistake(name, f"{says} {NOWHERE}", _built(alpha, inner=None, outer=None)))
         loose = _built(alpha, stays=False, inner=None, outer=None)
         found.append(Mistake(name, f"{says} {ABOVE} {NOWHERE}", loose))
+        raising = _built(alpha, inner=_raised, outer=_raised)
+        found.append(Mistake(name, f"{says} {RAISES}", raising))
+        raising = _built(alpha, stays=False, inner=_raised, outer=_raised)
+        found.append(Mistake(name, f"{says} {ABOVE} {RAISES}", raising))
     for name, says, levers in LEVERS:
         found.append(Mistake(name, f"{says} {ABOVE}", _built(levers=levers, stays=False)))
         loose = _built(levers=levers, inner=None, outer=None)
         found.append(Mistake(name, f"{says} {NOWHERE}", loose))
+        raising = _built(levers=levers, inner=_raised, outer=_raised)
+        found.append(Mistake(name, f"{says} {RAISES}", raising))
+    raising = _built(stays=False, inner=_raised, outer=_raised)
+    found.append(Mistake(AXIS, f"{ABOVE} {RAISES}", raising))
     found.append(Mistake(AXIS, f"{ABOVE} {NOWHERE}", _built(stays=False, inner=None, outer=None)))
     return found
 
