@@ -271,6 +271,17 @@ ALPHAS: tuple[tuple[str, str, Alpha], ...] = (
         lambda point, before: _direction(point) % TURN,
     ),
     (
+        "alpha from 0° to 360°",
+        "alpha is put into 0° to 360°. Wanted is the value nearest to `before`.",
+        lambda point, before: (before if _on_axis(point) else _direction(point)) % TURN,
+    ),
+    (
+        "alpha back in ±180°",
+        "alpha is put back into ±180°. Wanted is the value nearest to `before`, above the base, "
+        "too: whole turns count.",
+        lambda point, before: _near(before if _on_axis(point) else _direction(point), 0),
+    ),
+    (
         "the turn for the angle",
         "This is the turn from `before` on. Wanted is where joint 1 stands after it: before + "
         "turn.",

@@ -1,0 +1,131 @@
+"""The exercises of lab 11: right answers in unlike styles hold, wrong ones are told by name."""
+
+import math
+
+import numpy as np
+import pytest
+
+from robokin import deg, loader_arm
+from robokin.course import check, solution, variant
+from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
+
+A, B = 0.45, 0.3
+LOADER = loader_arm(A, B)
+TURN = 2 * math.pi
+
+
+def short(d):
+    return d - TURN * round(d / TURN)
+
+
+def posture(alpha, guard=True, beta=lambda b: b):
+    """A program with an alpha of its own; without a guard math.acos raises."""
+
+    def program(point, before):
+        x, y, z = map(float, point)
+        h = math.sqrt(x * x + y * y + z * z)
+        if guard and not A - B <= h <= A + B:
+            return [math.nan] * 3
+        inside = math.acos((A * A + B * B - h * h) / (2 * A * B))
+        gamma = math.acos((A * A + h * h - B * B) / (2 * A * h)) + math.asin(z / h)
+        return [alpha(x, y, before), gamma, beta(inside)]
+
+    return program
+
+
+def right(x, y, before):
+    return before if x == y == 0 else before + short(math.atan2(y, x) - before)
+
+
+def by_loops(x, y, before):
+    alpha = before if x == y == 0 else math.atan2(y, x)
+    while alpha - before > math.pi:
+        alpha -= TURN
+    while alpha - before < -math.pi:
+        alpha += TURN
+    return alpha
+
+
+def by_package(point, before):
+    q = LOADER.ik(point)[LOADER.branch(1, -1)]
+    if np.isnan(q).any():
+        return np.nan
+    on_axis = not (point[0] or point[1])
+    alpha = before if on_axis else before + shortest_turn(before, q[0])
+    return [[alpha, q[1] % TURN, abs(q[2])]]
+
+
+@pytest.mark.parametrize("answer", [posture(right), posture(by_loops), by_package])
+def test_a_right_posture_holds_however_it_is_written(answer):
+    assert check("motor_synchronisation.1", answer).holds
+
+
+@pytest.mark.parametrize(
+    ("answer", "name"),
+    [
+        (posture(right, guard=False), "an error instead of NaN"),
+        (posture(lambda x, y, b: math.atan2(y, x)), "alpha does not go on from before"),
+        (posture(lambda x, y, b: b + short(math.atan2(y, x) - b)), "above the base"),
+        (posture(lambda x, y, b: right(x, y, b) % TURN), "alpha from 0° to 360°"),
+        (posture(lambda x, y, b: 0 if x == y == 0 else right(x, y, b) - b), "the turn for"),
+        (posture(right, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
+        (posture(right, guard=False, beta=lambda b: math.pi - b), "the outer angle at the elbow"),
+        (lambda p, b: np.degrees(posture(right)(p, b)), "degrees for radians"),
+    ],
+)
+def test_a_wrong_posture_is_named(answer, name):
+    verdict = check("motor_synchronisation.1", answer)
+    assert not verdict.holds and name in verdict.mistake
+
+
+def move(who):
+    own = variant("motor_synchronisation", who)
+    ends = np.reshape([own[f"{end}_{x}"] for end in ("start", "goal") for x in "xyz"], (2, 3))
+    return own, station_postures(LOADER, ends), math.ceil((A + B) * 0.9 * deg / own["miss"] - 1e-9)
+
+
+def pulses(q, gears):
+    return abs(np.diff(counts(q, np.array(gears) / 1.8), axis=0)[0])
+
+
+@pytest.mark.parametrize("who", [f"student {k}" for k in range(30)])
+def test_every_name_has_a_move_that_can_be_driven(who):
+    own, q, gear = move(who)
+    for gears in ([gear] * 3, [gear, gear + 1, gear + 2]):
+        drive = {"gears": gears, "frequencies": list(frequencies(pulses(q, gears), own["most"]))}
+        assert check("motor_synchronisation.2", drive, who=who).holds
+    alpha = (q[:, 0] + np.pi) % TURN - np.pi
+    assert abs(np.diff(alpha)[0]) > np.pi, "the move passes 180°"
+
+
+def test_wrong_drives_are_named():
+    own, q, gear = move("Ada")
+    gears, most = [gear] * 3, own["most"]
+    n = pulses(q, gears)
+    turns = abs(np.diff(q, axis=0)[0])
+    wrong = {
+        "one frequency for all": (gears, np.full(3, most)),
+        "equal products": (gears, n.min() / n * most),
+        "above the limit": (gears, frequencies(n, 1.2 * most)),
+        "slower than the limit asks": (gears, frequencies(n, 0.5 * most)),
+        "geared too high": ([9 * gear] * 3, frequencies(n, most)),
+        "too coarse": ([gear - 1] * 3, frequencies(n, most)),
+        "the gears left out": ([gear, gear + 5, gear + 8], turns / turns.max() * most),
+    }
+    for name, (i, omega) in wrong.items():
+        drive = {"gears": i, "frequencies": omega}
+        assert check("motor_synchronisation.2", drive, who="Ada").mistake == name
+
+
+def test_a_test_of_one_direction_or_one_table_is_told_what_it_misses():
+    space = {}
+    exec(solution("motor_synchronisation.3"), space)
+    whole = space["windings_are_right"]
+    forward = check(
+        "motor_synchronisation.3", lambda w: whole(lambda drive, signs: w(drive, abs(signs)))
+    )
+    assert not forward.holds
+    only_wave = check(
+        "motor_synchronisation.3", lambda w: len(np.asarray(w("wave", [1, 1, -1]))) == 4
+    )
+    assert only_wave.mistake.startswith("accepts: ")
