@@ -16,6 +16,7 @@ LABS = (
     "puma560_branches",
     "visit_and_collect",
     "three_levers",
+    "obstacle_avoidance",
 )
 
 
