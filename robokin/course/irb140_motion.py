@@ -1600,8 +1600,8 @@ PREDICTIONS = {
                 "place, {lin_share:.2f} % of its limit at a duration of 20 s; in PTP it keeps one "
                 "speed, and no joint is above {ptp_share:.2f} %. So it is whenever the end values "
                 "are equal: each joint makes the same turn in the same time, so its mean speed is "
-                "the same. In PTP the mean is the greatest, too, and no motion has its greatest speed "
-                "below its mean: PTP never takes longer.",
+                "the same. In PTP the mean is the greatest, too, and no motion has its greatest "
+                "speed below its mean: PTP never takes longer.",
             ),
             Option(
                 "{lin_time:.2f} s, too: the joints start and end at the same values.",
