@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arms.scara import ScaraPose
 from ..transform import Transform
 
 SECONDS = 4.0  # for all cases of a check together
@@ -170,6 +171,8 @@ def equal(a: Any, b: Any) -> bool:
             and a.shape == b.shape
             and np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-9)
         )
+    if isinstance(a, ScaraPose) and isinstance(b, ScaraPose):
+        return equal(a.position, b.position) and equal(a.angle, b.angle)
     with contextlib.suppress(Exception):
         one, two = np.asarray(a), np.asarray(b)
         if one.dtype != object and two.dtype != object:

@@ -11,9 +11,12 @@ LABS = (
     "irb140_kinematics",
     "irb140_motion",
     "scara_kinematics",
+    "scara_motion",
     "spherical_wrist",
     "puma560_branches",
     "visit_and_collect",
+    "three_levers",
+    "obstacle_avoidance",
 )
 
 
