@@ -19,7 +19,7 @@ import numpy as np
 from ..arms.scara import ScaraPose
 from ..transform import Transform
 
-SECONDS = 4.0  # for all cases of a check together
+SECONDS = 4.0  # for all cases of a check together; of a test, for each program
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
@@ -68,8 +68,12 @@ def is_stub(answer: Any) -> bool:
     return kinds <= QUIET and given[-1] in (None, ...)
 
 
-def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
-    """What `answer` makes of every case, up to the first one that does not end in time."""
+def run(
+    answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]], each: bool = False
+) -> list[Outcome]:
+    """What `answer` makes of every case, up to the first one that does not end in time: `SECONDS`
+    for all of them, or for `each`.
+    """
     outcomes: list[Outcome] = []
     watch, streams = Watch(), (sys.stdout, sys.stderr)
     threading.Thread(target=watch.run, daemon=True).start()
@@ -77,6 +81,8 @@ def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Ou
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             for case in cases:
+                if each:
+                    watch.begin()
                 outcomes.append(_call(answer, case))
                 if outcomes[-1] is NEVER:
                     break
@@ -145,12 +151,16 @@ class Watch:
 
     def __init__(self) -> None:
         self.thread, self.over, self.gone = threading.get_ident(), False, False
+        self.begin()
+
+    def begin(self) -> None:
+        """The time begins anew."""
+        self.end = time.monotonic() + SECONDS
 
     def run(self) -> None:
         """In a thread of its own."""
-        end = time.monotonic() + SECONDS
         while not self.over:
-            if time.monotonic() > end:
+            if time.monotonic() > self.end:
                 _raise_in(self.thread, TimeUp)
             time.sleep(0.01)
         self.gone = True

@@ -1116,7 +1116,7 @@ def _posture(pose: Transform) -> Floats:
 
 @cache
 def _along() -> Floats:
-    """The joints on the straight line of section 1."""
+    """The joints on the straight line of section 2."""
     return follow(IRB140, IRB140.ik(lin(LEFT, RIGHT, S)), ROW)
 
 
@@ -1144,7 +1144,7 @@ def _lin_view() -> Any:
 
 
 def _joint_move() -> Floats:
-    """PTP between the poses of section 1."""
+    """PTP between the poses of section 2."""
     return ptp(_posture(LEFT), _posture(RIGHT), S)
 
 
@@ -1228,13 +1228,21 @@ def _law_view() -> Any:
     return fig
 
 
+def _clock(step: float) -> Floats:
+    return np.linspace(0, DURATION, round(DURATION / step) + 1)
+
+
+def _sharp(step: float) -> Floats:
+    """Joint 3 of two straight motions that meet, a sample every `step` seconds: (samples, 1)."""
+    rows = IRB140.ik(blend(START, VIA, GOAL, 0.0, _clock(step) / DURATION))
+    return follow(IRB140, rows, ROW)[:, 2:3]
+
+
 def _corner_change(step: float) -> tuple[float, float]:
     """The greatest change of joint 3's speed from one interval to the next, rad/s, and what it
     gives divided by the step, where two straight motions meet.
     """
-    clock = np.linspace(0, DURATION, round(DURATION / step) + 1)
-    rows = IRB140.ik(blend(START, VIA, GOAL, 0.0, clock / DURATION))
-    v = np.diff(follow(IRB140, rows, ROW)[:, 2]) / step
+    v = np.diff(_sharp(step)[:, 0]) / step
     change = float(abs(np.diff(v)).max())
     return change, change / step
 
@@ -1256,13 +1264,15 @@ def _step_view() -> str:
     lines = ["Joint 3 at t = 10 s, by differences of samples:"]
     for step in (0.02, 0.01, 0.005):
         change, a = _corner_change(step)
+        twice = abs(differentiate(_sharp(step), _clock(step), 2)[:, 0]).max()
         lines.append(
-            f"step {step:g} s: the speed changes by {change:.3f} rad/s, divided by the "
-            f"step {a:.1f} rad/s²"
+            f"step {step:g} s: the speed changes by {change:.3f} rad/s; second differences "
+            f"{a:.1f} rad/s²; differentiate(q, t, 2) {twice:.1f} rad/s²"
         )
     lines.append(
-        "The change of the speed stays, the quotient does not: the first belongs to the "
-        "robot's motion, the second to the method."
+        "The change of the speed stays, the quotients do not: the first belongs to the robot's "
+        "motion, the others to the method. (differentiate spreads the change over two steps: half "
+        "the number.)"
     )
     return "\n".join(lines)
 
@@ -1340,7 +1350,7 @@ def _cost_view() -> str:
     return "\n".join(lines)
 
 
-def _document_misses(b: float) -> tuple[float, float]:
+def _too_much_misses(b: float) -> tuple[float, float]:
     """How far from start and goal the formula of the corner begins and ends, mm."""
     a, c = START.lerp(VIA, 1 - 2 * b), VIA.lerp(GOAL, 2 * b)
 
@@ -1353,28 +1363,28 @@ def _document_misses(b: float) -> tuple[float, float]:
 
 
 @cache
-def _document_facts() -> dict[str, Any]:
+def _too_much_facts() -> dict[str, Any]:
     b = 0.55
-    begins, ends = _document_misses(b)
+    begins, ends = _too_much_misses(b)
     before = _length(START.lerp(VIA, 1 - 2 * b).translation - P0) / mm
     return {"x": (b - 0.5) / (2 * b), "before": before, "begins": begins, "ends": ends}
 
 
-def _document_view() -> str:
+def _too_much_view() -> str:
     lines = ["Where the motion begins and ends, from start and goal:"]
     for b in (0.5, 0.51, 0.55, 0.6):
-        begins, ends = _document_misses(b)
+        begins, ends = _too_much_misses(b)
         lines.append(f"b = {b:.2f}: {begins:.2f} mm and {ends:.2f} mm")
     return "\n".join(lines)
 
 
-def _document_right(facts: Mapping[str, Any]) -> int:
+def _too_much_right(facts: Mapping[str, Any]) -> int:
     guesses = [0.0, facts["before"], facts["begins"]]
     return int(np.argmin([abs(guess - facts["begins"]) for guess in guesses]))
 
 
 def _exact_speed(seconds: float) -> Floats:
-    """Joint speeds on the line of section 1, by the Jacobian, rad/s."""
+    """Joint speeds on the line of section 2, by the Jacobian, rad/s."""
     angle, axis = (RIGHT.rotation @ LEFT.rotation.inverse()).as_angle_axis()
     way = RIGHT.translation - LEFT.translation
     velocity = np.concatenate([way, angle * axis]) / DURATION
@@ -1537,7 +1547,8 @@ EXERCISES = {
     ),
 }
 
-# Every objective has its predictions: 1: p1, p2, p3; 2: p6, p7, p8; 3: p5, p9, p10 (and p4).
+# Every objective has its predictions: 1: p1, p2, p3 (and p4); 2: p6, p7; 3: p5, p8. p9 (of
+# objective 2) and p10 (of 3) stand in "Deeper".
 PREDICTIONS = {
     "p1": Prediction(
         question="The tool moves along a straight line at a constant {tool:.1f} mm/s and turns "
@@ -1587,8 +1598,10 @@ PREDICTIONS = {
                 "{ptp_time:.2f} s: every joint keeps one speed.",
                 "On a straight line joint {lin_joint} is slow for most of the time and fast at one "
                 "place, {lin_share:.2f} % of its limit at a duration of 20 s; in PTP it keeps one "
-                "speed, and no joint is above {ptp_share:.2f} %. (Only speed limits count here, "
-                "not torques.)",
+                "speed, and no joint is above {ptp_share:.2f} %. So it is whenever the end values "
+                "are equal: each joint makes the same turn in the same time, so its mean speed is "
+                "the same. In PTP the mean is the greatest, too, and no motion has its greatest "
+                "speed below its mean: PTP never takes longer.",
             ),
             Option(
                 "{lin_time:.2f} s, too: the joints start and end at the same values.",
@@ -1651,8 +1664,8 @@ PREDICTIONS = {
         within=0.02,
     ),
     "p4": Prediction(
-        question="The quintic law starts and stops softly and covers the same way in the same time "
-        "as the linear law. Its greatest speed, in percent of the linear law's?",
+        question="The quintic law, s = 10x³ − 15x⁴ + 6x⁵ with x = t/T, covers the same way in the "
+        "same time as the linear law, s = x. Its greatest speed, in percent of the linear law's?",
         options=(
             Option(
                 "{quintic:.1f}",
@@ -1704,9 +1717,8 @@ PREDICTIONS = {
         within=0.02,
     ),
     "p5": Prediction(
-        question="Differences of samples 0.02 s apart give joint 3 an \u201cacceleration\u201d of "
-        "{same:.1f} rad/s² at the corner. We take samples 0.01 s apart. What do the same "
-        "differences give now?",
+        question="We sample joint 3 every h = 0.02 s. Second differences, (q(t + h) − 2q(t) + "
+        "q(t − h)) / h², give {same:.1f} rad/s² at via. What do they give there with h = 0.01 s?",
         options=(
             Option(
                 "{half:.1f} rad/s²: finer samples see less of a change.",
@@ -1735,8 +1747,7 @@ PREDICTIONS = {
                 "It does, and the second difference of q shrinks with the step: jump times step. "
                 "One of the two steps remains.",
                 "the step squared",
-                "Only noise that does not shrink at all grows with the square: the rounding of "
-                "section 9.",
+                "Of q = t² the second difference is 2h²: divided by h² it does not depend on h.",
             ),
         ),
         facts=_step_facts,
@@ -1818,6 +1829,43 @@ PREDICTIONS = {
         view=_cost_view,
     ),
     "p8": Prediction(
+        question="We want the acceleration of the joints on the line of section 2, from samples: "
+        "(q(t + h) − 2q(t) + q(t − h)) / h², in ordinary double precision (16 digits). Which step "
+        "h gives the most exact result?",
+        options=(
+            Option(
+                "0.1 s: a large step averages the rounding out.",
+                "Rounding is small here already; the curve bends within 0.2 s, and that error is "
+                "{large} rad/s².",
+                "large steps taken for exact ones",
+                "With h = 10 s three samples are the whole motion.",
+            ),
+            Option(
+                "About 0.001 s: neither large nor small.",
+                "There the error is {middle} rad/s²: truncation falls with h², rounding rises "
+                "with 1/h², and they meet. At 0.1 s it is {large}, at 10⁻⁷ s {tiny}. (The "
+                "grey line is at h = 0.01 s: truncation decides there.)",
+            ),
+            Option(
+                "10⁻⁷ s: the smaller the step, the better.",
+                "The rounding of the last digits is divided by h²: at 10⁻⁷ s the error is "
+                "{tiny} rad/s², more than the acceleration itself, {size} rad/s².",
+                "smaller is always better",
+                "With h = 10⁻⁹ s q(t + h) and q(t) differ in their last digits only.",
+            ),
+            Option(
+                "Any step below 0.001 s: the error has become as small as it can, and stays.",
+                "It does not stay: rounding is divided by h², a hundred times more for a tenth of "
+                "the step.",
+                "it converges and stays",
+                "At 10⁻⁷ s the error is {tiny} rad/s², at 0.001 s {middle}.",
+            ),
+        ),
+        facts=_best_facts,
+        right=_best_right,
+        view=_best_view,
+    ),
+    "p9": Prediction(
         question="With b = 0.55 the first control pose A lies {before:.1f} mm before the start, on "
         "the line from via to start and beyond. Where does the motion begin at s = 0?",
         options=(
@@ -1847,45 +1895,9 @@ PREDICTIONS = {
                 "start.lerp(via, -1) is a pose as far before the start as via is behind it.",
             ),
         ),
-        facts=_document_facts,
-        right=_document_right,
-        view=_document_view,
-    ),
-    "p9": Prediction(
-        question="We differentiate the joint values of section 1 twice, with the formula above, in "
-        "ordinary double precision (16 digits). Which step gives the most exact acceleration?",
-        options=(
-            Option(
-                "0.1 s: a large step averages the rounding out.",
-                "Rounding is small here already; the curve bends within 0.2 s, and that error is "
-                "{large} rad/s².",
-                "large steps taken for exact ones",
-                "With h = 10 s three samples are the whole motion.",
-            ),
-            Option(
-                "About 0.001 s: neither large nor small.",
-                "There the error is {middle} rad/s²: truncation falls with h², rounding rises "
-                "with 1/h², and they meet. At 0.1 s it is {large}, at 10⁻⁷ s {tiny}. (The "
-                "grey line is the document's step, 0.01 s: truncation decides there.)",
-            ),
-            Option(
-                "10⁻⁷ s: the smaller the step, the better.",
-                "The rounding of the last digits is divided by h²: at 10⁻⁷ s the error is "
-                "{tiny} rad/s², more than the acceleration itself, {size} rad/s².",
-                "smaller is always better",
-                "With h = 10⁻⁹ s q(t + h) and q(t) differ in their last digits only.",
-            ),
-            Option(
-                "Any step below 0.001 s: the error has become as small as it can, and stays.",
-                "It does not stay: rounding is divided by h², a hundred times more for a tenth of "
-                "the step.",
-                "it converges and stays",
-                "At 10⁻⁷ s the error is {tiny} rad/s², at 0.001 s {middle}.",
-            ),
-        ),
-        facts=_best_facts,
-        right=_best_right,
-        view=_best_view,
+        facts=_too_much_facts,
+        right=_too_much_right,
+        view=_too_much_view,
     ),
     "p10": Prediction(
         question="q holds {count} samples of a motion, as ik gives them. Samples {first} to "

@@ -131,6 +131,14 @@ def _by(inside: Program) -> Program:
     return program
 
 
+def _by_atan(q: Floats) -> Floats:
+    """Joints 1 to 3 from the direction of the tool less the angle inside, that by a quotient."""
+    x, y = _place(q)[:2]
+    inside = np.arctan(L2 * np.sin(q[1]) / (L1 + L2 * np.cos(q[1])))
+    first = np.arctan2(y, x) + inside
+    return np.array([first, -q[1], q[:3].sum() - first + q[1]])
+
+
 def _distance(q2: float) -> float:
     return float(np.sqrt(L1**2 + L2**2 + 2 * L1 * L2 * np.cos(q2)))
 
@@ -264,6 +272,12 @@ OTHER_MISTAKES = (
         "arcsine for atan2",
         "An arcsine never exceeds 90°, and this angle does near joint 1. Use arctan2.",
         _by(lambda b: np.arcsin(np.clip(L2 * np.sin(b) / _distance(b), -1, 1))),
+    ),
+    Mistake(
+        "atan for atan2 in the triangle",
+        "Beyond q2 = 143° the tool is behind joint 2's foot on the first lever, and a quotient "
+        "cannot tell: half a turn is lost. Use arctan2.",
+        lambda q: np.array([*_by_atan(q), q[3]]),
     ),
     Mistake(
         "arccosine without the sign",

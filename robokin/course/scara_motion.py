@@ -201,6 +201,21 @@ def _among(cost: Callable[[float, float], float]) -> Callable[[Floats, Floats, f
     return choose
 
 
+def _tried_else_as_given(q0: Floats, q: Floats, angle: float) -> float:
+    """One turn up and down, and where none of them suits, the angle as it is given."""
+    ends = [float(angle + TURN * k - q[0] - q[1]) for k in (-1, 0, 1)]
+    inside = [x for x in ends if LOW3 <= x <= HIGH3]
+    now = float(q0[:3].sum() - q[0] - q[1])
+    return min(inside, key=lambda x: abs(x - now)) if inside else ends[1]
+
+
+def _nearest_two(q0: Floats, position: Floats, angle: float) -> Floats:
+    """The row whose first two joints are nearest; the rest is right."""
+    rows = SCARA.ik(ScaraPose(position, angle))
+    q = rows[np.nanargmin(abs(rows[:, :2] - q0[:2]).sum(axis=-1))]
+    return _with(q, _into(_turned(q0, q, angle)))
+
+
 def _any_elbow(q0: Floats, position: Floats, angle: float) -> Floats:
     found: Floats = nearest(SCARA, SCARA.ik(ScaraPose(position, angle)), q0)
     return found
@@ -330,6 +345,18 @@ TURN_MISTAKES = (
         "Only one whole turn up and down is tried. The tool's angle and joint 3 go farther: take "
         "more of them.",
         _third(_tried((0, 1, -1), True)),
+    ),
+    Mistake(
+        "only one turn up or down, else the angle as it is given",
+        "Only one whole turn up and down is tried. The tool's angle and joint 3 go farther: take "
+        "more of them.",
+        _third(_tried_else_as_given),
+    ),
+    Mistake(
+        "the nearest two joints choose the elbow",
+        "The row is chosen by joints 1 and 2: now and then that is the other elbow, and the arm "
+        "would have to pass the stretched posture. Choose the row by the sign of q2.",
+        _nearest_two,
     ),
     Mistake(
         "only one turn, without the limits",
@@ -647,6 +674,16 @@ TEST_MISTAKES = (
         "It looks at the samples that are numbers, and forgets the others. Your test needs a "
         "sample out of reach, a row of NaN.",
         lambda q: _inside(q[np.isfinite(q).all(axis=1)], LOW, HIGH),
+    ),
+    Mistake(
+        "single NaN samples are left out",
+        "It takes the least and the greatest of the values that are numbers. Your test needs one "
+        "row of NaN in a motion that is good else.",
+        lambda q: bool(
+            np.isfinite(q).any()
+            and (np.fmin.reduce(q) >= LOW).all()
+            and (np.fmax.reduce(q) <= HIGH).all()
+        ),
     ),
     Mistake(
         "any joint for all joints",
