@@ -12,6 +12,7 @@ LABS = (
     "irb140_motion",
     "spherical_wrist",
     "puma560_branches",
+    "two_link_code_generation",
 )
 
 
