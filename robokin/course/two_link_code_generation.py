@@ -9,6 +9,7 @@ import importlib
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -36,6 +37,30 @@ OBJECTIVES = (
 
 ROUNDING = 1e-9  # of the reach
 Case: TypeAlias = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Place:
+    """An answer: a point, and whether the case has one. Where it has none, all points are one
+    mistake.
+    """
+
+    x: float
+    y: float
+    exists: bool
+
+    @property
+    def found(self) -> bool:
+        """Whether it is a point."""
+        return not math.isnan(self.x)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        return np.array([self.x, self.y])
+
+    def __repr__(self) -> str:
+        return words(np.array(self))
+
+
 # a formula: case -> (what stands under the root, root -> point)
 Formula: TypeAlias = Callable[..., tuple[float, Callable[[float], Floats]]]
 Rim: TypeAlias = Callable[[float, float, float, float], float]
@@ -43,7 +68,8 @@ Rim: TypeAlias = Callable[[float, float, float, float], float]
 
 def _divided(a: float, b: float) -> float:
     """As NumPy divides: inf and NaN, no error."""
-    return float(np.divide(a, b))
+    with np.errstate(all="ignore"):
+        return float(np.divide(a, b))
 
 
 def _shares(d2: float, l1: float, l2: float) -> tuple[float, float]:
@@ -64,15 +90,11 @@ def _safe(h2: float, d: float, l1: float, l2: float) -> float:
 
 
 def _bare(h2: float, d: float, l1: float, l2: float) -> float:
-    return float(np.sqrt(h2))
+    return math.nan if not h2 >= 0 else math.sqrt(h2)
 
 
 def _clipped(h2: float, d: float, l1: float, l2: float) -> float:
     return float(np.sqrt(np.maximum(h2, 0.0)))
-
-
-def _unsigned(h2: float, d: float, l1: float, l2: float) -> float:
-    return float(np.sqrt(abs(h2)))
 
 
 def _raising(h2: float, d: float, l1: float, l2: float) -> float:
@@ -88,13 +110,23 @@ def _inner(h2: float, d: float, l1: float, l2: float) -> float:
     return math.nan if near else _clipped(h2, d, l1, l2)
 
 
+def _outer_strict(h2: float, d: float, l1: float, l2: float) -> float:
+    return math.nan if d > l1 + l2 else _clipped(h2, d, l1, l2)
+
+
+def _inner_strict(h2: float, d: float, l1: float, l2: float) -> float:
+    return math.nan if d < abs(l1 - l2) else _clipped(h2, d, l1, l2)
+
+
 def _strict(h2: float, d: float, l1: float, l2: float) -> float:
     return _clipped(h2, d, l1, l2) if abs(l1 - l2) <= d <= l1 + l2 else math.nan
 
 
-def _without_rim(h2: float, d: float, l1: float, l2: float) -> float:
-    near = abs(d - (l1 + l2)) < 1e-9 or abs(d - abs(l1 - l2)) < 1e-9
-    return math.nan if near else _safe(h2, d, l1, l2)
+def _refusing(h2: float, d: float, l1: float, l2: float) -> float:
+    root = _safe(h2, d, l1, l2)
+    if math.isnan(root):
+        raise ValueError("out of reach")
+    return root
 
 
 def _margin(h2: float, d: float, l1: float, l2: float) -> float:
@@ -139,13 +171,13 @@ def _elbow_cases(rng: np.random.Generator) -> list[Case]:
         case([0, 0], [0.2, 0.4], 0.6, 1.0, +1),  # the line of the elbows is behind the base
         case([0, 0], [1.2, 0.9], 0.8, 0.5, +1),  # beyond the outer edge
         case([0, 0], [0.1, 0.1], 1.0, 0.7, -1),  # inside the inner one
-        case([0.3, 0.4], [0.3, 0.4], 0.9, 0.4, +1),  # on the base
         case([0.5, -0.2], [-1.4, 0.9], 0.9, 0.9, -1),
     ]
-    for turn in (0.0, 0.7, 1.1, 2.3, -0.4, -2.9):  # stretched, and folded back
+    more, less = 1.7 * (1 + 1e-10), 0.3 * (1 - 1e-10)  # on the rim, and past it by rounding alone
+    for turn in (0.0, 0.7, 2.3, -2.9):  # stretched, and folded back
         way = np.array([np.cos(turn), np.sin(turn)])
-        cases.append(case([0.1, 0.2], np.array([0.1, 0.2]) + 1.7 * way, 1.0, 0.7, +1))
-        cases.append(case([0, 0], 0.3 * way, 1.0, 0.7, -1))
+        cases.append(case([0.1, 0.2], np.array([0.1, 0.2]) + more * way, 1.0, 0.7, +1))
+        cases.append(case([0, 0], less * way, 1.0, 0.7, -1))
     cases.append(case([0, 0], [1.699, 0.0], 1.0, 0.7, +1))  # 1 mm inside, 2 mm outside
     cases.append(case([0, 0], [0.0, 1.702], 1.0, 0.7, +1))
     cases.append(case([0, 0], [0.298, 0.0], 1.0, 0.7, +1))
@@ -159,46 +191,60 @@ def _elbow_cases(rng: np.random.Generator) -> list[Case]:
     return cases
 
 
-def _point(result: Any, case: Case) -> Floats:
+def _exists(case: Case) -> bool:
+    base, tip, l1, l2, _ = case
+    d, slack = float(np.hypot(*(tip - base))), ROUNDING * (l1 + l2)
+    return bool(abs(l1 - l2) - slack <= d <= l1 + l2 + slack)
+
+
+def _point(result: Any, case: Case) -> Place:
     wanted = "wanted one point [x, y], with NaN twice where there is none"
     try:
         values = np.squeeze(np.asarray(result, dtype=float))
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.shape == () and np.isnan(values):
-        return np.array([np.nan, np.nan])
+        values = np.array([np.nan, np.nan])
     if values.shape == (3,) and values[2] == 0:
         values = values[:2]
     if values.shape != (2,):
         raise ValueError(f"{wanted}, got {words(result)}")
-    return values
+    if np.isnan(values).any():
+        values = np.array([np.nan, np.nan])
+    return Place(float(values[0]), float(values[1]), _exists(case))
 
 
-def _elbow_law(case: Case, yours: Floats) -> str | None:
+def _elbow_law(case: Case, yours: Place) -> str | None:
     base, tip, l1, l2, side = case
-    wanted = _elbow(Tools(), *case)
     d = float(np.hypot(*(tip - base)))
-    if np.isnan(wanted).any():
-        if np.isnan(yours).all():
+    if not yours.exists:
+        if not yours.found:
             return None
         return (
             f"should be NaN twice: the tip is {d:.4g} m from the base, and the arm reaches from "
             f"{abs(l1 - l2):.4g} m to {l1 + l2:.4g} m"
         )
-    if np.linalg.norm(yours - wanted) <= 1e-6:
+    wanted, mine = _elbow(Tools(), *case), np.array(yours)
+    if np.linalg.norm(mine - wanted) <= 1e-6:
         return None
-    one, two = np.hypot(*(yours - base)), np.hypot(*(yours - tip))
+    one, two = np.hypot(*(mine - base)), np.hypot(*(mine - tip))
     name = "right" if side > 0 else "left"
     says = f"should be {words(wanted)}, {l1:.4g} m from the base and {l2:.4g} m from the tip"
-    if np.isnan(yours).any():
-        return f"{says}; the tip is {d:.6g} m away and the reach ends at {l1 + l2:.6g} m"
+    if not yours.found:
+        return (
+            f"{says}; the tip is {d:.9g} m away, and the arm reaches from {abs(l1 - l2):.4g} m to "
+            f"{l1 + l2:.4g} m"
+        )
     if abs(one - l1) < 1e-6 and abs(two - l2) < 1e-6:
         return f"{says}, on the {name} of the way from base to tip; yours is on the other side"
     return f"{says}; yours is {one:.4g} m and {two:.4g} m from them"
 
 
-def _same_point(a: Floats, b: Floats) -> bool:
-    return bool(np.allclose(a, b, rtol=0, atol=1e-6, equal_nan=True))
+def _same_point(a: Place, b: Place) -> bool:
+    if a.exists != b.exists or a.found != b.found:
+        return False
+    near = np.allclose(np.array(a), np.array(b), rtol=0, atol=1e-6)
+    return not a.found or not a.exists or bool(near)
 
 
 def _made(
@@ -489,14 +535,14 @@ FORMULAS: tuple[Parts, ...] = (
 RIMS: tuple[tuple[str, str, Rim], ...] = (
     (
         "the stretched arm lost",
-        "On the rim the root should be 0. Rounding makes what stands under it negative in some "
-        "directions: take max(..., 0) there, and NaN only where the tip is truly out of reach.",
+        "On the rim both elbows are one point, and h is 0. Rounding takes the tip past the rim, or "
+        "what stands under the root below 0: allow for 1e-9 of the reach, and take max(..., 0).",
         _bare,
     ),
     (
         "an answer out of reach",
-        "max(..., 0) alone gives a point where no elbow exists: compare the distance with l1 + l2 "
-        "and with |l1 \N{MINUS SIGN} l2|, and return NaN.",
+        "Where no elbow exists you invent one: compare the distance with l1 + l2 and with "
+        "|l1 \N{MINUS SIGN} l2|, and return NaN.",
         _clipped,
     ),
     (
@@ -505,29 +551,30 @@ RIMS: tuple[tuple[str, str, Rim], ...] = (
         "and on the rim rounding alone must not matter.",
         _raising,
     ),
-    (
-        "the rim without room for rounding",
-        "A distance on the rim is l1 + l2 up to rounding: allow for 1e-9 of it.",
-        _strict,
-    ),
 )
 MORE_RIMS: tuple[tuple[str, str, Rim], ...] = (
     (
-        "the absolute value under the root",
-        "A negative number under the root says that the circles do not meet. Its absolute value "
-        "invents an elbow.",
-        _unsigned,
+        "an error out of reach",
+        "Where no elbow exists the answer is NaN twice; no error is raised.",
+        _refusing,
     ),
     (
         "the inner edge forgotten",
         "Nearer to the base than |l1 \N{MINUS SIGN} l2| there is no elbow either.",
         _outer,
     ),
+    (
+        "the inner edge forgotten, and the stretched arm lost",
+        "Nearer to the base than |l1 \N{MINUS SIGN} l2| there is no elbow either. And on the outer "
+        "edge allow for rounding, 1e-9 of the reach.",
+        _outer_strict,
+    ),
     ("the outer edge forgotten", "Farther than l1 + l2 there is no elbow.", _inner),
     (
-        "the rim refused",
-        "The stretched and the folded arm exist: both elbows are one point there.",
-        _without_rim,
+        "the outer edge forgotten, and the folded arm lost",
+        "Farther than l1 + l2 there is no elbow. And on the inner edge allow for rounding, 1e-9 of "
+        "the reach.",
+        _inner_strict,
     ),
     (
         "a margin inside the rim",
@@ -540,8 +587,31 @@ MORE_RIMS: tuple[tuple[str, str, Rim], ...] = (
         _wide,
     ),
 )
+ROUNDED = "So few digits are too few: the elbow is off by more than a micrometre."
 
 
+def _rounded(digits: int, rim: Rim) -> Program:
+    def program(*case: Any) -> Floats:
+        point: Floats = np.round(_solved(_general, rim)(*case), digits)
+        return point
+
+    return program
+
+
+OTHER_ROOT = {  # what is under the root is negative elsewhere than where the tip is out of reach
+    "the base taken for the origin",
+    "the way counted from the origin",
+    "equal links assumed",
+    "the sign of l2 squared",
+    "the signs of both squares",
+    "a factor of two in a",
+    "the ratio of the links for a",
+    "l1 squared not divided by d squared",
+    "the square of l1 forgotten",
+    "the square of a forgotten",
+    "l2 under the root",
+    "d for d squared",
+}
 INDISTINCT = {  # NaN nowhere: the wrong root is never of a negative number
     "d for d squared, and an answer out of reach",
     "d for d squared, and an error instead of NaN",
@@ -554,8 +624,12 @@ def _elbow_mistakes() -> list[Mistake]:
     """
     found = [Mistake(name, says, _solved(f, _safe)) for name, says, f in FORMULAS]
     found += [Mistake(n, says, _solved(_general, rim)) for n, says, rim in (*RIMS, *MORE_RIMS)]
+    found += [Mistake("rounded", ROUNDED, _rounded(digits, _safe)) for digits in (2, 3, 4)]
     for name, says, f in FORMULAS:
-        for also, more, rim in RIMS:
+        lost, why, _ = RIMS[0]
+        for also, more, rim in (*RIMS, (lost, why, _strict)):
+            if rim is _strict and name not in OTHER_ROOT:
+                continue
             both = f"{name}, and {also}"
             if both not in INDISTINCT:
                 found.append(Mistake(both, f"{says} {more}", _solved(f, rim)))
