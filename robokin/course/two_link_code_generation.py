@@ -592,8 +592,7 @@ ROUNDED = "So few digits are too few: the elbow is off by more than a micrometre
 
 def _rounded(digits: int, rim: Rim) -> Program:
     def program(*case: Any) -> Floats:
-        point: Floats = np.round(_solved(_general, rim)(*case), digits)
-        return point
+        return np.asarray(_solved(_general, rim)(*case)).round(digits)
 
     return program
 
