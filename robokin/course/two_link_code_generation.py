@@ -611,7 +611,8 @@ OTHER_ROOT = {  # what is under the root is negative elsewhere than where the ti
     "l2 under the root",
     "d for d squared",
 }
-INDISTINCT = {  # NaN nowhere: the wrong root is never of a negative number
+INDISTINCT = {  # the wrong root is of a negative number never, or always
+    "the sign of l2 squared, and an error instead of NaN",
     "d for d squared, and an answer out of reach",
     "d for d squared, and an error instead of NaN",
 }
