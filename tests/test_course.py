@@ -2,6 +2,7 @@
 and that nothing an answer does gets out. The labs' own exercises have a file each.
 """
 
+import copy
 import dataclasses
 import subprocess
 import sys
@@ -14,7 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robokin import Quaternion, Transform, course, deg, mm
+from robokin import Quaternion, ScaraPose, Transform, course, deg, mm
 from robokin.course import answers, book, check, hint, key, progress, solution, variant, variants
 from robokin.course.exercises import Catch, Function, Value
 from robokin.course.mistakes import INPUTS, RESULTS, TOOLS, Mistake, Tools, general
@@ -518,3 +519,12 @@ def test_a_students_numbers_are_the_same_in_another_process():
         for seed in ("1", "2")
     }
     assert len(made) == 1 and made.pop().strip().isdigit()
+
+
+def test_an_input_that_was_left_alone_is_equal_to_its_copy():
+    rotation = Quaternion.from_angle_axis(0.3, [0, 0, 1])
+    for value in (Transform(rotation, [1, 2, 3]), ScaraPose((1, 2, 3), 0.3), [np.nan, (1, "a")]):
+        assert answers.equal(value, copy.deepcopy(value))
+    assert not answers.equal(ScaraPose((1, 2, 3), 0.3), ScaraPose((1, 2, 3), 0.4))
+    assert not answers.equal(ScaraPose((1, 2, 3)), ScaraPose((1, 2, 4)))
+    assert not answers.equal(ScaraPose((1, 2, 3)), np.array([1, 2, 3]))

@@ -27,6 +27,9 @@ IMPORTS = {"ipywidgets", "matplotlib", "numpy", "robokin", "scipy", "sympy"} | s
     sys.stdlib_module_names
 )
 LONGEST_CELL = 35
+TEACHING, GLOSSARY = (
+    NOTEBOOKS / "documents" / f"{name}.ipynb" for name in ("teaching", "glossary")
+)
 UNCOMPARED = {"nbval-ignore-output", "nbval-skip", "nbval-check-output", "raises-exception"}
 PARTS = ("Your turn", "In short", "Next", "Deeper")
 every_lab = pytest.mark.parametrize("lab", LABS, ids=lambda path: path.stem)
@@ -68,8 +71,10 @@ def test_cells_were_executed_from_top_to_bottom(code):
     assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
 
 
-def test_something_is_compared(code):
-    assert sum(output.output_type == "stream" for cell in code for output in cell.outputs) >= 2
+def test_something_is_compared(path, code):
+    words_only = path.stem in ("glossary", "teaching")
+    printed = sum(output.output_type == "stream" for cell in code for output in cell.outputs)
+    assert (not code) if words_only else printed >= 2
     assert not [
         output
         for cell in code
@@ -308,3 +313,35 @@ def _execute(*paths):
         capture_output=True,
         timeout=120,
     )
+
+
+# --- For teachers -----------------------------------------------------------------------------
+
+
+def test_the_teachers_minutes_are_those_that_are_counted():
+    rows = re.findall(
+        r"^\| \[(\d\d)[^\]]*\]\(\.\./(\S+)\) \| (\d+) \| (\d+) \|", _prose(TEACHING), re.M
+    )
+    assert [row[1] for row in rows] == [lab.name for lab in LABS]
+    for (number, _, reading, whole), lab in zip(rows, LABS, strict=True):
+        size = lab_sizes.measure(lab)
+        assert number == lab.stem[:2]
+        assert (int(reading), int(whole)) == (round(size.reading), round(size.minutes)), lab.stem
+
+
+def test_a_teacher_finds_the_same_of_every_lab():
+    parts = re.split(r"^## (\d\d) ", _prose(TEACHING), flags=re.M)[1:]
+    assert parts[::2] == [lab.stem[:2] for lab in LABS[1:]]
+    for text in parts[1::2]:
+        for word in ("Before it", "frequent mistakes", "An oral question", "Answer", "textbooks"):
+            assert word.lower() in text.lower(), f"{word}: {text[:40]}"
+
+
+def test_the_glossary_is_in_order_and_in_three_languages():
+    rows = re.findall(r"^\| (.+?) \| (.+?) \| (.+?) \| (.+?) \| (.+?) \|$", _prose(GLOSSARY), re.M)
+    rows = rows[2:]  # the head and the line below it
+    assert len(rows) > 80
+    words = [row[0].lower() for row in rows]
+    assert words == sorted(words) and len(set(words)) == len(words)
+    assert sum(bool(re.search("[а-я]", row[1])) for row in rows) > 60
+    assert sum(row[2] != "–" for row in rows) > 60

@@ -10,8 +10,13 @@ LABS = (
     "frames_and_quaternions",
     "irb140_kinematics",
     "irb140_motion",
+    "scara_kinematics",
+    "scara_motion",
     "spherical_wrist",
     "puma560_branches",
+    "visit_and_collect",
+    "three_levers",
+    "obstacle_avoidance",
     "two_link_code_generation",
 )
 

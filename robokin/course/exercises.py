@@ -313,7 +313,7 @@ class Catch(Exercise):
         if not callable(answer):
             return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
         programs = [(p,) for _, p in self.rights] + [(m.program,) for m in self.mistakes]
-        outcomes = run(answer, programs)
+        outcomes = run(answer, programs, each=True)
         # a test may say no by an assertion, and yes by its silence
         said = [
             False

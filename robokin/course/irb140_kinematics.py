@@ -1035,7 +1035,7 @@ def task_1() -> tuple[Floats, Floats, Transform]:
 def task_facts() -> dict[str, Any]:
     """How much of task 1 is inside all limits, and which joints break them."""
     t, q, _ = task_1()
-    inside = within(IRB140, q)[:-1]  # the document's samples: to 19.99 s
+    inside = within(IRB140, q)
     past: Any = ~inside.all(axis=-1)
     samples = [
         f"joint {k + 1} in {(~inside[:, k]).sum()}" for k in range(6) if not inside[:, k].all()
@@ -1044,8 +1044,8 @@ def task_facts() -> dict[str, Any]:
     return {
         "exists": bool(np.isfinite(q).all()),
         "past": int(past.sum()),
-        "first": float(t[:-1][past][0]),
-        "last": float(t[:-1][past][-1]),
+        "first": float(t[past][0]),
+        "last": float(t[past][-1]),
         "count": len(past),
         "samples": " and ".join(samples),
         "corner": bool(past[1000]),
@@ -1065,11 +1065,15 @@ def task_right(facts: Mapping[str, Any]) -> int:
 
 
 def task_view() -> Any:
-    from ..show import animate
+    from ..show import plot_joints
 
-    t, q, poses = task_1()
-    return animate(
-        IRB140, t, q, targets=poses[[0, 1000, 2000]], title="Task 1 with the flags 1, 1, 1"
+    t, q, _ = task_1()
+    facts = task_facts()
+    return plot_joints(
+        IRB140,
+        t,
+        q,
+        title=f"Flags 1, 1, 1: past a limit from {facts['first']:.2f} to {facts['last']:.2f} s",
     )
 
 
@@ -1165,7 +1169,7 @@ EXERCISES: dict[str, Exercise] = {
     ),
 }
 
-# Objective 1: p1, p2. Objective 2: p3 to p8. Objective 3: p7, p9, p10.
+# Objective 1: p1, p2. Objective 2: p3 to p6, p9. Objective 3: p7, p8, p10. In Deeper: p9, p10.
 PREDICTIONS = {
     "p1": Prediction(
         question=(
@@ -1278,44 +1282,6 @@ PREDICTIONS = {
     ),
     "p4": Prediction(
         question=(
-            "A program finds the angle inside the triangle at the shoulder by the law of sines, "
-            "with arcsin. The wrist centre comes to 100 mm from joint 2, and that angle is "
-            "{obtuse:.0f}°. What does the program do?"
-        ),
-        options=(
-            Option(
-                "it stops, or gives NaN",
-                "The sine is {sine:.2f}, and arcsin takes it without a complaint. NaN comes only "
-                "above 1.",
-                "a wrong formula shows itself",
-                "The sine of {obtuse:.0f}° is the sine of {acute:.0f}° as well.",
-            ),
-            Option(
-                "it reaches the place with the other elbow",
-                "The other elbow mirrors the whole triangle. Here one angle is replaced, and the "
-                "triangle does not close.",
-                "a lost sign and a lost quadrant",
-                "A mirrored triangle would miss by 0 mm, this one misses by {miss:.0f} mm.",
-            ),
-            Option(
-                "it is right: sides and angles of a triangle fix each other",
-                "Two angles have the same sine. The law of sines cannot tell {obtuse:.0f}° from "
-                "{acute:.0f}°.",
-                "the sine fixes the angle",
-                "The angle is acute only while d is above {least:.0f} mm.",
-            ),
-            Option(
-                "it gives a wrong place, without a word",
-                "arcsin gives {acute:.0f}° for {obtuse:.0f}°: no error, no NaN, and the wrist "
-                "centre {miss:.0f} mm away from its place.",
-            ),
-        ),
-        facts=arcsin_facts,
-        right=arcsin_right,
-        view=arcsin_view,
-    ),
-    "p5": Prediction(
-        question=(
             "An arm reaches a pose with q4, q5, q6 = {mine}. Joints 1 to 3 stay. With which other "
             "three angles does the wrist give the same orientation?"
         ),
@@ -1350,6 +1316,44 @@ PREDICTIONS = {
         facts=wrist_facts,
         right=wrist_right,
         view=wrist_view,
+    ),
+    "p5": Prediction(
+        question=(
+            "The target below has eight rows. You pull it away from the arm along x. Four rows "
+            "vanish first, the other four later. What have the first four in common?"
+        ),
+        options=(
+            Option(
+                "they face away: front −1",
+                "The shoulder stands 70 mm ahead of axis 1. An arm that faces away has its "
+                "shoulder on the far side: up to 140 mm more to reach. They are gone from x = "
+                "{first:.0f} mm on, the others from {last:.0f} mm on.",
+            ),
+            Option(
+                "the elbow: −1",
+                "The two elbows are mirror images in the line from the shoulder to the wrist "
+                "centre: one triangle, and both vanish together.",
+                "an elbow has a reach of its own",
+                "At the end of the reach both elbows are one: the arm is stretched.",
+            ),
+            Option(
+                "the wrist: −1",
+                "Both wrists start from the same wrist centre. Whether it is reached is settled "
+                "before joints 4 to 6 turn.",
+                "the wrist decides the reach",
+                "No turn of the target about its wrist centre makes a row vanish.",
+            ),
+            Option(
+                "nothing: it depends on the orientation",
+                "The orientation shifts the wrist centre, for all rows alike. The shoulder's 70 mm "
+                "make the difference.",
+                "rows vanish one by one",
+                "They vanish in fours in every orientation: two elbows times two wrists.",
+            ),
+        ),
+        facts=pull_facts,
+        right=pull_right,
+        view=pull_view,
     ),
     "p6": Prediction(
         question=(
@@ -1392,82 +1396,8 @@ PREDICTIONS = {
     ),
     "p7": Prediction(
         question=(
-            "A row of ik says q6 = {q6}. Joint 6 may stand between −400° and 400°. At how many "
-            "values may it stand so that the arm is in the same posture?"
-        ),
-        options=(
-            Option(
-                "at one: {q6}",
-                "An angle and the same angle after a whole turn are one posture, and joint 6 has "
-                "room for more than one turn.",
-                "an angle is its number",
-                "{back} is inside the limits as well.",
-            ),
-            Option(
-                "at two: {q6} and {back}",
-                "A whole turn the other way fits, too: the limit is {high}, not 360°.",
-                "limits of one turn",
-                "Joint 1, from −180° to 180°, has {q1} such value.",
-            ),
-            Option(
-                "at three",
-                "{values}: {q6} plus whole turns, as long as they lie inside the limits.",
-            ),
-            Option(
-                "at no end of values",
-                "Whole turns can be added without an end, but limits end them: two turns make "
-                "750°.",
-                "limits left out",
-                "Without limits it would be so: a wheel has no end of values.",
-            ),
-        ),
-        facts=turns_facts,
-        right=turns_right,
-        view=turns_view,
-    ),
-    "p8": Prediction(
-        question=(
-            "The target below has eight rows. You pull it away from the arm along x. Four rows "
-            "vanish first, the other four later. What have the first four in common?"
-        ),
-        options=(
-            Option(
-                "they face away: front −1",
-                "The shoulder stands 70 mm ahead of axis 1. An arm that faces away has its "
-                "shoulder on the far side: up to 140 mm more to reach. They are gone from x = "
-                "{first:.0f} mm on, the others from {last:.0f} mm on.",
-            ),
-            Option(
-                "the elbow: −1",
-                "The two elbows are mirror images in the line from the shoulder to the wrist "
-                "centre: one triangle, and both vanish together.",
-                "an elbow has a reach of its own",
-                "At the end of the reach both elbows are one: the arm is stretched.",
-            ),
-            Option(
-                "the wrist: −1",
-                "Both wrists start from the same wrist centre. Whether it is reached is settled "
-                "before joints 4 to 6 turn.",
-                "the wrist decides the reach",
-                "No turn of the target about its wrist centre makes a row vanish.",
-            ),
-            Option(
-                "nothing: it depends on the orientation",
-                "The orientation shifts the wrist centre, for all rows alike. The shoulder's 70 mm "
-                "make the difference.",
-                "rows vanish one by one",
-                "They vanish in fours in every orientation: two elbows times two wrists.",
-            ),
-        ),
-        facts=pull_facts,
-        right=pull_right,
-        view=pull_view,
-    ),
-    "p9": Prediction(
-        question=(
-            "In task 1 of the document the target of this section moves for 20 s, and the arm "
-            "follows with the flags 1, 1, 1. Every pose exists. How much of the motion is inside "
-            "all joint limits?"
+            "The target of this section moves for 20 s, and the arm follows with the flags 1, 1, "
+            "1. Every pose exists. How much of the motion is inside all joint limits?"
         ),
         options=(
             Option(
@@ -1499,7 +1429,7 @@ PREDICTIONS = {
         right=task_right,
         view=task_view,
     ),
-    "p10": Prediction(
+    "p8": Prediction(
         question=(
             "A joint turns slowly through half a turn, and the program writes its angle between "
             "−180° and 180°: 179.99°, then −179.99°. The difference quotient makes a false speed "
@@ -1536,5 +1466,78 @@ PREDICTIONS = {
         facts=spike_facts,
         right=spike_right,
         view=spike_view,
+    ),
+    "p9": Prediction(
+        question=(
+            "A program finds the angle inside the triangle at the shoulder by the law of sines, "
+            "with arcsin. The wrist centre comes to 100 mm from joint 2, and that angle is "
+            "{obtuse:.0f}°. What does the program do?"
+        ),
+        options=(
+            Option(
+                "it stops, or gives NaN",
+                "The sine is {sine:.2f}, and arcsin takes it without a complaint. NaN comes only "
+                "above 1.",
+                "a wrong formula shows itself",
+                "The sine of {obtuse:.0f}° is the sine of {acute:.0f}° as well.",
+            ),
+            Option(
+                "it reaches the place with the other elbow",
+                "The other elbow mirrors the whole triangle. Here one angle is replaced, and the "
+                "triangle does not close.",
+                "a lost sign and a lost quadrant",
+                "A mirrored triangle would miss by 0 mm, this one misses by {miss:.0f} mm.",
+            ),
+            Option(
+                "it is right: sides and angles of a triangle fix each other",
+                "Two angles have the same sine. The law of sines cannot tell {obtuse:.0f}° from "
+                "{acute:.0f}°.",
+                "the sine fixes the angle",
+                "The angle is acute only while d is above {least:.0f} mm.",
+            ),
+            Option(
+                "it gives a wrong place, without a word",
+                "arcsin gives {acute:.0f}° for {obtuse:.0f}°: no error, no NaN, and the wrist "
+                "centre {miss:.0f} mm away from its place.",
+            ),
+        ),
+        facts=arcsin_facts,
+        right=arcsin_right,
+        view=arcsin_view,
+    ),
+    "p10": Prediction(
+        question=(
+            "A row of ik says q6 = {q6}. Joint 6 may stand between −400° and 400°. At how many "
+            "values may it stand so that the arm is in the same posture?"
+        ),
+        options=(
+            Option(
+                "at one: {q6}",
+                "An angle and the same angle after a whole turn are one posture, and joint 6 has "
+                "room for more than one turn.",
+                "an angle is its number",
+                "{back} is inside the limits as well.",
+            ),
+            Option(
+                "at two: {q6} and {back}",
+                "A whole turn the other way fits, too: the limit is {high}, not 360°.",
+                "limits of one turn",
+                "Joint 1, from −180° to 180°, has {q1} such value.",
+            ),
+            Option(
+                "at three",
+                "{values}: {q6} plus whole turns, as long as they lie inside the limits.",
+            ),
+            Option(
+                "at no end of values",
+                "Whole turns can be added without an end, but limits end them: two turns make "
+                "750°.",
+                "limits left out",
+                "Without limits it would be so: a wheel has no end of values.",
+            ),
+        ),
+        facts=turns_facts,
+        right=turns_right,
+        view=turns_view,
     ),
 }

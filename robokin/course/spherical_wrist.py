@@ -231,7 +231,21 @@ AFTER = (
     "Joint i turns about z of the frame before it, frame i − 1: the first axis is the base's z, "
     "and the last frame belongs to no axis."
 )
+
+
+def _labs_table(a: Any, alpha: Any, d: Any, offset: Any, q: Any) -> Floats:
+    n = min(len(q), len(A))
+    frames = dh_frames(Tools(), A[:n], ALPHA[:n], D[:n], OFFSET[:n] + q[:n])[: len(q)]
+    return np.stack([frames[:, :3, 3], frames[:, :3, 2]])
+
+
 AXES_MISTAKES = [
+    Mistake(
+        "the lab's own table",
+        "It reads the columns of the lab and not its inputs: my_chain has a, alpha, d and offset "
+        "of its own. Build the chain from what you are given.",
+        _labs_table,
+    ),
     Mistake("the frame after the joint", AFTER, _read(point=1, along=1)),
     Mistake("z of the frame after the joint", AFTER, _read(along=1)),
     Mistake("the origin of the frame after the joint", AFTER, _read(point=1)),
@@ -484,10 +498,11 @@ def _atan(h: Floats, wrist: int) -> Floats:
         return mended(h, wrist, np.arctan(np.divide(h[1, 2], h[0, 2])))
 
 
-def _equal_entries(h: Floats, wrist: int) -> Floats:
-    if abs(h[0, 2] - h[1, 2]) < 1e-12:
-        return mended(h, wrist, 0.0)
-    return mended(h, wrist)
+def _round_the_long_way(h: Floats, wrist: int) -> Floats:
+    phi, theta, psi = mended(h, wrist)
+    if _singular(h):
+        return np.array([phi, theta, psi])
+    return np.array([phi + np.pi, theta - 2 * np.pi * np.sign(theta), psi + np.pi]) * [1, -1, 1]
 
 
 def _sign_of_psi(h: Floats, wrist: int) -> Floats:
@@ -551,9 +566,10 @@ WRIST_MISTAKES = (
         _atan,
     ),
     Mistake(
-        "singular where h13 = h23",
-        "It takes phi = 45 degrees for a singularity: the two entries are equal there, not zero.",
-        _equal_entries,
+        "theta beyond half a turn",
+        "Its theta has the right sign and the angles make the right matrix, but theta is between "
+        "180 and 360 degrees. Your test has to ask for at most 180.",
+        _round_the_long_way,
     ),
     Mistake(
         "the sign of h31",

@@ -66,7 +66,7 @@ WORDS: Mapping[str, str] = {
     "oneUsable": "1 of {all} branches is usable. {why}",
     "someUsable": "{count} of {all} branches are usable. {why}",
     "noneUsable": "No branch is usable. {why}",
-    "ellipsoid": "ellipsoid of tool velocities",
+    "ellipsoid": "ellipsoid of tool velocities, free to turn",
     "axes": "joint axes",
     "copy": "Copy as Python",
     "copied": "Copied",
@@ -179,7 +179,8 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
         count=count, all=len(rows), why=explain(arm, target, row)
     )
     summary = f"{arm.name} and a target to be moved, at {values}. {verdict}"
-    turning = not arm.prismatic.any()
+    turning = np.flatnonzero(~arm.prismatic)
+    whole = len(turning) == len(arm.links)
     data = _page(arm, "target", f"{arm.name}: move the target", summary, controls)
     data |= {
         "q": q.tolist(),
@@ -191,9 +192,10 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "verdict",
             *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(_units(arm))),
             "distance from singularity",
-            f"travel, {'°' if turning else 'rad + m'}",
+            # angles only: a stroke is the same in every row
+            "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
-        "travel": deg if turning else 1.0,
+        "turning": turning.tolist(),
         "meant": TAKE + (f"{TURNS} " if arm.target is Transform else "") + MEANT,
         "code": f"{_imports(arm)}\ntarget = {_target_code(arm, size)}\n"
         f"q = {_code(arm)}.ik(target)[{{row}}]",

@@ -223,7 +223,7 @@ class PageExplorer(TypedDict, total=False):
     turns: list[float]
     branches: list[str]
     heads: list[str]
-    travel: float
+    turning: NotRequired[list[int]]  # the joints whose angles the column "travel" adds
     start: dict[str, Any]
     via: dict[str, Any]
     goal: dict[str, Any]

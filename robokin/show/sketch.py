@@ -92,17 +92,17 @@ class Sketch(Figure):
         [at] = self._at(centre, "centre", 1)
         size = positive(radius, "radius", "a length in metres")
         r = float(in_sight(np.array(size), "radius")) / self._unit
-        turns = np.linspace(first, last, 60)
+        turns = np.linspace(first, last, 181)
         arc = at + r * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
         self.ax.plot(*np.transpose([at, at + 1.35 * (arc[0] - at)]), color=REMARK, lw=0.9, zorder=1)
         self.ax.plot(*arc.T, color=INK, lw=1.3)
         self.ax.annotate(
             "",
             (arc[-1, 0], arc[-1, 1]),
-            (arc[-8, 0], arc[-8, 1]),
+            (arc[-4, 0], arc[-4, 1]),  # so near that no straight shaft shows
             arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0},
         )
-        self._text(arc[30], name, arc[30] - at)
+        self._text(arc[90], name, arc[90] - at)
 
     def _at(self, points: ArrayLike, name: str, least: int) -> Floats:
         values = np.atleast_2d(floats(points, name, 2))

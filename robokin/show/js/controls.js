@@ -47,7 +47,7 @@ export const STYLE = `
   }
   @media print {
     & { border: 0; break-inside: avoid; }
-    & .rk-views + .rk-row, & input { display: none; }
+    & .rk-clock, & input { display: none; }
     & .rk-row label.rk-long { flex: none; }
     & .rk-value { min-width: 0; }
     & select { appearance: none; background: none; border: 0; padding: 0; }

@@ -69,20 +69,21 @@ function furniture(data, scene) {
   };
   parts.button = control("button", {type: "button", "aria-label": "play", title: "play or pause (Space)"}, parts.icon);
   parts.speed.value = SPEEDS.indexOf(1);
-  const rows = [element("div", {class: "rk-row"}, parts.button,
+  // above the pictures: on a small screen the hand and what it moves are seen together
+  const rows = [element("div", {class: "rk-row rk-clock"}, parts.button,
     element("label", {class: "rk-long"}, parts.scrub, parts.time), element("label", {}, "playback", parts.speed))];
   const {slider, switch: menu} = data;
-  if (slider || menu) rows.push(element("div", {class: "rk-row"}));
+  if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider) {
     parts.slider = range(slider.label, slider.values.length - 1);
     parts.value = element("span", {class: "rk-value"});
-    rows[1].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
+    rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   }
-  if (menu) rows[1].append(element("label", {}, menu.label, parts.menu = choice(menu.label, menu.values)));
+  if (menu) rows[0].append(element("label", {}, menu.label, parts.menu = choice(menu.label, menu.values)));
   parts.frame = element("div", {class: "rk", role: "group", "aria-label": data.title}, element("style", {}, STYLE),
-    element("div", {class: "rk-title"}, data.title),
+    element("div", {class: "rk-title"}, data.title), ...rows,
     element("div", {class: `rk-views${data.arms.length > 1 ? " rk-wide" : ""}`}, parts.scene, parts.curves),
-    ...rows, parts.table, parts.notes);
+    parts.table, parts.notes);
   return parts;
 }
 

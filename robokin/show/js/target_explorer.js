@@ -57,7 +57,7 @@ function targetExplorer(stage, data) {
     });
     const exists = found.map(q => q.every(Number.isFinite)), inside = found.map(q => within(arm, q));
     const usable = found.map((_, k) => exists[k] && inside[k].every(Boolean));
-    const travel = found.map(q => q.reduce((sum, x, j) => sum + Math.abs(x - last[j]), 0));
+    const travel = found.map(q => data.turning.reduce((sum, j) => sum + Math.abs(q[j] - last[j]), 0));
     const among = usable.some(Boolean) ? usable : exists;
     const shortest = travel.reduce((best, x, k) => (among[k] && (best < 0 || x < travel[best]) ? k : best), -1);
     const chosen = state.wanted >= 0 ? state.wanted : Math.max(shortest, 0);
@@ -70,7 +70,7 @@ function targetExplorer(stage, data) {
     rows.set(found.map((q, k) => [verdict(arm, words, q, inside[k], exists[k]),
       ...q.map((x, j) => (exists[k] ? {text: number(x / sizes[j], 1), past: !inside[k][j]} : words.none)),
       exists[k] ? number(distance_from_singularity(arm, q), 3) : words.none,
-      exists[k] ? number(travel[k] / data.travel, 1) : words.none]), exists[chosen] ? chosen : -1, exists);
+      exists[k] ? number(degrees(travel[k]), 1) : words.none]), exists[chosen] ? chosen : -1, exists);
     stage.say(told(data.task, found, exists) + summary(arm, words, state, usable, chosen));
 
     const asked = oriented ? matrix(state.rotation, state.place) : null;

@@ -1,0 +1,115 @@
+"""The exercises of lab 10: right answers hold in every style, wrong ones are named; the numbers of
+one's own task can be met.
+"""
+
+import numpy as np
+import pytest
+from matplotlib.path import Path as Outline
+
+import robokin.course.obstacle_avoidance as book
+from robokin import deg, three_lever
+from robokin.course import check, variant
+from robokin.jobs.obstacles import way_round
+
+arm = three_lever(1.0)
+
+
+def _sides(c):
+    return zip(c, np.roll(c, -1, axis=0), strict=True)
+
+
+def _angle_sum(c, H):
+    a = np.arctan2(c[:, 1] - H[1], c[:, 0] - H[0])
+    turns = (np.diff(np.append(a, a[0])) + np.pi) % (2 * np.pi) - np.pi
+    return abs(turns.sum()) > 1
+
+
+def _upward(c, H):
+    count = 0
+    for i in range(len(c)):
+        (x0, y0), (x1, y1) = c[i - 1], c[i]
+        if (x0 <= H[0]) != (x1 <= H[0]):
+            count += y0 + (H[0] - x0) * (y1 - y0) / (x1 - x0) > H[1]
+    return int(count % 2)
+
+
+def _to_the_left(c, H):
+    odd = False
+    for P, Q in _sides(c):
+        if min(P[1], Q[1]) < H[1] <= max(P[1], Q[1]):
+            odd ^= P[0] + (H[1] - P[1]) * (Q[0] - P[0]) / (Q[1] - P[1]) < H[0]
+    return odd
+
+
+@pytest.mark.parametrize(
+    "right", [_angle_sum, _upward, _to_the_left, lambda c, H: Outline(c).contains_point(H)]
+)
+def test_inside_in_every_style(right):
+    assert check("obstacle_avoidance.1", right).holds
+
+
+def _areas(c, H):
+    def area(P, Q):
+        return abs((P[0] - H[0]) * (Q[1] - H[1]) - (P[1] - H[1]) * (Q[0] - H[0])) / 2
+
+    x, y = c.T
+    whole = abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+    return abs(sum(area(P, Q) for P, Q in _sides(c)) - whole) < 1e-9
+
+
+def _both_ways(c, H):
+    return sum((P[1] > H[1]) != (Q[1] > H[1]) for P, Q in _sides(c)) % 2 == 1
+
+
+def _returns_early(c, H):
+    for P, Q in _sides(c):
+        if (P[1] > H[1]) != (Q[1] > H[1]):
+            if H[0] < P[0] + (H[1] - P[1]) * (Q[0] - P[0]) / (Q[1] - P[1]):
+                return True
+    return False
+
+
+@pytest.mark.parametrize(
+    "wrong, named",
+    [
+        (_areas, "no dent allowed"),
+        (_both_ways, "outside always"),
+        (_returns_early, "any crossing"),
+        (lambda c, H: (c.min(0) <= H).all() and (H <= c.max(0)).all(), "the box around it"),
+    ],
+)
+def test_a_wrong_inside_is_named(wrong, named):
+    verdict = check("obstacle_avoidance.1", wrong)
+    assert not verdict.holds and verdict.mistake == named
+
+
+@pytest.mark.parametrize("who", ["Ada", "Jonas"])
+def test_what_one_knows_already_does_not_pass_both_obstacles(who):
+    task = variant("obstacle_avoidance", who)
+    start = np.array(task["start"]) * deg
+    end = arm.least(task["target"], start)[0]
+    paths = {
+        "direct": [start, end],
+        "back": [end, start],
+        "degrees": np.array([start, end]) / deg,
+        "round 1": way_round(arm, start, task["target"], task["obstacles"][0], task["distance"]),
+        "round 2": way_round(arm, start, task["target"], task["obstacles"][1], task["distance"]),
+    }
+    for name, path in paths.items():
+        if path is not None:
+            verdict = check("obstacle_avoidance.2", path, who=who)
+            assert not verdict.holds and verdict.mistake, name
+    assert "degrees" in check("obstacle_avoidance.2", paths["degrees"], who=who).mistake
+    assert check("obstacle_avoidance.2", paths["back"], who=who).mistake == "another start"
+
+
+def test_the_distances_of_the_checks_are_those_of_the_package():
+    from robokin.jobs.obstacles import distances
+
+    q = np.random.default_rng(1).uniform(0, np.pi, (50, 3))
+    assert np.allclose(book._distances(q, [1.2, 1.3]), distances(arm, q, (1.2, 1.3)), atol=1e-12)
+
+
+def test_a_test_with_one_easy_task_is_not_enough():
+    verdict = check("obstacle_avoidance.3", lambda safe: safe([[1, 1, 1], [2, 2, 2]], [9, 9], 0.1))
+    assert not verdict.holds and verdict.mistake.startswith("accepts: ")

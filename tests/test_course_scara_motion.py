@@ -1,0 +1,334 @@
+"""The exercises and predictions of lab 05: right answers hold in every style, wrong ones are named,
+and the keys of the predictions are computed a second time, another way.
+"""
+
+import numpy as np
+import pytest
+
+import robokin.course.scara_motion as book
+from robokin import SCARA, ScaraPose, blend, deg, mm
+from robokin.course import check, variant
+from robokin.course.predictions import filled
+
+TURN = 2 * np.pi
+LOW, HIGH = SCARA.limits.T
+
+
+# --- 1: the least turn of the tool ----------------------------------------------------------------
+
+
+def _by_list(q0, position, angle):
+    rows = SCARA.ik(ScaraPose(position, angle))
+    q = next(r for r in rows if (r[1] >= 0) == (q0[1] >= 0))
+    found = []
+    for k in range(-8, 9):
+        q3 = q[2] + k * TURN
+        if LOW[2] <= q3 <= HIGH[2]:
+            turn = abs(q[0] + q[1] + q3 - sum(q0[:3]))
+            found.append((turn, [q[0], q[1], q3, q[3]]))
+    return min(found)[1]
+
+
+def _by_rounding(q0, position, angle):
+    x, y, z = position
+    r = np.hypot(x, y)
+    side = 1 if q0[1] >= 0 else -1
+    q2 = side * np.arccos((r**2 - 0.2**2 - 0.25**2) / (2 * 0.2 * 0.25))
+    q1 = np.arctan2(y, x) - np.arctan2(0.25 * np.sin(q2), 0.2 + 0.25 * np.cos(q2))
+    q1 = (q1 + np.pi) % TURN - np.pi
+    now = q0[:3].sum()
+    end = angle + TURN * np.round((now - angle) / TURN)
+    q3 = end - q1 - q2
+    while q3 > 400 * deg:
+        q3 -= TURN
+    while q3 < -400 * deg:
+        q3 += TURN
+    return np.array([[q1, q2, q3, 0.2202 - z]]).round(9)
+
+
+@pytest.mark.parametrize("answer", [_by_list, _by_rounding])
+def test_the_least_turn_found_in_another_way_holds(answer):
+    assert check("scara_motion.1", answer).holds
+
+
+def _posture(q0, position, angle):
+    return SCARA.ik(ScaraPose(position, angle))[SCARA.branch(1 if q0[1] >= 0 else -1)].copy()
+
+
+def _wrap(x):
+    return (x + np.pi) % TURN - np.pi
+
+
+def _joint(q0, position, angle):
+    q = _posture(q0, position, angle)
+    q[2] = q0[2] + _wrap(q[2] - q0[2])
+    return q
+
+
+def _raw(q0, position, angle):
+    return _posture(q0, position, angle)
+
+
+def _no_limits(q0, position, angle):
+    q = _posture(q0, position, angle)
+    now = q0[:3].sum()
+    q[2] = now + _wrap(angle - now) - q[0] - q[1]
+    return q
+
+
+def _clipped(q0, position, angle):
+    q = _no_limits(q0, position, angle)
+    q[2] = np.clip(q[2], -400 * deg, 400 * deg)
+    return q
+
+
+def _q3_is_angle(q0, position, angle):
+    q = _posture(q0, position, angle)
+    q[2] = angle
+    return q
+
+
+def _q3_is_short_angle(q0, position, angle):
+    q = _posture(q0, position, angle)
+    q[2] = q0[2] + _wrap(angle - q0[2])
+    return q
+
+
+def _row_zero(q0, position, angle):
+    q = SCARA.ik(ScaraPose(position, angle))[0].copy()
+    now = q0[:3].sum()
+    ends = [angle + k * TURN for k in range(-6, 7)]
+    ends = [e for e in ends if LOW[2] <= e - q[0] - q[1] <= HIGH[2]]
+    q[2] = min(ends, key=lambda e: abs(e - now)) - q[0] - q[1]
+    return q
+
+
+def _in_360(q0, position, angle):
+    q = _no_limits(q0, position, angle)
+    while q[2] > HIGH[2]:
+        q[2] -= 360
+    while q[2] < LOW[2]:
+        q[2] += 360
+    return q
+
+
+def _in_degrees(q0, position, angle):
+    return _by_list(q0, position, angle * deg)
+
+
+def _list_without_limits(q0, position, angle):
+    q = _posture(q0, position, angle)
+    ends = [angle + k * TURN for k in (-1, 0, 1)]
+    q[2] = min(ends, key=lambda e: abs(e - q0[:3].sum())) - q[0] - q[1]
+    return q
+
+
+def _three_turns(q0, position, angle):
+    q = _posture(q0, position, angle)
+    ends = [q[2] + k * TURN for k in (-1, 0, 1) if LOW[2] <= q[2] + k * TURN <= HIGH[2]]
+    q[2] = min(ends, key=lambda e: abs(e - q0[2]))
+    return q
+
+
+def _largest(q0, position, angle):
+    q = _posture(q0, position, angle)
+    ends = [q[2] + k * TURN for k in (-2, -1, 0, 1, 2) if LOW[2] <= q[2] + k * TURN <= HIGH[2]]
+    q[2] = max(ends, key=lambda e: abs(q[0] + q[1] + e - q0[:3].sum()))
+    return q
+
+
+def _least_signed(q0, position, angle):
+    q = _posture(q0, position, angle)
+    ends = [q[2] + k * TURN for k in (-2, -1, 0, 1, 2) if LOW[2] <= q[2] + k * TURN <= HIGH[2]]
+    q[2] = min(ends, key=lambda e: q[0] + q[1] + e - q0[:3].sum())
+    return q
+
+
+def _nearest_zero(q0, position, angle):
+    q = _posture(q0, position, angle)
+    ends = [q[2] + k * TURN for k in (-2, -1, 0, 1, 2) if LOW[2] <= q[2] + k * TURN <= HIGH[2]]
+    q[2] = min(ends, key=lambda e: abs(q[0] + q[1] + e))
+    return q
+
+
+def _tool_angle_returned(q0, position, angle):
+    q = _by_list(q0, position, angle)
+    return [q[0], q[1], q[0] + q[1] + q[2], q[3]]
+
+
+def _start_moves(q0, position, angle):
+    q = _posture(q0, position, angle)
+    now = _wrap(q0[:3].sum())
+    q[2] = now + _wrap(angle - now) - q[0] - q[1]
+    return q
+
+
+def _stroke_in_mm(q0, position, angle):
+    q = _by_list(q0, position, angle)
+    return [*q[:3], q[3] / mm]
+
+
+@pytest.mark.parametrize(
+    ("answer", "word"),
+    [
+        (_joint, "joint 3"),
+        (_three_turns, "joint 3"),
+        (_raw, "row of ik"),
+        (_no_limits, "limits"),
+        (_clipped, "clipped"),
+        (_q3_is_angle, "joint 3"),
+        (_q3_is_short_angle, "joint 3"),
+        (_row_zero, "elbow"),
+        (_in_degrees, "degrees"),
+        (_list_without_limits, "one turn"),
+        (_largest, "longest"),
+        (_least_signed, "lowest"),
+        (_nearest_zero, "wrapped"),
+        (_tool_angle_returned, "tool's angle"),
+        (_start_moves, "start is wrapped"),
+        (_stroke_in_mm, "mm"),
+        (_in_360, "360"),
+    ],
+)
+def test_a_wrong_turn_is_named(answer, word):
+    verdict = check("scara_motion.1", answer)
+    assert not verdict.holds and verdict.case
+    assert verdict.mistake and word in verdict.mistake, verdict
+
+
+# --- 2: a test of limit tests ---------------------------------------------------------------------
+
+
+def _good():
+    return np.tile([0.1, 0.5, 0.2, 0.1], (30, 1))
+
+
+def _thorough(inside):
+    q = _good()
+    assert inside(q)
+    for joint in range(4):
+        for sample in (0, 13, -1):
+            for value, right in (
+                (LOW[joint], True),
+                (HIGH[joint], True),
+                (LOW[joint] - 1e-3, False),
+                (HIGH[joint] + 1e-3, False),
+            ):
+                q = _good()
+                q[sample, joint] = value
+                assert bool(inside(q)) == right
+    q = _good()
+    q[13] = np.nan
+    assert not inside(q)
+
+
+def test_a_thorough_test_holds_by_assertions():
+    assert check("scara_motion.2", _thorough).holds
+
+
+def _only_stroke(inside):
+    q = _good()
+    q[5, 3] = 0.2
+    return bool(inside(_good())) and not inside(q)
+
+
+def _only_accepts(inside):
+    return bool(inside(_good()))
+
+
+def _no_edges(inside):
+    for joint in range(4):
+        for value in (LOW[joint] - 1e-4, HIGH[joint] + 1e-4):
+            q = _good()
+            q[13, joint] = value
+            if inside(q):
+                return False
+    return bool(inside(_good()))
+
+
+@pytest.mark.parametrize(
+    ("answer", "word"),
+    [
+        (_only_stroke, "accepts"),
+        (_only_accepts, "accepts"),
+        (_no_edges, "accepts"),
+        (lambda inside: not inside(_good()), "refuses"),
+    ],
+)
+def test_a_test_that_is_deceived_is_told_by_what(answer, word):
+    verdict = check("scara_motion.2", answer)
+    assert not verdict.holds and word in verdict.mistake
+
+
+# --- 3: a blend of one's own ----------------------------------------------------------------------
+
+
+def _least(mine):
+    h1, h2 = mine["start_z"] - mine["via_z"], mine["goal_z"] - mine["via_z"]
+    return (40.2 * mm - mine["via_z"]) * (h1 + h2) / (2 * h1 * h2), h1 + h2
+
+
+@pytest.mark.parametrize("more", [1.0001, 1.05, 1.1])
+def test_every_name_can_be_served(more):
+    for who in range(40):
+        mine = variant("scara_motion", who)
+        b, both = _least(mine)
+        assert 0.05 < b < 0.45
+        needed = np.sqrt(both / (more * b * mine["acceleration"]))
+        assert needed < mine["longest"]
+        for duration in (needed * 1.0001, mine["longest"]):
+            design = {"blend": more * b, "duration": duration}
+            assert check("scara_motion.3", design, who=who).holds, (who, mine)
+
+
+def test_joints_1_to_3_stay_inside_whatever_the_heights():
+    for b in np.linspace(0, 0.5, 11):
+        path = blend(book.START, book.VIA, book.GOAL, b, book.S)
+        q = book._joints(path)[:, :3]
+        assert ((q > LOW[:3]) & (q < HIGH[:3])).all()
+        higher = ScaraPose(path.position + [0, 0, 0.1], path.angle)
+        assert np.allclose(SCARA.ik(higher)[..., :3], SCARA.ik(path)[..., :3], rtol=0, atol=1e-12)
+
+
+def test_a_wrong_design_is_named():
+    mine = variant("scara_motion", "Ada")
+    b, _ = _least(mine)
+    longest = mine["longest"]
+
+    def told(blend_, duration):
+        verdict = check("scara_motion.3", {"blend": blend_, "duration": duration}, who="Ada")
+        assert not verdict.holds
+        return verdict.mistake
+
+    assert told(0.95 * b, longest) == "past the stroke's limit"
+    assert told(min(1.6 * b, 0.5), longest) == "too far from via"
+    assert told(1.05 * b, longest / 2) == "too hard a corner"
+    assert told(1.05 * b, longest + 5) == "too slow"
+    assert told(0.6, longest) == "no such blend"
+    assert told(100 * b, longest) == "another kind or shape"
+    assert told(1.05 * b, -1) == "no such duration"
+
+
+# --- The predictions ------------------------------------------------------------------------------
+
+
+def test_the_right_answers_in_another_way():
+    right = {name: filled(p)[1][filled(p)[2]].text for name, p in book.PREDICTIONS.items()}
+    assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
+    assert right["p3"] == "x and y." and right["p4"] == "Joint 3."
+    assert float(right["p5"]) == -90 / 5 - 60 / 5
+    assert float(right["p6"]) == 180
+    assert float(right["p7"]) == pytest.approx(2 * 0.4 * 60 * 180 / 240, abs=0.5)
+    assert "0.35" in right["p8"] and right["p9"] == "Half of it."
+
+
+def test_a_corner_is_an_enlargement_from_via():
+    x = np.linspace(0, 1, 11)
+    for corner in ("parabola", "quintic"):
+        shapes = [
+            blend(book.START, book.VIA, book.GOAL, b, 0.5 - b + 2 * b * x, corner=corner)
+            for b in (0.1, 0.2, 0.5)
+        ]
+        ways = [(shape.position - book.VIA.position) for shape in shapes]
+        assert np.allclose(2 * ways[0], ways[1], rtol=0, atol=1e-12)
+        assert np.allclose(5 * ways[0], ways[2], rtol=0, atol=1e-12)

@@ -1,0 +1,166 @@
+"""Lab 09: answers to its exercises, right ones in unlike styles and wrong ones, and what the check
+says to them; its numbers of one's own.
+"""
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+
+from robokin import deg, three_lever
+from robokin.course import check, variant
+from robokin.course import three_levers as lab
+
+ARM = three_lever(1.0)
+
+
+def law(a, b, c):
+    with np.errstate(invalid="ignore"):
+        return np.arccos((a**2 + b**2 - c**2) / (2 * a * b))
+
+
+def levers(K, alpha, lengths):
+    a, b, c = lengths
+    KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+    gamma = law(KO, a, KB) + np.arctan2(K[1], K[0])
+    return np.array([gamma, law(KB, a, KO) + law(KB, b, c), alpha])
+
+
+def by_complex_numbers(K, alpha, lengths):
+    """OB lies against the clock from OK; the rest follows from the places."""
+    a, b, c = (float(x) for x in lengths)
+    k, KB = complex(*K), abs(b - c * cmath.exp(1j * alpha))
+    if abs(k) > a + KB or abs(k) < abs(a - KB):
+        return float("nan")
+    gamma = cmath.phase(k) + math.acos((abs(k) ** 2 + a * a - KB * KB) / (2 * abs(k) * a))
+    B = a * cmath.exp(1j * gamma)
+    beta_1 = cmath.phase((k - B) / -B) % (2 * math.pi)
+    return [gamma, beta_1 + abs(cmath.phase(b - c * cmath.exp(1j * alpha))), alpha]
+
+
+def wrapped_into_half_turns(K, alpha, lengths):
+    return (levers(K, alpha, lengths) + np.pi) % (2 * np.pi) - np.pi
+
+
+@pytest.mark.parametrize("answer", [levers, by_complex_numbers, wrapped_into_half_turns])
+def test_levers_of_any_lengths_in_unlike_styles(answer):
+    assert check("three_levers.1", answer).holds
+
+
+def limited(K, alpha, lengths):
+    q = levers(K, alpha, lengths)
+    return q if ((q >= 0) & (q <= np.pi)).all() else np.full(3, np.nan)
+
+
+def equal_levers(K, alpha, lengths):
+    KO, KB = np.hypot(*K), 2 * lengths[0] * np.sin(alpha / 2)
+    gamma = law(KO, lengths[0], KB) + np.arctan2(K[1], K[0])
+    return np.array([gamma, law(KB, lengths[0], KO) + (np.pi - alpha) / 2, alpha])
+
+
+def no_direction(K, alpha, lengths):
+    return levers(K, alpha, lengths) - [np.arctan2(K[1], K[0]), 0, 0]
+
+
+def quotient(K, alpha, lengths):
+    with np.errstate(divide="ignore"):
+        turn = np.arctan(np.divide(K[1], K[0])) - np.arctan2(K[1], K[0])
+    return levers(K, alpha, lengths) + [turn, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("answer", "mistake"),
+    [
+        (limited, "limits are looked at"),
+        (equal_levers, "the formulas of equal levers, with OB"),
+        (no_direction, "the direction of K left out"),
+        (quotient, "arctan of y / x"),
+        (lambda *case: levers(*case) / deg, "degrees for radians"),
+        (lambda *case: levers(*case)[::-1], "the angles in another order"),
+        (lambda *case: np.nan_to_num(levers(*case)), "zeros instead of NaN, beside alpha"),
+    ],
+)
+def test_wrong_levers_are_named(answer, mistake):
+    verdict = check("three_levers.1", answer)
+    assert not verdict.holds and verdict.mistake == mistake
+
+
+def tasks(count):
+    rng = np.random.default_rng(11)
+    r, phi = rng.uniform(1.1, 2.9, count), rng.uniform(20, 145, count) * deg
+    places = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
+    before = rng.uniform(20, 170, (count, 3)) * deg
+    S = ARM.least(places, before)[1]
+    there = np.isfinite(S)
+    return zip(places[there], before[there], S[there], strict=True)
+
+
+def asserting(program):
+    for K, previous, S in tasks(100):
+        q = np.array(program(K, previous))
+        np.testing.assert_allclose(ARM.points(q)[3], K, atol=1e-5)
+        assert q.min() > -1e-6 and q.max() < np.pi + 1e-6
+        assert abs(q - previous).sum() < S + 0.02 * deg
+
+
+def without_the_gripper(program):
+    return all(
+        abs(np.array(program(K, previous)) - previous).sum() <= S + 0.02 * deg
+        for K, previous, S in tasks(40)
+    )
+
+
+def the_same_angles(program):
+    return all(
+        np.allclose(program(K, previous), ARM.least(K, previous)[0], rtol=0, atol=1e-6)
+        for K, previous, _ in tasks(40)
+    )
+
+
+def one_task(program):
+    K, previous = np.array([1.8, 0.6]), np.array([100, 110, 120]) * deg
+    q = np.array(program(K, previous))
+    return abs(q - ARM.least(K, previous)[0]).max() < 0.1 * deg
+
+
+def test_tests_for_least_movement():
+    assert check("three_levers.2", asserting).holds
+    stays = check("three_levers.2", without_the_gripper)
+    assert not stays.holds and stays.mistake == "accepts: it stays where it is"
+    assert check("three_levers.2", the_same_angles).mistake == "refuses a right program"
+    assert not check("three_levers.2", one_task).holds
+
+
+@pytest.mark.parametrize("who", range(8))
+def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
+    numbers = variant("three_levers", who)
+    greedy = [q[2] for q in lab.greedy(numbers)]
+    verdict = check("three_levers.3", {"first": greedy[0], "second": greedy[1]}, who=who)
+    assert not verdict.holds and "greed" in verdict.mistake
+    one, two = (
+        ARM.family(place, np.linspace(*ARM.alpha_range(place), 121))
+        for place in lab.places(numbers)
+    )
+    to_one, to_two = lab.changes(numbers, (one[:, None], two))
+    S = to_one.sum(axis=-1) + to_two.sum(axis=-1)
+    longest = to_one.max(axis=-1) + to_two.max(axis=-1)
+    met = np.argwhere((S <= numbers["most"]) & (longest <= numbers["longest"]))
+    assert 0 < len(met) < 0.5 * S.size
+    i, j = met[len(met) // 2]
+    assert check("three_levers.3", [one[i, 2], two[j, 2]], who=who).holds
+    assert variant("three_levers", f" {who} ") == numbers
+
+
+@pytest.mark.parametrize(
+    ("answer", "mistake"),
+    [
+        ({"first": 120, "second": 110}, "degrees for radians"),
+        ({"first": 0.5, "second": 2.0}, "alpha outside its range"),
+        ({"first": 2.4}, "another kind or shape"),
+        ({"first": 2.4, "second": np.pi}, "gamma past its limit at the second target"),
+    ],
+)
+def test_a_plan_that_fails_is_told_why(answer, mistake):
+    verdict = check("three_levers.3", answer, who="Ada")
+    assert not verdict.holds and verdict.mistake == mistake and verdict.says

@@ -1,0 +1,188 @@
+"""The exercises of lab 08: right answers in unlike styles hold, and wrong ones are named. What
+holds of every lab stands in test_course_labs.py.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from robokin import spbu_arm, within
+from robokin.course import check, variant
+from robokin.course import visit_and_collect as lab
+from robokin.jobs.visit_collect import best_visit, misfit, visit, workspace
+
+ARM = spbu_arm(5, 4)
+BOX = np.random.default_rng(5).uniform([-9, -9, 0], [9, 9, 9], size=(200, 3))
+POINTS = BOX[workspace(5, 4, BOX).all(axis=-1)]
+AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0]])
+
+
+def judge_on(points, limits=True, near=lambda gap: np.linalg.norm(gap) <= 1e-6):
+    def test(inverse):
+        for p in points:
+            q = np.asarray(inverse(p))
+            if not near(ARM.fk(q).translation - p) or (limits and not within(ARM, q).all()):
+                return False
+        return True
+
+    return test
+
+
+def asserting(inverse):
+    for p in [*POINTS, *AXIS]:
+        q = inverse(list(p))
+        assert math.dist(ARM.fk(q).translation, p) < 1e-6
+        assert (abs(np.array(q)) <= np.array([np.pi, np.pi / 2, np.pi / 2]) + 1e-9).all()
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        judge_on(np.vstack([POINTS, AXIS])),
+        judge_on(np.vstack([AXIS[:1], POINTS[:60]]), near=lambda gap: (abs(gap) < 1e-7).all()),
+        lambda inverse: (
+            all(misfit(5, 4, inverse(p), p) < 1e-6 for p in POINTS)
+            and math.isfinite(sum(inverse([0, 0, 6])))
+        ),
+        asserting,
+    ],
+)
+def test_a_right_test_holds(answer):
+    verdict = check("visit_and_collect.1", answer)
+    assert verdict.holds, verdict
+
+
+@pytest.mark.parametrize(
+    "answer, mistake",
+    [
+        (judge_on(POINTS), "accepts: not a number on axis 1"),
+        (judge_on(np.vstack([POINTS, AXIS]), limits=False), "accepts: the other elbow"),
+        (
+            judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (gap <= 1e-6).all()),
+            "accepts: every coordinate too small",
+        ),
+        (judge_on([[2, 3, 2]]), "accepts: the answer of one example"),
+        (judge_on(abs(POINTS)), "accepts: arctan for atan2"),
+        (judge_on(BOX), "refuses every program"),
+        (
+            lambda inverse: all(np.allclose(inverse(p), ARM.ik(p)[0]) for p in POINTS),
+            "refuses a right program",
+        ),
+    ],
+)
+def test_a_wrong_test_is_told_what_slips_through(answer, mistake):
+    verdict = check("visit_and_collect.1", answer)
+    assert not verdict.holds and verdict.mistake == mistake
+
+
+def loops(q, speeds):
+    here, clock, times = list(q[0]), 0.0, []
+    for stop in q[1:]:
+        longest = 0.0
+        for j in range(3):
+            if not (math.isnan(stop[j]) or math.isnan(here[j])):
+                longest = max(longest, abs(stop[j] - here[j]) / speeds[j])
+        clock += longest
+        times.append(clock)
+        here = [stop[j] if not math.isnan(stop[j]) else here[j] for j in range(3)]
+    return times
+
+
+def twice(q, speeds):
+    q = np.array(q)
+    for k in range(1, len(q)):
+        if np.isnan(q[k, 0]):
+            q[k, 0] = q[k - 1, 0]
+    for k in range(len(q) - 2, -1, -1):
+        if np.isnan(q[k, 0]):
+            q[k, 0] = q[k + 1, 0]
+    return np.cumsum(np.max(np.abs(q[1:] - q[:-1]) / speeds, axis=1))[:, None]
+
+
+@pytest.mark.parametrize("answer", [loops, twice])
+def test_right_arrivals_hold(answer):
+    verdict = check("visit_and_collect.2", answer)
+    assert verdict.holds, verdict
+
+
+def nothing(q, speeds):
+    return np.cumsum(np.nanmax(abs(np.diff(q, axis=0)) / speeds, axis=1))
+
+
+def forward_only(q, speeds):
+    q = q.copy()
+    for k in range(1, len(q)):
+        if np.isnan(q[k, 0]):
+            q[k, 0] = q[k - 1, 0]
+    return np.cumsum((abs(np.diff(q, axis=0)) / speeds).max(axis=1))
+
+
+@pytest.mark.parametrize(
+    "answer, mistake",
+    [
+        (nothing, "NaN costs nothing, both ways"),
+        (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "NaN taken for 0"),
+        (
+            lambda q, speeds: np.diff(nothing(np.nan_to_num(q), speeds), prepend=0),
+            "NaN taken for 0, and not added up",
+        ),
+        (forward_only, "a start on the axis left out"),
+        (
+            lambda q, speeds: np.diff(loops(q, speeds), prepend=0),
+            "times of the moves, not added up",
+        ),
+        (lambda q, speeds: [0, *loops(q, speeds)], "another kind or shape"),
+        (lambda q, speeds: loops(q, [max(speeds)] * 3), "the greatest speed for all"),
+        (lambda q, speeds: np.round(loops(q, speeds), 2), "rounded"),
+        (lambda q, speeds: np.array(loops(q, speeds)) * 180 / np.pi, "degrees for radians"),
+        (lambda q, speeds: 2 * np.array(loops(q, speeds)), "there and back"),
+    ],
+)
+def test_wrong_arrivals_are_named(answer, mistake):
+    verdict = check("visit_and_collect.2", answer)
+    assert not verdict.holds and verdict.mistake == mistake, verdict
+
+
+def trap(numbers):
+    x, y, z = numbers["p0"]
+    turn = numbers["speed"] * numbers["T"]
+    angles = np.arctan2(y, x) + turn * np.array([0.66, -0.73, -0.83, -0.93])
+    r = np.hypot(x, y)
+    return [[r * np.cos(a), r * np.sin(a), z] for a in angles]
+
+
+def test_everybody_can_build_a_trap():
+    for k in range(60):
+        verdict = check("visit_and_collect.3", trap(variant("visit_and_collect", k)), who=k)
+        assert verdict.holds, verdict
+
+
+@pytest.mark.parametrize(
+    "points, mistake",
+    [
+        ([[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]], "no trap"),
+        ([[9, 9, 9], [1, 2, 3], [4, 1, 1], [3, 3, 3]], "out of the workspace"),
+        ([[4, 1, 1]] * 4, "too near to each other"),
+        ([[-4, 0, 1], [-4, 1, 1], [-4, 2, 1], [-4, 3, 1]], "nothing in time"),
+        ([[4000, 1000, 1000]] * 4, "another kind or shape"),
+    ],
+)
+def test_what_is_no_trap_is_told(points, mistake):
+    verdict = check("visit_and_collect.3", points, who="your name")
+    assert not verdict.holds and verdict.mistake == mistake, verdict
+
+
+def test_the_numbers_behind_the_predictions():
+    assert lab._axis_facts()["height"] == 4.0  # 3-4-5
+    assert -1.017 < lab._dip_facts()["low"] < -1.016
+    facts = lab._belt_facts()
+    assert (facts["even"], facts["uneven"]) == (120, 85) and facts["rule"] > facts["even"]
+    changes = lab._change_facts()
+    assert [changes[k] > 0 for k in ("axis", "prices", "speeds", "onward")] == [1, 1, 0, 1]
+    for seed in range(5):  # against the package's own optimum
+        task = lab._drawn(seed)
+        legs = lab.travel_time(task.q[:, None], task.q, task.speeds)
+        arrivals = legs[lab.STOPS[:, :-1], lab.STOPS[:, 1:]].cumsum(axis=-1)
+        assert (arrivals <= task.T).sum(axis=-1).max() == len(best_visit(task).order)
+        assert len(visit(task).order) <= len(best_visit(task).order)
