@@ -61,8 +61,8 @@ class Place:
         return words(np.array(self))
 
 
-# a formula: case -> (what stands under the root, root -> point)
-Formula: TypeAlias = Callable[..., tuple[float, Callable[[float], Floats]]]
+# a formula: case -> (what stands under the root, root -> point, distance of the tip)
+Formula: TypeAlias = Callable[..., tuple[float, Callable[[float], Floats], float]]
 Rim: TypeAlias = Callable[[float, float, float, float], float]
 
 
@@ -80,7 +80,8 @@ def _shares(d2: float, l1: float, l2: float) -> tuple[float, float]:
 def _general(base: Floats, tip: Floats, l1: float, l2: float, side: float) -> Any:
     dx, dy = tip - base
     a, h2 = _shares(dx * dx + dy * dy, l1, l2)
-    return h2, lambda h: base + a * np.array([dx, dy]) + side * h * np.array([dy, -dx])
+    along, across = np.array([dx, dy]), np.array([dy, -dx])
+    return h2, lambda h: base + a * along + side * h * across, math.hypot(dx, dy)
 
 
 def _safe(h2: float, d: float, l1: float, l2: float) -> float:
@@ -140,8 +141,8 @@ def _wide(h2: float, d: float, l1: float, l2: float) -> float:
 
 def _solved(formula: Formula, rim: Rim) -> Program:
     def program(base: Floats, tip: Floats, l1: float, l2: float, side: float) -> Floats:
-        h2, place = formula(base, tip, l1, l2, side)
-        return place(rim(h2, float(np.hypot(*(tip - base))), l1, l2))
+        h2, place, d = formula(base, tip, l1, l2, side)
+        return place(rim(h2, d, l1, l2))
 
     return program
 
@@ -258,10 +259,10 @@ def _made(
     def formula(base: Floats, tip: Floats, l1: float, l2: float, side: float) -> Any:
         dx, dy = way(base, tip)
         a, h2 = shares(squared(dx, dy), l1, l2)
-        along, across = np.array([dx, dy]), np.array([dy, -dx])
+        along, across, d = np.array([dx, dy]), np.array([dy, -dx]), math.hypot(dx, dy)
         if place is None:
-            return h2, lambda h: base + a * along + side * h * across
-        return h2, lambda h: place(base, tip, a, side, h, along, across)
+            return h2, lambda h: base + a * along + side * h * across, d
+        return h2, lambda h: place(base, tip, a, side, h, along, across), d
 
     return formula
 
@@ -320,6 +321,34 @@ def _turned(base: Any, tip: Any, a: Any, side: Any, h: Any, along: Any, across: 
     direction = np.arctan(np.divide(along[1], along[0])) - side * np.arctan2(h, a)
     length = np.hypot(*along) * np.hypot(a, h)
     return np.asarray(base + length * np.array([np.cos(direction), np.sin(direction)]))
+
+
+def _polar(direction: Program) -> Formula:
+    """By the length of link 1 and another direction(along, angle at the base, side)."""
+
+    def place(base: Any, tip: Any, a: Any, side: Any, h: Any, along: Any, across: Any) -> Floats:
+        length = np.hypot(*along) * np.hypot(a, h)
+        q = direction(along, np.arctan2(h, a), side)
+        return np.asarray(base + length * np.array([np.cos(q), np.sin(q)]))
+
+    return _placed(place)
+
+
+def _with_cosine(cosine: Program) -> Formula:
+    """With another cosine of the angle at the base: of d, l1, l2."""
+
+    def formula(base: Floats, tip: Floats, l1: float, l2: float, side: float) -> Any:
+        dx, dy = tip - base
+        d = math.hypot(dx, dy)
+        c = cosine(d, l1, l2)
+
+        def place(h: float) -> Floats:
+            q = np.arctan2(dy, dx) - side * np.arctan2(h, c)
+            return np.asarray(base + l1 * np.array([np.cos(q), np.sin(q)]))
+
+        return 1 - c * c, place, d
+
+    return formula
 
 
 def _in_degrees(base: Any, tip: Any, a: Any, side: Any, h: Any, along: Any, across: Any) -> Floats:
@@ -527,6 +556,42 @@ FORMULAS: tuple[Parts, ...] = (
     ),
     ("degrees for radians", "sin and cos want radians.", _placed(_in_degrees)),
     (
+        "the arguments of arctan2 exchanged",
+        "arctan2 takes the sine's side first: arctan2(dy, dx).",
+        _polar(lambda u, angle, side: np.arctan2(u[0], u[1]) - side * angle),
+    ),
+    (
+        "the direction of the way left out",
+        "The angle at the base counts from the way to the tip, and that has a direction of its "
+        "own: arctan2(dy, dx).",
+        _polar(lambda u, angle, side: -side * angle),
+    ),
+    (
+        "the wrong link in the law of cosines",
+        "The angle at the base lies between link 1 and the way: its cosine is divided by 2 d l1.",
+        _with_cosine(lambda d, l1, l2: (d * d + l1**2 - l2**2) / (2 * d * l2)),
+    ),
+    (
+        "the angle at the elbow for the angle at the base",
+        "This cosine, over 2 l1 l2, belongs to the corner at the elbow.",
+        _with_cosine(lambda d, l1, l2: (l1**2 + l2**2 - d * d) / (2 * l1 * l2)),
+    ),
+    (
+        "q2 for the angle at the base",
+        "This is the cosine of q2. Wanted is the angle between the way and link 1.",
+        _with_cosine(lambda d, l1, l2: (d * d - l1**2 - l2**2) / (2 * l1 * l2)),
+    ),
+    (
+        "h left out",
+        "This is the point on the way between the two elbows: go across, too, by h.",
+        _placed(lambda base, tip, a, side, h, u, v: base + a * u + 0 * h * v),
+    ),
+    (
+        "x and y exchanged",
+        "The point is [x, y], in this order.",
+        _placed(lambda base, tip, a, side, h, u, v: (base + a * u + side * h * v)[::-1]),
+    ),
+    (
         "the joint angles for the place",
         "These are q1 and q2. Asked is the place of the elbow, in metres.",
         _placed(_angles_of),
@@ -598,8 +663,6 @@ def _rounded(digits: int, rim: Rim) -> Program:
 
 
 OTHER_ROOT = {  # what is under the root is negative elsewhere than where the tip is out of reach
-    "the base taken for the origin",
-    "the way counted from the origin",
     "equal links assumed",
     "the sign of l2 squared",
     "the signs of both squares",
@@ -610,6 +673,7 @@ OTHER_ROOT = {  # what is under the root is negative elsewhere than where the ti
     "the square of a forgotten",
     "l2 under the root",
     "d for d squared",
+    "the wrong link in the law of cosines",
 }
 INDISTINCT = {  # the wrong root is of a negative number never, or always
     "the sign of l2 squared, and an error instead of NaN",
@@ -724,7 +788,7 @@ def _values(program: str, tip: Sequence[float]) -> dict[str, float]:
 
 
 def _pair(base: Sequence[float], tip: Floats, l1: float, l2: float, side: int) -> Floats:
-    h2, place = _general(np.array(base), tip, l1, l2, side)
+    h2, place, _ = _general(np.array(base), tip, l1, l2, side)
     elbow: Floats = place(_bare(h2, 0, 0, 0))
     return elbow
 
@@ -815,8 +879,8 @@ def _program_faults(program: str, given: Any) -> list[tuple[str, str]]:
 def _both(*case: float, rim: Rim = _bare) -> tuple[float, ...]:
     x1, y1, x3, y3, l1, l2 = case
     base, tip = np.array([x1, y1], dtype=float), np.array([x3, y3], dtype=float)
-    h2, _ = _general(base, tip, l1, l2, 1)
-    h = rim(h2, float(np.hypot(*(tip - base))), l1, l2)
+    h2, _, d = _general(base, tip, l1, l2, 1)
+    h = rim(h2, d, l1, l2)
     places = [_general(base, tip, l1, l2, side)[1](h) for side in (1, -1)]
     return tuple(float(x) for place in places for x in place)
 
