@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .._arrays import Floats
-from ..arms import follow, two_link
+from ..arms import two_link
 from ..units import deg
 from .exercises import Catch, Function, Value, words
 from .mistakes import Mistake, Program, Tools
@@ -1058,11 +1058,13 @@ def _touch_view() -> Any:
     rows = arm.ik(tips)
     touched = _touch_facts()["times"]
     return animate(
-        [arm, arm],
+        arm,
         t,
-        [rows[:, 0], rows[:, 1]],
-        names=["right elbow", "left elbow"],
-        points={"tip": np.pad(tips, [(0, 0), (0, 1)])},
+        rows[:, 0],
+        points={
+            "tip": np.pad(tips, [(0, 0), (0, 1)]),
+            "other elbow": arm.frames(rows[:, 1])[..., 1].translation,
+        },
         title=f"Past the base at 0.2 m: {touched} times the elbows meet",
     )
 
@@ -1102,7 +1104,8 @@ def _share_view() -> Any:
         sketch.levers([(0, 0), elbow, (facts["d"], 0)], dashed=dashed)
     sketch.length(elbows[1], elbows[0])
     sketch.point((0, 0), "base", away=(1, 1))
-    sketch.point((facts["d"], 0), "tip", away=(1, 0.4))
+    sketch.point((facts["d"], 0), "tip", away=(0, 1))
+    sketch.ax.margins(0.3)
     return sketch
 
 
@@ -1255,8 +1258,8 @@ def _cast_view() -> str:
 RIM_TURNS = np.linspace(-np.pi, np.pi, 721)
 
 
-def _circle(distance: float) -> Floats:
-    tips: Floats = distance * np.stack([np.cos(RIM_TURNS), np.sin(RIM_TURNS)], axis=-1)
+def _circle(distance: float, turns: Floats = RIM_TURNS) -> Floats:
+    tips: Floats = distance * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
     return tips
 
 
@@ -1280,10 +1283,12 @@ def _lost_view() -> Any:
     t = np.linspace(0, 8, len(RIM_TURNS))
     made, ours = [], []
     for distance in distances:
-        tips = _circle(float(distance))
+        tips = _circle(float(distance), 0.9 * RIM_TURNS)  # q1 stays within its limits
         with np.errstate(all="ignore"):
             elbows = np.array([_both(0, 0, *tip, LONG, SHORT)[:2] for tip in tips])
-        ours.append(follow(arm, arm.ik(tips), arm.branch(+1)))
+        # on a circle joint 1 alone turns: smooth where ik rounds
+        first = arm.ik(tips[0])[arm.branch(+1)]
+        ours.append(first + np.outer(0.9 * (RIM_TURNS - RIM_TURNS[0]), [1, 0]))
         made.append(np.where(np.isnan(elbows).any(axis=-1)[:, None], np.nan, ours[-1]))
     return animate(
         [arm, arm],
@@ -1291,7 +1296,7 @@ def _lost_view() -> Any:
         [np.array(made), np.array(ours)],
         names=["generated code", "two_link"],
         slider=("distance, m", distances),
-        title="Once round the base: where the generated code has no answer",
+        title="Round the base: where the generated code has no answer",
     )
 
 
