@@ -118,16 +118,26 @@ class Run:
         return Shown(printed.getvalue(), value)
 
     def reached(self, k: int) -> list[int]:
-        """The cells after k that what cell k leaves behind reaches."""
-        names, found = self.cells[k].writes | self.cells[k].changed, []
-        for n in range(k + 1, len(self.cells)):
-            cell = self.cells[n]
-            if ASKED.match(cell.source):
-                continue
-            if cell.reads & names:
+        """The cells after k that what cell k leaves behind reaches, and those that they need."""
+        names, found = self._left(k), []
+        later = [n for n in range(k + 1, len(self.cells)) if not ASKED.match(self.cells[n].source)]
+        for n in later:
+            if self.cells[n].reads & names:
                 found.append(n)
-                names = names | cell.writes | (cell.changed & cell.reads)
+                names = names | self._left(n)
+        wanted = set().union(*(self.cells[n].reads for n in found))
+        for n in reversed(later):
+            if n in found or self._left(n) & wanted:
+                found = sorted({n, *found})
+                wanted = wanted | self.cells[n].reads
         return found
+
+    def _left(self, k: int) -> set[str]:
+        """The names that cell k makes or changes; a module is no value to change."""
+        modules = {
+            name for name, value in self.space.items() if isinstance(value, types.ModuleType)
+        }
+        return self.cells[k].writes | (self.cells[k].changed - modules)
 
 
 class Shown:

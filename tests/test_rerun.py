@@ -55,6 +55,8 @@ def test_a_value_that_breaks_or_a_number_that_was_typed_in_is_found(tmp_path):
     assert count == 2 and "a = 0: cell 2: ZeroDivisionError" in fault
     [fault] = faults("a = 1  # try other values")[1]
     assert "invalid syntax" in fault
+    # a cell that the value reaches may need one that it does not reach
+    assert faults("a = 1  # try 2", "b = 3", "print(a + b)") == (1, [])
     # what a value changes does not stay: the next one starts from what the cells above left
     assert faults("x = [1]", "a = 1  # try 2, 3\nx.append(a)", "assert len(x) == 2")[1] == []
 
