@@ -17,20 +17,8 @@ LABS = (
     "visit_and_collect",
     "three_levers",
     "obstacle_avoidance",
-LABS = (
-    "frames_and_quaternions",
-    "irb140_kinematics",
-    "irb140_motion",
-    "scara_kinematics",
-    "scara_motion",
-    "spherical_wrist",
-    "puma560_branches",
-    "visit_and_collect",
-    "three_levers",
-    "obstacle_avoidance",
     "motor_synchronisation",
     "two_link_code_generation",
-)
 )
 
 
