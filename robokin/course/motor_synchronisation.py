@@ -260,6 +260,12 @@ ROUND = "Wanted is the nearest whole number of turns: np.round. "
 # name, sentence, (point, before) -> alpha
 ALPHAS: tuple[tuple[str, str, Alpha], ...] = (
     (
+        "alpha stays wherever x = 0",
+        "At x = 0 and y not 0 the direction is ±90°, and arctan2 gives it; nothing is divided. "
+        "Only above the base, x = y = 0, does alpha stay.",
+        lambda point, before: before if point[0] == 0 else _right_alpha(point, before),
+    ),
+    (
         "alpha does not go on from before",
         "arctan2 gives the direction, always within ±180°. Wanted is the value of this direction "
         "nearest to `before`.",
@@ -644,7 +650,8 @@ POSTURE_MISTAKES = _told_apart()
 
 # --- 2: gears and frequencies ---------------------------------------------------------------------
 
-COARSE = (A + B) * STEP / 2 * deg  # what half a step without a gear moves the stretched arm's end
+LENGTHS = np.array([A + B, A + B, B])  # from each joint to the end of the stretched arm
+COARSE = LENGTHS * STEP / 2 * deg  # what half a step without a gear moves that end
 TOGETHER = 0.01  # working times this near to each other, as a share, are one
 KEYS = ("gears", "frequencies")
 
@@ -668,7 +675,7 @@ def _pulses(given: Mapping[str, Any], gears: Floats) -> Floats:
 
 def _least(given: Mapping[str, Any]) -> int:
     """The smallest gear that is fine enough."""
-    return int(np.ceil(COARSE / float(given["miss"]) - 1e-9))
+    return int(np.ceil(COARSE.max() / float(given["miss"]) - 1e-9))
 
 
 def given(who: Any) -> Numbers:
@@ -691,7 +698,7 @@ def given(who: Any) -> Numbers:
             break
     names = [f"{end}_{x}" for end in ("start", "goal") for x in "xyz"]
     values: dict[str, Any] = dict(zip(names, places, strict=True))
-    gear = int(np.ceil(COARSE / miss - 1e-9))
+    gear = int(np.ceil(COARSE.max() / miss - 1e-9))
     needed = float(turns.max()) * gear / STEP / most
     values |= {
         "miss": miss,
@@ -744,7 +751,7 @@ def _drive_faults(answer: tuple[Floats, Floats], given: Any) -> list[tuple[str, 
                 "too coarse",
                 f"Half a pulse of motor {k + 1} moves the end of the stretched arm by "
                 f"{ends[k] / mm:.3f} mm; allowed are {miss / mm:.2f} mm. Half a pulse turns the "
-                f"joint by 0.9° / gear, and the arm is {(A + B) / mm:.0f} mm long.",
+                f"joint by 0.9° / gear, and the end is {LENGTHS[k] / mm:.0f} mm away from it.",
             )
         )
     fast = np.flatnonzero(omega > most * (1 + 1e-9))
@@ -933,6 +940,12 @@ PHASE_MISTAKES = (
         "The rows are a ring: after the last one comes the first. Send more pulses than there are "
         "rows, in both directions.",
         _walks(lambda signs, n: np.clip(_sums(signs), 0, n - 1)),
+    ),
+    Mistake(
+        "once round the ring at most",
+        "It stops where the ring closes, after as many pulses one way as the table has rows. Send "
+        "more of them, in both directions.",
+        _walks(lambda signs, n: np.clip(_sums(signs), -n, n - 1) % n),
     ),
     Mistake(
         "the last row is left out",
@@ -1348,8 +1361,8 @@ EXERCISES = {
             "Gears first: a gear has to be fine enough for `miss`, and no finer than the time "
             "allows. The frequencies follow from the pulses.",
             "Half a pulse turns the joint by 0.9° / gear and moves the end of the stretched arm by "
-            "(A + B) times that, in radians. So the smallest gear is (A + B) * 0.9 * deg / miss, "
-            "rounded up.",
+            "(A + B) times that, in radians, for joints 1 and 2. So their smallest gear is (A + B) "
+            "* 0.9 * deg / miss, rounded up; joint 3 may have the same.",
             "pulses = abs(np.diff(counts(station_postures(LOADER, [my_start, my_goal]), gears / "
             '1.8), axis=0)[0]); the motor with the most runs at own["most"], each other one at '
             "its pulses over the most times that: `frequencies(pulses, limit)`.",
