@@ -30,7 +30,9 @@ __all__ = [
     "variant",
 ]
 
-_verdicts: dict[str, Verdict] = {}  # the last one for each exercise, in this kernel
+_verdicts: dict[
+    str, Verdict
+] = {}  # the last one for each exercise in this kernel, or one that held
 
 
 def check(name: str, answer: Any = None, who: Any = None) -> Verdict:
@@ -49,7 +51,9 @@ def check(name: str, answer: Any = None, who: Any = None) -> Verdict:
     except Exception as error:
         says = f"This cannot be judged: {type(error).__name__}: {error}"
         verdict = Verdict(str(name), says=(says,))
-    _verdicts[verdict.exercise] = verdict
+    before = _verdicts.get(verdict.exercise)
+    if before is None or not before.holds:  # what held once is practised
+        _verdicts[verdict.exercise] = verdict
     return verdict
 
 

@@ -387,6 +387,8 @@ def words(value: Any) -> str:
     if isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
         if value.size > 12:
             return f"an array of shape {value.shape}: [{_row(value.ravel()[:4])}, ...]"
+        if value.ndim == 2:
+            return "[" + ", ".join(f"[{_row(row)}]" for row in value) + "]"
         return f"[{_row(value)}]" if value.ndim == 1 else f"an array of shape {value.shape}"
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{k!r}: {words(v)}" for k, v in value.items()) + "}"

@@ -6,6 +6,7 @@ import hashlib
 import html
 import json
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -149,7 +150,7 @@ class Asked:
         from ..show.page import inert, output
 
         data = self.data | {"view": shown(self.view())}
-        words = "".join(f"<p>{html.escape(line)}</p>" for line in repr(self).split("\n")[1:])
+        words = "".join(map(paragraph, repr(self).split("\n")[1:]))
         return output("prediction.ask", self.id, inert(data), f"{words}<p>{ASLEEP}</p>")
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -192,8 +193,13 @@ def with_unit(text: str, unit: str) -> str:
     return text.replace("-", "\N{MINUS SIGN}") + space + unit
 
 
+def paragraph(line: str) -> str:
+    """A line as HTML; what stands between back-ticks is code."""
+    return "<p>" + re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(line)) + "</p>"
+
+
 def shown(view: Any) -> str:
     """What a view shows in a page, as HTML."""
     if isinstance(view, str):
-        return "".join(f"<p>{html.escape(line)}</p>" for line in view.split("\n") if line)
+        return "".join(paragraph(line) for line in view.split("\n") if line)
     return str(view._repr_mimebundle_()["text/html"])

@@ -139,6 +139,22 @@ def _wide(h2: float, d: float, l1: float, l2: float) -> float:
     return _clipped(h2, d, l1, l2) if inside else math.nan
 
 
+def _about(h2: float, d: float, l1: float, l2: float) -> float:
+    if np.isclose(d, l1 + l2) or np.isclose(d, abs(l1 - l2)):
+        return 0.0
+    return _clipped(h2, d, l1, l2) if abs(l1 - l2) <= d <= l1 + l2 else math.nan
+
+
+def _whole(base: Any, tip: Any, l1: float, l2: float, side: float) -> Floats:
+    """Written into an array made like the base."""
+    elbow = np.zeros_like(base)
+    right = _elbow(Tools(), base, tip, l1, l2, side)
+    if np.isnan(right).any():
+        return right
+    elbow[:] = right
+    return np.asarray(elbow)
+
+
 def _solved(formula: Formula, rim: Rim) -> Program:
     def program(base: Floats, tip: Floats, l1: float, l2: float, side: float) -> Floats:
         h2, place, d = formula(base, tip, l1, l2, side)
@@ -182,7 +198,10 @@ def _elbow_cases(rng: np.random.Generator) -> list[Case]:
     cases.append(case([0, 0], [1.699, 0.0], 1.0, 0.7, +1))  # 1 mm inside, 2 mm outside
     cases.append(case([0, 0], [0.0, 1.702], 1.0, 0.7, +1))
     cases.append(case([0, 0], [0.298, 0.0], 1.0, 0.7, +1))
-    while len(cases) < 38:
+    cases.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))  # 3 micrometres outside, inside
+    cases.append(case([0, 0], [0, 1.7 * (1 - 2e-6)], 1.0, 0.7, +1))
+    cases.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
+    while len(cases) < 41:
         base, l1, l2 = rng.uniform(-1, 1, 2), *rng.uniform(0.4, 1.2, 2)
         turn, share = rng.uniform(-np.pi, np.pi), rng.uniform(0.1, 0.9)
         d = abs(l1 - l2) + share * (l1 + l2 - abs(l1 - l2))
@@ -647,10 +666,20 @@ MORE_RIMS: tuple[tuple[str, str, Rim], ...] = (
         _margin,
     ),
     (
+        "np.isclose decides what is on the rim",
+        "np.isclose allows for 1e-5 of the number: micrometres inside the rim there are two "
+        "elbows, millimetres apart, and outside none. Allow for 1e-9 of the reach.",
+        _about,
+    ),
+    (
         "a margin outside the rim",
         "Tips that are 2 mm out of reach are accepted: room for rounding is 1e-9 of the reach.",
         _wide,
     ),
+)
+WHOLE = (
+    "The elbow is written into an array of whole numbers, such as np.zeros_like(base) makes of a "
+    "base (0, 0): what is behind the point is cut off. Ask for floats."
 )
 ROUNDED = "So few digits are too few: the elbow is off by more than a micrometre."
 
@@ -688,6 +717,7 @@ def _elbow_mistakes() -> list[Mistake]:
     """
     found = [Mistake(name, says, _solved(f, _safe)) for name, says, f in FORMULAS]
     found += [Mistake(n, says, _solved(_general, rim)) for n, says, rim in (*RIMS, *MORE_RIMS)]
+    found.append(Mistake("whole numbers for the elbow", WHOLE, _whole))
     found += [Mistake("rounded", ROUNDED, _rounded(digits, _safe)) for digits in (2, 3, 4)]
     for name, says, f in FORMULAS:
         lost, why, _ = RIMS[0]

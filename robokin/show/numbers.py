@@ -89,8 +89,8 @@ def series_step(least: float) -> float:
 
 
 def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
-    """Which of `count` samples the page gets: evenly spread, and those on both sides of every
-    jump.
+    """Which of `count` samples the page gets: evenly spread, those on both sides of every jump, and
+    where speed and acceleration of a motion are greatest: so the curves reach what the table says.
     """
     values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
     wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 1.1 * 4 / 3))))
@@ -108,8 +108,27 @@ def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
     extra = {i for i in extra if 0 < i < count - 1}
     if len(extra) > wanted // 3:
         extra = set()
+    for peak in _peaks(tracks):
+        if len(extra) < wanted // 3 and 0 < peak < count - 1:
+            extra.add(peak)
     even = np.floor(np.linspace(0, count - 1, wanted - len(extra)) + 0.5 + TIE).astype(int)
     return np.array(sorted({*even.tolist(), *extra}))
+
+
+def _peaks(tracks: Sequence[Recording]) -> list[int]:
+    """Where speeds and accelerations of each motion are greatest, the greatest of all first."""
+    found: list[tuple[float, int]] = []
+    for track in tracks:
+        for values in (track.v, track.a):
+            most = np.nan_to_num(abs(values)).max(axis=-1)  # (motions, samples)
+            height = most.max(initial=0)
+            at = most.argmax(axis=-1)
+            found += [
+                (-round(float(row[k] / height), 9), int(k))
+                for row, k in zip(most, at, strict=True)
+                if height > 0
+            ]
+    return list(dict.fromkeys(k for _, k in sorted(found)))
 
 
 def scales(ranges: Sequence[Any]) -> list[Scale]:

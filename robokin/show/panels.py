@@ -260,8 +260,11 @@ def _verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list
             said.append(f"one or another in {either}")
         return [", ".join(said)]
     if kind == "q":
-        who = "every joint inside its limits"
-        return [who if len(joints) > 1 else f"q{joints[0] + 1} inside its limits"]
+        if len(joints) == 1:
+            return [f"q{joints[0] + 1} inside its limits"]
+        if len(joints) == len(recording.arm.links):
+            return ["every joint inside its limits"]
+        return [f"{', '.join(f'q{j + 1}' for j in joints)} inside their limits"]
     if kind == "v" and limits is not None:
         share = np.nan_to_num(recording.greatest_speed.value[joints]) / limits[joints]
         most = int(share.round(9).argmax())

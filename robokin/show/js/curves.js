@@ -38,9 +38,9 @@ export function curvesView(canvas, patterns) {
       const width = w / across, height = h / rows, titled = columns.length > 1;
       const left = (c % across) * width, above = Math.floor(c / across) * height;
       const right = column.panels.some(p => p.axes.length > 1) ? 46 : 16;
-      const area = [left + 48, width - 48 - right];
-      const below = legend(g, patterns, column, left + 48, width - 48 - right, above + (titled ? 36 : 14));
-      if (titled) words(g, column.title, left + 48, above + 14, colors.ink, 13, "left", "600");
+      const room = Math.max(48, 14 + widest(g, column)), area = [left + room, width - room - right];
+      const below = legend(g, patterns, column, left + room, width - room - right, above + (titled ? 36 : 14));
+      if (titled) words(g, column.title, left + room, above + 14, colors.ink, 13, "left", "600");
       const bottom = above + height - 24, count = column.panels.length, tall = (bottom - below) / count;
       const x = t => area[0] + area[1] * (t - t0) / (t1 - t0);
       spans.push([area[0], area[1], t0, t1, left, above]);
@@ -71,6 +71,13 @@ const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
 
 // Names with their lines, above the panels, evenly in as many rows as it takes; returns where the panels may begin.
+// How wide the numbers beside the panels are.
+function widest(g, {panels}) {
+  g.font = `11px ${FONT}`;
+  return Math.max(...panels.flatMap(({axes: [{scale: [low, step, count, decimals]}]}) =>
+    [low, low + (count - 1) * step].map(value => g.measureText(number(value, decimals)).width)));
+}
+
 function legend(g, patterns, column, left, width, y) {
   const joints = column.panels[0].curves.length, rows = Math.ceil(joints * 38 / width), inRow = Math.ceil(joints / rows);
   const each = Math.min(56, width / inRow), long = each - 30;

@@ -51,7 +51,7 @@ function start(root, data, group) {
   const inputs = data.unit === null ? data.options.map((_, i) => control("input", {type: "radio", name: group, value: LETTERS[i]}))
     : [control("input", {type: "number", step: "any", "aria-label": `your guess, ${data.unit}`})];
   const rows = data.unit === null
-    ? data.options.map(({text}, i) => element("label", {class: "rk-option"}, inputs[i], element("span", {}, `${LETTERS[i]}) ${text}`)))
+    ? data.options.map(({text}, i) => element("label", {class: "rk-option"}, inputs[i], element("span", {}, ...coded(`${LETTERS[i]}) ${text}`))))
     : [element("label", {class: "rk-option"}, inputs[0], element("span", {}, data.unit))];
   const chosen = () => (data.unit === null ? inputs.find(input => input.checked)?.value : inputs[0].value) ?? "";
 
@@ -68,7 +68,7 @@ function start(root, data, group) {
       row.classList.toggle("rk-wrong", i === at && at !== data.right);
       if (marks.length) row.append(element("b", {}, `\u2190 ${marks.join(", ")}`));
     });
-    answer.replaceChildren(...told(data, at, right).map(text => element("p", {}, text)), ...data.view ? [view(data.view)] : [],
+    answer.replaceChildren(...told(data, at, right).map(text => element("p", {}, ...coded(text))), ...data.view ? [view(data.view)] : [],
       ...data.choice === null ? [element("p", {}, "For your report, make it the cell's line: ", element("code", {}, line(data, choice)))] : []);
     guess.hidden = true;
     again.hidden = data.choice !== null;
@@ -96,7 +96,7 @@ function start(root, data, group) {
   again.addEventListener("click", () => { close(); keep(data.name, ""); inputs[0].focus(); });
   root.replaceChildren(element("div", {class: "rk rk-ask", role: "group", "aria-label": data.title},
     element("style", {}, STYLE),
-    element("fieldset", {}, element("legend", {}, data.question), ...rows),
+    element("fieldset", {}, element("legend", {}, ...coded(data.question)), ...rows),
     element("div", {class: "rk-asking"}, guess, again), answer));
   const before = data.choice ?? kept(data.name);
   if (before !== null && valid(data, before)) open(before);
@@ -119,6 +119,9 @@ function told(data, at, right) {
   const own = at < 0 ? ["Not so."] : [`Not so: ${data.options[at].confusion}. ${data.options[at].reason}`, data.options[at].second];
   return [...own, `Right is ${letter}${text}${/[.!?]$/.test(text) ? "" : "."} ${right.reason}`].filter(text => text);
 }
+
+// Words between back-ticks are code.
+const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
 const line = (data, choice) => `predict("${data.name}", ${data.unit === null ? `"${choice}"` : +choice})`;
 
