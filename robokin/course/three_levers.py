@@ -5,7 +5,7 @@ the tables stand at the end.
 """
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -709,9 +709,15 @@ ROOM = 0.02 * deg  # by so much a right program may be above the least S
 REACH = 1e-5  # m
 
 
-def _exact(point: Floats, previous: Floats) -> Floats:
-    q: Floats = ARM.least(point, previous)[0]
+@lru_cache(maxsize=2000)  # many of the programs begin with it, on the same tasks
+def _remembered(point: tuple[float, ...], previous: tuple[float, ...]) -> Floats:
+    q: Floats = ARM.least(np.array(point), np.array(previous))[0]
     return q
+
+
+def _exact(point: Floats, previous: Floats) -> Floats:
+    place, before = (tuple(np.asarray(x, dtype=float).tolist()) for x in (point, previous))
+    return _remembered(place, before).copy()
 
 
 def _rows(point: Floats, step: float, limited: bool = True) -> Floats:
