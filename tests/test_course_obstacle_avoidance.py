@@ -2,6 +2,8 @@
 one's own task can be met.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 from matplotlib.path import Path as Outline
@@ -9,7 +11,7 @@ from matplotlib.path import Path as Outline
 import robokin.course.obstacle_avoidance as book
 from robokin import deg, three_lever
 from robokin.course import check, variant
-from robokin.jobs.obstacles import way_round
+from robokin.jobs.obstacles import along, clearance, way_round
 
 arm = three_lever(1.0)
 
@@ -21,7 +23,7 @@ def _sides(c):
 def _angle_sum(c, H):
     a = np.arctan2(c[:, 1] - H[1], c[:, 0] - H[0])
     turns = (np.diff(np.append(a, a[0])) + np.pi) % (2 * np.pi) - np.pi
-    return abs(turns.sum()) > 1
+    return round(turns.sum() / (2 * np.pi)) % 2 == 1
 
 
 def _upward(c, H):
@@ -69,9 +71,41 @@ def _returns_early(c, H):
     return False
 
 
+def _winding(c, H):
+    """Not zero in place of odd: the middle of a star drawn in one line is inside."""
+    z = (c - H) @ [1, 1j]
+    return abs(np.angle(np.roll(z, -1) / z).sum()) > 3
+
+
+def _strictly_convex(c, H):
+    left = [np.linalg.det([Q - P, H - P]) for P, Q in _sides(c)]
+    return min(left) > 1e-12 or max(left) < -1e-12
+
+
+def _open_upward(c, H):
+    odd = False
+    for P, Q in zip(c[:-1], c[1:], strict=True):
+        if (P[0] > H[0]) != (Q[0] > H[0]):
+            odd ^= H[1] < P[1] + (H[0] - P[0]) * (Q[1] - P[1]) / (Q[0] - P[0])
+    return bool(odd)
+
+
+def _by_products(c, H):
+    """Neither end of a side counts."""
+    count = 0
+    for P, Q in _sides(c):
+        if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
+            count += P[0] + (H[1] - P[1]) * (Q[0] - P[0]) / (Q[1] - P[1]) > H[0]
+    return count % 2 == 1
+
+
 @pytest.mark.parametrize(
     "wrong, named",
     [
+        (_winding, "any turns, not an odd number"),
+        (_strictly_convex, "no dent allowed"),
+        (_open_upward, "the closing side left out"),
+        (_by_products, "a corner counts twice, or not at all"),
         (_areas, "no dent allowed"),
         (_both_ways, "outside always"),
         (_returns_early, "any crossing"),
@@ -101,6 +135,35 @@ def test_what_one_knows_already_does_not_pass_both_obstacles(who):
             assert not verdict.holds and verdict.mistake, name
     assert "degrees" in check("obstacle_avoidance.2", paths["degrees"], who=who).mistake
     assert check("obstacle_avoidance.2", paths["back"], who=who).mistake == "another start"
+
+
+@cache
+def _tasks(count, turn, gap):
+    """Paths, H, a distance, whether it is kept: `gap` from the least distance."""
+    rng, made = np.random.default_rng(2), []
+    while len(made) < count:
+        first = rng.uniform(0.3, 2.8, 3)
+        path = np.clip([first, first + rng.uniform(-turn, turn, 3) * deg], 0, np.pi)
+        path = np.array([*path, np.clip(path[1] + rng.uniform(-turn, turn, 3) * deg, 0, np.pi)])
+        points = arm.points(along(path, rng.random()))
+        i = rng.integers(3)
+        H = points[i] + rng.random() * (points[i + 1] - points[i]) + rng.normal(0, 0.2, 2)
+        least = clearance(arm, path, H).min()
+        if least > gap + 0.03:
+            truth = len(made) % 2 == 0
+            made.append((path, H, least - gap if truth else least + gap, truth))
+    return made
+
+
+@pytest.mark.parametrize(
+    "turn, gap, mistake",
+    [(80, 0.004, "refuses a right program"), (170, 0.03, "refuses a right program")],
+)
+def test_a_test_that_asks_more_than_is_promised(turn, gap, mistake):
+    def strict(safe):
+        return all(bool(safe(path, H, d)) == truth for path, H, d, truth in _tasks(60, turn, gap))
+
+    assert check("obstacle_avoidance.3", strict).mistake == mistake
 
 
 def test_the_distances_of_the_checks_are_those_of_the_package():

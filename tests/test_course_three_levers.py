@@ -69,9 +69,56 @@ def quotient(K, alpha, lengths):
     return levers(K, alpha, lengths) + [turn, 0, 0]
 
 
+def angle_between(a, b, c):
+    return np.arccos(np.clip((a**2 + b**2 - c**2) / (2 * a * b), -1, 1))
+
+
+def of_the_lab(K, alpha, lengths):
+    """The lab's formulas, its clip among them, with OB for L."""
+    L, KO = lengths[0], np.hypot(*K)
+    KB = 2 * L * np.sin(alpha / 2)
+    gamma = angle_between(KO, L, KB) + np.arctan2(K[1], K[0])
+    return np.array([gamma, angle_between(KB, L, KO) + (np.pi - alpha) / 2, alpha])
+
+
+def first_of_the_lab(K, alpha, lengths):
+    return levers(K, alpha, [1.0, *lengths[1:]])
+
+
+def whole_arm(K, alpha, lengths):
+    """NaN only where no alpha reaches."""
+    a, b, c = lengths
+    KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+    if not max(0, 2 * max(lengths) - sum(lengths)) <= KO <= sum(lengths):
+        return np.nan
+    gamma = angle_between(KO, a, KB) + np.arctan2(K[1], K[0])
+    return np.array([gamma, angle_between(KB, a, KO) + angle_between(KB, b, c), alpha])
+
+
+def folded(K, alpha, lengths):
+    gamma, beta, _ = levers(K, alpha, lengths)
+    return np.array([gamma, min(beta, 2 * np.pi - beta), alpha])
+
+
+def added(K, alpha, lengths):
+    """A plus in the law of cosines, and beta_2 from that KB."""
+    a, b, c = lengths
+    KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 + 2 * b * c * np.cos(alpha))
+    gamma = law(KO, a, KB) + np.arctan2(K[1], K[0])
+    return np.array([gamma, law(KB, a, KO) + law(KB, b, c), alpha])
+
+
 @pytest.mark.parametrize(
     ("answer", "mistake"),
     [
+        (
+            of_the_lab,
+            "the formulas of equal levers, with OB; and clipped where there is no triangle",
+        ),
+        (first_of_the_lab, "L of the lab for OB"),
+        (whole_arm, "the reach of the whole arm"),
+        (folded, "beta folded below 180°"),
+        (added, "the wrong sign in the law of cosines"),
         (limited, "limits are looked at"),
         (equal_levers, "the formulas of equal levers, with OB"),
         (no_direction, "the direction of K left out"),
@@ -132,6 +179,37 @@ def test_tests_for_least_movement():
     assert not check("three_levers.2", one_task).holds
 
 
+def least_test(at=1e-5, limit=1e-6, plus=0.02 * deg, relative=0.0):
+    def test(program):
+        for K, previous, S in tasks(140):
+            q = np.array(program(K, previous))
+            there = np.allclose(ARM.points(q)[3], K, rtol=relative, atol=at)
+            legal = (q >= -limit).all() and (q <= np.pi + limit).all()
+            if not (there and legal and abs(q - previous).sum() <= S + plus):
+                return False
+        return True
+
+    return test
+
+
+@pytest.mark.parametrize(
+    ("test", "mistake"),
+    [
+        (least_test(), None),
+        (least_test(relative=1e-5), None),
+        (least_test(at=1e-9, relative=1e-5), "refuses a right program"),
+        (least_test(at=1e-3), "accepts: rounded to hundredths of a degree"),
+        (least_test(limit=0), "refuses a right program"),
+        (least_test(plus=0.01 * deg), "refuses a right program"),
+        (least_test(plus=0.05 * deg), "accepts: S up to 0.028° above the least"),
+        (least_test(plus=0.15 * deg), "accepts: a step of 0.1°"),
+    ],
+)
+def test_what_is_promised_is_what_is_tested(test, mistake):
+    verdict = check("three_levers.2", test)
+    assert verdict.holds == (mistake is None) and verdict.mistake == mistake
+
+
 @pytest.mark.parametrize("who", range(8))
 def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
     numbers = variant("three_levers", who)
@@ -157,6 +235,7 @@ def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
     [
         ({"first": 120, "second": 110}, "degrees for radians"),
         ({"first": 0.5, "second": 2.0}, "alpha outside its range"),
+        ({"first": 120 * deg * deg, "second": 110 * deg * deg}, "deg twice"),
         ({"first": 2.4}, "another kind or shape"),
         ({"first": 2.4, "second": np.pi}, "gamma past its limit at the second target"),
     ],

@@ -186,7 +186,7 @@ class Function(Exercise):
         found = []
         for k, name in enumerate(self.inputs):
             tried = [(*cases[0][:k], case[k], *cases[0][k + 1 :]) for case in cases]
-            tried = [case for case in tried if not self._equal_right(case, cases[0])][:5]
+            tried = [case for case in tried if not self._equal_right(case, cases[0])][:20]
             outcomes = [
                 self._formed(o, c)
                 for o, c in zip(run(answer, [cases[0], *tried]), [cases[0], *tried], strict=False)

@@ -171,10 +171,26 @@ def _last_decides(corners: Corners, H: Any) -> bool:
     return bool(inside)
 
 
-def _rising(corners: Corners, H: Any) -> bool:
-    rising = [bool(P[1] <= H[1] < Q[1]) for P, Q in _sides(corners)]
-    sides = [side for side, up in zip(_sides(corners), rising, strict=True) if up]
-    return sum(bool(H[0] < _crossing(P, Q, H[1])) for P, Q in sides) % 2 == 1
+def _crossed(takes: Callable[[float, float, float], bool]) -> Program:
+    """The even-odd rule with another idea of which sides are at the height of H."""
+
+    def program(corners: Corners, H: Any) -> bool:
+        at = [(P, Q) for P, Q in _sides(corners) if takes(P[1], H[1], Q[1]) and P[1] != Q[1]]
+        return sum(bool(H[0] < _crossing(P, Q, H[1])) for P, Q in at) % 2 == 1
+
+    return program
+
+
+def _every_way(ways: Sequence[str]) -> Program:
+    return lambda corners, H: all(
+        _count(TOWARDS[way](corners), TOWARDS[way](H)) > 0 for way in ways
+    )
+
+
+def _unsigned(corners: Corners, H: Any) -> float:
+    """The angles under which H sees the sides, all counted positive, as parts of a turn."""
+    seen = np.array([complex(*(P - H)) for P in corners])
+    return float(abs(np.angle(np.roll(seen, -1) / seen)).sum()) / (2 * np.pi)
 
 
 def _convex(corners: Corners, H: Any) -> bool:
@@ -182,10 +198,46 @@ def _convex(corners: Corners, H: Any) -> bool:
     return all(left) or not any(left)
 
 
+def _no_dent(corners: Corners, H: Any) -> bool:
+    """As `_convex`, but a point in line with a side is outside."""
+    left = np.array([_left_of(P, Q, H) for P, Q in _sides(corners)])
+    return bool((left > 0).all() or (left < 0).all())
+
+
+def _no_dent_on_lines(corners: Corners, H: Any) -> bool:
+    left = np.array([_left_of(P, Q, H) for P, Q in _sides(corners)])
+    return bool((left >= 0).all() or (left <= 0).all())
+
+
+def _turns(corners: Corners, H: Any) -> int:
+    """How often the shape goes round H, counter-clockwise."""
+    seen = np.array([complex(*(P - H)) for P in corners])
+    return round(float(np.angle(np.roll(seen, -1) / seen).sum()) / (2 * np.pi))
+
+
+TOWARDS: Mapping[str, Program] = {
+    "right": lambda points: points,
+    "left": lambda points: points * [-1, 1],
+    "up": lambda points: points[..., ::-1],
+    "down": lambda points: points[..., ::-1] * [-1, 1],
+}
+
+
+def _ray(way: str, program: Program) -> Program:
+    """The same mistake by whoever draws the ray another way."""
+    return lambda corners, H: program(TOWARDS[way](corners), TOWARDS[way](H))
+
+
 def _first_four(corners: Corners, H: Any) -> bool:
     if len(corners) < 4:
         raise IndexError
     return _count(corners[:4], H) % 2 == 1
+
+
+def _star(count: int, step: int) -> list[tuple[float, float]]:
+    """A star with so many points, drawn in one line: from each point to the `step`-th next one."""
+    angles = 2 * np.pi * step / count * np.arange(count) + 0.1
+    return [(round(2 * float(np.cos(a)), 2), round(2 * float(np.sin(a)), 2)) for a in angles]
 
 
 def _inside_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
@@ -195,6 +247,10 @@ def _inside_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     dent = [(0, 0), (4, 0), (4, 3), (2, 1)]  # a dent at the last corner
     arrow = [(0, 0), (2, 1), (4, 0), (2, 4)]
     bow = [(0, 0), (2, 2), (2, 0), (0, 2)]  # two of its sides cross
+    star = _star(5, 2)  # drawn in one line: the shape goes twice round its middle
+    hook = [(0, 0), (5, 0), (5, 5), (1, 5), (1, 2), (3, 2)]
+    hook += [(3, 3), (2, 3), (2, 4), (4, 4), (4, 1), (0, 1)]
+    ring = _star(8, 3)  # three times round the middle, twice round what is next to it
     comb = [(0, 0), (6, 0), (6, 4), (5, 1), (4, 4), (3, 1), (2, 4), (1, 1)]
     steep = [(0.9, 0.5), (0.85, -0.5), (1.3, 0.2), (0.75, 1.05)]
     triangle = [(0, 0), (3, 0), (0, 2)]
@@ -243,9 +299,23 @@ def _inside_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         (pentagon, (3, 1.75)),
         (pentagon, (0.5, 2)),
         (pentagon, (3.2, 1)),
+        (dent, (1.5, 0.5)),  # in line with a side
+        (comb, (5.7, 2)),  # many crossings on one side of H, one on the other
+        (star, (0.1, 0.05)),  # two sides to the right: outside
+        (star, (1.5, 0.1)),
+        (star[::-1], (-0.1, 0.1)),
+        (star, (0.95, 0.9)),
+        (ring, (0.1, 0.05)),
+        (ring[::-1], (-0.05, 0.1)),
+        (ring, (0.9, 0.2)),
+        (ring, (1.7, 0.05)),
+        ([(y, x) for x, y in comb], (2, 3)),  # between two teeth, one above, one below
+        (hook, (3.5, 2.5)),  # outside, with sides in every direction
+        (hook, (1.5, 3)),
+        (hook[::-1], (2.5, 3.5)),
     ]
     cases = [(np.array(c, dtype=float), np.array(h, dtype=float)) for c, h in tried]
-    while len(cases) < 52:
+    while len(cases) < 66:
         corners = rng.uniform(0, 2, (4, 2)).round(2)
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0)).round(2)
         gaps = [_to_segment(P, Q, H) for P, Q in _sides(corners)]
@@ -282,7 +352,14 @@ def _inside_law(case: tuple[Any, ...], yours: bool) -> str | None:
     return line.translate(MINUS)
 
 
-INSIDE_MISTAKES = (
+# of these there is one for each direction of the ray
+OTHER_RAYS = (
+    "the closing side left out",
+    "any crossing",
+    "a corner counts twice, or not at all",
+    "lines for sides",
+)
+RIGHTWARD_MISTAKES = (
     Mistake(
         "the box around it",
         "It asks whether H lies between the smallest and the greatest x and y. A slanted shape "
@@ -307,11 +384,37 @@ INSIDE_MISTAKES = (
         "without a dent.",
         _clockwise,
     ),
+    *(
+        Mistake(
+            "no dent allowed",
+            "A shape with a dent, or with sides that cross, has points inside that are to the left "
+            "of some sides and to the right of others. The same for sums of the triangles' areas.",
+            program,
+        )
+        for program in (_convex, _no_dent, _no_dent_on_lines)
+    ),
     Mistake(
-        "no dent allowed",
-        "A shape with a dent, or with sides that cross, has points inside that are to the left of "
-        "some sides and to the right of others. The same for sums of the triangles' areas.",
-        _convex,
+        "any turns, not an odd number",
+        "It asks whether the shape goes round H at all. Where sides cross it may go round twice: "
+        "the middle of a star drawn in one line is outside by the even-odd rule. Odd or even?",
+        lambda corners, H: _turns(corners, H) != 0,
+    ),
+    Mistake(
+        "one turn only",
+        "It asks whether the shape goes round H once. Three turns are odd, too.",
+        lambda corners, H: abs(_turns(corners, H)) == 1,
+    ),
+    Mistake(
+        "one turn, counter-clockwise only",
+        "It asks whether the shape goes round H once, counter-clockwise. Corners may be in either "
+        "direction, and three turns are odd, too.",
+        lambda corners, H: _turns(corners, H) == 1,
+    ),
+    Mistake(
+        "counter-clockwise turns only",
+        "The sum of the angles is negative where corners are clockwise. Take the number of turns "
+        "without its sign, and ask whether it is odd.",
+        lambda corners, H: _turns(corners, H) > 0,
     ),
     Mistake(
         "dents filled up",
@@ -360,7 +463,58 @@ INSIDE_MISTAKES = (
     Mistake(
         "rising sides only",
         "It counts the sides that go up and leaves out those that go down.",
-        _rising,
+        _crossed(lambda y0, y, y1: y0 <= y < y1),
+    ),
+    Mistake(
+        "rising sides only",
+        "It counts the sides that go up and leaves out those that go down.",
+        _crossed(lambda y0, y, y1: y0 < y <= y1),
+    ),
+    Mistake(
+        "falling sides only",
+        "It counts the sides that go down and leaves out those that go up.",
+        _crossed(lambda y0, y, y1: y1 <= y < y0),
+    ),
+    Mistake(
+        "falling sides only",
+        "It counts the sides that go down and leaves out those that go up.",
+        _crossed(lambda y0, y, y1: y1 < y <= y0),
+    ),
+    Mistake(
+        "two unlike questions to the ends of a side",
+        "It asks >= of one end and > of the other. Where a corner is level with H its "
+        "two sides disagree. Ask the same of both: (y0 > y) != (y1 > y).",
+        _crossed(lambda y0, y, y1: (y0 >= y) != (y1 > y)),
+    ),
+    Mistake(
+        "sides on the left and on the right",
+        "It asks whether there are sides on both sides of H. So it is between two teeth of a comb, "
+        "too. Count those of one direction: odd or even?",
+        _every_way(("left", "right")),
+    ),
+    Mistake(
+        "sides above and below",
+        "It asks whether there are sides above H and below it. So it is in a dent, too. Count "
+        "those of one direction: odd or even?",
+        _every_way(("up", "down")),
+    ),
+    Mistake(
+        "sides in every direction",
+        "It asks whether there are sides to the left, to the right, above and below. So it is in a "
+        "bay, too. Count those of one direction: odd or even?",
+        _every_way(tuple(TOWARDS)),
+    ),
+    Mistake(
+        "angles without their sign",
+        "It adds the angles under which H sees the sides, all of them positive. At a dent the "
+        "shape turns back: there they count negative.",
+        lambda corners, H: abs(_unsigned(corners, H) - 1) < 1e-6,
+    ),
+    Mistake(
+        "angles without their sign",
+        "It adds the angles under which H sees the sides, all of them positive. At a dent the "
+        "shape turns back: there they count negative.",
+        lambda corners, H: _unsigned(corners, H) > 1 - 1e-6,
     ),
     Mistake(
         "two sides left out",
@@ -379,9 +533,9 @@ INSIDE_MISTAKES = (
         _spans(lambda low, y, high: low <= y <= high),
     ),
     Mistake(
-        "a corner does not count",
-        "Where the ray meets a corner, neither side there counts. Take one end of a side with it: "
-        "(y0 > y) != (y1 > y).",
+        "a corner counts twice, or not at all",
+        "Where the ray meets a corner, both sides there count or neither does: an even number "
+        "where the border is crossed once. Take one end of a side with it: (y0 > y) != (y1 > y).",
         _spans(lambda low, y, high: low < y < high),
     ),
     Mistake(
@@ -420,6 +574,15 @@ INSIDE_MISTAKES = (
         "four corners only",
         "The number of corners is built in. Here come three, five and eight, too.",
         _first_four,
+    ),
+)
+INSIDE_MISTAKES = (
+    *RIGHTWARD_MISTAKES,
+    *(
+        Mistake(mistake.name, mistake.says, _ray(way, mistake.program))
+        for mistake in RIGHTWARD_MISTAKES
+        for way in ("left", "up", "down")
+        if mistake.name in OTHER_RAYS
     ),
 )
 
@@ -533,12 +696,18 @@ def _path_faults(path: Floats, given: Mapping[str, Any]) -> list[Fault]:
     start = np.array(given["start"]) * deg
     if abs(path).max() > 4 * np.pi:
         return [("degrees for radians", DEGREES)] * 6
+    if abs(path).max() <= 2 * np.pi * deg:
+        return [
+            ("deg twice", "All angles are a few degrees: are they multiplied by deg twice?")
+        ] * 6
     faults: list[Fault] = []
     if abs(path[0] - start).max() > 1e-4:
         got = ", ".join(f"{x:.1f}" for x in path[0] / deg)
         says = f"The path begins at ({got})°, the arm stands at {given['start']}°."
         if abs(path[-1] - start).max() <= 1e-4:
             says += " It seems to go the other way round."
+        elif abs(path[0, ::-1] - start).max() <= 1e-4:
+            says += " Its angles seem to be in the other order: it is gamma, beta, alpha."
         faults.append(("another start", says))
     end = ARM.points(path[-1])[3]
     miss = float(np.hypot(*(end - given["target"])))
@@ -578,6 +747,8 @@ def _too_near(path: Floats, place: Floats, number: int, distance: float) -> list
     )
     if corners >= distance:
         says += f" Every posture of the path keeps {corners / mm:.0f} mm: look at the way between."
+        if gripper >= distance:
+            says += " The gripper keeps it on the way, a lever does not."
         return [(f"obstacle {number} between two postures", says)]
     if gripper >= distance:
         says += " The gripper keeps it, a lever does not."
@@ -667,11 +838,26 @@ def _corners_near(q: Floats, H: Any) -> Floats:
     return found
 
 
+def _short_parts(path: Any, H: Any, distance: float) -> bool:
+    """Nothing is promised for longer parts."""
+    longest = abs(np.diff(np.asarray(path, dtype=float), axis=0)).max()
+    return bool(longest <= 90 * deg + 1e-6) and _bounded(path, H, distance)
+
+
 RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
     ("robokin's keeps, which proves the distance", _bounded),
     (f"{FINE} postures of every part, all levers", _fine),
     ("motions halved until a bound decides", _halving),
     ("part after part, up to the first that is too near", _plain),
+    (
+        "it says no up to 18 mm above the distance asked for, as promised: within 20 mm it may",
+        lambda path, H, distance: _bounded(path, H, distance + 18 * mm),
+    ),
+    (
+        "it says yes down to 18 mm below the distance asked for, as promised: within 20 mm it may",
+        lambda path, H, distance: _halving(path, H, distance - 18 * mm),
+    ),
+    ("it says no wherever a joint turns by more than 90° in a part, as promised", _short_parts),
 )
 CHECK_MISTAKES = (
     Mistake(

@@ -5,7 +5,7 @@ the tables stand at the end.
 """
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -51,6 +51,20 @@ def _clipped(a: Any, b: Any, c: Any) -> Any:
     return np.arccos(np.clip((a**2 + b**2 - c**2) / (2 * a * b), -1, 1))
 
 
+def _by_arctan2(b: Any, c: Any, alpha: Any, side: Any) -> Any:
+    """beta_2 from BA, AK and alpha."""
+    return np.arctan2(c * np.sin(alpha), b - c * np.cos(alpha))
+
+
+def _by_cosines(b: Any, c: Any, alpha: Any, side: Any) -> Any:
+    """beta_2 from KB, BA and AK: whoever has a wrong KB has a wrong beta_2, too."""
+    return _corner(side, b, c)
+
+
+def _by_clipped_cosines(b: Any, c: Any, alpha: Any, side: Any) -> Any:
+    return _clipped(side, b, c)
+
+
 def _levers(
     point: Floats,
     alpha: float,
@@ -59,7 +73,7 @@ def _levers(
     KB: Program = lambda a, b, c, alpha: np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha)),
     phi: Program = np.arctan2,
     corner: Program = _corner,
-    beta_2: Program = lambda b, c, alpha: np.arctan2(c * np.sin(alpha), b - c * np.cos(alpha)),
+    beta_2: Program = _by_arctan2,
     gamma: Program = lambda gamma_1, phi: gamma_1 + phi,
     beta: Program = lambda beta_1, beta_2: beta_1 + beta_2,
 ) -> Floats:
@@ -67,7 +81,10 @@ def _levers(
     a, b, c = np.asarray(lengths, dtype=float)
     x, y = point
     KO, side = np.hypot(x, y), KB(a, b, c, alpha)
-    angles = gamma(corner(KO, a, side), phi(y, x)), beta(corner(side, a, KO), beta_2(b, c, alpha))
+    angles = (
+        gamma(corner(KO, a, side), phi(y, x)),
+        beta(corner(side, a, KO), beta_2(b, c, alpha, side)),
+    )
     q = np.array([*angles, alpha], dtype=float)
     return q if np.isfinite(q).all() else np.full(3, np.nan)
 
@@ -110,8 +127,9 @@ def _levers_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case(1.2, 0.8, 50, [0.9, 0.8, 0.7]),
         case(0.9, 0.4, 40, [0.8, 0.4, 1.0]),  # beta_2 is above 90 degrees
         case(-0.7, 0.5, 30, [0.7, 0.5, 0.9]),
+        case(0.2, -0.3, 130, [1.2, 0.3, 0.4]),  # K is nearer than any alpha reaches
     ]
-    while len(cases) < 34:
+    while len(cases) < 35:
         lengths = rng.uniform(0.3, 1.2, 3).round(2)
         alpha = rng.uniform(15, 175)
         r, phi = rng.uniform(0.2, 2.8), rng.uniform(-180, 180) * deg
@@ -197,7 +215,7 @@ def _square(a: Any, b: Any, c: Any, alpha: Any) -> Any:
     return np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
 
 
-def _is_half(b: Any, c: Any, alpha: Any) -> Any:
+def _is_half(b: Any, c: Any, alpha: Any, side: Any) -> Any:
     return (np.pi - alpha) / 2
 
 
@@ -249,7 +267,7 @@ def _angle_at_K(point: Floats, alpha: float, lengths: Floats) -> Floats:
     return found
 
 
-LEVER_MISTAKES = (
+LEVER_BASE = (
     Mistake(
         "the formulas of equal levers",
         "2 L sin(alpha/2) and (180° - alpha)/2 belong to an isosceles triangle. BA and AK differ "
@@ -283,7 +301,9 @@ LEVER_MISTAKES = (
         "BA and AK exchanged, or the angle at K for that at B",
         "In the triangle B, A, K beta is counted at B: between KB and BA, opposite AK. lengths are "
         "those of OB, BA and AK, in this order.",
-        _changed(beta_2=lambda b, c, alpha: np.arctan2(b * np.sin(alpha), c - b * np.cos(alpha))),
+        _changed(
+            beta_2=lambda b, c, alpha, _: np.arctan2(b * np.sin(alpha), c - b * np.cos(alpha))
+        ),
     ),
     Mistake(
         "beta_2 left out",
@@ -406,20 +426,20 @@ LEVER_MISTAKES = (
         "alpha for beta_2",
         "In the triangle B, A, K alpha is the angle at A, opposite KB. beta_2 is the one at B, "
         "opposite AK.",
-        _changed(beta_2=lambda b, c, alpha: alpha),
+        _changed(beta_2=lambda b, c, alpha, _: alpha),
     ),
     Mistake(
         "arcsin for beta_2",
         "Where AK is the longest side beta_2 may be above 90°, and arcsin never is. Take arctan2, "
         "or the law of cosines.",
-        _changed(beta_2=lambda b, c, alpha: np.arcsin(c * np.sin(alpha) / _square(0, b, c, alpha))),
+        _changed(beta_2=lambda b, c, alpha, side: np.arcsin(c * np.sin(alpha) / side)),
     ),
     Mistake(
         "arctan of a quotient for beta_2",
         "Where beta_2 is above 90° the quotient is negative, and arctan gives a negative angle. "
         "Take arctan2 of both.",
         _changed(
-            beta_2=lambda b, c, alpha: np.arctan(c * np.sin(alpha) / (b - c * np.cos(alpha))),
+            beta_2=lambda b, c, alpha, _: np.arctan(c * np.sin(alpha) / (b - c * np.cos(alpha))),
         ),
     ),
     Mistake(
@@ -454,10 +474,64 @@ LEVER_MISTAKES = (
         _unless(lambda KO, KB, lengths: KO > sum(lengths)),
     ),
     Mistake(
+        "the reach of the whole arm",
+        "That is where the arm reaches with some alpha. alpha is given here: NaN stands where OB, "
+        "KB and KO are no triangle, KO above OB + KB or below |OB - KB|.",
+        _unless(
+            lambda KO, KB, lengths: not 2 * max(lengths) <= sum(lengths) + KO <= 2 * sum(lengths)
+        ),
+    ),
+    Mistake(
         "the rule KO > OB kept",
         "That K keeps away from the inner disc is a rule of the lab's arm. Here NaN stands only "
         "where O, B, K are no triangle.",
         _refused(lambda q, KO, lengths: KO <= lengths[0]),
+    ),
+    Mistake(
+        "the rule KO > OB kept",
+        "That K keeps away from the inner disc is a rule of the lab's arm. Here NaN stands only "
+        "where O, B, K are no triangle.",
+        _refused(lambda q, KO, lengths: KO < lengths[0] - 1e-9),
+    ),
+    Mistake(
+        "the rule KO > OB for the triangle",
+        "That K keeps away from the inner disc is a rule of the lab's arm, and clipped the rest is "
+        "never NaN. NaN stands where OB, KB and KO are no triangle, and only there.",
+        _unless(lambda KO, KB, lengths: KO <= lengths[0]),
+    ),
+    Mistake(
+        "the rule KO > OB for the triangle",
+        "That K keeps away from the inner disc is a rule of the lab's arm, and clipped the rest is "
+        "never NaN. NaN stands where OB, KB and KO are no triangle, and only there.",
+        _unless(lambda KO, KB, lengths: KO < lengths[0] - 1e-9),
+    ),
+    Mistake(
+        "180° - alpha for beta_2",
+        "180° - alpha is beta_2 and the angle at K together. beta_2 alone is the angle at B, "
+        "between KB and BA, opposite AK.",
+        _changed(beta_2=lambda b, c, alpha, _: np.pi - alpha),
+    ),
+    Mistake(
+        "KB of the stretched arm",
+        "KB is BA + AK only where alpha is 180°. Law of cosines with BA, AK and alpha.",
+        _changed(KB=lambda a, b, c, alpha: b + c, beta_2=lambda b, c, alpha, _: 0.0),
+    ),
+    Mistake(
+        "Pythagoras for KB",
+        "KB² = BA² + AK² only where alpha is 90°. Law of cosines: - 2 BA AK cos(alpha).",
+        _changed(KB=lambda a, b, c, alpha: np.hypot(b, c)),
+    ),
+    *(
+        Mistake(
+            "the wrong two levers for KB",
+            "KB is the third side of the triangle B, A, K: the law of cosines takes BA and AK, "
+            "lengths[1] and lengths[2].",
+            _changed(KB=KB),
+        )
+        for KB in (
+            lambda a, b, c, alpha: _square(0, a, b, alpha),
+            lambda a, b, c, alpha: _square(0, a, c, alpha),
+        )
     ),
     Mistake(
         "limits are looked at",
@@ -490,11 +564,143 @@ LEVER_MISTAKES = (
 )
 
 
+def _with_L(**steps: Program) -> Program:
+    return lambda point, alpha, lengths: _levers(point, alpha, np.append(L, lengths[1:]), **steps)
+
+
+def _folded(corner: Program) -> Program:
+    def program(point: Floats, alpha: float, lengths: Floats) -> Floats:
+        gamma, beta, _ = _levers(point, alpha, lengths, corner=corner)
+        return np.array([gamma, min(beta, 2 * np.pi - beta), alpha])
+
+    return program
+
+
+def _sine(which: str, corner: Program) -> Program:
+    """The law of sines for one angle of the triangle O, B, K, that of cosines for the other."""
+
+    def acute(angle: Any) -> Any:
+        return np.minimum(angle, np.pi - angle)
+
+    steps: dict[str, Program] = {which: lambda one, other: acute(one) + other}
+    return _changed(corner=corner, **steps)
+
+
 def _exchanged(point: Floats, alpha: float, lengths: Floats) -> Floats:
     phi = np.arctan2(point[1], point[0])
     beta_2 = _levers(point, alpha, lengths, beta=lambda one, two: two)[1]
     gamma, beta, _ = _levers(point, alpha, lengths)
     return np.array([beta - beta_2 + phi, gamma - phi + beta_2, alpha])
+
+
+OB_OF_THE_LAB = (
+    "L of the lab for OB",
+    "In the triangle O, B, K the first lever is as long as in the lab, 1 m. Take lengths[0].",
+)
+KB_OF_THE_LAB = (
+    "KB with L of the lab",
+    "KB = 2 L sin(alpha/2) holds for the lab's arm. Here KB² = BA² + AK² - 2 BA AK cos(alpha).",
+)
+FOLDED = (
+    "beta folded below 180°",
+    "beta may be above 180° here: limits are not asked for. 360° minus it is another posture, and "
+    "an arccosine of the directions BO and BA gives that one. Add beta_1 and beta_2.",
+)
+SINES = (
+    "the law of sines for {}",
+    "{} may be above 90°, and an arcsine never is. Take the law of cosines.",
+)
+
+
+def _chord_of_the_lab(a: Any, b: Any, c: Any, alpha: Any) -> Any:
+    return 2 * L * np.sin(alpha / 2)
+
+
+def _wrong_sides() -> list[Mistake]:
+    """A wrong KB again, with beta_2 from that KB: another posture. Both clipped and not."""
+    ways: dict[str, Program] = {
+        "KB of equal levers": _chord(1),
+        "the wrong sign in the law of cosines": lambda a, b, c, alpha: _square(
+            a, b, c, np.pi - alpha
+        ),
+        "the factor 2 left out in the law of cosines": lambda a, b, c, alpha: np.sqrt(
+            b**2 + c**2 - b * c * np.cos(alpha)
+        ),
+        "KB without the root": lambda a, b, c, alpha: _square(a, b, c, alpha) ** 2,
+        "Pythagoras for KB": lambda a, b, c, alpha: np.hypot(b, c),
+    }
+    says = {mistake.name: mistake.says for mistake in LEVER_BASE}
+    made = [
+        Mistake(name, says[name], _changed(KB=KB, beta_2=beta_2, corner=corner))
+        for name, KB in ways.items()
+        for beta_2, corner in ((_by_cosines, _corner), (_by_clipped_cosines, _clipped))
+    ]
+    for KB in (
+        lambda a, b, c, alpha: _square(0, a, b, alpha),
+        lambda a, b, c, alpha: _square(0, a, c, alpha),
+    ):
+        name = "the wrong two levers for KB"
+        made += [
+            Mistake(name, says[name], _changed(KB=KB, beta_2=beta_2, corner=corner))
+            for beta_2, corner in ((_by_cosines, _corner), (_by_clipped_cosines, _clipped))
+        ]
+    for beta_2, corner in (
+        (_by_arctan2, _corner),
+        (_is_half, _corner),
+        (_is_half, _clipped),
+        (_by_cosines, _corner),
+        (_by_clipped_cosines, _clipped),
+    ):
+        steps: dict[str, Program] = {"KB": _chord_of_the_lab, "beta_2": beta_2, "corner": corner}
+        made.append(Mistake(*KB_OF_THE_LAB, _changed(**steps)))
+    return made
+
+
+AND_CLIPPED = (
+    "; and clipped where there is no triangle",
+    " And where OB, KB and KO are no triangle the answer is NaN: no np.clip.",
+)
+
+
+def _and_clipped() -> list[Mistake]:
+    """The lab's angle_between taken over with its clip, and a mistake beside it."""
+    ways: dict[str, dict[str, Program]] = {
+        "the formulas of equal levers": {"KB": _chord(1), "beta_2": _is_half},
+        "the formulas of equal levers, with OB": {"KB": _chord(0), "beta_2": _is_half},
+        "the formulas of equal levers, with AK": {"KB": _chord(2), "beta_2": _is_half},
+        "beta_2 of equal levers": {"beta_2": _is_half},
+        "BA and AK exchanged, or the angle at K for that at B": {
+            "beta_2": lambda b, c, alpha, _: _by_arctan2(c, b, alpha, _)
+        },
+        "beta_2 left out": {"beta": lambda one, two: one},
+        "the direction of K left out": {"gamma": lambda one, phi: one},
+        "arctan of y / x": {"phi": _quotient},
+    }
+    says = {mistake.name: mistake.says for mistake in LEVER_BASE}
+    return [
+        Mistake(
+            name + AND_CLIPPED[0], says[name] + AND_CLIPPED[1], _changed(corner=_clipped, **way)
+        )
+        for name, way in ways.items()
+    ]
+
+
+LEVER_MISTAKES = (
+    *LEVER_BASE,
+    *(
+        Mistake(*OB_OF_THE_LAB, _with_L(corner=corner, beta_2=beta_2))
+        for corner in (_corner, _clipped)
+        for beta_2 in (_by_arctan2, _is_half)
+    ),
+    *(Mistake(*FOLDED, _folded(corner)) for corner in (_corner, _clipped)),
+    *(
+        Mistake(SINES[0].format(told), SINES[1].format(told), _sine(which, corner))
+        for told, which in (("gamma_1", "gamma"), ("beta_1", "beta"))
+        for corner in (_corner, _clipped)
+    ),
+    *_wrong_sides(),
+    *_and_clipped(),
+)
 
 
 # --- 2: a test for least movement -----------------------------------------------------------------
@@ -503,15 +709,24 @@ ROOM = 0.02 * deg  # by so much a right program may be above the least S
 REACH = 1e-5  # m
 
 
-def _exact(point: Floats, previous: Floats) -> Floats:
-    q: Floats = ARM.least(point, previous)[0]
+@lru_cache(maxsize=2000)  # many of the programs begin with it, on the same tasks
+def _remembered(point: tuple[float, ...], previous: tuple[float, ...]) -> Floats:
+    q: Floats = ARM.least(np.array(point), np.array(previous))[0]
     return q
+
+
+def _exact(point: Floats, previous: Floats) -> Floats:
+    place, before = (tuple(np.asarray(x, dtype=float).tolist()) for x in (point, previous))
+    return _remembered(place, before).copy()
 
 
 def _rows(point: Floats, step: float, limited: bool = True) -> Floats:
     low, high = (float(x) for x in ARM.alpha_range(point, limited=limited))
-    alphas = np.append(np.arange(low, high, step), high)
-    # the family without its checks: a few hundred microseconds less for each program and task
+    return _rows_at(point, np.append(np.arange(low, high, step), high))
+
+
+def _rows_at(point: Floats, alphas: Floats) -> Floats:
+    """The family without its checks: a few hundred microseconds less for each program and task."""
     KO, KB = np.hypot(*point), 2 * L * np.sin(alphas / 2)
     gamma = _clipped(KO, L, KB) + np.arctan2(point[1], point[0])
     return np.stack([gamma, _clipped(KB, L, KO) + (np.pi - alphas) / 2, alphas], axis=-1)
@@ -529,6 +744,24 @@ def _swept(
     return found
 
 
+def _beside(point: Floats, previous: Floats) -> Floats:
+    """gamma a little nearer to 90° than it should be."""
+    q = _exact(point, previous)
+    gamma = q[0] - np.sign(q[0] - np.pi / 2) * 8e-6 / np.hypot(*point)
+    return np.array([gamma, q[1], q[2]])
+
+
+def _above(point: Floats, previous: Floats, by: float = 0.018 * deg) -> Floats:
+    """The posture beside the least that uses most of what is allowed."""
+    q = _exact(point, previous)
+    low, high = ARM.alpha_range(point)
+    alphas = np.clip(q[2] + np.linspace(-0.06, 0.06, 241) * deg, low, high)
+    rows = np.concatenate([q[None], _rows_at(point, alphas)])
+    S = abs(rows - previous).sum(axis=-1)
+    found: Floats = rows[np.where(S <= S[0] + by, S, -1).argmax()]
+    return found
+
+
 RIGHT_LEAST: tuple[tuple[str, Program], ...] = (
     ("the exact least of the package", _exact),
     ("a sweep in steps of 0.01°, up to 0.012° above the least in what we tried", _swept),
@@ -536,6 +769,12 @@ RIGHT_LEAST: tuple[tuple[str, Program], ...] = (
         "a sweep from 180° down, which takes the last of equal rows, as a list of rounded numbers",
         lambda p, q: np.round(_backward(p, q), 7).tolist(),
     ),
+    ("the gripper up to 8e-6 m beside K, as promised: the tolerance is 1e-5 m", _beside),
+    (
+        "every angle too large by 8e-7 rad, so up to that past 180°, as promised",
+        lambda p, q: _exact(p, q) + 8e-7,
+    ),
+    ("S up to 0.018° above the least, as promised: the tolerance is 0.02°", _above),
 )
 
 
@@ -632,6 +871,24 @@ LEAST_MISTAKES = (
         "Its rows are 1° apart: mostly more than 0.02° above the least. How much more than the "
         "least do you allow?",
         lambda point, previous: _swept(point, previous, step=1 * deg),
+    ),
+    Mistake(
+        "a step of 0.1°",
+        "Its rows are 0.1° apart: in many tasks it is more than 0.02° above the least. Each task "
+        "has to keep the 0.02°, not their mean, and S itself counts, not its share.",
+        lambda point, previous: _swept(point, previous, step=0.1 * deg),
+    ),
+    Mistake(
+        "S up to 0.028° above the least",
+        "It takes a posture somewhat beside the least. How much more than the least do you allow? "
+        "0.02°, in radians: 0.02 * deg.",
+        lambda point, previous: _above(point, previous, 0.028 * deg),
+    ),
+    Mistake(
+        "rounded to hundredths of a degree",
+        "Its angles are rounded to 0.01°: the gripper ends up some 0.1 mm beside K. How far from K "
+        "do you allow? 1e-5 m, in every task.",
+        lambda point, previous: np.round(_exact(point, previous) / deg, 2) * deg,
     ),
     Mistake(
         "the most movement",
@@ -798,6 +1055,18 @@ def plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
     """Both postures exist; gamma inside its limits; not too much movement; not too slow."""
     if (alphas > 2 * np.pi).any():
         return [("degrees for radians", DEGREES)] * 4
+    if (alphas < 2 * np.pi * deg).all() and (alphas > 0).all():
+        return [
+            ("deg twice", "Your alphas are a few degrees: are they multiplied by deg twice?")
+        ] * 4
+    found = _plan_faults(alphas, given)
+    if found and not _plan_faults(alphas[::-1], given):
+        says = "Exchanged, your two alphas keep everything: the first belongs to the first target."
+        found.insert(0, ("the two alphas exchanged", says))
+    return found
+
+
+def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
     targets, postures, gone = places(given), [], []
     for name, place, alpha in zip(("first", "second"), targets, alphas, strict=True):
         q = ARM.family(place, alpha)
@@ -831,19 +1100,29 @@ def plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
             f"Together the joints turn by {one.sum() / deg:.1f}° and {two.sum() / deg:.1f}°, "
             f"{S / deg:.1f}° in all; allowed are {most / deg:.0f}°."
         )
+        again = float(abs(postures[1] - start(given)).sum())
+        if one.sum() + again <= most + EASE:
+            says += (
+                f" Counted from where the arm stands now the second task would be "
+                f"{again / deg:.1f}°; it begins where the first one ended."
+            )
         if abs(alphas - greed).max() < 0.2 * deg:
             found.append(("greed", f"{says} This is the least for each task by itself."))
         else:
             found.append(("too much movement", says))
     time, longest = float(one.max() + two.max()), given["longest"]
     if time > longest + EASE:
-        found.append(
-            (
-                "too slow",
-                f"The longest motors turn by {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
-                f"{time / deg:.1f}° in all; allowed are {longest / deg:.0f}°.",
-            )
+        says = (
+            f"The longest motors turn by {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
+            f"{time / deg:.1f}° in all; allowed are {longest / deg:.0f}°."
         )
+        busiest = float((one + two).max())
+        if busiest <= longest + EASE:
+            says += (
+                f" The busiest motor of both tasks together turns by {busiest / deg:.1f}°, but "
+                "each task waits for its own longest motor."
+            )
+        found.append(("too slow", says))
     return found
 
 
