@@ -25,10 +25,9 @@ LAB = "spherical_wrist"
 OBJECTIVES = (
     "read a Denavit-Hartenberg table, and compute every frame and every joint axis of the arm from "
     "it",
-    "find the three wrist angles in the nine numbers of a rotation, both ways, also where the "
-    "wrist is singular",
-    "say how near a posture is to a singularity, and choose a motion that keeps away from it or "
-    "passes through it without a jump",
+    "test a program that finds the three wrist angles in the nine numbers of a rotation, both "
+    "ways, also where the wrist is singular",
+    "say how near a posture is to a singularity, and choose a motion that keeps away from it",
 )
 
 X, Y, Z = np.eye(3)
@@ -362,6 +361,12 @@ AXES_MISTAKES = [
         _upright,
     ),
     Mistake(
+        "the direction is not a unit vector",
+        "Directions are wanted with length 1. Along the z axis that is the third column of the "
+        "rotation as it is, not d times it.",
+        lambda *case: _axes(TOOLS, *case) * [[[1]], [[2]]],
+    ),
+    Mistake(
         "the opposite direction",
         "A positive angle turns about the direction by the right-hand rule: +z, not −z.",
         lambda *case: _axes(TOOLS, *case) * [[[1]], [[-1]]],
@@ -537,7 +542,8 @@ WRIST_MISTAKES = (
     Mistake(
         "the regular formulas beside the singularity",
         "Right at every theta of ordinary size, and at theta = 0 exactly. At theta = 1e-8 rad the "
-        "tool is turned wrong, or the angles are NaN: try such small angles, many of them.",
+        "matrix is off by more than 1e-10, or the angles are NaN: try such small angles, many of "
+        "them.",
         _guarded,
     ),
     Mistake(
@@ -862,65 +868,75 @@ def _second_view() -> str:
 
 
 @cache
-def _noise() -> tuple[Floats, Floats]:
-    """Angles theta, and the worst error of an entry for each of three solvers (angles, 3)."""
-    rng = np.random.default_rng(9)
+def _noise() -> tuple[Floats, Floats, Floats]:
+    """Angles theta; the worst error of an entry for each of three solvers (angles, 3), among the
+    postures of 200 where it gives a number; and the shares where it gives none.
+    """
+    q = np.random.default_rng(1).uniform(-180, 180, (200, 6)) * deg  # as in the lab
     thetas = 10.0 ** np.arange(0, -17, -1)
-    worst = np.zeros((len(thetas), 3))
+    worst, lost = np.zeros((2, len(thetas), 3))
     for i, theta in enumerate(thetas):
-        phi, psi = rng.uniform(-np.pi, np.pi, (2, 200))
-        fore = zyz(*rng.uniform(-3, 3, (3, 200)))
-        h = fore.swapaxes(-1, -2) @ (
-            fore @ zyz(phi, theta + 0 * phi, psi)
-        )  # rounded, as in the arm
+        q[:, 4] = theta
+        frames = ITMO6R.frames(q).rotation.as_matrix()
+        h = frames[:, 3].swapaxes(-1, -2) @ frames[:, 6]  # rounded, as in the arm
         book, mine = textbook(h, +1), mended(h, +1)
         both = np.stack([book[:, 0], mine[:, 1], book[:, 2]], axis=-1)
         for k, found in enumerate((book, both, mine)):
-            error = abs(zyz(*np.nan_to_num(found).T) - h).max(axis=(-1, -2))
-            worst[i, k] = np.where(np.isnan(found).any(axis=-1), 2.0, error).max()
-    return np.asarray(thetas, dtype=float), worst
+            there = np.isfinite(found).all(axis=-1)
+            worst[i, k] = abs(zyz(*found[there].T) - h[there]).max()
+            lost[i, k] = 1 - there.mean()
+    return np.asarray(thetas, dtype=float), worst, lost
 
 
 def _noise_facts() -> dict[str, Any]:
-    thetas, worst = _noise()
+    thetas, worst, lost = _noise()
     row = int(np.argmin(abs(thetas - 1e-9)))
-    power = round(float(np.log10(worst[row, 1])))
-    return {"book": worst[row, 0], "power": f"10{str(power).translate(POWERS)}"}
+    power = round(float(np.log10(worst[row, 0])))
+    return {
+        "worst": worst[row, 0],
+        "lost": lost[row, 0],
+        "share": 10 * round(10 * lost[row, 0]),
+        "power": f"10{str(power).translate(POWERS)}",
+    }
 
 
 POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def _noise_right(facts: Mapping[str, Any]) -> int:
-    guesses = np.log10([1e-16, 1e-9, 1e-7, 1.0])
-    return int(abs(guesses - np.log10(facts["book"])).argmin())
+    guesses = np.log10([1e-16, 1e-9, 1e-6])
+    return 3 if facts["lost"] else int(abs(guesses - np.log10(facts["worst"])).argmin())
 
 
 def _noise_view() -> Any:
     from ..show import figure
 
-    thetas, worst = _noise()
+    thetas, worst, lost = _noise()
     fig = figure(
-        "Errors of an orientation against theta. With the textbook's formulas there is no answer "
-        "from 1e-8 on. With a better root the error still grows in step with 1 / theta. With psi "
-        "measured from phi it stays at rounding level.",
+        "Above: the worst error of an entry among 200 postures against theta. With the textbook's "
+        "formulas, and with a better root alone, it grows in step with 1 / theta. With psi "
+        "measured from phi it stays at rounding level. Below: from 1e-8 rad on the textbook's root "
+        "gives no number for about one posture in five.",
         9,
-        3.8,
+        5,
     )
-    ax = fig.subplots()
+    ax, below = fig.subplots(2, 1, sharex=True, height_ratios=(2.6, 1))
     for k, (style, color) in enumerate((("o--", "#D55E00"), ("^:", "#009E73"), ("s-", "#0072B2"))):
         ax.loglog(thetas, worst[:, k], style, color=color, lw=2)
-    ax.text(5e-1, 3e-2, "textbook: NaN, drawn as 2", color="#B24A00")
-    ax.text(8e-9, 3e-11, "root mended: φ and ψ from two vanishing pairs", color="#00704F")
-    ax.text(1e-6, 6e-15, "ψ measured from φ", color="#0072B2")
+        below.plot(thetas, 100 * lost[:, k], style, color=color, lw=2)
+    ax.text(2e-7, 3e-4, "textbook, where it gives a number", color="#B24A00", ha="right")
+    ax.text(8e-9, 1e-10, "better root: φ and ψ from two vanishing pairs", color="#00704F")
+    ax.text(1e-6, 3e-14, "ψ measured from φ", color="#0072B2")
     ax.set(
-        xlabel="θ, rad",
-        ylabel="worst error of an entry",
+        ylabel="worst of 200 postures",
         xlim=(3, 3e-17),
         ylim=(3e-17, 20),
-        title="Near the singularity the textbook turns the tool wrong",
+        title="Near the singularity the textbook loses digits, then the number itself",
     )
-    fig.subplots_adjust(bottom=0.17)
+    below.text(3e-7, 15, "textbook", color="#B24A00", ha="right")
+    below.set(xlabel="θ, rad", ylabel="NaN, % of 200", ylim=(-5, 50))
+    fig.align_ylabels()
+    fig.subplots_adjust(bottom=0.12, top=0.93, hspace=0.1)
     return fig
 
 
@@ -967,7 +983,7 @@ def _fastest(miss: float) -> float:
 
 @cache
 def _half_facts() -> dict[str, Any]:
-    two, one = _fastest(2 * mm), _fastest(1 * mm)
+    two, one = round(_fastest(2 * mm), -2), _fastest(1 * mm)  # the player's sampled value is near
     ends = ITMO6R.ik(tilted_line(45 * deg, 2 * mm, 0, 0, np.linspace(0, 1, 2001)))
     joint4 = follow(ITMO6R, ends, ROW)[:, 3]
     return {
@@ -975,7 +991,7 @@ def _half_facts() -> dict[str, Any]:
         "two": two,
         "one": one,
         "half": two / 2,
-        "root": np.sqrt(2) * two,
+        "root": round(np.sqrt(2) * two, -2),
         "double": 2 * two,
         "four": 4 * two,
     }
@@ -990,7 +1006,7 @@ def _half_view() -> str:
     lines = ["The greatest speed of joint 4, from the Jacobian:"]
     for miss in (8, 4, 2, 1, 0.5):
         lines.append(f"{miss:g} mm beside: {_fastest(miss * mm):.0f}°/s")
-    lines.append("In the hit itself joint 5 passes through zero, and joint 4 has nothing to do.")
+    lines.append("In the hit itself joint 5 passes through zero, and joint 4 hardly moves.")
     return "\n".join(lines)
 
 
@@ -1226,36 +1242,38 @@ PREDICTIONS = {
         view=_second_view,
     ),
     "p6": Prediction(
-        question="Joint 5 is to stand at 0.000 000 001 rad (10⁻⁹), not at zero. The textbook "
-        "formulas find the three angles, in double precision (16 digits), and we build the matrix "
-        "of these angles. By how much does its worst entry differ from the wanted one?",
+        question="In 200 random postures joint 5 stands at 0.000 000 001 rad (10⁻⁹), not at zero. "
+        "For each we compute R₆³ from the chain, in double precision (16 digits), let the textbook "
+        "formulas find the three angles, and build the matrix of these angles. By how much does an "
+        "entry differ from the wanted one, in the worst of the 200 postures?",
         options=(
             Option(
                 "By 10⁻¹⁶: double precision has 16 digits.",
-                "The formulas divide small numbers by small numbers, and these have few digits "
-                "left.",
+                "φ and ψ are read from numbers of size 10⁻⁹, and these carry a rounding of 10⁻¹⁶: "
+                "few digits are left.",
                 "all digits survive",
                 "1 − cos(10⁻⁹) is 5·10⁻¹⁹ on paper, and 0 in double precision.",
             ),
             Option(
                 "By 10⁻⁹: an error as small as the angle.",
                 "So small an angle hardly matters, and its direction does: the other two angles "
-                "are read from it.",
+                "are read from it. Where there is a number, the worst is off by {power}.",
                 "a small angle makes a small error",
                 "At the north pole a step of a millimetre takes you through any longitude.",
             ),
             Option(
                 "By {power}: more than half of the digits go.",
-                "That is what remains when the square root is mended. φ and ψ still come from two "
-                "vanishing pairs of numbers (green in the figure).",
-                "the root alone",
+                "That is the worst of the postures where a number comes out, and what remains when "
+                "the square root is mended (green in the figure). Elsewhere there is none.",
+                "the root is forgotten",
                 "At 10⁻¹⁶ rad the mended root does not help any more: the green line is at 1.",
             ),
             Option(
-                "Wholly: the tool is turned wrong, or there is no number at all.",
-                "√(1 − h₃₃²) is the root of rounding, or of a negative number: NaN. Around the "
-                "singularity lies a zone where \u201cregular\u201d is true and the regular "
-                "formulas are wrong.",
+                "It cannot be said: for some postures no number comes out.",
+                "h₃₃ is rounded, now and then to more than 1, and √(1 − h₃₃²) is the root of a "
+                "negative number: NaN, in about {share} % of the postures. The others are off, the "
+                "worst by {power}: around the singularity lies a zone where \u201cregular\u201d is "
+                "true and the regular formulas are not to be trusted.",
             ),
         ),
         facts=_noise_facts,
@@ -1299,31 +1317,31 @@ PREDICTIONS = {
         view=_joints_view,
     ),
     "p8": Prediction(
-        question="On the line 2 mm beside the hit joint 4 goes up to {two:.0f}°/s. We run the line "
-        "1 mm beside it, in the same time. How fast does joint 4 go?",
+        question="On the line 2 mm beside the hit joint 4 goes up to about {two:.0f}°/s. We run "
+        "the line 1 mm beside it, in the same time. How fast does joint 4 go?",
         options=(
             Option(
-                "{half:.0f}°/s: the hit is easy, and we come nearer to it.",
-                "The hit needs no turn of joint 4. The line 2 mm beside it needs {turn:.0f}°, and "
-                "the nearer the line, the less time there is.",
+                "About {half:.0f}°/s: the hit is easy, and we come nearer to it.",
+                "The hit needs next to no turn of joint 4. The line 2 mm beside it needs "
+                "{turn:.0f}°, and the nearer the line, the less time there is.",
                 "the hit taken for a limit",
                 "A car that passes your nose by a metre makes you turn your head faster than one "
                 "across the street.",
             ),
             Option(
-                "{root:.0f}°/s: the root of 2 times as fast.",
+                "About {root:.0f}°/s: the root of 2 times as fast.",
                 "A root would come in if the time went with the root of the distance. It goes with "
                 "the distance.",
                 "a root of the distance",
                 "A plane at half the height passes overhead in half the time.",
             ),
             Option(
-                "{double:.0f}°/s: half the distance, twice the speed.",
+                "About {double:.0f}°/s: half the distance, twice the speed.",
                 "Joint 4 follows the direction from the hit to where the forearm points, and that "
                 "sweeps past at a given pace: pace over distance.",
             ),
             Option(
-                "{four:.0f}°/s: the inverse square.",
+                "About {four:.0f}°/s: the inverse square.",
                 "The acceleration goes so. A speed of turning is pace over distance.",
                 "the square of the distance",
                 "From a train the trees at half the distance pass by twice as fast.",

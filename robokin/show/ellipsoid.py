@@ -16,6 +16,7 @@ from .plots import Figure, _samples, _sentence, _words
 from .scene import Scene, number
 
 MOST = 3  # postures beside one another
+MARK = 0.16  # half the line along a direction that is all but lost, in sizes of the arm
 ROUND = np.linspace(0, 2 * np.pi, 73)
 
 
@@ -27,7 +28,7 @@ def plot_velocity_ellipsoid(
     tool does not turn. (The tool of an arm of up to three joints may turn.)
 
     All panels have one scale, for lengths and for velocities. The semi-axes carry their speeds; one
-    shorter than a twentieth of the longest is marked: that way the tool hardly moves.
+    shorter than a twentieth of the longest has a dashed red line: that way the tool hardly moves.
     `robokin.arms.dexterity.velocity_ellipsoid` has the numbers.
 
     ValueError: more than three postures, one with a NaN.
@@ -63,13 +64,33 @@ def plot_velocity_ellipsoid(
         scene.base()
         scene.arm(arm, posture, "first")
         _ellipsoid(scene, tool[i], drawn * axes[i])
-        for k in np.flatnonzero(lengths[i] > 0):
-            weak = lengths[i, k] < longest / 20
+        for k, way in enumerate(_ways(axes[i]).T):
             tip = tool[i] + drawn * axes[i, :, k]
-            scene.label(words[i][k], tip, ALARM if weak else TRACE)
+            seen_as = np.linalg.norm(scene.project(way))  # nothing, where it is square to a plane
+            if seen_as > 1e-9 and lengths[i, k] < longest / 20:
+                tip = tool[i] + MARK * size * way
+                ends = [tool[i] - MARK * size * way, tip]
+                scene.line(ends, color=ALARM, linewidth=1.4, linestyle=(0, (4, 2)), zorder=6.5)
+                scene.label(words[i][k], tip, ALARM)
+            elif lengths[i, k] > 0:
+                scene.label(words[i][k], tip, TRACE)
         drawn_as = f"1 m/s is drawn {number(drawn / measure)} {measure_name} long"
         scene.finish(drawn_as if i == 0 else "")
     return fig
+
+
+def _ways(axes: Floats) -> Floats:
+    """The directions of the semi-axes (3, k), also of one that is zero where the other two are not;
+    NaN where nothing tells the direction.
+    """
+    lengths = np.linalg.norm(axes, axis=0)
+    there = lengths > 1e-9 * lengths.max()
+    ways = np.full(axes.shape, np.nan)
+    ways[:, there] = axes[:, there] / lengths[there]
+    if there.sum() == 2:
+        one, two = ways[:, there].T
+        ways[:, ~there] = np.cross(one, two)[:, None]
+    return ways
 
 
 def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
