@@ -1199,9 +1199,9 @@ def _photo_view() -> Any:
     ):
         ax.plot(*place, "o", color="0.2", ms=4)
         ax.annotate(name, place, off, textcoords="offset points", fontsize=11)
-    for at, height, name, side in ((-1, H1, "$h_1$", 6), (1, H2, "$h_2$", -20)):
-        ax.annotate("", (at, 0), (at, height), arrowprops={"arrowstyle": "<->", "color": "0.4"})
-        ax.annotate(name, (at, height / 2), (side, 0), textcoords="offset points", fontsize=11)
+    for at, tall, name, side in ((-1, H1, "$h_1$", 6), (1, H2, "$h_2$", -20)):
+        ax.annotate("", (at, 0), (at, tall), arrowprops={"arrowstyle": "<->", "color": "0.4"})
+        ax.annotate(name, (at, tall / 2), (side, 0), textcoords="offset points", fontsize=11)
     ax.axhline(0, color="0.8", lw=0.8, zorder=0)
     ax.set(
         title="Every corner is an enlargement of the same one, from the via point",
@@ -1719,8 +1719,8 @@ PREDICTIONS = {
             ),
             Option(
                 "None up to 0.5: it goes through via.",
-                "It comes nearer than the parabola, and it does not go through: its control poses "
-                "stop at 0.8 of the way to via.",
+                "It comes nearer than the parabola, and it does not go through: the poses that "
+                "draw it to via stop at 0.8 of the way there (lab 3, where the quintic is made).",
                 "a control pose taken for a point of the curve",
                 "The parabola has via itself as a control pose, and misses it.",
             ),
