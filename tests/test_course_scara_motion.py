@@ -151,6 +151,19 @@ def _nearest_zero(q0, position, angle):
     return q
 
 
+def _plus_the_turn(q0, position, angle):
+    q = _posture(q0, position, angle)
+    q[2] = q0[2] + _wrap(angle - q0[:3].sum())
+    return q
+
+
+def _plus_elbow(q0, position, angle):
+    q = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(+1)].copy()
+    now = q0[:3].sum()
+    q[2] = now + _wrap(angle - now) - q[0] - q[1]
+    return q
+
+
 def _tool_angle_returned(q0, position, angle):
     q = _by_list(q0, position, angle)
     return [q[0], q[1], q[0] + q[1] + q[2], q[3]]
@@ -184,6 +197,8 @@ def _stroke_in_mm(q0, position, angle):
         (_largest, "longest"),
         (_least_signed, "lowest"),
         (_nearest_zero, "wrapped"),
+        (_plus_the_turn, "joints 1 and 2 of the start"),
+        (_plus_elbow, "elbow +1"),
         (_tool_angle_returned, "tool's angle"),
         (_start_moves, "start is wrapped"),
         (_stroke_in_mm, "mm"),
@@ -315,11 +330,12 @@ def test_a_wrong_design_is_named():
 def test_the_right_answers_in_another_way():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in book.PREDICTIONS.items()}
     assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
-    assert right["p3"] == "x and y." and right["p4"] == "Joint 3."
-    assert float(right["p5"]) == -90 / 5 - 60 / 5
-    assert float(right["p6"]) == 180
-    assert float(right["p7"]) == pytest.approx(2 * 0.4 * 60 * 180 / 240, abs=0.5)
-    assert "0.35" in right["p8"] and right["p9"] == "Half of it."
+    assert right["p3"] == "x and y." and right["p4"] == "On LIN alone."
+    assert right["p5"] == "Joint 3."
+    assert float(right["p6"]) == -90 / 5 - 60 / 5
+    assert float(right["p7"]) == 180
+    assert float(right["p8"]) == pytest.approx(2 * 0.4 * 60 * 180 / 240, abs=0.5)
+    assert "0.35" in right["p9"] and right["p10"] == "Half of it."
 
 
 def test_a_corner_is_an_enlargement_from_via():

@@ -21,8 +21,8 @@ from .variants import Numbers, dice
 
 LAB = "scara_motion"
 OBJECTIVES = (
-    "predict which joints and which coordinates of a SCARA run evenly on LIN and on PTP, and "
-    "choose the way round for its tool",
+    "tell the tool's angle, a sum of joint values, from joint 3, and choose the way round for the "
+    "tool",
     "write a limit test that no motion deceives, with each joint in its own unit",
     "bring a motion back inside its limits with a blend, and say what the blend costs",
 )
@@ -153,9 +153,9 @@ def _turn_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     if not abs(yours[3] - wanted[3]) <= 1e-6:
         return f"joint 4 should be at {wanted[3] / mm:.1f} mm, and is at {yours[3] / mm:.1f} mm"
     return (
-        f"the tool stands at {now:.1f}° and should turn by {end - now:+.1f}° to {end:.1f}°, with "
-        f"joint 3 at {wanted[2] / deg:.1f}°; yours turns it by {got - now:+.1f}°, with joint 3 at "
-        f"{yours[2] / deg:.1f}°"
+        f"the tool stands at {now:.1f}°; it should turn by {end - now:+.1f}°, and then stands at "
+        f"{end:.1f}°, with joint 3 at {wanted[2] / deg:.1f}°; yours turns it by {got - now:+.1f}°, "
+        f"with joint 3 at {yours[2] / deg:.1f}°"
     ).translate(MINUS)
 
 
@@ -221,10 +221,11 @@ def _any_elbow(q0: Floats, position: Floats, angle: float) -> Floats:
     return found
 
 
-def _elbow(sign: int) -> Program:
+def _elbow(sign: int, *, limits: bool = True) -> Program:
     def program(q0: Floats, position: Floats, angle: float) -> Floats:
         q = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(sign)]
-        return _with(q, _into(_turned(q0, q, angle)))
+        q3 = _turned(q0, q, angle)
+        return _with(q, _into(q3) if limits else q3)
 
     return program
 
@@ -332,7 +333,8 @@ TURN_MISTAKES = (
     ),
     Mistake(
         "joints 1 and 2 of the start",
-        "Joint 3 makes up for joints 1 and 2 where they are now. At the end they stand elsewhere.",
+        "Joint 3 turns by as much as the tool should: it makes up for joints 1 and 2 where they "
+        "are now. At the end they stand elsewhere.",
         _third(lambda q0, q, angle: _into(float(_short(angle, q0[:3].sum()) - q0[0] - q0[1]))),
     ),
     Mistake(
@@ -389,6 +391,19 @@ TURN_MISTAKES = (
         "The elbow should stay on the side where it is: row SCARA.branch(+1) for q0[1] >= 0, "
         "SCARA.branch(-1) else.",
         _elbow(+1),
+    ),
+    Mistake(
+        "elbow +1 always, without the limits",
+        "The elbow should stay on the side where it is: row SCARA.branch(+1) for q0[1] >= 0, "
+        "SCARA.branch(-1) else. " + NO_LIMITS,
+        _elbow(+1, limits=False),
+    ),
+    Mistake(
+        "joints 1 and 2 of the start, without the limits",
+        "Joint 3 turns by as much as the tool should: it makes up for joints 1 and 2 where they "
+        "are now. Joints 1 and 2 turn the tool as well: joint "
+        "3 is the tool's angle at the end less q1 and q2. " + NO_LIMITS,
+        _third(lambda q0, q, angle: float(q0[2]) + _short(angle - q0[:3].sum())),
     ),
     Mistake(
         "the other elbow",
@@ -865,10 +880,29 @@ def _angle_facts() -> dict[str, Any]:
     return {"changed": [i + 1 for i in range(4) if changed[i] > 1e-9], "most": changed[2] / deg}
 
 
-def _angle_view() -> Any:
-    from ..show import target_explorer
+FEW = T[::10]  # every 0.2 s: enough for a view that shows a shape
 
-    return target_explorer(SCARA)
+
+def _angle_view() -> Any:
+    from ..show import JOINT_STYLES, figure
+
+    fig = figure(
+        "The four joints over time on the line, with a tool angle of 0, 45 and 90 degrees at the "
+        "start. Joint 3 has three curves, which meet at the goal; joints 1, 2 and 4 have one.",
+        height=2.9,
+    )
+    for i, ax in enumerate(fig.subplots(1, 4)):
+        color, unit = JOINT_STYLES[i]["color"], mm if i == 3 else deg
+        for angle, style in ((0, "-"), (45, "--"), (90, ":")):
+            start = ScaraPose(START.position, angle * deg)
+            q = _joints(lin(start, GOAL, FEW / DURATION))[:, i] / unit
+            ax.plot(FEW, q, style, color=color, lw=2)
+            if i == 2:
+                ax.text(0.6, q[0] + 7, f"{angle}°", fontsize=9)
+        ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}")
+    fig.suptitle("Another tool angle at the start (0°, 45°, 90°): joint 3 alone moves differently")
+    fig.tight_layout()
+    return fig
 
 
 @cache
@@ -918,43 +952,110 @@ def _apart_facts() -> dict[str, Any]:
 def _apart_view() -> Any:
     from ..show import animate
 
-    values = np.array([60, 100, 140, 180, 220])  # the goal's height, mm
-    ends = ScaraPose([[0.2, -0.2, z * mm] for z in values], 90 * deg)
-    line = _joints(lin(START, ends[:, None], S))
-    joint = ptp(SCARA.ik(START)[ROW], SCARA.ik(ends)[:, None, ROW], S)
+    lower = np.array([0, 60, 120])  # the goal lowered by so many mm
+    ends = ScaraPose([[0.2, -0.2, (200 - z) * mm] for z in lower], 90 * deg)
+    share = FEW / DURATION
+    line = _joints(lin(START, ends[:, None], share))
+    joint = ptp(SCARA.ik(START)[ROW], SCARA.ik(ends)[:, None, ROW], share)
     return animate(
         [SCARA, SCARA],
-        T,
+        FEW,
         [line, joint],
         names=["LIN", "PTP"],
-        slider=("goal z, mm", values),
+        slider=("goal lowered by, mm", lower),
         title="Two motions with the same ends, at the same heights at all times",
+    )
+
+
+def _behind(x: Any) -> ScaraPose:
+    """Goals on the other side of the column, x in mm (section 4)."""
+    places = np.stack(np.broadcast_arrays(np.multiply(x, mm), -0.4, 0.2), axis=-1)
+    return ScaraPose(places, np.full(np.shape(x), 90 * deg))
+
+
+def _past(q: Floats) -> Floats:
+    """Samples past the limits, joint by joint."""
+    found: Floats = ((q < LOW) | (q > HIGH)).sum(axis=-2)
+    return found
+
+
+@cache
+def _ends_facts() -> dict[str, Any]:
+    goal = _behind(0)
+    line = lin(START, goal, S)
+    bad = _past(_joints(line))
+    even = _past(ptp(SCARA.ik(START)[ROW], SCARA.ik(goal)[ROW], S))
+    near = np.linalg.norm(line.position[:, :2], axis=-1).min()
+    facts = {"leaves": [bool(bad.any()), bool(even.any())], "near": near / mm}
+    return facts | {f"bad{i + 1}": int(bad[i]) for i in range(2)}
+
+
+def _ends_view() -> Any:
+    from ..show import animate
+
+    values = np.array([0.0, 50.0, 100.0])
+    goals, share = _behind(values), FEW / DURATION
+    line = _joints(lin(START, goals[:, None], share))
+    joint = ptp(SCARA.ik(START)[ROW], SCARA.ik(goals)[:, None, ROW], share)
+    return animate(
+        [SCARA, SCARA],
+        FEW,
+        [line, joint],
+        names=["LIN", "PTP"],
+        slider=("goal x, mm", values),
+        title="The same good ends: LIN depends on what lies between, PTP does not",
     )
 
 
 @cache
 def _blind_facts() -> dict[str, Any]:
-    """Which limits a test of wrapped angles ever finds broken, of random unwrapped motions."""
-    rng = np.random.default_rng(5)
-    q = rng.uniform([-7.5, -7.5, -7.5, -0.3], [7.5, 7.5, 7.5, 0.5], (4000, 4))
-    tested = np.concatenate([wrapped(q[:, :3]), q[:, 3:]], axis=-1)
-    real, found = (~((x >= LOW) & (x <= HIGH)) for x in (q, tested))
-    found &= real
-    facts: dict[str, Any] = {"blind": [i + 1 for i in range(4) if not found[:, i].any()]}
-    return facts | {f"share{i + 1}": 100 * found[:, i].sum() / real[:, i].sum() for i in range(4)}
+    """Which joints can leave their limit, coming from inside, and a test of wrapped angles never
+    says so: even motions from the middle to 50 ends, 1001 samples each.
+    """
+    blind = []
+    for i in range(4):
+        middle, span = (LOW[i] + HIGH[i]) / 2, HIGH[i] - LOW[i]
+        ends = HIGH[i] + span * np.linspace(0.02, 1, 50)
+        q = middle + (ends[:, None] - middle) * S
+        seen = wrapped(q) if i < 3 else q
+        if not ((seen < LOW[i]) | (seen > HIGH[i])).any():
+            blind.append(i + 1)
+    return {"blind": blind}
 
 
-def _blind_view() -> str:
-    facts = _blind_facts()
-    lines = ["4000 random postures, angles up to 430°: of those past a joint's limit it finds"]
-    lines += [f"joint {i}: {facts[f'share{i}']:.0f} %" for i in range(1, 5)]
-    lines.append(
-        "A true motion: joint 3 turns on evenly, from 300° to 410°. Wrapped, it ends at 50°."
+def _blind_view() -> Any:
+    from ..show import figure
+
+    fig = figure(
+        "Two motions that leave a limit, wrapped. Joint 1 turns from 0 to 350 degrees: on the way "
+        "it is seen between 140 and 180 degrees, past its limit. Joint 3 turns from 300 to 410 "
+        "degrees: wrapped it runs from -60 to 50 degrees, never past its limit of 400.",
+        height=3.4,
     )
-    return "\n".join(lines)
+    for ax, i, first, last in zip(fig.subplots(1, 2), (0, 2), (0, 300), (350, 410), strict=True):
+        q = first + (last - first) * S
+        seen, limit = wrapped(q * deg) / deg, HIGH[i] / deg
+        shown = np.where(abs(np.diff(seen, append=seen[-1])) > 180, np.nan, seen)
+        caught = abs(seen) > limit
+        ax.plot(S, q, "--", color="0.5", lw=1.5)
+        ax.text(0.97, q[-1] - 75, "as it turns", ha="right", va="top", color="0.4")
+        ax.plot(S, shown, color="#0072B2" if i == 0 else "#009E73", lw=2)
+        ax.text(0.97, seen[-1] - 45, "wrapped", ha="right", va="top")
+        if caught.any():
+            ax.plot(S[caught], seen[caught], ".", color="#B3261E", ms=5)
+            ax.text(
+                S[caught][0] - 0.02, seen[caught][0] + 15, "caught", ha="right", color="#B3261E"
+            )
+        ax.axhspan(limit, 500, color="#CC79A7", alpha=0.22, lw=0)
+        ax.axhspan(-500, -limit, color="#CC79A7", alpha=0.22, lw=0)
+        told = "caught on its way out" if caught.any() else "no sample is caught"
+        ax.set(xlim=(0, 1), ylim=(-450, 450), yticks=range(-360, 361, 180), xlabel="progress s")
+        ax.set(ylabel=f"q{i + 1}, °", title=f"Joint {i + 1}, limit ±{limit:.0f}°: {told}")
+    fig.tight_layout()
+    return fig
 
 
-DOWN, UP, HALF = 90.0, 60.0, 5.0  # mm, mm, s: the corner of prediction 5
+DOWN, UP, HALF = 90.0, 60.0, 5.0  # mm, mm, s: the corner of prediction 6
 
 
 @cache
@@ -970,10 +1071,16 @@ def _corner_facts() -> dict[str, Any]:
         "jump": measured,
         "sign": -measured,
         "sizes": abs(after) - before,
+        "less": before - abs(after),
+        "first": before,
         "mean": measured / 2,
         "way": -(DOWN + UP),
     }
-    return facts | {"down": DOWN, "up": UP, "half": HALF, "before": before, "after": _Shown(after)}
+    return (
+        facts
+        | {"down": DOWN, "up": UP, "half": HALF, "before": before, "after": _Shown(after)}
+        | {"slower": abs(after)}
+    )
 
 
 def _corner_view() -> Any:
@@ -1015,7 +1122,14 @@ def _half_facts() -> dict[str, Any]:
         for off in (-OFF, OFF)
     ]
     apart = abs(ways[0] - ways[1])
-    facts = {"off": OFF, "apart": apart, "starts": 2 * OFF, "mean": OFF, "one": apart / 2}
+    facts = {
+        "none": 0.0,
+        "off": OFF,
+        "apart": apart,
+        "starts": 2 * OFF,
+        "mean": OFF,
+        "one": apart / 2,
+    }
     return facts | {"whole": 360.0, "right": _Shown(ways[0]), "left": _Shown(ways[1])}
 
 
@@ -1034,7 +1148,7 @@ def _half_view() -> Any:
         axes[0].plot(S, angle / deg, style, lw=2, label=name)
         axes[1].plot(S, _near(off).lerp(VIA, S).angle / deg, style, lw=2, label=name)
     axes[0].set(
-        title="As a rotation: 0.02° decide", ylabel="tool angle, °", yticks=range(-180, 181, 90)
+        title="As a rotation: 0.02° decides", ylabel="tool angle, °", yticks=range(-180, 181, 90)
     )
     axes[1].set(title="As a number: the number decides")
     for ax in axes:
@@ -1044,7 +1158,7 @@ def _half_view() -> Any:
     return fig
 
 
-H1, H2, B0, B1 = 60.0, 180.0, 0.1, 0.4  # heights over via in mm, and two blends: prediction 7
+H1, H2, B0, B1 = 60.0, 180.0, 0.1, 0.4  # heights over via in mm, and two blends: prediction 8
 
 
 def _deepest(b: float) -> float:
@@ -1078,6 +1192,17 @@ def _photo_view() -> Any:
         k = height.argmin()
         ax.plot(across[k], height[k], "o", color="0.2", ms=4)
     ax.plot(0, 0, "o", color="0.4")
+    for place, name, off in (
+        ((-2 * B1, 2 * B1 * H1), "A", (-4, 8)),
+        ((0, 0), "B = via", (12, -4)),
+        ((2 * B1, 2 * B1 * H2), "C", (-14, 2)),
+    ):
+        ax.plot(*place, "o", color="0.2", ms=4)
+        ax.annotate(name, place, off, textcoords="offset points", fontsize=11)
+    for at, tall, name, side in ((-1, H1, "$h_1$", 6), (1, H2, "$h_2$", -20)):
+        ax.annotate("", (at, 0), (at, tall), arrowprops={"arrowstyle": "<->", "color": "0.4"})
+        ax.annotate(name, (at, tall / 2), (side, 0), textcoords="offset points", fontsize=11)
+    ax.axhline(0, color="0.8", lw=0.8, zorder=0)
     ax.set(
         title="Every corner is an enlargement of the same one, from the via point",
         xlabel="share of the line before (−) and after (+) via",
@@ -1182,7 +1307,8 @@ EXERCISES = {
         mistakes=TURN_MISTAKES,
     ),
     "2": Catch(
-        task="A test: whether the program inside(q) says rightly if a motion keeps all limits.",
+        task="A limit test inside(q), and a test of such tests: whether a program says rightly if "
+        "a motion keeps all limits.",
         objective=2,
         hints=(
             "A right program and a wrong one agree on most motions. For each way to be wrong you "
@@ -1221,7 +1347,7 @@ EXERCISES = {
     ),
 }
 
-# Objective 1: p1, p2, p3, p6. Objective 2: p4. Objective 3: p5, p7, p8, p9.
+# Objective 1: p1, p2, p3, p7. Objective 2: p4, p5. Objective 3: p6, p8, p9, p10.
 PREDICTIONS = {
     "p1": Prediction(
         question="The tool moves on a straight line from start to goal. Now it starts turned by "
@@ -1231,8 +1357,8 @@ PREDICTIONS = {
             Option(
                 "Joint 3 alone.",
                 "Joints 1 and 2 carry the tool's axis to its place, joint 4 gives the height. The "
-                "angle is left to joint 3, and at the start it differs by {most:.0f}°. Turn the "
-                "ring of the target and watch the table.",
+                "angle is left to joint 3, and at the start it differs by {most:.0f}°. In the "
+                "picture three motions lie on one another, but for joint 3.",
             ),
             Option(
                 "Joints 1, 2 and 3: their sum is the tool's angle.",
@@ -1340,16 +1466,59 @@ PREDICTIONS = {
         view=_apart_view,
     ),
     "p4": Prediction(
-        question="A limit test wraps each angle into −180° to 180° first, and compares then: "
-        "joints 1 to 3 with ±140°, ±150° and ±400°, joint 4 with 0 to 180 mm, as it is. Which "
-        "joint can be past its limit without this test ever saying so?",
+        question="A start and a goal stand inside all limits, on the same branch, and the straight "
+        "line between them can be reached everywhere. The arm goes once by LIN, once by PTP. On "
+        "which of the two can a joint leave its limits on the way?",
+        options=(
+            Option(
+                "On neither: both ends are inside, and so is what lies between.",
+                "That holds joint by joint, for PTP. On the line to the goal of this section joint "
+                "1 is past its limit in {bad1} samples of 1001, and joint 2 in {bad2}.",
+                "good ends taken for a good path",
+                "Two houses on a lake: the straight way between them is wet.",
+            ),
+            Option(
+                "On PTP alone: nobody looks after its path.",
+                "Nobody looks after its path in space. Each joint runs evenly between two allowed "
+                "values, and so it stays between them.",
+                "the path in space taken for the joints",
+                "A lift from floor 2 to floor 5 never comes to floor 6.",
+            ),
+            Option(
+                "On LIN alone.",
+                "Each joint of PTP runs between two allowed values. On LIN the joints do what the "
+                "line asks for: it passes axis 1 at {near:.0f} mm, so joint 2 has to fold far. "
+                "Drag the goal's x: away from axis 1 both are good.",
+            ),
+            Option(
+                "On both: a limit does not ask for the kind of motion.",
+                "PTP between two postures inside the limits cannot: each joint runs between two "
+                "allowed values.",
+                "the joints of PTP taken for those of LIN",
+                "Whoever walks from 2 to 5 on a line of numbers does not meet 6.",
+            ),
+        ),
+        facts=_ends_facts,
+        right=lambda facts: [
+            [False, False],
+            [False, True],
+            [True, False],
+            [True, True],
+        ].index(facts["leaves"]),
+        view=_ends_view,
+    ),
+    "p5": Prediction(
+        question="A motion begins inside all limits and has many samples. A limit test wraps each "
+        "angle into −180° to 180° first, and compares then: joints 1 to 3 with ±140°, ±150° and "
+        "±400°, joint 4 with 0 to 180 mm, as it is. Which joint can leave its limits, and the test "
+        "passes every sample?",
         options=(
             Option(
                 "Joint 1: 350° becomes −10°.",
-                "That one slips through. But 150° stays 150° and is found: joint 1 has to pass "
-                "through there first.",
-                "one posture for all",
-                "Of a motion that begins inside, a sample between 140° and 180° is seen.",
+                "The sample at 350° slips through. But the motion begins inside, so joint 1 comes "
+                "by 150° first: that stays 150° and is found.",
+                "one posture for a motion",
+                "Who leaves a garden comes through its gate, and there a guard sees them.",
             ),
             Option(
                 "Joint 3.",
@@ -1374,7 +1543,7 @@ PREDICTIONS = {
         right=lambda facts: [[1], [3], [4], []].index(facts["blind"]),
         view=_blind_view,
     ),
-    "p5": Prediction(
+    "p6": Prediction(
         question="The tool of another motion sinks by {down:.0f} mm on the way to its via point, "
         "in {half:.0f} s, and rises by {up:.0f} mm on the way from it, in {half:.0f} s, both at "
         "constant speed. By how much does the speed of joint 4 change at the via point? (After "
@@ -1399,6 +1568,19 @@ PREDICTIONS = {
                 "A ball that comes back from a wall as fast as it came has changed its velocity.",
             ),
             Option(
+                "{less:.0f}",
+                "{before:.0f} − {slower:.0f} leaves the directions out: down, then up.",
+                "the smaller speed taken from the larger",
+                "A ball comes back as fast as it came: its velocity has changed by twice as much.",
+            ),
+            Option(
+                "{first:.0f}",
+                "That is the speed before via. After it the joint does not stand, it runs the "
+                "other way at {after:.0f} mm/s.",
+                "a stop for a return",
+                "At a via point the lift does not stop: it turns back.",
+            ),
+            Option(
                 "{mean:.0f}",
                 "Each line takes {half:.0f} s; both together take twice as long.",
                 "the whole duration for one line",
@@ -1417,7 +1599,7 @@ PREDICTIONS = {
         unit="mm/s",
         within=0.02,
     ),
-    "p6": Prediction(
+    "p7": Prediction(
         question="The tool turns from about 0° to 180°: one motion starts at −{off:.2f}°, the "
         "other at +{off:.2f}°. Both are interpolated as rotations, each on the shortest arc "
         "(Transform.lerp). How far apart are their tool angles half way?",
@@ -1443,6 +1625,14 @@ PREDICTIONS = {
                 "At the goal they are 0° apart.",
             ),
             Option(
+                "{none:.0f}",
+                "They are together at the end, at 180°. Half way one stands at {right:.0f}°, the "
+                "other at {left:.0f}°: they go round on different sides.",
+                "the end for the whole way",
+                "Two walkers round a lake, one to the left and one to the right, meet at the end "
+                "only.",
+            ),
+            Option(
                 "{one:.0f}",
                 "That is how far each has turned: one to the left, one to the right.",
                 "one turn for the difference of two",
@@ -1461,7 +1651,7 @@ PREDICTIONS = {
         unit="°",
         within=0.002,
     ),
-    "p7": Prediction(
+    "p8": Prediction(
         question="A start {h1:.0f} mm over the via point, a goal {h2:.0f} mm over it. With a blend "
         "of {b0:.1f} the parabola's deepest point is {first:.0f} mm over via. How far over via is "
         "it with a blend of {b1:.1f}, in mm?",
@@ -1504,7 +1694,7 @@ PREDICTIONS = {
         unit="mm",
         within=0.02,
     ),
-    "p8": Prediction(
+    "p9": Prediction(
         question="The parabola keeps the stroke of this lab's motion from a blend of "
         "{parabola:.3f} on. The quintic corner of lab 3, whose acceleration does not jump: from "
         "which blend on?",
@@ -1518,7 +1708,7 @@ PREDICTIONS = {
             ),
             Option(
                 "The same {parabola:.3f}: the corner begins and ends at the same places.",
-                "It does, and in between it is another curve.",
+                "They do: both corners begin and end there. In between it is another curve.",
                 "the ends taken for the curve",
                 "A detour and the road it replaces begin and end together, too.",
             ),
@@ -1529,8 +1719,8 @@ PREDICTIONS = {
             ),
             Option(
                 "None up to 0.5: it goes through via.",
-                "It comes nearer than the parabola, and it does not go through: its control poses "
-                "stop at 0.8 of the way to via.",
+                "It comes nearer than the parabola, and it does not go through: the poses that "
+                "draw it to via stop at 0.8 of the way there (lab 3, where the quintic is made).",
                 "a control pose taken for a point of the curve",
                 "The parabola has via itself as a control pose, and misses it.",
             ),
@@ -1539,7 +1729,7 @@ PREDICTIONS = {
         right=_quintic_right,
         view=_quintic_view,
     ),
-    "p9": Prediction(
+    "p10": Prediction(
         question="You need to pass nearer to via: the blend goes from 0.4 to 0.2. To make up for "
         "it you allow 20 s instead of 10 s. What becomes of the stroke's acceleration in the "
         "corner?",
@@ -1561,7 +1751,7 @@ PREDICTIONS = {
                 "The duration counts with its square: speeds are halved, and the time in which "
                 "they change is doubled.",
                 "an acceleration in proportion to the speed",
-                "At half the speed a car needs a quarter of the braking distance.",
+                "Play a film at half speed: every speed is half, every acceleration a quarter.",
             ),
             Option(
                 "Twice as much.",

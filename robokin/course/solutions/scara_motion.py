@@ -18,10 +18,16 @@ def least_turn(q0, position, angle):
     return np.array([q1, q2, end - q1 - q2, q4])
 
 
-# --- 2: A test of limit tests
+# --- 2: A limit test, and a test of limit tests
 import numpy as np
 
 from robokin import SCARA
+
+
+def inside(q):
+    """Whether all samples of the motion q (samples, 4) keep all limits; NaN is never inside."""
+    low, high = SCARA.limits.T
+    return bool(np.all((q >= low) & (q <= high)))
 
 
 def inside_is_right(inside):
