@@ -18,11 +18,15 @@ POINTS = BOX[workspace(5, 4, BOX).all(axis=-1)]
 AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0]])
 
 
-def judge_on(points, limits=True, near=lambda gap: np.linalg.norm(gap) <= 1e-6):
+def inside(q):
+    return (abs(q) <= np.array([np.pi, np.pi / 2, np.pi / 2]) + 1e-9).all()
+
+
+def judge_on(points, limits=inside, near=lambda gap: np.linalg.norm(gap) <= 1e-6):
     def test(inverse):
         for p in points:
             q = np.asarray(inverse(p))
-            if not near(ARM.fk(q).translation - p) or (limits and not within(ARM, q).all()):
+            if not near(ARM.fk(q).translation - p) or not limits(q):
                 return False
         return True
 
@@ -33,16 +37,16 @@ def asserting(inverse):
     for p in [*POINTS, *AXIS]:
         q = inverse(list(p))
         assert math.dist(ARM.fk(q).translation, p) < 1e-6
-        assert (abs(np.array(q)) <= np.array([np.pi, np.pi / 2, np.pi / 2]) + 1e-9).all()
+        assert inside(np.array(q))
 
 
 @pytest.mark.parametrize(
     "answer",
     [
         judge_on(np.vstack([POINTS, AXIS])),
-        judge_on(np.vstack([AXIS[:1], POINTS[:60]]), near=lambda gap: (abs(gap) < 1e-7).all()),
+        judge_on(np.vstack([AXIS[:1], POINTS[:60]]), near=lambda gap: (abs(gap) < 1e-6).all()),
         lambda inverse: (
-            all(misfit(5, 4, inverse(p), p) < 1e-6 for p in POINTS)
+            all(misfit(5, 4, inverse(p), p) < 1e-6 and inside(np.array(inverse(p))) for p in POINTS)
             and math.isfinite(sum(inverse([0, 0, 6])))
         ),
         asserting,
@@ -57,7 +61,26 @@ def test_a_right_test_holds(answer):
     "answer, mistake",
     [
         (judge_on(POINTS), "accepts: not a number on axis 1"),
-        (judge_on(np.vstack([POINTS, AXIS]), limits=False), "accepts: the other elbow"),
+        (judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: True), "accepts: the other elbow"),
+        (
+            judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: within(ARM, q).all()),
+            "accepts: joint 1 from 0 to 360 degrees",
+        ),
+        (
+            judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-5),
+            "accepts: 0.003 mm too near",
+        ),
+        (
+            judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7),
+            "refuses a right program",
+        ),
+        (
+            lambda inverse: all(
+                inside(np.asarray(inverse(p))) and np.allclose(ARM.fk(inverse(p)).translation, p)
+                for p in POINTS
+            ),
+            "accepts: 0.003 mm too near",
+        ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (gap <= 1e-6).all()),
             "accepts: every coordinate too small",
@@ -137,6 +160,11 @@ def forward_only(q, speeds):
         (lambda q, speeds: np.round(loops(q, speeds), 2), "rounded"),
         (lambda q, speeds: np.array(loops(q, speeds)) * 180 / np.pi, "degrees for radians"),
         (lambda q, speeds: 2 * np.array(loops(q, speeds)), "there and back"),
+        (lambda q, speeds: [0, *loops(q, speeds)][:-1], "when the arm leaves"),
+        (
+            lambda q, speeds: np.nancumsum((abs(np.diff(q, axis=0)) / speeds).max(axis=1)),
+            "a move from or to the axis takes no time",
+        ),
     ],
 )
 def test_wrong_arrivals_are_named(answer, mistake):

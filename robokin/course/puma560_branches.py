@@ -131,6 +131,13 @@ def _name_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     return cases
 
 
+def _above_line_in_x(q: Floats) -> float:
+    """As _above_line, with x of the base for the distance in the arm's plane."""
+    _, shoulder, elbow, *_, wrist = PUMA560.frames(q).translation
+    (x, _, z), (far, _, high) = elbow - shoulder, wrist - shoulder
+    return float(z - high * np.divide(x, far))
+
+
 def _without_a3(q: Floats) -> float:
     return float(UPPER * np.cos(q[1]) - 431.8 * mm * np.sin(q[1] + q[2]))
 
@@ -183,6 +190,17 @@ SIDES: tuple[tuple[str, str, Signs], ...] = (
         "· cos of it).",
         lambda q: UPPER * np.cos(q[1]) + FORE * np.sin(q[1] + q[2]) > 0,
     ),
+    (
+        "the forearm for the whole arm",
+        "The forearm may point back while the wrist centre is still ahead of axis 1: the upper "
+        "arm's share counts, too.",
+        lambda q: np.cos(q[1] + _bend(q)) > 0,
+    ),
+    (
+        "the forearm's angle without q2",
+        "Joint 2 carries the forearm along: its direction is q2 + q3 + 87.3°.",
+        lambda q: UPPER * np.cos(q[1]) + FORE * np.cos(_bend(q)) > 0,
+    ),
     ("always RIGHTY", "Every posture is called RIGHTY.", lambda q: True),
 )
 # whether the elbow's flag is +1
@@ -230,6 +248,18 @@ HEIGHTS: tuple[tuple[str, str, Signs], ...] = (
         "ABOVE is meant against the line from shoulder to wrist, not against the shoulder.",
         lambda q: np.sin(q[1]) > 0,
     ),
+    (
+        "higher than both, shoulder and wrist",
+        "ABOVE is meant against the line from shoulder to wrist. The elbow may be above it and "
+        "lower than one of its ends.",
+        lambda q: UPPER * np.sin(q[1]) > max(0.0, _height(q)),
+    ),
+    (
+        "the line seen from the base",
+        "The line is taken over x of the base. Joint 1 turns the arm's plane away from x: take the "
+        "distance along that plane.",
+        lambda q: _above_line_in_x(q) > 0,
+    ),
 )
 WRISTS: tuple[tuple[str, str, Signs], ...] = (
     ("", "", lambda q: q[4] > 0),
@@ -242,6 +272,12 @@ WRISTS: tuple[tuple[str, str, Signs], ...] = (
     ),
     ("the sign of joint 4", "FLIP and NOFLIP tell the sign of joint 5.", lambda q: q[3] > 0),
     ("the sign of joint 6", "FLIP and NOFLIP tell the sign of joint 5.", lambda q: q[5] > 0),
+    (
+        "the cosine of joint 5",
+        "The cosine tells how far the wrist is bent. To which side tells the sign of joint 5.",
+        lambda q: np.cos(q[4]) > 0,
+    ),
+    ("always NOFLIP", "Every posture is called NOFLIP.", lambda q: True),
 )
 # a wrong bend, which goes into the side, too
 BENDS: tuple[tuple[str, str, Signs], ...] = (
@@ -296,6 +332,7 @@ USUAL = {
     "the side of the base for the side of the arm",
     "the upper arm for the wrist",
     "the stretched arm at q3 = 0",
+    "the stretched arm at q3 = −90°",
     "the elbow's flag alone, −1 for ABOVE",
     "the elbow's flag alone, +1 for ABOVE",
     "RIGHTY and LEFTY exchanged",
@@ -313,10 +350,15 @@ NAIVE = {
 }
 
 
-def _row_as_it_is(q: Floats) -> str:
-    rows = PUMA560.ik(PUMA560.fk(q))
-    front, elbow, wrist = PUMA560.branches[int(abs(rows - q).sum(axis=-1).argmin())]
-    return _named(front > 0, front * elbow < 0, wrist > 0)
+def _row_as_it_is(order: float) -> Callable[[Floats], str]:
+    """The row at the least distance, in the norm of this order."""
+
+    def name(q: Floats) -> str:
+        miss = np.linalg.norm(PUMA560.ik(PUMA560.fk(q)) - q, ord=order, axis=-1)
+        front, elbow, wrist = PUMA560.branches[int(miss.argmin())]
+        return _named(front > 0, front * elbow < 0, wrist > 0)
+
+    return name
 
 
 def _bent(bend: Signs, rule: Any, wrist: Signs) -> Callable[[Floats], str]:
@@ -360,16 +402,13 @@ def _name_mistakes() -> list[Mistake]:
         add([part[:2] for part in (side, elbow, rule, wrist)], _flagged(side, elbow, rule, wrist))
     for bend, rule, wrist in product(BENDS, PRODUCTS, WRISTS):
         add([bend[:2], rule[:2], wrist[:2]], _bent(bend[2], rule, wrist[2]))
-    add(
-        [
-            (
-                "whole turns in the comparison of rows",
-                "A row of ik and q may differ by a whole turn of a joint and be one posture: "
-                "compare the angles modulo 360°.",
-            )
-        ],
-        _row_as_it_is,
+    turns = (
+        "whole turns in the comparison of rows",
+        "A row of ik and q may differ by a whole turn of a joint and be one posture: compare the "
+        "angles modulo 360°.",
     )
+    for order in (1, 2, np.inf):
+        add([turns], _row_as_it_is(order))
     for side, wrist in product(SIDES[1:], WRISTS):
         add([side[:2], wrist[:2]], _seen(side[2], lambda q: _above_line(q) > 0, wrist[2]))
     for side, height, wrist in product(SIDES, HEIGHTS, WRISTS):
@@ -571,6 +610,29 @@ SPEED_MISTAKES = (
         lambda q, d, most: np.linalg.norm((PUMA560.jacobian(q) @ most)[:3]),
     ),
     Mistake(
+        "forward for inverse",
+        "These are all joints at their most, each turning so that it helps: the flange is carried "
+        "aside and turned, too. The joint speeds are the unknown: solve.",
+        lambda q, d, most: abs(PUMA560.jacobian(q)[:3].T @ _unit(d)) @ most,
+    ),
+    Mistake(
+        "forward for inverse",
+        "These are all joints at their most, added up axis by axis of the base: another motion. "
+        "The joint speeds are the unknown: solve.",
+        lambda q, d, most: abs(PUMA560.jacobian(q)[:3]) @ most @ abs(_unit(d)),
+    ),
+    Mistake(
+        "forward for inverse",
+        "This is the joint that carries the flange fastest along the direction, alone: the flange "
+        "goes aside and turns, too. The joint speeds are the unknown: solve.",
+        lambda q, d, most: np.max(abs(PUMA560.jacobian(q)[:3].T @ _unit(d)) * most),
+    ),
+    Mistake(
+        "another posture",
+        "The joint speeds belong to another row of ik than q. The Jacobian is wanted at q itself.",
+        _with_rates(lambda q, d: _rates(PUMA560.ik(PUMA560.fk(q))[0], d)),
+    ),
+    Mistake(
         "a joint's speed for the flange's",
         "This is how fast the deciding joint turns at 1 m/s. The speed is its most over that.",
         lambda q, d, most: abs(_rates(q, d))[int((abs(_rates(q, d)) / most).argmax())],
@@ -632,6 +694,23 @@ SPEED_MISTAKES = (
         lambda q, d, most: np.max(most) / np.max(abs(_rates(q, d))),
     ),
     Mistake(
+        "one most for all joints",
+        "The mean of most belongs to no joint: divide joint by joint, then take the least.",
+        lambda q, d, most: np.mean(most) / np.max(abs(_rates(q, d))),
+    ),
+    Mistake(
+        "one most for all joints, and signs",
+        "Each joint has a most of its own, and may turn either way: divide joint by joint, take "
+        "absolute values, then the least.",
+        lambda q, d, most: np.min(most) / np.max(_rates(q, d)),
+    ),
+    Mistake(
+        "the joint with the least most",
+        "The weakest joint is not always the first at its most: another one may have to turn much "
+        "more. Take the least of all six quotients.",
+        lambda q, d, most: (most / abs(_rates(q, d)))[most.argmin()],
+    ),
+    Mistake(
         "the first joint's most for all",
         "most[0] is joint 1's: divide joint by joint, then take the least.",
         lambda q, d, most: most[0] / np.max(abs(_rates(q, d))),
@@ -652,6 +731,12 @@ SPEED_MISTAKES = (
         lambda q, d, most: np.max(most) / np.linalg.norm(_rates(q, d)),
     ),
     Mistake(
+        "the length of the joint speeds",
+        "The shares of the six joints are not a vector with a length: the greatest of them "
+        "decides, not the root of the sum of squares.",
+        lambda q, d, most: 1 / np.linalg.norm(_rates(q, d) / most),
+    ),
+    Mistake(
         "the sum of the joint speeds",
         "The joints do not share a budget: each is compared with its own most.",
         lambda q, d, most: 1 / np.sum(abs(_rates(q, d)) / most),
@@ -660,6 +745,16 @@ SPEED_MISTAKES = (
         "the mean of the quotients",
         "A mean lets some joints past their most: the least of the quotients decides.",
         lambda q, d, most: np.mean(most / abs(_rates(q, d))),
+    ),
+    Mistake(
+        "the sum of the quotients",
+        "Each quotient is a speed that one joint allows. They are not added up: the least decides.",
+        lambda q, d, most: np.sum(most / abs(_rates(q, d))),
+    ),
+    Mistake(
+        "the sum of the quotients",
+        "Each quotient is a speed that one joint allows. They have no length: the least decides.",
+        lambda q, d, most: np.linalg.norm(most / _rates(q, d)),
     ),
     Mistake(
         "joint speeds over most",
@@ -847,11 +942,36 @@ def _fast_fault(
             "the mean speed for the greatest",
             says + " Way over time is the mean. The quintic law is faster than that in the middle.",
         )
+    if abs(duration * fastest / judged.mean[row] / (15 / 8) - 1) < 0.03:
+        return (
+            "the peak of PTP on a line",
+            says + " 15/8 of the mean is the peak where every joint turns from end to end by the "
+            "quintic law. On a straight line of the flange it does not: differentiate the angles.",
+        )
+    if fault := _unit_fault(duration * fastest / judged.speed[row], fastest, says):
+        return fault
     others = judged.least(fastest)
     twin = [k for k in range(8) if np.isfinite(others[k]) and abs(duration / others[k] - 1) < 0.06]
     if twin and row not in twin:
         return "the duration of another row", says + f" For row {twin[0]} it would be enough."
     return "too fast", says
+
+
+def _unit_fault(share: float, fastest: float, says: str) -> tuple[str, str] | None:
+    """If the duration is such a share of the right one."""
+    for wrong in (deg, 1 / deg):
+        if 0.995 < share / wrong < LONGEST:
+            return (
+                "degrees for radians",
+                says + " Joint speed and fastest have to be in one unit: both in rad/s.",
+            )
+    if 0.995 < share / fastest < LONGEST:
+        return (
+            "the joint speed for the duration",
+            says + " This number is the greatest joint speed in one second. In T seconds it is T "
+            "times less: divide it by fastest.",
+        )
+    return None
 
 
 def _slow_fault(
@@ -866,7 +986,8 @@ def _slow_fault(
             "a row that serves, and not the quickest",
             says + f" Row {row} is usable to the end, but it turns more.",
         )
-    return "too slow", says
+    fault = _unit_fault(duration * fastest / judged.speed[row], fastest, says)
+    return fault or ("too slow", says)
 
 
 # --- The predictions' numbers and views -----------------------------------------------------------

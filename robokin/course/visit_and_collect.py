@@ -108,6 +108,16 @@ def _too_small(x: float, y: float, z: float) -> Joints:
     return _principal(*lower) if L1 - L2 < hypot(*lower) < L1 + L2 else _principal(x, y, z)
 
 
+def _short_by(gap: float) -> Callable[[float, float, float], Joints]:
+    """Short of the point by so many metres."""
+
+    def solve(x: float, y: float, z: float) -> Joints:
+        share = 1 - gap / max(hypot(x, y, z), 1.0)
+        return _principal(share * x, share * y, share * z)
+
+    return solve
+
+
 def _with(l1: float, l2: float, x: float, y: float, z: float) -> Joints:
     """The formulas with other links."""
     lean, d = atan2(hypot(x, y), z), max(hypot(x, y, z), 1e-12)
@@ -135,6 +145,7 @@ RIGHT_INVERSES: tuple[tuple[str, Program], ...] = (
             lambda x, y, z, q1, q2, q3: (q1 * (1 - 1e-10), q2 * (1 - 1e-10), q3 * (1 - 1e-10))
         ),
     ),
+    ("it searches, and stops 5e-7 m from the point", _of_point(_short_by(5e-7))),
     (
         "it leaves joint 1 at 2 rad where the point is on axis 1",
         _changed(lambda x, y, z, q1, q2, q3: (2.0 if hypot(x, y) == 0 else q1, q2, q3)),
@@ -187,6 +198,13 @@ INVERSE_MISTAKES = (
         "The tool arrives, but for many points joint 2 is past its limit then. Look at the limits, "
         "at points far out and low.",
         _of_point(_mirrored),
+    ),
+    Mistake(
+        "joint 1 from 0 to 360 degrees",
+        "The tool arrives, but at negative y joint 1 is past its limit of 180 degrees: a whole "
+        "turn less is another joint value. `within` takes whole turns off first: compare the "
+        "numbers themselves with the limits.",
+        _changed(lambda x, y, z, q1, q2, q3: (q1 % (2 * pi), q2, q3)),
     ),
     Mistake(
         "beta on the wrong side",
@@ -256,6 +274,12 @@ INVERSE_MISTAKES = (
         "The joint values are rounded to thousandths: the tool is off by millimetres, and 1e-6 m "
         "is asked.",
         _changed(lambda x, y, z, q1, q2, q3: (round(q1, 3), round(q2, 3), round(q3, 3))),
+    ),
+    Mistake(
+        "0.003 mm too near",
+        "The tool stops 3e-6 m short of the point, and 1e-6 m is asked. np.allclose and np.isclose "
+        "allow 1e-5 of the number on top: give them rtol=0, atol=1e-6.",
+        _of_point(_short_by(3e-6)),
     ),
     Mistake(
         "not a number on axis 1",
@@ -417,6 +441,38 @@ def _start_left(q: Floats) -> Floats:
     return filled
 
 
+def _mean_known(q: Floats) -> Floats:
+    """The mean of all angles known."""
+    q = q.copy()
+    q[:, 0] = np.where(np.isnan(q[:, 0]), np.nanmean(q[:, 0]), q[:, 0])
+    return q
+
+
+def _start_last(q: Floats) -> Floats:
+    """A start on the axis gets the last angle known."""
+    q = q.copy()
+    if np.isnan(q[0, 0]):
+        q[0, 0] = q[~np.isnan(q[:, 0]), 0][-1]
+    return _filled(q)
+
+
+def _start_next(q: Floats) -> Floats:
+    """A start on the axis gets what stands at the next stop, NaN or not; then carried on."""
+    q = q.copy()
+    if np.isnan(q[0, 0]):
+        q[0, 0] = q[1, 0]
+    return _filled(q) if not np.isnan(q[0, 0]) else _start_left(q)
+
+
+def _nearest_known(q: Floats) -> Floats:
+    """The angle known at the nearest stop, before or after."""
+    q = q.copy()
+    known = np.flatnonzero(~np.isnan(q[:, 0]))
+    away = abs(np.arange(len(q))[:, None] - known)
+    q[:, 0] = q[known[away.argmin(axis=-1)], 0]
+    return q
+
+
 def _as_given(q: Floats) -> Floats:
     return q
 
@@ -501,6 +557,32 @@ FILLS: tuple[Fill, ...] = (
         "Every stop on the axis gets the first angle known. Joint 1 keeps the angle it arrives "
         "with, and that is the one of the stop before.",
         _first_known,
+        _loud,
+    ),
+    (
+        "the mean of the known angles",
+        "On the axis joint 1 does not turn to a mean: it keeps the angle it arrives with.",
+        _mean_known,
+        _loud,
+    ),
+    (
+        "the nearest known angle",
+        "Joint 1 cannot know the angle of a stop to come: on the axis it keeps the angle it "
+        "arrives with. Only a start on the axis looks ahead.",
+        _nearest_known,
+        _loud,
+    ),
+    (
+        "a start on the axis takes the last angle",
+        "A start on the axis has the angle of the first stop that has one, not of the last.",
+        _start_last,
+        _loud,
+    ),
+    (
+        "a start on the axis looks one stop ahead",
+        "The stop after the start may be on the axis, too, and has no angle either: look on to the "
+        "first stop that has one.",
+        _start_next,
         _loud,
     ),
 )
@@ -652,6 +734,17 @@ def _made(fill: Fill, legs: Moves, added: bool) -> Program:
     return program
 
 
+def _around(q: Floats) -> Floats:
+    """Joint 1 from 0 to a whole turn."""
+    q = q.copy()
+    q[:, 0] %= 2 * pi
+    return q
+
+
+def _left(times: Floats) -> Floats:
+    return np.append(0.0, times[:-1])
+
+
 RIGHTLY: Fill = ("", "", _filled, _loud)
 
 
@@ -683,6 +776,37 @@ def _arrival_mistakes() -> list[Mistake]:
             lambda q, speeds: np.cumsum(
                 (abs(_filled(q)[1:] - _filled(q)[0]) / speeds).max(axis=-1)
             ),
+        ),
+        Mistake(
+            "when the arm leaves",
+            "Your times begin with 0 and lack the last: they say when the arm leaves each stop for "
+            "the next. Asked is when it reaches it.",
+            lambda q, speeds: _left(np.cumsum(_slowest(_filled(q), speeds))),
+        ),
+        Mistake(
+            "counted from the first stop",
+            "The clock starts with the move to the first stop: it takes time, too.",
+            lambda q, speeds: (
+                np.cumsum(_slowest(_filled(q), speeds)) - _slowest(_filled(q), speeds)[0]
+            ),
+        ),
+        Mistake(
+            "a move from or to the axis takes no time",
+            "The NaN of joint 1 makes the whole move NaN, and you count it as 0. Joints 2 and 3 "
+            "turn, and joint 1 keeps its angle: put that in before you subtract.",
+            lambda q, speeds: np.nancumsum(_slowest(q, speeds)),
+        ),
+        Mistake(
+            "a move from or to the axis takes no time, and not added up",
+            "The NaN of joint 1 makes the whole move NaN, and you count it as 0: put in the angle "
+            f"that joint 1 keeps before you subtract. {NOT_ADDED}",
+            lambda q, speeds: np.nan_to_num(_slowest(q, speeds)),
+        ),
+        Mistake(
+            "joint 1 from 0 to 360 degrees",
+            "The angles of joint 1 are wrapped to 0 to 360 degrees: from −0.2 to 0.2 rad it would "
+            "turn nearly all the way. Take them as they are, between −180 and 180 degrees.",
+            lambda q, speeds: np.cumsum(_slowest(_around(_filled(q)), speeds)),
         ),
         Mistake(
             "rounded",
