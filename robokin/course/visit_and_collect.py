@@ -1717,8 +1717,8 @@ PREDICTIONS = {
             Option(
                 "About {uneven} mm/s.",
                 "In a dense stretch objects come faster than the arm can be there and back: while "
-                "it takes others, one passes and leaves the window. So c v / g is a bound: no fewer "
-                "arms will do, and more may be needed. Another rule has another speed: first come, "
+                "it takes others, one passes and leaves the window. So c v / g is a bound: no "
+                "fewer arms will do, and more may be needed. Another rule has another speed: first come, "
                 "first served takes all up to {first} mm/s.",
             ),
             Option(
