@@ -1718,8 +1718,8 @@ PREDICTIONS = {
                 "About {uneven} mm/s.",
                 "In a dense stretch objects come faster than the arm can be there and back: while "
                 "it takes others, one passes and leaves the window. So c v / g is a bound: no "
-                "fewer arms will do, and more may be needed. Another rule has another speed: first come, "
-                "first served takes all up to {first} mm/s.",
+                "fewer arms will do, and more may be needed. Another rule has another "
+                "speed: first come, first served takes all up to {first} mm/s.",
             ),
             Option(
                 "About {half} mm/s: the least gap is half as long.",
