@@ -37,10 +37,10 @@ L1, L2 = 5.0, 4.0  # m, source 000, examples 2 and 3
 ARM = spbu_arm(L1, L2)
 
 OBJECTIVES = (
-    "derive the joint values for a point from one triangle, and tell for every point whether the "
-    "arm serves it, and why not",
-    "compute how long a move takes, and from that what one arm gets done in a given time",
-    "tell when a greedy rule is the best and when it is not: prove the one, break the other",
+    "check a program that computes joint values for a point, and tell which points the arm "
+    "serves, and why not the others",
+    "compute how long a move takes, and from that when an arm is where",
+    "tell when a greedy rule is the best and when it is not, and build a case that breaks it",
 )
 
 
@@ -946,6 +946,7 @@ def _tool_view() -> Any:
     )
     sketch.levers([(0, 0), (L1, 0), (L1, -L2)], ["O1", "O2", "tool"])
     sketch.ax.axhline(0, color="0.6", lw=1)
+    sketch.ax.margins(0.22)
     return sketch
 
 
@@ -1052,6 +1053,8 @@ def _axis_view() -> Any:
     sketch.levers([(0, 0), (-LOW1, 0), (0, height)], ["O1", "O2", "tool"])
     sketch.ax.axhline(0, color="0.6", lw=1)
     sketch.ax.axvline(0, color="0.6", lw=1, ls=":")
+    sketch.ax.text(-0.1, 0.15 * height, "axis 1", ha="right")
+    sketch.ax.margins(0.22)
     return sketch
 
 
@@ -1131,6 +1134,7 @@ def _dip_view() -> Any:
     sketch.ax.text(6.2, -0.3, "floor", color="#009E73")
     sketch.point(DIP[0, [0, 2]], "start", away=(1, 0))
     sketch.point(DIP[1, [0, 2]], "goal", away=(1, 1))
+    sketch.ax.margins(0.18)
     return sketch
 
 
@@ -1267,7 +1271,7 @@ def _belt_ways() -> Floats:
     return ways
 
 
-def _missed(offsets: Floats, v: float) -> Floats:
+def _missed(offsets: Floats, v: float, first_come: bool = False) -> Floats:
     """What one arm does not take, of objects that lie so far before the window: as in the lab."""
     ways, left, free = _belt_ways(), np.arange(len(offsets)), 0.0
     at = (offsets[:, None] + WINDOW - WINDOW[0]) / v
@@ -1275,7 +1279,7 @@ def _missed(offsets: Floats, v: float) -> Floats:
         in_time = at[left] >= free + ways
         place = in_time.argmax(axis=-1)
         back = np.where(in_time.any(axis=-1), at[left, place] + ways[place], np.inf)
-        k = int(back.argmin())
+        k = int(np.isfinite(back).argmax() if first_come else back.argmin())
         if np.isinf(back[k]):
             break
         free = float(back[k])
@@ -1293,8 +1297,10 @@ def _belt_facts() -> Mapping[str, Any]:
         for name, offsets in (("uneven", uneven), ("even", even))
     }
     most = {name: int(speeds[np.flatnonzero(np.cumsum(n) == 0)[-1]]) for name, n in lost.items()}
+    first = [len(_missed(uneven, v * mm, first_come=True)) for v in speeds]
     return {
         **most,
+        "first": int(speeds[np.flatnonzero(np.cumsum(first) == 0)[-1]]),
         "half": round(most["even"] / 2),
         "rule": float(GAP / (2 * _belt_ways().min()) / mm),
         "mean": float(np.diff(uneven).mean() / mm),
@@ -1488,8 +1494,8 @@ PREDICTIONS = {
             ),
             Option(
                 "A few: about 1 in 10.",
-                "Leaning backwards needs no more than q2 ≥ −90°, and there is a point nearly "
-                "everywhere for which that is enough.",
+                "Leaning backwards needs no more than q2 ≥ −90°, and high up that is enough at any "
+                "distance from the axis.",
                 "only near the axis",
                 "Even of those more than 8 m from the axis {far:.0f} % have two.",
             ),
@@ -1688,7 +1694,7 @@ PREDICTIONS = {
                 "In more than half.",
                 "In {none} of {n} it does as well as the best.",
                 "greed taken for always wrong",
-                "If all points fit in time, every order visits all.",
+                "If T is long enough for the slowest order, every order visits all.",
             ),
         ),
         facts=_lost_facts,
@@ -1696,8 +1702,9 @@ PREDICTIONS = {
         view=_lost_view,
     ),
     "p9": Prediction(
-        question="Objects lie on the belt one every 150 mm exactly, and one arm takes all 200 up "
-        "to {even} mm/s (we try steps of 5). Now they lie 75 to 225 mm apart at random, 150 mm on "
+        question="Objects lie on the belt one every 150 mm exactly. One arm, which always "
+        "takes the object with which it is back soonest, takes all 200 up to {even} mm/s (we try "
+        "steps of 5). Now they lie 75 to 225 mm apart at random, 150 mm on "
         "average. Up to which speed does the arm miss none?",
         options=(
             Option(
@@ -1709,9 +1716,10 @@ PREDICTIONS = {
             ),
             Option(
                 "About {uneven} mm/s.",
-                "In a dense stretch the arm falls behind, meets objects later and farther from its "
-                "bin, and falls behind more. So c v / g is a bound: no fewer arms will do, and "
-                "more may be needed.",
+                "In a dense stretch objects come faster than the arm can be there and back: while "
+                "it takes others, one passes and leaves the window. So c v / g is a bound: no "
+                "fewer arms will do, and more may be needed. Another rule has another "
+                "speed: first come, first served takes all up to {first} mm/s.",
             ),
             Option(
                 "About {half} mm/s: the least gap is half as long.",
@@ -1723,7 +1731,7 @@ PREDICTIONS = {
             ),
             Option(
                 "More than {even} mm/s: in the wide gaps the arm can rest.",
-                "A rest takes no object. Even gaps are the best ones.",
+                "A rest takes no object, and none is taken sooner because of it.",
                 "idle time taken for gain",
                 "All objects in one heap are the other extreme: the arm takes a few and misses "
                 "the rest.",
