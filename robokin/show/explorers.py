@@ -324,14 +324,16 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
     for q in spread(arm, 160):
         pose = arm.fk(q)
         place = np.round(pose.translation / (50 * mm)) * 50 * mm
-        if place[0] < 0.2 * size or (arm.target is Transform and place[2] < 0.1 * size):
+        low = 0.1 * size if arm.target is Transform else 0
+        if place[0] < 0.2 * size or place[2] < low:
             continue
         turns = np.round(_turned(arm, pose) / (15 * deg)) * 15 * deg
         rows = arm.ik(_asked(arm, place, turns))
         usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
             near = np.nanmin(distance_from_singularity(arm, rows))
-            score = usable.sum() + float(np.round(near, 6))
+            # a singular one last: there two branches are one, and a step on there is none
+            score = (usable.sum() if near > 0.03 else 0) + float(np.round(near, 6))
             if score > most:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
                 most = score
