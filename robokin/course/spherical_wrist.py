@@ -877,8 +877,8 @@ def _noise() -> tuple[Floats, Floats, Floats]:
     worst, lost = np.zeros((2, len(thetas), 3))
     for i, theta in enumerate(thetas):
         q[:, 4] = theta
-        frames = ITMO6R.frames(q).rotation.as_matrix()
-        h = frames[:, 3].swapaxes(-1, -2) @ frames[:, 6]  # rounded, as in the arm
+        frames = np.array([dh_frames(TOOLS, A, ALPHA, D, OFFSET + each) for each in q])[..., :3, :3]
+        h = frames[:, 3].swapaxes(-1, -2) @ frames[:, 6]  # rounded, as in the lab's chain
         book, mine = textbook(h, +1), mended(h, +1)
         both = np.stack([book[:, 0], mine[:, 1], book[:, 2]], axis=-1)
         for k, found in enumerate((book, both, mine)):
@@ -891,12 +891,12 @@ def _noise() -> tuple[Floats, Floats, Floats]:
 def _noise_facts() -> dict[str, Any]:
     thetas, worst, lost = _noise()
     row = int(np.argmin(abs(thetas - 1e-9)))
-    power = round(float(np.log10(worst[row, 0])))
+    digit, power = f"{worst[row, 0]:.0e}".split("e")
     return {
         "worst": worst[row, 0],
         "lost": lost[row, 0],
         "share": 10 * round(10 * lost[row, 0]),
-        "power": f"10{str(power).translate(POWERS)}",
+        "power": f"{digit}·10{str(int(power)).translate(POWERS)}",
     }
 
 
@@ -904,7 +904,7 @@ POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def _noise_right(facts: Mapping[str, Any]) -> int:
-    guesses = np.log10([1e-16, 1e-9, 1e-6])
+    guesses = np.log10([1e-16, 1e-9, facts["worst"]])
     return 3 if facts["lost"] else int(abs(guesses - np.log10(facts["worst"])).argmin())
 
 
@@ -1244,32 +1244,32 @@ PREDICTIONS = {
     "p6": Prediction(
         question="In 200 random postures joint 5 stands at 0.000 000 001 rad (10⁻⁹), not at zero. "
         "For each we compute R₆³ from the chain, in double precision (16 digits), let the textbook "
-        "formulas find the three angles, and build the matrix of these angles. By how much does an "
-        "entry differ from the wanted one, in the worst of the 200 postures?",
+        "formulas find the three angles, and build the matrix of these angles. What has become of "
+        "its entries in the worst of the 200 postures?",
         options=(
             Option(
-                "By 10⁻¹⁶: double precision has 16 digits.",
+                "They are off by 10⁻¹⁶: double precision has 16 digits.",
                 "φ and ψ are read from numbers of size 10⁻⁹, and these carry a rounding of 10⁻¹⁶: "
                 "few digits are left.",
                 "all digits survive",
                 "1 − cos(10⁻⁹) is 5·10⁻¹⁹ on paper, and 0 in double precision.",
             ),
             Option(
-                "By 10⁻⁹: an error as small as the angle.",
+                "They are off by 10⁻⁹: an error as small as the angle.",
                 "So small an angle hardly matters, and its direction does: the other two angles "
                 "are read from it. Where there is a number, the worst is off by {power}.",
                 "a small angle makes a small error",
                 "At the north pole a step of a millimetre takes you through any longitude.",
             ),
             Option(
-                "By {power}: more than half of the digits go.",
+                "They are off by {power}: more than half of the digits go.",
                 "That is the worst of the postures where a number comes out, and what remains when "
                 "the square root is mended (green in the figure). Elsewhere there is none.",
                 "the root is forgotten",
-                "At 10⁻¹⁶ rad the mended root does not help any more: the green line is at 1.",
+                "At 10⁻¹⁶ rad the mended root does not help any more: the green line is above 1.",
             ),
             Option(
-                "It cannot be said: for some postures no number comes out.",
+                "They are no numbers: there the formulas break down.",
                 "h₃₃ is rounded, now and then to more than 1, and √(1 − h₃₃²) is the root of a "
                 "negative number: NaN, in about {share} % of the postures. The others are off, the "
                 "worst by {power}: around the singularity lies a zone where \u201cregular\u201d is "
