@@ -181,6 +181,11 @@ def _stroke_in_mm(q0, position, angle):
     return [*q[:3], q[3] / mm]
 
 
+def _all_in_degrees(q0, position, angle):
+    q = _by_list(q0, position, angle)
+    return [*np.rad2deg(q[:3]), q[3]]
+
+
 @pytest.mark.parametrize(
     ("answer", "word"),
     [
@@ -202,6 +207,7 @@ def _stroke_in_mm(q0, position, angle):
         (_tool_angle_returned, "tool's angle"),
         (_start_moves, "start is wrapped"),
         (_stroke_in_mm, "mm"),
+        (_all_in_degrees, "all angles in degrees"),
         (_in_360, "360"),
     ],
 )
@@ -211,68 +217,74 @@ def test_a_wrong_turn_is_named(answer, word):
     assert verdict.mistake and word in verdict.mistake, verdict
 
 
-# --- 2: a test of limit tests ---------------------------------------------------------------------
+# --- 2: a limit test ------------------------------------------------------------------------------
 
 
-def _good():
-    return np.tile([0.1, 0.5, 0.2, 0.1], (30, 1))
-
-
-def _thorough(inside):
-    q = _good()
-    assert inside(q)
-    for joint in range(4):
-        for sample in (0, 13, -1):
-            for value, right in (
-                (LOW[joint], True),
-                (HIGH[joint], True),
-                (LOW[joint] - 1e-3, False),
-                (HIGH[joint] + 1e-3, False),
-            ):
-                q = _good()
-                q[sample, joint] = value
-                assert bool(inside(q)) == right
-    q = _good()
-    q[13] = np.nan
-    assert not inside(q)
-
-
-def test_a_thorough_test_holds_by_assertions():
-    assert check("scara_motion.2", _thorough).holds
-
-
-def _only_stroke(inside):
-    q = _good()
-    q[5, 3] = 0.2
-    return bool(inside(_good())) and not inside(q)
-
-
-def _only_accepts(inside):
-    return bool(inside(_good()))
-
-
-def _no_edges(inside):
-    for joint in range(4):
-        for value in (LOW[joint] - 1e-4, HIGH[joint] + 1e-4):
-            q = _good()
-            q[13, joint] = value
-            if inside(q):
+def _loops(q):
+    for posture in q:
+        for value, low, high in zip(posture, LOW, HIGH, strict=True):
+            if not low <= value <= high:
                 return False
-    return bool(inside(_good()))
+    return True
+
+
+def _middles(q):
+    return np.all(abs(q - (LOW + HIGH) / 2) <= (HIGH - LOW) / 2 + 1e-9)
+
+
+def _extremes(q):
+    return bool((q.min(axis=0) >= LOW).all() and (q.max(axis=0) <= HIGH).all())
+
+
+def _slack(q):
+    return not (~((q >= LOW - 9e-7) & (q <= HIGH + 9e-7))).any()
+
+
+def _in_degrees_and_mm(q):
+    unit = np.array([deg, deg, deg, mm])
+    return bool(((q / unit >= LOW / unit) & (q / unit <= HIGH / unit)).all())
+
+
+@pytest.mark.parametrize("answer", [_loops, _middles, _extremes, _slack, _in_degrees_and_mm])
+def test_a_right_limit_test_holds_in_every_style(answer):
+    assert check("scara_motion.2", answer).holds
+
+
+def _forgetful(q):
+    return all(LOW[i] <= v <= HIGH[i] for p in q for i, v in enumerate(p[:-1]))
+
+
+def _wraps(q):
+    q = np.array(q)
+    q[:, :3] = _wrap(q[:, :3])
+    return _loops(q)
+
+
+def _wraps_by_sine(q):
+    return _loops(np.append(np.arctan2(np.sin(q[:, :3]), np.cos(q[:, :3])), q[:, 3:], axis=1))
+
+
+def _ends(q):
+    return _loops(q[[0, -1]])
 
 
 @pytest.mark.parametrize(
     ("answer", "word"),
     [
-        (_only_stroke, "accepts"),
-        (_only_accepts, "accepts"),
-        (_no_edges, "accepts"),
-        (lambda inside: not inside(_good()), "refuses"),
+        (_forgetful, "stroke is never tested"),
+        (_wraps, "wrapped"),
+        (_wraps_by_sine, "wrapped"),
+        (_ends, "only the ends"),
+        (lambda q: not ((q < LOW) | (q > HIGH)).any(), "NaN passes"),
+        (lambda q: _loops(q[~np.isnan(q).any(axis=1)]), "NaN passes"),
+        (lambda q: bool(((q > LOW) & (q < HIGH)).all()), "themselves"),
+        (lambda q: not _loops(q), "swapped"),
+        (lambda q: (q >= LOW) & (q <= HIGH), "another kind"),
     ],
 )
-def test_a_test_that_is_deceived_is_told_by_what(answer, word):
+def test_a_wrong_limit_test_is_named(answer, word):
     verdict = check("scara_motion.2", answer)
-    assert not verdict.holds and word in verdict.mistake
+    assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
 
 
 # --- 3: a blend of one's own ----------------------------------------------------------------------

@@ -14,7 +14,7 @@ from .._arrays import Floats
 from ..arms import SCARA, ScaraPose, follow, nearest
 from ..motion import blend, differentiate, lin, ptp
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .exercises import Fault, Function, Value, words
 from .mistakes import Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice
@@ -530,6 +530,11 @@ TURN_MISTAKES = (
         "Angles are in radians here.",
         _changed(lambda q, q0: [q[0], q[1], q[2] / deg, q[3]]),
     ),
+    Mistake(
+        "all angles in degrees",
+        "The angles are returned in degrees; radians are wanted, as SCARA.ik gives them.",
+        _changed(lambda q, q0: [*(q[:3] / deg), q[3]]),
+    ),
 )
 
 
@@ -552,35 +557,9 @@ def _half_turns(q0: Floats, angle: float) -> float:
     return float(angle + np.pi * np.round((now - angle) / np.pi))
 
 
-# --- 2: a test of limit tests ---------------------------------------------------------------------
+# --- 2: a limit test ------------------------------------------------------------------------------
 
 LOW, HIGH = SCARA.limits.T
-
-
-def _by_loop(q: Floats) -> bool:
-    for posture in q:
-        for value, (low, high) in zip(posture, SCARA.limits, strict=True):
-            if not low <= value <= high:
-                return False
-    return True
-
-
-RIGHT_TESTS: tuple[tuple[str, Program], ...] = (
-    ("one comparison of all samples", lambda q: bool(((q >= LOW) & (q <= HIGH)).all())),
-    ("two loops and a comparison", _by_loop),
-    (
-        "with a slack of 1e-9 for rounding",
-        lambda q: bool(((q >= LOW - 1e-9) & (q <= HIGH + 1e-9)).all()),
-    ),
-    (
-        "smallest and largest values of each joint",
-        lambda q: bool((q.min(axis=0) >= LOW).all() and (q.max(axis=0) <= HIGH).all()),
-    ),
-    (
-        "distance from the middle, with a slack of 1e-9, as a NumPy bool",
-        lambda q: np.all(abs(q - (LOW + HIGH) / 2) <= (HIGH - LOW) / 2 + 1e-9),
-    ),
-)
 
 
 def _inside(q: Floats, low: Floats, high: Floats) -> bool:
@@ -598,102 +577,93 @@ def _wrap(q: Floats) -> Floats:
     return np.concatenate([wrapped(q[:, :3]), q[:, 3:]], axis=1)
 
 
-TEST_MISTAKES = (
+LIMIT_MISTAKES = (
     Mistake(
         "the stroke is never tested",
-        "It looks at three joints and leaves out the last. Your test needs a motion that leaves "
-        "the limits in joint 4 alone.",
+        "It looks at three joints and leaves out the last. The last joint has its limits, too, in "
+        "metres.",
         lambda q: _inside(q[:, :3], LOW[:3], HIGH[:3]),
     ),
     Mistake(
         "the stroke's limit in mm",
-        "It compares metres with 180. Your test needs a stroke of a little more than 0.18 m.",
+        "It compares metres with 180. Limits and strokes are both in metres: 0.18.",
         _limits(4, 0.0, 180.0),
     ),
     Mistake(
         "the stroke's limit turned into radians",
-        "It takes 180 mm for 180°, and that is 3.14. Your test needs a stroke of a little more "
-        "than 0.18 m.",
+        "It takes 180 mm for 180°, and that is 3.14. Its limit is a length, 0.18 m.",
         _limits(4, 0.0, 180 * deg),
     ),
     Mistake(
         "the height for the stroke",
-        "It tests the height l0 - q4 instead of q4. Your test needs the stroke at 0, which is "
-        "allowed.",
+        "It tests the height l0 - q4 instead of q4. SCARA.limits are limits of the joint values.",
         lambda q: _inside(np.append(q[:, :3], LEVEL - q[:, 3:], axis=1), LOW, HIGH),
     ),
     Mistake(
         "only the ends",
-        "It looks at the first and the last sample. Your test needs a motion that is past a limit "
-        "between two good ends.",
+        "It looks at the first and the last sample. Good ends do not make "
+        "a good path: ask every sample.",
         lambda q: _inside(q[[0, -1]], LOW, HIGH),
     ),
     Mistake(
         "only the first sample",
-        "It looks at the first sample only. Your test needs a motion that ends past a limit.",
+        "It looks at the first sample only. Ask every sample.",
         lambda q: _inside(q[:1], LOW, HIGH),
     ),
     Mistake(
         "only the last sample",
-        "It looks at the last sample only. Your test needs a motion that begins past a limit.",
+        "It looks at the last sample only. Ask every sample.",
         lambda q: _inside(q[-1:], LOW, HIGH),
     ),
     Mistake(
         "every tenth sample",
-        "It looks at every tenth sample. Your test needs a motion of which a single sample is past "
-        "a limit, here and there.",
+        "It looks at every tenth sample. A single sample past a limit is too much: ask every one.",
         lambda q: _inside(np.append(q[::10], q[-1:], axis=0), LOW, HIGH),
     ),
     Mistake(
         "angles wrapped first",
         "It wraps the angles into -180° to 180° and compares then: 410° passes for 50°. (So does "
-        "robokin's within, which judges postures.) Your test needs a joint 3 past 400°.",
+        "robokin's within, which judges postures.) Compare the angles as they "
+        "are.",
         lambda q: _inside(_wrap(q), LOW, HIGH),
     ),
     Mistake(
         "joint 3 kept in -180 to 180 degrees",
-        "It allows joint 3 from -180° to 180° only. Your test needs a joint 3 at 300°, which is "
-        "allowed.",
+        "It allows joint 3 from -180° to 180° only. It may turn to 400°: the angles are unwrapped.",
         _limits(3, -np.pi, np.pi),
     ),
     Mistake(
         "only upper limits",
-        "It does not look at the lower limits. Your test needs a value below each of them.",
+        "It does not look at the lower limits. Each joint has two.",
         lambda q: bool((q <= HIGH).all()),
     ),
     Mistake(
         "only lower limits",
-        "It does not look at the upper limits. Your test needs a value above each of them.",
+        "It does not look at the upper limits. Each joint has two.",
         lambda q: bool((q >= LOW).all()),
     ),
     Mistake(
         "the lower limit taken for minus the upper one",
-        "It compares abs(q) with the upper limit, and the stroke begins at 0. Your test needs a "
-        "stroke of -0.05 m.",
+        "It compares abs(q) with the upper limit, and the stroke begins at 0. Compare "
+        "with both limits.",
         lambda q: bool((abs(q) <= HIGH).all()),
     ),
     Mistake(
         "the limits themselves are refused",
-        "It asks for less, not for less or equal. Your test needs a joint that stands at its "
-        "limit exactly: q4 = 0, say.",
+        "It asks for less, not for less or equal. A joint at its limit is inside: q4 = 0, say.",
         lambda q: bool(((q > LOW) & (q < HIGH)).all()),
     ),
     Mistake(
         "NaN passes",
-        "It asks whether a value is past a limit, and a comparison with NaN is always False. Your "
-        "test needs a sample out of reach, a row of NaN.",
+        "It asks whether a value is past a limit, and a comparison with NaN is always False. Ask "
+        "whether all values are inside. (Or the rows of NaN were left out: out of reach is not "
+        "inside.)",
         lambda q: not ((q < LOW) | (q > HIGH)).any(),
     ),
     Mistake(
-        "NaN samples are left out",
-        "It looks at the samples that are numbers, and forgets the others. Your test needs a "
-        "sample out of reach, a row of NaN.",
-        lambda q: _inside(q[np.isfinite(q).all(axis=1)], LOW, HIGH),
-    ),
-    Mistake(
         "single NaN samples are left out",
-        "It takes the least and the greatest of the values that are numbers. Your test needs one "
-        "row of NaN in a motion that is good else.",
+        "It takes the least and the greatest of the values that are numbers. A "
+        "sample out of reach is not inside.",
         lambda q: bool(
             np.isfinite(q).any()
             and (np.fmin.reduce(q) >= LOW).all()
@@ -702,47 +672,120 @@ TEST_MISTAKES = (
     ),
     Mistake(
         "any joint for all joints",
-        "It is content if one joint is inside. Your test needs a motion of which one joint alone "
-        "is past its limit.",
+        "It is content if one joint is inside. All four have to be.",
         lambda q: bool(((q >= LOW) & (q <= HIGH)).any(axis=1).all()),
     ),
     Mistake(
         "any sample for all samples",
-        "It is content if one sample is inside.",
+        "It is content if one sample is inside. All of them have to be.",
         lambda q: bool(((q >= LOW) & (q <= HIGH)).all(axis=1).any()),
     ),
     Mistake(
         "the limits of joint 1 for joint 2",
-        "It holds joint 2 in -140° to 140°. Your test needs a joint 2 at 145°, which is allowed.",
+        "It holds joint 2 in -140° to 140°. Its own limits are -150° and 150°.",
         _limits(2, float(LOW[0]), float(HIGH[0])),
     ),
     Mistake(
         "the limits of joint 2 for joint 1",
-        "It lets joint 1 turn to 150°. Your test needs a joint 1 at 145°, which is too far.",
+        "It lets joint 1 turn to 150°. Its own limits are -140° and 140°.",
         _limits(1, float(LOW[1]), float(HIGH[1])),
     ),
     Mistake(
         "the limits of joint 3 for every angle",
-        "It lets every angle go to 400°. Your test needs joints 1 and 2 past their own limits.",
+        "It lets every angle go to 400°. Joints 1 and 2 have their own limits.",
         lambda q: _inside(q, np.array([LOW3, LOW3, LOW3, 0]), np.array([HIGH3] * 3 + [STROKE])),
     ),
     Mistake(
         "the mean of the motion",
-        "It tests the mean of all samples. Your test needs a motion that is past a limit for a "
-        "short time.",
+        "It tests the mean of all samples. A short time past a limit is too much.",
         lambda q: _inside(q.mean(axis=0), LOW, HIGH),
     ),
     Mistake(
         "a slack of one millimetre",
-        "It lets the stroke go 1 mm too far. Your test needs a stroke of 0.1805 m.",
+        "It lets the stroke go 1 mm too far. Asked is 10^-6 m.",
         _limits(4, -1 * mm, STROKE + 1 * mm),
     ),
     Mistake(
         "a slack of one degree",
-        "It lets the angles go 1° too far. Your test needs angles half a degree past their limits.",
+        "It lets the angles go 1° too far. Asked is 10^-6 rad.",
         lambda q: _inside(q, LOW - [deg, deg, deg, 0], HIGH + [deg, deg, deg, 0]),
     ),
+    Mistake(
+        "True and False swapped",
+        "It says True where a limit is broken. Asked is whether the motion is inside.",
+        lambda q: not _inside(q, LOW, HIGH),
+    ),
+    Mistake(
+        "limits in degrees and mm",
+        "It compares radians and metres with the numbers 140, 150, 400 and 180. SCARA.limits are "
+        "in radians and metres.",
+        lambda q: _inside(q, LOW / [deg, deg, deg, mm], HIGH / [deg, deg, deg, mm]),
+    ),
 )
+
+
+def _limit_right(tools: Tools, q: Floats) -> bool:
+    return _inside(q, LOW, HIGH)
+
+
+def _limit_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
+    """Motions: limits reached, limits broken, NaN, at the first, a middle and the last sample."""
+    still = np.array([0.1, 0.5, 0.2, 0.1])
+
+    def one(sample: int, joint: int, value: float, count: int = 25) -> tuple[Any, ...]:
+        q = np.tile(still, (count, 1))
+        q[sample, joint] = value
+        return (q,)
+
+    unit = np.array([deg, deg, deg, mm])
+    cases: list[tuple[Any, ...]] = [(np.tile(still, (3, 1)),)]
+    for joint in (3, 0, 1, 2):
+        for limit, side in ((LOW[joint], -1), (HIGH[joint], 1)):
+            # exactly only for the stroke: an angle turned into degrees is rounded
+            edge = float(limit) if joint == 3 else float(limit) - side * 1e-7
+            cases += [one(k, joint, edge, count=3) for k in (0, 1, 2)]
+            for past in (0.5, 20.0):
+                value = float(limit + side * past * unit[joint])
+                cases += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
+    cases += [one(1, 1, 145 * deg, 3), one(1, 0, 145 * deg, 3), one(1, 2, 300 * deg, 3)]
+    cases += [one(10, 3, 0.2), one(10, 0, 145 * deg)]  # every tenth sample shows these
+    cases += [one(1, 3, 5.0, 3), one(1, 3, 100.0, 3)]  # a stroke in mm
+    for row in (0, 13, 24):
+        q = np.tile(still, (25, 1))
+        q[row] = np.nan
+        cases.append((q,))
+    cases.append((np.full((3, 4), np.nan),))
+    for _ in range(12):
+        ends = rng.uniform(LOW, HIGH, (2, 4))
+        cases.append((np.linspace(ends[0], ends[1], 25),))  # inside
+        beyond = ends + np.eye(4)[rng.integers(4)] * (HIGH - LOW) * 1.1
+        cases.append((np.linspace(ends[0], beyond[1], 25),))
+    return cases
+
+
+def _limit_form(result: Any, case: tuple[Any, ...]) -> bool:
+    if not isinstance(result, (bool, np.bool_)):
+        raise ValueError(f"wanted True or False for the whole motion, got {words(result)}")
+    return bool(result)
+
+
+def _limit_law(case: tuple[Any, ...], yours: bool) -> str | None:
+    (q,) = case
+    wrong = ~((q >= LOW) & (q <= HIGH))
+    if yours == (not wrong.any()):
+        return None
+    if not wrong.any():
+        return "every value of this motion keeps its limits (the limits included): True is right"
+    sample, joint = (int(x) for x in np.argwhere(wrong)[0])
+    where = f"sample {sample} of {len(q)} (counted from 0)"
+    if np.isnan(q[sample, joint]):
+        return f"{where} is a row of NaN, out of reach: False is right"
+    size, unit = (mm, " mm") if joint == 3 else (deg, "°")
+    value, low, high = (x / size for x in (q[sample, joint], LOW[joint], HIGH[joint]))
+    return (
+        f"{where} has joint {joint + 1} at {value:.1f}{unit}; its limits are {low:.0f} and "
+        f"{high:.0f}{unit}: False is right"
+    ).translate(MINUS)
 
 
 # --- 3: a blend of one's own ----------------------------------------------------------------------
@@ -1306,26 +1349,26 @@ EXERCISES = {
         same=_same_posture,
         mistakes=TURN_MISTAKES,
     ),
-    "2": Catch(
-        task="A limit test inside(q), and a test of such tests: whether a program says rightly if "
-        "a motion keeps all limits.",
+    "2": Function(
+        task="Whether a motion q (samples, 4) with unwrapped angles keeps SCARA.limits in every "
+        "sample and every joint.",
         objective=2,
         hints=(
-            "A right program and a wrong one agree on most motions. For each way to be wrong you "
-            "need one motion on which they differ: what would show that the stroke is never "
-            "looked at?",
-            "Begin with one good posture, repeated. Then put a single value a little past one "
-            "limit: each joint, above and below, in the first, in a middle and in the last sample. "
-            "All of these have to be refused. What has to be accepted at the limits? And a NaN?",
-            "good = np.tile([0, 0.5, 0, 0.1], (25, 1)). For each joint, each limit and each "
-            "sample: a copy with that value exactly at the limit has to give True, and 1e-4 past "
-            "it False. Joint 3 past 400° and at 300° is among them if you try some values between. "
-            "A row of NaN: False.",
+            "Which values have to be asked, and of how many samples? Which unit does each have, "
+            "and which unit have its limits?",
+            "SCARA.limits is (4, 2): a lower and an upper limit for each joint, in the units of q. "
+            "A motion is inside if all values are at least the lower one and at most the upper "
+            "one. What does a comparison with NaN say?",
+            "low, high = SCARA.limits.T; then q >= low and q <= high compare all samples at once. "
+            "Join both with & and ask whether np.all of them hold: a NaN never does.",
         ),
-        rights=RIGHT_TESTS,
-        promise="A right program says True for every motion with all values inside the limits, the "
-        "limits included, and may let pass what is less than 1e-6 beyond.",
-        mistakes=TEST_MISTAKES,
+        inputs=("q",),
+        right=_limit_right,
+        cases=_limit_cases,
+        form=_limit_form,
+        law=_limit_law,
+        same=lambda a, b: a is b,
+        mistakes=LIMIT_MISTAKES,
     ),
     "3": Value(
         task="Choose blend and duration for a via point of your own that is too low",

@@ -18,7 +18,7 @@ def least_turn(q0, position, angle):
     return np.array([q1, q2, end - q1 - q2, q4])
 
 
-# --- 2: A limit test, and a test of limit tests
+# --- 2: A limit test
 import numpy as np
 
 from robokin import SCARA
@@ -28,26 +28,6 @@ def inside(q):
     """Whether all samples of the motion q (samples, 4) keep all limits; NaN is never inside."""
     low, high = SCARA.limits.T
     return bool(np.all((q >= low) & (q <= high)))
-
-
-def inside_is_right(inside):
-    """Whether the program inside(q) says rightly if a motion (samples, 4) keeps all limits."""
-    good = np.tile([0.0, 0.5, 0.0, 0.1], (25, 1))
-    for joint in range(4):
-        low, high = SCARA.limits[joint]
-        for k in (0, 7, 24):  # the first sample, one between, the last
-            motion = good.copy()
-            for value in np.linspace(low, high, 9):  # the limits themselves are allowed
-                motion[k, joint] = min(max(value, low), high)
-                if not inside(motion):
-                    return False
-            for value in (low - 1e-4, high + 1e-4, low - 0.1, high + 0.1):
-                motion[k, joint] = value
-                if inside(motion):
-                    return False
-    missing = good.copy()
-    missing[7] = np.nan  # out of reach
-    return not inside(missing)
 
 
 # --- 3: A blend of your own
