@@ -282,7 +282,9 @@ def _seen(player):
         "e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())"
     )
     assert pixels and all(len(one) > 2000 for one in pixels), "a canvas is empty"
-    return SimpleNamespace(pixels=pixels, numbers=player.locator("table").inner_text())
+    table = player.locator("table")  # the levers' explorer has sentences in its place
+    words = (table.first if table.count() else player).inner_text()
+    return SimpleNamespace(pixels=pixels, numbers=words)
 
 
 def _settled(page, player):
