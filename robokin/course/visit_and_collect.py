@@ -5,6 +5,8 @@ the tables stand at the end.
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import replace
 from functools import cache
 from itertools import permutations
 from math import acos, asin, atan, atan2, hypot, pi
@@ -15,6 +17,7 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import spbu_arm, within
 from ..jobs.visit_collect import (
+    Result,
     Task,
     best_visit,
     collect,
@@ -27,7 +30,7 @@ from ..jobs.visit_collect import (
 )
 from ..motion import ptp
 from ..units import deg, mm
-from .exercises import Catch, Exercise, Fault, Function, Value, words
+from .exercises import Catch, Exercise, Fault, Function, Value, Verdict, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice
@@ -37,8 +40,8 @@ L1, L2 = 5.0, 4.0  # m, source 000, examples 2 and 3
 ARM = spbu_arm(L1, L2)
 
 OBJECTIVES = (
-    "check a program that computes joint values for a point, and tell which points the arm "
-    "serves, and why not the others",
+    "check a program that computes joint values for a point, with points of every kind that the "
+    "arm serves",
     "compute how long a move takes, and from that when an arm is where",
     "tell when a greedy rule is the best and when it is not, and build a case that breaks it",
 )
@@ -705,8 +708,8 @@ LEGS: tuple[tuple[str, str, Moves], ...] = (
     ),
     (
         "15/8 of it",
-        "15/8 belongs to the gentle start and stop of section 8. Here every joint turns at its "
-        "greatest speed at once.",
+        "15/8 belongs to a gentle start and stop, as at the conveyor. Here every joint turns at "
+        "its greatest speed at once.",
         lambda q, speeds: 15 / 8 * _each(q, speeds).max(axis=-1),
     ),
 )
@@ -884,6 +887,20 @@ def _points_form(answer: Any, given: Any) -> Floats:
     return points
 
 
+def _both(points: Floats, numbers: Any) -> tuple[Result, Result]:
+    """Nearest first, and the best order."""
+    speeds = [numbers["speed"]] * 3
+    task = Task(L1, L2, numbers["T"], speeds, numbers["p0"], points.tolist(), "visit")
+    return visit(task), best_visit(task)
+
+
+def _scores(greedy: Result, best: Result) -> str:
+    return (
+        f"Nearest first visits {len(greedy.order)} of 4 (order {list(greedy.order)}), the best "
+        f"order {len(best.order)} ({list(best.order)})."
+    )
+
+
 def _points_faults(points: Floats, numbers: Any) -> list[Fault]:
     found: list[Fault] = []
     for k, point in enumerate(points):
@@ -899,10 +916,7 @@ def _points_faults(points: Floats, numbers: Any) -> list[Fault]:
         found.append(("too near to each other", says[0].upper() + says[1:]))
     if found and found[0][0] == "out of the workspace":
         return [*found, ("no trap", "So nothing can be visited, by no rule.")]
-    task = Task(
-        L1, L2, numbers["T"], [numbers["speed"]] * 3, numbers["p0"], points.tolist(), "visit"
-    )
-    greedy, best = visit(task), best_visit(task)
+    greedy, best = _both(points, numbers)
     lost = len(best.order) - len(greedy.order)
     if lost < LOST:
         if not best.order:
@@ -916,11 +930,24 @@ def _points_faults(points: Floats, numbers: Any) -> list[Fault]:
         found.append(
             (
                 name,
-                f"Nearest first visits {len(greedy.order)} of 4 (order {list(greedy.order)}), the "
-                f"best order {len(best.order)} ({list(best.order)}). {why}",
+                f"{_scores(greedy, best)} {why}",
             )
         )
     return found
+
+
+class Trap(Value):
+    """Says what both rules visit, and the points as plain numbers."""
+
+    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
+        if isinstance(answer, (list, tuple)):
+            with suppress(TypeError, ValueError):
+                answer = np.asarray(answer, dtype=float)
+        verdict = super().judge(name, answer, who)
+        if not verdict.holds:
+            return verdict
+        greedy, best = _both(answer, given(who))
+        return replace(verdict, says=(*verdict.says, _scores(greedy, best)))
 
 
 # --- What the predictions ask ---------------------------------------------------------------------
@@ -1385,7 +1412,7 @@ EXERCISES: dict[str, Exercise] = {
         same=_same_times,
         mistakes=_arrival_mistakes(),
     ),
-    "3": Value(
+    "3": Trap(
         task="Four points on which nearest first visits two fewer than the best order.",
         objective=3,
         hints=(
@@ -1407,7 +1434,7 @@ EXERCISES: dict[str, Exercise] = {
     ),
 }
 
-# Objective 1: p1 to p4. Objective 2: p5, p6, p9. Objective 3: p7, p8.
+# Objective 1: p1 to p4. Objective 2: p5, p6, p9. Objective 3: p7, p8. In Deeper: p9.
 PREDICTIONS = {
     "p1": Prediction(
         question="Joint 1 turns the arm about the vertical. Joint 2 tilts link 1 ({l1:g} m) away "
@@ -1600,27 +1627,28 @@ PREDICTIONS = {
         "points are in the workspace. How low is the tool on the way?",
         options=(
             Option(
-                "{deep:.2f} m under the floor.",
-                "Both ends are allowed, and the way is not. `report` names such a move, and "
-                "`visit(task, above_floor=True)` refuses it. It can happen only where l1 > l2: "
+                "About {deep:.0f} m under the floor.",
+                "By {deep:.2f} m. Both ends are allowed, and the way is not. `report` names such a "
+                "move, and `visit(task, above_floor=True)` refuses it. It can happen only where "
+                "l1 > l2: "
                 "else the allowed (q2, q3) form a convex set, which no even move leaves. A real "
                 "controller does not look either unless you give it a safety plane.",
             ),
             Option(
-                "Never lower than {b:g} m, the lower end.",
+                "{b:g} m above the floor: never lower than the lower end.",
                 "That would hold on a straight line in space. This is a straight line in the "
                 "joints (PTP, MoveJ).",
                 "PTP taken for LIN",
                 "From one side of the base to the other a PTP goes round it, not through it.",
             ),
             Option(
-                "A little lower, but above the floor: the workspace ends there.",
+                "About 0.05 m above the floor: the workspace ends at the floor.",
                 "The workspace says where the tool may stop. Nothing keeps it there on the way.",
                 "the workspace taken for a fence",
                 "In p1 every joint was inside its limits, and the tool under the floor.",
             ),
             Option(
-                "It touches the floor at one place and slides on.",
+                "0 m: it touches the floor at one place and slides on.",
                 "Nothing in the joints knows of the floor.",
                 "the floor taken for a stop",
                 "A real arm would press on, until its motors trip.",
@@ -1651,7 +1679,7 @@ PREDICTIONS = {
             Option(
                 "The joints have unlike speeds: 0.1, 0.3 and 0.5 rad/s.",
                 "Other speeds are other costs, and each object still has its own, whatever came "
-                "before. The proof needs no more: better in {speeds} of {n} random tasks.",
+                "before. The proof below needs no more: better in {speeds} of {n} random tasks.",
             ),
             Option(
                 "The arm goes on from object to object, and empties its bag at the end.",
@@ -1702,9 +1730,9 @@ PREDICTIONS = {
         view=_lost_view,
     ),
     "p9": Prediction(
-        question="Objects lie on the belt one every 150 mm exactly. One arm, which always "
-        "takes the object with which it is back soonest, takes all 200 up to {even} mm/s (we try "
-        "steps of 5). Now they lie 75 to 225 mm apart at random, 150 mm on "
+        question="Objects lie on the belt one every 150 mm exactly. One arm, with joints at "
+        "2 rad/s, which always takes the object with which it is back soonest, takes all 200 up to "
+        "{even} mm/s (we try steps of 5). Now they lie 75 to 225 mm apart at random, 150 mm on "
         "average. Up to which speed does the arm miss none?",
         options=(
             Option(
