@@ -1244,8 +1244,8 @@ PREDICTIONS = {
     "p6": Prediction(
         question="In 200 random postures joint 5 stands at 0.000 000 001 rad (10⁻⁹), not at zero. "
         "For each we compute R₆³ from the chain, in double precision (16 digits), let the textbook "
-        "formulas find the three angles, and build the matrix of these angles. What has become of "
-        "its entries in the worst of the 200 postures?",
+        "formulas find the three angles, and build the matrix of these angles. What is the worst "
+        "that has become of an entry, among all 200?",
         options=(
             Option(
                 "They are off by 10⁻¹⁶: double precision has 16 digits.",
