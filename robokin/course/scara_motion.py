@@ -606,6 +606,23 @@ LIMIT_MISTAKES = (
         lambda q: _inside(q[[0, -1]], LOW, HIGH),
     ),
     Mistake(
+        "only the ends",
+        "It asks the first and the last sample for the limits. Good ends do not make a good path "
+        "(section 4): ask every sample.",
+        lambda q: bool(np.isfinite(q).all()) and _inside(q[[0, -1]], LOW, HIGH),
+    ),
+    Mistake(
+        "samples are left out",
+        "It asks every tenth sample for the limits. A single sample past a limit is too much: ask "
+        "every one.",
+        lambda q: bool(np.isfinite(q).all()) and _inside(q[::10], LOW, HIGH),
+    ),
+    Mistake(
+        "samples are left out",
+        "It looks at every tenth sample. A single sample past a limit is too much: ask every one.",
+        lambda q: _inside(q[::10], LOW, HIGH),
+    ),
+    Mistake(
         "only the first sample",
         "It looks at the first sample only. Ask every sample.",
         lambda q: _inside(q[:1], LOW, HIGH),
@@ -1515,8 +1532,8 @@ PREDICTIONS = {
         options=(
             Option(
                 "On neither: both ends are inside, and so is what lies between.",
-                "That holds joint by joint, for PTP. On the line to the goal of this section joint "
-                "1 is past its limit in {bad1} samples of 1001, and joint 2 in {bad2}.",
+                "That holds joint by joint, for PTP. On the line to the goal with x_goal = 0 "
+                "joint 1 is past its limit in {bad1} samples of 1001, and joint 2 in {bad2}.",
                 "good ends taken for a good path",
                 "Two houses on a lake: the straight way between them is wet.",
             ),
