@@ -723,6 +723,17 @@ LIMIT_MISTAKES = (
         _limits(4, -1 * mm, STROKE + 1 * mm),
     ),
     Mistake(
+        "np.allclose with its own tolerances",
+        "np.allclose allows for 1e-5 of the number: at 400° that is 7e-5 rad. Asked is 10^-6: "
+        "compare with <=, or set rtol and atol.",
+        lambda q: bool(np.isfinite(q).all()) and np.allclose(q, np.clip(q, LOW, HIGH)),
+    ),
+    Mistake(
+        "the last sample is left out",
+        "It never asks the last sample: range(len(q) - 1) ends one too early.",
+        lambda q: _inside(q[:-1], LOW, HIGH),
+    ),
+    Mistake(
         "a slack of one degree",
         "It lets the angles go 1° too far. Asked is 10^-6 rad.",
         lambda q: _inside(q, LOW - [deg, deg, deg, 0], HIGH + [deg, deg, deg, 0]),
@@ -761,6 +772,7 @@ def _limit_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
             # exactly only for the stroke: an angle turned into degrees is rounded
             edge = float(limit) if joint == 3 else float(limit) - side * 1e-7
             cases += [one(k, joint, edge, count=3) for k in (0, 1, 2)]
+            cases.append(one(1, joint, float(limit) + side * 2e-6, count=3))
             for past in (0.5, 20.0):
                 value = float(limit + side * past * unit[joint])
                 cases += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
