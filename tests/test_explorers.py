@@ -45,6 +45,7 @@ from robokin import (
     within,
 )
 from robokin.show import animate, joint_explorer, motion_explorer, target_explorer
+from robokin.show.camera import arm_points, project
 from robokin.show.page import STILL
 from robokin.show.palette import PAGE
 
@@ -960,11 +961,34 @@ def test_the_ellipsoid_and_the_axes_come_and_go(opened):
         before = shown.look()
         for name in ("ellipsoid of tool velocities, free to turn", "joint axes"):
             box = shown.rk.get_by_role("checkbox", name=name)
-            box.check()
+            box.click()  # joints that are turned show their axes from the first
             drawn = shown.look()
             assert drawn.pixels != before.pixels and drawn.code == before.code
-            box.uncheck()
+            box.click()
             assert shown.look().pixels == before.pixels
+        assert shown.rk.get_by_role("checkbox", name="joint axes").is_checked() == (kind == "joint")
+
+
+def test_an_explorer_opens_with_its_arm_filling_the_scene(opened):
+    for make in (joint_explorer, target_explorer):
+        for arm in (IRB140, SCARA, PUMA560):
+            shown = opened(make(arm), arm)
+            frame = shown.rk.locator("canvas").first.bounding_box()
+            q = np.array(shown.data["q"])
+            points = project(arm_points(arm, q), shown.data["scene"]["view"])
+            seen = project(np.array(shown.data["scene"]["seen"]), shown.data["scene"]["view"])
+            scale = np.min((frame["width"] - 40, frame["height"] - 54) / np.ptp(seen, axis=0))
+            share = scale * np.ptp(points, axis=0) / (frame["width"], frame["height"])
+            assert share.max() > 0.45, (make.__name__, arm.name, share)
+
+
+def test_the_rings_of_an_arm_lie_apart(opened):
+    for arm in (IRB140, SCARA, PUMA560):
+        shown = opened(joint_explorer(arm), arm)
+        boxes = [shown.handle(f"q{i + 1}").bounding_box() for i in range(len(arm.links))]
+        places = np.array([(box["x"], box["y"]) for box in boxes])
+        apart = np.linalg.norm(places[:, None] - places, axis=-1)
+        assert apart[np.triu_indices(len(places), 1)].min() > 24, arm.name
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -133,7 +133,7 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
         f"{arm.name} with joints to be turned, at {values}: the flange is at "
         f"({', '.join(_number(x, places[0]) for x in flange)}) {name}."
     )
-    data = _page(arm, "joint", f"{arm.name}: turn the joints", summary, controls)
+    data = _page(arm, "joint", f"{arm.name}: turn the joints", summary, controls, start[None])
     data |= {
         "q": start.tolist(),
         "rows": [row | {"decimals": n} for row, n in zip(rows, places, strict=True)],
@@ -179,9 +179,10 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
         count=count, all=len(rows), why=explain(arm, target, row)
     )
     summary = f"{arm.name} and a target to be moved, at {values}. {verdict}"
+    shown = rows[np.isfinite(rows).all(axis=-1)]
     turning = np.flatnonzero(~arm.prismatic)
     whole = len(turning) == len(arm.links)
-    data = _page(arm, "target", f"{arm.name}: move the target", summary, controls)
+    data = _page(arm, "target", f"{arm.name}: move the target", summary, controls, shown)
     data |= {
         "q": q.tolist(),
         "turns": list(map(float, turns)),
@@ -236,6 +237,7 @@ def motion_explorer(
     controls.append(_control("blend", "", 0, 0.5, 0.01, 3))
     controls.append(_control("duration", "s", 0.5, 20, 0.5, 2))
     posed = {name: _transform(pose) for name, pose in stations.items()}
+    through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
     fastest = record(arm, t, motions[row]).greatest_speed.value
     j = int(np.nanargmax(np.nan_to_num(fastest) / _sizes(arm)))
     speed = f"{_number(fastest[j] / _sizes(arm)[j], 1)} {_units(arm)[j]['name']}/s"
@@ -243,7 +245,7 @@ def motion_explorer(
         f"{arm.name} on a blended motion past a via point that can be moved, 5 s, blend 0.1, "
         f"branch {_flags(arm, row)}: greatest speed {speed} (joint {j + 1})."
     )
-    data = _page(arm, "motion", f"{arm.name}: a blended motion", summary, controls, posed)
+    data = _page(arm, "motion", f"{arm.name}: a blended motion", summary, controls, through, posed)
     data |= {
         "start": _pose_data(start),
         "via": _pose_data(via),
@@ -298,7 +300,7 @@ def _levers_explorer(arm: ThreeLeverArm) -> Explorer:
         f"{arm.name} and a point to be moved, at ({where}) {name}, with a free angle: gamma, beta, "
         f"alpha {', '.join(_number(x, 1) for x in before / deg)}°."
     )
-    data = _page(arm, "levers", f"{arm.name}: move the point", summary, controls)
+    data = _page(arm, "levers", f"{arm.name}: move the point", summary, controls, before[None])
     unit = " * mm" if size == mm else ""
     data |= {
         "q": before.tolist(),
@@ -410,6 +412,7 @@ def _page(
     title: str,
     summary: str,
     controls: list[Control],
+    opening: Floats,
     posed: Mapping[str, Transform] | None = None,
 ) -> PageExplorer:
     name, size = length_unit(extent(arm))
@@ -422,23 +425,27 @@ def _page(
         "unit": {"name": name, "size": size, "code": name},
         "units": _units(arm),
         "dashes": DASHES,
-        "scene": _scene(arm, posed or {}),
+        "scene": _scene(arm, posed or {}, opening),
         "controls": controls,
         "words": dict(WORDS),
     }
 
 
-def _scene(arm: Arm, posed: Mapping[str, Transform]) -> PageScene:
-    """A scene that holds what the arm reaches above the floor and not too far out; the page shrinks
-    the picture for what leaves it.
+def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
+    """A scene that holds the postures it opens with (k, n) and those near them above the floor; in
+    a plane all that is not too far out. The page shrinks the picture for what leaves it.
     """
-    postures = spread(arm, 2000)
-    points = arm_points(arm, postures)
-    far = np.hypot(points[..., 0], points[..., 1]) / extent(arm)
     flat = common_plane([arm]) is not None
-    near = (points[..., 2] > -0.01 * extent(arm)) & (far < (0.7 if flat else 0.34))
-    kept = postures[near.all(axis=-1)][None]
-    scene = scene_data([arm], [kept], named_targets(posed), [], extent(arm))
+    if flat:
+        postures = spread(arm, 2000)
+    else:
+        turn = np.where(arm.prismatic, 0.03 * extent(arm), 20 * deg) * np.eye(len(arm.links))
+        near = (opening[:, None] + np.concatenate([turn, -turn])).reshape(-1, len(arm.links))
+        postures = np.concatenate([opening, near])
+    points = arm_points(arm, postures)
+    far = np.hypot(points[..., 0], points[..., 1]).max(axis=-1)
+    kept = far < 0.7 * extent(arm) if flat else points[..., 2].min(axis=-1) > -0.01 * extent(arm)
+    scene = scene_data([arm], [postures[kept][None]], named_targets(posed), [], extent(arm))
     scene["grows"] = True
     if not flat:
         scene["view"] = list(VIEW)

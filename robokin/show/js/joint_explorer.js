@@ -26,7 +26,7 @@ function jointExplorer(stage, data) {
     stage.changed();
   }));
   const numbers = table(data.rows.map(row => row.name), [], data.rows.map(row => row.heads.length));
-  const more = tick(words.ellipsoid, stage.changed), axes = tick(words.axes, stage.changed);
+  const more = tick(words.ellipsoid, stage.changed), axes = tick(words.axes, stage.changed, true);
   stage.side.append(...sliders.map(s => s.row), element("div", {class: "rk-row"}, more.row, axes.row,
     copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}))), stage.says);
   stage.below.append(numbers.node);

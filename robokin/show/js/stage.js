@@ -168,9 +168,11 @@ export function menu(name, texts, take) {
  * A box to tick.
  * @param {string} name
  * @param {() => void} take
+ * @param {boolean} [on]  ticked at first
  */
-export function tick(name, take) {
+export function tick(name, take, on = false) {
   const box = control("input", {type: "checkbox"});
+  box.checked = on;
   box.addEventListener("change", take);
   return {row: element("label", {}, box, name), on: () => box.checked};
 }
