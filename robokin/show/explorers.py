@@ -432,20 +432,16 @@ def _page(
 
 
 def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
-    """A scene that holds the postures it opens with (k, n) and those near them above the floor; in
-    a plane all that is not too far out. The page shrinks the picture for what leaves it.
+    """A scene that holds the postures it opens with (k, n) and those near them, in space above the
+    floor. The page shrinks the picture for what leaves it.
     """
     flat = common_plane([arm]) is not None
-    if flat:
-        postures = spread(arm, 2000)
-    else:
-        turn = np.where(arm.prismatic, 0.03 * extent(arm), 20 * deg) * np.eye(len(arm.links))
-        near = (opening[:, None] + np.concatenate([turn, -turn])).reshape(-1, len(arm.links))
-        postures = np.concatenate([opening, near])
-    points = arm_points(arm, postures)
-    far = np.hypot(points[..., 0], points[..., 1]).max(axis=-1)
-    kept = far < 0.7 * extent(arm) if flat else points[..., 2].min(axis=-1) > -0.01 * extent(arm)
-    scene = scene_data([arm], [postures[kept][None]], named_targets(posed), [], extent(arm))
+    turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
+    step = np.concatenate([np.diag(turn), -np.diag(turn)])
+    near = (opening[:, None] + step).reshape(-1, len(turn))
+    postures = np.concatenate([opening, near])
+    above = arm_points(arm, postures)[..., 2].min(axis=-1) > -0.01 * extent(arm)
+    scene = scene_data([arm], [postures[above][None]], named_targets(posed), [], extent(arm))
     scene["grows"] = True
     if not flat:
         scene["view"] = list(VIEW)

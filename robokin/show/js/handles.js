@@ -183,11 +183,12 @@ export function squareTo(axis) {
 export function gripOf(chain, q, i, camera) {
   const joints = [], moved = [], all = frames(chain, q, joints, moved), here = origin(moved[i]), reach = reachOf(camera);
   if (chain[i].prismatic) return plus(here, turned(joints[i], chain[i].axis), 0.5 * reach);
+  const bends = all.slice(i + 1).flatMap((frame, k) => (k ? [joints[i + k], frame] : [frame])).map(origin);
   let from = here, share = 0.6;
-  for (const frame of all.slice(i + 1)) {
-    const way = plus(origin(frame), here, -1), sunk = dot(way, turned(joints[i], chain[i].axis));
-    if (Math.sqrt(dot(way, way) - sunk * sunk) > reach) return plus(from, plus(origin(frame), from, -1), share);
-    if (dot(way, way) > 1e-12) [from, share] = [origin(frame), 0.3]; // a link farther out: its own joint has its ring at 0.6
+  for (const bend of bends) {
+    const way = plus(bend, here, -1), sunk = dot(way, turned(joints[i], chain[i].axis));
+    if (Math.sqrt(dot(way, way) - sunk * sunk) > reach) return plus(from, plus(bend, from, -1), share);
+    if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3]; // a link farther out: its own joint has its ring at 0.6
   }
   return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);
 }
