@@ -2,6 +2,8 @@
 and every prediction's key is computed a second time, another way.
 """
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -79,11 +81,25 @@ def test_wrong_axes_are_named(mistake):
         (lambda a, alpha, d, offset, q: _by_loops(a, alpha, d, offset, -q), "the joints turn"),
         (lambda a, alpha, d, offset, q: _by_loops(a, alpha / deg, d, offset, q), "degrees"),
         (lambda a, alpha, d, offset, q: _by_loops(a, alpha, 0 * d, offset, q), "d is left out"),
+        (lambda *c: _by_loops(*(column[:6] for column in c)), "six rows assumed"),
+        (
+            lambda a, alpha, d, offset, q: _by_loops(
+                [0, 0.1, 0, 0, 0, 0], alpha, [0.1, 0, 0, 0.2, 0, 0.2], offset, q[:6]
+            ),
+            "lengths of this lab assumed",
+        ),
     ],
 )
 def test_other_wrong_axes_are_recognised(answer, name):
     verdict = check("spherical_wrist.1", answer)
     assert not verdict.holds and name in verdict.mistake
+
+
+def test_the_verdict_shows_the_two_arrays_as_they_were_returned():
+    wrong = check("spherical_wrist.1", lambda *c: -np.array(_by_loops(*c)))
+    shown = next(line for line in wrong.case.split("\n") if "you return" in line)
+    assert shown.strip().startswith("you return points [[") and "directions [[" in shown
+    assert len(shown) < 140
 
 
 # --- 2 --------------------------------------------------------------------------------------------
@@ -182,6 +198,12 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
     }
     for mistake, answer in named.items():
         assert check("spherical_wrist.3", answer, who=who).mistake == mistake
+    wrong_side = {"up": -up, "side": -side, "duration": line["duration"]}
+    assert check("spherical_wrist.3", wrong_side, who=who).mistake == "tilted to the wrong side"
+    for share, askew in itertools.product((0.5, 0.7, 0.9, 1), (-60, -30, 0, 30, 60)):
+        c, s = share * np.cos(askew * deg), share * np.sin(askew * deg)
+        least, _ = book.passage(n, -c * up - s * side, -c * side + s * up)
+        assert not least >= n["least_distance"]  # NaN: out of reach
     tilt = 0.99 * n["most_tilt"]
     along = [(e * tilt * np.sin(n["slope"]), e * tilt * np.cos(n["slope"])) for e in (1, -1)]
     for up, side in along:
