@@ -5,6 +5,7 @@ the tables stand at the end.
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from itertools import permutations
@@ -869,8 +870,8 @@ def given(who: Any) -> Numbers:
     budget = 1.2 + 0.05 * roll.randrange(9)  # rad that a joint can turn in the time T
     x, y = 3.5 + 0.25 * roll.randrange(5), -1.5 + 0.25 * roll.randrange(13)
     height = 1.0 + 0.25 * roll.randrange(7)
-    worth = [1 + roll.randrange(3) for _ in range(4)]
-    worth[roll.randrange(4)] = 8 + roll.randrange(5)
+    worth = [3 + roll.randrange(3) for _ in range(4)]  # no one is half of another ...
+    worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... but of the dear one
     values = {
         "T": round(budget / speed, 1),
         "T_collect": round(3 * budget / speed, 1),
@@ -1017,10 +1018,20 @@ def _traps_faults(traps: Traps, numbers: Any) -> list[Fault]:
     return [fault for fault in found if fault]
 
 
+def _plain(points: Any) -> Any:
+    """Lists of numbers as an array, which is told in few digits."""
+    if isinstance(points, (list, tuple)):
+        with suppress(TypeError, ValueError):
+            return np.asarray(points, dtype=float)
+    return points
+
+
 class Trap(Value):
     """Says what the rules and the best choices bring."""
 
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
+        if isinstance(answer, Mapping):
+            answer = {task: _plain(points) for task, points in answer.items()}
         verdict = super().judge(name, answer, who)
         if not verdict.holds:
             return verdict
