@@ -172,37 +172,93 @@ def test_wrong_arrivals_are_named(answer, mistake):
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
-def trap(numbers):
+def turned(numbers, shares):
     x, y, z = numbers["p0"]
-    turn = numbers["speed"] * numbers["T"]
-    angles = np.arctan2(y, x) + turn * np.array([0.66, -0.73, -0.83, -0.93])
+    angles = np.arctan2(y, x) + numbers["speed"] * numbers["T"] * np.array(shares)
     r = np.hypot(x, y)
     return [[r * np.cos(a), r * np.sin(a), z] for a in angles]
 
 
-def test_everybody_can_build_a_trap():
+def traps(who, **changed):
+    numbers = variant("visit_and_collect", who)
+    shares = [0.5, -1.35, -1.5]
+    shares.insert(int(np.argmax(numbers["worth"])), -1.2)
+    return {
+        "visit": turned(numbers, [0.66, -0.73, -0.83, -0.93]),
+        "collect": "no trap",
+        "worth": turned(numbers, shares),
+    } | changed
+
+
+def test_everybody_can_build_the_traps():
     for k in range(60):
-        verdict = check("visit_and_collect.3", trap(variant("visit_and_collect", k)), who=k)
+        verdict = check("visit_and_collect.3", traps(k), who=k)
         assert verdict.holds, verdict
+    assert 'worth": cheapest first brings [' in repr(verdict)
+
+
+def mirrored(points):
+    return (np.array(points) * [1, -1, 1]).tolist()
+
+
+def test_traps_in_other_styles_hold():
+    numbers = variant("visit_and_collect", "your name")
+    assert numbers["p0"] == [4.0, -1.5, 1.25]
+    good = traps("your name")
+    other_side = turned(numbers, [-0.66, 0.73, 0.83, 0.93])
+    higher = [[0.95 * x, 0.95 * y, z + 0.2] for x, y, z in good["visit"]]
+    for visit_points in (other_side, higher, np.array(good["visit"]), good["visit"][::-1]):
+        answer = good | {"visit": visit_points, "collect": "No  trap"}
+        assert check("visit_and_collect.3", answer, who="your name").holds
+
+
+OPENING = [[4 * np.cos(a), 4 * np.sin(a), 2] for a in (1.0, -1.1, -1.2, -1.3)]
 
 
 @pytest.mark.parametrize(
-    "points, mistake",
+    "task, points, mistake",
     [
-        ([[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]], "no trap"),
-        ([[9, 9, 9], [1, 2, 3], [4, 1, 1], [3, 3, 3]], "out of the workspace"),
-        ([[4, 1, 1]] * 4, "too near to each other"),
-        ([[-4, 0, 1], [-4, 1, 1], [-4, 2, 1], [-4, 3, 1]], "nothing in time"),
-        ([[4000, 1000, 1000]] * 4, "another kind or shape"),
+        ("visit", [[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]], "the rule is not beaten"),
+        ("visit", [[9, 9, 9], [1, 2, 3], [4, 1, 1], [3, 3, 3]], "out of the workspace"),
+        ("visit", [[4, 1, 1]] * 4, "too near to each other"),
+        ("visit", [[-4, 0, 1], [-4, 1, 1], [-4, 2, 1], [-4, 3, 1]], "nothing in time"),
+        ("visit", [[4000, 1000, 1000]] * 4, "another kind or shape"),
+        ("visit", "no trap", "given up, where there is a trap"),
+        ("visit", OPENING, "the lab's own points"),
+        ("visit", mirrored(OPENING[::-1]), "the lab's own points"),
+        ("collect", [[3, 3, 3], [4, 0, 2], [1, 5, 1], [-3, 2, 2]], "a trap against a proof"),
+        ("collect", [[9, 9, 9]] * 4, "a trap against a proof"),
+        ("worth", "no trap", "given up, where there is a trap"),
+        ("worth", [[3.9, -0.8, 1], [4, 0, 1.2], [4, -2.5, 1], [3.5, 0.9, 1.4]], "all in time"),
+        ("worth", "perhaps", "another kind or shape"),
     ],
 )
-def test_what_is_no_trap_is_told(points, mistake):
-    verdict = check("visit_and_collect.3", points, who="your name")
+def test_what_is_no_trap_is_told(task, points, mistake):
+    answer = traps("your name", **{task: points})
+    verdict = check("visit_and_collect.3", answer, who="your name")
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
+def test_a_worth_lost_in_part_is_told():
+    numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
+    points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
+    name, says = lab._trap_fault("worth", points, numbers)
+    assert name == "less than half is lost" and "worth 3; the best choice [3], worth 4" in says
+    name, _ = lab._trap_fault("worth", points, numbers | {"worth": [9, 1, 1, 1]})
+    assert name == "the rule is not beaten"
+
+
+def test_no_set_of_points_beats_cheapest_first():
+    """What the exercise says of "collect" is tried against every choice."""
+    numbers = variant("visit_and_collect", 3)
+    rng = np.random.default_rng(3)
+    for _ in range(100):
+        greedy, best = lab._both("collect", rng.permutation(POINTS)[:4], numbers)
+        assert len(greedy) == len(best)
+
+
 def test_the_numbers_behind_the_predictions():
-    assert lab._axis_facts()["height"] == 4.0  # 3-4-5
+    assert lab._axis_facts()["height"] == 3.0  # 3-4-5
     assert -1.017 < lab._dip_facts()["low"] < -1.016
     facts = lab._belt_facts()
     assert (facts["even"], facts["uneven"]) == (120, 85) and facts["rule"] > facts["even"]

@@ -17,7 +17,6 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import spbu_arm, within
 from ..jobs.visit_collect import (
-    Result,
     Task,
     best_visit,
     collect,
@@ -849,8 +848,13 @@ def _arrival_mistakes() -> list[Mistake]:
 
 APART = 0.3  # m
 LOST = 2  # points
+TASKS = ("visit", "collect", "worth")
+NO_TRAP = "no trap"
+KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])  # the opening
 UNITS = {
     "T": ("s", 1.0),
+    "T_collect": ("s", 1.0),
+    "worth": ("(of object 0, 1, 2, 3)", 1.0),
     "speed": ("rad/s, of every joint", 1.0),
     "p0": ("m", 1.0),
     "apart": ("m", 1.0),
@@ -858,24 +862,44 @@ UNITS = {
 
 
 def given(who: Any) -> Numbers:
-    """Time, speed and start for a trap of one's own. Solvable for everybody: points on the circle
-    through p0 about axis 1 do it, since joint 1 has room for 1.6 rad to both sides.
+    """Times, worths, speed and start for traps of one's own. Solvable for everybody: points on the
+    circle through p0 about axis 1 do it, since joint 1 has room for 2.7 rad to both sides.
     """
     roll = dice(LAB, who)
     speed = 0.2 + 0.05 * roll.randrange(5)
     budget = 1.2 + 0.05 * roll.randrange(9)  # rad that a joint can turn in the time T
     x, y = 3.5 + 0.25 * roll.randrange(5), -1.5 + 0.25 * roll.randrange(13)
+    height = 1.0 + 0.25 * roll.randrange(7)
+    worth = [3 + roll.randrange(3) for _ in range(4)]  # no one is half of another ...
+    worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... but of the dear one
     values = {
         "T": round(budget / speed, 1),
+        "T_collect": round(3 * budget / speed, 1),
+        "worth": worth,
         "speed": round(speed, 2),
-        "p0": [x, y, 1.0 + 0.25 * roll.randrange(7)],
+        "p0": [x, y, height],
         "apart": APART,
     }
     return Numbers(values, UNITS)
 
 
-def _points_form(answer: Any, given: Any) -> Floats:
-    wanted = "Wanted four points, [[x, y, z], [x, y, z], [x, y, z], [x, y, z]] in metres"
+Traps = dict[str, "Floats | None"]  # None: no trap
+
+
+def _traps_form(answer: Any, given: Any) -> Traps:
+    if not isinstance(answer, Mapping) or set(answer) != set(TASKS):
+        wanted = 'Wanted {"visit": ..., "collect": ..., "worth": ...}'
+        raise ValueError(f"{wanted}, got {words(answer)}.")
+    return {task: _points_form(task, answer[task]) for task in TASKS}
+
+
+def _points_form(task: str, answer: Any) -> Floats | None:
+    wanted = (
+        f'"{task}": wanted four points, [[x, y, z], [x, y, z], [x, y, z], [x, y, z]] in metres, '
+        f'or "{NO_TRAP}"'
+    )
+    if isinstance(answer, str) and " ".join(answer.casefold().split()) == NO_TRAP:
+        return None
     try:
         points = np.asarray(answer, dtype=float)
     except (TypeError, ValueError):
@@ -887,67 +911,134 @@ def _points_form(answer: Any, given: Any) -> Floats:
     return points
 
 
-def _both(points: Floats, numbers: Any) -> tuple[Result, Result]:
-    """Nearest first, and the best order."""
-    speeds = [numbers["speed"]] * 3
-    task = Task(L1, L2, numbers["T"], speeds, numbers["p0"], points.tolist(), "visit")
-    return visit(task), best_visit(task)
+def _task(task: str, points: Floats, numbers: Any) -> Task:
+    T, kind = (numbers["T"], "visit") if task == "visit" else (numbers["T_collect"], "collect")
+    return Task(L1, L2, T, [numbers["speed"]] * 3, numbers["p0"], points.tolist(), kind)
 
 
-def _scores(greedy: Result, best: Result) -> str:
+def _both(task: str, points: Floats, numbers: Any) -> tuple[list[int], list[int]]:
+    """What the greedy rule takes, in order, and what is best."""
+    made = _task(task, points, numbers)
+    if task == "visit":
+        return list(visit(made).order), list(best_visit(made).order)
+    worth = np.array(numbers["worth"] if task == "worth" else [1, 1, 1, 1])
+    choices = (np.arange(16)[:, None] >> np.arange(4)) & 1
+    fits = choices[choices @ _costs(made) <= made.T + 1e-9]
+    return list(collect(made).order), np.flatnonzero(fits[(fits @ worth).argmax()]).tolist()
+
+
+def _scores(task: str, points: Floats, numbers: Any) -> str:
+    greedy, best = _both(task, points, numbers)
+    if task == "visit":
+        return (
+            f'"visit": nearest first visits {len(greedy)} of 4 (order {greedy}), the best order '
+            f"{len(best)} ({best})."
+        )
+    if task == "collect":
+        return (
+            f'"collect": cheapest first brings {len(greedy)} of 4 ({greedy}), the best choice '
+            f"{len(best)}."
+        )
+    first, most = (sum(numbers["worth"][k] for k in taken) for taken in (greedy, best))
     return (
-        f"Nearest first visits {len(greedy.order)} of 4 (order {list(greedy.order)}), the best "
-        f"order {len(best.order)} ({list(best.order)})."
+        f'"worth": cheapest first brings {greedy}, worth {first}; the best choice {best}, worth '
+        f"{most}."
     )
 
 
-def _points_faults(points: Floats, numbers: Any) -> list[Fault]:
-    found: list[Fault] = []
+def _places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
     for k, point in enumerate(points):
         if reasons := out_of_workspace(L1, L2, point):
-            found.append(("out of the workspace", f"Point {k} {reasons[0]}."))
-            break
+            return "out of the workspace", f'"{task}": point {k} {reasons[0]}.'
     places = np.vstack([numbers["p0"], points])
     gaps = np.linalg.norm(places[:, None] - places, axis=-1) + 100 * np.eye(5)
     if gaps.min() < APART - 1e-9:
         a, b = (int(k) for k in np.unravel_index(gaps.argmin(), gaps.shape))
         names = ["p0", *(f"point {k}" for k in range(4))]
         says = f"{names[a]} and {names[b]} are {gaps.min():.3g} m apart, wanted are {APART:g} m."
-        found.append(("too near to each other", says[0].upper() + says[1:]))
-    if found and found[0][0] == "out of the workspace":
-        return [*found, ("no trap", "So nothing can be visited, by no rule.")]
-    greedy, best = _both(points, numbers)
-    lost = len(best.order) - len(greedy.order)
-    if lost < LOST:
-        if not best.order:
-            name, why = "nothing in time", "Not even the nearest one is in time: come nearer."
-        elif not greedy.left:
-            name, why = "all in time", "There is time for all of them: spread them."
-        elif lost == 0:
-            name, why = "no trap", "No order does better."
-        else:
-            name, why = "one point lost, not two", "One more, and it is a trap."
-        found.append(
-            (
-                name,
-                f"{_scores(greedy, best)} {why}",
-            )
+        return "too near to each other", f'"{task}": {says}'
+    return None
+
+
+def _known(points: Floats) -> bool:
+    """The four points of the opening, in any order, or their mirror images, or nearly so."""
+    for mirror in (1, -1):
+        gaps = np.linalg.norm(points[:, None] - KNOWN * [1, mirror, 1], axis=-1)
+        if gaps.min(axis=0).max() < 0.15 and gaps.min(axis=1).max() < 0.15:
+            return True
+    return False
+
+
+def _trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
+    """What does not hold of the answer for one task; None: it is right."""
+    if points is None:
+        if task == "collect":
+            return None
+        why = {
+            "visit": "What a point costs depends on where the arm comes from: the opening has such "
+            "a case, for other numbers.",
+            "worth": "The cheapest objects are the most of them, and need not be worth the most: "
+            "let a cheap one use up the time that a dear one needs.",
+        }[task]
+        return "given up, where there is a trap", f'"{task}": there is a trap. {why}'
+    if task == "collect":
+        says = (
+            f"{_scores(task, points, numbers)} No four points change that: any k objects cost at "
+            f"least as much as the k cheapest (section 6)."
+            if not _places_fault(task, points, numbers)
+            else '"collect": look at the proof of section 6 before you build.'
         )
-    return found
+        return "a trap against a proof", says
+    if fault := _places_fault(task, points, numbers):
+        return fault
+    if _known(points):
+        says = "these are the four points of the opening. Build your own, for your start and time."
+        return "the lab's own points", f'"{task}": {says}'
+    greedy, best = _both(task, points, numbers)
+    told = _scores(task, points, numbers)
+    if not best:
+        return "nothing in time", f"{told} Not even the nearest one is in time: come nearer."
+    if len(greedy) == 4:
+        return "all in time", f"{told} There is time for all of them: spread them."
+    if task == "visit" and len(best) - len(greedy) < LOST:
+        if len(best) == len(greedy):
+            return "the rule is not beaten", f"{told} No order does better."
+        return "one point lost, not two", f"{told} One more, and it is a trap."
+    if task == "worth":
+        first, most = (sum(numbers["worth"][k] for k in taken) for taken in (greedy, best))
+        if first == most:
+            return "the rule is not beaten", f"{told} No choice is worth more."
+        if 2 * first > most:
+            return "less than half is lost", f"{told} Wanted is at most half."
+    return None
+
+
+def _traps_faults(traps: Traps, numbers: Any) -> list[Fault]:
+    found = (_trap_fault(task, traps[task], numbers) for task in TASKS)
+    return [fault for fault in found if fault]
+
+
+def _plain(points: Any) -> Any:
+    """Lists of numbers as an array, which is told in few digits."""
+    if isinstance(points, (list, tuple)):
+        with suppress(TypeError, ValueError):
+            return np.asarray(points, dtype=float)
+    return points
 
 
 class Trap(Value):
-    """Says what both rules visit, and the points as plain numbers."""
+    """Says what the rules and the best choices bring."""
 
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
-        if isinstance(answer, (list, tuple)):
-            with suppress(TypeError, ValueError):
-                answer = np.asarray(answer, dtype=float)
+        if isinstance(answer, Mapping):
+            answer = {task: _plain(points) for task, points in answer.items()}
         verdict = super().judge(name, answer, who)
         if not verdict.holds:
             return verdict
-        greedy, best = _both(answer, given(who))
-        return replace(verdict, says=(*verdict.says, _scores(greedy, best)))
+        traps, numbers = _traps_form(answer, given(who)), given(who)
+        told = [_scores(t, p, numbers) for t, p in traps.items() if p is not None]
+        proof = '"collect": no trap, and the proof of section 6 says why.'
+        return replace(verdict, says=(*verdict.says, *told, proof))
 
 
 # --- What the predictions ask ---------------------------------------------------------------------
@@ -1048,7 +1139,7 @@ def _two_view() -> Any:
     return fig
 
 
-LOW1, LOW2 = 3.0, 5.0  # m, so that the answer is a round number
+LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
 
 
 def _axis_facts() -> Mapping[str, Any]:
@@ -1413,22 +1504,26 @@ EXERCISES: dict[str, Exercise] = {
         mistakes=_arrival_mistakes(),
     ),
     "3": Trap(
-        task="Four points on which nearest first visits two fewer than the best order.",
+        task="For three tasks: four points on which the greedy rule is beaten, or that there are "
+        "none.",
         objective=3,
         hints=(
-            "Look at the player at the top: one point lures the arm to one side, three stand on "
-            "the other. What has to be true of the four times?",
+            "Which of the three rules has a proof? For the other two look at the player at the "
+            "top: one point lures the arm to one side, and something better stands on the other. "
+            "What has to be true of the times?",
             "Stay on the circle through your p0 about axis 1 (same distance from the axis, same "
             "height): then joint 1 alone sets the time. With B = speed * T, the angle for which "
-            "there is time, put one point a bit less than B away to one side, and three just "
-            "behind a point farther away on the other.",
-            "Angles from p0: +0.66 B, and −0.73 B, −0.83 B, −0.93 B. To the lure and back to the "
-            "first of the three takes 0.66 + 0.66 + 0.73 = 2.05 times T; straight to the three "
-            "takes 0.93 T. A point is (r cos a, r sin a, z) with r and a of p0 by np.hypot and "
-            "np.arctan2.",
+            "there is time, visit: put one point a bit less than B away to one side, and three "
+            "just behind a point farther away on the other. Worth: there is time for 1.5 B there "
+            "and back; a cheap object must leave too little of it for the dear one.",
+            "Angles from p0, visit: +0.66 B, and −0.73 B, −0.83 B, −0.93 B. To the lure and back "
+            "to the first of the three takes 0.66 + 0.66 + 0.73 = 2.05 times T; straight to the "
+            "three takes 0.93 T. Worth: a cheap one at +0.5 B (there and back: T of the 3 T), the "
+            "dear one at −1.2 B (2.4 T), the others beyond, at −1.35 B and −1.5 B. A point is "
+            "(r cos a, r sin a, z) with r and a of p0 by np.hypot and np.arctan2.",
         ),
-        form=_points_form,
-        faults=_points_faults,
+        form=_traps_form,
+        faults=_traps_faults,
         count=3,
         given=given,
     ),
@@ -1553,7 +1648,7 @@ PREDICTIONS = {
             Option(
                 "{height:.0f}",
                 "Link 1 cannot lean by more than 90°: the elbow is then on the floor, {l1:g} m "
-                "behind the axis. Link 2 reaches from there to √(25 − 9) = {height:g} m. Nearer "
+                "behind the axis. Link 2 reaches from there to √(25 − 16) = {height:g} m. Nearer "
                 "to the origin the triangle still closes, with the elbow in the ground.",
             ),
             Option(
@@ -1561,7 +1656,7 @@ PREDICTIONS = {
                 "There the triangle of l1, l2 and d closes. Link 1 would point straight down, into "
                 "the floor.",
                 "a triangle taken for a posture",
-                "Also at 3 m the triangle closes, and its elbow is 1.17 m under the floor.",
+                "Also at 2 m the triangle closes, and its elbow is 1.25 m under the floor.",
             ),
             Option(
                 "{floor:.0f}",

@@ -39,7 +39,7 @@ def arrivals(q, speeds):
     return needs.max(axis=-1).cumsum()
 
 
-# --- 3: A trap
+# --- 3: A trap, or none?
 import numpy as np
 
 from robokin.course import variant
@@ -50,8 +50,20 @@ mine = variant("visit_and_collect", who)
 B = mine["speed"] * mine["T"]  # rad: so far a joint turns in the time T
 x, y, z = mine["p0"]
 r, start = np.hypot(x, y), np.arctan2(y, x)
-# the lure on one side, three points behind each other on the other: joint 1 alone moves
-my_points = [
-    [r * np.cos(start + share * B), r * np.sin(start + share * B), z]
-    for share in (0.66, -0.73, -0.83, -0.93)
-]
+
+
+def on_circle(shares):
+    """Points at these shares of B from p0, on its circle about axis 1: joint 1 alone moves."""
+    return [[r * np.cos(start + s * B), r * np.sin(start + s * B), z] for s in shares]
+
+
+# visit: the lure on one side, three points behind each other on the other
+# worth: T_collect is 3 T; the cheap one costs T, the dear one 2.4 T, the others more
+dear = int(np.argmax(mine["worth"]))
+shares = [0.5, -1.35, -1.5]
+shares.insert(dear, -1.2)
+my_traps = {
+    "visit": on_circle([0.66, -0.73, -0.83, -0.93]),
+    "collect": "no trap",  # any k objects cost at least as much as the k cheapest
+    "worth": on_circle(shares),
+}
