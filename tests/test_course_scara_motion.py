@@ -186,9 +186,31 @@ def _all_in_degrees(q0, position, angle):
     return [*np.rad2deg(q[:3]), q[3]]
 
 
+def _degrees_without_limits(q0, position, angle):
+    return np.degrees(_no_limits(q0, position, angle))
+
+
+def _nearest_row(q0, position, angle):
+    rows = SCARA.ik(ScaraPose(position, angle))
+    q = rows[np.argmin(np.linalg.norm(rows - q0, axis=1))].copy()
+    now = q0[:3].sum()
+    ends = [q[2] + k * TURN for k in range(-3, 4)]
+    ends = [e for e in ends if LOW[2] <= e <= HIGH[2]]
+    q[2] = min(ends, key=lambda e: abs(q[0] + q[1] + e - now))
+    return q
+
+
+def test_the_case_tells_degrees_and_the_elbow():
+    case = check("scara_motion.1", _degrees_without_limits).case
+    assert "which is right in degrees" in case and "5156" not in case
+    assert "the elbow has changed its side" in check("scara_motion.1", _nearest_row).case
+
+
 @pytest.mark.parametrize(
     ("answer", "word"),
     [
+        (_degrees_without_limits, "degrees for radians"),
+        (_nearest_row, "the nearer posture, elbow changed"),
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
         (_raw, "row of ik"),
@@ -280,11 +302,27 @@ def _ends(q):
         (lambda q: bool(((q > LOW) & (q < HIGH)).all()), "themselves"),
         (lambda q: not _loops(q), "swapped"),
         (lambda q: (q >= LOW) & (q <= HIGH), "another kind"),
+        (lambda q: bool(((q >= LOW - 1e-3) & (q <= HIGH + 1e-3)).all()), "a margin too wide"),
+        (lambda q: not ((q < LOW - 1e-4) | (q > HIGH + 1e-4)).any(), "a margin too wide, and NaN"),
     ],
 )
 def test_a_wrong_limit_test_is_named(answer, word):
     verdict = check("scara_motion.2", answer)
     assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
+
+
+def test_a_case_of_the_limit_test_prints_the_excess():
+    law = book.EXERCISES["2"].law
+    q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
+    for joint, value, told in (
+        (3, -2e-6, "joint 4 0.002 mm below its limit of 0 mm"),
+        (2, LOW[2] - 2e-6, "joint 3 0.0001° below its limit of −400°"),
+        (0, HIGH[0] + 5 * deg, "joint 1 5.0° above its limit of 140°"),
+    ):
+        bad = q.copy()
+        bad[1, joint] = value
+        assert told in law((bad,), True)
+        assert law((bad,), False) is None
 
 
 # --- 3: a blend of one's own ----------------------------------------------------------------------

@@ -4,7 +4,7 @@ The answers to each exercise come first, right and wrong, then the predictions' 
 the tables stand at the end.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -138,14 +138,42 @@ def _posture_form(result: Any, case: tuple[Any, ...]) -> Floats:
     return values
 
 
+def _units_told(wanted: Floats, yours: Floats) -> str | None:
+    """A sentence if joints 1 and 2 are right in degrees."""
+    if not (abs(yours[:2] * deg - wanted[:2]) <= 1e-6).all():
+        return None
+    if (abs(yours[:2] - wanted[:2]) <= 1e-6).all():
+        return None
+    return (
+        f"joint 2 is {yours[1]:.1f}, which is right in degrees; wanted are radians, "
+        f"{wanted[1]:.4f}, and metres for joint 4"
+    ).translate(MINUS)
+
+
+def _elbow_changed(case: tuple[Any, ...], yours: Floats) -> bool:
+    """Whether joints 1 and 2 are those of the other row of ik, up to whole turns."""
+    q0, position, angle = case
+    other = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(-1 if q0[1] >= 0 else 1)]
+    return bool((abs(wrapped(yours[:2] - other[:2])) <= 1e-6).all())
+
+
 def _turn_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     q0, _, _ = case
     wanted = _least_turn(Tools(), *case)
     if (abs(yours - wanted) <= 1e-6).all():
         return None
     now, end, got = (float(q[:3].sum()) / deg for q in (q0, wanted, yours))
+    told = _units_told(wanted, yours)
+    if told:
+        return told
     for k in (0, 1):
         if not abs(yours[k] - wanted[k]) <= 1e-6:
+            if _elbow_changed(case, yours):
+                return (
+                    f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0, "
+                    f"and yours ends at {yours[1] / deg:.1f}°; {wanted[1] / deg:.1f}° is right, "
+                    f"with joint 1 at {wanted[0] / deg:.1f}°"
+                ).translate(MINUS)
             return (
                 f"joint {k + 1} should be at {wanted[k] / deg:.1f}° (with the elbow of q0), and is "
                 f"at {yours[k] / deg:.1f}°"
@@ -163,7 +191,10 @@ def _same_posture(a: Floats, b: Floats) -> bool:
     return bool(np.allclose(a, b, rtol=0, atol=1e-6, equal_nan=True))
 
 
-def _third(choose: Callable[[Floats, Floats, float], float]) -> Program:
+Third = Callable[[Floats, Floats, float], float]
+
+
+def _third(choose: Third) -> Program:
     """A program that is right but for joint 3: choose(q0, ik's row, angle)."""
 
     def program(q0: Floats, position: Floats, angle: float) -> Floats:
@@ -221,6 +252,40 @@ def _any_elbow(q0: Floats, position: Floats, angle: float) -> Floats:
     return found
 
 
+def _nearer(count: int, order: float, whole: bool, third: Third) -> Program:
+    """The row whose first joints are nearest to q0, by sum, length or greatest change."""
+
+    def program(q0: Floats, position: Floats, angle: float) -> Floats:
+        rows = SCARA.ik(ScaraPose(position, angle))
+        change = rows[:, :count] - q0[:count]
+        change = wrapped(change) if whole else change
+        q = rows[np.nanargmin(np.linalg.norm(change, ord=order, axis=-1))]
+        return _with(q, third(q0, q, angle))
+
+    return program
+
+
+def _nearer_of_package(third: Third) -> Program:
+    """The row that `nearest` takes, then joint 3 anew."""
+
+    def program(q0: Floats, position: Floats, angle: float) -> Floats:
+        q = _any_elbow(q0, position, angle)
+        return _with(q, third(q0, q, angle))
+
+    return program
+
+
+def _in_other_units(mistakes: Sequence[Mistake]) -> Iterator[Mistake]:
+    """These mistakes, and the posture in degrees: three joints, with the stroke in mm, or all."""
+    for units in ([deg, deg, deg, 1], [deg, deg, deg, mm], [deg] * 4):
+        for name, says, program in mistakes:
+
+            def spoilt(*case: Any, units: Any = units, program: Program = program) -> Any:
+                return program(*case) / np.array(units)
+
+            yield Mistake(f"degrees for radians, and {name}", f"{IN_DEGREES} And: {says}", spoilt)
+
+
 def _elbow(sign: int, *, limits: bool = True) -> Program:
     def program(q0: Floats, position: Floats, angle: float) -> Floats:
         q = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(sign)]
@@ -240,7 +305,32 @@ def _changed(what: Callable[[Floats, Floats], Any]) -> Program:
 
 
 NO_LIMITS = "The limits of joint 3, -400° to 400°, are not looked at: take the next way round then."
+NEARER = (
+    "Of both rows of ik the nearer one is taken: now and then that is the other elbow, and the arm "
+    "would have to pass the stretched posture. Choose the row by the sign of q0[1]."
+)
+IN_DEGREES = "The angles are returned in degrees; radians are wanted, as SCARA.ik gives them."
+ANY_TURN = "Then choose joint 3 among its values q3 + 2 pi k."
+NEARER_MISTAKES = tuple(
+    Mistake("the nearer posture, elbow changed", f"{NEARER} {also}".strip(), program)
+    for third, also in (
+        (lambda q0, q, angle: _into(_turned(q0, q, angle)), ""),
+        (_turned, NO_LIMITS),
+        (lambda q0, q, angle: float(q[2]), ANY_TURN),
+    )
+    for program in (
+        *(
+            _nearer(count, order, whole, third)
+            for count, order in ((1, 1), (2, 1), (2, 2), (2, np.inf), (3, 1), (3, 2), (3, np.inf))
+            for whole in (False, True)
+            if (count, order, whole, also) != (2, 1, False, "")  # stands below by itself
+            if (order, also) != (np.inf, ANY_TURN)
+        ),
+        *(() if also == ANY_TURN else (_nearer_of_package(third),)),
+    )
+)
 TURN_MISTAKES = (
+    *NEARER_MISTAKES,
     Mistake(
         "the least turn of joint 3",
         "Joint 3 turns as little as it can. The tool is turned by joints 1 and 2 as well: its "
@@ -538,6 +628,19 @@ TURN_MISTAKES = (
 )
 
 
+_NAMES = (
+    "the least turn of joint 3",
+    "the least turn of joint 3, without the limits",
+    "the row of ik as it is",
+    "the limits are not looked at",
+    "the angle as it is given",
+    "only one turn",
+    "only one turn, without the limits",
+    "elbow +1 always",
+)
+TURN_MISTAKES += tuple(_in_other_units([m for m in TURN_MISTAKES if m.name in _NAMES]))
+
+
 def _near_row(q0: Floats, q: Floats) -> float:
     now = float(q0[:3].sum() - q[0] - q[1])
     return min((float(q[2] + TURN * k) for k in (-1, 0, 1)), key=lambda x: abs(x - now))
@@ -577,7 +680,23 @@ def _wrap(q: Floats) -> Floats:
     return np.concatenate([wrapped(q[:, :3]), q[:, 3:]], axis=1)
 
 
+def _margin(size: float, *, nan: bool) -> Mistake:
+    """Every limit moved outwards, in rad and m alike; with NaN seen or not."""
+    says = (
+        "Every limit is moved outwards by more than the 10^-6 rad or m that may pass: a thousandth "
+        "is 1 mm for the stroke."
+    )
+    if nan:
+        return Mistake("a margin too wide", says, lambda q: _inside(q, LOW - size, HIGH + size))
+    return Mistake(
+        "a margin too wide, and NaN passes",
+        says + " And a comparison with NaN is always False: ask whether all values are inside.",
+        lambda q: not ((q < LOW - size) | (q > HIGH + size)).any(),
+    )
+
+
 LIMIT_MISTAKES = (
+    *(_margin(size, nan=nan) for size in (1e-5, 1e-3, 1e-2) for nan in (True, False)),
     Mistake(
         "the stroke is never tested",
         "It looks at three joints and leaves out the last. The last joint has its limits, too, in "
@@ -811,9 +930,12 @@ def _limit_law(case: tuple[Any, ...], yours: bool) -> str | None:
         return f"{where} is a row of NaN, out of reach: False is right"
     size, unit = (mm, " mm") if joint == 3 else (deg, "°")
     value, low, high = (x / size for x in (q[sample, joint], LOW[joint], HIGH[joint]))
+    limit, side = (low, "below") if value < low else (high, "above")
+    excess = abs(value - limit)
+    digits = 1 if excess > 0.05 else 4 if unit == "°" else 3
     return (
-        f"{where} has joint {joint + 1} at {value:.1f}{unit}; its limits are {low:.0f} and "
-        f"{high:.0f}{unit}: False is right"
+        f"{where} has joint {joint + 1} {excess:.{digits}f}{unit} {side} its limit of "
+        f"{limit:.0f}{unit}: False is right"
     ).translate(MINUS)
 
 
@@ -1559,8 +1681,9 @@ PREDICTIONS = {
             Option(
                 "On LIN alone.",
                 "Each joint of PTP runs between two allowed values. On LIN the joints do what the "
-                "line asks for: it passes axis 1 at {near:.0f} mm, so joint 2 has to fold far. "
-                "Drag the goal's x: away from axis 1 both are good.",
+                "line asks for: it passes axis 1 at {near:.0f} mm, so joint 2 has to fold far, and "
+                "behind the column joint 1 turns too far. Drag the goal's x: away from axis 1 both "
+                "are good.",
             ),
             Option(
                 "On both: a limit does not ask for the kind of motion.",
