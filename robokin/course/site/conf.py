@@ -101,23 +101,34 @@ def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
 
 # --- Docstrings -----------------------------------------------------------------------------------
 
+ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two blanks, what it means
+
 
 def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
-    """What a class has from a library is described there."""
-    home = getattr(thing, "__module__", None)
-    return True if isinstance(home, str) and not home.startswith("robokin") else None
+    """What a class has from a library, or from its being a tuple, is not described here."""
+    home = getattr(thing, "__module__", None) or "robokin"
+    foreign = isinstance(home, str) and not home.startswith("robokin")
+    return True if foreign or str(thing.__doc__).startswith("Alias for field") else None
 
 
 def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """As reST: paragraphs of words; the rest (tables, examples) as it stands there."""
+    """As reST: paragraphs of words, lists of names; the rest (examples) as it stands there."""
     made: list[str] = []
     for block in re.split(r"\n\s*\n", "\n".join(lines).strip()):
-        if re.search(r"^ |^>>>|\S {2,}\S", block, re.M):
+        if re.fullmatch(rf"{ENTRY}(?:\n{ENTRY})*", block):
+            for entry, meaning in re.findall(rf"^{ENTRY}", block, re.M):
+                made += [f"``{entry}``", f"    {_words(meaning)}"]
+        elif re.search(r"^ |^>>>|\S {2,}\S", block, re.M):
             made += [".. code-block:: none", "", *("    " + line for line in block.splitlines())]
         else:
-            pieces = re.split("``?([^`]+)``?", block.replace("\n", " "))
-            pieces[::2] = (re.sub(r"([^\w\s])", r"\\\1", words) for words in pieces[::2])
-            pieces[1::2] = (rf"\ ``{code}``\ " for code in pieces[1::2])
-            made.append("".join(pieces))
+            made.append(_words(block))
         made.append("")
     lines[:] = made
+
+
+def _words(text: str) -> str:
+    """Words as reST that means nothing but these; what stands between back-ticks is code."""
+    pieces = re.split("``?([^`]+)``?", " ".join(text.split()))
+    pieces[::2] = (re.sub(r"([^\w\s])", r"\\\1", words) for words in pieces[::2])
+    pieces[1::2] = (rf"\ ``{code}``\ " for code in pieces[1::2])
+    return "".join(pieces)
