@@ -54,7 +54,8 @@ class Parsed(HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.loads, self.links, self.ids, self.words, self.count = [], [], {"", "top"}, [], {}
+        self.loads, self.links, self.ids, self.words, self.count = [], [], {""}, [], {}
+        self.headings, self.nameless = [], []
         self.silent = self.article = False
         self.feed(text)
         self.text = " ".join("".join(self.words).split())
@@ -67,6 +68,9 @@ class Parsed(HTMLParser):
             self.links.append(attrs["href"])
         elif FETCHED.get(tag) in attrs and attrs.get("rel") not in ("next", "prev", "search"):
             self.loads.append(attrs[FETCHED[tag]])
+        if tag == "img" and not attrs.get("alt", "").strip():
+            self.nameless.append(attrs.get("src", "")[:80])
+        self.headings += [int(level) for level in re.findall("^h([1-6])$", tag)]
         self.silent = tag in ("script", "style")
         self.article = self.article or tag == "article"
         if self.article:
@@ -135,6 +139,15 @@ def test_a_notebook_is_on_its_page_and_can_be_downloaded(path, site, parsed):
     assert set(code) <= set(page.text.split())
     assert path.name in page.links
     assert (site / f"{name}.ipynb").read_bytes() == path.read_bytes()
+
+
+def test_pictures_have_words_and_headings_an_order(parsed):
+    for name, page in parsed.items():
+        assert page.nameless == [], name
+        assert name == "search" or page.headings[0] == 1 and page.headings.count(1) == 1, name
+        steps = zip(page.headings[:-1], page.headings[1:], strict=True)
+        assert all(after <= before + 1 for before, after in steps), name
+    assert sum(map(len, (page.headings for page in parsed.values()))) > 200
 
 
 def test_a_section_named_in_a_link_is_where_it_leads(parsed):

@@ -37,7 +37,8 @@ def build(folder: Path) -> str:
         raise ValueError(f"{labs}: no labs; a site is made from a clone of robokin")
     _older(folder)
     with TemporaryDirectory() as scratch:
-        source, made = Path(scratch, "source"), Path(scratch, "made")
+        source = Path(scratch).resolve() / "source"
+        made = source.with_name("made")
         _gather(labs, source)
         complaints = _run(source, made)
         for notebook in _notebooks(labs):  # to download, beside its page
