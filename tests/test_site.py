@@ -427,16 +427,25 @@ def test_what_is_missing_is_named(tmp_path, monkeypatch):
             making._entry(lab)
 
 
-def test_a_formula_that_cannot_be_read_is_named(tmp_path):
+def test_formulas_and_links_that_cannot_be_read_are_named(tmp_path):
     notebook = json.loads((NOTEBOOKS / "documents" / "glossary.ipynb").read_text(encoding="utf-8"))
-    notebook["cells"] = [notebook["cells"][0] | {"source": [r"# A lab with $\nonsense$ in it"]}]
-    source = tmp_path / "source"
+    source, heading = tmp_path / "source", "3. How does one go back?"
     source.mkdir()
     for name in ("conf.py", "static", "templates"):
         from_there = making.HERE / name
         copy = shutil.copytree if from_there.is_dir() else shutil.copyfile
         copy(from_there, source / name)
-    (source / "index.ipynb").write_text(json.dumps(notebook), encoding="utf-8")
+    back = making.anchor(heading)
+    texts = {
+        "index": f"# Title\n\n[there](#{back}), $\\nonsense$ here\n\n## {heading}",
+        "other": f"# Other\n\n[a](index.ipynb#{back}), [b](index.ipynb#nowhere)",
+    }
+    for name, text in texts.items():
+        cells = [notebook["cells"][0] | {"source": [text]}]
+        (source / f"{name}.ipynb").write_text(json.dumps(notebook | {"cells": cells}))
     said = making._run(source, tmp_path / "made")
-    assert "index.ipynb" in said and "nonsense" in said and str(tmp_path) not in said
-    assert "A lab with" in (tmp_path / "made" / "index.html").read_text(encoding="utf-8")
+    assert re.search(r"index\.ipynb.*nonsense", said) and re.search(r"other.*nowhere", said)
+    assert back not in said and str(tmp_path) not in said
+    page = Parsed((tmp_path / "made" / "index.html").read_text(encoding="utf-8"))
+    assert back in page.ids, "as in JupyterLab"
+    assert "here" in page.text and "nonsense" not in page.text
