@@ -30,7 +30,7 @@ html_math_renderer = "mathml"
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # shapes, units and frames stand in the docstrings
-autodoc_default_options = {"members": True, "no-value": True}
+autodoc_default_options = {"members": True}
 add_module_names = False
 
 html_theme = "furo"
