@@ -10,8 +10,8 @@ import numpy as np
 
 from ._arrays import Floats
 
-mm = 1e-3
-deg = pi / 180
+mm = 1e-3  #: in metres
+deg = pi / 180  #: in radians
 
 
 def wrapped(angle: Floats, near: Floats | float = 0.0) -> Floats:

@@ -63,8 +63,11 @@ HEAVY = DRAWING | {
     "importlib.resources",
 }
 
-# Libraries of the extra "labs", where they do what is not ours to write.
-OUTSIDE = {"robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"}}
+# Libraries of the extras "labs" and "site", where they do what is not ours to write.
+OUTSIDE = {
+    "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.site.conf": {"docutils", "sphinx"},
+}
 
 MODULES = {
     ".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): p

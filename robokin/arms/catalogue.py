@@ -19,12 +19,12 @@ def _at(x: float, y: float, z: float) -> Transform:
     return Transform(translation=(x, y, z))
 
 
-# ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the
-# document's, its frame `wrist` split in two (joints 4 and 5). Its joint 2 turns about -y, so a
-# positive angle leans the arm back, and its upper arm is 350 mm where other models of this robot
-# have 360 mm (errata S1-g): we keep the document's numbers. Speeds: public models of the robot
-# differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not checked against
-# the maker's data sheet.
+#: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the
+#: document's, its frame `wrist` split in two (joints 4 and 5). Its joint 2 turns about -y, so a
+#: positive angle leans the arm back, and its upper arm is 350 mm where other models of this robot
+#: have 360 mm (errata S1-g): we keep the document's numbers. Speeds: public models of the robot
+#: differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not checked against
+#: the maker's data sheet.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(
@@ -41,8 +41,8 @@ IRB140 = spherical_wrist(
 )
 
 
-# SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds are
-# not stated.
+#: SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds
+#: are not stated.
 SCARA = scara_arm(
     "SCARA",
     height=220.2 * mm,
@@ -53,8 +53,8 @@ SCARA = scara_arm(
     ),
 )
 
-# PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model
-# (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
+#: PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model
+#: (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
 PUMA560 = spherical_wrist(
     "PUMA 560",
     links=dh_links(
@@ -86,8 +86,8 @@ def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
     )
 
 
-# Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 + a2
-# = 20, of which we take the equal halves, in centimetres (errata S4-j).
+#: Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and
+#: d1 + a2 = 20, of which we take the equal halves, in centimetres (errata S4-j).
 ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
 
 

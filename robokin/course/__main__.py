@@ -23,7 +23,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     export.add_argument(
         "--to", metavar="FOLDER", type=Path, default=Path(), help="where (default: here)"
     )
+    site = commands.add_parser(
+        "site",
+        help="all labs and the package's reference as pages, alive without Python",
+        description="Write a site into FOLDER: labs, companions, glossary, notes for teachers, the "
+        "package's reference, a search. Open its index.html, or lay the folder on any server.",
+    )
+    site.add_argument("folder", metavar="FOLDER", type=Path, help="a new one, or a site's")
     given = parser.parse_args(argv)
+    if given.command == "site":
+        return _site(given.folder)
     return _export(given.labs, given.to)
 
 
@@ -44,6 +53,21 @@ def _export(labs: Sequence[Path], folder: Path) -> int:
         else:
             print(f"{page}: {page.stat().st_size / 1e3:.0f} kB")
     return 1 if failed else 0
+
+
+def _site(folder: Path) -> int:
+    from .site import build
+
+    print("The site is being made; this takes half a minute.", flush=True)
+    try:
+        complaints = build(folder)
+    except (OSError, ValueError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(folder / "index.html")
+    if complaints:
+        print(complaints, file=sys.stderr)
+    return 1 if complaints else 0
 
 
 if __name__ == "__main__":

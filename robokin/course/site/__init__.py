@@ -1,0 +1,163 @@
+"""The course as a site, for readers without Python: labs, companions, glossary, notes for teachers
+and the package's reference. Its arms move, its predictions ask, and nothing in it is fetched.
+
+Sphinx, myst-nb and furo make it from the stored outputs. `build` lays out what they read; conf.py
+says how they read it.
+"""
+
+import importlib
+import json
+import os
+import pkgutil
+import re
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import robokin
+
+HERE = Path(__file__).parent
+MARK = ".robokin-site"  # a file in the site's folder: the names of all that were written there
+
+
+def build(folder: Path) -> str:
+    """Write the site into `folder`; what Sphinx had to complain of, if anything.
+
+    ValueError: a robokin without labs or without Sphinx, labs of which Sphinx makes no site,
+    something of yours in the way; then nothing is written.
+    """
+    missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
+    if missing:
+        raise ValueError(f"{', '.join(missing)}: not here; pip install 'robokin[site]' brings it")
+    labs = Path(robokin.__file__).parents[1] / "notebooks"
+    if not any(labs.glob("*.ipynb")):
+        raise ValueError(f"{labs}: no labs; a site is made from a clone of robokin")
+    _older(folder)
+    with TemporaryDirectory() as scratch:
+        source = Path(scratch).resolve() / "source"
+        made = source.with_name("made")
+        _gather(labs, source)
+        complaints = _run(source, made)
+        for notebook in _notebooks(labs):  # to download, beside its page
+            shutil.copyfile(notebook, made / notebook.relative_to(labs))
+        _put(made, folder)
+    return complaints
+
+
+def anchor(title: str) -> str:
+    """The anchor of a heading, as in JupyterLab."""
+    return title.replace(" ", "-")
+
+
+# --- What Sphinx reads ----------------------------------------------------------------------------
+
+
+def _notebooks(labs: Path) -> list[Path]:
+    return [*labs.glob("*.ipynb"), *labs.glob("documents/*.ipynb")]
+
+
+def _gather(labs: Path, source: Path) -> None:
+    """The files beside this one; the notebooks, and a list of the labs; an arm for the first page;
+    a page for each module.
+    """
+    from ...show import target_explorer
+
+    shutil.copytree(HERE, source, ignore=shutil.ignore_patterns("__*"))
+    for notebook in _notebooks(labs):
+        copy = source / notebook.relative_to(labs)
+        copy.parent.mkdir(exist_ok=True)
+        shutil.copyfile(notebook, copy)
+    _write(source / "labs.txt", "\n".join(map(_entry, sorted(labs.glob("*.ipynb")))))
+    _write(source / "arm.html", target_explorer(robokin.IRB140).html)
+    names = _modules()
+    for name in names:
+        _write(source / "api" / f"{name}.rst", f"{name}\n{'=' * 80}\n\n.. automodule:: {name}\n")
+    _write(source / "api" / "list.txt", "\n".join(map(_described, names)))
+    tree = (f"{name.removeprefix('robokin.')} <{name}>" for name in names)
+    _write(source / "api" / "tree.txt", "\n".join(("```{toctree}", ":hidden:", *tree, "```")))
+
+
+def _entry(lab: Path) -> str:
+    """A lab in the list of labs: its title, and what it claims."""
+    try:
+        first = "".join(json.loads(lab.read_text(encoding="utf-8"))["cells"][0]["source"])
+    except (KeyError, ValueError) as error:
+        raise ValueError(f"{lab}: not a notebook: {error!r}") from None
+    title, claim = re.search("^# (.*)", first), re.search(r"\*\*(.*?)\*\*", first, re.S)
+    if not title or not claim:
+        raise ValueError(f"{lab}: wanted a title and a claim in bold in its first cell")
+    return f"- [{title[1]}]({lab.name})\\\n  {' '.join(claim[1].split())}"
+
+
+def _modules() -> list[str]:
+    """Whose public names are described."""
+    parts = [
+        f"robokin.{package}.{module.name}"
+        for package in ("arms", "motion", "jobs")
+        for module in pkgutil.iter_modules([str(HERE.parents[1] / package)])
+        if not module.name.startswith("_")
+    ]
+    own = ["robokin.transform", "robokin.quaternion", "robokin.units"]
+    return [*own, *parts, "robokin.show", "robokin.course"]
+
+
+def _described(name: str) -> str:
+    """A module in the list of modules, with the first sentence that it says of itself."""
+    words = " ".join((importlib.import_module(name).__doc__ or "").split())
+    return f"- [`{name}`]({name}.rst)\\\n  {re.split(r'(?<=[.])(?: |$)', words)[0]}"
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+# --- Sphinx, and where its pages go ---------------------------------------------------------------
+
+
+def _run(source: Path, made: Path) -> str:
+    """What Sphinx complains of. ValueError: it makes no site."""
+    flags = ("-q", "-j", "auto", "-d", str(source.with_name("read")))
+    paths = (str(HERE.parents[2]), os.environ.get("PYTHONPATH", ""))
+    run = subprocess.run(
+        [sys.executable, "-m", "sphinx", *flags, str(source), str(made)],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(paths), "PYTHONIOENCODING": "utf-8"},
+        encoding="utf-8",
+        errors="replace",
+        capture_output=True,
+    )
+    complaints = run.stderr.replace(f"{source}{os.sep}", "").strip()
+    if run.returncode:
+        raise ValueError(f"Sphinx makes no site: {complaints}")
+    return complaints
+
+
+def _older(folder: Path) -> set[str]:
+    """The names of the files of a site that is there already. ValueError: something else is."""
+    if (folder / MARK).is_file():
+        names = (folder / MARK).read_text(encoding="utf-8").split("\n")
+        return {name for name in names if name and ".." not in name and not name.startswith("/")}
+    if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
+        raise ValueError(f"{folder}: neither empty nor a site of ours; nothing is overwritten")
+    return set()
+
+
+def _put(made: Path, folder: Path) -> None:
+    """Each file whole, in the place of an older site's; what else lies there stays."""
+    old = _older(folder)
+    new = {p.relative_to(made).as_posix() for p in made.rglob("*") if p.is_file()}
+    for name in sorted(new - old):
+        if os.path.lexists(folder / name):
+            raise ValueError(f"{folder / name}: not the site's; nothing is overwritten")
+    folder.mkdir(parents=True, exist_ok=True)
+    _write(folder / MARK, "\n".join(sorted(old | new)))  # whatever interrupts it, all is known
+    for name in sorted(new):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(made / name, folder / f"{MARK}.part")
+        os.replace(folder / f"{MARK}.part", folder / name)
+    for name in old - new:
+        (folder / name).unlink(missing_ok=True)
+    _write(folder / MARK, "\n".join(sorted(new)))

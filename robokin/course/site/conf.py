@@ -1,0 +1,134 @@
+"""How Sphinx makes the site; `build`, in __init__.py, lays out what it reads, and runs it.
+
+Outputs are the stored ones; formulas become MathML, as in exported pages; docstrings are plain
+text.
+"""
+
+import re
+from pathlib import PurePosixPath
+from typing import Any
+
+from docutils import nodes
+from sphinx.util import logging
+
+from robokin.course.export import mathml
+from robokin.show.palette import PAGE
+
+project = html_title = "robokin labs"
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.githubpages"]
+templates_path = ["templates"]
+
+nb_execution_mode = "off"
+nb_merge_streams = True
+nb_ipywidgets_js: dict[str, Any] = {}  # it would come from a network
+nb_code_prompt_show = nb_code_prompt_hide = "code"
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 3
+myst_heading_slug_func = "robokin.course.site.anchor"
+myst_update_mathjax = False
+html_math_renderer = "mathml"
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # shapes, units and frames stand in the docstrings
+autodoc_default_options = {"members": True}
+add_module_names = False
+
+html_theme = "furo"
+LINKS = ("color-brand-primary", "color-brand-content", "color-brand-visited")
+html_theme_options = {
+    "top_of_page_buttons": [],
+    "light_css_variables": dict.fromkeys(LINKS, PAGE["accent"][0]),
+    "dark_css_variables": dict.fromkeys(LINKS, PAGE["accent"][1]),
+}
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_js_files = ["site.js"]
+html_favicon = "static/arm.svg"
+html_copy_source = html_show_sourcelink = html_show_copyright = False
+html_use_index = html_domain_indices = False
+
+
+def setup(app: Any) -> dict[str, bool]:
+    app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    app.connect("source-read", _own_name)
+    app.connect("doctree-read", _numbered)
+    app.connect("doctree-resolved", _to_the_section)
+    app.connect("autodoc-skip-member", _not_ours)
+    app.connect("autodoc-process-docstring", _as_it_is)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+# --- Formulas -------------------------------------------------------------------------------------
+
+
+def _inline(translator: Any, node: nodes.Element) -> None:
+    _formula(translator, node, block=False)
+
+
+def _block(translator: Any, node: nodes.Element) -> None:
+    _formula(translator, node, block=True)
+
+
+def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
+    try:
+        translator.body.append(mathml(node.astext(), block))
+    except ValueError as error:
+        logging.getLogger(__name__).warning(str(error), location=node)
+    raise nodes.SkipNode
+
+
+# --- "[02 §3](02_irb140_kinematics.ipynb)" leads to section 3 of that lab -------------------------
+
+
+def _own_name(app: Any, docname: str, source: list[str]) -> None:
+    """A companion calls itself #."""
+    source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
+
+
+def _numbered(app: Any, doctree: nodes.document) -> None:
+    for section in doctree.findall(nodes.section):
+        number = re.match(r"(\d+)\. ", section[0].astext())
+        if number and section.parent is not doctree:
+            section["ids"].append(f"section-{number[1]}")
+
+
+def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
+    for link in doctree.findall(nodes.reference):
+        number = re.search(r"§(\d+)$", link.astext())
+        if number and re.search(r"\.html$|^$", link.get("refuri", "no")):
+            link["refuri"] += f"#section-{number[1]}"
+
+
+# --- Docstrings -----------------------------------------------------------------------------------
+
+ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two blanks, what it means
+
+
+def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
+    """What a class has from a library, or from its being a tuple, is not described here."""
+    home = getattr(thing, "__module__", None) or "robokin"
+    foreign = isinstance(home, str) and not home.startswith("robokin")
+    return True if foreign or str(thing.__doc__).startswith("Alias for field") else None
+
+
+def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """As reST: paragraphs of words, lists of names; the rest (examples) as it stands there."""
+    made: list[str] = []
+    for block in re.split(r"\n\s*\n", "\n".join(lines).strip()):
+        if re.fullmatch(rf"{ENTRY}(?:\n{ENTRY})*", block):
+            for entry, meaning in re.findall(rf"^{ENTRY}", block, re.M):
+                made += [f"``{entry}``", f"    {_words(meaning)}"]
+        elif re.search(r"^ |^>>>|\S {2,}\S", block, re.M):
+            made += [".. code-block:: none", "", *("    " + line for line in block.splitlines())]
+        else:
+            made.append(_words(block))
+        made.append("")
+    lines[:] = made
+
+
+def _words(text: str) -> str:
+    """Words as reST that means nothing but these; what stands between back-ticks is code."""
+    pieces = re.split("``?([^`]+)``?", " ".join(text.split()))
+    pieces[::2] = (re.sub(r"([^\w\s])", r"\\\1", words) for words in pieces[::2])
+    pieces[1::2] = (rf"\ ``{code}``\ " for code in pieces[1::2])
+    return "".join(pieces)

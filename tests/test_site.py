@@ -1,0 +1,451 @@
+"""`python -m robokin.course site`: every page of it in a real browser, every link of it parsed."""
+
+import functools
+import http.server
+import importlib
+import inspect
+import json
+import re
+import shutil
+import subprocess
+import sys
+import threading
+from html.parser import HTMLParser
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from conftest import NOTEBOOKS, until
+from test_browser import NEXT_FRAME, PLAYER, _opens, _seen
+from test_export import FETCHED, formulas
+
+from robokin.course import site as making
+
+PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
+NAMES = [path.relative_to(NOTEBOOKS).with_suffix("").as_posix() for path in PATHS]
+LABS = [name for name in NAMES if "/" not in name]
+MODULES = making._modules()
+PAGES = ["index", *NAMES, "api/index", *(f"api/{name}" for name in MODULES), "search"]
+WIDTHS = (1366, 900, 390)
+
+
+def command(folder, **more):
+    return subprocess.run(
+        [sys.executable, "-m", "robokin.course", "site", str(folder)],
+        text=True,
+        capture_output=True,
+        timeout=300,
+        **more,
+    )
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory):
+    """The site, built once."""
+    folder = tmp_path_factory.mktemp("site") / "labs"
+    run = command(folder)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert str(folder / "index.html") in run.stdout
+    return folder
+
+
+class Parsed(HTMLParser):
+    """What a page loads, where its links lead and what can be led to; its text, without scripts."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.loads, self.links, self.ids, self.words, self.count = [], [], {""}, [], {}
+        self.headings, self.nameless = [], []
+        self.silent = self.article = False
+        self.feed(text)
+        self.text = " ".join("".join(self.words).split())
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        if attrs.get("id"):
+            self.ids.add(attrs["id"])
+        if tag == "a" and "href" in attrs:
+            self.links.append(attrs["href"])
+        elif FETCHED.get(tag) in attrs and attrs.get("rel") not in ("next", "prev", "search"):
+            self.loads.append(attrs[FETCHED[tag]])
+        if tag == "img" and not attrs.get("alt", "").strip():
+            self.nameless.append(attrs.get("src", "")[:80])
+        self.headings += [int(level) for level in re.findall("^h([1-6])$", tag)]
+        self.silent = tag in ("script", "style")
+        self.article = self.article or tag == "article"
+        if self.article:
+            self.words.append(" " * (tag in ("dd", "dt", "p")))
+            kind = f"{tag}.hide" if "hide" in (attrs.get("class") or "").split() else tag
+            self.count[kind] = self.count.get(kind, 0) + 1
+
+    def handle_endtag(self, tag):
+        self.silent = False
+        self.article = self.article and tag != "article"
+
+    def handle_data(self, data):
+        if self.article and not self.silent:
+            self.words.append(data)
+
+
+@pytest.fixture(scope="session")
+def parsed(site):
+    """Every page by its name."""
+    return {
+        path.relative_to(site).with_suffix("").as_posix(): Parsed(path.read_text(encoding="utf-8"))
+        for path in site.rglob("*.html")
+    }
+
+
+def test_there_is_a_page_for_everything_and_nothing_else(parsed):
+    assert sorted(parsed) == sorted(PAGES)
+
+
+def test_every_link_leads_somewhere(site, parsed):
+    wrong = []
+    for name, page in parsed.items():
+        here = site / f"{name}.html"
+        for link in page.links:
+            parts = urlsplit(link)
+            if parts.scheme in ("http", "https"):
+                continue
+            to = (here.parent / unquote(parts.path)).resolve() if parts.path else here
+            known = parsed.get(to.relative_to(site.resolve()).with_suffix("").as_posix())
+            found = to.is_file() and (not known or unquote(parts.fragment) in known.ids)
+            if not found:
+                wrong.append(f"{name}: {link}")
+    assert wrong == []
+
+
+def test_nothing_is_loaded_from_elsewhere(site, parsed):
+    for name, page in parsed.items():
+        for address in page.loads:
+            parts = urlsplit(address)
+            assert parts.scheme in ("", "data") and not parts.netloc, f"{name}: {address}"
+            if not parts.scheme:
+                assert (site / f"{name}.html").parent.joinpath(parts.path).is_file(), address
+    for style in site.rglob("*.css"):
+        assert not re.search(r"@import|url\(['\"]?(https?:)?//", style.read_text()), style
+
+
+@pytest.mark.parametrize("path", PATHS, ids=NAMES)
+def test_a_notebook_is_on_its_page_and_can_be_downloaded(path, site, parsed):
+    name = path.relative_to(NOTEBOOKS).with_suffix("").as_posix()
+    page, cells = parsed[name], json.loads(path.read_text(encoding="utf-8"))["cells"]
+    written = sum("text/latex" in o.get("data", ()) for c in cells for o in c.get("outputs", ()))
+    assert page.count.get("math", 0) == len(list(formulas(path))) + written
+    folded = sum("hide-input" in cell["metadata"].get("tags", ()) for cell in cells)
+    assert page.count.get("details.hide", 0) == folded
+    code = " ".join("".join(c["source"]) for c in cells if c["cell_type"] == "code").split()
+    assert set(code) <= set(page.text.split())
+    assert path.name in page.links
+    assert (site / f"{name}.ipynb").read_bytes() == path.read_bytes()
+
+
+def test_pictures_have_words_and_headings_an_order(parsed):
+    for name, page in parsed.items():
+        assert page.nameless == [], name
+        assert name == "search" or page.headings[0] == 1 and page.headings.count(1) == 1, name
+        steps = zip(page.headings[:-1], page.headings[1:], strict=True)
+        assert all(after <= before + 1 for before, after in steps), name
+    assert sum(map(len, (page.headings for page in parsed.values()))) > 200
+
+
+def test_a_section_named_in_a_link_is_where_it_leads(parsed):
+    named = re.compile(r"\[[^]]*§(\d+)\]\(([\w./]*\.ipynb|#)\)")
+    for name, path in zip(NAMES, PATHS, strict=True):
+        sections = [section for section, _ in named.findall(path.read_text(encoding="utf-8"))]
+        led = [to.partition("#section-")[2] for to in parsed[name].links if "#section-" in to]
+        assert led == sections, name
+    assert any("#section-" in to for to in parsed["documents/001_irb140_and_scara"].links)
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_every_docstring_is_in_the_reference(module, parsed):
+    page, module = parsed[f"api/{module}"], importlib.import_module(module)
+    public = getattr(module, "__all__", None) or [n for n in vars(module) if not n.startswith("_")]
+    things = [module]
+    for thing in (getattr(module, name) for name in public):
+        if not (inspect.isclass(thing) or inspect.isfunction(thing)):
+            continue
+        if hasattr(module, "__all__") or thing.__module__ == module.__name__:
+            things.append(thing)
+            if inspect.isclass(thing):
+                own = (one for name, one in vars(thing).items() if not name.startswith("_"))
+                things += [one for one in own if _of_robokin(one)]
+    for thing in things:
+        for words in (inspect.getdoc(thing) or "").replace("`", "").split("\n"):
+            assert " ".join(words.split()) in page.text.replace("`", ""), (thing, words)
+
+
+def _of_robokin(one):
+    return inspect.isfunction(one) and one.__module__.startswith("robokin")
+
+
+# --- In the browser -------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def address(site):
+    """Where the site is served."""
+
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    with http.server.ThreadingHTTPServer(
+        ("127.0.0.1", 0), functools.partial(Quiet, directory=str(site))
+    ) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+
+
+@pytest.fixture(scope="module")
+def page(browser, address):
+    """One page for all, that keeps account: `errors` of the console, `outside` what it asked for
+    elsewhere.
+    """
+    context = browser.new_context(viewport={"width": 1366, "height": 900}, color_scheme="light")
+    page = context.new_page()
+    page.errors, page.outside = [], []
+    page.on("request", lambda r: _foreign(r.url, address) and page.outside.append(r.url))
+    page.on("console", lambda m: m.type == "error" and page.errors.append(f"{page.url}: {m.text}"))
+    page.on("pageerror", lambda error: page.errors.append(f"{page.url}: {error}"))
+    yield page
+    context.close()
+
+
+def _foreign(url, address):
+    return not url.startswith((address, "data:", "blob:", "file:"))
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_at_three_widths(page, address, name):
+    page.set_viewport_size({"width": WIDTHS[0], "height": 900})
+    page.goto(f"{address}{name}.html")
+    assert page.locator(PLAYER).count() == page.locator(f"{PLAYER}[data-ready]").count()
+    for width in WIDTHS:
+        page.set_viewport_size({"width": width, "height": 900})
+        page.evaluate(NEXT_FRAME)
+        wide = page.evaluate("() => document.documentElement.scrollWidth")
+        assert wide <= width, f"{width} px: {_too_wide(page)}"
+    words = page.locator("article").evaluate("""article => {
+        const copy = article.cloneNode(true);
+        for (const node of copy.querySelectorAll("pre, code, script, style, math")) node.remove();
+        return copy.textContent; }""")
+    raw = re.search(r"\$[^$]*\$|\\\(|\\[a-zA-Z]{2,}|\\begin", words)
+    assert not raw, f"TeX as it was typed: {raw[0]}"
+    assert page.outside == [] and page.errors == []
+
+
+def _too_wide(page):
+    return page.evaluate("""() => [...document.querySelectorAll("article *")]
+        .filter(node => node.getBoundingClientRect().right > innerWidth + 1)
+        .slice(0, 5).map(node => node.outerHTML.slice(0, 200))""")
+
+
+@pytest.mark.parametrize("lab", ["index", *LABS])
+def test_an_arm_is_dragged(page, address, lab):
+    page.set_viewport_size({"width": 1366, "height": 900})
+    page.goto(f"{address}{lab}.html")
+    players = [one for one in page.locator(PLAYER).all() if one.locator("canvas").count()]
+    assert players
+    held = page.locator(f"{PLAYER} .rk-handle")
+    held = (
+        held
+        if held.count()
+        else page.locator(f"{PLAYER} .rk-slide input[type=range], {PLAYER} .rk-long input")
+    ).first
+    held.scroll_into_view_if_needed()
+    page.evaluate(NEXT_FRAME)
+    before = [_seen(one) for one in players]
+    box = held.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 40, y - 25, steps=4)
+    page.mouse.up()
+    page.evaluate(NEXT_FRAME)
+    moved = [i for i, one in enumerate(players) if _seen(one) != before[i]]
+    assert len(moved) == 1, "the arm that is dragged moves, and no other"
+    for question in page.locator(".rk-ask").all()[:1]:
+        _opens(question)
+    assert page.outside == [] and page.errors == []
+
+
+def test_the_theme_reaches_the_arms(page, address):
+    page.goto(f"{address}index.html")
+    player = page.locator(PLAYER).first
+    seen, paper = _seen(player).pixels, "e => getComputedStyle(e).getPropertyValue('--rk-paper')"
+    light, looks = player.evaluate(paper), set()
+    for _ in range(3):
+        page.locator(".theme-toggle:visible").first.click()
+        page.evaluate(NEXT_FRAME)
+        theme = page.evaluate("() => document.body.dataset.theme")
+        looks.add(theme)
+        assert (player.evaluate(paper) == light) == (theme != "dark")
+        assert (_seen(player).pixels == seen) == (theme != "dark")
+    assert looks == {"auto", "light", "dark"}
+    page.emulate_media(color_scheme="dark")
+    page.evaluate(NEXT_FRAME)
+    follows = page.evaluate("() => document.body.dataset.theme") == "auto"
+    assert (player.evaluate(paper) != light) == follows
+    page.emulate_media(color_scheme="light")
+
+
+def test_search_finds(page, address):
+    page.goto(f"{address}search.html?q=singularity")
+    results = page.locator("#search-results li")
+    until(lambda: results.count() > 3, 10, "nothing is found", page)
+    assert page.locator("#search-results a[href*='06_spherical_wrist']").count()
+    page.goto(f"{address}search.html?q=nonsensical")
+    page.locator("#search-results").get_by_text("did not match any documents").wait_for()
+    assert page.outside == [] and page.errors == []
+
+
+def test_it_opens_from_a_folder(page, site):
+    page.goto((site / "index.html").as_uri())
+    page.locator(f"{PLAYER}[data-ready] canvas").first.wait_for()
+    assert page.outside == [] and page.errors == []
+
+
+@pytest.mark.parametrize("name", ["index", "00_start_here"])
+def test_who_cannot_see_it_can_use_it(page, address, name):
+    page.goto(f"{address}{name}.html")
+    found = {
+        rule["id"]: [node["html"][:160] for node in rule["nodes"]]
+        for rule in Axe().run(page).response["violations"]
+        if rule["impact"] != "minor"
+    }
+    assert found == {}
+
+
+# --- The command ----------------------------------------------------------------------------------
+
+
+def test_what_is_yours_stays(tmp_path):
+    (tmp_path / "mine.txt").write_text("mine")
+    run = command(tmp_path)
+    assert run.returncode == 1 and "nothing is overwritten" in run.stderr
+    assert "Traceback" not in run.stderr and str(tmp_path) in run.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+    file = tmp_path / "mine.txt"
+    with pytest.raises(ValueError, match="nothing is overwritten"):
+        making._older(file)
+
+
+def laid(folder, **files):
+    for name, text in files.items():
+        path = folder / name.replace("__", "/").replace("_", ".")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return folder
+
+
+def read(folder):
+    return {
+        path.relative_to(folder).as_posix(): path.read_text()
+        for path in folder.rglob("*")
+        if path.is_file() and path.name != making.MARK
+    }
+
+
+def test_a_newer_site_takes_the_place_of_an_older_one(tmp_path):
+    older = laid(tmp_path / "older", index_html="1", labs__gone_html="1", labs__kept_html="1")
+    newer = laid(tmp_path / "newer", index_html="2", labs__kept_html="2", new__new_html="2")
+    folder = tmp_path / "site"
+    making._put(older, folder)
+    assert read(folder) == read(older)
+    laid(folder, CNAME="mine", labs__mine_txt="mine")
+    making._put(newer, folder)
+    assert read(folder) == read(newer) | {"CNAME": "mine", "labs/mine.txt": "mine"}
+    before = read(folder)
+    laid(folder, labs__gone_html="mine")
+    with pytest.raises(ValueError, match=r"gone.html: not the site's"):
+        making._put(older, folder)
+    assert read(folder) == before | {"labs/gone.html": "mine"}
+
+
+@pytest.mark.parametrize("stop", range(8))
+def test_an_interrupted_site_is_made_whole_by_the_next(tmp_path, monkeypatch, stop):
+    older = laid(tmp_path / "older", index_html="1", gone_html="1")
+    newer = laid(tmp_path / "newer", index_html="2", new_html="2", newest_html="2")
+    folder = tmp_path / "site"
+    making._put(older, folder)
+    left, replace, copy = iter(range(stop)), making.os.replace, making.shutil.copyfile
+
+    def stopping(work):
+        def step(*given):
+            if next(left, None) is None:
+                raise KeyboardInterrupt
+            return work(*given)
+
+        return step
+
+    with monkeypatch.context() as patch:
+        patch.setattr(making.os, "replace", stopping(replace))
+        patch.setattr(making.shutil, "copyfile", stopping(copy))
+        try:
+            making._put(newer, folder)
+        except KeyboardInterrupt:
+            assert stop < 6
+            known = {*read(older), *read(newer), f"{making.MARK}.part"}
+            assert set(read(folder)) <= known
+            assert all(text in "12" for text in read(folder).values())
+    making._put(newer, folder)
+    assert read(folder) == read(newer)
+
+
+def test_no_file_outside_is_taken_away(tmp_path):
+    newer = laid(tmp_path / "newer", index_html="1")
+    laid(tmp_path, precious_txt="mine")
+    folder = laid(tmp_path / "site", index_html="0")
+    names = ("index.html", "../precious.txt", str(tmp_path / "precious.txt"))
+    (folder / making.MARK).write_text("\n".join(names))
+    making._put(newer, folder)
+    assert (tmp_path / "precious.txt").read_text() == "mine"
+
+
+def test_what_is_missing_is_named(tmp_path, monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setattr(making, "find_spec", lambda name: None)
+        with pytest.raises(ValueError, match=r"sphinx.*pip install 'robokin\[site\]'"):
+            making.build(tmp_path / "site")
+    with monkeypatch.context() as patch:
+        patch.setattr(making.robokin, "__file__", str(tmp_path / "robokin" / "__init__.py"))
+        with pytest.raises(ValueError, match="no labs"):
+            making.build(tmp_path / "site")
+    assert not (tmp_path / "site").exists()
+    lab = tmp_path / "01_lab.ipynb"
+    for text, reason in (
+        ("no notebook", "not a notebook"),
+        ("{}", "not a notebook"),
+        (json.dumps({"cells": [{"source": ["# A title without a claim"]}]}), "a claim"),
+    ):
+        lab.write_text(text)
+        with pytest.raises(ValueError, match=f"01_lab.*{reason}"):
+            making._entry(lab)
+
+
+def test_formulas_and_links_that_cannot_be_read_are_named(tmp_path):
+    notebook = json.loads((NOTEBOOKS / "documents" / "glossary.ipynb").read_text(encoding="utf-8"))
+    source, heading = tmp_path / "source", "3. How does one go back?"
+    source.mkdir()
+    for name in ("conf.py", "static", "templates"):
+        from_there = making.HERE / name
+        copy = shutil.copytree if from_there.is_dir() else shutil.copyfile
+        copy(from_there, source / name)
+    back = making.anchor(heading)
+    texts = {
+        "index": f"# Title\n\n[there](#{back}), $\\nonsense$ here\n\n## {heading}",
+        "other": f"# Other\n\n[a](index.ipynb#{back}), [b](index.ipynb#nowhere)",
+    }
+    for name, text in texts.items():
+        cells = [notebook["cells"][0] | {"source": [text]}]
+        (source / f"{name}.ipynb").write_text(json.dumps(notebook | {"cells": cells}))
+    said = making._run(source, tmp_path / "made")
+    assert re.search(r"index\.ipynb.*nonsense", said) and re.search(r"other.*nowhere", said)
+    assert back not in said and str(tmp_path) not in said
+    page = Parsed((tmp_path / "made" / "index.html").read_text(encoding="utf-8"))
+    assert back in page.ids, "as in JupyterLab"
+    assert "here" in page.text and "nonsense" not in page.text
