@@ -95,6 +95,27 @@ def test_other_wrong_axes_are_recognised(answer, name):
     assert not verdict.holds and name in verdict.mistake
 
 
+def _exchanged_elsewhere(*case):
+    return _elsewhere_on_the_axis(*case)[::-1]
+
+
+def _of_length_five(*case):
+    points, ways = _with_the_package(*case)
+    return points, 5 * np.asarray(ways)
+
+
+@pytest.mark.parametrize(
+    ("answer", "name"),
+    [
+        (_exchanged_elsewhere, "points and directions exchanged"),
+        (_of_length_five, "the direction is not a unit vector"),
+    ],
+)
+def test_what_is_no_direction_is_named(answer, name):
+    verdict = check("spherical_wrist.1", answer)
+    assert verdict.mistake == name and "not a unit vector" in verdict.case
+
+
 def test_the_verdict_shows_the_two_arrays_as_they_were_returned():
     wrong = check("spherical_wrist.1", lambda *c: -np.array(_by_loops(*c)))
     shown = next(line for line in wrong.case.split("\n") if "you return" in line)
@@ -137,6 +158,7 @@ def test_the_programs_are_what_they_are_called():
         "a coarse threshold",
         "the sum at theta = 180 degrees, too",
         "NaN in the singularity",
+        "NaN for the free angle",
         "theta beyond half a turn",
     }
 
@@ -159,6 +181,48 @@ def test_the_programs_are_what_they_are_called():
 )
 def test_a_test_that_is_not_enough_is_told_so(test, mistake):
     assert check("spherical_wrist.2", test).mistake == mistake
+
+
+def _with_slack(program):
+    """A careful test, but for the relative tolerance of allclose."""
+    for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
+        for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3)]:
+            for wrist in (1, -1):
+                found, h = program(book.zyz(phi, theta, psi), wrist), book.zyz(phi, theta, psi)
+                if not np.allclose(rebuilt(*found), h, atol=1e-10):
+                    return False
+                if not -1e-10 <= wrist * found[1] <= np.pi + 1e-10:
+                    return False
+    return True
+
+
+def _blind(program):
+    """A careful test, but for NaN."""
+    for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
+        for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1), (0.2, 2.2)]:
+            for wrist in (1, -1):
+                h = book.zyz(phi, theta, psi)
+                found = program(h, wrist)
+                if abs(rebuilt(*found) - h).max() > 1e-10:
+                    return False
+                if not np.isfinite(found[1]) or not -1e-10 <= wrist * found[1] <= np.pi + 1e-10:
+                    return False
+    return True
+
+
+@pytest.mark.parametrize(
+    ("test", "name", "why"),
+    [(_with_slack, "psi off by 1e-8 rad", "rtol=0"), (_blind, "NaN for the free angle", "NaN")],
+)
+def test_loose_comparisons_are_told(test, name, why):
+    verdict = check("spherical_wrist.2", test)
+    assert verdict.mistake == f"accepts: {name}" and any(why in line for line in verdict.says)
+
+
+def test_code_in_hints_can_be_run():
+    for name in "23":
+        code = [line for line in book.EXERCISES[name].hints[2].split("\n") if line[:4] == "    "]
+        compile("def f():\n" + "\n".join(code), name, "exec")
 
 
 def test_a_test_may_say_no_by_an_assertion():
@@ -200,6 +264,16 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
         assert check("spherical_wrist.3", answer, who=who).mistake == mistake
     wrong_side = {"up": -up, "side": -side, "duration": line["duration"]}
     assert check("spherical_wrist.3", wrong_side, who=who).mistake == "tilted to the wrong side"
+    twice = line | {"up": up * deg, "side": side * deg}
+    verdict = check("spherical_wrist.3", twice, who=who)
+    assert verdict.mistake == "deg twice" and "square to the line" in verdict.says[0]
+    verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
+    if book.passage(n, -side, -up)[0] >= n["least_distance"]:
+        assert "With up and side exchanged it would do" in verdict.says[0]
+    elif 50 > abs(n["slope"]) / deg > 40:  # then the two tilts are one
+        assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
+    elif not verdict.holds and verdict.mistake not in ("too fast", "too slow"):
+        assert verdict.mistake in ("up and side exchanged", "tilted along the line", "out of reach")
     for share, askew in itertools.product((0.5, 0.7, 0.9, 1), (-60, -30, 0, 30, 60)):
         c, s = share * np.cos(askew * deg), share * np.sin(askew * deg)
         least, _ = book.passage(n, -c * up - s * side, -c * side + s * up)

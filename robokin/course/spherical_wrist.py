@@ -119,14 +119,26 @@ def _axes_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     return cases
 
 
+def _is_unit(rows: Floats) -> Any:
+    return abs(np.linalg.norm(rows, axis=-1) - 1) < 1e-6
+
+
 class Axes:
     """Points and directions (n, 3) as they were returned. `rows`: directions and moments (n, 6),
-    the same for every point of an axis.
+    the same for every point of an axis; also where the two are exchanged, and, of length 2, for a
+    direction of any length but 1.
     """
 
     def __init__(self, points: Floats, ways: Floats) -> None:
         self.points, self.ways = points, ways
-        self.rows: Floats = np.concatenate([ways, np.cross(points, ways)], axis=-1)
+        size = np.linalg.norm(ways, axis=-1, keepdims=True)
+        if _is_unit(points).all() and not _is_unit(ways).all():
+            halves = np.cross(ways, points), points
+        else:
+            scale = 2 / np.where(size > 1e-9, size, 2)
+            ways = np.where(_is_unit(ways)[:, None], ways, scale * ways)
+            halves = ways, np.cross(points, ways)
+        self.rows: Floats = np.concatenate(halves, axis=-1)
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Floats:
         return self.rows if dtype is None else self.rows.astype(dtype)
@@ -171,9 +183,11 @@ def _axes_law(case: tuple[Any, ...], answer: Axes) -> str | None:
     for i, (point, way) in enumerate(zip(points, ways, strict=True)):
         place = ", ".join(f"{x / mm:.1f}" for x in point + 0.0)
         along = ", ".join(f"{x:.3f}" for x in np.round(way, 9) + 0.0)
-        if not np.allclose(yours[i, :3], way, rtol=0, atol=1e-6):
-            got = ", ".join(f"{x:.3f}" for x in np.round(yours[i, :3], 9) + 0.0)
-            return f"the axis of joint {i + 1} should have the direction ({along}), not ({got})"
+        if not np.allclose(answer.ways[i], way, rtol=0, atol=1e-6):
+            got = ", ".join(f"{x:.3f}" for x in np.round(answer.ways[i], 9) + 0.0)
+            more = "" if _is_unit(answer.ways[i]) else ", which is not a unit vector"
+            wanted = f"the axis of joint {i + 1} should have the direction ({along})"
+            return f"{wanted}, not ({got}){more}"
         off = float(np.linalg.norm(yours[i, 3:] - np.cross(point, way)))
         if not off <= 1e-6:
             return (
@@ -556,6 +570,14 @@ def _nan_there(h: Floats, wrist: int) -> Floats:
     return np.full(3, np.nan) if _singular(h) else mended(h, wrist)
 
 
+def _phi_nan_there(h: Floats, wrist: int) -> Floats:
+    return mended(h, wrist) + [np.nan if _singular(h) else 0, 0, 0]
+
+
+def _little_off(h: Floats, wrist: int) -> Floats:
+    return mended(h, wrist) + [0, 0, 1e-8]
+
+
 def _arcsin(h: Floats, wrist: int) -> Floats:
     phi, theta, psi = mended(h, wrist)
     return np.array([phi, np.arcsin(np.sin(theta)), psi])
@@ -587,6 +609,10 @@ WRIST_RIGHTS: tuple[tuple[str, Program], ...] = (
     ("from the quaternion, angles beyond half a turn, a list", _by_halves),
     ("angles from 0 to 360 degrees", _positive),
     ("joint 4 measured from joint 6", _psi_first),
+)
+BLIND = (
+    "NaN compares false with every number: `if error > 1e-10: return False` lets it pass, `if not "
+    "error < 1e-10` does not."
 )
 WRIST_MISTAKES = (
     Mistake(
@@ -623,8 +649,20 @@ WRIST_MISTAKES = (
     ),
     Mistake(
         "NaN in the singularity",
-        "At sin theta = 0 it gives NaN. One angle is free there, and any choice is an answer.",
+        "At sin theta = 0 it gives NaN. One angle is free there, and any choice is an answer. "
+        f"{BLIND}",
         _nan_there,
+    ),
+    Mistake(
+        "NaN for the free angle",
+        f"At sin theta = 0 its phi is NaN, and theta and psi are numbers. {BLIND}",
+        _phi_nan_there,
+    ),
+    Mistake(
+        "psi off by 1e-8 rad",
+        "Entries of its matrix are off by up to 1e-8, and 1e-10 is promised. np.allclose has a "
+        "relative tolerance, too, 1e-5 of the entry: give it rtol=0 beside atol=1e-10.",
+        _little_off,
     ),
     Mistake(
         "arcsin for theta",
@@ -758,6 +796,13 @@ def line_form(answer: Any, given: Any) -> dict[str, float]:
     return numbers
 
 
+def _keeps(given: Mapping[str, Any], up: float, side: float) -> bool:
+    """Whether this tilt is a tilt, not too far out, and keeps the distance."""
+    if max(abs(up), abs(side)) > 2 * given["most_tilt"]:
+        return False
+    return bool(passage(given, up, side)[0] >= given["least_distance"])
+
+
 def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Fault]:
     """What does not hold: tilt, distance, speeds, duration."""
     up, side, duration = answer["up"], answer["side"], answer["duration"]
@@ -777,7 +822,13 @@ def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Faul
         line += f"{given['least_distance']:.3f} are wanted."
         name = "too near the singularity"
         square = across(given["slope"], 1.0)[0]
-        if tilt > 0.5 * given["most_tilt"] and abs(np.dot(square, (up, side))) < 0.5 * tilt:
+        across_it = abs(np.dot(square, (up, side)))
+        line += f" Your tilt is {tilt / deg:.2f}° of {given['most_tilt'] / deg:.0f}° allowed, and "
+        line += f"{across_it / deg:.2f}° of it are square to the line."
+        if _keeps(given, up / deg, side / deg):
+            name = "deg twice"
+            line += " Divided by deg it would do: you have multiplied by deg twice."
+        elif tilt > 0.5 * given["most_tilt"] and across_it < 0.5 * tilt:
             name = "tilted along the line"
             line += " A tilt along the line lets the forearm pass the tool's direction a little "
             line += "earlier or later, and as near as before."
@@ -788,6 +839,11 @@ def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Faul
             if other >= given["least_distance"]:
                 name = "tilted to the wrong side"
                 line += f" Tilted as far to the other side it would be {other:.4f}."
+                if _keeps(given, side, up):
+                    line += " With up and side exchanged it would do, too."
+            elif _keeps(given, side, up):
+                name = "up and side exchanged"
+                line += f" With the two exchanged it would be {passage(given, side, up)[0]:.4f}."
         faults.append((name, line))
     speed = fastest / duration
     if speed > given["most_speed"] * (1 + 1e-9):
@@ -1032,11 +1088,12 @@ def _joints_view() -> str:
     return "\n".join(lines)
 
 
-def _fastest(miss: float) -> float:
-    """The greatest speed of joint 4 on the line of the first screen, °/s; exactly, from the
-    Jacobian.
+def _speeds(miss: float) -> tuple[Floats, Floats]:
+    """Times about the hit and the speed of joint 4 there, °/s, on the line of the first screen;
+    exactly, from the Jacobian.
     """
     t = np.concatenate([np.linspace(0, 4, 401), np.linspace(1.9, 2.1, 2001)])
+    t.sort()
     law = quintic(duration=4)
     poses = tilted_line(45 * deg, miss, 0, 0, law(t))
     rate = (law(t + 1e-6) - law(t - 1e-6)) / 2e-6
@@ -1044,7 +1101,13 @@ def _fastest(miss: float) -> float:
     velocity = np.concatenate([way, np.zeros(3)]) * rate[:, None]
     q = ITMO6R.ik(poses)[:, ROW]
     speeds = np.linalg.solve(ITMO6R.jacobian(q), velocity[..., None])[..., 0]
-    return float(abs(speeds[:, 3]).max()) / deg
+    joint4: Floats = np.abs(speeds[:, 3]) / deg
+    return np.asarray(t, dtype=float), joint4
+
+
+def _fastest(miss: float) -> float:
+    """The greatest speed of joint 4 on the line of the first screen, °/s."""
+    return float(_speeds(miss)[1].max())
 
 
 @cache
@@ -1068,12 +1131,26 @@ def _half_right(facts: Mapping[str, Any]) -> int:
     return int(np.argmin([abs(np.log(guess / facts["one"])) for guess in guesses]))
 
 
-def _half_view() -> str:
-    lines = ["The greatest speed of joint 4, from the Jacobian:"]
-    for miss in (8, 4, 2, 1, 0.5):
-        lines.append(f"{miss:g} mm beside: {_fastest(miss * mm):.0f}°/s")
-    lines.append("In the hit itself joint 5 passes through zero, and joint 4 hardly moves.")
-    return "\n".join(lines)
+def _half_view() -> Any:
+    from ..show import figure
+
+    fig = figure(
+        "The speed of joint 4 from 1.95 to 2.05 s on two lines. 2 mm beside the hit it goes up to "
+        f"{_fastest(2 * mm):.0f}°/s, 1 mm beside it to {_fastest(1 * mm):.0f}°/s, and for half as "
+        "long.",
+        5.8,
+        2.4,
+    )
+    ax = fig.subplots()
+    for miss, color, at in ((2, "#0072B2", 2.012), (1, "#B24A00", 2.004)):
+        t, speed = _speeds(miss * mm)
+        near = abs(t - 2) <= 0.05
+        ax.plot(t[near], speed[near], color=color, lw=2)
+        words = f"{miss} mm beside: {speed.max():.0f}°/s"
+        ax.text(at, 0.9 * speed.max(), words, color=color, va="center")
+    ax.set(xlabel="time, s", ylabel="joint 4, °/s", ylim=(0, 6800), xticks=(1.95, 2, 2.05))
+    fig.subplots_adjust(left=0.13, right=0.97, bottom=0.21, top=0.96)
+    return fig
 
 
 # --- The tables -----------------------------------------------------------------------------------
@@ -1108,11 +1185,17 @@ EXERCISES = {
             "Make matrices of angles that you know, with zyz, and see whether the program's angles "
             "give the matrix back. Which angles would you leave out? Take these, too.",
             "Do not compare angles with angles: there are whole turns, and in the singularity one "
-            "angle is free. Compare zyz(*found) with h, and the sign of theta with wrist.",
-            "For theta in (0, 1e-9, 1e-8, 1e-6, 1e-4, 0.5, 2, pi − 1e-8, pi), wrist in (+1, −1) "
-            "and eight pairs phi, psi, 45° and random ones among them: h = zyz(phi, theta, psi); "
-            "refuse if not abs(zyz(*found) − h).max() < 1e-10, or if wrist * found[1] < −1e-10 or "
-            "above pi + 1e-10.",
+            "angle is free. Compare zyz(*found) with h, and the sign of theta with wrist. Refuse "
+            "what is not good, since NaN compares false; and np.allclose has a relative tolerance.",
+            "Take eight pairs phi, psi, 45° and random ones among them, with\n\n"
+            "    for theta in (0, 1e-9, 1e-8, 1e-6, 1e-4, 0.5, 2, np.pi - 1e-8, np.pi):\n"
+            "        for wrist in (+1, -1):\n"
+            "            h = zyz(phi, theta, psi)\n"
+            "            found = wrist_angles(h, wrist)\n"
+            "            if not abs(zyz(*found) - h).max() < 1e-10:\n"
+            "                return False\n"
+            "            if not -1e-10 <= wrist * found[1] <= np.pi + 1e-10:\n"
+            "                return False",
         ),
         rights=WRIST_RIGHTS,
         mistakes=WRIST_MISTAKES,
@@ -1125,13 +1208,16 @@ EXERCISES = {
         "the wrist singularity.",
         objective=3,
         hints=(
-            "Seen from behind, along x, the forearm's direction sweeps past the tool's direction "
-            "along the line. Which tilt takes the tool's direction out of its way?",
+            "Seen against x, as in section 8, the forearm's direction sweeps past the tool's "
+            "direction along the line. Which tilt takes the tool's direction out of its way?",
             "A tilt along the line changes when the two meet, a tilt square to the line how near. "
             "A line that rises by `slope` has the direction (side, up) = (cos, sin) of it; square "
             "to it is (−sin, cos), and the opposite.",
-            "Take tilt = 0.95 * n['most_tilt'], up = tilt * np.cos(n['slope']), side = −tilt * "
-            "np.sin(n['slope']); then the same with both signs turned round. Of the two keep the "
+            "Take\n\n"
+            "    n = my_numbers\n"
+            "    tilt = 0.95 * n['most_tilt']\n"
+            "    up, side = tilt * np.cos(n['slope']), -tilt * np.sin(n['slope'])\n\n"
+            "then the same with both signs turned round. Of the two keep the "
             "one with the greater distance_from_singularity. The duration is the greatest speed "
             "for 1 s divided by n['most_speed'], and a little more.",
         ),
