@@ -25,6 +25,7 @@ from robokin import (
     linear,
     mm,
     record,
+    spbu_arm,
 )
 from robokin.show import animate, plot_joints
 from robokin.show.camera import arm_points, project
@@ -1147,6 +1148,44 @@ def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):
     assert first[0] is True and 0 < first[1] < 400 and 0 < first[2] < 300
     assert np.allclose(first[3:], (30, -20))
     assert held == first and after[1:3] != first[1:3] and hidden is False
+
+
+def test_a_floor_hides_what_dips_below_it(page):
+    """A tool that goes under its base: the floor lies lower still, or with `floor` at height 0.
+    Then less is seen of the arm below it, and as much of the arm above it.
+    """
+    t, turn = np.linspace(0, 2, 41), np.linspace(0, 1, 41)[:, None]
+    q = turn * np.array([60, 100, 70]) * deg - np.array([0, 20, 20]) * deg
+    arm = spbu_arm(0.4, 0.5)
+    assert arm.fk(q).translation[-1, 2] < -0.2 < arm.fk(q).translation[0, 2]
+    assert animate(arm, t, q).data["scene"]["floor"][0][2] < -0.2
+    data = animate(arm, t, q, floor=True).data
+    scene = data["scene"] | {"unit": data["unit"]}
+    assert scene["floor"][0][2] == 0 and scene["solid"]
+    page.set_content(
+        f"<style>{css()}</style><div class='rk'><canvas style='width:400px;height:300px'></div>"
+        f"<script>{script('scene')}</script>"
+    )
+    seen = page.evaluate(
+        """([scene, chain, postures]) => {
+            const canvas = document.querySelector("canvas");
+            canvas.getContext("2d", {willReadFrequently: true});
+            $canvas.readColors(canvas);
+            return [true, false].map(solid => postures.map(q => {
+                const view = $scene.sceneView(canvas, {...scene, solid});
+                view.draw(scene.view, [{name: "", chain, q}], "");
+                const {width, height} = canvas;
+                const data = canvas.getContext("2d").getImageData(0, 0, width, height).data;
+                let count = 0;
+                for (let i = 0; i < data.length; i += 4)
+                    if (data[i] === 0x4b && data[i + 1] === 0x59 && data[i + 2] === 0x66) count++;
+                return count;
+            }));
+        }""",
+        [scene, data["arms"][0]["chain"], q[[0, -1]].tolist()],
+    )
+    (above, hidden), (same, bare) = seen
+    assert above == same > 300 and 0 < hidden < 0.8 * bare
 
 
 def test_who_is_quicker_than_the_first_picture_gets_its_colours(page, blended):

@@ -278,6 +278,7 @@ CALLS = {
             points={"p": (0.1, 0.2, 0.3)},
             circles=[((0.1, 0.2, 0.3), 0.1)],
             names=None,
+            floor=False,
         ),
     ),
     "animate (controls)": (

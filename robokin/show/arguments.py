@@ -77,6 +77,13 @@ def several(
     return found
 
 
+def yes(value: Any, name: str) -> bool:
+    """True or False. ValueError: anything else."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name}: wanted True or False, got {short(value)}")
+    return bool(value)
+
+
 def plain(value: Any, name: str) -> str:
     """`value`, if it is words for a figure or a page; ValueError otherwise. Half characters (lone
     surrogates), which no file can hold, are replaced by the sign for what cannot be shown.

@@ -92,9 +92,10 @@ def scene_data(
     marks: Sequence[Mark],
     size: float,
     kept: Ints | None = None,
+    solid: bool = False,
 ) -> PageScene:
     """Where the camera stands, what it has to see, the floor and what lies in the space. `kept` as
-    in `stations`.
+    in `stations`. A `solid` floor is at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
     parts = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
@@ -115,9 +116,10 @@ def scene_data(
     step = series_step(max(*(high - low)[across], size / 3) * (1 + TIE) / 8)
     low[across] = np.floor(low[across] / step + 0.1) * step
     high[across] = np.ceil(high[across] / step - 0.1) * step
-    low[2] = min(low[2], 0.0) if flat is None and low[2] < -0.01 * size else 0.0
+    sunk = flat is None and not solid and low[2] < -0.01 * size
+    low[2] = min(low[2], 0.0) if sunk else 0.0
     places = np.concatenate([pose.translation.reshape(-1, 3) for pose in tools])
-    return {
+    scene: PageScene = {
         "size": tidy(size, 4),
         "flat": flat,
         "grid": tidy(step, 6),
@@ -127,6 +129,9 @@ def scene_data(
         "targets": stations(targets, kept),
         "marks": list(_drawn(marks, kept)),
     }
+    if solid:
+        scene["solid"] = True
+    return scene
 
 
 def stations(targets: Mapping[str, Transform], kept: Ints | None = None) -> list[PageTarget]:

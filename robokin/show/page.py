@@ -89,7 +89,8 @@ class PageMark(TypedDict):
 class PageScene(TypedDict):
     """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
     floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
-    camera. With `grows` the picture shrinks where an arm or a target leaves it.
+    camera. With `grows` the picture shrinks where an arm or a target leaves it; a floor that is
+    `solid` hides what dips below it.
     """
 
     size: float
@@ -101,6 +102,7 @@ class PageScene(TypedDict):
     targets: list[PageTarget]
     marks: list[PageMark]
     grows: NotRequired[bool]
+    solid: NotRequired[bool]
 
 
 class Axis(TypedDict):
@@ -273,8 +275,9 @@ EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
 def script(name: str) -> str:
     """The module `name` of the folder js and all that it imports, each once and in its own scope,
     as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
-    `explorers.Explorer`. Without blank lines, leading blanks, and lines
-    that begin with //, /* or *, which only people read.
+    `explorers.Explorer`. Without blank lines, leading blanks, and lines that begin with //, /* or
+    *, which only people read; a line that another has to follow takes it in: in a notebook each
+    line costs ten bytes more.
 
     ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and
     `export function`, `const` or `class`.
@@ -313,8 +316,9 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
         lines.append(line)
     if begun:
         raise ValueError(f"{place}: an import does not end")
-    body = "\n".join(lines)
-    modules[name] = f"const ${name} = (() => {{\n{body}\nreturn {{{', '.join(exports)}}};\n}})();"
+    ends = [line[-1] in ";,({" and "//" not in line for line in lines]
+    body = "".join(line + (" " if more else "\n") for line, more in zip(lines, ends, strict=True))
+    modules[name] = f"const ${name} = (() => {{\n{body}return {{{', '.join(exports)}}};\n}})();"
 
 
 # --- HTML -----------------------------------------------------------------------------------------

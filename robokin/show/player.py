@@ -59,6 +59,7 @@ def animate(
     points: Iterable[ArrayLike] | Mapping[Any, ArrayLike] = (),
     circles: Iterable[Any] | Mapping[Any, Any] = (),
     names: Sequence[str] | None = None,
+    floor: bool = False,
 ) -> "Player":
     """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end
     of a cell.
@@ -78,6 +79,7 @@ def animate(
              has a menu
     points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs where the arm is planar. Metres, base coordinates.
+    floor    the floor lies at height 0 and hides what dips below it; else it lies under everything
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, where it depends on slider and switch alone, (..., 1,
@@ -95,7 +97,8 @@ def animate(
     named = arguments.targets_over_time(targets, lead, count)
     marks = arguments.marks(points, circles, lead, count)
     title = " and ".join(dict.fromkeys(names)) if title is None else arguments.plain(title, "title")
-    data = page_data(names, tracks, named, marks, sliding, switching, title)
+    solid = arguments.yes(floor, "floor")
+    data = page_data(names, tracks, named, marks, sliding, switching, title, solid)
     motions = [(track.arm, track.q[0]) for track in tracks]
     still = still_picture(names, motions, named, marks, data["scene"], title, data["alt"])
     return Player(data, still)
@@ -157,6 +160,7 @@ def page_data(
     slider: Slider | None,
     switch: Switch | None,
     title: str,
+    solid: bool,
 ) -> Page:
     """What the page draws."""
     arms, t = [track.arm for track in tracks], tracks[0].t
@@ -189,6 +193,7 @@ def page_data(
         for arm, name, track, curve, u in zip(arms, names, tracks, curves, units, strict=True)
     ]
     postures = [track.q[:, kept] for track in tracks]
+    scene = scene_data(arms, postures, targets, marks, size, kept, solid)
     summary, alt = findings.words(drawn, t, targets, unit, slider, switch)
     return {
         "title": title,
@@ -200,7 +205,7 @@ def page_data(
         "switch": switch,
         "unit": unit,
         "dashes": DASHES,
-        "scene": scene_data(arms, postures, targets, marks, size, kept),
+        "scene": scene,
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
         "decimals": places,
         "arms": drawn,

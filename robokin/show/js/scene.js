@@ -93,7 +93,12 @@ function drawArmInSpace(pen, arm, [x, y, w, h], named) {
   const joints = [], moved = [], all = frames(arm.chain, arm.q, joints, moved);
   const exists = arm.q.every(Number.isFinite), rods = exists ? limbs(all, joints, moved, size) : [];
   const thick = Math.min(15, Math.max(5, 0.045 * size * cam.scale));
+  const dips = scene.solid && rods.some(ends => Math.min(ends[0][2], ends[1][2]) < -1e-9);
   drawFloor(pen);
+  if (dips) {
+    drawArm(g, cam, arm.chain, rods, joints, thick, size);
+    drawFloor(pen, true);
+  }
   if (pen.space.spatial) drawShadow(pen, trace, rods, thick);
   for (const {at, radius} of scene.marks) if (radius) ball(g, to(at), radius * cam.scale);
   drawRoute(pen);
@@ -102,7 +107,8 @@ function drawArmInSpace(pen, arm, [x, y, w, h], named) {
   for (const {q, past} of ghosts)
     stroke(g, frames(arm.chain, q).map(f => to(origin(f))), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
   g.globalAlpha = arm.faded ? 0.3 : 1;
-  drawArm(g, cam, arm.chain, rods, joints, thick, size);
+  if (dips) drawArm(g, cam, arm.chain, rods.flatMap(raised), joints, thick, size, 0);
+  else drawArm(g, cam, arm.chain, rods, joints, thick, size);
   if (arm.framed) for (const frame of all) triad(g, cam, frame, 0.08 * size, 1.8, 1);
   g.globalAlpha = 1;
   if (tail.length > 1) {
@@ -146,7 +152,9 @@ function drawPlaces({g, cam, scene}, near) {
   return {labels, taken};
 }
 
-function drawFloor({g, cam: {to}, scene: {grid, floor: [low, high]}, space: {a, b, at}}) {
+// The floor's grid; `over`: what is drawn already lies below it.
+function drawFloor({g, cam: {to}, scene: {grid, floor: [low, high]}, space: {a, b, at}}, over = false) {
+  if (over) polygon(g, [at(low[a], low[b]), at(high[a], low[b]), at(high[a], high[b]), at(low[a], high[b])].map(to), clear(colors.paper, 0.75), colors.line, 1);
   const line = (p, q, value) => stroke(g, [to(p), to(q)], Math.abs(value) < grid / 9 ? colors.line : colors.grid, 1);
   for (let x = low[a]; x < high[a] + grid / 9; x += grid) line(at(x, low[b]), at(x, high[b]), x);
   for (let y = low[b]; y < high[b] + grid / 9; y += grid) line(at(low[a], y), at(high[a], y), y);
@@ -186,13 +194,21 @@ function limbs(all, joints, moved, size) {
   return pieces.filter(([p, q]) => distance(p, q) > 1e-6 * size);
 }
 
-// Links and joints, the farther ones first.
-function drawArm(g, cam, chain, rods, joints, thick, size) {
+// What of a limb is above the floor.
+function raised([p, q, rod]) {
+  const [low, high] = p[2] < q[2] ? [p, q] : [q, p];
+  if (low[2] >= 0) return [[p, q, rod]];
+  return high[2] <= 0 ? [] : [[plus(high, plus(low, high, -1), high[2] / (high[2] - low[2])), high, rod]];
+}
+
+// Links and joints, the farther ones first; joints from a height on.
+function drawArm(g, cam, chain, rods, joints, thick, size, from = -Infinity) {
   const things = rods.map(([p, q, rod]) => ({
     depth: dot(plus(p, q), cam.toward) / 2,
     draw: () => limb(g, cam.to(p), cam.to(q), rod ? 0.55 * thick : thick, rod)}));
   if (rods.length) joints.forEach((joint, i) => {
     const axis = turned(joint, chain[i].axis), p = origin(joint);
+    if (p[2] < from - 0.01 * size) return;
     const radius = thick * (joints.length > 3 && i >= joints.length - 3 ? 0.72 : 1);
     things.push({depth: dot(p, cam.toward) + 0.02 * size, draw: () => chain[i].prismatic
       ? box(g, cam, p, axis, 0.8 * radius, jointColor(i))
