@@ -21,7 +21,11 @@ import robokin
 TOP = {"notebooks", "robokin", "environment.txt", "tests", "README.md", "pyproject.toml"}
 TOP |= {"CONTRIBUTING.md", "CHANGELOG.md"}
 OWNERS_CHOICE = {"LICENSE", "LICENSE.md", "LICENSE.txt", "LICENCE", "LICENCE.md", "LICENCE.txt"}
-MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"}
+MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"} | {
+    "my-labs",
+    "handed-in",
+    "site",
+}  # the README's
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
@@ -151,8 +155,16 @@ def test_readme_names_every_lab_and_its_links_resolve():
         if ".ipynb_checkpoints" not in lab.parts:
             name = lab.relative_to(ROOT).as_posix()
             assert name in links, f"{name} is not in the README"
-    trusted = re.findall(r"jupyter trust (.*?)(?: &&|\)\.FullName)", README)
-    assert len(trusted) == 2 and all("documents" in names for names in trusted)
+
+
+def test_the_commands_of_the_readme_are_those_of_the_program():
+    blocks = re.findall(r"^```(?:sh|powershell)\n(.*?)^```", README, re.M | re.S)
+    used = re.findall(r"-m robokin\.course (\w+)", " ".join(blocks))
+    assert used.count("copy") == 2, "one for each shell"
+    told = subprocess.run(
+        [sys.executable, "-m", "robokin.course", "-h"], text=True, capture_output=True, check=True
+    ).stdout
+    assert {*used} == set(re.findall(r"^    (\w+)  ", told, re.M)) - {"export"}
 
 
 def test_pins_are_exact_installed_and_within_the_ranges():
