@@ -64,7 +64,10 @@ HEAVY = DRAWING | {
 }
 
 # Libraries of the extra "labs", where they do what is not ours to write.
-OUTSIDE = {"robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"}}
+OUTSIDE = {
+    "robokin.course.copies": {"nbformat"},
+    "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
+}
 
 MODULES = {
     ".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): p
