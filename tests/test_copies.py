@@ -27,6 +27,7 @@ from robokin.course import copies
 from robokin.course.__main__ import main
 from robokin.course.copies import copy
 
+TWO = "two [\u00fc].ipynb"
 WRITES = ("fsync", "link", "makedirs", "rename", "replace", "unlink")
 
 
@@ -99,29 +100,34 @@ def laid(content):
 
 class Writes:
     """Stands for `os` and `open` in `copies`: counts what it does to files, and at count `end`
-    stops it by a KeyboardInterrupt: before or after that takes effect, in the middle of a write;
-    once, or (`dead`) for good, as a process that was killed. `at`: count -> what happens meanwhile.
+    stops it by an `error`: before or after that takes effect, in the middle of a write; once, or
+    (`dead`) for good, as a process that was killed. `at`: count -> what happens just before.
+    With `near`, a path, it counts from the moment when that is moved or laid.
     """
 
-    def __init__(self, end=None, after=False, dead=False, at=None):
+    def __init__(self, end=None, after=False, dead=False, error=KeyboardInterrupt):
         self.count, self.end, self.after, self.dead = 0, end, after, dead
-        self.at = at or {}
+        self.error, self.at, self.near = error, {}, None
 
     def __getattr__(self, name):
-        value = getattr(os, name) if name != "fsync" else lambda _: None  # it takes its time
-        return (lambda *a, **k: self.step(lambda: value(*a, **k))) if name in WRITES else value
+        if name == "fsync":
+            return lambda _: self.step(lambda: None)  # it takes its time
+        value = getattr(os, name)
+        return (lambda *a, **k: self.step(lambda: value(*a, **k), *a)) if name in WRITES else value
 
-    def step(self, act, half=lambda: None):
+    def step(self, act, *names, half=lambda: None):
+        if self.near is not None and not self.count and self.near not in names:
+            return act()
         self.count += 1
         self.at.get(self.count, lambda: None)()
         gone = self.end is not None and self.dead and self.count > self.end
         if gone or (self.count == self.end and not self.after):
             if not gone:
                 half()
-            raise KeyboardInterrupt
+            raise self.error
         result = act()
         if self.count == self.end:
-            raise KeyboardInterrupt
+            raise self.error
         return result
 
     @contextlib.contextmanager
@@ -141,7 +147,7 @@ class Writes:
                         write(content[: len(content) // 2])
                         file.flush()
 
-                    self.step(lambda: write(content), half)
+                    self.step(lambda: write(content), half=half)
 
             yield file if "a" in mode else Stepped
 
@@ -165,17 +171,19 @@ class History:
                is None while only the next copy can bring it back (a save that met a killed copy)
     untouched  places of labs where ours lies, run or not
     offered    lab -> what of it was last handed out; several where a copy was interrupted
+    outputs    lab -> the bytes that were last handed out, if that is sure
+    links      the student's links, and where they lead
     """
 
     def __init__(self, seed, top):
         self.random = random.Random(seed)
         self.source, self.folder = top / "labs", top / "student"
-        self.number = self.writes = 0
+        self.number = 0
         self.mine, self.untouched, self.offered, self.before = [], set(), {}, {}
-        self.links, self.versions, self.valid = {}, {}, set()
+        self.links, self.versions, self.valid, self.outputs = {}, {}, set(), {}
         store = MemorySignatureStore()  # SQLite takes its time
         self.notary = partial(NotebookNotary, store_factory=lambda: store, secret=b"secret")
-        for name in ("one.ipynb", "two.ipynb", "documents/three.ipynb", "tasks/task.json"):
+        for name in ("one.ipynb", TWO, "documents/three.ipynb", "tasks/task.json"):
             self._lab(name)
         (self.source / "notes.txt").write_text("not handed out")
         (self.source / "documents" / ".hidden.ipynb").write_text("not handed out")
@@ -233,6 +241,13 @@ class History:
             self.before[path] = (self._read(path), path in self.untouched)
             self.save(path, self._edited(self._read(path)))
 
+    def reorder(self):
+        path = self._pick(".ipynb")
+        if path in self.untouched:
+            data = json.loads(self._read(path))
+            data["cells"].reverse()
+            self.save(path, written(data))
+
     def edit_task(self):
         path = self._pick(".json")
         if path:
@@ -275,7 +290,7 @@ class History:
             self.save(place, self._read(path), ours=path in self.untouched)
 
     def own(self):
-        names = ["my notes.txt", "my lab.ipynb", "two.ipynb", "four.ipynb", "one.new.ipynb", "x.json"]
+        names = ["my notes.txt", "my lab.ipynb", TWO, "four.ipynb", "one.new.ipynb", "x.json"]
         path = self.random.choice(names)
         if not os.path.lexists(self.folder / path) or self._plain(path):
             data = notebook(self.token()) if path.endswith(".ipynb") else self.token()
@@ -289,24 +304,29 @@ class History:
 
     def folder_or_link(self):
         """A folder, or a link, where a lab was or will be."""
-        path = self.random.choice(["two.ipynb", "four.ipynb", "documents/three.ipynb"])
+        path = self.random.choice([TWO, "four.ipynb", "documents/three.ipynb"])
         place = self.folder / path
         if place.is_dir() or place.is_symlink() or not self._folder_there(path):
             return
+        moved = self._read(path) if self._plain(path) else None
         self.delete_at(path)
         if self.random.random() < 0.5:
             place.mkdir()
             self.save(f"{path}/my.txt", self.token().encode())
         else:
             target = f"my {self.token()}.ipynb"
-            self.save(target, written(notebook(self.token())))
+            self.save(target, moved or written(notebook(self.token())))
             place.symlink_to(self.folder / target)
             self.links[path] = str(self.folder / target)
 
     def folder_elsewhere(self):
         """A folder of labs is moved, and a link is in its place."""
         place = self.folder / "documents"
-        if place.is_dir() and not place.is_symlink() and not any("documents" in p for p in self.links):
+        if (
+            place.is_dir()
+            and not place.is_symlink()
+            and not any("documents" in p for p in self.links)
+        ):
             for path in list(self.files()):
                 if path.startswith("documents/"):
                     self.mine = [m for m in self.mine if m[0] != path]
@@ -339,14 +359,14 @@ class History:
     def copies(self):
         """A copy that nothing disturbs, and what holds after it."""
         before, laid_before = self.files(), {p: self.offered.get(p, {None}) for p in self.labs()}
-        with Writes() as writes:
-            outcomes = copy(self.folder, self.source)
-        self.writes = writes.count
+        outcomes = copy(self.folder, self.source)
         assert not [o for o in outcomes if o.what == "failed"], outcomes
         after = self.files()
         inside = [p for p in self.files(hidden=True) if p.startswith(".robokin/")]
         assert sorted(inside) == [".robokin/lock", ".robokin/manifest.json"]
-        self._settle(after)
+        self.look()
+        assert not [m for m in self.mine if m[0] is None], "what was saved is not given back"
+        mine = [m[0] for m in self.mine]
         for path in self.labs():
             newest = (self.source / path).read_bytes()
             says = said(path, newest)
@@ -359,22 +379,27 @@ class History:
             sides = self._sides(path, after)
             if path in self.untouched:  # also where an interrupted copy had moved it
                 assert here and said(path, here) == says, f"{path}: not touched, not the newest"
+                if self.outputs.get(path) not in (None, newest):
+                    assert path.endswith(".json") or json.loads(here) == laid(newest)
+            elif path in mine or self._strange(path):
+                beside = [said(path, after[side]) for side in sides]
+                assert says in beside or not newer, f"{path}: no newer beside"
             elif not os.path.lexists(self.folder / path):
                 assert not newer and path not in before, f"{path} does not come back"
-            elif path not in before and not self._strange(path):
+            elif path not in before:
                 assert not same, f"{path} was deleted and came back without news"
                 assert said(path, here) == says
                 self.untouched.add(path)
-            elif newer and path not in self.untouched:
-                assert says in [said(path, after[s]) for s in sides], f"{path}: no newer beside"
             for side in sides:
-                if not any(m[0] == side for m in self.mine):
+                if side not in mine:
                     self.untouched.add(side)
                     assert said(path, after[side]) == says, f"{side} is not the newest"
-            self.offered[path] = {says} if says else {None}
+            self.offered[path], self.outputs[path] = {says}, newest
         for outcome in outcomes:
-            assert outcome.path in ("documents", ".robokin/manifest.json") or outcome.says or (
-                outcome.what == "same"
+            assert (
+                outcome.path in ("documents", ".robokin/manifest.json")
+                or outcome.says
+                or (outcome.what == "same")
             )
             if outcome.what in ("new", "replaced") and outcome.path.endswith(".ipynb"):
                 path = outcome.path.replace(".new.", ".").replace(".new2.", ".")
@@ -385,86 +410,104 @@ class History:
                 assert os.path.lexists(self.folder / outcome.path)
         for path, content in self.mine:
             if path.endswith(".ipynb") and b"student" in content and cells(content):
-                assert not trusted(self.folder / path, self.notary), f"{path} is the student's and was signed"
+                assert not trusted(self.folder / path, self.notary), (
+                    f"{path} is the student's and was signed"
+                )
 
     def interrupted(self):
         """A copy that is stopped somewhere."""
-        end = self.random.randint(1, max(2, self.writes + 4))
-        self._disturbed(Writes(end, self.random.random() < 0.5, self.random.random() < 0.5), {})
+        if self.random.random() < 0.5:
+            self.newer()
+        error = self.random.choice([KeyboardInterrupt, OSError(28, "No space left on device")])
+        with self._writes(25, error), contextlib.suppress(KeyboardInterrupt, OSError):
+            copy(self.folder, self.source)
+        self._unsure()
 
     def meets_a_save(self):
-        """A copy while the student saves; sometimes in two halves, sometimes stopped too."""
-        path = self._pick(".ipynb", labs=True)
-        if not path:
+        """A copy while the student saves what it is about to replace: into the file, by a new file
+        in its place, or in two halves; once or twice; sometimes it is killed on top of it.
+        """
+        mine = [m[0] for m in self.mine]
+        path = self.random.choice([p for p in self.labs() if p not in mine] or [None])
+        place = path and self.folder / path
+        if not path or self._strange(path) or place.parent.is_symlink():
             return
-        end = self.random.choice([None, None, self.random.randint(1, 20)])
-        last = self.random.randint(1, max(2, self.writes))
-        content = self._edited(self._read(path))
-        if self.random.random() < 0.3:
-            content = self._rerun(self._read(path)) if path in self.untouched else content
-        place, at, open_file = self.folder / path, {}, []
-        done = {}
+        self._lab(path)
+        before = self._read(path) if self._plain(path) else (self.source / path).read_bytes()
+        contents = [self._edited(before), self._edited(before)]
+        saved, halves = [], []
 
-        def save():
-            with contextlib.suppress(OSError):
+        def save(how):
+            content = contents.pop()
+            if not os.path.lexists(place) and saved:
+                self.mine.append([None, saved.pop()])  # it was not the student who moved it
+            if self._plain(path):
+                self.mine = [m for m in self.mine if m[1] != place.read_bytes()]
+            place.parent.mkdir(exist_ok=True)
+            if how == "beside":
+                (self.folder / "my part").write_bytes(content)
+                os.replace(self.folder / "my part", place)
+            elif how == "into":
                 place.write_bytes(content)
-                done[path] = content
-
-        def beside():
-            new = self.folder / "my beside"
-            new.write_bytes(content)
-            os.replace(new, place)
-            done[path] = content
-
-        def begin():
-            file = open(place, "wb")
-            file.write(content[:200])
-            file.flush()
-            open_file.append(file)
+            else:
+                halves.append(open(place, "wb"))
+                halves[0].write(content[:200])
+                halves[0].flush()
+                halves.append(content[200:])
+            saved[:] = [content]
 
         def rest():
-            if open_file:
-                with open_file.pop() as file:
-                    file.write(content[200:])
-                done[path] = content
+            if halves:
+                with halves[0] as file:
+                    file.write(halves[1])
+                halves.clear()
 
-        kind = self.random.choice(["save", "beside", "halves"])
-        at[self.random.randint(1, last)] = {"save": save, "beside": beside, "halves": begin}[kind]
-        if kind == "halves":
-            later = [k for k in range(1, last + 3) if k not in at and k > min(at)]
-            at[self.random.choice(later)] = rest
-        writes = Writes(end, self.random.random() < 0.5, True, at)
-        self._disturbed(writes, done, rest, path in self.untouched)
-
-    def _disturbed(self, writes, done, rest=lambda: None, was_untouched=False):
+        writes = self._writes(6, KeyboardInterrupt, dead=True, never=0.6)
+        writes.near = place
+        first, second = sorted(self.random.sample(range(1, 5), 2))
+        how = self.random.choice(["into", "beside", "halves"])
+        writes.at[first] = lambda: save(how)
+        writes.at[second] = rest if how == "halves" else lambda: None
+        if how != "halves" and self.random.random() < 0.5:
+            writes.at[second] = lambda: save("into")
         with writes, contextlib.suppress(KeyboardInterrupt):
             copy(self.folder, self.source)
         rest()
-        for path, content in done.items():
+        if saved:
             self._forget(path)
-            if b"student" in content or not was_untouched:
-                here = self._plain(path) and self._read(path) == content
-                self.mine.append([path if here else None, content])
-            else:
-                self.untouched.add(path)
+            here = self._plain(path) and self._read(path) == saved[0]
+            assert here or writes.end, f"{path}: the student saved it, and it is elsewhere"
+            self.mine.append([path if here else None, saved[0]])
+        self._unsure()
+
+    def _writes(self, last, error, dead=None, never=0.0):
+        end = None if self.random.random() < never else self.random.randint(1, last)
+        dead = self.random.random() < 0.5 if dead is None else dead
+        return Writes(end, self.random.random() < 0.5, dead, error)
+
+    def _unsure(self):
+        """After a copy that was disturbed: it may have handed out anything, or nothing."""
+        files = self.files()
         for path in self.labs():
             says = said(path, (self.source / path).read_bytes())
-            self.offered.setdefault(path, {None}).add(says)
-            for place in (path, *self._sides(path, self.files())):
-                # what it has laid there is the student's no more than before
-                if self._plain(place) and not any(m[0] == place for m in self.mine):
-                    if said(path, self._read(place)) == says:
-                        self.untouched.add(place)
-        self.look()
+            self.offered[path] = {*self.offered.get(path, ()), says, "unsure"}
+            self.outputs.pop(path, None)
+            for place in (path, *self._sides(path, files)):
+                mine = any(m[0] == place for m in self.mine)
+                if self._plain(place) and not mine and said(path, files[place]) == says:
+                    self.untouched.add(place)
 
     # What has to hold
 
     def look(self):
         """Nothing of the student's is lost, and no notebook is broken that was whole."""
         files = self.files(hidden=True)
-        for path, content in self.mine:
+        for each in self.mine:
+            path, content = each
             if path is None:
-                assert content in files.values(), "what was saved is lost"
+                where = [p for p in files if files[p] == content]
+                assert where, "what was saved is lost"
+                each[0] = next((p for p in where if not p.startswith(".robokin")), None)
             else:
                 assert files.get(path) == content, f"{path} is not what the student wrote"
         for path, target in self.links.items():
@@ -475,14 +518,6 @@ class History:
             if path.endswith(".ipynb") and not mine and not hidden:
                 nbformat.validate(nbformat.reads(content.decode(), as_version=4))
                 self.valid.add(content)
-
-    def _settle(self, files):
-        """After a whole copy, what was saved meanwhile lies where the student sees it."""
-        for each in self.mine:
-            if each[0] is None:
-                where = [p for p in files if files[p] == each[1]]
-                assert where, "what was saved is not given back"
-                each[0] = where[0]
 
     # Small things
 
@@ -575,8 +610,15 @@ class History:
 
 TEACHER = [History.newer] * 3 + [History.older, History.other_outputs]
 TEACHER += [History.added, History.removed, History.renamed]
-STUDENT = [History.edit] * 3 + [History.rerun] * 2 + [History.edit_task, History.undo]
-STUDENT += [History.delete, History.move_away, History.duplicate, History.accept, History.own]
+STUDENT = [History.edit] * 3 + [History.rerun] * 2 + [History.edit_task] + [History.undo] * 3
+STUDENT += [
+    History.reorder,
+    History.delete,
+    History.move_away,
+    History.duplicate,
+    History.accept,
+    History.own,
+]
 STUDENT += [History.corrupt, History.folder_or_link, History.folder_elsewhere]
 ACTS = TEACHER + STUDENT + [History.copies] * 3 + [History.interrupted] * 6
 ACTS += [History.meets_a_save] * 4

@@ -214,7 +214,7 @@ class _Folder:
         try:
             _write(self.new, content)
             if os.path.lexists(place):
-                if _held(place) not in ours:
+                if _held(place) not in ours or os.path.lexists(old):
                     raise ValueError(BUSY)
                 os.replace(place, old)
                 if _held(old) not in ours:
@@ -237,8 +237,10 @@ class _Folder:
             place = self.folder / path
             if not os.path.lexists(place) and not _barred(place.parent):
                 os.makedirs(place.parent, exist_ok=True)
-                _put(old, place)
-            elif _held(old) in ours or _one_file(old, place):
+                with contextlib.suppress(FileExistsError):
+                    _put(old, place)
+                    continue
+            if _held(old) in ours or _one_file(old, place):
                 os.unlink(old)
             else:
                 side = self._free(path, "yours")
