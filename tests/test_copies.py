@@ -11,9 +11,11 @@ import json
 import os
 import platform
 import random
+import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from unittest import mock
@@ -510,6 +512,9 @@ class History:
                 each[0] = next((p for p in where if not p.startswith(".robokin")), None)
             else:
                 assert files.get(path) == content, f"{path} is not what the student wrote"
+        for path, content in files.items():
+            if ".yours" in path and not path.startswith(".robokin"):
+                assert content in [m[1] for m in self.mine], f"{path} is nothing of the student's"
         for path, target in self.links.items():
             assert os.readlink(self.folder / path) == target
         for path, content in files.items():
@@ -627,3 +632,302 @@ ACTS += [History.meets_a_save] * 4
 @pytest.mark.parametrize("seed", range(50))
 def test_no_history_loses_anything(seed, tmp_path):
     History(seed, tmp_path).run(steps=25)
+
+
+@pytest.mark.parametrize("seed", range(100, 103))
+def test_nor_where_the_file_system_has_no_links(seed, tmp_path, monkeypatch):
+    def link(*_, **__):
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", link)
+    # without links the moment between a look and a move stays open
+    monkeypatch.setattr(History, "meets_a_save", History.copies)
+    History(seed, tmp_path).run(steps=25)
+
+
+# --- One thing at a time --------------------------------------------------------------------------
+
+
+class Class:
+    """Labs, and a student's folder that holds a copy of them."""
+
+    def __init__(self, top, *names):
+        self.labs, self.folder = top / "labs", top / "student"
+        for name in names or ("one.ipynb", "two.ipynb", "tasks/task.json"):
+            self.newer(name, "first")
+        self.copy()
+
+    def newer(self, name, says):
+        place = self.labs / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(written(notebook(f"{name} {says}") if "ipynb" in name else says))
+
+    def copy(self):
+        """Path -> what became of it, where anything did."""
+        return {o.path: o.what for o in copy(self.folder, self.labs) if o.what != "same"}
+
+    def says(self, name):
+        content = (self.folder / name).read_bytes()
+        return cells(content)[0][1].split("\n")[0] if "ipynb" in name else json.loads(content)
+
+    def files(self):
+        return {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}
+
+    def write(self, name, content):
+        (self.folder / name).write_bytes(content)
+
+
+@pytest.fixture
+def school(tmp_path):
+    return Class(tmp_path)
+
+
+def test_running_is_not_touching_and_all_else_is():
+    lab = notebook("a lab")
+    same, others = [notebook("a lab", "run")], [notebook("another")]
+    for change in (
+        lambda n: n["cells"][1].update(execution_count=7, outputs=[], metadata={"tags": ["x"]}),
+        lambda n: n["metadata"].update(widgets={}),
+        lambda n: n["cells"][0].update(source="".join(n["cells"][0]["source"]), id="other"),
+    ):
+        same.append(notebook("a lab"))
+        change(same[-1])
+    for change in (
+        lambda n: n["cells"][1].update(source=["1 +  1"]),
+        lambda n: n["cells"][1].update(cell_type="raw"),
+        lambda n: n["cells"][0].update(attachments={"x.png": {"image/png": "eHl="}}),
+        lambda n: n["cells"].reverse(),
+        lambda n: n["cells"].pop(),
+        lambda n: n["cells"].append(n["cells"][1]),
+        lambda n: n["cells"].insert(0, {"cell_type": "code", "source": [], "outputs": []}),
+        lambda n: n.pop("cells"),
+    ):
+        others.append(notebook("a lab"))
+        change(others[-1])
+    digest = copies.digest("x.ipynb", written(lab))
+    assert {copies.digest("x.ipynb", written(n)) for n in same} == {digest}
+    digests = [copies.digest("x.ipynb", written(n)) for n in others]
+    digests += [copies.digest("x.ipynb", written(lab)[:-n]) for n in (2, 9)]
+    digests += [copies.digest("x.ipynb", b"[" * 100_000), copies.digest("x.ipynb", b"\xff")]
+    digests += [copies.digest("x.json", written(lab)), copies.digest("x.json", written(same[0]))]
+    assert len({digest, *digests}) == 1 + len(digests)
+
+
+def test_what_is_done_and_what_is_said(school, capsys):
+    command = ["copy", str(school.folder), "--from", str(school.labs)]
+    assert main(command) == 0
+    assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 as they were\n"
+    school.write("one.ipynb", written(notebook("mine")))
+    (school.folder / "two.ipynb").unlink()
+    (school.labs / "tasks/task.json").unlink()
+    for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
+        school.newer(name, "second")
+    assert main(command) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "tasks/task.json: no longer among the labs; it stays",
+        "one.ipynb: yours stays; the newer one is one.new.ipynb",
+        "three.ipynb: new",
+        "two.ipynb: back, as there is a newer one",
+        f"{school.folder}: 2 new, 1 kept; 0 as they were",
+    ]
+    assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
+    assert school.says("one.new.ipynb") == "# one.ipynb second"
+    # one laid beside is the student's, too, when touched; when not, it is replaced
+    for says, beside in (("third", "one.new.ipynb"), ("fourth", "one.new2.ipynb")):
+        school.newer("one.ipynb", says)
+        assert school.copy() == {"one.ipynb": "kept", "tasks/task.json": "gone"}
+        assert school.says(beside) == f"# one.ipynb {says}"
+        school.write(beside, written(notebook(f"mine, too: {says}")))
+    school.newer("one.ipynb", "fifth")
+    school.copy()
+    assert [school.says(f"one.new{n}.ipynb").split()[-1] for n in ("", 2, 3)] == [
+        "third",
+        "fourth",
+        "fifth",
+    ]
+    assert school.says("one.ipynb") == "# mine"
+
+
+@pytest.mark.parametrize("after, dead", [(True, False), (False, True)])
+def test_a_copy_may_end_at_any_write(tmp_path, after, dead, monkeypatch):
+    notary = NotebookNotary(store_factory=MemorySignatureStore, secret=b"secret")
+    monkeypatch.setattr(copies, "NotebookNotary", lambda: notary)
+    school = Class(tmp_path, "one.ipynb", "two.ipynb")
+    mine = written(notebook("mine"))
+    school.write("two.ipynb", mine)
+    for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
+        school.newer(name, "second")
+    start, ends = shutil.copytree(school.folder, tmp_path / "start"), 0
+    while True:
+        ends += 1
+        shutil.rmtree(school.folder)
+        shutil.copytree(start, school.folder)
+        with Writes(ends, after, dead) as writes, contextlib.suppress(KeyboardInterrupt):
+            school.copy()
+        if writes.count < ends:
+            break
+        assert (school.folder / "two.ipynb").read_bytes() == mine
+        for path in school.folder.glob("*.ipynb"):
+            nbformat.validate(nbformat.read(path, as_version=4))
+        school.copy()
+        assert (school.folder / "two.ipynb").read_bytes() == mine
+        for name in ("one.ipynb", "two.new.ipynb", "three.ipynb"):
+            assert school.says(name).endswith("second"), f"after write {ends}"
+        names = sorted(p.name for p in school.files())
+        wanted = ["one.ipynb", "three.ipynb", "two.ipynb", "two.new.ipynb"]
+        assert names == ["lock", "manifest.json", *wanted], f"after write {ends}"
+    assert ends > 30
+
+
+def test_a_full_disk_is_said_and_mended_later(school, capsys):
+    for name in ("one.ipynb", "two.ipynb", "new.ipynb"):
+        school.newer(name, "second")
+    with mock.patch.object(copies, "_put", side_effect=OSError(28, "No space left on device")):
+        assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    said = capsys.readouterr()
+    assert said.err.splitlines()[0] == "new.ipynb: No space left on device"
+    assert "3 failed; 1 as they were" in said.out
+    assert set(school.copy().values()) == {"new", "replaced"}
+    assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
+
+
+def test_a_broken_lab_is_named_and_the_others_are_laid(school, capsys):
+    before = (school.folder / "one.ipynb").read_bytes()
+    (school.labs / "one.ipynb").write_text("{}")
+    (school.labs / "bad.ipynb").write_text('{"cells": [{"cell_type": "code"')
+    school.newer("two.ipynb", "second")
+    assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    said = capsys.readouterr()
+    assert [line.split(":")[:2] for line in said.err.splitlines()] == [
+        ["bad.ipynb", " not a notebook"],
+        ["one.ipynb", " not a notebook"],
+    ]
+    assert school.says("two.ipynb") == "# two.ipynb second"
+    assert (school.folder / "one.ipynb").read_bytes() == before
+    assert not (school.folder / "bad.ipynb").exists()
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"one.ipynb": 5}', "\xff", None])
+def test_without_its_manifest_a_copy_loses_nothing(school, text):
+    manifest = school.folder / ".robokin" / "manifest.json"
+    mine = written(notebook("mine"))
+    school.write("one.ipynb", mine)
+    school.newer("tasks/task.json", "second")
+    if text is None:
+        manifest.unlink()
+    else:
+        manifest.write_bytes(text.encode("latin-1"))
+    done = school.copy()
+    assert (".robokin/manifest.json" in done) == (text is not None)
+    assert done["one.ipynb"] == "kept" and school.says("one.new.ipynb") == "# one.ipynb first"
+    assert done["two.ipynb"] == "replaced", "what we would lay is ours"
+    assert school.says("tasks/task.json") == "first", "an older one may be the student's"
+    assert school.says("tasks/task.new.json") == "second"
+    assert (school.folder / "one.ipynb").read_bytes() == mine and school.copy() == {}
+
+
+def test_a_lab_may_be_called_new(tmp_path):
+    school = Class(tmp_path, "one.ipynb", "one.new.ipynb")
+    (school.labs / "one.new.ipynb").write_bytes((school.labs / "one.ipynb").read_bytes())
+    school.copy()
+    school.write("one.ipynb", written(notebook("mine")))
+    school.newer("one.ipynb", "second")
+    assert school.copy() == {"one.ipynb": "kept"}
+    assert school.says("one.new2.ipynb").endswith("second")
+    assert school.says("one.new.ipynb") == "# one.ipynb first"
+
+
+def test_what_cannot_be_used_is_refused_with_words(school, tmp_path, capsys, monkeypatch):
+    def refused(folder, *source):
+        before = sorted(tmp_path.rglob("*"))
+        assert main(["copy", str(folder), *(["--from", str(source[0])] if source else [])]) == 1
+        said = capsys.readouterr()
+        assert not said.out and len(said.err.splitlines()) == 1
+        assert sorted(tmp_path.rglob("*")) == before, "nothing is made"
+        return said.err.removeprefix(f"{folder}: ")
+
+    (tmp_path / "file").write_text("mine")
+    assert (
+        refused(tmp_path / "file", school.labs) == "wanted a folder, got a file or a broken link\n"
+    )
+    for folder in (school.labs, school.labs / "deep" / "er", tmp_path, school.labs / ".." / "labs"):
+        assert "wanted a folder apart from the labs" in refused(folder, school.labs)
+    assert "no labs in" in refused(tmp_path / "new", tmp_path)
+    monkeypatch.setattr(copies, "__file__", str(tmp_path / "site" / "robokin" / "course" / "x.py"))
+    assert "not installed from a clone; give --from" in refused(tmp_path / "new")
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / ".robokin").write_text("mine")
+    assert "File exists" in refused(tmp_path / "own", school.labs)
+
+    def makedirs(path, **_):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(os, "makedirs", makedirs)  # root may write anywhere
+    assert "Permission denied" in refused(tmp_path / "new", school.labs)
+
+
+def test_what_cannot_be_read_or_trusted(school, monkeypatch, capsys):
+    school.newer("one.ipynb", "second")
+    school.newer("two.ipynb", "second")
+    monkeypatch.setattr(copies, "NotebookNotary", mock.Mock(side_effect=OSError("no rights")))
+    assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    assert "not trusted: 'no rights'" in capsys.readouterr().err
+    assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"
+
+
+def test_two_at_once_do_no_harm(school):
+    with copies._alone(school.folder / ".robokin" / "lock"):
+        with pytest.raises(ValueError, match="another copy is at work"):
+            school.copy()
+    for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
+        school.newer(name, "second")
+    with ThreadPoolExecutor(2) as pool:
+        both = [pool.submit(school.copy) for _ in range(2)]
+        errors = [each.exception() for each in both]
+        assert all(e is None or "another copy is at work" in str(e) for e in errors), errors
+        assert None in errors
+    assert all(school.says(f"{n}.ipynb").endswith("second") for n in ("one", "two", "three"))
+    assert school.copy() == {}
+
+
+# --- The labs -------------------------------------------------------------------------------------
+
+
+def test_the_labs_are_copied_valid_and_trusted(tmp_path):
+    outcomes = copy(tmp_path / "student")
+    given = {p.relative_to(NOTEBOOKS).as_posix() for p in NOTEBOOKS.rglob("*") if p.is_file()}
+    given = {p for p in given if not any(part.startswith(".") for part in p.split("/"))}
+    wanted = sorted(p for p in given - {"documents/teaching.ipynb"} if not p.endswith(".log"))
+    assert [o.path for o in outcomes] == wanted and {o.what for o in outcomes} == {"new"}
+    for path in wanted:
+        content, lab = (tmp_path / "student" / path).read_bytes(), (NOTEBOOKS / path).read_bytes()
+        if path.endswith(".ipynb"):
+            assert json.loads(content) == laid(lab)
+            read = nbformat.read(tmp_path / "student" / path, as_version=4)
+            nbformat.validate(read)
+            assert NotebookNotary().check_signature(read), f"{path} is not trusted"
+        else:
+            assert content == lab
+
+
+def test_a_copied_lab_is_alive_at_first_opening_and_not_marked_changed(
+    browser, jupyter, monkeypatch
+):
+    """Nothing is run: the player plays, and JupyterLab has nothing to save."""
+    monkeypatch.setenv("JUPYTER_DATA_DIR", jupyter.environment["JUPYTER_DATA_DIR"])
+    copy(jupyter.labs / "student")
+    page = browser.new_page()
+    jupyter.open(page, "student/00_start_here.ipynb")
+    players = page.locator("div.robokin-player")
+    player = players.filter(has=page.get_by_label("playing speed")).first
+    player.locator("canvas").first.wait_for(timeout=30_000)
+    button = player.get_by_role("button", name=re.compile("play", re.I)).first
+    canvases = "e => [...e.querySelectorAll('canvas')].map(c => c.toDataURL()).join()"
+    still = player.evaluate(canvases)
+    button.click()
+    until(lambda: player.evaluate(canvases) != still, 10, "the player does not play", page)
+    page.get_by_text("| Idle").first.wait_for(timeout=60_000)
+    page.wait_for_timeout(1500)  # the language's word comes after it
+    tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
+    assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class")
+    page.close()
