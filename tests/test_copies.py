@@ -13,8 +13,6 @@ import platform
 import random
 import re
 import shutil
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -515,6 +513,7 @@ class History:
         for path, content in files.items():
             if ".yours" in path and not path.startswith(".robokin"):
                 assert content in [m[1] for m in self.mine], f"{path} is nothing of the student's"
+                assert content != files.get(re.sub(r"\.yours\d*", "", path)), f"{path} twice"
         for path, target in self.links.items():
             assert os.readlink(self.folder / path) == target
         for path, content in files.items():

@@ -214,7 +214,7 @@ class _Folder:
         try:
             _write(self.new, content)
             if os.path.lexists(place):
-                if _held(place) not in ours or os.path.lexists(old):
+                if _held(place) not in ours:
                     raise ValueError(BUSY)
                 os.replace(place, old)
                 if _held(old) not in ours:
