@@ -321,24 +321,20 @@ class History:
 
     def folder_elsewhere(self):
         """A folder of labs is moved, and a link is in its place."""
-        place = self.folder / "documents"
-        if (
-            place.is_dir()
-            and not place.is_symlink()
-            and not any("documents" in p for p in self.links)
-        ):
-            for path in list(self.files()):
-                if path.startswith("documents/"):
-                    self.mine = [m for m in self.mine if m[0] != path]
-                    self.mine.append([f"elsewhere/{path[10:]}", self._read(path)])
-                    self.untouched.discard(path)
-                    self.before.pop(path, None)
-            if os.path.lexists(self.folder / "elsewhere"):
-                return shutil.rmtree(self.folder / "elsewhere")
-            place.rename(self.folder / "elsewhere")
-            place.symlink_to(self.folder / "elsewhere")
-            self.links["documents"] = str(self.folder / "elsewhere")
-        return None
+        place, other = self.folder / "documents", self.folder / "elsewhere"
+        if "documents" in self.links or os.path.lexists(other) or not place.is_dir():
+            return
+        for path, link in [(p, self.links.pop(p)) for p in list(self.links) if "documents" in p]:
+            self.links[path.replace("documents", "elsewhere")] = link
+        for each in self.mine:
+            each[0] = each[0] and re.sub("^documents/", "elsewhere/", each[0])
+        for path in [p for p in self.untouched if p.startswith("documents/")]:
+            if self._plain(path):
+                self.mine.append([path.replace("documents", "elsewhere"), self._read(path)])
+            self._forget(path)
+        place.rename(other)
+        place.symlink_to(other)
+        self.links["documents"] = str(other)
 
     def save(self, path, content, ours=False):
         """The student's file, written as JupyterLab writes: into the file that is there."""
@@ -366,12 +362,12 @@ class History:
         assert sorted(inside) == [".robokin/lock", ".robokin/manifest.json"]
         self.look()
         assert not [m for m in self.mine if m[0] is None], "what was saved is not given back"
+        assert all(os.lstat(self.folder / p).st_nlink == 1 for p in after), "two names of one file"
         mine = [m[0] for m in self.mine]
         for path in self.labs():
             newest = (self.source / path).read_bytes()
             says = said(path, newest)
-            barred = (self.folder / path).parent.is_symlink()
-            if barred:
+            if (self.folder / path).parent.is_symlink():
                 continue
             newer = says not in laid_before[path]
             same = laid_before[path] == {says}
@@ -388,19 +384,18 @@ class History:
                 assert not newer and path not in before, f"{path} does not come back"
             elif path not in before:
                 assert not same, f"{path} was deleted and came back without news"
-                assert said(path, here) == says
-                self.untouched.add(path)
+                if said(path, here) == says:
+                    self.untouched.add(path)
+                else:  # a killed copy had it; since then the student has deleted theirs
+                    assert "unsure" in laid_before[path] and b"student" in here
+                    self.mine.append([path, here])
             for side in sides:
                 if side not in mine:
                     self.untouched.add(side)
                     assert said(path, after[side]) == says, f"{side} is not the newest"
             self.offered[path], self.outputs[path] = {says}, newest
         for outcome in outcomes:
-            assert (
-                outcome.path in ("documents", ".robokin/manifest.json")
-                or outcome.says
-                or (outcome.what == "same")
-            )
+            assert outcome.says or outcome.what == "same"
             if outcome.what in ("new", "replaced") and outcome.path.endswith(".ipynb"):
                 path = outcome.path.replace(".new.", ".").replace(".new2.", ".")
                 assert trusted(self.folder / outcome.path, self.notary)
@@ -776,6 +771,26 @@ def test_a_copy_may_end_at_any_write(tmp_path, after, dead, monkeypatch):
         wanted = ["one.ipynb", "three.ipynb", "two.ipynb", "two.new.ipynb"]
         assert names == ["lock", "manifest.json", *wanted], f"after write {ends}"
     assert ends > 30
+
+
+def test_what_a_killed_copy_had_moved_is_given_back_once(school, tmp_path):
+    old, ends = school.folder / ".robokin" / "old" / "one.ipynb", 0
+    mine, later = written(notebook("mine")), written(notebook("mine, later"))
+    while True:
+        ends += 1
+        old.write_bytes(mine)
+        school.write("one.ipynb", later)
+        with Writes(ends, dead=True) as writes, contextlib.suppress(KeyboardInterrupt):
+            school.copy()
+        school.copy()
+        assert (school.folder / "one.ipynb").read_bytes() == later
+        rescued = school.folder / "one.yours.ipynb"
+        assert rescued.read_bytes() == mine and rescued.stat().st_nlink == 1
+        assert len(list(school.folder.glob("one*"))) == 2 and not old.exists()
+        rescued.unlink()
+        if writes.count < ends:
+            break
+    assert ends > 3
 
 
 def test_a_full_disk_is_said_and_mended_later(school, capsys):

@@ -240,7 +240,7 @@ class _Folder:
                 with contextlib.suppress(FileExistsError):
                     _put(old, place)
                     continue
-            if _held(old) in ours or _one_file(old, place):
+            if _held(old) in ours or os.lstat(old).st_nlink > 1:  # stopped while it was given back
                 os.unlink(old)
             else:
                 side = self._free(path, "yours")
@@ -375,10 +375,6 @@ def _held(place: Path) -> str | None:
 def _barred(folder: Path) -> bool:
     """Whether something is there that is not a folder itself: nothing is laid through a link."""
     return folder.is_symlink() or (folder.exists() and not folder.is_dir())
-
-
-def _one_file(a: Path, b: Path) -> bool:
-    return os.path.lexists(b) and os.path.samestat(os.lstat(a), os.lstat(b))
 
 
 def _write(path: Path, content: bytes) -> None:
