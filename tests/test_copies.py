@@ -793,6 +793,26 @@ def test_what_a_killed_copy_had_moved_is_given_back_once(school, tmp_path):
     assert ends > 3
 
 
+def test_half_a_file_of_a_killed_copy_is_swept(school):
+    rest = school.folder / ".robokin" / "new"
+    rest.write_text("half of a la")
+    assert school.copy() == {} and not rest.exists()
+
+
+def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
+    write, place = copies._write, school.folder / "one.ipynb"
+
+    def meanwhile(path, content):
+        write(path, content)
+        if b"one.ipynb second" in content:
+            place.unlink()
+            place.symlink_to(tmp_path)
+
+    monkeypatch.setattr(copies, "_write", meanwhile)
+    school.newer("one.ipynb", "second")
+    assert school.copy() == {"one.ipynb": "failed"} and place.readlink() == tmp_path
+
+
 def test_a_full_disk_is_said_and_mended_later(school, capsys):
     for name in ("one.ipynb", "two.ipynb", "new.ipynb"):
         school.newer(name, "second")
