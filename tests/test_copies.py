@@ -13,6 +13,7 @@ import platform
 import random
 import re
 import shutil
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -189,7 +190,7 @@ class History:
         (self.source / "documents" / ".hidden.ipynb").write_text("not handed out")
 
     def run(self, steps):
-        with mock.patch.object(copies, "NotebookNotary", self.notary):
+        with mock.patch.object(nbformat.sign, "NotebookNotary", self.notary):
             self._run(steps)
 
     def _run(self, steps):
@@ -745,7 +746,7 @@ def test_what_is_done_and_what_is_said(school, capsys):
 @pytest.mark.parametrize("after, dead", [(True, False), (False, True)])
 def test_a_copy_may_end_at_any_write(tmp_path, after, dead, monkeypatch):
     notary = NotebookNotary(store_factory=MemorySignatureStore, secret=b"secret")
-    monkeypatch.setattr(copies, "NotebookNotary", lambda: notary)
+    monkeypatch.setattr(nbformat.sign, "NotebookNotary", lambda: notary)
     school = Class(tmp_path, "one.ipynb", "two.ipynb")
     mine = written(notebook("mine"))
     school.write("two.ipynb", mine)
@@ -900,10 +901,19 @@ def test_what_cannot_be_used_is_refused_with_words(school, tmp_path, capsys, mon
     assert "Permission denied" in refused(tmp_path / "new", school.labs)
 
 
-def test_what_cannot_be_read_or_trusted(school, monkeypatch, capsys):
+def test_without_nbformat_it_says_what_to_install(school, monkeypatch, capsys):
     school.newer("one.ipynb", "second")
-    school.newer("two.ipynb", "second")
-    monkeypatch.setattr(copies, "NotebookNotary", mock.Mock(side_effect=OSError("no rights")))
+    monkeypatch.setitem(sys.modules, "nbformat", None)
+    assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    assert "pip install 'robokin[labs]'" in capsys.readouterr().err
+    assert school.says("one.ipynb").endswith("first")
+
+
+def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsys):
+    school.newer("one.ipynb", "second")
+    monkeypatch.setattr(
+        nbformat.sign, "NotebookNotary", mock.Mock(side_effect=OSError("no rights"))
+    )
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
     assert "not trusted: 'no rights'" in capsys.readouterr().err
     assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"

@@ -46,13 +46,13 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _copy(folder: Path, source: Path | None) -> int:
+    from .copies import copy
+
     try:
-        from .copies import copy
+        outcomes = copy(folder, source)
     except ModuleNotFoundError as error:
         print(f"{error}; pip install 'robokin[labs]' brings it", file=sys.stderr)
         return 1
-    try:
-        outcomes = copy(folder, source)
     except (OSError, ValueError) as error:
         print(f"{folder}: {error}", file=sys.stderr)
         return 1

@@ -33,9 +33,6 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-import nbformat
-from nbformat.sign import NotebookNotary
-
 from .._validate import short
 
 HANDED_OUT = ("*.ipynb", "documents/*.ipynb", "tasks/*.json", "images/*")
@@ -329,6 +326,8 @@ def _alone(path: Path) -> Iterator[None]:
 
 def _prepared(content: bytes) -> tuple[bytes, Any]:
     """A notebook as it is laid, and as nbformat's. ValueError: it is none."""
+    import nbformat  # here: it takes most of the time of a copy without news
+
     try:
         data = json.loads(content)
         info = data["metadata"].get("language_info", {})
@@ -346,6 +345,8 @@ def _prepared(content: bytes) -> tuple[bytes, Any]:
 
 def _sign(notebooks: Iterable[Any]) -> str | None:
     """Trust notebooks as Jupyter does; what stood in the way, if anything did."""
+    from nbformat.sign import NotebookNotary
+
     try:
         notary = NotebookNotary()
         try:
