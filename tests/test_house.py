@@ -69,6 +69,7 @@ HEAVY = DRAWING | {
 
 # Libraries of the extras "labs" and "site", where they do what is not ours to write.
 OUTSIDE = {
+    "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
     "robokin.course.site.conf": {"docutils", "sphinx"},
 }

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -23,6 +24,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     export.add_argument(
         "--to", metavar="FOLDER", type=Path, default=Path(), help="where (default: here)"
     )
+    copy = commands.add_parser(
+        "copy",
+        help="the labs into a student's folder; again when there are newer ones",
+        description="Lay the labs into FOLDER, trusted. Run again, it replaces what was not "
+        "touched (running is not touching) and keeps the student's work: the newer lab is then "
+        "laid beside it, NAME.new.ipynb.",
+    )
+    copy.add_argument("folder", metavar="FOLDER", type=Path, help="the student's folder")
+    copy.add_argument(
+        "--from",
+        dest="source",
+        metavar="FOLDER",
+        type=Path,
+        help="where the labs are (default: in the clone that robokin is installed from)",
+    )
     site = commands.add_parser(
         "site",
         help="all labs and the package's reference as pages, alive without Python",
@@ -33,7 +49,32 @@ def main(argv: Sequence[str] | None = None) -> int:
     given = parser.parse_args(argv)
     if given.command == "site":
         return _site(given.folder)
+    if given.command == "copy":
+        return _copy(given.folder, given.source)
     return _export(given.labs, given.to)
+
+
+def _copy(folder: Path, source: Path | None) -> int:
+    from .copies import copy
+
+    try:
+        outcomes = copy(folder, source)
+    except ModuleNotFoundError as error:
+        print(f"{error}; pip install 'robokin[labs]' brings it", file=sys.stderr)
+        return 1
+    except (OSError, ValueError) as error:
+        print(f"{folder}: {error}", file=sys.stderr)
+        return 1
+    counts = Counter(outcome.what for outcome in outcomes)
+    for outcome in outcomes:
+        if outcome.what != "same":
+            failed = outcome.what == "failed"
+            print(f"{outcome.path}: {outcome.says}", file=sys.stderr if failed else sys.stdout)
+    same = counts["same"]
+    news = [f"{counts[what]} {what}" for what in ("new", "replaced", "kept", "failed")]
+    news = [each for each in news if not each.startswith("0 ")]
+    print(f"{folder}: {', '.join(news) or 'nothing new'}; {same} as they were")
+    return 1 if counts["failed"] else 0
 
 
 def _export(labs: Sequence[Path], folder: Path) -> int:

@@ -1,0 +1,414 @@
+"""Labs handed out into a student's folder, and again when there are newer ones:
+
+    python -m robokin.course copy FOLDER
+
+A lab is touched when its cells are others, or in another order: running is not touching. What the
+student has not touched is replaced by the newer lab; what they have stays, byte for byte, and the
+newer lab is laid beside it, NAME.new.ipynb; what they have deleted comes back when there is a newer
+one. What lies at the place of a lab and was never handed out is theirs. Notebooks are laid trusted,
+so that their players live at once.
+
+Exit status 0: every lab is there, or the student's own in its place. 1: something could not be done
+and is named on stderr; the rest is done, and the student's work is as it was. A server that starts
+for a student can go on after either.
+
+How nothing is lost. FOLDER/.robokin holds the manifest: every version that was ever laid, by the
+digest of its file, with the digest of its cells. It is written before the labs are, so that what an
+interrupted run has laid is known as ours. A lab is written whole in .robokin and goes to its place
+by a link, which never overwrites. What was there has been moved to .robokin/old first, where nobody
+can save into it unseen, and is looked at once more: if it is not ours, because the student saved in
+this very moment, it goes back. `_tidy` ends each step, and mends what an interrupted run left.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import platform
+import re
+import stat
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from .._validate import short
+
+HANDED_OUT = ("*.ipynb", "documents/*.ipynb", "tasks/*.json", "images/*")
+FOR_TEACHERS = ("documents/teaching.ipynb",)
+BUSY = "saved by somebody while labs were copied, and left alone; run this again"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of the file at `path`; `says`: in words.
+
+    what  "new", "replaced"; "kept": the student's stays, the newer one is beside it; "same":
+          nothing to do; "gone": no lab any more, the file stays; "found": rescued from an
+          interrupted run; "failed"
+    """
+
+    path: str
+    what: str
+    says: str = ""
+
+
+def copy(
+    folder: str | os.PathLike[str], source: str | os.PathLike[str] | None = None
+) -> list[Outcome]:
+    """Hand out the labs of `source` (None: of the clone that robokin is installed from) into
+    `folder`, which is made if it is not there.
+
+    ValueError: no labs, no folder, one inside the other, another copy at work. OSError: no rights.
+    What fails for one file is an `Outcome`.
+    """
+    labs = Path(source) if source is not None else Path(__file__).parents[2] / "notebooks"
+    given = {
+        path.relative_to(labs).as_posix(): path
+        for pattern in HANDED_OUT
+        for path in labs.glob(pattern)
+        if path.is_file() and not path.name.startswith(".")
+    }
+    if not any(path.endswith(".ipynb") for path in given):
+        more = "" if source else ": robokin is not installed from a clone; give --from FOLDER"
+        raise ValueError(f"no labs in {labs}{more}")
+    student = _Folder(_target(Path(folder), labs))
+    with _alone(student.own / "lock"):
+        return student.hand_out({p: given[p] for p in given if p not in FOR_TEACHERS})
+
+
+def digest(path: str, content: bytes) -> str:
+    """What a file holds: of a notebook its cells' kinds, sources and attachments, in their order;
+    of all else, a broken notebook too, the bytes.
+    """
+    if path.endswith(".ipynb"):
+        with contextlib.suppress(ValueError, LookupError, TypeError, RecursionError):
+            cells = [
+                (cell["cell_type"], "".join(cell["source"]), cell.get("attachments") or {})
+                for cell in json.loads(content)["cells"]
+            ]
+            content = b"cells" + json.dumps(cells, sort_keys=True).encode()
+    return hashlib.sha256(content).hexdigest()
+
+
+@dataclass
+class _Entry:
+    """What the manifest knows of a lab. `laid`: the version last laid (digest of the source's
+    file), None: none yet; `handed`: version -> digest of what it holds, of all that may lie there.
+    """
+
+    laid: str | None = None
+    handed: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class _Job:
+    """A version of the lab `path`, what it holds and where to lay it: in the lab's own place,
+    beside it, nowhere.
+    """
+
+    path: str
+    version: str
+    holds: str
+    content: bytes
+    places: list[str] = field(default_factory=list)
+    outcomes: list[Outcome] = field(default_factory=list)
+
+
+class _Folder:
+    """A student's folder. A path is relative to it, with slashes."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.own = folder, folder / ".robokin"
+        self.old, self.new = self.own / "old", self.own / "new"
+        self.manifest, self.stored = self.own / "manifest.json", ""
+        self.entries: dict[str, _Entry] = {}
+        self.outcomes: list[Outcome] = []
+
+    def hand_out(self, labs: dict[str, Path]) -> list[Outcome]:
+        """All of it: find out what to do, write down what will be laid, lay it."""
+        self._recall()
+        self._tidy()
+        jobs, notebooks = [], []
+        for path in sorted({*self.entries, *labs}):
+            if path not in labs:
+                if os.path.lexists(self.folder / path):
+                    self._say(path, "gone", "no longer among the labs; it stays")
+                continue
+            try:
+                job = self._plan(path, labs[path].read_bytes(), labs)
+                if job.places and path.endswith(".ipynb"):
+                    job.content, notebook = _prepared(job.content)
+                    notebooks.append(notebook)
+            except (OSError, ValueError) as error:
+                self._say(path, "failed", _reason(error))
+                continue
+            jobs.append(job)
+            if job.places:
+                self.entries.setdefault(path, _Entry()).handed[job.version] = job.holds
+        trouble = _sign(notebooks) if notebooks else None
+        if trouble:
+            self._say(".", "failed", f"players stay still pictures, not trusted: {trouble}")
+        self._remember()
+        try:
+            for job in jobs:
+                self._do(job)
+        finally:
+            self._remember()
+        return self.outcomes
+
+    def _plan(self, path: str, content: bytes, labs: Iterable[str]) -> _Job:
+        """What to do for a lab whose newest version is `content`."""
+        holds = digest(path, content)
+        job = _Job(path, hashlib.sha256(content).hexdigest(), holds, content)
+        entry = self.entries.get(path, _Entry())
+        ours = {*entry.handed.values(), holds}
+        newer = entry.handed.get(entry.laid or "") != holds
+        parent = (self.folder / path).parent
+        if _barred(parent):
+            if newer:
+                says = f"not laid: {parent.name} is yours and no plain folder"
+                job.outcomes.append(Outcome(path, "kept", says))
+            return job
+        beside = [p for p in self._beside(path) if p not in labs]
+        there = {p: _held(self.folder / p) for p in (path, *beside)}
+        # also where the student went back to an older one
+        known = (holds, job.version)
+        job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
+        for place in job.places:
+            job.outcomes.append(Outcome(place, "replaced", "replaced by the newer one"))
+        if newer and there[path] is None:
+            job.places.append(path)
+            says = "back, as there is a newer one" if entry.laid else "new"
+            job.outcomes.append(Outcome(path, "new", says))
+        elif newer and there[path] not in ours:
+            job.places = job.places or [self._free(path, "new")]
+            side = PurePosixPath(job.places[0]).name
+            job.outcomes = [Outcome(path, "kept", f"yours stays; the newer one is {side}")]
+        return job
+
+    def _do(self, job: _Job) -> None:
+        """Lay a version at its places."""
+        if job.places:
+            entry = self.entries[job.path]
+            for place in job.places:
+                try:
+                    self._lay(place, job.content, set(entry.handed.values()))
+                except (OSError, ValueError) as error:
+                    self._say(place, "failed", _reason(error))
+                    return
+            entry.laid = job.version
+        self.outcomes += job.outcomes or [Outcome(job.path, "same")]
+
+    def _lay(self, path: str, content: bytes, ours: set[str]) -> None:
+        """Write a file, in the place of one of ours or where nothing is. ValueError: somebody has
+        saved there.
+        """
+        place, old = self.folder / path, self.old / path
+        os.makedirs(place.parent, exist_ok=True)
+        os.makedirs(old.parent, exist_ok=True)
+        try:
+            _write(self.new, content)
+            if os.path.lexists(place):
+                if _held(place) not in ours:
+                    raise ValueError(BUSY)
+                os.replace(place, old)
+                if _held(old) not in ours:
+                    raise ValueError(BUSY)
+            _put(self.new, place)
+        except FileExistsError:
+            raise ValueError(BUSY) from None
+        finally:
+            self._tidy()
+
+    def _tidy(self) -> None:
+        """Sweep what is ours in .robokin and give back what was moved there: to its place, or
+        beside it if something new is there that is not what we laid.
+        """
+        ours = {holds for entry in self.entries.values() for holds in entry.handed.values()}
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(self.new)
+        for old in [Path(top, name) for top, _, names in os.walk(self.old) for name in names]:
+            path = old.relative_to(self.old).as_posix()
+            place = self.folder / path
+            if not os.path.lexists(place) and not _barred(place.parent):
+                os.makedirs(place.parent, exist_ok=True)
+                with contextlib.suppress(FileExistsError):
+                    _put(old, place)
+                    continue
+            if _held(old) in ours or os.lstat(old).st_nlink > 1:  # stopped while it was given back
+                os.unlink(old)
+            else:
+                side = self._free(path, "yours")
+                _put(old, self.folder / side)
+                says = f"saved while labs were copied: it is in {PurePosixPath(side).name}"
+                self._say(path, "found", says)
+
+    def _recall(self) -> None:
+        """Read the manifest. One that cannot be read says nothing: what lies there is then ours
+        only if it holds what we would lay.
+        """
+        with contextlib.suppress(FileNotFoundError):
+            try:
+                self.stored = self.manifest.read_text(encoding="utf-8")
+                self.entries = {
+                    path: _Entry(
+                        _text(entry["laid"] or "") or None,
+                        {_text(v): _text(holds) for v, holds in entry["handed"].items()},
+                    )
+                    for path, entry in json.loads(self.stored).items()
+                }
+            except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
+                self._say(".robokin/manifest.json", "found", "it cannot be read and is made anew")
+
+    def _remember(self) -> None:
+        """Write the manifest, wholly or not at all, if there is news."""
+        told = {path: asdict(entry) for path, entry in self.entries.items()}
+        text = json.dumps(told, indent=1, sort_keys=True) + "\n"
+        if text != self.stored:
+            _write(self.new, text.encode())
+            os.replace(self.new, self.manifest)
+            self.stored = text
+
+    def _beside(self, path: str) -> list[str]:
+        """What lies beside a lab under the names for newer ones."""
+        place, folder = PurePosixPath(path), (self.folder / path).parent
+        name = re.compile(rf"{re.escape(place.stem)}\.new\d*{re.escape(place.suffix)}")
+        names = sorted(os.listdir(folder)) if folder.is_dir() else []
+        return [str(place.with_name(n)) for n in names if name.fullmatch(n)]
+
+    def _free(self, path: str, word: str) -> str:
+        """NAME.word.ipynb, or the next such name that nothing has."""
+        place, n = PurePosixPath(path), 1
+        while True:
+            side = place.with_name(f"{place.stem}.{word}{n if n > 1 else ''}{place.suffix}")
+            if not os.path.lexists(self.folder / side):
+                return str(side)
+            n += 1
+
+    def _say(self, path: str, what: str, says: str) -> None:
+        self.outcomes.append(Outcome(path, what, says))
+
+
+def _target(folder: Path, labs: Path) -> Path:
+    """The student's folder, made if need be, with .robokin in it."""
+    if os.path.lexists(folder) and not folder.is_dir():
+        raise ValueError("wanted a folder, got a file or a broken link")
+    folder = folder.resolve()
+    for inner, outer in ((folder, labs), (labs.resolve(), folder)):
+        above = (inner, *inner.parents)
+        if outer.exists() and any(p.exists() and p.samefile(outer) for p in above):
+            raise ValueError(f"wanted a folder apart from the labs, which are in {labs}")
+    os.makedirs(folder / ".robokin", exist_ok=True)
+    return folder
+
+
+@contextlib.contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """Hold the lock at `path`, which ends with the process. ValueError: another holds it."""
+    with open(path, "ab") as file:
+        try:
+            if sys.platform == "win32":
+                import msvcrt
+
+                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+            else:
+                import fcntl
+
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            raise ValueError("another copy is at work there; run this again") from None
+        except OSError:
+            pass  # a file system without locks: two at once get in each other's way, no worse
+        yield
+
+
+def _prepared(content: bytes) -> tuple[bytes, Any]:
+    """A notebook as it is laid, and as nbformat's. ValueError: it is none."""
+    import nbformat  # here: it takes most of the time of a copy without news
+
+    try:
+        data = json.loads(content)
+        info = data["metadata"].get("language_info", {})
+        if info.get("name") == "python":
+            # else JupyterLab marks the lab as changed when its kernel has come
+            info["version"] = platform.python_version()
+        text = json.dumps(data, indent=1, ensure_ascii=False) + "\n"
+        notebook = nbformat.reads(text, as_version=4)
+        nbformat.validate(notebook)
+        return text.encode(), notebook
+    except Exception as error:  # JSON, Unicode and schema errors of several libraries
+        reason = str(error).partition("\n")[0]
+        raise ValueError(f"not a notebook: {reason}") from None
+
+
+def _sign(notebooks: Iterable[Any]) -> str | None:
+    """Trust notebooks as Jupyter does; what stood in the way, if anything did."""
+    from nbformat.sign import NotebookNotary
+
+    try:
+        notary = NotebookNotary()
+        try:
+            for notebook in notebooks:
+                notary.sign(notebook)
+        finally:
+            notary.store.close()
+    except Exception as error:  # of files, of SQLite, of Jupyter's settings
+        return short(f"{error}")
+    return None
+
+
+def _held(place: Path) -> str | None:
+    """The digest of what the file at `place` holds; None: nothing is there; "": what is there is
+    no file that we can read, and none of ours.
+    """
+    try:
+        if not stat.S_ISREG(os.lstat(place).st_mode):
+            return ""
+        return digest(place.name, place.read_bytes())
+    except FileNotFoundError:
+        return None
+    except OSError:
+        return ""
+
+
+def _barred(folder: Path) -> bool:
+    """Whether something is there that is not a folder itself: nothing is laid through a link."""
+    return folder.is_symlink() or (folder.exists() and not folder.is_dir())
+
+
+def _write(path: Path, content: bytes) -> None:
+    """A new file, on the disk when this returns. Never into one that is there: it may have got
+    another name by now.
+    """
+    with contextlib.suppress(FileNotFoundError):
+        os.unlink(path)
+    with open(path, "xb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _put(path: Path, place: Path) -> None:
+    """Move a file to where nothing is. FileExistsError: something is."""
+    try:
+        os.link(path, place, follow_symlinks=False)
+    except FileExistsError:
+        raise
+    except (OSError, NotImplementedError):  # a file system without links, or no plain file
+        if os.path.lexists(place):
+            raise FileExistsError(place) from None
+        os.rename(path, place)  # Windows looks again; elsewhere these are microseconds
+    else:
+        os.unlink(path)
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError("wanted a text")
+    return value
+
+
+def _reason(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)

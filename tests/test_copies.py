@@ -1,0 +1,977 @@
+"""`python -m robokin.course copy`: labs handed out, and again, without a loss.
+
+A history is what may happen to a student's folder: edits, runs, files of their own, newer labs, and
+copies that are interrupted at any write or meet a student who saves in that very moment. `History`
+knows by itself what the student wrote and what the labs say, and looks after every step.
+"""
+
+import builtins
+import contextlib
+import json
+import os
+import platform
+import random
+import re
+import shutil
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+from unittest import mock
+
+import nbformat
+import pytest
+from conftest import NOTEBOOKS, until
+from nbformat.sign import MemorySignatureStore, NotebookNotary
+
+from robokin.course import copies
+from robokin.course.__main__ import main
+from robokin.course.copies import copy
+
+TWO = "two [\u00fc].ipynb"
+WRITES = ("fsync", "link", "makedirs", "rename", "replace", "unlink")
+
+
+@pytest.fixture(autouse=True)
+def _own_trust(tmp_path, monkeypatch):
+    """No signature of these tests among the developer's."""
+    monkeypatch.setenv("JUPYTER_DATA_DIR", str(tmp_path / "jupyter"))
+    monkeypatch.setenv("JUPYTER_CONFIG_DIR", str(tmp_path / "jupyter"))
+
+
+# --- Notebooks ------------------------------------------------------------------------------------
+
+
+def notebook(text, shown="still"):
+    """A small lab that says `text`; `shown` is what its player shows."""
+    html = {"text/html": [f"<script>{shown}</script>"], "text/plain": ["player"]}
+    output = {"output_type": "display_data", "data": html, "metadata": {}}
+    cells = [
+        {
+            "cell_type": "markdown",
+            "id": "a",
+            "metadata": {},
+            "source": [f"# {text}\n", "![x](attachment:x.png)"],
+            "attachments": {"x.png": {"image/png": "eHk="}},
+        },
+        {
+            "cell_type": "code",
+            "id": "b",
+            "metadata": {},
+            "source": ["1 + 1"],
+            "execution_count": 1,
+            "outputs": [output],
+        },
+    ]
+    info = {"name": "python", "version": "3.0.0"}
+    metadata = {"language_info": info, "kernelspec": {"name": "python3", "display_name": "Python"}}
+    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
+
+
+def written(data):
+    return (json.dumps(data, indent=1) + "\n").encode()
+
+
+def cells(content):
+    """What the cells say, or None where the bytes are no notebook."""
+    try:
+        return [(c["cell_type"], "".join(c["source"])) for c in json.loads(content)["cells"]]
+    except (ValueError, KeyError, TypeError):
+        return None
+
+
+def said(path, content):
+    """What counts in a file: its cells, or its bytes."""
+    return (path.endswith(".ipynb") and str(cells(content))) or content
+
+
+def trusted(path, notary=NotebookNotary):
+    return notary().check_signature(nbformat.read(path, as_version=4))
+
+
+def laid(content):
+    """A lab as it should lie in a student's folder."""
+    data = json.loads(content)
+    data["metadata"]["language_info"]["version"] = platform.python_version()
+    return data
+
+
+# --- Whatever may happen at a write ---------------------------------------------------------------
+
+
+class Writes:
+    """Stands for `os` and `open` in `copies`: counts what it does to files, and at count `end`
+    stops it by an `error`: before or after that takes effect, in the middle of a write; once, or
+    (`dead`) for good, as a process that was killed. `at`: count -> what happens just before.
+    With `near`, a path, it counts from the moment when that is moved or laid.
+    """
+
+    def __init__(self, end=None, after=False, dead=False, error=KeyboardInterrupt):
+        self.count, self.end, self.after, self.dead = 0, end, after, dead
+        self.error, self.at, self.near = error, {}, None
+
+    def __getattr__(self, name):
+        if name == "fsync":
+            return lambda _: self.step(lambda: None)  # it takes its time
+        value = getattr(os, name)
+        return (lambda *a, **k: self.step(lambda: value(*a, **k), *a)) if name in WRITES else value
+
+    def step(self, act, *names, half=lambda: None):
+        if self.near is not None and not self.count and self.near not in names:
+            return act()
+        self.count += 1
+        self.at.get(self.count, lambda: None)()
+        gone = self.end is not None and self.dead and self.count > self.end
+        if gone or (self.count == self.end and not self.after):
+            if not gone:
+                half()
+            raise self.error
+        result = act()
+        if self.count == self.end:
+            raise self.error
+        return result
+
+    @contextlib.contextmanager
+    def open(self, path, mode):
+        def opened():
+            return self.stack.enter_context(builtins.open(path, mode))
+
+        with self.step(opened) as file:
+            write = file.write
+
+            class Stepped:
+                flush, fileno = file.flush, file.fileno
+
+                @staticmethod
+                def write(content):
+                    def half():
+                        write(content[: len(content) // 2])
+                        file.flush()
+
+                    self.step(lambda: write(content), half=half)
+
+            yield file if "a" in mode else Stepped
+
+    def __enter__(self):
+        self.stack = contextlib.ExitStack()
+        self.stack.enter_context(mock.patch.object(copies, "os", self))
+        self.stack.enter_context(mock.patch.object(copies, "open", self.open, create=True))
+        return self
+
+    def __exit__(self, *_):
+        self.stack.close()
+
+
+# --- A history ------------------------------------------------------------------------------------
+
+
+class History:
+    """A source of labs, a student's folder, and what has to hold.
+
+    mine       [path, bytes] that the student wrote and has not changed or deleted since; the path
+               is None while only the next copy can bring it back (a save that met a killed copy)
+    untouched  places of labs where ours lies, run or not
+    offered    lab -> what of it was last handed out; several where a copy was interrupted
+    outputs    lab -> the bytes that were last handed out, if that is sure
+    links      the student's links, and where they lead
+    """
+
+    def __init__(self, seed, top):
+        self.random = random.Random(seed)
+        self.source, self.folder = top / "labs", top / "student"
+        self.number = 0
+        self.mine, self.untouched, self.offered, self.before = [], set(), {}, {}
+        self.links, self.versions, self.valid, self.outputs = {}, {}, set(), {}
+        store = MemorySignatureStore()  # SQLite takes its time
+        self.notary = partial(NotebookNotary, store_factory=lambda: store, secret=b"secret")
+        for name in ("one.ipynb", TWO, "documents/three.ipynb", "tasks/task.json"):
+            self._lab(name)
+        (self.source / "notes.txt").write_text("not handed out")
+        (self.source / "documents" / ".hidden.ipynb").write_text("not handed out")
+
+    def run(self, steps):
+        with mock.patch.object(nbformat.sign, "NotebookNotary", self.notary):
+            self._run(steps)
+
+    def _run(self, steps):
+        self.copies()
+        for _ in range(steps):
+            act = self.random.choice(ACTS)
+            act(self)
+            self.look()
+        self.copies()
+        before = self.files(hidden=True)
+        assert not [o for o in copy(self.folder, self.source) if o.what in ("new", "replaced")]
+        assert self.files(hidden=True) == before, "a copy without news changes nothing"
+
+    # What the teacher does
+
+    def newer(self):
+        self._lab(self.random.choice(self.labs()))
+
+    def older(self):
+        path = self.random.choice(self.labs())
+        self._write(self.source / path, self.random.choice(self.versions[path]))
+
+    def other_outputs(self):
+        path = self.random.choice([p for p in self.labs() if p.endswith(".ipynb")])
+        data = json.loads((self.source / path).read_bytes())
+        data["cells"][1]["outputs"][0]["data"]["text/html"] = [self.token()]
+        self._write(self.source / path, written(data))
+
+    def added(self):
+        self._lab(self.random.choice(["four.ipynb", "documents/five.ipynb", "tasks/six.json"]))
+
+    def removed(self):
+        if len(self.labs()) > 2:
+            path = self.random.choice([p for p in self.labs() if p != "one.ipynb"])
+            (self.source / path).unlink()
+
+    def renamed(self):
+        path = self.random.choice([p for p in self.labs() if p != "one.ipynb"] or [None])
+        if path:
+            new = Path(path).with_name(f"{self.random.choice('xyz')}{Path(path).suffix}").as_posix()
+            self.versions.setdefault(new, []).append((self.source / path).read_bytes())
+            os.replace(self.source / path, self.source / new)
+
+    # What the student does
+
+    def edit(self):
+        path = self._pick(".ipynb")
+        if path:
+            self.before[path] = (self._read(path), path in self.untouched)
+            self.save(path, self._edited(self._read(path)))
+
+    def reorder(self):
+        path = self._pick(".ipynb")
+        if path in self.untouched:
+            data = json.loads(self._read(path))
+            data["cells"].reverse()
+            self.save(path, written(data))
+
+    def edit_task(self):
+        path = self._pick(".json")
+        if path:
+            self.save(path, json.dumps({"task": self.token()}).encode())
+
+    def undo(self):
+        path = self.random.choice([p for p in self.before if self._plain(p)] or [None])
+        if path:
+            content, untouched = self.before.pop(path)
+            self.save(path, content, ours=untouched)
+
+    def rerun(self):
+        path = self._pick(".ipynb")
+        if path:
+            self.save(path, self._rerun(self._read(path)), ours=path in self.untouched)
+
+    def delete(self):
+        path = self._pick("")
+        if path:
+            (self.folder / path).unlink()
+            self._forget(path)
+
+    def move_away(self):
+        path = self._pick("")
+        if path:
+            content = self._read(path)
+            self.delete_at(path)
+            self.save(f"my {self.token()}{Path(path).suffix}", content)
+
+    def duplicate(self):
+        path = self._pick("")
+        if path:
+            self.save(f"my {self.token()}{Path(path).suffix}", self._read(path))
+
+    def accept(self):
+        """The newer one, laid beside, takes the place of the student's."""
+        path = self._pick(".new.ipynb")
+        place = path and path.replace(".new.", ".")
+        if path and self._plain(place):
+            self.save(place, self._read(path), ours=path in self.untouched)
+
+    def own(self):
+        names = ["my notes.txt", "my lab.ipynb", TWO, "four.ipynb", "one.new.ipynb", "x.json"]
+        path = self.random.choice(names)
+        if not os.path.lexists(self.folder / path) or self._plain(path):
+            data = notebook(self.token()) if path.endswith(".ipynb") else self.token()
+            self.save(path, written(data))
+
+    def corrupt(self):
+        path = self._pick(".ipynb")
+        if path:
+            content = self._read(path)
+            self.save(path, content[: self.random.randrange(len(content) - 3)] + b" ")
+
+    def folder_or_link(self):
+        """A folder, or a link, where a lab was or will be."""
+        path = self.random.choice([TWO, "four.ipynb", "documents/three.ipynb"])
+        place = self.folder / path
+        if place.is_dir() or place.is_symlink() or not self._folder_there(path):
+            return
+        moved = self._read(path) if self._plain(path) else None
+        self.delete_at(path)
+        if self.random.random() < 0.5:
+            place.mkdir()
+            self.save(f"{path}/my.txt", self.token().encode())
+        else:
+            target = f"my {self.token()}.ipynb"
+            self.save(target, moved or written(notebook(self.token())))
+            place.symlink_to(self.folder / target)
+            self.links[path] = str(self.folder / target)
+
+    def folder_elsewhere(self):
+        """A folder of labs is moved, and a link is in its place."""
+        place, other = self.folder / "documents", self.folder / "elsewhere"
+        if "documents" in self.links or os.path.lexists(other) or not place.is_dir():
+            return
+        for path, link in [(p, self.links.pop(p)) for p in list(self.links) if "documents" in p]:
+            self.links[path.replace("documents", "elsewhere")] = link
+        for each in self.mine:
+            each[0] = each[0] and re.sub("^documents/", "elsewhere/", each[0])
+        for path in [p for p in self.untouched if p.startswith("documents/")]:
+            if self._plain(path):
+                self.mine.append([path.replace("documents", "elsewhere"), self._read(path)])
+            self._forget(path)
+        place.rename(other)
+        place.symlink_to(other)
+        self.links["documents"] = str(other)
+
+    def save(self, path, content, ours=False):
+        """The student's file, written as JupyterLab writes: into the file that is there."""
+        self._write(self.folder / path, content)
+        self._forget(path)
+        if ours:
+            self.untouched.add(path)
+        else:
+            self.mine.append([path, content])
+
+    def delete_at(self, path):
+        if self._plain(path):
+            (self.folder / path).unlink()
+        self._forget(path)
+
+    # Copies
+
+    def copies(self):
+        """A copy that nothing disturbs, and what holds after it."""
+        before, laid_before = self.files(), {p: self.offered.get(p, {None}) for p in self.labs()}
+        outcomes = copy(self.folder, self.source)
+        assert not [o for o in outcomes if o.what == "failed"], outcomes
+        after = self.files()
+        inside = [p for p in self.files(hidden=True) if p.startswith(".robokin/")]
+        assert sorted(inside) == [".robokin/lock", ".robokin/manifest.json"]
+        self.look()
+        assert not [m for m in self.mine if m[0] is None], "what was saved is not given back"
+        assert all(os.lstat(self.folder / p).st_nlink == 1 for p in after), "two names of one file"
+        mine = [m[0] for m in self.mine]
+        for path in self.labs():
+            newest = (self.source / path).read_bytes()
+            says = said(path, newest)
+            if (self.folder / path).parent.is_symlink():
+                continue
+            newer = says not in laid_before[path]
+            same = laid_before[path] == {says}
+            here = after.get(path)
+            sides = self._sides(path, after)
+            if path in self.untouched:  # also where an interrupted copy had moved it
+                assert here and said(path, here) == says, f"{path}: not touched, not the newest"
+                if self.outputs.get(path) not in (None, newest):
+                    assert path.endswith(".json") or json.loads(here) == laid(newest)
+            elif path in mine or self._strange(path):
+                beside = [said(path, after[side]) for side in sides]
+                assert says in beside or not newer, f"{path}: no newer beside"
+            elif not os.path.lexists(self.folder / path):
+                assert not newer and path not in before, f"{path} does not come back"
+            elif path not in before:
+                assert not same, f"{path} was deleted and came back without news"
+                if said(path, here) == says:
+                    self.untouched.add(path)
+                else:  # a killed copy had it; since then the student has deleted theirs
+                    assert "unsure" in laid_before[path] and b"student" in here
+                    self.mine.append([path, here])
+            for side in sides:
+                if side not in mine:
+                    self.untouched.add(side)
+                    assert said(path, after[side]) == says, f"{side} is not the newest"
+            self.offered[path], self.outputs[path] = {says}, newest
+        for outcome in outcomes:
+            assert outcome.says or outcome.what == "same"
+            if outcome.what in ("new", "replaced") and outcome.path.endswith(".ipynb"):
+                path = outcome.path.replace(".new.", ".").replace(".new2.", ".")
+                assert trusted(self.folder / outcome.path, self.notary)
+                assert json.loads(after[outcome.path]) == laid((self.source / path).read_bytes())
+            if outcome.what == "gone":
+                assert outcome.path not in self.labs()
+                assert os.path.lexists(self.folder / outcome.path)
+        for path, content in self.mine:
+            if path.endswith(".ipynb") and b"student" in content and cells(content):
+                assert not trusted(self.folder / path, self.notary), (
+                    f"{path} is the student's and was signed"
+                )
+
+    def interrupted(self):
+        """A copy that is stopped somewhere."""
+        if self.random.random() < 0.5:
+            self.newer()
+        error = self.random.choice([KeyboardInterrupt, OSError(28, "No space left on device")])
+        with self._writes(25, error), contextlib.suppress(KeyboardInterrupt, OSError):
+            copy(self.folder, self.source)
+        self._unsure()
+
+    def meets_a_save(self):
+        """A copy while the student saves what it is about to replace: into the file, by a new file
+        in its place, or in two halves; once or twice; sometimes it is killed on top of it.
+        """
+        mine = [m[0] for m in self.mine]
+        path = self.random.choice([p for p in self.labs() if p not in mine] or [None])
+        place = path and self.folder / path
+        if not path or self._strange(path) or place.parent.is_symlink():
+            return
+        self._lab(path)
+        before = self._read(path) if self._plain(path) else (self.source / path).read_bytes()
+        contents = [self._edited(before), self._edited(before)]
+        saved, halves = [], []
+
+        def save(how):
+            content = contents.pop()
+            if not os.path.lexists(place) and saved:
+                self.mine.append([None, saved.pop()])  # it was not the student who moved it
+            if self._plain(path):
+                self.mine = [m for m in self.mine if m[1] != place.read_bytes()]
+            place.parent.mkdir(exist_ok=True)
+            if how == "beside":
+                (self.folder / "my part").write_bytes(content)
+                os.replace(self.folder / "my part", place)
+            elif how == "into":
+                place.write_bytes(content)
+            else:
+                halves.append(open(place, "wb"))
+                halves[0].write(content[:200])
+                halves[0].flush()
+                halves.append(content[200:])
+            saved[:] = [content]
+
+        def rest():
+            if halves:
+                with halves[0] as file:
+                    file.write(halves[1])
+                halves.clear()
+
+        writes = self._writes(6, KeyboardInterrupt, dead=True, never=0.6)
+        writes.near = place
+        first, second = sorted(self.random.sample(range(1, 5), 2))
+        how = self.random.choice(["into", "beside", "halves"])
+        writes.at[first] = lambda: save(how)
+        writes.at[second] = rest if how == "halves" else lambda: None
+        if how != "halves" and self.random.random() < 0.5:
+            writes.at[second] = lambda: save("into")
+        with writes, contextlib.suppress(KeyboardInterrupt):
+            copy(self.folder, self.source)
+        rest()
+        if saved:
+            self._forget(path)
+            here = self._plain(path) and self._read(path) == saved[0]
+            assert here or writes.end, f"{path}: the student saved it, and it is elsewhere"
+            self.mine.append([path if here else None, saved[0]])
+        self._unsure()
+
+    def _writes(self, last, error, dead=None, never=0.0):
+        end = None if self.random.random() < never else self.random.randint(1, last)
+        dead = self.random.random() < 0.5 if dead is None else dead
+        return Writes(end, self.random.random() < 0.5, dead, error)
+
+    def _unsure(self):
+        """After a copy that was disturbed: it may have handed out anything, or nothing."""
+        files = self.files()
+        for path in self.labs():
+            says = said(path, (self.source / path).read_bytes())
+            self.offered[path] = {*self.offered.get(path, ()), says, "unsure"}
+            self.outputs.pop(path, None)
+            for place in (path, *self._sides(path, files)):
+                mine = any(m[0] == place for m in self.mine)
+                if self._plain(place) and not mine and said(path, files[place]) == says:
+                    self.untouched.add(place)
+
+    # What has to hold
+
+    def look(self):
+        """Nothing of the student's is lost, and no notebook is broken that was whole."""
+        files = self.files(hidden=True)
+        for each in self.mine:
+            path, content = each
+            if path is None:
+                where = [p for p in files if files[p] == content]
+                assert where, "what was saved is lost"
+                each[0] = next((p for p in where if not p.startswith(".robokin")), None)
+            else:
+                assert files.get(path) == content, f"{path} is not what the student wrote"
+        for path, content in files.items():
+            if ".yours" in path and not path.startswith(".robokin"):
+                assert content in [m[1] for m in self.mine], f"{path} is nothing of the student's"
+                assert content != files.get(re.sub(r"\.yours\d*", "", path)), f"{path} twice"
+        for path, target in self.links.items():
+            assert os.readlink(self.folder / path) == target
+        for path, content in files.items():
+            mine = any(content == m[1] for m in self.mine)
+            hidden = path.startswith(".robokin") or content in self.valid
+            if path.endswith(".ipynb") and not mine and not hidden:
+                nbformat.validate(nbformat.reads(content.decode(), as_version=4))
+                self.valid.add(content)
+
+    # Small things
+
+    def token(self):
+        self.number += 1
+        return f"t{self.number}"
+
+    def labs(self):
+        found = [*self.source.glob("*.ipynb"), *self.source.glob("documents/[!.]*.ipynb")]
+        found += self.source.glob("tasks/*.json")
+        return sorted(p.relative_to(self.source).as_posix() for p in found)
+
+    def files(self, hidden=False):
+        """Path -> bytes of the student's files; what links lead to is not theirs twice."""
+        found = {}
+        for top, _, names in os.walk(self.folder):
+            for path in (Path(top, name) for name in names):
+                name = path.relative_to(self.folder).as_posix()
+                if not path.is_symlink() and (hidden or not name.startswith(".robokin")):
+                    found[name] = path.read_bytes()
+        return found
+
+    def _lab(self, path):
+        says = f"lab {self.token()}"
+        data = notebook(says) if path.endswith(".ipynb") else {"task": says}
+        self._write(self.source / path, written(data))
+        self.versions.setdefault(path, []).append(written(data))
+
+    def _write(self, place, content):
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(content)
+
+    def _read(self, path):
+        return (self.folder / path).read_bytes()
+
+    def _plain(self, path):
+        place = self.folder / path
+        return place.is_file() and not place.is_symlink() and not place.parent.is_symlink()
+
+    def _folder_there(self, path):
+        parent = (self.folder / path).parent
+        return parent.is_dir() and not parent.is_symlink()
+
+    def _strange(self, path):
+        place = self.folder / path
+        return place.is_symlink() or place.is_dir()
+
+    def _pick(self, end, labs=False):
+        fits = [p for p in self.files() if p.endswith(end) and self._plain(p)]
+        fits = [p for p in fits if not labs or p in self.labs()]
+        return self.random.choice(sorted(fits)) if fits else None
+
+    def _forget(self, path):
+        self.mine = [m for m in self.mine if m[0] != path]
+        self.untouched.discard(path)
+
+    def _edited(self, content):
+        """The student changes a cell, adds one, or changes their order."""
+        if cells(content) is None:
+            return written(notebook(f"student {self.token()}"))
+        data = json.loads(content)
+        how = self.random.choice(["change", "add"])
+        text = f"student {self.token()}"
+        if how == "change":
+            data["cells"][0]["source"] = [text]
+        else:
+            cell = {"cell_type": "raw", "id": f"s{self.number}", "metadata": {}, "source": text}
+            data["cells"].insert(self.random.randint(0, len(data["cells"])), cell)
+        return written(data)
+
+    def _rerun(self, content):
+        if cells(content) is None:
+            return content
+        data = json.loads(content)
+        data["metadata"]["widgets"] = {}
+        for cell in data["cells"]:
+            if cell["cell_type"] == "code":
+                cell["execution_count"] = self.random.randint(1, 99)
+                stream = {"output_type": "stream", "name": "stdout", "text": [self.token()]}
+                cell["outputs"] = [stream]
+                cell["metadata"]["run"] = True
+            cell["source"] = "".join(cell["source"])
+        return written(data)
+
+    def _sides(self, path, files):
+        place = Path(path)
+        start, end = place.with_name(f"{place.stem}.new").as_posix(), place.suffix
+        return [p for p in files if p.startswith(start) and p[len(start) :] in (end, f"2{end}")]
+
+
+TEACHER = [History.newer] * 3 + [History.older, History.other_outputs]
+TEACHER += [History.added, History.removed, History.renamed]
+STUDENT = [History.edit] * 3 + [History.rerun] * 2 + [History.edit_task] + [History.undo] * 3
+STUDENT += [
+    History.reorder,
+    History.delete,
+    History.move_away,
+    History.duplicate,
+    History.accept,
+    History.own,
+]
+STUDENT += [History.corrupt, History.folder_or_link, History.folder_elsewhere]
+ACTS = TEACHER + STUDENT + [History.copies] * 3 + [History.interrupted] * 6
+ACTS += [History.meets_a_save] * 4
+
+
+@pytest.mark.parametrize("seed", range(50))
+def test_no_history_loses_anything(seed, tmp_path):
+    History(seed, tmp_path).run(steps=25)
+
+
+@pytest.mark.parametrize("seed", range(100, 103))
+def test_nor_where_the_file_system_has_no_links(seed, tmp_path, monkeypatch):
+    def link(*_, **__):
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", link)
+    # without links the moment between a look and a move stays open
+    monkeypatch.setattr(History, "meets_a_save", History.copies)
+    History(seed, tmp_path).run(steps=25)
+
+
+# --- One thing at a time --------------------------------------------------------------------------
+
+
+class Class:
+    """Labs, and a student's folder that holds a copy of them."""
+
+    def __init__(self, top, *names):
+        self.labs, self.folder = top / "labs", top / "student"
+        for name in names or ("one.ipynb", "two.ipynb", "tasks/task.json"):
+            self.newer(name, "first")
+        self.copy()
+
+    def newer(self, name, says):
+        place = self.labs / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(written(notebook(f"{name} {says}") if "ipynb" in name else says))
+
+    def copy(self):
+        """Path -> what became of it, where anything did."""
+        return {o.path: o.what for o in copy(self.folder, self.labs) if o.what != "same"}
+
+    def says(self, name):
+        content = (self.folder / name).read_bytes()
+        return cells(content)[0][1].split("\n")[0] if "ipynb" in name else json.loads(content)
+
+    def files(self):
+        return {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}
+
+    def write(self, name, content):
+        (self.folder / name).write_bytes(content)
+
+
+@pytest.fixture
+def school(tmp_path):
+    return Class(tmp_path)
+
+
+def test_running_is_not_touching_and_all_else_is():
+    lab = notebook("a lab")
+    same, others = [notebook("a lab", "run")], [notebook("another")]
+    for change in (
+        lambda n: n["cells"][1].update(execution_count=7, outputs=[], metadata={"tags": ["x"]}),
+        lambda n: n["metadata"].update(widgets={}),
+        lambda n: n["cells"][0].update(source="".join(n["cells"][0]["source"]), id="other"),
+    ):
+        same.append(notebook("a lab"))
+        change(same[-1])
+    for change in (
+        lambda n: n["cells"][1].update(source=["1 +  1"]),
+        lambda n: n["cells"][1].update(cell_type="raw"),
+        lambda n: n["cells"][0].update(attachments={"x.png": {"image/png": "eHl="}}),
+        lambda n: n["cells"].reverse(),
+        lambda n: n["cells"].pop(),
+        lambda n: n["cells"].append(n["cells"][1]),
+        lambda n: n["cells"].insert(0, {"cell_type": "code", "source": [], "outputs": []}),
+        lambda n: n.pop("cells"),
+    ):
+        others.append(notebook("a lab"))
+        change(others[-1])
+    digest = copies.digest("x.ipynb", written(lab))
+    assert {copies.digest("x.ipynb", written(n)) for n in same} == {digest}
+    digests = [copies.digest("x.ipynb", written(n)) for n in others]
+    digests += [copies.digest("x.ipynb", written(lab)[:-n]) for n in (2, 9)]
+    digests += [copies.digest("x.ipynb", b"[" * 100_000), copies.digest("x.ipynb", b"\xff")]
+    digests += [copies.digest("x.json", written(lab)), copies.digest("x.json", written(same[0]))]
+    assert len({digest, *digests}) == 1 + len(digests)
+
+
+def test_what_is_done_and_what_is_said(school, capsys):
+    command = ["copy", str(school.folder), "--from", str(school.labs)]
+    assert main(command) == 0
+    assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 as they were\n"
+    school.write("one.ipynb", written(notebook("mine")))
+    (school.folder / "two.ipynb").unlink()
+    (school.labs / "tasks/task.json").unlink()
+    for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
+        school.newer(name, "second")
+    assert main(command) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "tasks/task.json: no longer among the labs; it stays",
+        "one.ipynb: yours stays; the newer one is one.new.ipynb",
+        "three.ipynb: new",
+        "two.ipynb: back, as there is a newer one",
+        f"{school.folder}: 2 new, 1 kept; 0 as they were",
+    ]
+    assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
+    assert school.says("one.new.ipynb") == "# one.ipynb second"
+    # one laid beside is the student's, too, when touched; when not, it is replaced
+    for says, beside in (("third", "one.new.ipynb"), ("fourth", "one.new2.ipynb")):
+        school.newer("one.ipynb", says)
+        assert school.copy() == {"one.ipynb": "kept", "tasks/task.json": "gone"}
+        assert school.says(beside) == f"# one.ipynb {says}"
+        school.write(beside, written(notebook(f"mine, too: {says}")))
+    school.newer("one.ipynb", "fifth")
+    school.copy()
+    assert [school.says(f"one.new{n}.ipynb").split()[-1] for n in ("", 2, 3)] == [
+        "third",
+        "fourth",
+        "fifth",
+    ]
+    assert school.says("one.ipynb") == "# mine"
+
+
+@pytest.mark.parametrize("after, dead", [(True, False), (False, True)])
+def test_a_copy_may_end_at_any_write(tmp_path, after, dead, monkeypatch):
+    notary = NotebookNotary(store_factory=MemorySignatureStore, secret=b"secret")
+    monkeypatch.setattr(nbformat.sign, "NotebookNotary", lambda: notary)
+    school = Class(tmp_path, "one.ipynb", "two.ipynb")
+    mine = written(notebook("mine"))
+    school.write("two.ipynb", mine)
+    for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
+        school.newer(name, "second")
+    start, ends = shutil.copytree(school.folder, tmp_path / "start"), 0
+    while True:
+        ends += 1
+        shutil.rmtree(school.folder)
+        shutil.copytree(start, school.folder)
+        with Writes(ends, after, dead) as writes, contextlib.suppress(KeyboardInterrupt):
+            school.copy()
+        if writes.count < ends:
+            break
+        assert (school.folder / "two.ipynb").read_bytes() == mine
+        for path in school.folder.glob("*.ipynb"):
+            nbformat.validate(nbformat.read(path, as_version=4))
+        school.copy()
+        assert (school.folder / "two.ipynb").read_bytes() == mine
+        for name in ("one.ipynb", "two.new.ipynb", "three.ipynb"):
+            assert school.says(name).endswith("second"), f"after write {ends}"
+        names = sorted(p.name for p in school.files())
+        wanted = ["one.ipynb", "three.ipynb", "two.ipynb", "two.new.ipynb"]
+        assert names == ["lock", "manifest.json", *wanted], f"after write {ends}"
+    assert ends > 30
+
+
+def test_what_a_killed_copy_had_moved_is_given_back_once(school, tmp_path):
+    old, ends = school.folder / ".robokin" / "old" / "one.ipynb", 0
+    mine, later = written(notebook("mine")), written(notebook("mine, later"))
+    while True:
+        ends += 1
+        old.write_bytes(mine)
+        school.write("one.ipynb", later)
+        with Writes(ends, dead=True) as writes, contextlib.suppress(KeyboardInterrupt):
+            school.copy()
+        school.copy()
+        assert (school.folder / "one.ipynb").read_bytes() == later
+        rescued = school.folder / "one.yours.ipynb"
+        assert rescued.read_bytes() == mine and rescued.stat().st_nlink == 1
+        assert len(list(school.folder.glob("one*"))) == 2 and not old.exists()
+        rescued.unlink()
+        if writes.count < ends:
+            break
+    assert ends > 3
+
+
+def test_half_a_file_of_a_killed_copy_is_swept(school):
+    rest = school.folder / ".robokin" / "new"
+    rest.write_text("half of a la")
+    assert school.copy() == {} and not rest.exists()
+
+
+def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
+    write, place = copies._write, school.folder / "one.ipynb"
+
+    def meanwhile(path, content):
+        write(path, content)
+        if b"one.ipynb second" in content:
+            place.unlink()
+            place.symlink_to(tmp_path)
+
+    monkeypatch.setattr(copies, "_write", meanwhile)
+    school.newer("one.ipynb", "second")
+    assert school.copy() == {"one.ipynb": "failed"} and place.readlink() == tmp_path
+
+
+def test_a_full_disk_is_said_and_mended_later(school, capsys):
+    for name in ("one.ipynb", "two.ipynb", "new.ipynb"):
+        school.newer(name, "second")
+    with mock.patch.object(copies, "_put", side_effect=OSError(28, "No space left on device")):
+        assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    said = capsys.readouterr()
+    assert said.err.splitlines()[0] == "new.ipynb: No space left on device"
+    assert "3 failed; 1 as they were" in said.out
+    assert set(school.copy().values()) == {"new", "replaced"}
+    assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
+
+
+def test_a_broken_lab_is_named_and_the_others_are_laid(school, capsys):
+    before = (school.folder / "one.ipynb").read_bytes()
+    (school.labs / "one.ipynb").write_text("{}")
+    (school.labs / "bad.ipynb").write_text('{"cells": [{"cell_type": "code"')
+    school.newer("two.ipynb", "second")
+    assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    said = capsys.readouterr()
+    assert [line.split(":")[:2] for line in said.err.splitlines()] == [
+        ["bad.ipynb", " not a notebook"],
+        ["one.ipynb", " not a notebook"],
+    ]
+    assert school.says("two.ipynb") == "# two.ipynb second"
+    assert (school.folder / "one.ipynb").read_bytes() == before
+    assert not (school.folder / "bad.ipynb").exists()
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"one.ipynb": 5}', "\xff", None])
+def test_without_its_manifest_a_copy_loses_nothing(school, text):
+    manifest = school.folder / ".robokin" / "manifest.json"
+    mine = written(notebook("mine"))
+    school.write("one.ipynb", mine)
+    school.newer("tasks/task.json", "second")
+    if text is None:
+        manifest.unlink()
+    else:
+        manifest.write_bytes(text.encode("latin-1"))
+    done = school.copy()
+    assert (".robokin/manifest.json" in done) == (text is not None)
+    assert done["one.ipynb"] == "kept" and school.says("one.new.ipynb") == "# one.ipynb first"
+    assert done["two.ipynb"] == "replaced", "what we would lay is ours"
+    assert school.says("tasks/task.json") == "first", "an older one may be the student's"
+    assert school.says("tasks/task.new.json") == "second"
+    assert (school.folder / "one.ipynb").read_bytes() == mine and school.copy() == {}
+
+
+def test_a_lab_may_be_called_new(tmp_path):
+    school = Class(tmp_path, "one.ipynb", "one.new.ipynb")
+    (school.labs / "one.new.ipynb").write_bytes((school.labs / "one.ipynb").read_bytes())
+    school.copy()
+    school.write("one.ipynb", written(notebook("mine")))
+    school.newer("one.ipynb", "second")
+    assert school.copy() == {"one.ipynb": "kept"}
+    assert school.says("one.new2.ipynb").endswith("second")
+    assert school.says("one.new.ipynb") == "# one.ipynb first"
+
+
+def test_what_cannot_be_used_is_refused_with_words(school, tmp_path, capsys, monkeypatch):
+    def refused(folder, *source):
+        before = sorted(tmp_path.rglob("*"))
+        assert main(["copy", str(folder), *(["--from", str(source[0])] if source else [])]) == 1
+        said = capsys.readouterr()
+        assert not said.out and len(said.err.splitlines()) == 1
+        assert sorted(tmp_path.rglob("*")) == before, "nothing is made"
+        return said.err.removeprefix(f"{folder}: ")
+
+    (tmp_path / "file").write_text("mine")
+    assert (
+        refused(tmp_path / "file", school.labs) == "wanted a folder, got a file or a broken link\n"
+    )
+    for folder in (school.labs, school.labs / "deep" / "er", tmp_path, school.labs / ".." / "labs"):
+        assert "wanted a folder apart from the labs" in refused(folder, school.labs)
+    assert "no labs in" in refused(tmp_path / "new", tmp_path)
+    monkeypatch.setattr(copies, "__file__", str(tmp_path / "site" / "robokin" / "course" / "x.py"))
+    assert "not installed from a clone; give --from" in refused(tmp_path / "new")
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / ".robokin").write_text("mine")
+    assert "File exists" in refused(tmp_path / "own", school.labs)
+
+    def makedirs(path, **_):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(os, "makedirs", makedirs)  # root may write anywhere
+    assert "Permission denied" in refused(tmp_path / "new", school.labs)
+
+
+def test_without_nbformat_it_says_what_to_install(school, monkeypatch, capsys):
+    school.newer("one.ipynb", "second")
+    monkeypatch.setitem(sys.modules, "nbformat", None)
+    assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    assert "pip install 'robokin[labs]'" in capsys.readouterr().err
+    assert school.says("one.ipynb").endswith("first")
+
+
+def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsys):
+    school.newer("one.ipynb", "second")
+    monkeypatch.setattr(
+        nbformat.sign, "NotebookNotary", mock.Mock(side_effect=OSError("no rights"))
+    )
+    assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
+    assert "not trusted: 'no rights'" in capsys.readouterr().err
+    assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"
+
+
+def test_two_at_once_do_no_harm(school):
+    with copies._alone(school.folder / ".robokin" / "lock"):
+        with pytest.raises(ValueError, match="another copy is at work"):
+            school.copy()
+    for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
+        school.newer(name, "second")
+    with ThreadPoolExecutor(2) as pool:
+        both = [pool.submit(school.copy) for _ in range(2)]
+        errors = [each.exception() for each in both]
+        assert all(e is None or "another copy is at work" in str(e) for e in errors), errors
+        assert None in errors
+    assert all(school.says(f"{n}.ipynb").endswith("second") for n in ("one", "two", "three"))
+    assert school.copy() == {}
+
+
+# --- The labs -------------------------------------------------------------------------------------
+
+
+def test_the_labs_are_copied_valid_and_trusted(tmp_path):
+    outcomes = copy(tmp_path / "student")
+    given = {p.relative_to(NOTEBOOKS).as_posix() for p in NOTEBOOKS.rglob("*") if p.is_file()}
+    given = {p for p in given if not any(part.startswith(".") for part in p.split("/"))}
+    wanted = sorted(p for p in given - {"documents/teaching.ipynb"} if not p.endswith(".log"))
+    assert [o.path for o in outcomes] == wanted and {o.what for o in outcomes} == {"new"}
+    for path in wanted:
+        content, lab = (tmp_path / "student" / path).read_bytes(), (NOTEBOOKS / path).read_bytes()
+        if path.endswith(".ipynb"):
+            assert json.loads(content) == laid(lab)
+            read = nbformat.read(tmp_path / "student" / path, as_version=4)
+            nbformat.validate(read)
+            assert NotebookNotary().check_signature(read), f"{path} is not trusted"
+        else:
+            assert content == lab
+
+
+def test_a_copied_lab_is_alive_at_first_opening_and_not_marked_changed(
+    browser, jupyter, monkeypatch
+):
+    """Nothing is run: the player plays, and JupyterLab has nothing to save."""
+    monkeypatch.setenv("JUPYTER_DATA_DIR", jupyter.environment["JUPYTER_DATA_DIR"])
+    copy(jupyter.labs / "student")
+    page = browser.new_page()
+    jupyter.open(page, "student/00_start_here.ipynb")
+    players = page.locator("div.robokin-player")
+    player = players.filter(has=page.get_by_label("playing speed")).first
+    player.locator("canvas").first.wait_for(timeout=30_000)
+    button = player.get_by_role("button", name=re.compile("play", re.I)).first
+    canvases = "e => [...e.querySelectorAll('canvas')].map(c => c.toDataURL()).join()"
+    still = player.evaluate(canvases)
+    button.click()
+    until(lambda: player.evaluate(canvases) != still, 10, "the player does not play", page)
+    page.get_by_text("| Idle").first.wait_for(timeout=60_000)
+    page.wait_for_timeout(1500)  # the language's word comes after it
+    tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
+    assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class")
+    page.close()
