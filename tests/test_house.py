@@ -64,7 +64,12 @@ HEAVY = DRAWING | {
 }
 
 # Libraries of the extra "labs", where they do what is not ours to write.
-OUTSIDE = {"robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"}}
+OUTSIDE = {
+    "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.judge": {"jupyter_client", "nbclient", "nbformat"},
+    "robokin.course.kernel": {"ipykernel"},
+    "robokin.course.report": {"nbformat"},
+}
 
 MODULES = {
     ".".join(p.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): p
