@@ -117,10 +117,15 @@ def guesses(given: HandedIn) -> tuple[Guess, ...]:
 
 
 class Client(NotebookClient):
-    """nbclient's, which stops listening where a cell says too much."""
+    """nbclient's, which stops listening where a cell shows too much. `cut`: those cells."""
+
+    def __init__(self, *given: Any, cut: set[int], **more: Any) -> None:
+        super().__init__(*given, **more)
+        self.cut = cut
 
     def output(self, outs: Any, msg: Any, display_id: Any, cell_index: int) -> Any:
-        if len(outs) > 100 or sum(map(_size, outs)) > ROOM:
+        if msg["msg_type"] != "error" and (len(outs) > 100 or sum(map(_size, outs)) > ROOM):
+            self.cut.add(cell_index)
             return None
         return super().output(outs, msg, display_id, cell_index)
 
@@ -147,7 +152,8 @@ class Run:
         self.notebook, self.checks, self.who, self.limits = notebook, checks, who, limits
         self.found: dict[str, dict[str, Any]] = {}  # id -> what the kernel answered
         self.notes: dict[int, str] = {}  # cell -> why it is left out
-        self.cut: set[int] = set()
+        self.stopped: dict[int, str] = {}
+        self.cut: set[int] = set()  # cells that say too much
         self.remarks: list[str] = []
 
     async def all(self, place: Path) -> None:
@@ -157,6 +163,7 @@ class Run:
         if not memory:
             self.remarks.append("This system has no limit of memory: the cells ran without one.")
         for _ in range(TIMES + 1):
+            self.stopped.clear()
             for k, cell in enumerate(self.notebook.cells):
                 if cell.cell_type == "code" and k not in self.notes:
                     cell.outputs, cell.execution_count = [], None
@@ -173,6 +180,7 @@ class Run:
         """Run all cells that are not left out. False: one killed the kernel and is now left out."""
         client = Client(
             self.notebook,
+            cut=self.cut,
             km=manager,
             timeout=None,
             allow_errors=True,
@@ -218,9 +226,9 @@ class Run:
             "dead": "The kernel died in this cell. The other cells ran without it.",
         }[ended]
         if ended == "stopped":
-            cell.outputs.append(nbformat.v4.new_output("stream", name="stderr", text=what + "\n"))
+            self.stopped[k] = what
             return True
-        self.notes[k] = what
+        self.notes[k], cell.execution_count = what, None
         return False
 
     async def _judge(self, client: Client, manager: AsyncKernelManager, call: Call) -> bool:
@@ -274,22 +282,21 @@ class Run:
 
     def _tell(self) -> None:
         """Put into the notebook and into the remarks what happened to cells."""
-        for k, what in self.notes.items():
-            self.notebook.cells[k].outputs.append(
-                nbformat.v4.new_output("stream", name="stderr", text=what + "\n")
-            )
+        happened = {**self.stopped, **self.notes}
         raised = []
         for k, cell in enumerate(self.notebook.cells):
-            for output in cell.get("outputs", ()):
-                if output.output_type == "error":
-                    raised.append(f"{_called(cell, k)} ({output.ename})")
+            errors = [o.ename for o in cell.get("outputs", ()) if o.output_type == "error"]
+            if k in happened:
+                text = f"{happened[k]}\n"
+                cell.outputs.append(nbformat.v4.new_output("stream", name="stderr", text=text))
+                self.remarks.append(f"{_called(cell, k)}: {happened[k]}")
+            elif errors:
+                raised.append(f"{_called(cell, k)} ({errors[0]})")
         if raised:
             self.remarks.append(f"Cells that raise: {', '.join(raised)}.")
-        for k, what in sorted(self.notes.items()):
-            self.remarks.append(f"{_called(self.notebook.cells[k], k)}: {what}")
         for k in sorted(self.cut):
             cell = _called(self.notebook.cells[k], k)
-            self.remarks.append(f"{cell}: what it says was too long and is shortened here.")
+            self.remarks.append(f"{cell}: what it shows was too much and is shortened here.")
         for name, found in self.found.items():
             own = found.get("own")
             if own is None or not getattr(find(name, "EXERCISES"), "given", None):

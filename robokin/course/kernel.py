@@ -18,6 +18,7 @@ from types import FunctionType, MappingProxyType, MethodType, ModuleType
 from typing import Any
 
 import numpy as np
+from ipykernel.iostream import OutStream
 from ipykernel.kernelapp import IPKernelApp
 
 from .. import course
@@ -26,13 +27,14 @@ from .book import LABS, lab
 # what changes by itself: the verdicts of a student's own checks; `input`, which Jupyter replaces
 CHANGING = {"_verdicts", "input"}
 MISSING = object()
+SAID = 10_000  # characters that a cell may print; a report shows fewer
 
 
 def main(memory: int) -> None:
     """Be the kernel until told to end. memory: bytes; 0: no limit."""
     for slug in LABS:
         lab(slug)  # all that judges is loaded before the first cell
-    kernel = IPKernelApp.instance()
+    kernel = IPKernelApp.instance(outstream_class=f"{__name__}.Stream")
     kernel.initialize(sys.argv[1:])
     shell: Any = kernel.shell
     shell.ask_exit = lambda: None  # `exit()` would end it during another cell
@@ -83,6 +85,23 @@ def judging(
             course._verdicts = kept
 
     return judge
+
+
+class Stream(OutStream):
+    """A kernel's stdout or stderr. What a cell prints without an end goes nowhere, or it would
+    still be on its way long after the cell was stopped.
+    """
+
+    cell, said = None, 0
+
+    def write(self, string: str) -> int | None:
+        cell = self.parent_header.get("msg_id")
+        if cell != self.cell:
+            self.cell, self.said = cell, 0
+        if self.said > SAID:
+            return len(string)
+        self.said += len(string)
+        return super().write(string[:SAID])
 
 
 class Fingerprint:

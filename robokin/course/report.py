@@ -18,7 +18,7 @@ import nbformat
 
 from .. import __version__
 from ..show.page import inert, write_page
-from ..show.palette import ALARM, JOINT_STYLES, SOFT
+from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from .book import lab
 from .export import page
 from .handed_in import HandedIn, handed_in
@@ -33,18 +33,20 @@ ALONE = (
     "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
     'font-src data:; media-src data:">'
 )
+INK, SOFT, LINE = (PAGE[name][0] for name in ("ink", "soft", "line"))
+GREEN = AXIS_COLORS[1]  # dark enough for words
 STYLE = f"""\
 .rk-report {{ font: 15px/1.5 system-ui, sans-serif; padding: 0 8px 8px; margin-bottom: 24px;
-  border-bottom: 3px solid {SOFT}; color: #1b2631; background: #fff; }}
+  border-bottom: 3px solid {SOFT}; color: {INK}; background: #fff; }}
 .rk-report h1 {{ font-size: 26px; margin: 8px 0 0; }}
 .rk-report h2 {{ font-size: 18px; margin: 20px 0 4px; }}
 .rk-report table {{ border-collapse: collapse; width: 100%; }}
 .rk-report td, .rk-report th {{ text-align: left; vertical-align: top; padding: 4px 10px 4px 0;
-  border-bottom: 1px solid #d5dbe1; overflow-wrap: anywhere; }}
+  border-bottom: 1px solid {LINE}; overflow-wrap: anywhere; }}
 .rk-report th {{ font-weight: 600; white-space: nowrap; }}
 .rk-report tr.rk-objective td {{ font-weight: 600; padding-top: 10px; }}
 .rk-report pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
-.rk-report .rk-holds {{ color: {JOINT_STYLES[2]["color"]}; font-weight: 600; }}
+.rk-report .rk-holds {{ color: {GREEN}; font-weight: 600; }}
 .rk-report .rk-not {{ color: {ALARM}; font-weight: 600; }}
 .rk-report .rk-open {{ color: {SOFT}; font-weight: 600; }}
 @media print {{ .rk-report tr {{ break-inside: avoid; }} }}
@@ -102,6 +104,8 @@ def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
         return _page(title, data, notebook, folder)
     except ValueError:  # a formula of the student's that is none
         for k, cell in enumerate(notebook.cells, 1):
+            if cell.cell_type != "markdown":
+                continue
             try:
                 page(nbformat.v4.new_notebook(cells=[cell]), title, folder)
             except ValueError as error:
@@ -180,11 +184,13 @@ def _is_prediction(each: dict[str, Any]) -> bool:
 
 
 def _page(title: str, data: dict[str, Any], notebook: Any, folder: Path) -> str:
-    head = nbformat.v4.new_raw_cell(_head(data), metadata={"raw_mimetype": "text/html"})
     whole = nbformat.from_dict(notebook)
     whole.metadata = nbformat.from_dict({"language_info": {"name": "python"}})
-    whole.cells = [head, *notebook.cells]
-    return page(whole, title, folder).replace("<head>", f"<head>\n{ALONE}", 1)
+    text = page(whole, title, folder)
+    for mark, more in (("<head>", ALONE), ("<main>", _head(data))):
+        before, _, after = text.partition(mark)
+        text = f"{before}{mark}\n{more}\n{after}"
+    return text
 
 
 def _head(data: dict[str, Any]) -> str:
@@ -194,7 +200,8 @@ def _head(data: dict[str, Any]) -> str:
         f"{DATA}{inert(data)}</script>",
         '<header class="rk-report">',
         f"<h1>{_said(data['title'])}</h1>",
-        f"<p><b>{_said(data['who'])}</b> · {made.day} {made:%B %Y} · {_said(data['file'])}</p>",
+        f"<p><b>{_said(data['who'])}</b> · {made.day} {made:%B %Y} · {_said(data['file'])}"
+        f" · {data['lab'] or 'no lab'}</p>",
     ]
     if data["numbers"]:
         lines += ["<h2>Own numbers</h2>", f"<pre>{_said(data['numbers'])}</pre>"]
@@ -217,12 +224,10 @@ def _head(data: dict[str, Any]) -> str:
 
 def _exercises(data: dict[str, Any]) -> list[str]:
     points = sum(each["points"] for each in data["exercises"])
-    lines = [
-        "<table><tr><th>Exercise</th><th>Verdict</th><th>What was found</th><th>Points</th></tr>"
-    ]
+    lines = ["<table><tr><th></th><th>Verdict</th><th>What was found</th><th>Points</th></tr>"]
     for k, (text, state) in enumerate(objectives(data), 1):
         lines.append(
-            f'<tr class="rk-objective"><td>{k}</td><td>{_word(state)}</td>'
+            f'<tr class="rk-objective"><td>objective {k}</td><td>{_word(state)}</td>'
             f'<td colspan="2">{_said(text)}</td></tr>'
         )
         for each in data["exercises"]:
@@ -235,7 +240,7 @@ def _exercises(data: dict[str, Any]) -> list[str]:
             if each["case"]:
                 found.append(f"<pre>{_said(each['case'])}</pre>")
             lines.append(
-                f"<tr><td>{_said(each['id'])}</td><td>{_word(each['state'])}</td>"
+                f"<tr><td>exercise {_number(each)}</td><td>{_word(each['state'])}</td>"
                 f"<td><div><i>{_said(each['task'])}</i></div>{''.join(found)}</td>"
                 f"<td>{each['points']:g}</td></tr>"
             )
@@ -246,7 +251,7 @@ def _exercises(data: dict[str, Any]) -> list[str]:
 
 
 def _predictions(predictions: list[dict[str, Any]]) -> list[str]:
-    lines = ["<table><tr><th>Prediction</th><th>Choice</th><th></th></tr>"]
+    lines = ["<table><tr><th></th><th>Choice</th><th></th></tr>"]
     for each in predictions:
         if each["right"] is None:
             choice, word = "", _word("not made")
@@ -260,6 +265,10 @@ def _predictions(predictions: list[dict[str, Any]]) -> list[str]:
             f"<tr><td>{_said(each['id'])}</td><td>{_said(choice)}</td><td>{word}</td></tr>"
         )
     return [*lines, "</table>"]
+
+
+def _number(each: dict[str, Any]) -> str:
+    return _said(str(each["id"]).partition(".")[2])
 
 
 def _word(state: str) -> str:

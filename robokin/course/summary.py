@@ -22,22 +22,22 @@ from pathlib import Path
 from typing import Any
 
 from ..show.page import write_page
-from ..show.palette import ALARM, JOINT_STYLES, SOFT
+from ..show.palette import ALARM
 from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
-from .report import objectives, report_data, told
+from .report import GREEN, INK, LINE, SOFT, objectives, report_data, told
 from .variants import normalised
 
 FIRST = ["who", "lab", "file", "date"]  # the columns by which a table of ours is known
 BEGIN = "<title>What was handed in</title>"  # ... and a page
 STYLE = f"""\
-body {{ font: 15px/1.5 system-ui, sans-serif; margin: 16px; color: #1b2631; background: #fff; }}
+body {{ font: 15px/1.5 system-ui, sans-serif; margin: 16px; color: {INK}; background: #fff; }}
 table {{ border-collapse: collapse; }}
 td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0;
-  border-bottom: 1px solid #d5dbe1; }}
+  border-bottom: 1px solid {LINE}; }}
 .wide {{ overflow-x: auto; }}
-.holds {{ color: {JOINT_STYLES[2]["color"]}; }}
+.holds {{ color: {GREEN}; }}
 .not {{ color: {ALARM}; }}
 .open, small {{ color: {SOFT}; }}
 """
