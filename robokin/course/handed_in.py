@@ -92,18 +92,25 @@ def handed_in(path: Path) -> HandedIn:
     return HandedIn(path, notebook, most[0] if most else None, checks, choices, broken)
 
 
-def claims(notebook: Any) -> dict[str, str]:
-    """What the outputs say of exercises, by their ids: "holds" if any of them says so."""
+def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
+    """What the outputs say of exercises, by their ids: those of the call that counts, where it has
+    any, else of all cells; "holds" if any of them says so.
+    """
     found: dict[str, str] = {}
-    for cell in notebook.cells:
-        for output in cell.get("outputs", ()):
-            data = output.get("data", {})
-            shown = [output.get("text", ""), data.get("text/plain", "")]
-            shown.append(html.unescape(re.sub("<[^>]*>", "\n", _text(data.get("text/html", "")))))
-            for name, word in CLAIM.findall("\n".join(map(_text, shown))):
-                if found.get(name) != "holds":
-                    found[name] = word
+    last = {(call.name, call.cell) for call in checks.values()}
+    said = [(name, k, word) for k, cell in enumerate(notebook.cells) for name, word in _said(cell)]
+    at_last = {name for name, k, _ in said if (name, k) in last}
+    for name, k, word in said:
+        if (name not in at_last or (name, k) in last) and found.get(name) != "holds":
+            found[name] = word
     return found
+
+
+def _said(cell: Any) -> Iterator[tuple[str, str]]:
+    for output in cell.get("outputs", ()):
+        data = output.get("data", {})
+        shown = html.unescape(re.sub("<[^>]*>", "\n", str(data.get("text/html", ""))))
+        yield from CLAIM.findall(f"{output.get('text', '')}\n{data.get('text/plain', '')}\n{shown}")
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:
@@ -146,7 +153,3 @@ def _tree(source: str) -> ast.AST:
             rest = re.sub(r"^([ \t]*)(?:[%!].*|[^#'\"\n]*\?)$", r"\1pass", source, flags=re.M)
             tree = compile(rest, "cell", "exec", flags)
     return tree
-
-
-def _text(value: Any) -> str:
-    return "".join(value) if isinstance(value, list) else str(value)

@@ -38,7 +38,7 @@ TEXT = 5_000  # characters of text that a cell may leave in the page
 ROOM = 2_000_000  # characters of pictures, players and the like
 TIMES = 5  # as often a kernel is started again
 BESIDE = ("tasks", "images")  # folders that labs read from
-PICTURES = {".png", ".jpg", ".jpeg", ".svg", ".gif"}
+LARGE = 50_000_000  # bytes of a file beside a lab
 TOP = str(Path(__file__).resolve().parents[2])
 START = (  # this robokin, whichever one is installed, and none from the folder of the notebook
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.kernel import main; "
@@ -100,14 +100,14 @@ def judge(given: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     those of the student `who`; None: of the name that the notebook gives itself.
     """
     notebook = nbformat.from_dict(given.notebook)
-    before = claims(notebook)
+    before = claims(notebook, given.checks)
     run = Run(notebook, given.checks, who, limits)
     with tempfile.TemporaryDirectory(prefix="robokin", ignore_cleanup_errors=True) as folder:
         place = Path(folder, "lab")
-        _furnish(place, given.path)
+        _furnish(place, given)
         run_sync(run.all)(place)
     exercises = tuple(run.result(name, given.broken) for name in (_ids(given.lab, "EXERCISES")))
-    remarks = [*run.remarks, *_differences(exercises, before, claims(notebook))]
+    remarks = [*run.remarks, *_differences(exercises, before, claims(notebook, given.checks))]
     return Judged(notebook, exercises, guesses(given), tuple(remarks))
 
 
@@ -192,8 +192,11 @@ class Run:
         quiet = {"stdout": asyncio.subprocess.DEVNULL, "stderr": asyncio.subprocess.DEVNULL}
         environment = {**_environment(), "IPYTHONDIR": str(place.parent / "ipython")}
         try:
-            await client.async_start_new_kernel(cwd=str(place), env=environment, **quiet)
-            await client.async_start_new_kernel_client()
+            try:
+                await client.async_start_new_kernel(cwd=str(place), env=environment, **quiet)
+                await client.async_start_new_kernel_client()
+            except RuntimeError as error:
+                raise OSError(f"no kernel: {error}") from None
             for k, cell in enumerate(self.notebook.cells):
                 if cell.cell_type != "code" or not cell.source.strip() or k in self.notes:
                     continue
@@ -303,7 +306,7 @@ class Run:
                 continue
             if self.who is None:
                 self.remarks.append(f"{name}: judged with the numbers of {own!r}.")
-            elif normalised(own or NONE) != normalised(self.who):
+            elif normalised(own.strip() or NONE) != normalised(self.who):
                 self.remarks.append(
                     f"{name}: the notebook uses the numbers of {own!r}, not of {self.who!r}."
                 )
@@ -374,14 +377,18 @@ def _silent() -> logging.Logger:
     return log
 
 
-def _furnish(place: Path, path: Path) -> None:
-    """A folder with a copy of the notebook and of what labs have beside them."""
+def _furnish(place: Path, given: HandedIn) -> None:
+    """A folder with a copy of the notebook, of the folders that labs read from, and of the files
+    beside it that it names.
+    """
     place.mkdir()
-    shutil.copyfile(path, place / path.name)
-    for each in path.parent.iterdir():
+    named = "\n".join(cell.source for cell in given.notebook.cells)
+    for each in given.path.parent.iterdir():
         if each.is_dir() and each.name in BESIDE:
             shutil.copytree(each, place / each.name)
-        elif each.is_file() and each.suffix.lower() in PICTURES:
+        elif each == given.path or (
+            each.name in named and each.is_file() and each.stat().st_size < LARGE
+        ):
             shutil.copyfile(each, place / each.name)
 
 

@@ -45,12 +45,13 @@ def main(memory: int) -> None:
 
 
 def limit_memory(size: int) -> None:
-    """Let this process have `size` bytes. OSError, ValueError, ImportError: the system has no such
-    limit.
-    """
-    import resource
+    """Let this process have `size` bytes, or what it has where that is less."""
+    import resource  # Linux and its like
 
-    resource.setrlimit(resource.RLIMIT_AS, (size, size))
+    if sys.platform != "win32":
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        size = size if most == resource.RLIM_INFINITY else min(size, most)
+        resource.setrlimit(resource.RLIMIT_AS, (size, size))
 
 
 def judging(
@@ -94,14 +95,14 @@ class Stream(OutStream):
 
     cell, said = None, 0
 
-    def write(self, string: str) -> int | None:
+    def write(self, string: str) -> int:
         cell = self.parent_header.get("msg_id")
         if cell != self.cell:
             self.cell, self.said = cell, 0
-        if self.said > SAID:
-            return len(string)
+        if self.said <= SAID:
+            super().write(string[:SAID])
         self.said += len(string)
-        return super().write(string[:SAID])
+        return len(string)
 
 
 class Fingerprint:
