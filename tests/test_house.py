@@ -184,7 +184,9 @@ def test_the_package_itself_needs_numpy_only():
     }
     assert drawn & DRAWING == {"PIL" if name == "pillow" else name for name in extras["show"]}
     exports = {"math-core", "nbconvert", "nbformat"}
-    assert extras["labs"] == {"robokin", "jupyterlab", "ipywidgets", "scipy", "sympy"} | exports
+    reports = {"ipykernel", "jupyter-client", "nbclient"}
+    labs = {"robokin", "jupyterlab", "ipywidgets", "scipy", "sympy"}
+    assert extras["labs"] == labs | exports | reports
 
 
 def test_show_without_its_extra_says_what_to_install():

@@ -42,14 +42,24 @@ STYLE = f"""\
 .rk-report h2 {{ font-size: 18px; margin: 20px 0 4px; }}
 .rk-report table {{ border-collapse: collapse; width: 100%; }}
 .rk-report td, .rk-report th {{ text-align: left; vertical-align: top; padding: 4px 10px 4px 0;
-  border-bottom: 1px solid {LINE}; overflow-wrap: anywhere; }}
+  border-bottom: 1px solid {LINE}; }}
+.rk-report td:nth-child(3) {{ overflow-wrap: anywhere; }}
 .rk-report th {{ font-weight: 600; white-space: nowrap; }}
 .rk-report tr.rk-objective td {{ font-weight: 600; padding-top: 10px; }}
+.rk-report td:first-child {{ white-space: nowrap; }}
 .rk-report pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
 .rk-report .rk-holds {{ color: {GREEN}; font-weight: 600; }}
 .rk-report .rk-not {{ color: {ALARM}; font-weight: 600; }}
 .rk-report .rk-open {{ color: {SOFT}; font-weight: 600; }}
-@media print {{ .rk-report tr {{ break-inside: avoid; }} }}
+@media (max-width: 600px) {{
+  .rk-report {{ font-size: 13px; }}
+  .rk-report td:first-child, .rk-report th {{ white-space: normal; }}
+  .rk-report td, .rk-report th {{ padding-right: 5px; }}
+}}
+@media print {{
+  .rk-report tr {{ break-inside: avoid; }}
+  main pre {{ white-space: pre-wrap !important; overflow-wrap: anywhere; }}  /* nothing scrolls */
+}}
 """
 
 
@@ -199,7 +209,7 @@ def _head(data: dict[str, Any]) -> str:
         f"<style>{STYLE}</style>",
         f"{DATA}{inert(data)}</script>",
         '<header class="rk-report">',
-        f"<h1>{_said(data['title'])}</h1>",
+        f"<h1>Report: {_said(data['title'])}</h1>",
         f"<p><b>{_said(data['who'])}</b> · {made.day} {made:%B %Y} · {_said(data['file'])}"
         f" · {data['lab'] or 'no lab'}</p>",
     ]
@@ -261,9 +271,7 @@ def _predictions(predictions: list[dict[str, Any]]) -> list[str]:
             choice = each["choice"]
             confusion = f": {_said(each['confusion'])}" if each["confusion"] else ""
             word = f"{_word('not so')}{confusion}"
-        lines.append(
-            f"<tr><td>{_said(each['id'])}</td><td>{_said(choice)}</td><td>{word}</td></tr>"
-        )
+        lines.append(f"<tr><td>{_number(each)}</td><td>{_said(choice)}</td><td>{word}</td></tr>")
     return [*lines, "</table>"]
 
 

@@ -144,7 +144,7 @@ def csv_of(made: Summary) -> str:
     rows.writeheader()
     for entry in made.entries:
         row: dict[str, Any] = {"who": entry.who, "lab": entry.lab, "file": entry.file}
-        row["date"] = entry.when.isoformat(sep=" ", timespec="minutes")
+        row["date"] = f"{entry.when.astimezone():%Y-%m-%d %H:%M}"
         row["points"] = f"{sum(e['points'] for e in entry.data['exercises']):g}"
         row |= {f"objective {k}": s for k, (_, s) in enumerate(objectives(entry.data), 1)}
         for each in entry.data["exercises"]:
@@ -252,9 +252,9 @@ def _lines(made: Summary) -> Iterator[str]:
     yield '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width">'
     yield f"{BEGIN}\n<style>{STYLE}</style>\n<body>"
-    yield f"<h1>What was handed in</h1>\n<p>{datetime.now():%Y-%m-%d %H:%M}, "
-    yield f"{len(made.entries)} labs of {len({normalised(e.who) for e in made.entries})} students"
-    yield f", {len(made.broken)} files that could not be used.</p>"
+    yield f"<h1>What was handed in</h1>\n<p>{datetime.now():%Y-%m-%d %H:%M}: "
+    yield f"{len(made.entries)} labs of {len({normalised(e.who) for e in made.entries})} students,"
+    yield f"{len(made.broken)} files that could not be used.</p>"
     heads = ["Who", "Lab", "Objectives", "Exercises", "Points", "Predictions", "Remarks"]
     yield from _table(heads, map(_row, made.entries))
     yield "<h2>The most frequent mistakes</h2>"
