@@ -190,6 +190,7 @@ def test_missing_raising_and_endless_answers(tmp_path):
         cell("'a check that was deleted'", "irb140_motion.2: holds."),
         "raise RuntimeError('no')\ndef speeds_are_right(speeds):\n    return True",
         'check("irb140_motion.3", speeds_are_right)',
+        'check("scara_motion.1", None)',
     )
     judged = judge(handed_in(lab), "Ada", QUICK)
     one, two, three = judged.exercises
@@ -199,6 +200,7 @@ def test_missing_raising_and_endless_answers(tmp_path):
     remarks = "\n".join(judged.remarks)
     assert 'irb140_motion.2: the stored output says "holds"' in remarks
     assert "irb140_motion.1" not in remarks and "RuntimeError" in remarks
+    assert "Of other labs, and left out here: scara_motion.1." in remarks
     assert all(guess.right is None for guess in judged.predictions)
 
 

@@ -100,14 +100,19 @@ def judge(given: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     those of the student `who`; None: of the name that the notebook gives itself.
     """
     notebook = nbformat.from_dict(given.notebook)
-    before = claims(notebook, given.checks)
-    run = Run(notebook, given.checks, who, limits)
+    names = _ids(given.lab, "EXERCISES")
+    checks = {name: call for name, call in given.checks.items() if name in names}
+    before = claims(notebook, checks)
+    run = Run(notebook, checks, who, limits)
     with tempfile.TemporaryDirectory(prefix="robokin", ignore_cleanup_errors=True) as folder:
         place = Path(folder, "lab")
         _furnish(place, given)
         run_sync(run.all)(place)
-    exercises = tuple(run.result(name, given.broken) for name in (_ids(given.lab, "EXERCISES")))
-    remarks = [*run.remarks, *_differences(exercises, before, claims(notebook, given.checks))]
+    exercises = tuple(run.result(name, given.broken) for name in names)
+    remarks = [*run.remarks, *_differences(exercises, before, claims(notebook, checks))]
+    others = [name for name in given.checks if name not in names]
+    if others:
+        remarks.append(f"Of other labs, and left out here: {', '.join(others)}.")
     return Judged(notebook, exercises, guesses(given), tuple(remarks))
 
 
@@ -216,6 +221,7 @@ class Run:
                 await manager.shutdown_kernel(now=True)
 
     async def _cell(self, client: Client, manager: AsyncKernelManager, k: int, cell: Any) -> bool:
+        """Run a cell. False: it killed the kernel and is now left out."""
         seconds = min(self.limits.cell, max(1.0, self.end - time.monotonic()))
         ended = await _within(seconds, client.async_execute_cell(cell, k), manager)
         if self._capped(cell):
@@ -235,7 +241,8 @@ class Run:
         return False
 
     async def _judge(self, client: Client, manager: AsyncKernelManager, call: Call) -> bool:
-        if call.name in self.found and "died" in self.found[call.name]:
+        """Judge the answer in a call. False: that killed the kernel; it is not tried again."""
+        if "died" in self.found.get(call.name, {}):
             return True
         asked = {"name": call.name, "answer": call.answer, "own": call.own, "who": self.who}
         message = client.kc.execute(  # type: ignore[union-attr]
@@ -250,8 +257,11 @@ class Run:
         if ended in ("killed", "dead"):
             self.found[call.name] = {"died": True, "error": "judging it ends the kernel"}
             return False
-        found = replies[0]["content"].get("user_expressions", {}).get("judge") if replies else None
-        self.found[call.name] = found or {"error": "the kernel gave no answer"}
+        content = replies[0]["content"] if replies and replies[0] else {}
+        found = content.get("user_expressions", {}).get("judge")
+        odd = {"error": "the kernel gave no answer that can be read"}
+        good = isinstance(found, dict) and found.keys() & {"verdict", "changed", "error"}
+        self.found[call.name] = found if good else odd
         return True
 
     def result(self, name: str, broken: dict[str, str]) -> Result:
