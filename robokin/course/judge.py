@@ -157,7 +157,7 @@ class Run:
         self.notebook, self.checks, self.who, self.limits = notebook, checks, who, limits
         self.found: dict[str, dict[str, Any]] = {}  # id -> what the kernel answered
         self.notes: dict[int, str] = {}  # cell -> why it is left out
-        self.stopped: dict[int, str] = {}
+        self.stopped: dict[int, str] = {}  # cell -> what happened to it
         self.cut: set[int] = set()  # cells that say too much
         self.remarks: list[str] = []
 
@@ -191,7 +191,6 @@ class Run:
             allow_errors=True,
             coalesce_streams=True,
             record_timing=False,
-            store_widget_state=False,
             log=_silent(),
         )
         quiet = {"stdout": asyncio.subprocess.DEVNULL, "stderr": asyncio.subprocess.DEVNULL}
@@ -233,8 +232,9 @@ class Run:
             "killed": f"Stopped after {seconds:.0f} s: nothing less than ending the kernel "
             "stopped it. The other cells ran without it.",
             "dead": "The kernel died in this cell. The other cells ran without it.",
+            "unread": "Not all that it shows could be read.",
         }[ended]
-        if ended == "stopped":
+        if ended in ("stopped", "unread"):
             self.stopped[k] = what
             return True
         self.notes[k], cell.execution_count = what, None
@@ -259,9 +259,8 @@ class Run:
             return False
         content = replies[0]["content"] if replies and replies[0] else {}
         found = content.get("user_expressions", {}).get("judge")
-        odd = {"error": "the kernel gave no answer that can be read"}
-        good = isinstance(found, dict) and found.keys() & {"verdict", "changed", "error"}
-        self.found[call.name] = found if good else odd
+        odd = {"error": "the kernel gave no answer"}
+        self.found[call.name] = found if isinstance(found, dict) else odd
         return True
 
     def result(self, name: str, broken: dict[str, str]) -> Result:
@@ -282,16 +281,19 @@ class Run:
             return replace(blank, state="not judged", says=(says,))
         if "error" in found:
             return replace(blank, state="failed", says=(f"No answer to judge: {found['error']}.",))
-        verdict = found["verdict"]
-        state = "holds" if verdict["holds"] else "does not hold"
-        return replace(
-            blank,
-            state=state if verdict["answered"] else "unanswered",
-            mistake=verdict["mistake"],
-            says=tuple(verdict["says"]),
-            case=verdict["case"],
-            points=float(verdict["points"]),
-        )
+        try:
+            verdict = found["verdict"]
+            state = "holds" if verdict["holds"] else "does not hold"
+            return replace(
+                blank,
+                state=state if verdict["answered"] else "unanswered",
+                mistake=verdict["mistake"],
+                says=tuple(verdict["says"]),
+                case=verdict["case"],
+                points=float(verdict["points"]),
+            )
+        except (KeyError, TypeError, ValueError):  # a notebook that answers for us
+            return replace(blank, state="failed", says=("No answer to judge: it is no verdict.",))
 
     def _tell(self) -> None:
         """Put into the notebook and into the remarks what happened to cells."""
@@ -345,7 +347,9 @@ class Run:
 
 
 async def _within(seconds: float, work: Awaitable[Any], manager: AsyncKernelManager) -> str:
-    """Wait for the kernel's work: "in time", "stopped" by an interrupt, "killed", or "dead"."""
+    """Wait for the kernel's work: "in time", "stopped" by an interrupt, "killed", "dead", or
+    "unread" where nbclient does not understand what comes.
+    """
     task = asyncio.ensure_future(work)
     ended = "in time"
     try:
@@ -363,6 +367,8 @@ async def _within(seconds: float, work: Awaitable[Any], manager: AsyncKernelMana
         task.result()
     except DeadKernelError:
         return "killed" if ended == "killed" else "dead"
+    except Exception:  # a cell may send anything
+        return "unread"
     finally:
         task.cancel()
     return ended
