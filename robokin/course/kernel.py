@@ -1,10 +1,10 @@
 """The kernel in which a handed-in notebook runs: Jupyter's own, with a limit of memory, that judges
 an answer between two cells with the checks that it had before the first one ran.
 
-What can change a verdict is looked at before each judgement: the modules of robokin and what they
-call of others. This finds what a notebook changes by the way, and a hand that knows what it does
-not want to be seen; it is no wall. Cells and checks share a process, and whoever studies this file
-can defeat it. Marking outside the student's process is nbgrader's work.
+What a verdict rests on is compared before and after each judgement with what it was: the modules of
+robokin, and what they call of others. This finds a function that was replaced, by accident or by a
+quick hand. It is no wall: cells and checks share a process, and whoever studies this file can
+defeat it. Marking outside the student's process is nbgrader's work.
 """
 
 import builtins
