@@ -71,6 +71,9 @@ HEAVY = DRAWING | {
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.judge": {"jupyter_client", "nbclient", "nbformat"},
+    "robokin.course.kernel": {"ipykernel"},
+    "robokin.course.report": {"nbformat"},
     "robokin.course.site.conf": {"docutils", "sphinx"},
 }
 
@@ -195,7 +198,9 @@ def test_the_package_itself_needs_numpy_only():
     }
     assert drawn & DRAWING == {"PIL" if name == "pillow" else name for name in extras["show"]}
     exports = {"math-core", "nbconvert", "nbformat"}
-    assert extras["labs"] == {"robokin", "jupyterlab", "ipywidgets", "scipy", "sympy"} | exports
+    reports = {"ipykernel", "jupyter-client", "nbclient"}
+    labs = {"robokin", "jupyterlab", "ipywidgets", "scipy", "sympy"}
+    assert extras["labs"] == labs | exports | reports
 
 
 def test_show_without_its_extra_says_what_to_install():

@@ -3,8 +3,9 @@
 import argparse
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -12,58 +13,83 @@ def main(argv: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
+    given = _parser().parse_args(argv)
+    try:
+        return int(given.run(given))
+    except ModuleNotFoundError as error:
+        print(f"{error}; pip install 'robokin[{given.extra}]' brings it", file=sys.stderr)
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m robokin.course", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    export = commands.add_parser(
-        "export",
-        help="one page for each lab, alive without a network",
-        description="Write LAB.html for each LAB.ipynb: one page that needs no network and no "
-        "Python. Players, explorers and predictions are alive in it.",
-    )
-    export.add_argument("labs", nargs="+", metavar="LAB", type=Path, help="a notebook (.ipynb)")
-    export.add_argument(
-        "--to", metavar="FOLDER", type=Path, default=Path(), help="where (default: here)"
-    )
-    copy = commands.add_parser(
-        "copy",
-        help="the labs into a student's folder; again when there are newer ones",
-        description="Lay the labs into FOLDER, trusted. Run again, it replaces what was not "
-        "touched (running is not touching) and keeps the student's work: the newer lab is then "
-        "laid beside it, NAME.new.ipynb.",
+
+    def command(
+        run: Callable[[Any], int], words: str, description: str, extra: str = "labs"
+    ) -> argparse.ArgumentParser:
+        name = run.__name__.strip("_")
+        made = commands.add_parser(name, help=words, description=description)
+        made.set_defaults(run=run, extra=extra)
+        return made
+
+    labs: dict[str, Any] = {"nargs": "+", "metavar": "LAB", "type": Path}
+    to: dict[str, Any] = {"metavar": "FOLDER", "type": Path, "default": Path()}
+    copy = command(
+        _copy,
+        "the labs into a student's folder; again when there are newer ones",
+        "Lay the labs into FOLDER, trusted. Run again, it replaces what was not touched (running "
+        "is not touching) and keeps the student's work: the newer lab is then laid beside it, "
+        "NAME.new.ipynb.",
     )
     copy.add_argument("folder", metavar="FOLDER", type=Path, help="the student's folder")
-    copy.add_argument(
-        "--from",
-        dest="source",
-        metavar="FOLDER",
-        type=Path,
-        help="where the labs are (default: in the clone that robokin is installed from)",
+    where = "where the labs are (default: in the clone that robokin is installed from)"
+    copy.add_argument("--from", dest="source", metavar="FOLDER", type=Path, help=where)
+
+    export = command(
+        _export,
+        "one page for each lab, alive without a network",
+        "Write LAB.html for each LAB.ipynb: one page that needs no network and no Python. "
+        "Players, explorers and predictions are alive in it.",
     )
-    site = commands.add_parser(
-        "site",
-        help="all labs and the package's reference as pages, alive without Python",
-        description="Write a site into FOLDER: labs, companions, glossary, notes for teachers, the "
-        "package's reference, a search. Open its index.html, or lay the folder on any server.",
+    report = command(
+        _report,
+        "one page of your lab to hand in",
+        "Run LAB.ipynb anew and write LAB_NAME.html for each: who, what holds of its exercises, "
+        "the predictions made, and the lab, alive without a network.",
+    )
+    summary = command(
+        _summary,
+        "the teacher's table of what was handed in",
+        "Write summary.csv and summary.html over the reports and notebooks below FOLDER: who, "
+        "what holds, which mistakes are frequent, which predictions went wrong. Notebooks are "
+        "judged anew, which takes 5 to 60 seconds each.",
+    )
+    for each in (export, report):
+        each.add_argument("labs", help="a notebook (.ipynb)", **labs)
+    report.add_argument("--name", required=True, help="who hands it in")
+    summary.add_argument("folder", metavar="FOLDER", type=Path, help="what was handed in")
+    for each in (export, report, summary):
+        each.add_argument("--to", help="where (default: here)", **to)
+
+    site = command(
+        _site,
+        "all labs and the package's reference as pages, alive without Python",
+        "Write a site into FOLDER: labs, companions, glossary, notes for teachers, the package's "
+        "reference, a search. Open its index.html, or lay the folder on any server.",
+        extra="site",
     )
     site.add_argument("folder", metavar="FOLDER", type=Path, help="a new one, or a site's")
-    given = parser.parse_args(argv)
-    if given.command == "site":
-        return _site(given.folder)
-    if given.command == "copy":
-        return _copy(given.folder, given.source)
-    return _export(given.labs, given.to)
+    return parser
 
 
-def _copy(folder: Path, source: Path | None) -> int:
+def _copy(given: Any) -> int:
     from .copies import copy
 
     try:
-        outcomes = copy(folder, source)
-    except ModuleNotFoundError as error:
-        print(f"{error}; pip install 'robokin[labs]' brings it", file=sys.stderr)
-        return 1
+        outcomes = copy(given.folder, given.source)
     except (OSError, ValueError) as error:
-        print(f"{folder}: {error}", file=sys.stderr)
+        print(f"{given.folder}: {error}", file=sys.stderr)
         return 1
     counts = Counter(outcome.what for outcome in outcomes)
     for outcome in outcomes:
@@ -73,39 +99,67 @@ def _copy(folder: Path, source: Path | None) -> int:
     same = counts["same"]
     news = [f"{counts[what]} {what}" for what in ("new", "replaced", "kept", "failed")]
     news = [each for each in news if not each.startswith("0 ")]
-    print(f"{folder}: {', '.join(news) or 'nothing new'}; {same} as they were")
+    print(f"{given.folder}: {', '.join(news) or 'nothing new'}; {same} as they were")
     return 1 if counts["failed"] else 0
 
 
-def _export(labs: Sequence[Path], folder: Path) -> int:
-    try:
-        from .export import export
-    except ModuleNotFoundError as error:
-        print(f"{error}; pip install 'robokin[labs]' brings it", file=sys.stderr)
-        return 1
+def _export(given: Any) -> int:
+    from .export import export
+
+    def written(path: Path) -> Path:
+        page: Path = given.to / f"{path.stem}.html"
+        export(path, page)
+        return page
+
+    return _each(given.labs, written)
+
+
+def _report(given: Any) -> int:
+    from .report import report
+
+    return _each(given.labs, lambda path: report(path, given.name, given.to))
+
+
+def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
+    """A page of each lab; one that cannot be made is named, and the others go on."""
     failed = 0
     for path in labs:
-        page = folder / f"{path.stem}.html"
         try:
-            export(path, page)
+            page = written(path)
         except (OSError, ValueError) as error:
             failed += 1
             print(f"{path}: {error}", file=sys.stderr)
         else:
-            print(f"{page}: {page.stat().st_size / 1e3:.0f} kB")
+            print(f"{page}: {page.stat().st_size / 1e3:.0f} kB", flush=True)
     return 1 if failed else 0
 
 
-def _site(folder: Path) -> int:
+def _summary(given: Any) -> int:
+    from .summary import places, summary, write
+
+    try:
+        places(given.to)  # before notebooks run for minutes
+        made = summary(given.folder, tell=lambda line: print(line, flush=True))
+        for file, reason in made.broken:
+            print(f"{given.folder / file}: {reason}", file=sys.stderr)
+        for path in write(made, given.to):
+            print(path)
+    except (OSError, ValueError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 1 if made.broken else 0
+
+
+def _site(given: Any) -> int:
     from .site import build
 
     print("The site is being made; this takes half a minute.", flush=True)
     try:
-        complaints = build(folder)
+        complaints = build(given.folder)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
-    print(folder / "index.html")
+    print(given.folder / "index.html")
     if complaints:
         print(complaints, file=sys.stderr)
     return 1 if complaints else 0

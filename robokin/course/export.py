@@ -103,10 +103,8 @@ def page(notebook: Any, title: str, folder: Path) -> str:
     return str(made)
 
 
-def export(path: Path, to: Path) -> None:
-    """Write the notebook at `path` as the page `to`, wholly or not at all. ValueError: no notebook,
-    a formula that cannot be read, a file in the way that is no page of ours.
-    """
+def read(path: Path) -> Any:
+    """The notebook at `path`, as nbformat has it. ValueError: it is none, or cannot be read."""
     try:
         notebook = nbformat.read(path, as_version=4)
         nbformat.validate(notebook)
@@ -115,4 +113,11 @@ def export(path: Path, to: Path) -> None:
     except Exception as error:  # JSON, Unicode and schema errors of several libraries
         reason = str(error).partition("\n")[0]
         raise ValueError(f"not a notebook: {reason}") from None
-    write_page(to, page(notebook, path.stem, path.parent))
+    return notebook
+
+
+def export(path: Path, to: Path) -> None:
+    """Write the notebook at `path` as the page `to`, wholly or not at all. ValueError: no notebook,
+    a formula that cannot be read, a file in the way that is no page of ours.
+    """
+    write_page(to, page(read(path), path.stem, path.parent))

@@ -1,0 +1,411 @@
+"""`python -m robokin.course report`: a lab judged anew, as one page to hand in.
+
+The labs are written here, so that what every answer is worth is known beforehand.
+"""
+
+import io
+import json
+import os
+import re
+import sys
+from types import SimpleNamespace
+
+import nbformat
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+
+import robokin.course.exercises
+from robokin import IRB140, course
+from robokin.course import book, kernel, solution
+from robokin.course.__main__ import main
+from robokin.course.handed_in import Call, handed_in
+from robokin.course.judge import Judged, Limits, Result, Run, guesses, judge
+from robokin.course.report import (
+    STATES,
+    objectives,
+    page_of,
+    report,
+    report_data,
+    safe,
+    told,
+)
+
+QUICK = Limits(cell=12, all=100)
+SHORT = Limits(cell=4, all=100)
+IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as np"
+PLAYER = """\
+from robokin import IRB140, Transform, deg, ptp
+from robokin.show import animate
+t = np.linspace(0, 2, 41)
+q = ptp(np.zeros(6), np.array([90, 30, -60, 45, 60, 120]) * deg, t / 2)
+animate(IRB140, t, q, title="A turn of every joint")"""
+
+
+def cell(source, said=None):
+    """A code cell; `said` is stored as its output."""
+    made = new_code_cell(source)
+    if said:
+        data = {"text/plain": said, "text/html": f"<div><b>{said}</b></div>"}
+        made.outputs = [new_output("execute_result", data=data, execution_count=1)]
+    return made
+
+
+def stored(path, *cells):
+    made = [c if not isinstance(c, str) else cell(c) for c in cells]
+    nbformat.write(new_notebook(cells=made), path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def hostile(tmp_path_factory):
+    """One lab with nearly all that can go wrong, judged once: path, page, what the page says."""
+    folder = tmp_path_factory.mktemp("hostile")
+    lab = stored(
+        folder / "Ada's homework.ipynb",
+        new_markdown_cell("# A hostile lab\n\nThe angle is $\\frac{\\pi}{2}$."),
+        new_markdown_cell("It is $\\nonsense$."),
+        IMPORTS,
+        PLAYER,
+        'predict("scara_motion.p1", "a")',
+        'predict("scara_motion.p2", choice="c")\npredict("scara_motion.p3", "z")',
+        'predict("scara_motion.p4")',
+        "1 / 0",
+        "import os\nprint('I shall die')\nos._exit(1)",
+        "while True:\n    print('x' * 1000)",
+        solution("scara_motion.1"),
+        '%time 1\ncheck("scara_motion.1", answer=least_turn)',
+        "def inside(q):\n    return True",
+        cell('course_check = check\ncheck("scara_motion.2", inside)', "scara_motion.2: holds."),
+        solution("scara_motion.3"),  # of "your name"
+        cell('check("scara_motion.3", design, who=who)', "scara_motion.3: holds."),
+        "exit()",
+        "print('still here')",
+    )
+    page = report(lab, "Ada Lovelace", folder, SHORT)
+    text = page.read_text(encoding="utf-8")
+    return SimpleNamespace(lab=lab, page=page, text=text, data=report_data(text))
+
+
+def test_the_verdicts_are_what_the_answers_are_worth(hostile):
+    one, two, three = hostile.data["exercises"]
+    assert (one["id"], one["state"], one["points"]) == ("scara_motion.1", "holds", 1)
+    wrong = course.check("scara_motion.2", lambda q: True)
+    assert two["state"] == "does not hold" and two["points"] == wrong.points < 1
+    assert (two["mistake"], two["case"]) == (wrong.mistake, wrong.case) and wrong.mistake
+    assert tuple(two["says"]) == wrong.says
+    assert three["state"] == "does not hold"  # right for "your name", and Ada's numbers are others
+    assert [state for _, state in objectives(hostile.data)] == ["holds", "begun", "begun"]
+    assert hostile.data["who"] == "Ada Lovelace" and hostile.data["lab"] == "scara_motion"
+    assert hostile.data["numbers"] == str(course.variant("scara_motion", "Ada Lovelace"))
+
+
+def test_what_is_odd_is_said(hostile):
+    remarks = "\n".join(hostile.data["remarks"])
+    for said in (
+        'scara_motion.2: the stored output says "holds"; worked out anew it is "does not hold".',
+        "scara_motion.3: the notebook uses the numbers of 'your name', not of 'Ada Lovelace'.",
+        "(ZeroDivisionError)",
+        "The kernel died in this cell.",
+        "what it shows was too much",
+        ": Stopped after 4 s.",
+        "is shown as it was typed",
+    ):
+        assert said in remarks, said
+    assert "scara_motion.1:" not in remarks
+    for said in (
+        "I shall die",
+        "The kernel died in this cell.",
+        "Stopped after 4 s.",
+        "still here",
+    ):
+        assert said in hostile.text, said
+    assert "ZeroDivisionError" in hostile.text and "x" * 1000 in hostile.text
+    # a player and three predictions are made anew: the lab was handed in without them
+    assert len(hostile.text.encode()) < hostile.lab.stat().st_size + 500_000 + 200_000
+
+
+def test_predictions_are_told_as_they_were_made(hostile):
+    made = {each["id"].partition(".p")[2]: each for each in hostile.data["predictions"]}
+    assert len(made) == len(book.lab("scara_motion").PREDICTIONS)
+    for number, letter in (("1", "a"), ("2", "c")):
+        asked = course.predict(f"scara_motion.p{number}", letter)
+        assert made[number]["choice"] == letter
+        assert made[number]["right"] == (asked.at == asked.right)
+        assert made[number]["confusion"] == asked.options[asked.at].confusion
+    assert made["3"]["right"] is False and "no choice" in made["3"]["confusion"]
+    assert {made[n]["right"] for n in made if n not in "123"} == {None}
+
+
+def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
+    context = browser.new_context(viewport={"width": 1000, "height": 900}, offline=True)
+    page, complaints, asked = context.new_page(), [], []
+    page.on("console", lambda m: m.type in ("error", "warning") and complaints.append(m.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(hostile.page.as_uri())
+    [formula] = page.locator("math mfrac").all()
+    assert formula.bounding_box()["height"] > 15
+    assert "It is $\\nonsense$." in page.locator("main").inner_text(), "as it was typed"
+    head = page.locator(".rk-report")
+    assert "Ada Lovelace" in head.inner_text() and "A hostile lab" in head.inner_text()
+    player = page.locator("div.robokin-player", has=page.get_by_label("playing speed")).first
+    player.scroll_into_view_if_needed()
+    arm = player.locator("canvas").first
+    before = arm.screenshot()
+    player.get_by_role("slider").first.fill("1.0")
+    page.wait_for_timeout(200)
+    assert arm.screenshot() != before, "the arm does not move"
+    asking = page.locator("div.robokin-player", has_text="d) ").last
+    assert asking.get_by_role("radio").count() >= 3, "what was not predicted can be"
+    page.set_viewport_size({"width": 390, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 392
+    pdf = page.pdf(path=tmp_path / "report.pdf", format="A4")
+    assert pdf.startswith(b"%PDF") and len(re.findall(rb"/Type\s*/Page\b", pdf)) >= 2
+    assert complaints == []
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    context.close()
+
+
+def test_a_report_is_hardly_larger_than_the_lab():
+    for path in sorted(NOTEBOOKS.glob("*.ipynb"), key=lambda path: path.stat().st_size)[-2:]:
+        given = handed_in(path)
+        says = ("A sentence about what is wrong and how it can be mended, of usual length.",) * 4
+        made = [
+            Result(f"{given.lab}.{n}", e.task, e.objective, "failed", "the mistake", says, "case")
+            for n, e in book.lab(given.lab).EXERCISES.items()
+        ]
+        judged = Judged(given.notebook, tuple(made), guesses(given), says * 5)
+        page = page_of(told(given, "Ada", judged), given.notebook, path.parent)
+        assert len(page.encode()) < path.stat().st_size + 500_000
+
+
+def test_missing_raising_and_endless_answers(tmp_path):
+    lab = stored(
+        tmp_path / "03_irb140_motion Ada.ipynb",
+        IMPORTS,
+        "def fraction_for(distance, corner):\n    while True:\n        pass",
+        cell('check("irb140_motion.1", fraction_for)', "irb140_motion.1: does not hold."),
+        cell("'a check that was deleted'", "irb140_motion.2: holds."),
+        "raise RuntimeError('no')\ndef speeds_are_right(speeds):\n    return True",
+        'check("irb140_motion.3", speeds_are_right)',
+        'check("scara_motion.1", None)',
+        "from ipywidgets import interact\n@interact(x=(0, 3))\ndef f(x=1):\n    print('x is', x)",
+        "import asyncio\nawait asyncio.sleep(0)\nprint('awaited')",
+        "input('?')",
+    )
+    judged = judge(handed_in(lab), "Ada", QUICK)
+    one, two, three = judged.exercises
+    assert (one.state, one.mistake) == ("does not hold", "never ends")
+    assert (two.state, two.points) == ("unanswered", 0)
+    assert three.state == "failed" and "NameError" in three.says[0] and three.points == 0
+    remarks = "\n".join(judged.remarks)
+    assert 'irb140_motion.2: the stored output says "holds"' in remarks
+    assert "irb140_motion.1" not in remarks and "RuntimeError" in remarks
+    assert "Of other labs, and left out here: scara_motion.1." in remarks
+    assert "StdinNotImplementedError" in remarks and "could be read" not in remarks
+    assert judged.notebook.cells[-2].outputs[0].text == "awaited\n"
+    assert all(guess.right is None for guess in judged.predictions)
+
+
+def test_a_notebook_that_changes_the_package_is_not_judged(tmp_path):
+    (tmp_path / "robokin.py").write_text("raise SystemExit")  # is not taken
+    (tmp_path / "tasks").mkdir()
+    (tmp_path / "tasks" / "one.json").write_text("{}")
+    lab = stored(
+        tmp_path / "lab.ipynb",
+        IMPORTS,
+        "from robokin import course\nfrom pathlib import Path\n"
+        "assert Path('tasks/one.json').is_file() and not [*Path().glob('robokin*')]",
+        "fraction_for = lambda distance, corner: 0.25\n"
+        "course._verdicts['irb140_motion.1'] = course.Verdict('irb140_motion.1', holds=True)\n"
+        "_check, check = check, lambda *a: print('irb140_motion.1: holds.')",
+        'course.check("irb140_motion.1", lambda distance, corner: distance)',  # tried, not the last
+        'check("irb140_motion.1", fraction_for)',
+        "import robokin.course.exercises as e\n"
+        "e.Function.judge = lambda self, name, *a: course.Verdict(name, holds=True, points=1.0)",
+        'check("irb140_motion.2", np.sin)\n_check("irb140_motion.2", np.sin)',
+    )
+    before = os.listdir(tmp_path)
+    judged = judge(handed_in(lab), "Ada", QUICK)
+    one, two, three = judged.exercises
+    assert one.state == "does not hold"
+    assert two.state == "not judged" and two.points == 0
+    assert "exercises.Function.judge" in two.says[0] and three.state == "unanswered"
+    said = 'irb140_motion.{}: the notebook\'s own output says "holds"; the check says "{}".'
+    assert said.format(1, "does not hold") in judged.remarks
+    assert said.format(2, "not judged") in judged.remarks
+    assert not any("raise" in remark for remark in judged.remarks), judged.remarks
+    assert os.listdir(tmp_path) == before, "something was left beside the notebook"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "patch.setattr(np, 'allclose', lambda *a, **k: True)",
+        "patch.setattr(np.linalg, 'norm', lambda *a, **k: 0.0)",
+        "patch.setattr('builtins.all', lambda values: True)",
+        "patch.setattr(exercises, 'all', lambda values: True, raising=False)",
+        "patch.setattr(exercises, 'run', lambda *a: [])",
+        "patch.setattr(exercises.Verdict, 'holds', True)",
+        "patch.setattr(course, 'find', lambda *a: None)",
+        "patch.setattr(course.find, '__code__', (lambda a, b: None).__code__)",
+        "patch.setitem(motion.EXERCISES, '1', motion.EXERCISES['2'])",
+        "patch.setitem(motion.EXERCISES['1'].__dict__, 'judge', print)",
+        "patch.setitem(motion.EXERCISES['1'].__dict__, 'objective', 3)",
+        "patch.setitem(sys.modules, 'robokin.course.book', course)",
+        "patch.setattr(type(IRB140), 'ik', lambda *a: None)",
+        "patch.setattr('time.monotonic', lambda: 0.0)",
+    ],
+)
+def test_a_change_is_seen(change, monkeypatch):
+    motion = book.lab("irb140_motion")
+    fingerprint = kernel.Fingerprint()
+    space = {"np": np, "course": course, "exercises": robokin.course.exercises, "sys": sys}
+    space |= {"motion": motion, "IRB140": IRB140}
+    assert fingerprint.changed() == []
+    with monkeypatch.context() as patch:
+        exec(change, {**space, "patch": patch})
+        changed = fingerprint.changed()
+    assert len(changed) >= 1, change
+    assert fingerprint.changed() == [], "changed back"
+
+
+def test_using_the_package_is_no_change():
+    fingerprint = kernel.Fingerprint()
+    for slug in book.LABS:
+        for n in book.lab(slug).EXERCISES:
+            course.check(f"{slug}.{n}", lambda *a: np.zeros(3), who="Ada")
+    course.predict("irb140_motion.p1")
+    course.progress()
+    assert fingerprint.changed() == []
+
+
+def asked(judging, name, answer, own="", who=None):
+    request = json.dumps({"name": name, "answer": answer, "own": own, "who": who})
+    return judging({"judge": request})["judge"]
+
+
+def test_judging_in_the_kernel_leaves_no_trace():
+    space = {"right": None, "who": "Bob"}
+    exec(solution("scara_motion.3").replace("your name", "Bob"), space)
+    judging = kernel.judging(course.check, space)
+    assert judging({}) == {}
+    before = dict(course._verdicts)
+    names = set(space)
+    assert asked(judging, "scara_motion.3", "design", "who")["verdict"]["holds"]
+    other = asked(judging, "scara_motion.3", "design", "who", "Ada")
+    assert not other["verdict"]["holds"] and other["own"] == "Bob"
+    assert "NameError" in asked(judging, "scara_motion.3", "nothing_there")["error"]
+    assert not asked(judging, "scara_motion.3", "")["verdict"]["answered"]
+    assert course._verdicts == before and set(space) == names
+
+
+@pytest.mark.parametrize("odd", [{"verdict": 1}, {"verdict": {"holds": True}}, {}, {"x": 1}])
+def test_an_answer_that_is_no_verdict_is_none(odd):
+    call = Call(0, "irb140_motion.1", "x", "")
+    run = Run(new_notebook(), {call.name: call}, "Ada", QUICK)
+    run.found[call.name] = odd
+    result = run.result(call.name, {})
+    assert result.state == "failed" and result.points == 0
+
+
+def test_the_last_call_counts_and_files_may_be_called_anything(tmp_path):
+    lab = stored(
+        tmp_path / "homework.ipynb",
+        'check("irb140_motion.1", first)\ncourse.check(name="irb140_motion.2", answer=a + 1)',
+        '%time check("irb140_motion.3", x)',  # in words of Jupyter's
+        "x = [i\n  % 2 for i in y]; await z",
+        'robokin.course.check("irb140_motion.1", f(1), who="Ada")',
+        'predict("irb140_motion.p2", "a"); predict("irb140_motion.p2", "b")',
+        'predict("irb140_motion.p3", None)\npredict("irb140_motion.p99", "a")',
+        'check("irb140_motion.3" x)',
+        'check(f"irb140_{1}", 2); check("nonsense.1", 3)',
+    )
+    given = handed_in(lab)
+    assert given.lab == "irb140_motion" and given.title == "homework"
+    assert given.checks["irb140_motion.1"] == (3, "irb140_motion.1", "f(1)", "'Ada'")
+    assert given.checks["irb140_motion.2"].answer == "a + 1"
+    assert set(given.checks) == {"irb140_motion.1", "irb140_motion.2"}
+    assert given.choices["irb140_motion.p2"].answer == "'b'"
+    assert set(given.choices) == {"irb140_motion.p2"}
+    assert "SyntaxError" in given.broken["irb140_motion.3"]
+    [made] = [guess for guess in guesses(given) if guess.right is not None]
+    assert made.choice == "b"
+    empty = stored(tmp_path / "02_irb140_kinematics (2).ipynb", "1")
+    assert handed_in(empty).lab == "irb140_kinematics"
+    assert handed_in(stored(tmp_path / "notes.ipynb", "1")).lab is None
+
+
+@pytest.mark.parametrize(
+    ("name", "kept"),
+    [
+        ("Ada Lovelace", "Ada_Lovelace"),
+        ("Юрий Поляков", "Юрий_Поляков"),
+        ("José-María", "José-María"),
+        ('a/b\\c:d*e?f"g<h>i|j', "a_b_c_d_e_f_g_h_i_j"),
+        ("../../etc", "etc"),
+        ("कमला", "कमला"),
+        ("...", "lab"),
+        ("x" * 300, "x" * 100),
+        ("ж" * 300, "ж" * 50),
+    ],
+)
+def test_a_name_becomes_part_of_a_file_name(name, kept):
+    assert safe(name) == kept
+
+
+def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    lab = stored(tmp_path / "my lab.ipynb", new_markdown_cell("# Notes"), "print(1 + 1)")
+    page = tmp_path / "my_lab_Ada.html"
+    page.write_text("mine")
+    (tmp_path / "bad.ipynb").write_text("{}")
+    assert main(["report", "bad.ipynb", str(lab), "lost.ipynb", "--name", "Ada"]) == 1
+    said = capsys.readouterr()
+    assert page.read_text() == "mine" and "nothing is overwritten" in said.err
+    assert "bad.ipynb: not a notebook" in said.err and "lost.ipynb: No such file" in said.err
+    page.unlink()
+    assert main(["report", str(lab), "--name", "Ada"]) == 0  # no lab of ours: no exercises
+    said = capsys.readouterr()
+    assert "my_lab_Ada.html" in said.out and said.err == ""
+    text = page.read_text(encoding="utf-8")
+    data = report_data(text)
+    assert data["lab"] is None and data["exercises"] == [] and data["title"] == "Notes"
+    assert "no exercises" in text and ">2\n<" in text
+    page.write_text(text.replace('"who":"Ada"', '"who":"Bob"'))
+    assert main(["report", str(lab), "--name", "Ada"]) == 1, "another student's"
+    for name in ("", " "):
+        with pytest.raises(ValueError, match="name: wanted"):
+            report(lab, name, tmp_path)
+    with pytest.raises(ValueError, match="to: wanted a folder"):
+        report(lab, "Ada", tmp_path / "none")
+
+
+def test_data_that_no_report_has_are_refused(hostile):
+    assert report_data("<!DOCTYPE html><p>A page</p>") is None
+    for this, that in (
+        ('"state":"holds"', '"state":"perfect"'),
+        ('"points":1.0', '"points":7'),
+        ('"report":1', '"report":2'),
+        ('"lab":"scara_motion"', '"lab":"os"'),
+        ('"who":"Ada Lovelace"', '"who":["Ada"]'),
+        ('"made":"20', '"made":"x20'),
+        ('"remarks":[', '"remarks":['[:-1] + "{"),
+    ):
+        assert this in hostile.text
+        with pytest.raises(ValueError, match="a report that cannot be read"):
+            report_data(hostile.text.replace(this, that, 1))
+    with pytest.raises(ValueError, match="a report that cannot be read"):
+        report_data(hostile.text[: hostile.text.index('"exercises"')])
+    assert set(STATES) >= {each["state"] for each in hostile.data["exercises"]}
+
+
+def test_no_words_of_a_student_become_html(tmp_path, monkeypatch):
+    evil = "</script><script>alert(1)</script>"
+    monkeypatch.setattr(sys, "stdout", io.StringIO())
+    lab = stored(tmp_path / "x.ipynb", new_markdown_cell(f"# Title {evil}"))
+    text = report(lab, f"Ada {evil}", tmp_path, QUICK).read_text(encoding="utf-8")
+    head = text[text.index('<script type="application/json"') : text.index("</header>")]
+    assert "<script>" not in head and report_data(text)["who"] == f"Ada {evil}"
