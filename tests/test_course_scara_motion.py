@@ -200,7 +200,21 @@ def _nearest_row(q0, position, angle):
     return q
 
 
+def _zero_is_negative(q0, position, angle):
+    q = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(1 if q0[1] > 0 else -1)]
+    ends = [q[2] + k * TURN for k in range(-3, 4)]
+    ends = [e for e in ends if LOW[2] <= e <= HIGH[2]]
+    now = sum(q0[:3])
+    return [*q[:2], min(ends, key=lambda e: abs(q[0] + q[1] + e - now)), q[3]]
+
+
+def _zero_is_negative_and_ik_as_it_is(q0, position, angle):
+    return SCARA.ik(ScaraPose(position, angle))[SCARA.branch(1 if q0[1] > 0 else -1)]
+
+
 def test_the_case_tells_degrees_and_the_elbow():
+    case = check("scara_motion.1", _zero_is_negative).case
+    assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
     case = check("scara_motion.1", _degrees_without_limits).case
     assert "which is right in degrees" in case and "5156" not in case
     assert "the elbow has changed its side" in check("scara_motion.1", _nearest_row).case
@@ -211,6 +225,8 @@ def test_the_case_tells_degrees_and_the_elbow():
     [
         (_degrees_without_limits, "degrees for radians"),
         (_nearest_row, "the nearer posture, elbow changed"),
+        (_zero_is_negative, "joint 2 at 0 taken for negative"),
+        (_zero_is_negative_and_ik_as_it_is, "joint 2 at 0 taken for negative, and the row of ik"),
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
         (_raw, "row of ik"),

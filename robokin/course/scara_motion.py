@@ -24,7 +24,8 @@ OBJECTIVES = (
     "tell the tool's angle, a sum of joint values, from joint 3, and choose the way round for the "
     "tool",
     "write a limit test that no motion deceives, with each joint in its own unit",
-    "bring a motion back inside its limits with a blend, and say what the blend costs",
+    "bring a motion back inside its limits with a blend, and keep its price (distance from via, "
+    "acceleration, time) within bounds",
 )
 
 
@@ -108,8 +109,10 @@ def _turn_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([100, -60, -230, 90], [-214, 81, 100.2], -20),  # joints 1 and 2 turn by -290
         case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns on
         case([60, 90, -300, 90], [300, -150, 100.2], -1000),
+        case([0, 0, 90, 100], [200, 250, 120.2], 110),  # the arm is stretched: 0 is positive
+        case([120, 0, -30, 50], [200, 250, 120.2], -110),  # the other elbow would be nearer
     ]
-    while len(cases) < 40:
+    while len(cases) < 42:
         q0 = np.array([*rng.uniform([-139, 20, -399], [139, 140, 399]).round(1), 30.0])
         q0[1] *= rng.choice([-1, 1])
         q0 = q0 * [deg, deg, deg, mm]
@@ -169,10 +172,11 @@ def _turn_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     for k in (0, 1):
         if not abs(yours[k] - wanted[k]) <= 1e-6:
             if _elbow_changed(case, yours):
+                counts = ", which counts as positive" if q0[1] == 0 else ""
                 return (
-                    f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0, "
-                    f"and yours ends at {yours[1] / deg:.1f}°; {wanted[1] / deg:.1f}° is right, "
-                    f"with joint 1 at {wanted[0] / deg:.1f}°"
+                    f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0"
+                    f"{counts}, and yours ends at {yours[1] / deg:.1f}°; {wanted[1] / deg:.1f}° is "
+                    f"right, with joint 1 at {wanted[0] / deg:.1f}°"
                 ).translate(MINUS)
             return (
                 f"joint {k + 1} should be at {wanted[k] / deg:.1f}° (with the elbow of q0), and is "
@@ -286,6 +290,13 @@ def _in_other_units(mistakes: Sequence[Mistake]) -> Iterator[Mistake]:
             yield Mistake(f"degrees for radians, and {name}", f"{IN_DEGREES} And: {says}", spoilt)
 
 
+def _zero_negative(program: Program) -> Program:
+    """The same program, but for a stretched arm: there it takes joint 2 at 0 for negative."""
+    return lambda q0, position, angle: program(
+        np.where([False, q0[1] == 0, False, False], -1e-12, q0), position, angle
+    )
+
+
 def _elbow(sign: int, *, limits: bool = True) -> Program:
     def program(q0: Floats, position: Floats, angle: float) -> Floats:
         q = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(sign)]
@@ -310,6 +321,7 @@ NEARER = (
     "would have to pass the stretched posture. Choose the row by the sign of q0[1]."
 )
 IN_DEGREES = "The angles are returned in degrees; radians are wanted, as SCARA.ik gives them."
+ZERO = "Joint 2 at 0 counts as positive here, the arm stretched: ask for q0[1] >= 0, not for > 0."
 ANY_TURN = "Then choose joint 3 among its values q3 + 2 pi k."
 NEARER_MISTAKES = tuple(
     Mistake("the nearer posture, elbow changed", f"{NEARER} {also}".strip(), program)
@@ -331,6 +343,11 @@ NEARER_MISTAKES = tuple(
 )
 TURN_MISTAKES = (
     *NEARER_MISTAKES,
+    Mistake(
+        "joint 2 at 0 taken for negative",
+        ZERO,
+        _zero_negative(lambda q0, position, angle: _least_turn(Tools(), q0, position, angle)),
+    ),
     Mistake(
         "the least turn of joint 3",
         "Joint 3 turns as little as it can. The tool is turned by joints 1 and 2 as well: its "
@@ -638,7 +655,15 @@ _NAMES = (
     "only one turn, without the limits",
     "elbow +1 always",
 )
-TURN_MISTAKES += tuple(_in_other_units([m for m in TURN_MISTAKES if m.name in _NAMES]))
+TURN_MISTAKES += (
+    *_in_other_units([m for m in TURN_MISTAKES if m.name in _NAMES]),
+    *(
+        Mistake(f"joint 2 at 0 taken for negative, and {name}", f"{ZERO} And: {says}", spoilt)
+        for name, says, program in TURN_MISTAKES
+        if name in _NAMES[:-1]
+        for spoilt in [_zero_negative(program)]
+    ),
+)
 
 
 def _near_row(q0: Floats, q: Floats) -> float:
@@ -1323,6 +1348,7 @@ def _half_facts() -> dict[str, Any]:
         "starts": 2 * OFF,
         "mean": OFF,
         "one": apart / 2,
+        "minus": -apart,
     }
     return facts | {"whole": 360.0, "right": _Shown(ways[0]), "left": _Shown(ways[1])}
 
@@ -1365,7 +1391,8 @@ def _deepest(b: float) -> float:
 @cache
 def _photo_facts() -> dict[str, Any]:
     first, last, factor = _deepest(B0), _deepest(B1), B1 / B0
-    guesses = {"square": first * factor**2, "root": first * factor**0.5, "less": first / factor}
+    guesses = {"square": first * factor**2, "twice": first * 2, "less": first / factor}
+    guesses |= {"times": factor, "half": 2 * B0}
     return guesses | {"h1": H1, "h2": H2, "b0": B0, "b1": B1, "first": first, "last": last}
 
 
@@ -1441,7 +1468,8 @@ def _quintic_facts() -> dict[str, Any]:
         for c in ("parabola", "quintic")
     ]
     parabola, quintic = (wanted / (z / 0.5 / mm) for z in lifted)
-    return {"parabola": parabola, "less": 0.75 * parabola, "quintic": quintic}
+    facts = {"parabola": parabola, "less": 0.75 * parabola, "quintic": quintic}
+    return facts | {"largest": 0.5}
 
 
 def _quintic_right(facts: Mapping[str, Any]) -> int:
@@ -1628,7 +1656,7 @@ PREDICTIONS = {
                 "That is the six-axis arm. Here z = l0 − q4 and the angle q1 + q2 + q3 are sums of "
                 "joint values: what is linear in the joints is linear in them, too.",
                 "the six-axis arm carried over",
-                "A crane with a trolley on a straight rail: its motions agree in all coordinates.",
+                "A gantry crane: x, y and z are one joint each, so there LIN and PTP agree in all.",
             ),
             Option(
                 "x, y and z: the path bends, and the angle does not.",
@@ -1834,6 +1862,13 @@ PREDICTIONS = {
                 "+30° and −30° are 60° apart.",
             ),
             Option(
+                "{minus:.0f}",
+                "The size is right. How far apart two angles are is a distance, and it has no "
+                "sign.",
+                "a distance with a sign",
+                "From here to the lake it is 2 km, and from the lake to here it is 2 km as well.",
+            ),
+            Option(
                 "{whole:.0f}",
                 "That is what the turns differ by at the end; asked is half way.",
                 "the end for the middle",
@@ -1864,11 +1899,12 @@ PREDICTIONS = {
                 "A photo enlarged twice shows a man twice as high, not four times.",
             ),
             Option(
-                "{root:.0f}",
-                "The height of a parabola goes with the square of its width where the parabola "
-                "stays the same. Here it becomes flatter.",
-                "one parabola for all blends",
-                "Its ends lie on two straight lines: twice as far out, twice as high.",
+                "{twice:.0f}",
+                "That is twice as high. The blend is {times:.0f} times as large, so each end of "
+                "the corner is {times:.0f} times as far from via, and so is the deepest point.",
+                "a doubling taken for the factor of the blend",
+                "From blend {b0:.1f} to {half:.1f} it is twice, from {half:.1f} to {b1:.1f} twice "
+                "again.",
             ),
             Option(
                 "{less:.2f}",
@@ -1902,18 +1938,18 @@ PREDICTIONS = {
                 "In lab 3 the quintic passed via at 3/4 of the parabola's distance.",
             ),
             Option(
-                "The same {parabola:.3f}: the corner begins and ends at the same places.",
+                "The same, about {parabola:.2f}: the corner begins and ends at the same places.",
                 "They do: both corners begin and end there. In between it is another curve.",
                 "the ends taken for the curve",
                 "A detour and the road it replaces begin and end together, too.",
             ),
             Option(
-                "More, about {quintic:.2f}.",
+                "More, about {quintic:.2f}: it cuts off less of the corner.",
                 "At the same blend the quintic stays nearer to via, so it goes deeper. Its least "
                 "blend is {quintic:.4f}.",
             ),
             Option(
-                "None up to 0.5: it goes through via.",
+                "None, not even {largest:.2f}: it goes through via.",
                 "It comes nearer than the parabola, and it does not go through: the poses that "
                 "draw it to via stop at 0.8 of the way there (lab 3, where the quintic is made).",
                 "a control pose taken for a point of the curve",
