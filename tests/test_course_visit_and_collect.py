@@ -99,6 +99,18 @@ def test_a_wrong_test_is_told_what_slips_through(answer, mistake):
     assert not verdict.holds and verdict.mistake == mistake
 
 
+def test_a_test_is_told_which_point_it_refused():
+    everywhere = check("visit_and_collect.1", judge_on(BOX))
+    assert "this point is not in the workspace: it is too far" in everywhere.says[-1]
+    strict = judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7)
+    told = check("visit_and_collect.1", strict).says[-1]
+    assert "inside the limits, with the tool 5e-07 m from the point" in told
+    at_once = check("visit_and_collect.1", lambda inverse: bool(inverse(POINTS).any()))
+    assert "wanted one point (3,) at a time" in at_once.says[0]
+    blind = check("visit_and_collect.1", lambda inverse: False)
+    assert blind.says[-1] == "It never calls the program."
+
+
 def loops(q, speeds):
     here, clock, times = list(q[0]), 0.0, []
     for stop in q[1:]:
@@ -208,8 +220,10 @@ def test_traps_in_other_styles_hold():
     other_side = turned(numbers, [-0.66, 0.73, 0.83, 0.93])
     higher = [[0.95 * x, 0.95 * y, z + 0.2] for x, y, z in good["visit"]]
     for visit_points in (other_side, higher, np.array(good["visit"]), good["visit"][::-1]):
-        answer = good | {"visit": visit_points, "collect": "No  trap"}
-        assert check("visit_and_collect.3", answer, who="your name").holds
+        answer = good | {"visit": visit_points, "collect": "No  trap."}
+        verdict = check("visit_and_collect.3", answer, who="your name")
+        assert verdict.holds and "give your own name" in verdict.says[-1]
+    assert "own name" not in repr(check("visit_and_collect.3", traps("Ada"), who="Ada"))
 
 
 OPENING = [[4 * np.cos(a), 4 * np.sin(a), 2] for a in (1.0, -1.1, -1.2, -1.3)]

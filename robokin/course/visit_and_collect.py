@@ -29,6 +29,7 @@ from ..jobs.visit_collect import (
 )
 from ..motion import ptp
 from ..units import deg, mm
+from .answers import run
 from .exercises import Catch, Exercise, Fault, Function, Value, Verdict, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
@@ -79,7 +80,10 @@ def _inside(q: Joints) -> bool:
 
 def _of_point(solve: Callable[[float, float, float], Any]) -> Inverse:
     def program(p: Any) -> Any:
-        x, y, z = (float(c) for c in np.asarray(p, dtype=float).reshape(3))
+        place = np.asarray(p, dtype=float)
+        if place.size != 3:
+            raise ValueError(f"p: wanted one point (3,) at a time, got shape {place.shape}")
+        x, y, z = (float(c) for c in place.reshape(3))
         return np.array(solve(x, y, z), dtype=float)
 
     return program
@@ -290,6 +294,34 @@ INVERSE_MISTAKES = (
         _of_point(_spoiled_on_axis),
     ),
 )
+
+
+class InverseTest(Catch):
+    """Says about which point a right program was asked last, and what it answered."""
+
+    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
+        verdict = super().judge(name, answer, who)
+        refused = "a right program that it refuses: "
+        if not verdict.case or refused not in verdict.case:
+            return verdict
+        program = dict(self.rights)[verdict.case.partition(refused)[2]]
+        calls: list[tuple[Any, Any]] = []
+
+        def recorded(p: Any) -> Any:
+            calls.append((np.array(p, dtype=float), program(p)))
+            return calls[-1][1]
+
+        run(answer, [(recorded,)], each=True)
+        if not calls:
+            return replace(verdict, says=(*verdict.says, "It never calls the program."))
+        p, q = calls[-1][0].reshape(3), np.asarray(calls[-1][1], dtype=float)
+        if not workspace(L1, L2, p).all():
+            why = f"this point is not in the workspace: it {out_of_workspace(L1, L2, p)[0]}."
+        else:
+            off = float(np.linalg.norm(ARM.fk(q).translation - p))
+            why = f"inside the limits, with the tool {off:.1g} m from the point."
+        asked = f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"
+        return replace(verdict, says=(*verdict.says, asked))
 
 
 # --- 2: when the arm is where ---------------------------------------------------------------------
@@ -850,6 +882,7 @@ APART = 0.3  # m
 LOST = 2  # points
 TASKS = ("visit", "collect", "worth")
 NO_TRAP = "no trap"
+NOBODY = "your name"  # as it stands in the lab
 KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])  # the opening
 UNITS = {
     "T": ("s", 1.0),
@@ -898,7 +931,7 @@ def _points_form(task: str, answer: Any) -> Floats | None:
         f'"{task}": wanted four points, [[x, y, z], [x, y, z], [x, y, z], [x, y, z]] in metres, '
         f'or "{NO_TRAP}"'
     )
-    if isinstance(answer, str) and " ".join(answer.casefold().split()) == NO_TRAP:
+    if isinstance(answer, str) and " ".join(answer.casefold().strip(" .!'\"").split()) == NO_TRAP:
         return None
     try:
         points = np.asarray(answer, dtype=float)
@@ -1037,8 +1070,10 @@ class Trap(Value):
             return verdict
         traps, numbers = _traps_form(answer, given(who)), given(who)
         told = [_scores(t, p, numbers) for t, p in traps.items() if p is not None]
-        proof = '"collect": no trap, and the proof of section 6 says why.'
-        return replace(verdict, says=(*verdict.says, *told, proof))
+        told.append('"collect": no trap, and the proof of section 6 says why.')
+        if who == NOBODY:
+            told.append(f'These numbers belong to "{NOBODY}": give your own name.')
+        return replace(verdict, says=(*verdict.says, *told))
 
 
 # --- What the predictions ask ---------------------------------------------------------------------
@@ -1463,7 +1498,7 @@ def _belt_view() -> Any:
 # --- The tables -----------------------------------------------------------------------------------
 
 EXERCISES: dict[str, Exercise] = {
-    "1": Catch(
+    "1": InverseTest(
         task="A test: whether the program inverse(p) gives right joint values for the arm.",
         objective=1,
         hints=(
@@ -1529,7 +1564,7 @@ EXERCISES: dict[str, Exercise] = {
     ),
 }
 
-# Objective 1: p1 to p4. Objective 2: p5, p6, p9. Objective 3: p7, p8. In Deeper: p9.
+# Objective 1: p1 to p4. Objective 2: p5, p8, p9. Objective 3: p6, p7. In Deeper: p8, p9.
 PREDICTIONS = {
     "p1": Prediction(
         question="Joint 1 turns the arm about the vertical. Joint 2 tilts link 1 ({l1:g} m) away "
@@ -1718,42 +1753,6 @@ PREDICTIONS = {
         view=_halves_view,
     ),
     "p6": Prediction(
-        question="The tool goes from (6, 0, 1) to (1.05, 0, 0.1) m, every joint evenly. Both "
-        "points are in the workspace. How low is the tool on the way?",
-        options=(
-            Option(
-                "About {deep:.0f} m under the floor.",
-                "By {deep:.2f} m. Both ends are allowed, and the way is not. `report` names such a "
-                "move, and `visit(task, above_floor=True)` refuses it. It can happen only where "
-                "l1 > l2: "
-                "else the allowed (q2, q3) form a convex set, which no even move leaves. A real "
-                "controller does not look either unless you give it a safety plane.",
-            ),
-            Option(
-                "{b:g} m above the floor: never lower than the lower end.",
-                "That would hold on a straight line in space. This is a straight line in the "
-                "joints (PTP, MoveJ).",
-                "PTP taken for LIN",
-                "From one side of the base to the other a PTP goes round it, not through it.",
-            ),
-            Option(
-                "About 0.05 m above the floor: the workspace ends at the floor.",
-                "The workspace says where the tool may stop. Nothing keeps it there on the way.",
-                "the workspace taken for a fence",
-                "In p1 every joint was inside its limits, and the tool under the floor.",
-            ),
-            Option(
-                "0 m: it touches the floor at one place and slides on.",
-                "Nothing in the joints knows of the floor.",
-                "the floor taken for a stop",
-                "A real arm would press on, until its motors trip.",
-            ),
-        ),
-        facts=_dip_facts,
-        right=_dip_right,
-        view=_dip_view,
-    ),
-    "p7": Prediction(
         question="We change the task of collecting. Under which change is it still right, for all "
         "points and every T, to take the cheapest first?",
         options=(
@@ -1792,7 +1791,7 @@ PREDICTIONS = {
             "{onward}.".format(**_change_facts())
         ),
     ),
-    "p8": Prediction(
+    "p7": Prediction(
         question="We draw {n} random tasks: seven points, 15 to 40 s, 0.2 rad/s. In how many does "
         "nearest first visit fewer points than the best of all 5040 orders?",
         options=(
@@ -1823,6 +1822,42 @@ PREDICTIONS = {
         facts=_lost_facts,
         right=_lost_right,
         view=_lost_view,
+    ),
+    "p8": Prediction(
+        question="The tool goes from (6, 0, 1) to (1.05, 0, 0.1) m, every joint evenly. Both "
+        "points are in the workspace. How low is the tool on the way?",
+        options=(
+            Option(
+                "About {deep:.0f} m under the floor.",
+                "By {deep:.2f} m. Both ends are allowed, and the way is not. `report` names such a "
+                "move, and `visit(task, above_floor=True)` refuses it. It can happen only where "
+                "l1 > l2: "
+                "else the allowed (q2, q3) form a convex set, which no even move leaves. A real "
+                "controller does not look either unless you give it a safety plane.",
+            ),
+            Option(
+                "{b:g} m above the floor: never lower than the lower end.",
+                "That would hold on a straight line in space. This is a straight line in the "
+                "joints (PTP, MoveJ).",
+                "PTP taken for LIN",
+                "From one side of the base to the other a PTP goes round it, not through it.",
+            ),
+            Option(
+                "About 0.05 m above the floor: the workspace ends at the floor.",
+                "The workspace says where the tool may stop. Nothing keeps it there on the way.",
+                "the workspace taken for a fence",
+                "In p1 every joint was inside its limits, and the tool under the floor.",
+            ),
+            Option(
+                "0 m: it touches the floor at one place and slides on.",
+                "Nothing in the joints knows of the floor.",
+                "the floor taken for a stop",
+                "A real arm would press on, until its motors trip.",
+            ),
+        ),
+        facts=_dip_facts,
+        right=_dip_right,
+        view=_dip_view,
     ),
     "p9": Prediction(
         question="Objects lie on the belt one every 150 mm exactly. One arm, with joints at "
