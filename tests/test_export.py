@@ -93,7 +93,6 @@ def test_the_command_names_a_bad_file_and_writes_the_others(tmp_path):
     (tmp_path / "odd.ipynb").write_text(json.dumps(notebook))
     (tmp_path / "none.ipynb").write_text("{}")
     (tmp_path / "text.ipynb").write_text("no notebook")
-    (tmp_path / "pages").mkdir()
     bad = [tmp_path / name for name in ("odd.ipynb", "none.ipynb", "text.ipynb", "lost.ipynb")]
     run = command(*bad, START, "--to", "pages", cwd=tmp_path)
     assert run.returncode == 1 and "Traceback" not in run.stderr
@@ -101,7 +100,9 @@ def test_the_command_names_a_bad_file_and_writes_the_others(tmp_path):
         bad, ("nonsense", "not a notebook", "not a notebook", "No such file"), strict=True
     ):
         assert re.search(rf"{re.escape(str(path))}: .*{reason}", run.stderr), run.stderr
-    assert [p.name for p in (tmp_path / "pages").iterdir()] == ["00_start_here.html"]
+    assert [p.name for p in (tmp_path / "pages").iterdir()] == ["00_start_here.html"], (
+        "the folder is made"
+    )
     assert "00_start_here.html" in run.stdout and " kB" in run.stdout
 
 
@@ -110,7 +111,9 @@ def test_nothing_of_yours_is_overwritten(tmp_path):
     mine.write_text("mine")
     run = command(START, cwd=tmp_path)
     assert run.returncode == 1 and "nothing is overwritten" in run.stderr
-    assert mine.read_text() == "mine"
+    inside = command(START, "--to", mine, cwd=tmp_path)
+    assert inside.returncode == 1 and mine.name in inside.stderr, "a file is no folder"
+    assert "Traceback" not in inside.stderr and mine.read_text() == "mine"
     mine.unlink()
     assert command(START, cwd=tmp_path).returncode == 0
     first = mine.read_bytes()

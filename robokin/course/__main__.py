@@ -15,7 +15,12 @@ def main(argv: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
     given = _parser().parse_args(argv)
     try:
+        if "to" in given:
+            given.to.mkdir(parents=True, exist_ok=True)
         return int(given.run(given))
+    except OSError as error:
+        print(error, file=sys.stderr)
+        return 1
     except ModuleNotFoundError as error:
         print(f"{error}; pip install 'robokin[{given.extra}]' brings it", file=sys.stderr)
         return 1

@@ -29,7 +29,10 @@ TEMPLATE = """\
 <style>
 main { max-width: 1000px; margin: auto; }
 details.rk-folded > summary { cursor: pointer; color: #5F6B76; font-size: 13px; margin: 4px 0; }
-math[display=block] { overflow-x: auto; overflow-y: hidden; padding: 2px 0; }
+math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math",
+  "DejaVu Math TeX Gyre", math; }
+math[display=block], p:has(> math) { overflow-x: auto; overflow-y: hidden; }
+math[display=block] { padding: 2px 0; }
 .jp-RenderedHTMLCommon table { display: block; overflow-x: auto; }
 .jp-OutputArea-output { overflow-x: auto; }
 @media (max-width: 700px) {

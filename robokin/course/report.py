@@ -261,17 +261,17 @@ def _exercises(data: dict[str, Any]) -> list[str]:
 
 
 def _predictions(predictions: list[dict[str, Any]]) -> list[str]:
-    lines = ["<table><tr><th></th><th>Choice</th><th></th></tr>"]
+    lines = ["<table>"]
     for each in predictions:
         if each["right"] is None:
-            choice, word = "", _word("not made")
-        elif each["right"]:
-            choice, word = each["choice"], _word("right")
-        else:
-            choice = each["choice"]
-            confusion = f": {_said(each['confusion'])}" if each["confusion"] else ""
-            word = f"{_word('not so')}{confusion}"
-        lines.append(f"<tr><td>{_number(each)}</td><td>{_said(choice)}</td><td>{word}</td></tr>")
+            continue
+        confusion = f": {_said(each['confusion'])}" if each["confusion"] else ""
+        word = _word("right") if each["right"] else _word("not so") + confusion
+        choice = f"choice {_said(each['choice'])}"
+        lines.append(f"<tr><td>{_number(each)}</td><td>{choice}</td><td>{word}</td></tr>")
+    left = ", ".join(_number(each) for each in predictions if each["right"] is None)
+    if left:
+        lines.append(f"<tr><td colspan='2'>{left}</td><td>{_word('not made')}</td></tr>")
     return [*lines, "</table>"]
 
 

@@ -253,8 +253,8 @@ def _lines(made: Summary) -> Iterator[str]:
     yield '<meta name="viewport" content="width=device-width">'
     yield f"{BEGIN}\n<style>{STYLE}</style>\n<body>"
     yield f"<h1>What was handed in</h1>\n<p>{datetime.now():%Y-%m-%d %H:%M}: "
-    yield f"{len(made.entries)} labs of {len({normalised(e.who) for e in made.entries})} students,"
-    yield f"{len(made.broken)} files that could not be used.</p>"
+    yield f"labs: {len(made.entries)}, students: {len({normalised(e.who) for e in made.entries})}, "
+    yield f"files that could not be used: {len(made.broken)}.</p>"
     heads = ["Who", "Lab", "Objectives", "Exercises", "Points", "Predictions", "Remarks"]
     yield from _table(heads, map(_row, made.entries))
     yield "<h2>The most frequent mistakes</h2>"
