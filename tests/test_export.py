@@ -77,6 +77,12 @@ def test_a_formula_says_what_it_means():
         mathml(r"\frac{1")
 
 
+LIGHT = """selector => {
+    const [r, g, b] = getComputedStyle(document.querySelector(selector)).backgroundColor
+        .match(/[0-9.]+/g).map(Number);
+    return (r + g + b) / 765; }"""
+
+
 def command(*words, cwd):
     return subprocess.run(
         [sys.executable, "-m", "robokin.course", "export", *map(str, words)],
@@ -133,3 +139,19 @@ def test_start_here_says_how(tmp_path):
     text = START.read_text(encoding="utf-8")
     assert "python -m robokin.course export" in text
     assert (ROOT / "README.md").read_text(encoding="utf-8").count("robokin.course export") >= 1
+
+
+def test_a_page_is_as_dark_as_its_reader_wants(browser, tmp_path):
+    page = tmp_path / "page.html"
+    export(START, page)
+    seen = []
+    for scheme in ("light", "dark"):
+        context = browser.new_context(color_scheme=scheme)
+        shown = context.new_page()
+        shown.goto(page.as_uri())
+        shown.locator(".rk canvas").first.wait_for()
+        seen += [shown.evaluate(LIGHT, selector) for selector in ("body", ".rk")]
+        shown.emulate_media(color_scheme="dark", media="print")
+        assert shown.evaluate(LIGHT, "body") > 0.9, "paper is white"
+        context.close()
+    assert min(seen[:2]) > 0.9 and max(seen[2:]) < 0.2

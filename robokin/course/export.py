@@ -25,8 +25,20 @@ TEMPLATE = """\
 {% block html_head_js_mathjax %}{% endblock %}
 {% block html_head_js_mermaidjs %}{% endblock %}
 {% block jupyter_widgets %}{% endblock %}
+{% block body_header %}
+{{ super() }}
+<script>
+{ const dark = matchMedia("(prefers-color-scheme: dark)"), body = document.body;
+  const tell = () => { body.dataset.jpThemeLight = String(!dark.matches); };
+  dark.addEventListener("change", tell);
+  tell(); }
+</script>
+{% endblock %}
 {% block html_head_css %}
 <style>
+@media screen and (prefers-color-scheme: dark) {
+{% include 'static/theme-dark.css' %}
+}
 main { max-width: 1000px; margin: auto; }
 details.rk-folded > summary { cursor: pointer; color: #5F6B76; font-size: 13px; margin: 4px 0; }
 math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math",

@@ -57,7 +57,7 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   if (!q.every(Number.isFinite)) return;
   const joints = [], tip = origin(frames(chain, q, joints).at(-1));
   if (axes) joints.forEach((joint, j) => {
-    const way = turned(joint, chain[j].axis), ends = [-0.14, 0.14].map(k => camera.to(plus(origin(joint), way, k * size)));
+    const way = turned(joint, chain[j].axis), ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
     stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
   });
   if (!ellipsoid) return;
