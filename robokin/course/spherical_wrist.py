@@ -883,7 +883,8 @@ def _centre_facts() -> dict[str, Any]:
     size = D[5] / mm
     tilts = {"up": Z, "along x": X, "down": -Z}
     off = {name: float(np.linalg.norm(size * way - size * Z)) for name, way in tilts.items()}
-    return {"size": size, "off": off["along x"], "down": off["down"], "up": off["up"]}
+    half = size / 2
+    return {"size": size, "off": off["along x"], "half": half, "down": off["down"], "up": off["up"]}
 
 
 def _centre_view() -> str:
@@ -1283,9 +1284,17 @@ PREDICTIONS = {
             ),
             Option(
                 "{down:.0f}",
-                "That is the answer for a tool that looks down: the wrist centre is above it then.",
-                "opposite for square",
+                "That goes along both legs, one after the other. As a straight distance it holds "
+                "for a tool that looks down: the wrist centre is above it then.",
+                "both legs added, or opposite for square",
                 "90° apart and 180° apart are two things.",
+            ),
+            Option(
+                "{half:.0f}",
+                "That is half the tool, or d1 and a2 of other rows. Both legs are d6 long, and "
+                "their ends are farther apart than one leg.",
+                "a half, or another row's length",
+                "The way from one corner of a square to the opposite one is longer than its side.",
             ),
             Option(
                 "{up:.0f}",
