@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import robokin.course.scara_motion as book
-from robokin import SCARA, ScaraPose, blend, deg, mm
+from robokin import SCARA, ScaraPose, blend, deg, follow, lin, mm
 from robokin.course import check, variant
 from robokin.course.predictions import filled
 
@@ -67,6 +67,13 @@ def _joint(q0, position, angle):
 
 def _raw(q0, position, angle):
     return _posture(q0, position, angle)
+
+
+def _end_of_lin(q0, position, angle):
+    row = SCARA.branch(1 if q0[1] >= 0 else -1)
+    start = ScaraPose(SCARA.fk(q0).translation, sum(q0[:3]))
+    path = lin(start, ScaraPose(position, angle), np.linspace(0, 1, 201))
+    return follow(SCARA, SCARA.ik(path), row)[-1]
 
 
 def _no_limits(q0, position, angle):
@@ -230,6 +237,7 @@ def test_the_case_tells_degrees_and_the_elbow():
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
         (_raw, "row of ik"),
+        (_end_of_lin, "by LIN"),
         (_no_limits, "limits"),
         (_clipped, "clipped"),
         (_q3_is_angle, "joint 3"),
@@ -313,6 +321,10 @@ def _ends(q):
         (_wraps, "wrapped"),
         (_wraps_by_sine, "wrapped"),
         (_ends, "only the ends"),
+        (lambda q: _loops(q[::2]), "samples are left out"),
+        (lambda q: _loops(q[::3]), "samples are left out"),
+        (lambda q: _loops(q[::5]), "samples are left out"),
+        (lambda q: _loops([*q[::10], q[-1]]), "samples are left out"),
         (lambda q: not ((q < LOW) | (q > HIGH)).any(), "NaN passes"),
         (lambda q: _loops(q[~np.isnan(q).any(axis=1)]), "NaN passes"),
         (lambda q: bool(((q > LOW) & (q < HIGH)).all()), "themselves"),
@@ -331,14 +343,16 @@ def test_a_case_of_the_limit_test_prints_the_excess():
     law = book.EXERCISES["2"].law
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
-        (3, -2e-6, "joint 4 0.002 mm below its limit of 0 mm"),
-        (2, LOW[2] - 2e-6, "joint 3 0.0001° below its limit of −400°"),
-        (0, HIGH[0] + 5 * deg, "joint 1 5.0° above its limit of 140°"),
+        (3, -2e-6, "joint 4 at −0.0000020 m, 0.002 mm below its limit of 0 mm"),
+        (2, LOW[2] - 2e-6, "joint 3 at −6.9813190 rad, 0.0001° below its limit of −400°"),
+        (0, HIGH[0] + 5 * deg, "joint 1 at 2.5307274 rad, 5.0° above its limit of 140°"),
     ):
         bad = q.copy()
         bad[1, joint] = value
         assert told in law((bad,), True)
         assert law((bad,), False) is None
+    bad[1, 0] = HIGH[0] - 1e-7
+    assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in law((bad,), False)
 
 
 # --- 3: a blend of one's own ----------------------------------------------------------------------
@@ -356,10 +370,15 @@ def test_every_name_can_be_served(more):
         b, both = _least(mine)
         assert 0.05 < b < 0.45
         needed = np.sqrt(both / (more * b * mine["acceleration"]))
-        assert needed < mine["longest"]
-        for duration in (needed * 1.0001, mine["longest"]):
+        assert needed > 5  # rounded up to a tenth of a second it is within 2 %
+        for duration in (needed, needed * 1.019, np.ceil(10 * needed) / 10):
             design = {"blend": more * b, "duration": duration}
             assert check("scara_motion.3", design, who=who).holds, (who, mine)
+        for factor, name in ((0.99, "too fast"), (1.021, "slower than needed")):
+            design = {"blend": more * b, "duration": needed * factor}
+            assert check("scara_motion.3", design, who=who).mistake == name
+        over_table = mine["start_z"] + mine["goal_z"]  # and not over via: told for every name
+        assert np.sqrt(over_table / both) > 1.025
 
 
 def test_joints_1_to_3_stay_inside_whatever_the_heights():
@@ -373,20 +392,21 @@ def test_joints_1_to_3_stay_inside_whatever_the_heights():
 
 def test_a_wrong_design_is_named():
     mine = variant("scara_motion", "Ada")
-    b, _ = _least(mine)
-    longest = mine["longest"]
+    b, both = _least(mine)
 
-    def told(blend_, duration):
-        verdict = check("scara_motion.3", {"blend": blend_, "duration": duration}, who="Ada")
+    def told(blend_, factor):
+        shortest = np.sqrt(both / (blend_ * mine["acceleration"]))
+        design = {"blend": blend_, "duration": factor * shortest}
+        verdict = check("scara_motion.3", design, who="Ada")
         assert not verdict.holds
         return verdict.mistake
 
-    assert told(0.95 * b, longest) == "past the stroke's limit"
-    assert told(min(1.6 * b, 0.5), longest) == "too far from via"
-    assert told(1.05 * b, longest / 2) == "too hard a corner"
-    assert told(1.05 * b, longest + 5) == "too slow"
-    assert told(0.6, longest) == "no such blend"
-    assert told(100 * b, longest) == "another kind or shape"
+    assert told(0.95 * b, 1) == "past the stroke's limit"
+    assert told(min(1.6 * b, 0.5), 1) == "too far from via"
+    assert told(1.05 * b, 0.5) == "too fast"
+    assert told(1.05 * b, 1.1) == "slower than needed"
+    assert told(0.6, 1) == "no such blend"
+    assert told(100 * b, 1) == "another kind or shape"
     assert told(1.05 * b, -1) == "no such duration"
 
 

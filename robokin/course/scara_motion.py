@@ -23,7 +23,7 @@ LAB = "scara_motion"
 OBJECTIVES = (
     "tell the tool's angle, a sum of joint values, from joint 3, and choose the way round for the "
     "tool",
-    "write a limit test that no motion deceives, with each joint in its own unit",
+    "write a limit test that no sample deceives, with each joint in its own unit",
     "bring a motion back inside its limits with a blend, and keep its price (distance from via, "
     "acceleration, time) within bounds",
 )
@@ -244,6 +244,15 @@ def _tried_else_as_given(q0: Floats, q: Floats, angle: float) -> float:
     return min(inside, key=lambda x: abs(x - now)) if inside else ends[1]
 
 
+def _by_lin(q0: Floats, position: Floats, angle: float) -> Floats:
+    """The end of a LIN: the angle goes from its number at the start to the number given."""
+    row = SCARA.branch(1 if q0[1] >= 0 else -1)
+    here = ScaraPose(SCARA.fk(q0).translation, float(q0[:3].sum()))
+    path = lin(here, ScaraPose(position, angle), S)
+    end: Floats = follow(SCARA, SCARA.ik(path), row)[-1]
+    return end
+
+
 def _nearest_two(q0: Floats, position: Floats, angle: float) -> Floats:
     """The row whose first two joints are nearest; the rest is right."""
     rows = SCARA.ik(ScaraPose(position, angle))
@@ -383,6 +392,12 @@ TURN_MISTAKES = (
         "The tool goes to the number that is given. It looks the same at angle + 2 pi k: take the "
         "one nearest to where it stands.",
         _third(lambda q0, q, angle: float(angle - q[0] - q[1])),
+    ),
+    Mistake(
+        "the angle as a number, by LIN",
+        "LIN takes the angle as a number: it turns the tool to the one that is given. Choose k "
+        "first: of angle + 2 pi k the one nearest to where the tool stands.",
+        _by_lin,
     ),
     Mistake(
         "the angle as it is given, put into the limits",
@@ -720,6 +735,25 @@ def _margin(size: float, *, nan: bool) -> Mistake:
     )
 
 
+def _left_out(step: int, *, nan: bool, last: bool) -> Mistake:
+    """Not every sample is asked; with NaN seen or not, the last sample asked or not."""
+
+    def program(q: Floats) -> bool:
+        asked = np.append(q[::step], q[-1:], axis=0) if last else q[::step]
+        return _inside(asked, LOW, HIGH) and not (nan and np.isnan(q).any())
+
+    return Mistake(
+        "samples are left out",
+        "It does not look at every sample. A single one past a limit is too much: ask every one.",
+        program,
+    )
+
+
+LEFT_OUT = tuple(
+    _left_out(step, nan=nan, last=last)
+    for step, last in ((2, False), (3, False), (10, False), (10, True))  # 5 is found as 10, 4 as 3
+    for nan in (False, True)
+)
 LIMIT_MISTAKES = (
     *(_margin(size, nan=nan) for size in (1e-5, 1e-3, 1e-2) for nan in (True, False)),
     Mistake(
@@ -755,17 +789,7 @@ LIMIT_MISTAKES = (
         "(section 4): ask every sample.",
         lambda q: bool(np.isfinite(q).all()) and _inside(q[[0, -1]], LOW, HIGH),
     ),
-    Mistake(
-        "samples are left out",
-        "It asks every tenth sample for the limits. A single sample past a limit is too much: ask "
-        "every one.",
-        lambda q: bool(np.isfinite(q).all()) and _inside(q[::10], LOW, HIGH),
-    ),
-    Mistake(
-        "samples are left out",
-        "It looks at every tenth sample. A single sample past a limit is too much: ask every one.",
-        lambda q: _inside(q[::10], LOW, HIGH),
-    ),
+    *LEFT_OUT,
     Mistake(
         "only the first sample",
         "It looks at the first sample only. Ask every sample.",
@@ -775,11 +799,6 @@ LIMIT_MISTAKES = (
         "only the last sample",
         "It looks at the last sample only. Ask every sample.",
         lambda q: _inside(q[-1:], LOW, HIGH),
-    ),
-    Mistake(
-        "every tenth sample",
-        "It looks at every tenth sample. A single sample past a limit is too much: ask every one.",
-        lambda q: _inside(np.append(q[::10], q[-1:], axis=0), LOW, HIGH),
     ),
     Mistake(
         "angles wrapped first",
@@ -921,7 +940,8 @@ def _limit_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
                 value = float(limit + side * past * unit[joint])
                 cases += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
     cases += [one(1, 1, 145 * deg, 3), one(1, 0, 145 * deg, 3), one(1, 2, 300 * deg, 3)]
-    cases += [one(10, 3, 0.2), one(10, 0, 145 * deg)]  # every tenth sample shows these
+    for sample in (10, 12):  # every fifth or tenth sample shows the one, every third the other
+        cases += [one(sample, 3, 0.2), one(sample, 0, 145 * deg)]
     cases += [one(1, 3, 5.0, 3), one(1, 3, 100.0, 3)]  # a stroke in mm
     for row in (0, 13, 24):
         q = np.tile(still, (25, 1))
@@ -948,20 +968,36 @@ def _limit_law(case: tuple[Any, ...], yours: bool) -> str | None:
     if yours == (not wrong.any()):
         return None
     if not wrong.any():
-        return "every value of this motion keeps its limits (the limits included): True is right"
-    sample, joint = (int(x) for x in np.argwhere(wrong)[0])
+        says = "every value of this motion keeps its limits (the limits included): True is right"
+        sample, joint = _at(np.argmin(np.minimum(q - LOW, HIGH - q)), q)
+        value = float(q[sample, joint])
+        limit = float(min(LOW[joint], HIGH[joint], key=lambda x: abs(x - value)))
+        if abs(value - limit) > 1e-6:
+            return says
+        if value == limit:
+            return f"{says}; sample {sample} has joint {joint + 1} at its limit"
+        si = "m" if joint == 3 else "rad"
+        at = f"sample {sample} has joint {joint + 1} at {value:.7f} {si}, its limit is {limit:.7f}"
+        return f"{says}; {at} {si}".translate(MINUS)
+    sample, joint = _at(np.argmax(wrong), q)
     where = f"sample {sample} of {len(q)} (counted from 0)"
     if np.isnan(q[sample, joint]):
         return f"{where} is a row of NaN, out of reach: False is right"
-    size, unit = (mm, " mm") if joint == 3 else (deg, "°")
+    si, size, unit = ("m", mm, " mm") if joint == 3 else ("rad", deg, "°")
     value, low, high = (x / size for x in (q[sample, joint], LOW[joint], HIGH[joint]))
     limit, side = (low, "below") if value < low else (high, "above")
     excess = abs(value - limit)
     digits = 1 if excess > 0.05 else 4 if unit == "°" else 3
     return (
-        f"{where} has joint {joint + 1} {excess:.{digits}f}{unit} {side} its limit of "
-        f"{limit:.0f}{unit}: False is right"
+        f"{where} has joint {joint + 1} at {value * size:.7f} {si}, {excess:.{digits}f}{unit} "
+        f"{side} its limit of {limit:.0f}{unit}: False is right"
     ).translate(MINUS)
+
+
+def _at(flat: Any, q: Floats) -> tuple[int, int]:
+    """Sample and joint of a place in the motion, all values counted."""
+    sample, joint = np.unravel_index(int(flat), q.shape)
+    return int(sample), int(joint)
 
 
 # --- 3: a blend of one's own ----------------------------------------------------------------------
@@ -972,7 +1008,6 @@ UNITS = {
     "goal_z": ("mm", mm),
     "miss": ("mm", mm),
     "acceleration": ("mm/s²", mm),
-    "longest": ("s", 1.0),
 }
 
 
@@ -1010,21 +1045,25 @@ def _stroke_acceleration(numbers: Mapping[str, Any], fraction: float, duration: 
 
 def given(who: Any) -> Numbers:
     """A via point too low for the stroke. Joints 1 to 3 do not depend on heights, so they stay
-    inside as in the lab; the smallest blend that keeps the stroke (0.09 to 0.35) fulfils the rest
+    inside as in the lab; the smallest blend that keeps the stroke (0.12 to 0.29) fulfils the rest
     by construction, and so do all up to 1.1 times as much.
     """
     roll = dice(LAB, who)
     heights = {
         "start_z": (100 + 10 * roll.randrange(7)) * mm,
-        "via_z": 5 * roll.randrange(5) * mm,
+        # at least 10: with heights over the table the duration is more than 2 % too long
+        "via_z": (10 + 2 * roll.randrange(6)) * mm,
         "goal_z": (140 + 10 * roll.randrange(9)) * mm,
     }
     most = (3 + roll.randrange(4)) * mm
     fraction = 1.1 * _least(heights)
     miss = np.ceil(_gap(heights, fraction) / mm) * mm
-    duration = np.sqrt(_stroke_acceleration(heights, _least(heights), 1.0) / most)
-    longest = float(np.ceil(2 * duration + 0.2) / 2)
-    return Numbers(heights | {"miss": float(miss), "acceleration": most, "longest": longest}, UNITS)
+    return Numbers(heights | {"miss": float(miss), "acceleration": most}, UNITS)
+
+
+def _shortest(numbers: Mapping[str, Any], fraction: float) -> float:
+    """The duration in which the corner of this blend takes all of the acceleration allowed, s."""
+    return float(np.sqrt(_stroke_acceleration(numbers, fraction, 1.0) / numbers["acceleration"]))
 
 
 def _design_form(answer: Any, given: Any) -> dict[str, float]:
@@ -1050,9 +1089,9 @@ def _design_faults(answer: Mapping[str, float], given: Any) -> list[Fault]:
     b, duration, found = answer["blend"], answer["duration"], []
     if not 0 < b <= 0.5:
         says = f"A blend goes from 0 (a sharp corner) to 0.5; yours is {b:g}."
-        return [("no such blend", says)] * 3 + _too_long(duration, given)
+        return [("no such blend", says)] * 4
     if duration <= 0:
-        return [("no such duration", f"A motion takes time; yours takes {duration:g} s.")] * 3
+        return [("no such duration", f"A motion takes time; yours takes {duration:g} s.")] * 4
     deepest = LEVEL - float(given["via_z"]) - b * _lift(given)
     if deepest > STROKE + 1e-9:  # joints 1 to 3 stay inside for every blend, see `given`
         says = (
@@ -1068,20 +1107,15 @@ def _design_faults(answer: Mapping[str, float], given: Any) -> list[Fault]:
         )
         found.append(("too far from via", says))
     a = _stroke_acceleration(given, b, duration)
+    told = (
+        f"In {duration:g} s the stroke accelerates with {a / mm:.2f} mm/s² in the corner of your "
+        f"blend, and {given['acceleration'] / mm:g} mm/s² are allowed"
+    )
     if a > given["acceleration"] * 1.002:
-        says = (
-            f"The stroke accelerates with {a / mm:.2f} mm/s² in the corner, and "
-            f"{given['acceleration'] / mm:g} mm/s² are allowed. More time, or more blend, helps."
-        )
-        found.append(("too hard a corner", says))
-    return found + _too_long(duration, given)
-
-
-def _too_long(duration: float, given: Any) -> list[Fault]:
-    if duration <= given["longest"] + 1e-9:
-        return []
-    says = f"It takes {duration:g} s, and may take {given['longest']:g} s at most."
-    return [("too slow", says)]
+        found.append(("too fast", f"{told}. More time, or more blend, helps."))
+    if duration > 1.02 * _shortest(given, b):
+        found.append(("slower than needed", f"{told}: a shorter duration would do."))
+    return found
 
 
 # --- The predictions' numbers and views -----------------------------------------------------------
@@ -1550,7 +1584,8 @@ EXERCISES = {
         mistakes=LIMIT_MISTAKES,
     ),
     "3": Value(
-        task="Choose blend and duration for a via point of your own that is too low",
+        task="Choose a blend, and the shortest duration that it allows, for a via point of your "
+        "own that is too low",
         objective=3,
         hints=(
             "Begin with the stroke: by how much has the corner to lift the tool over the via "
@@ -1558,8 +1593,9 @@ EXERCISES = {
             "h1 and h2 are the heights of start and goal over via. The blend is at least "
             "(40.2 mm - via_z) / 2 * (h1 + h2) / (h1 * h2). More of it passes via farther away: "
             "take little more than the least.",
-            "With this blend b the stroke accelerates with (h1 + h2) / (b * T**2). Solve for the "
-            "duration: T = np.sqrt((h1 + h2) / (b * acceleration)), and a little more. "
+            "With this blend b the stroke accelerates with (h1 + h2) / (b * T**2). The shortest "
+            "duration is the one in which that is all of the acceleration allowed: T = "
+            "np.sqrt((h1 + h2) / (b * acceleration)), at most 2 % more. "
             "dict(blend=..., duration=...).",
         ),
         form=_design_form,
@@ -1917,6 +1953,20 @@ PREDICTIONS = {
                 "The deepest point moves: the ends of the corner do.",
                 "the deepest point fixed",
                 "Blend 0 goes down to via, 0 mm over it.",
+            ),
+            Option(
+                "12",
+                "Nothing is added: all lengths of the corner, seen from via, grow by the factor of "
+                "the blend, {times:.0f}.",
+                "something added",
+                "Blend 0 passes through via, 0 mm over it: nothing is left to add.",
+            ),
+            Option(
+                "24",
+                "Each length of the corner, seen from via, grows by the factor of the blend, and "
+                "{b1:.1f} is {times:.0f} times {b0:.1f}.",
+                "another factor",
+                "From blend {b0:.1f} to {half:.1f} the factor is 2: {twice:.0f} mm.",
             ),
         ),
         facts=_photo_facts,

@@ -44,4 +44,4 @@ h2 = mine["goal_z"] - mine["via_z"]
 least = (40.2 * mm - mine["via_z"]) / 2 * (h1 + h2) / (h1 * h2)
 my_blend = 1.01 * least
 shortest = np.sqrt((h1 + h2) / (my_blend * mine["acceleration"]))
-design = dict(blend=my_blend, duration=1.01 * shortest)
+design = dict(blend=my_blend, duration=1.001 * shortest)
