@@ -118,7 +118,10 @@ def kills(labs, folder, count):
 def save_for_a_while(path, seconds):
     """Saves like JupyterLab's, one after the other; the last one stays."""
     end, k = time.monotonic() + seconds, 0
-    text = edited(path, "COUNT")
+    try:
+        text = edited(path, "COUNT")
+    except FileNotFoundError:
+        return  # opened in the moment in which it was exchanged
     while time.monotonic() < end:
         k += 1
         with atomic_writing(str(path)) as file:
