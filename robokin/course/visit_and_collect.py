@@ -440,6 +440,15 @@ def _back_filled(q: Floats) -> Floats:
     return back.copy()
 
 
+def _next_only(q: Floats) -> Floats:
+    """The same, and a NaN at the end stays."""
+    q = q.copy()
+    for k in range(len(q) - 2, -1, -1):
+        if np.isnan(q[k, 0]):
+            q[k, 0] = q[k + 1, 0]
+    return q
+
+
 def _halfway(q: Floats) -> Floats:
     q = q.copy()
     k, known = np.arange(len(q)), ~np.isnan(q[:, 0])
@@ -545,12 +554,19 @@ FILLS: tuple[Fill, ...] = (
         _as_given,
         _loud,
     ),
-    (
-        "turned on the way to the axis",
-        "Joint 1 turns to the next stop's angle before it is on the axis. It keeps its angle, and "
-        "turns when the arm goes on.",
-        _back_filled,
-        _quiet,
+    *(
+        (
+            "turned on the way to the axis",
+            "A stop on the axis takes the angle of the next stop: filled backward, joint 1 turns "
+            "before it is there. The joint keeps the last angle, and turns when the arm goes on.",
+            fill,
+            needs,
+        )
+        for fill, needs in (
+            (_back_filled, _quiet),
+            (_next_only, _loud),
+            (lambda q: np.nan_to_num(_next_only(q)), _loud),
+        )
     ),
     (
         "half of the turn on each side",
@@ -1502,7 +1518,7 @@ EXERCISES: dict[str, Exercise] = {
         task="A test: whether the program inverse(p) gives right joint values for the arm.",
         objective=1,
         hints=(
-            "Put the answer back: ARM.fk(q).translation, or your own my_fk(q, 5, 4), should be p. "
+            "Put the answer back: arm.fk(q).translation, or your own my_fk(q, 5, 4), should be p. "
             "Is that all that a right answer promises?",
             "The limits, too: |q1| ≤ 180°, |q2| ≤ 90°, |q3| ≤ 90°. And each wrong program is wrong "
             "for SOME points: where must they lie so that arctan, a lost sign or a division by "
@@ -1758,27 +1774,26 @@ PREDICTIONS = {
         options=(
             Option(
                 "The container stands on axis 1, where joint 1 keeps its angle.",
-                "Then the way to an object depends on where joint 1 was left by the one before. "
-                "In {axis} of {n} random tasks another order brings more.",
+                "Then the way to an object depends on where joint 1 was left by the one before: "
+                "another order may bring more.",
                 "a free joint taken for no cost",
                 "Four objects round the axis: whoever goes round in order turns least.",
             ),
             Option(
                 "Each object has a price, and the sum of prices counts.",
-                "A dear object may be worth two cheap ones. In {prices} of {n} random tasks "
-                "another choice is worth more.",
+                "A dear object may be worth more than two cheap ones in the same time.",
                 "count taken for value",
                 "Two objects of 5 s with price 1, one of 9 s with price 10, and T = 10 s.",
             ),
             Option(
                 "The joints have unlike speeds: 0.1, 0.3 and 0.5 rad/s.",
                 "Other speeds are other costs, and each object still has its own, whatever came "
-                "before. The proof below needs no more: better in {speeds} of {n} random tasks.",
+                "before. The proof below needs no more.",
             ),
             Option(
                 "The arm goes on from object to object, and empties its bag at the end.",
-                "Then a cost belongs to a pair of points: this is visiting. In {onward} of {n} "
-                "random tasks nearest first is beaten.",
+                "Then a cost belongs to a pair of points: this is visiting, and the opening shows "
+                "nearest first beaten.",
                 "costs taken for fixed",
                 "Of two objects side by side the second is nearly free.",
             ),
@@ -1786,9 +1801,9 @@ PREDICTIONS = {
         facts=_change_facts,
         right=_change_right,
         view=lambda: (
-            "Each change, in 30 random tasks with five points: the container on axis 1, "
-            "{axis} beaten; prices, {prices}; unlike speeds, {speeds}; from object to object, "
-            "{onward}.".format(**_change_facts())
+            "With prices: objects of 5, 5 and 9 s, and T = 10 s. The two cheapest fit. At prices "
+            "of 1, 1 and 10 they bring 2, and the dear one alone 10. Unlike speeds only put other "
+            "numbers in the place of 5, 5 and 9 s, and the proof holds for any numbers."
         ),
     ),
     "p7": Prediction(
