@@ -153,9 +153,18 @@ def forward_only(q, speeds):
     return np.cumsum((abs(np.diff(q, axis=0)) / speeds).max(axis=1))
 
 
+def filled_backward(q, speeds):
+    q = q.copy()
+    for k in range(len(q) - 2, -1, -1):
+        if np.isnan(q[k, 0]):
+            q[k, 0] = q[k + 1, 0]
+    return np.cumsum((abs(np.diff(q, axis=0)) / speeds).max(axis=1))
+
+
 @pytest.mark.parametrize(
     "answer, mistake",
     [
+        (filled_backward, "turned on the way to the axis"),
         (nothing, "NaN costs nothing, both ways"),
         (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "NaN taken for 0"),
         (

@@ -440,6 +440,15 @@ def _back_filled(q: Floats) -> Floats:
     return back.copy()
 
 
+def _next_only(q: Floats) -> Floats:
+    """The same, and a NaN at the end stays."""
+    q = q.copy()
+    for k in range(len(q) - 2, -1, -1):
+        if np.isnan(q[k, 0]):
+            q[k, 0] = q[k + 1, 0]
+    return q
+
+
 def _halfway(q: Floats) -> Floats:
     q = q.copy()
     k, known = np.arange(len(q)), ~np.isnan(q[:, 0])
@@ -545,12 +554,19 @@ FILLS: tuple[Fill, ...] = (
         _as_given,
         _loud,
     ),
-    (
-        "turned on the way to the axis",
-        "Joint 1 turns to the next stop's angle before it is on the axis. It keeps its angle, and "
-        "turns when the arm goes on.",
-        _back_filled,
-        _quiet,
+    *(
+        (
+            "turned on the way to the axis",
+            "A stop on the axis takes the angle of the next stop: filled backward, joint 1 turns "
+            "before it is there. The joint keeps the last angle, and turns when the arm goes on.",
+            fill,
+            needs,
+        )
+        for fill, needs in (
+            (_back_filled, _quiet),
+            (_next_only, _loud),
+            (lambda q: np.nan_to_num(_next_only(q)), _loud),
+        )
     ),
     (
         "half of the turn on each side",
@@ -1502,7 +1518,7 @@ EXERCISES: dict[str, Exercise] = {
         task="A test: whether the program inverse(p) gives right joint values for the arm.",
         objective=1,
         hints=(
-            "Put the answer back: ARM.fk(q).translation, or your own my_fk(q, 5, 4), should be p. "
+            "Put the answer back: arm.fk(q).translation, or your own my_fk(q, 5, 4), should be p. "
             "Is that all that a right answer promises?",
             "The limits, too: |q1| ≤ 180°, |q2| ≤ 90°, |q3| ≤ 90°. And each wrong program is wrong "
             "for SOME points: where must they lie so that arctan, a lost sign or a division by "
@@ -1564,7 +1580,7 @@ EXERCISES: dict[str, Exercise] = {
     ),
 }
 
-# Objective 1: p1 to p4. Objective 2: p5, p8, p9. Objective 3: p6, p7. In Deeper: p8, p9.
+# Objective 1: p1 to p3, p7. Objective 2: p4, p8, p9. Objective 3: p5, p6. In Deeper: p7 to p9.
 PREDICTIONS = {
     "p1": Prediction(
         question="Joint 1 turns the arm about the vertical. Joint 2 tilts link 1 ({l1:g} m) away "
@@ -1677,6 +1693,110 @@ PREDICTIONS = {
         view=_two_view,
     ),
     "p4": Prediction(
+        question="Two points stand behind the base, 2 cm apart: (−2, 0.01, 2) and (−2, −0.01, 2) "
+        "m. Every joint turns at up to {speed:g} rad/s, and joint 1 has a stop at ±180°. How long "
+        "does the move take?",
+        options=(
+            Option(
+                "{short:.2f} s: they are 2 cm apart.",
+                "Near in space is not near in the joints: q1 is +179.7° at one and −179.7° at the "
+                "other, and the stop is between them.",
+                "distance in space taken for distance in the joints",
+                "Without a stop it would be true; travel_time(..., short_way=True) says so.",
+            ),
+            Option(
+                "{half:.1f} s: half a turn.",
+                "Half a turn leads to the point opposite.",
+                "a half turn for a whole one",
+                "From (−2, 0.01, 2) half a turn of joint 1 ends near (2, 0, 2).",
+            ),
+            Option(
+                "{long:.1f} s: nearly a whole turn.",
+                "Joint 1 goes all the way round. Whether this is right depends on the machine: "
+                "read its data sheet, and tell the program (`short_way`).",
+            ),
+            Option(
+                "0 s: the posture is the same.",
+                "Joints 2 and 3 stand alike; joint 1 has to turn.",
+                "joint 1 forgotten",
+                "Two points on one circle about axis 1 differ in q1 alone.",
+            ),
+        ),
+        facts=_halves_facts,
+        right=_halves_right,
+        view=_halves_view,
+    ),
+    "p5": Prediction(
+        question="We change the task of collecting. Under which change is it still right, for all "
+        "points and every T, to take the cheapest first?",
+        options=(
+            Option(
+                "The container stands on axis 1, where joint 1 keeps its angle.",
+                "Then the way to an object depends on where joint 1 was left by the one before: "
+                "another order may bring more.",
+                "a free joint taken for no cost",
+                "Four objects round the axis: whoever goes round in order turns least.",
+            ),
+            Option(
+                "Each object has a price, and the sum of prices counts.",
+                "A dear object may be worth more than two cheap ones in the same time.",
+                "count taken for value",
+                "Two objects of 5 s with price 1, one of 9 s with price 10, and T = 10 s.",
+            ),
+            Option(
+                "The joints have unlike speeds: 0.1, 0.3 and 0.5 rad/s.",
+                "Other speeds are other costs, and each object still has its own, whatever came "
+                "before. The proof below needs no more.",
+            ),
+            Option(
+                "The arm goes on from object to object, and empties its bag at the end.",
+                "Then a cost belongs to a pair of points: this is visiting, and the opening shows "
+                "nearest first beaten.",
+                "costs taken for fixed",
+                "Of two objects side by side the second is nearly free.",
+            ),
+        ),
+        facts=_change_facts,
+        right=_change_right,
+        view=lambda: (
+            "With prices: objects of 5, 5 and 9 s, and T = 10 s. The two cheapest fit. At prices "
+            "of 1, 1 and 10 they bring 2, and the dear one alone 10. Unlike speeds only put other "
+            "numbers in the place of 5, 5 and 9 s, and the proof holds for any numbers."
+        ),
+    ),
+    "p6": Prediction(
+        question="We draw {n} random tasks: seven points, 15 to 40 s, 0.2 rad/s. In how many does "
+        "nearest first visit fewer points than the best of all 5040 orders?",
+        options=(
+            Option(
+                "In nearly none: it takes a case made up for the purpose.",
+                "The case at the top is made up, but the fault is common: in {some} of {n}.",
+                "a made-up case taken for a rare one",
+                "Any point on the wrong side of p0 and a little nearer can do it.",
+            ),
+            Option(
+                "In about 1 of 10.",
+                "More often: in {some} of {n}, {share:.0f} %.",
+                "greed taken for nearly best",
+                "With four points it is rarer, with seven there are many ways to be lured.",
+            ),
+            Option(
+                "In about 3 of 10.",
+                "In {some} of {n}: one point lost in {one}, more in {more}. Most of the time greed "
+                "is good enough; it never tells you when it is not.",
+            ),
+            Option(
+                "In more than half.",
+                "In {none} of {n} it does as well as the best.",
+                "greed taken for always wrong",
+                "If T is long enough for the slowest order, every order visits all.",
+            ),
+        ),
+        facts=_lost_facts,
+        right=_lost_right,
+        view=_lost_view,
+    ),
+    "p7": Prediction(
         question="Now l1 = {l1:g} m and l2 = {l2:g} m. No part of the arm may be under the floor. "
         "How high above the origin is the lowest point of axis 1 that the tool can touch?",
         options=(
@@ -1717,111 +1837,6 @@ PREDICTIONS = {
         view=_axis_view,
         unit="m",
         within=0.02,
-    ),
-    "p5": Prediction(
-        question="Two points stand behind the base, 2 cm apart: (−2, 0.01, 2) and (−2, −0.01, 2) "
-        "m. Every joint turns at up to {speed:g} rad/s, and joint 1 has a stop at ±180°. How long "
-        "does the move take?",
-        options=(
-            Option(
-                "{short:.2f} s: they are 2 cm apart.",
-                "Near in space is not near in the joints: q1 is +179.7° at one and −179.7° at the "
-                "other, and the stop is between them.",
-                "distance in space taken for distance in the joints",
-                "Without a stop it would be true; travel_time(..., short_way=True) says so.",
-            ),
-            Option(
-                "{half:.1f} s: half a turn.",
-                "Half a turn leads to the point opposite.",
-                "a half turn for a whole one",
-                "From (−2, 0.01, 2) half a turn of joint 1 ends near (2, 0, 2).",
-            ),
-            Option(
-                "{long:.1f} s: nearly a whole turn.",
-                "Joint 1 goes all the way round. Whether this is right depends on the machine: "
-                "read its data sheet, and tell the program (`short_way`).",
-            ),
-            Option(
-                "0 s: the posture is the same.",
-                "Joints 2 and 3 stand alike; joint 1 has to turn.",
-                "joint 1 forgotten",
-                "Two points on one circle about axis 1 differ in q1 alone.",
-            ),
-        ),
-        facts=_halves_facts,
-        right=_halves_right,
-        view=_halves_view,
-    ),
-    "p6": Prediction(
-        question="We change the task of collecting. Under which change is it still right, for all "
-        "points and every T, to take the cheapest first?",
-        options=(
-            Option(
-                "The container stands on axis 1, where joint 1 keeps its angle.",
-                "Then the way to an object depends on where joint 1 was left by the one before. "
-                "In {axis} of {n} random tasks another order brings more.",
-                "a free joint taken for no cost",
-                "Four objects round the axis: whoever goes round in order turns least.",
-            ),
-            Option(
-                "Each object has a price, and the sum of prices counts.",
-                "A dear object may be worth two cheap ones. In {prices} of {n} random tasks "
-                "another choice is worth more.",
-                "count taken for value",
-                "Two objects of 5 s with price 1, one of 9 s with price 10, and T = 10 s.",
-            ),
-            Option(
-                "The joints have unlike speeds: 0.1, 0.3 and 0.5 rad/s.",
-                "Other speeds are other costs, and each object still has its own, whatever came "
-                "before. The proof below needs no more: better in {speeds} of {n} random tasks.",
-            ),
-            Option(
-                "The arm goes on from object to object, and empties its bag at the end.",
-                "Then a cost belongs to a pair of points: this is visiting. In {onward} of {n} "
-                "random tasks nearest first is beaten.",
-                "costs taken for fixed",
-                "Of two objects side by side the second is nearly free.",
-            ),
-        ),
-        facts=_change_facts,
-        right=_change_right,
-        view=lambda: (
-            "Each change, in 30 random tasks with five points: the container on axis 1, "
-            "{axis} beaten; prices, {prices}; unlike speeds, {speeds}; from object to object, "
-            "{onward}.".format(**_change_facts())
-        ),
-    ),
-    "p7": Prediction(
-        question="We draw {n} random tasks: seven points, 15 to 40 s, 0.2 rad/s. In how many does "
-        "nearest first visit fewer points than the best of all 5040 orders?",
-        options=(
-            Option(
-                "In nearly none: it takes a case made up for the purpose.",
-                "The case at the top is made up, but the fault is common: in {some} of {n}.",
-                "a made-up case taken for a rare one",
-                "Any point on the wrong side of p0 and a little nearer can do it.",
-            ),
-            Option(
-                "In about 1 of 10.",
-                "More often: in {some} of {n}, {share:.0f} %.",
-                "greed taken for nearly best",
-                "With four points it is rarer, with seven there are many ways to be lured.",
-            ),
-            Option(
-                "In about 3 of 10.",
-                "In {some} of {n}: one point lost in {one}, more in {more}. Most of the time greed "
-                "is good enough; it never tells you when it is not.",
-            ),
-            Option(
-                "In more than half.",
-                "In {none} of {n} it does as well as the best.",
-                "greed taken for always wrong",
-                "If T is long enough for the slowest order, every order visits all.",
-            ),
-        ),
-        facts=_lost_facts,
-        right=_lost_right,
-        view=_lost_view,
     ),
     "p8": Prediction(
         question="The tool goes from (6, 0, 1) to (1.05, 0, 0.1) m, every joint evenly. Both "
