@@ -1423,7 +1423,7 @@ PREDICTIONS = {
             ),
             Option(
                 "It is off by {power}: more than half of the digits go.",
-                "That is the worst of the postures where a number comes out. Elsewhere there is none.",
+                "That is the worst of the postures with a number. The others have none.",
                 "the root is forgotten",
                 "Of 1 − h₃₃² rounding may leave a negative number, and it has no root.",
             ),
