@@ -219,6 +219,14 @@ def _zero_is_negative_and_ik_as_it_is(q0, position, angle):
     return SCARA.ik(ScaraPose(position, angle))[SCARA.branch(1 if q0[1] > 0 else -1)]
 
 
+def _stroke_in_both_angles(q0, position, angle):
+    q = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(1 if q0[1] >= 0 else -1)]
+    low, high = SCARA.limits[2]
+    turns = q[2] + 2 * np.pi * np.arange(-4, 5)
+    turns = turns[(turns >= low - 1e-9) & (turns <= high + 1e-9)]
+    return [*q[:2], min(turns, key=lambda x: abs(q[0] + q[1] + x + q[3] - q0.sum())), q[3]]
+
+
 def test_the_case_tells_degrees_and_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
     assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
@@ -234,6 +242,7 @@ def test_the_case_tells_degrees_and_the_elbow():
         (_nearest_row, "the nearer posture, elbow changed"),
         (_zero_is_negative, "joint 2 at 0 taken for negative"),
         (_zero_is_negative_and_ik_as_it_is, "joint 2 at 0 taken for negative, and the row of ik"),
+        (_stroke_in_both_angles, "joint 4 is added to both angles"),
         (_joint, "joint 3"),
         (_three_turns, "joint 3"),
         (_raw, "row of ik"),

@@ -109,10 +109,12 @@ def _turn_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([100, -60, -230, 90], [-214, 81, 100.2], -20),  # joints 1 and 2 turn by -290
         case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns on
         case([60, 90, -300, 90], [300, -150, 100.2], -1000),
+        case([0, 90, -90, 20], [200, 250, 50.2], 176),  # joint 4 moves by 150 mm: no angle, either
+        case([0, 90, -90, 170], [200, 250, 200.2], -176),
         case([0, 0, 90, 100], [200, 250, 120.2], 110),  # the arm is stretched: 0 is positive
         case([120, 0, -30, 50], [200, 250, 120.2], -110),  # the other elbow would be nearer
     ]
-    while len(cases) < 42:
+    while len(cases) < 44:
         q0 = np.array([*rng.uniform([-139, 20, -399], [139, 140, 399]).round(1), 30.0])
         q0[1] *= rng.choice([-1, 1])
         q0 = q0 * [deg, deg, deg, mm]
@@ -452,6 +454,13 @@ TURN_MISTAKES = (
         "joint 4 is added to an angle",
         "The sum of q0 holds joint 4, which is a length: sum the first three only.",
         _third(lambda q0, q, angle: _into(float(_short(angle, q0.sum()) - q[0] - q[1]))),
+    ),
+    Mistake(
+        "joint 4 is added to both angles",
+        "The tool's angle is q1 + q2 + q3, at the start and at the end: joint 4 is a length.",
+        _third(
+            lambda q0, q, angle: _into(float(_short(angle + q[3], q0.sum()) - q[3] - q[0] - q[1]))
+        ),
     ),
     Mistake(
         "joints 1 and 2 of the start",
