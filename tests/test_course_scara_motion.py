@@ -412,7 +412,7 @@ def test_a_wrong_design_is_named():
 
     assert told(0.95 * b, 1) == "past the stroke's limit"
     assert told(min(1.6 * b, 0.5), 1) == "too far from via"
-    assert told(1.05 * b, 0.5) == "too fast"
+    assert told(1.05 * b, 0.7) == "too fast"
     assert told(1.05 * b, 1.1) == "slower than needed"
     assert told(0.6, 1) == "no such blend"
     assert told(100 * b, 1) == "another kind or shape"
@@ -426,9 +426,9 @@ def test_the_right_answers_in_another_way():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in book.PREDICTIONS.items()}
     assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
     assert right["p3"] == "x and y." and right["p4"] == "On LIN alone."
-    assert right["p5"] == "Joint 3."
-    assert float(right["p6"]) == -90 / 5 - 60 / 5
-    assert float(right["p7"]) == 180
+    assert right["p7"] == "Joint 3."
+    assert float(right["p5"]) == -90 / 5 - 60 / 5
+    assert float(right["p6"]) == 180
     assert float(right["p8"]) == pytest.approx(2 * 0.4 * 60 * 180 / 240, abs=0.5)
     assert "0.35" in right["p9"] and right["p10"] == "Half of it."
 
@@ -443,3 +443,25 @@ def test_a_corner_is_an_enlargement_from_via():
         ways = [(shape.position - book.VIA.position) for shape in shapes]
         assert np.allclose(2 * ways[0], ways[1], rtol=0, atol=1e-12)
         assert np.allclose(5 * ways[0], ways[2], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "name"),
+    [
+        (lambda t: t**2, "the root is forgotten"),
+        (lambda t: t / 2, "half of the duration"),
+        (lambda t: 2 * t, "twice the duration"),
+        (lambda t: t / 1000**0.5, "mm for m"),
+        (lambda t: t * 1000**0.5, "mm for m"),
+        (lambda t: 1.3 * t, "slower than needed"),
+        (lambda t: 0.9 * t, "too fast"),
+    ],
+)
+def test_a_slip_in_the_duration_is_named(spoil, name):
+    mine = variant("scara_motion", "Ada")
+    h1, h2 = (mine[z] - mine["via_z"] for z in ("start_z", "goal_z"))
+    b = 1.01 * (40.2 * mm - mine["via_z"]) / 2 * (h1 + h2) / (h1 * h2)
+    shortest = np.sqrt((h1 + h2) / (b * mine["acceleration"]))
+    assert check("scara_motion.3", {"blend": b, "duration": 1.005 * shortest}, who="Ada").holds
+    verdict = check("scara_motion.3", {"blend": b, "duration": spoil(shortest)}, who="Ada")
+    assert not verdict.holds and verdict.mistake == name

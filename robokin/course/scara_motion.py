@@ -1097,7 +1097,7 @@ def _design_form(answer: Any, given: Any) -> dict[str, float]:
 def _design_faults(answer: Mapping[str, float], given: Any) -> list[Fault]:
     b, duration, found = answer["blend"], answer["duration"], []
     if not 0 < b <= 0.5:
-        says = f"A blend goes from 0 (a sharp corner) to 0.5; yours is {b:g}."
+        says = f"A blend is above 0 (that is the sharp corner) and at most 0.5; yours is {b:g}."
         return [("no such blend", says)] * 4
     if duration <= 0:
         return [("no such duration", f"A motion takes time; yours takes {duration:g} s.")] * 4
@@ -1120,11 +1120,28 @@ def _design_faults(answer: Mapping[str, float], given: Any) -> list[Fault]:
         f"In {duration:g} s the stroke accelerates with {a / mm:.2f} mm/s² in the corner of your "
         f"blend, and {given['acceleration'] / mm:g} mm/s² are allowed"
     )
-    if a > given["acceleration"] * 1.002:
-        found.append(("too fast", f"{told}. More time, or more blend, helps."))
-    if duration > 1.02 * _shortest(given, b):
-        found.append(("slower than needed", f"{told}: a shorter duration would do."))
+    fast, slow = a > given["acceleration"] * 1.002, duration > 1.02 * _shortest(given, b)
+    slip = _slip(duration / _shortest(given, b), _shortest(given, b)) if fast or slow else None
+    if fast:
+        name, says = slip or ("too fast", "More time, or more blend, helps.")
+        found.append((name, f"{told}. {says}"))
+    if slow:
+        name, says = slip or ("slower than needed", "A shorter duration would do.")
+        found.append((name, f"{told}. {says}"))
     return found
+
+
+def _slip(ratio: float, shortest: float) -> tuple[str, str] | None:
+    """Where a duration is the shortest one times a number that a slip of the pen gives."""
+    slips = (
+        (shortest, "the root is forgotten", "The formula has T²: your duration is its square."),
+        (1000**0.5, "mm for m", "The heights or the acceleration are in mm, the other in m."),
+        (1000**-0.5, "mm for m", "The heights or the acceleration are in mm, the other in m."),
+        (0.5, "half of the duration", "The formula's T is the whole duration, not half of it."),
+        (2.0, "twice the duration", "The formula's T is the whole duration already."),
+    )
+    near = (slip for slip in slips if abs(ratio / slip[0] - 1) < 0.02)
+    return next(((name, says) for _, name, says in near), None)
 
 
 # --- The predictions' numbers and views -----------------------------------------------------------
@@ -1614,7 +1631,7 @@ EXERCISES = {
     ),
 }
 
-# Objective 1: p1, p2, p3, p7. Objective 2: p4, p5. Objective 3: p6, p8, p9, p10.
+# Objective 1: p1, p2, p3, p6. Objective 2: p4, p7. Objective 3: p5, p8, p9, p10.
 PREDICTIONS = {
     "p1": Prediction(
         question="The tool moves on a straight line from start to goal. Now it starts turned by "
@@ -1776,42 +1793,6 @@ PREDICTIONS = {
         view=_ends_view,
     ),
     "p5": Prediction(
-        question="A motion begins inside all limits and has many samples. A limit test wraps each "
-        "angle into −180° to 180° first, and compares then: joints 1 to 3 with ±140°, ±150° and "
-        "±400°, joint 4 with 0 to 180 mm, as it is. Which joint can leave its limits, and the test "
-        "passes every sample?",
-        options=(
-            Option(
-                "Joint 1: 350° becomes −10°.",
-                "The sample at 350° slips through. But the motion begins inside, so joint 1 comes "
-                "by 150° first: that stays 150° and is found.",
-                "one posture for a motion",
-                "Who leaves a garden comes through its gate, and there a guard sees them.",
-            ),
-            Option(
-                "Joint 3.",
-                "Nothing between −180° and 180° is past ±400°. A limit of more than half a turn "
-                "has to be tested on angles that are unwrapped. (robokin.within judges postures: "
-                "there whole turns are free. A motion cannot give them away.)",
-            ),
-            Option(
-                "Joint 4: it cannot be wrapped.",
-                "It is compared as it is, and that is right: a length has no turns.",
-                "a length taken for an angle",
-                "A stroke of 220 mm is past 180 mm, whatever happens to the angles.",
-            ),
-            Option(
-                "None: a value past a limit stays past it.",
-                "Wrapping changes values: 410° becomes 50°.",
-                "wrapping taken for harmless",
-                "The hose on joint 3 knows the turns that the wrapped angle forgets.",
-            ),
-        ),
-        facts=_blind_facts,
-        right=lambda facts: [[1], [3], [4], []].index(facts["blind"]),
-        view=_blind_view,
-    ),
-    "p6": Prediction(
         question="The tool of another motion sinks by {down:.0f} mm on the way to its via point, "
         "in {half:.0f} s, and rises by {up:.0f} mm on the way from it, in {half:.0f} s, both at "
         "constant speed. By how much does the speed of joint 4 change at the via point? (After "
@@ -1867,7 +1848,7 @@ PREDICTIONS = {
         unit="mm/s",
         within=0.02,
     ),
-    "p7": Prediction(
+    "p6": Prediction(
         question="The tool turns from about 0° to 180°: one motion starts at −{off:.2f}°, the "
         "other at +{off:.2f}°. Both are interpolated as rotations, each on the shortest arc "
         "(Transform.lerp). How far apart are their tool angles half way?",
@@ -1925,6 +1906,42 @@ PREDICTIONS = {
         view=_half_view,
         unit="°",
         within=0.002,
+    ),
+    "p7": Prediction(
+        question="A motion begins inside all limits and has many samples. A limit test wraps each "
+        "angle into −180° to 180° first, and compares then: joints 1 to 3 with ±140°, ±150° and "
+        "±400°, joint 4 with 0 to 180 mm, as it is. Which joint can leave its limits, and the test "
+        "passes every sample?",
+        options=(
+            Option(
+                "Joint 1: 350° becomes −10°.",
+                "The sample at 350° slips through. But the motion begins inside, so joint 1 comes "
+                "by 150° first: that stays 150° and is found.",
+                "one posture for a motion",
+                "Who leaves a garden comes through its gate, and there a guard sees them.",
+            ),
+            Option(
+                "Joint 3.",
+                "Nothing between −180° and 180° is past ±400°. A limit of more than half a turn "
+                "has to be tested on angles that are unwrapped. (robokin.within judges postures: "
+                "there whole turns are free. A motion cannot give them away.)",
+            ),
+            Option(
+                "Joint 4: it cannot be wrapped.",
+                "It is compared as it is, and that is right: a length has no turns.",
+                "a length taken for an angle",
+                "A stroke of 220 mm is past 180 mm, whatever happens to the angles.",
+            ),
+            Option(
+                "None: a value past a limit stays past it.",
+                "Wrapping changes values: 410° becomes 50°.",
+                "wrapping taken for harmless",
+                "The hose on joint 3 knows the turns that the wrapped angle forgets.",
+            ),
+        ),
+        facts=_blind_facts,
+        right=lambda facts: [[1], [3], [4], []].index(facts["blind"]),
+        view=_blind_view,
     ),
     "p8": Prediction(
         question="A start {h1:.0f} mm over the via point, a goal {h2:.0f} mm over it. With a blend "
