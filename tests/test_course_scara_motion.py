@@ -338,6 +338,8 @@ def _ends(q):
         (lambda q: _loops(q[~np.isnan(q).any(axis=1)]), "NaN passes"),
         (lambda q: bool(((q > LOW) & (q < HIGH)).all()), "themselves"),
         (lambda q: not _loops(q), "swapped"),
+        (lambda q: False, "one answer to everything"),
+        (lambda q: True, "one answer to everything"),
         (lambda q: (q >= LOW) & (q <= HIGH), "another kind"),
         (lambda q: bool(((q >= LOW - 1e-3) & (q <= HIGH + 1e-3)).all()), "a margin too wide"),
         (lambda q: not ((q < LOW - 1e-4) | (q > HIGH + 1e-4)).any(), "a margin too wide, and NaN"),
@@ -465,3 +467,11 @@ def test_a_slip_in_the_duration_is_named(spoil, name):
     assert check("scara_motion.3", {"blend": b, "duration": 1.005 * shortest}, who="Ada").holds
     verdict = check("scara_motion.3", {"blend": b, "duration": spoil(shortest)}, who="Ada")
     assert not verdict.holds and verdict.mistake == name
+
+
+def test_a_posture_s_test_for_a_motion_hears_about_arrays():
+    def one_posture(q):
+        return all(LOW[i] <= x <= HIGH[i] for i, x in enumerate(q))
+
+    verdict = check("scara_motion.2", one_posture)
+    assert not verdict.holds and ".all() or .any()" in " ".join([*verdict.says, verdict.case])

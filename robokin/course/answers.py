@@ -139,6 +139,8 @@ def _where(answer: Callable[..., Any], error: BaseException) -> str:
 def _told(error: BaseException) -> str:
     with contextlib.suppress(Exception):
         text = " ".join(str(error).split())
+        if text.startswith("The truth value of an array"):
+            text = "it asks whether an array is true; ask .all() or .any() of it, or one value"
         return f"{type(error).__name__}: {text[:160]}" if text else type(error).__name__
     return type(error).__name__
 

@@ -174,6 +174,10 @@ class Function(Exercise):
             return []
         cases = cases[: len(outcomes)]
         own = [m for m in self.mistakes if self.agrees(m.program, outcomes, cases)]
+        said = [o.result for o in outcomes]
+        if not own and all(isinstance(x, (bool, np.bool_)) for x in said) and len({*said}) == 1:
+            says = f"It answers {said[0]} to every case that was tried."
+            return [("one answer to everything", says)]
         found = own or [
             m
             for m in general(self.right, len(self.inputs))
