@@ -60,12 +60,12 @@ from robokin import (
     within,
 )
 from robokin import show as figures
-from robokin.jobs import obstacles, steppers, visit_collect
+from robokin.jobs import conveyor, obstacles, steppers, visit_collect
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
 PACKAGE = str(Path(robokin.__file__).parent)
-MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, steppers)
+MODULES = (robokin, arms, motion, figures, visit_collect, conveyor, obstacles, steppers)
 OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
 # ---- The right calls
@@ -403,6 +403,12 @@ CALLS = {
     ),
     "visit_collect.answer": (visit_collect.answer, dict(task=TASK, above_floor=False)),
     "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
+    "conveyor.spaced": (conveyor.spaced, dict(count=4, gap=0.15, spread=0.5, seed=3)),
+    "conveyor.Trips": (conveyor.Trips, _fields(conveyor.serve([0.1], 0.1, S, S + 1)[0])),
+    "conveyor.serve": (
+        conveyor.serve,
+        dict(offsets=S, v=0.1, window=S, ways=S + 1, arms=2, pitch=2.0, first_come=False),
+    ),
     "obstacles.in_quadrilateral": (
         obstacles.in_quadrilateral,
         dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE),
@@ -467,6 +473,7 @@ CALLS = {
 
 # What is made for us to answer with, and what says in words what is wrong with anything.
 LENIENT = ("Recording", "Jump", "Extreme", "obstacles.Plan", "visit_collect.faults")
+LENIENT += ("conveyor.Trips",)
 
 # ---- The wrong things
 
