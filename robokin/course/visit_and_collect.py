@@ -1495,7 +1495,8 @@ def _belt_view() -> Any:
     for name, line, color in (("even", "-", "#0072B2"), ("uneven", "--", "#D55E00")):
         lost = facts["lost"][name]
         ax.plot(facts["speeds"], lost, line, color=color, lw=2.2, marker="o", ms=4)
-        ax.text(142, lost[-1] + (3 if name == "uneven" else -3), name, color=color, va="center")
+        higher = lost[-1] == max(facts["lost"]["even"][-1], facts["lost"]["uneven"][-1])
+        ax.text(142, lost[-1] + (3 if higher else -3), name, color=color, va="center")
     ax.axvline(facts["rule"], color="0.4", ls=":", lw=1.3)
     ax.text(facts["rule"] - 1, 45, "c v / g = 1", color="0.4", ha="right")
     ax.set(
