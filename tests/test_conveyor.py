@@ -174,7 +174,7 @@ def test_an_endless_window_serves_one_object_each_cycle(spread, first_come):
     """A way of w s to every place: v / g objects a second come; 1 / (2 w) at most are taken."""
     way, v = 0.6, 0.4
     assert v / GAP > 1 / (2 * way)  # more than it can take
-    window = np.linspace(0, 100, 1000)
+    window = np.linspace(0, 100, 500)
     (one,) = serve(spaced(COUNT, GAP, spread), v, window, 0 * window + way, first_come=first_come)
     assert sorted(one.objects.tolist()) == list(range(COUNT))  # and none leaves the window
     step = (window[1] - window[0]) / v  # it meets at places of the window

@@ -23,7 +23,7 @@ from ..arms.geometry import ROUNDING
 
 # So that no call takes more than some seconds:
 MOST = 1_000  # objects
-PLACES = 1_000  # of a window
+PLACES = 500  # of a window
 ARMS = 100
 
 
@@ -136,12 +136,13 @@ def _trips(arrivals: Floats, delays: Floats, ways: Floats, first_come: bool) -> 
         found = low + np.flatnonzero(left[low:high])
         at = arrivals[found, None] + delays
         in_time = at >= free + ways
-        place = in_time.argmax(axis=-1)
-        meet = np.take_along_axis(at, place[:, None], axis=-1)[:, 0]
-        back = np.where(in_time.any(axis=-1), meet + ways[place], np.inf)
-        if not np.isfinite(back).any():
+        can = in_time.any(axis=-1)
+        if not can.any():
             break
-        pick = int(np.isfinite(back).argmax() if first_come else back.argmin())
+        found, place = found[can], in_time[can].argmax(axis=-1)
+        meet = at[can, place]
+        back = meet + ways[place]
+        pick = 0 if first_come else int(back.argmin())
         j = int(place[pick])
         trips.append((found[pick], j, meet[pick] - ways[j], meet[pick], back[pick]))
         left[found[pick]] = False
