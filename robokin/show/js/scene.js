@@ -132,9 +132,10 @@ function drawStood(one) {
   else drawRods(one);
   if (one.framed) for (const frame of one.all) triad(g, cam, frame, 0.08 * scene.size, 1.8, 1);
   g.globalAlpha = 1;
-  if (tail.length < 2) return;
-  stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
-  stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
+  if (tail.length > 1) {
+    stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
+    stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
+  }
 }
 
 function drawFlange({g, cam, scene, faded, all, exists}) {
