@@ -731,6 +731,14 @@ def test_three_levers(twin, lengths):
         close(got, q, 1e-6)
 
 
+def test_other_levers_are_another_arm(twin):
+    """What the page makes of other lengths is what Python would have handed over."""
+    arm, rng = arm_data(three_lever((0.3, 0.2, 0.4))), np.random.default_rng(15)
+    for lengths in rng.uniform(0.1, 2, (20, 3)).tolist():
+        got = twin.page.evaluate("([arm, levers]) => withLevers(arm, levers)", [arm, lengths])
+        assert got == json.loads(json.dumps(arm_data(three_lever(lengths))))
+
+
 # --- What Python hands over ----------------------------------------------------------------------
 
 

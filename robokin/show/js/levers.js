@@ -51,6 +51,21 @@ function alphaOfGamma({geometry: {levers: [a, b, c]}, tolerances: {ROUNDING}}, K
 }
 
 /**
+ * The same arm with levers OB, BA, AK of other lengths, in metres: what planar.py makes of them.
+ * @param {Object} arm
+ * @param {number[]} levers
+ * @returns {Object}
+ */
+export function withLevers(arm, levers) {
+  const [a, b, c] = levers, reach = a + b + c, [first, ...chain] = structuredClone(arm.chain);
+  chain[0].before[3] = a; // the rows of [R | p]: this is x of p
+  chain[1].before[3] = b;
+  chain[1].after[3] = c;
+  const geometry = {...arm.geometry, levers, lever: reach / 3, inner: Math.abs(a - b) + c, reach};
+  return {...arm, chain: [first, ...chain], reach, geometry};
+}
+
+/**
  * The lowest and the highest alpha that reach a point; NaN where none does. With `limited` gamma,
  * too, stays within 0 to 180 degrees.
  * @param {Object} arm
