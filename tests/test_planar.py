@@ -340,6 +340,20 @@ def test_no_posture_of_the_family_moves_less_than_the_least():
         assert np.allclose(ARM.fk(q[reached]).translation[:, :2], K[reached], rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("lengths", [1.0, (0.9, 1.1, 0.6)])
+def test_a_range_has_two_ends_or_none(lengths):
+    """Where gamma stays below 0 all along the family, the upper end was given without a lower."""
+    arm = three_lever(lengths)
+    KO, phi = np.meshgrid(np.linspace(0, 3.2, 60), np.linspace(-np.pi, np.pi, 60))
+    K = np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
+    low, high = arm.alpha_range(K)
+    np.testing.assert_array_equal(np.isnan(low), np.isnan(high))
+    alphas = np.linspace(*arm.alpha_range(K, limited=False), 200)
+    gamma = arm.family(K, alphas)[..., 0]
+    served = ((gamma > 0) & (gamma < np.pi)).any(axis=0)
+    assert served.any() and not np.isnan(low[served]).any()
+
+
 # --- Levers of different lengths ------------------------------------------------------------------
 
 LENGTHS = np.random.default_rng(31).uniform(0.2, 1.5, (12, 3))

@@ -221,7 +221,7 @@ class ThreeLeverArm(Arm):
             at_zero, at_half = self._alpha_of_gamma(KO, -phi), self._alpha_of_gamma(KO, np.pi - phi)
             low = np.where(phi + self._gamma1(KO, low) < 0, at_zero, low)
             high = np.where(phi + self._gamma1(KO, high) > np.pi, at_half, high)
-            nowhere = (low > high) | (phi + self._gamma1(KO, low) > np.pi + ROUNDING)
+            nowhere = ~(low <= high) | (phi + self._gamma1(KO, low) > np.pi + ROUNDING)
             low, high = np.where(nowhere, np.nan, low), np.where(nowhere, np.nan, high)
         return low, high
 

@@ -80,7 +80,7 @@ export function alpha_range(arm, point, limited = true) {
   if (limited) {
     if (gamma(low) < 0) low = alphaOfGamma(arm, KO, -phi);
     if (gamma(high) > Math.PI) high = alphaOfGamma(arm, KO, Math.PI - phi);
-    if (low > high || gamma(low) > Math.PI + tolerances.ROUNDING) return [NaN, NaN];
+    if (!(low <= high) || gamma(low) > Math.PI + tolerances.ROUNDING) return [NaN, NaN];
   }
   return [low, high];
 }
