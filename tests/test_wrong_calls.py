@@ -56,6 +56,7 @@ from robokin import (
     spherical_wrist,
     three_lever,
     trapezoidal,
+    turning_base,
     two_link,
     within,
 )
@@ -233,6 +234,7 @@ CALLS = {
     "spbu_arm": (spbu_arm, dict(l1=2.0, l2=1.5)),
     "three_lever": (three_lever, dict(L=0.5)),
     "three_lever (unequal)": (three_lever, dict(L=np.array([0.5, 0.4, 0.3]))),
+    "turning_base": (turning_base, dict(arm=LEVERS)),
     "two_link": (two_link, dict(l1=0.5, l2=0.4, base=np.array([0.1, 0.2]))),
     "explain": (explain, dict(arm=IRB140, pose=T, row=1)),
     "explain (SCARA)": (explain, dict(arm=SCARA, pose=PLACE, row=1)),
