@@ -56,16 +56,17 @@ from robokin import (
     spherical_wrist,
     three_lever,
     trapezoidal,
+    turning_base,
     two_link,
     within,
 )
 from robokin import show as figures
-from robokin.jobs import obstacles, steppers, visit_collect
+from robokin.jobs import obstacles, redundancy, steppers, visit_collect
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
 PACKAGE = str(Path(robokin.__file__).parent)
-MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, steppers)
+MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, redundancy, steppers)
 OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
 # ---- The right calls
@@ -111,6 +112,8 @@ STATIONS = np.array([[1.5, 0.2, 0.3], [0.9, 0.9, 0.6]])
 PULSES = np.array([10.0, 8, 12])
 MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
 PLAN = obstacles.plan(LEVERS, FOLDED, POINT)
+CHOICES = redundancy.methods(OBSTACLE, 1)
+TASK_OF_LEVERS = dict(arm=LEVERS, target=POINT, previous=FOLDED)
 RECORDING = motion.record(IRB140, TIMES, np.where(TIMES[:, None] < 0.5, MOTION, MOTION + 2))
 RECORDINGS = motion.record(IRB140, TIMES, np.stack([MOTION, MOTION]))
 PAGE = "page.html, in a folder of the test"
@@ -230,6 +233,8 @@ CALLS = {
     "loader_arm": (loader_arm, dict(A=1.2, B=1.0)),
     "spbu_arm": (spbu_arm, dict(l1=2.0, l2=1.5)),
     "three_lever": (three_lever, dict(L=0.5)),
+    "three_lever (unequal)": (three_lever, dict(L=np.array([0.5, 0.4, 0.3]))),
+    "turning_base": (turning_base, dict(arm=LEVERS)),
     "two_link": (two_link, dict(l1=0.5, l2=0.4, base=np.array([0.1, 0.2]))),
     "explain": (explain, dict(arm=IRB140, pose=T, row=1)),
     "explain (SCARA)": (explain, dict(arm=SCARA, pose=PLACE, row=1)),
@@ -435,6 +440,21 @@ CALLS = {
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE, distance=0.05),
     ),
     "obstacles.along": (obstacles.along, dict(path=PATH, s=S)),
+    "redundancy.race": (
+        redundancy.race,
+        dict(methods=CHOICES, arm=LEVERS, targets=np.array([POINT, POINT]), start=FOLDED),
+    ),
+    "redundancy.methods": (redundancy.methods, dict(obstacle=OBSTACLE, seed=1)),
+    "redundancy.least_movement": (redundancy.least_movement, TASK_OF_LEVERS),
+    "redundancy.pseudo_inverse": (redundancy.pseudo_inverse, TASK_OF_LEVERS),
+    "redundancy.gradient_projection": (redundancy.gradient_projection, TASK_OF_LEVERS),
+    "redundancy.equal_angles": (redundancy.equal_angles, TASK_OF_LEVERS),
+    "redundancy.random_choice": (redundancy.random_choice, dict(seed=1)),
+    "redundancy.distance_rule": (redundancy.distance_rule, dict(obstacle=OBSTACLE)),
+    "redundancy.Run": (
+        redundancy.Run,
+        dict(postures=PATH, turns=S, failed=np.zeros(3, dtype=bool), seconds=0.1),
+    ),
     "steppers.out_of_reach": (steppers.out_of_reach, dict(arm=LOADER, point=STATIONS[0])),
     "steppers.station_postures": (steppers.station_postures, dict(arm=LOADER, points=STATIONS)),
     "steppers.shortest_turn": (steppers.shortest_turn, dict(start=0.1, goal=S)),
@@ -466,7 +486,14 @@ CALLS = {
 }
 
 # What is made for us to answer with, and what says in words what is wrong with anything.
-LENIENT = ("Recording", "Jump", "Extreme", "obstacles.Plan", "visit_collect.faults")
+LENIENT = (
+    "Recording",
+    "Jump",
+    "Extreme",
+    "obstacles.Plan",
+    "redundancy.Run",
+    "visit_collect.faults",
+)
 
 # ---- The wrong things
 

@@ -375,10 +375,11 @@ def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Flo
     c, s = np.cos(direction), np.sin(direction)
     x, y = np.empty_like(c), np.empty_like(s)  # of H from the start of each lever
     x[0], y[0] = H[..., 0], H[..., 1]
+    levers = arm.levers
     for i in (1, 2):
-        x[i], y[i] = x[i - 1] - arm.lever * c[i - 1], y[i - 1] - arm.lever * s[i - 1]
+        x[i], y[i] = x[i - 1] - levers[i - 1] * c[i - 1], y[i - 1] - levers[i - 1] * s[i - 1]
     along, across = c * x + s * y, c * y - s * x
-    beyond = along - np.clip(along, 0, arm.lever)
+    beyond = along - np.clip(along, 0, levers.reshape(3, *(1,) * (along.ndim - 1)))
     return np.sqrt(across**2 + beyond**2), along, beyond, across
 
 
@@ -456,12 +457,12 @@ def _bounds(
     The distance from a lever is a convex function along that line, and so it lies above its
     tangents at both ends.
     """
-    change, L = b - a, arm.lever
+    change, (OB, BA, _) = b - a, arm.levers
     d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], H)
     turn = change * (ends[1] - ends[0])
     stray = np.hypot(*H) * np.cumsum(turn, axis=0) ** 2
-    stray[1] += L * turn[1] ** 2
-    stray[2] += L * ((turn[1] + turn[2]) ** 2 + turn[2] ** 2)
+    stray[1] += OB * turn[1] ** 2
+    stray[2] += OB * (turn[1] + turn[2]) ** 2 + BA * turn[2] ** 2
     x, y = along[:, 1] - along[:, 0], across[:, 1] - across[:, 0]
     rise = (beyond * x[:, None] + across * y[:, None]) / np.where(d > 0, d, 1)
     (d0, d1), (rise0, rise1) = (np.moveaxis(v, 1, 0) for v in (d, rise))
