@@ -61,12 +61,22 @@ from robokin import (
     within,
 )
 from robokin import show as figures
-from robokin.jobs import obstacles, redundancy, steppers, visit_collect
+from robokin.jobs import conveyor, obstacles, redundancy, steppers, visit_collect
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
 PACKAGE = str(Path(robokin.__file__).parent)
-MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, redundancy, steppers)
+MODULES = (
+    robokin,
+    arms,
+    motion,
+    figures,
+    visit_collect,
+    conveyor,
+    obstacles,
+    redundancy,
+    steppers,
+)
 OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
 # ---- The right calls
@@ -284,6 +294,9 @@ CALLS = {
             circles=[((0.1, 0.2, 0.3), 0.1)],
             names=None,
             floor=False,
+            bases=None,
+            faces=[[(0, 0, 0), (1, 0, 0), (0, 1, 0)]],
+            readings={"p": TIMES},
         ),
     ),
     "animate (controls)": (
@@ -299,11 +312,13 @@ CALLS = {
             points=(),
             circles=(),
             names=["one", "two"],
+            bases=np.array([[0.0, 0.0], [0.0, 1.0]]),
         ),
         "q",
         "slider",
         "switch",
         "names",
+        "bases",
     ),
     "Player": (figures.Player, dict(data=PLAYER.data, still=PLAYER.still)),
     "Explorer": (figures.Explorer, dict(data=EXPLORER.data, still=EXPLORER.still)),
@@ -408,6 +423,12 @@ CALLS = {
     ),
     "visit_collect.answer": (visit_collect.answer, dict(task=TASK, above_floor=False)),
     "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
+    "conveyor.spaced": (conveyor.spaced, dict(count=4, gap=0.15, spread=0.5, seed=3)),
+    "conveyor.Trips": (conveyor.Trips, _fields(conveyor.serve([0.1], 0.1, S, S + 1)[0])),
+    "conveyor.serve": (
+        conveyor.serve,
+        dict(offsets=S, v=0.1, window=S, ways=S + 1, arms=2, pitch=2.0, first_come=False),
+    ),
     "obstacles.in_quadrilateral": (
         obstacles.in_quadrilateral,
         dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE),
@@ -493,6 +514,7 @@ LENIENT = (
     "obstacles.Plan",
     "redundancy.Run",
     "visit_collect.faults",
+    "conveyor.Trips",
 )
 
 # ---- The wrong things

@@ -78,10 +78,14 @@ class PageTarget(TypedDict):
 
 
 class PageMark(TypedDict):
-    """A point (radius 0) or a ball: `at` where it stands still, else `way`."""
+    """A point (radius 0) or a ball: `at` where it stands still, else `way`. `reading`: a number to
+    write behind its name, with so many decimals.
+    """
 
     name: str
     radius: float
+    reading: NotRequired[PageWay]
+    decimals: NotRequired[int]
     at: NotRequired[list[float]]
     way: NotRequired[PageWay]
 
@@ -90,7 +94,8 @@ class PageScene(TypedDict):
     """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
     floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
     camera. With `grows` the picture shrinks where an arm or a target leaves it; a floor that is
-    `solid` hides what dips below it.
+    `solid` hides what dips below it. With `bases`, where they stand, all arms are in one picture.
+    `faces`: polygons, their corners.
     """
 
     size: float
@@ -103,6 +108,8 @@ class PageScene(TypedDict):
     marks: list[PageMark]
     grows: NotRequired[bool]
     solid: NotRequired[bool]
+    bases: NotRequired[list[list[float]]]
+    faces: NotRequired[list[list[list[float]]]]
 
 
 class Axis(TypedDict):

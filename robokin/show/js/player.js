@@ -32,7 +32,7 @@ function start(root, data) {
   }
   function draw(now) {
     clock.pass(now);
-    sized(parts, inSpace, data.arms.length);
+    sized(parts, inSpace, data.arms.length, scene.bases ? 1 : data.arms.length);
     const moment = momentAt(data.times, state.time), arms = shown.arms.map(arm => armAt(arm, moment));
     shown.columns.forEach((column, k) => shownAt(column, moment, shown.arms[k].gaps));
     Object.assign(scene, motions.around(shown.motion, moment));
@@ -87,9 +87,9 @@ function furniture(data, scene) {
   return parts;
 }
 
-// A canvas that has the whole width takes the height that its arms fill.
-function sized({scene, curves}, inSpace, count) {
-  const [, rows] = tiled(count, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
+// A canvas that has the whole width takes the height that its arms fill: so many have curves, so many pictures are there.
+function sized({scene, curves}, inSpace, arms, count) {
+  const [, rows] = tiled(arms, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
   curves.style.height = rows > 1 ? `${rows * 330}px` : "";
   scene.style.height = whole && scene.clientWidth
     ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * (count > 1 ? 290 : 340), Math.max(190, inSpace.height(count, scene.clientWidth))))}px` : "";
