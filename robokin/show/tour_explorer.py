@@ -5,6 +5,7 @@ The page draws, and asks a kernel at every move (`live`). Points are numbered as
 0. What is said stands here.
 """
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -153,16 +154,17 @@ def answered(question: Question, speeds: Floats) -> Answer:
         said[name], dips = _tour(task, result, served)
         if dips and dips not in said["notes"]:
             said["notes"].append(dips)
-    return said | {"says": _says(task, results)}
+    among = f"{len(served)}" if inside.all() else f"{len(served)} in reach"
+    return said | {"says": _says(task, results, among)}
 
 
 # --- What is said ---------------------------------------------------------------------------------
 
 
-def _says(task: Task, results: dict[str, Result]) -> str:
-    """What greed loses, in one sentence."""
+def _says(task: Task, results: dict[str, Result], n: str) -> str:
+    """What greed loses, in one sentence; n: of how many points."""
     greedy, best = results["greedy"], results.get("best")
-    n, few = len(task.points), len(greedy.order)
+    few = len(greedy.order)
     if task.kind == "collect":
         if best is None:
             return f"Cheapest first brings {few} of {n}; p0 is on axis 1: more may be possible."
@@ -185,10 +187,15 @@ def _points(count: int) -> str:
 
 
 def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Bools) -> list[str]:
-    """Why p0 and points are out of reach."""
+    """Why p0 and points are out of reach, in as many digits as a hand can mean."""
+
+    def told(p: Sequence[float] | Floats) -> str:
+        reasons = "; ".join(out_of_workspace(l1, l2, p))
+        return re.sub(r"-?\d+\.\d+", lambda x: _number(float(x[0]), ".4g"), reasons)
+
     named = {"p0": p0} | {f"Point {i}": p for i, p in enumerate(points)}
     return [
-        f"{name} {'; '.join(out_of_workspace(l1, l2, p))}."
+        f"{name} {told(p)}."
         for (name, p), fine in zip(named.items(), inside, strict=True)
         if not fine
     ]
@@ -206,8 +213,7 @@ def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
     if len(z) and z.min() < -UNDER * (task.l1 + task.l2):
         k = int(z.argmin())
         ends = " and ".join(sorted(stops[k : k + 2]))  # the way back is no other place
-        depth = f"{z[k]:.2f}".replace("-", "\N{MINUS SIGN}")
-        dips = f"Between {ends} the tool dips under the floor, down to {depth} m."
+        dips = f"Between {ends} the tool dips under the floor, down to {_number(z[k], '.2f')} m."
     parts = [f"{i}\N{NO-BREAK SPACE}({at:.2f})" for i, at in zip(order, result.times, strict=True)]
     tour = {
         "t": t.astype(np.float32),
@@ -217,6 +223,10 @@ def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
         "cells": [", ".join(parts) or "\N{EN DASH}", str(len(order)), f"{result.time:.2f}"],
     }
     return tour, dips
+
+
+def _number(x: float, form: str) -> str:
+    return f"{x:{form}}".replace("-", "\N{MINUS SIGN}")
 
 
 # --- What the page gets ---------------------------------------------------------------------------

@@ -13,7 +13,7 @@ import {plain} from "./turns.js";
 
 const FINE = 0.05; // rad of the fastest joint between two points of a drawn path
 const COLORS = {greedy: "joint2", best: "joint1"}; // apart for colour-blind readers, and by their dashes
-const DASHED = {greedy: [7, 5], best: []};
+const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // where both go the same way, both are seen
 
 /**
  * Fills every waiting place with this id.
@@ -55,8 +55,9 @@ function tourExplorer(root, id, stage, data) {
     stage.changed();
   });
   rows.node.classList.add("rk-tours");
-  const notes = element("ul", {class: "rk-notes"}), told = element("div", {}, stage.says, notes, rows.node);
-  beside(stage.side, told);
+  const notes = element("ul", {class: "rk-notes"});
+  beside(stage.side, stage.says, notes);
+  stage.below.append(rows.node);
 
   // --- below the scene: alive while the rest is asleep
   const parts = clockRow(), space = stage.handles.layer.parentElement;
@@ -76,7 +77,7 @@ function tourExplorer(root, id, stage, data) {
     id, name, mark, look: "rk-point", at: where,
     value: () => `${where().map(x => number(x / unit.size, 2)).join(", ")} ${unit.name}`,
     grab(camera) {
-      const to = inScreen(camera, where()), p = where();
+      const p = where(), to = inScreen(camera, [...p]);
       touch();
       hold(true);
       return (dx, dy) => p.splice(0, 3, ...to(dx, dy));
@@ -133,11 +134,11 @@ function tourExplorer(root, id, stage, data) {
 
 const question = ({l1, l2, T, kind, p0, points, held}) => ({l1, l2, T, kind, p0, points, held});
 
-// Puts `next` behind `node`, both in a box of their own.
-function beside(node, next) {
+// Puts `more` behind `node`, all in a box of their own.
+function beside(node, ...more) {
   const box = element("div", {});
   node.replaceWith(box);
-  box.append(node, next);
+  box.append(node, ...more);
 }
 
 // A tour that can be drawn and gone: the places of the tool, and the posture at a time.
@@ -180,8 +181,7 @@ function below(g, {to}, {p0, points, l1, l2}, {tours}) {
   }
   for (const tour of [...tours].reverse().filter(Boolean)) { // the dashed one last
     if (tour.dips) stroke(g, tour.places.map(p => p[2] < 0 && to(p)), clear(colors.alarm, 0.35), 9);
-    stroke(g, tour.places.map(to), colors.paper, 4);
-    stroke(g, tour.places.map(to), colors[COLORS[tour.name]], 2.2, DASHED[tour.name]);
+    stroke(g, tour.places.map(to), colors[COLORS[tour.name]], ...LINES[tour.name]);
   }
 }
 
@@ -202,6 +202,7 @@ const LOOK = `
   & .rk-point::after { content: attr(data-best); top: calc(100% + 3px); color: var(--rk-joint1); }
   & .rk-handles[inert] { opacity: 1; }
   & .rk-tours tr > :nth-child(2) { white-space: normal; text-align: left; width: 99%; }
+  & .rk-tours thead th { white-space: nowrap; }
   & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px; margin-right: 6px; vertical-align: middle;
     border-top: 3px dashed var(--rk-joint2); }
   & .rk-tours tr:nth-child(2) .rk-choose::before { border-top: 3px solid var(--rk-joint1); }
