@@ -186,7 +186,7 @@ function below(g, {to}, {p0, points, l1, l2}, {tours}) {
 }
 
 const inCode = ({l1, l2, T, kind, p0, points}) => {
-  const list = p => `[${p.map(x => plain(x, 4)).join(", ")}]`;
+  const list = p => `[${p.map(x => plain(x, 6)).join(", ")}]`;
   return {l1: plain(l1, 4), l2: plain(l2, 4), T: plain(T, 3), kind, p0: list(p0), points: `[${points.map(list).join(", ")}]`};
 };
 
