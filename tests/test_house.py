@@ -53,8 +53,8 @@ LAYERS = {
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
     "robokin.show.explorers": ("robokin",),
-    "robokin.show.tour_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.course": ("robokin",),
+    "robokin.show.tour_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
 HEAVY = DRAWING | {

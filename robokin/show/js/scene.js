@@ -16,6 +16,7 @@ import {camera} from "./camera.js";
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where `past` a limit
  * @property {boolean} [framed]  show the frame of every link
  * @property {(g: CanvasRenderingContext2D, cam: object) => void} [under]  draws what else there is, below the arm
+ * @property {(g: CanvasRenderingContext2D, cam: object) => void} [over]  the same above it
  */
 
 /**
@@ -117,6 +118,7 @@ function drawArmInSpace(pen, arm, [x, y, w, h], named) {
     stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
     stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
   }
+  arm.over?.(g, cam);
   const {labels, taken} = drawPlaces(pen, arm.near);
   if (exists) {
     g.globalAlpha = arm.faded ? 0.4 : 1;
