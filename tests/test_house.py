@@ -54,6 +54,7 @@ LAYERS = {
     "robokin.show": KINEMATICS,
     "robokin.show.explorers": ("robokin",),
     "robokin.course": ("robokin",),
+    "robokin.show.tour_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
 HEAVY = DRAWING | {

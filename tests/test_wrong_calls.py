@@ -327,6 +327,7 @@ CALLS = {
     "figure": (figures.figure, dict(alt="words", width=3, height=2)),
     "joint_explorer": (figures.joint_explorer, dict(arm=IRB140, q=SIX)),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
+    "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (
         figures.motion_explorer,
         dict(

@@ -7,6 +7,7 @@ try:
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_joints, plot_postures
     from .sketch import Sketch
+    from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:
     raise ImportError(f"robokin.show: {error}; pip install 'robokin[show]' brings it") from error
 
@@ -24,4 +25,5 @@ __all__ = [
     "plot_postures",
     "plot_velocity_ellipsoid",
     "target_explorer",
+    "tour_explorer",
 ]

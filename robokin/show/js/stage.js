@@ -37,8 +37,10 @@ export function stageOf(root, data) {
     say(text) { if (says.textContent !== text) says.textContent = text; },
     run(answer, canvases = [], beside = () => {}) {
       ask = pictures(root, [canvas, ...canvases], () => {
-        if (stale) arms = answer();
-        stale = false;
+        if (stale) {
+          stale = false; // before: what moves by itself has changed again by then
+          arms = answer();
+        }
         beside();
         const room = view.draw(state.view, arms, "");
         if (room) {
