@@ -15,6 +15,8 @@ import {camera} from "./camera.js";
  * @property {{place: Point, text: string}} [near]  where the path passes "via"
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where `past` a limit
  * @property {boolean} [framed]  show the frame of every link
+ * @property {(g: CanvasRenderingContext2D, cam: object) => void} [under]  draws what else there is, below the arm
+ * @property {(g: CanvasRenderingContext2D, cam: object) => void} [over]  the same above it
  */
 
 /**
@@ -103,6 +105,7 @@ function drawArmInSpace(pen, arm, [x, y, w, h], named) {
   for (const {at, radius} of scene.marks) if (radius) ball(g, to(at), radius * cam.scale);
   drawRoute(pen);
   stroke(g, trace.map(p => p && to(p)), clear(colors.path, 0.45), 1.4, [1, 4]);
+  arm.under?.(g, cam);
   drawFoot(pen, rods.length ? 1 : 0.4);
   for (const {q, past} of ghosts)
     stroke(g, frames(arm.chain, q).map(f => to(origin(f))), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
@@ -115,6 +118,7 @@ function drawArmInSpace(pen, arm, [x, y, w, h], named) {
     stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
     stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
   }
+  arm.over?.(g, cam);
   const {labels, taken} = drawPlaces(pen, arm.near);
   if (exists) {
     g.globalAlpha = arm.faded ? 0.4 : 1;
