@@ -30,7 +30,7 @@ from ..units import deg, in_words, length_unit, mm
 from . import plots
 from .camera import VIEW, extent, project, scene_data
 from .live import Answer, Live, Question
-from .page import Control, PageExplorer
+from .page import Control
 from .palette import ALARM, DASHES, INK, JOINT_STYLES, SOFT
 from .twin import arm_data
 
@@ -40,9 +40,9 @@ FORBIDDEN, AWAY = 255, 254  # in the cube: too near to the obstacle; free, and n
 WAYS = ("the plan", "two via points", "direct")
 TITLE = "From K to K1, past an obstacle H"
 MEANT = (
-    "Drag K, K1 and H, or move them by arrow keys. The cube holds all postures in steps of 12° (the "
-    "plan searches in finer ones): in the grey body a lever is too near to H; the squares are the "
-    "wave of the search, the triangles the target, the line is the path."
+    "Drag K, K1 and H, or move them by arrow keys. The cube holds all postures in steps of 12° "
+    "(the plan searches in finer ones): in the grey body a lever is too near to H; the squares are "
+    "the wave of the search, the triangles the target, the line is the path."
 )
 WORDS: Mapping[str, str] = {
     "K": "K, where the gripper starts",
@@ -276,7 +276,7 @@ def _wave(free: Bools, steps: list[Bools], start: tuple[int, ...] | None) -> Int
 # --- What the page gets ---------------------------------------------------------------------------
 
 
-def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> PageExplorer:
+def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dict[str, Any]:
     size = extent(arm)
     name, unit = length_unit(size)
     marks = [
@@ -284,7 +284,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pag
         for key, radius in (("target", 0.0), ("obstacle", first["distance"]))
     ]
     scene = scene_data([arm], [_moments(np.array(known.path))[None]], {}, marks, size)
-    scene |= {"grows": True, "marks": []}
+    scene["grows"], scene["marks"] = True, []
     L = arm.lever
     distance: Control = {
         "name": "distance",
@@ -332,8 +332,8 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")
     plane.plot(*points[0].T, color=INK, linewidth=4, marker="o", markerfacecolor="white")
     plane.plot(*H, "X", color=ALARM, markersize=8)
-    for text, at in (("K", points[0, 3]), ("K1", K1), ("H", H)):
-        plane.annotate(text, at, (7, 5), textcoords="offset points")
+    for text, (x, y) in (("K", points[0, 3]), ("K1", K1), ("H", H)):
+        plane.annotate(text, (x, y), (7, 5), textcoords="offset points")
     ends = np.pi * np.stack(np.meshgrid((0, 1), (0, 1), (0, 1), indexing="ij"), axis=-1)
     edges = [np.moveaxis(ends, j, 2).reshape(4, 2, 3) for j in range(3)]
     lines = list(project(np.concatenate(edges)))
@@ -345,7 +345,8 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     cube.plot(*path.T, color=orange, linewidth=2)
     cube.plot(*path[0], "o", color=INK)
     for text, place in (("γ", (90, 0, -12)), ("β", (192, 90, 0)), ("α", (-12, 0, 90))):
-        cube.annotate(text, project(np.array(place) * deg), ha="center", va="center")
+        x, y = project(np.array(place) * deg)
+        cube.annotate(text, (x, y), ha="center", va="center")
     for ax in (plane, cube):
         ax.set_aspect("equal")
         ax.set_axis_off()

@@ -51,7 +51,8 @@ function planExplorer(stage, root, id, data) {
   // What needs no kernel stands beside: it lives where the rest sleeps.
   stage.side.after(element("div", {class: "rk-own"}, cube, element("div", {class: "rk-run"}, play,
     element("div", {}, own(says.search, wave), own(says.motion, moment)))));
-  stage.below.append(verdict, stage.says);
+  root.querySelector(".rk-title").after(verdict);
+  stage.below.append(stage.says);
   root.firstElementChild.append(element("style", {}, LOOK));
 
   const stop = () => { time.playing = false; };
@@ -168,8 +169,9 @@ function drawAbove(g, {to}, {via, nearest: [at, text], kept}, state) {
   for (const side of [-1, 1]) stroke(g, [[x - 6, y - 6 * side], [x + 6, y + 6 * side]], colors.alarm, 3.5);
   if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
   spot(g, p, 3.5, colors.near);
-  words(g, text, p[0] + (p[0] < x ? -9 : 9), p[1] + (p[1] < y ? -8 : 16), kept ? colors.near : colors.alarm, 12.5,
-    p[0] < x ? "right" : "left", "600");
+  const left = p[0] <= x + 1; // where it is swept, to the left: the tool's frame points to the right
+  words(g, text, p[0] + (left ? -16 : 9), p[1] + (p[1] < y - 1 ? -8 : 17), kept ? colors.near : colors.alarm, 12.5,
+    left ? "right" : "left", "600");
   via.forEach((point, k) => {
     const place = to([...point, 0]);
     spot(g, place, 4, colors.path);
@@ -249,13 +251,13 @@ const LOOK = `
   & .rk-space { grid-row: 1 / span 2; }
   & .rk-own { grid-column: 2; grid-row: 1; }
   & .rk-side { grid-column: 2; }
-  & .rk-asked .rk-cube { height: clamp(210px, 27cqw, 250px); cursor: grab; touch-action: pan-y; }
+  & .rk-asked .rk-cube { height: clamp(200px, 22cqw, 220px); cursor: grab; touch-action: pan-y; }
   & .rk-run { display: flex; gap: 8px; align-items: center; }
   & .rk-run > div { flex: 1; }
   & .rk-run .rk-slide { grid-template-columns: 4.8em minmax(60px, 1fr); }
   & .rk-play { min-width: 4.6em; }
   & .rk-mark { font-size: 11px; }
-  & .rk-verdict { margin: 6px 0 0; font-weight: 650; }
+  & .rk-verdict { margin: 0 0 4px; font-weight: 650; min-height: 1.4em; }
   & .rk-verdict.rk-past { text-decoration: none; }
   @container (max-width: 600px) {
     & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr); }
