@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from .._arrays import ArrayLike, Bools, Floats, Ints
-from .._validate import instance
+from .._validate import floats, instance
 from ..arms.planar import ThreeLeverArm
 from ..jobs.obstacles import (
     LEVERS,
@@ -74,9 +74,11 @@ def plan_explorer(
     `plan` refuses. TypeError: an arm without three levers.
     """
     instance(arm, ThreeLeverArm, "arm")
-    distance = arm.lever / 7
-    known = plan(arm, posture, target, obstacle, distance)
-    start, K1, H = (np.asarray(x, dtype=float) for x in (posture, target, obstacle))
+    distance, H = arm.lever / 7, floats(obstacle, "obstacle")
+    if H.ndim != 1:
+        raise ValueError(f"obstacle: wanted one point (2,), got shape {H.shape}")
+    known = plan(arm, posture, target, H, distance)
+    start, K1 = floats(posture, "posture"), floats(target, "target")
     first = {
         "posture": start.tolist(),
         "target": K1[:2].tolist(),
