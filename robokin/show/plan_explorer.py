@@ -85,6 +85,7 @@ def plan_explorer(
         "obstacle": H[:2].tolist(),
         "distance": distance,
         "way": 0,
+        "sides": False,
     }
     answer = _answer(arm, first)
     summary = f"{arm.name}, a target and an obstacle to be moved. {known.words} {answer['verdict']}"
@@ -103,33 +104,28 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
     """What the page shows.
 
     verdict, words  the answer in a sentence; why, as `plan` says it
-    kept            whether the path keeps the distance
+    way, kept       of the plan; whether the path that is shown keeps the distance
     path            (k, 3) postures; the start alone where the arm stays
     moments         (MOMENTS, 3) of its way
     via             (., 2) the gripper's via points
     nearest         where the levers come nearest: [place on the lever, words]
-    direct          the goal of the direct motion and the quadrilaterals AK and BA, None where there
-                    is none
+    direct          the quadrilaterals AK and BA of the direct motion and what is to be said of
+                    them; None where they are not asked for, or do not exist
     cube            steps of the wave to each posture, or FORBIDDEN, or AWAY
     most, curve     how many steps are worth seeing; the target's postures (., 3)
     """
     start, K1, H = (np.array(question[key]) for key in ("posture", "target", "obstacle"))
-    distance = question["distance"]
+    distance, way = question["distance"], WAYS[question["way"]]
     known = plan(arm, start, K1, H, distance)
-    way = WAYS[question["way"]]
-    goal = arm.least(K1, start)[0]
-    if way == "direct":
-        path = np.stack([start, goal])
-    elif way == "two via points":
-        path = _through(arm, start, K1, H, distance)
-    else:
-        path = np.array(known.path)
-    if np.isnan(path).any():
-        path = start[None]
-    cube, most, curve = _cube(arm, start, K1, H, distance)
-    each = distances(arm, start, H) if len(path) == 1 else clearance(arm, path, H).min(axis=0)
+    path, each = known.path, known.clearance
+    if way != WAYS[0]:
+        path = _other(arm, way, start, K1, H, distance)
+        each = clearance(arm, path, H) if len(path) > 1 else each[:0]
+    each = each.min(axis=0) if len(path) > 1 else distances(arm, start, H)
     lever, near = int(each.argmin()), float(each.min())
     verdict, kept = _verdict(known, way, path, lever, near, distance)
+    by_points = way == WAYS[1] or (way == WAYS[0] and known.way == "via points")
+    cube, most, curve = _cube(arm, start, K1, H, distance)
     return {
         "verdict": verdict,
         "words": known.words,
@@ -137,25 +133,27 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
         "kept": kept,
         "path": path.tolist(),
         "moments": _moments(path).astype(np.float32),
-        "via": arm.points(path[1:-1])[:, 3].tolist() if _by_points(way, known) else [],
+        "via": arm.points(path[1:-1])[:, 3].tolist() if by_points else [],
         "nearest": _nearest(arm, path, H, lever, near),
-        "direct": None if np.isnan(goal).any() else _direct(arm, start, goal, H),
+        "direct": _direct(arm, start, K1, H) if question["sides"] else None,
         "cube": cube,
         "most": most,
         "curve": curve.astype(np.float32),
     }
 
 
-def _through(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> Floats:
-    """By K2 and K3; NaN where there is no such way, or no line from H to K or K1."""
-    try:
-        return via_path(arm, start, K1, H, max(distance, arm.lever / 7))
-    except ValueError:
-        return np.full((2, 3), np.nan)
-
-
-def _by_points(way: str, known: Plan) -> bool:
-    return way == "two via points" or (way == "the plan" and known.way == "via points")
+def _other(
+    arm: ThreeLeverArm, way: str, start: Floats, K1: Floats, H: Floats, distance: float
+) -> Floats:
+    """The direct motion, or that by K2 and K3, safe or not; the start alone where there is none."""
+    if way == WAYS[2]:
+        path = np.stack([start, arm.least(K1, start)[0]])
+    else:
+        try:
+            path = via_path(arm, start, K1, H, max(distance, arm.lever / 7))
+        except ValueError:  # H lies in K or K1
+            return start[None]
+    return start[None] if np.isnan(path).any() else path
 
 
 def _moments(path: Floats) -> Floats:
@@ -180,14 +178,17 @@ def _verdict(
 
 def _nearest(arm: ThreeLeverArm, path: Floats, H: Floats, i: int, near: float) -> list[Any]:
     """Where lever i comes as near to H as the path says, as well as it is seen; in words."""
-    q = along(path, np.linspace(0, 1, 401)) if len(path) > 1 else path
+    q = along(path, np.linspace(0, 1, 121)) if len(path) > 1 else path
     k = distances(arm, q, H)[:, i].argmin()
     P, Q = arm.points(q[k])[i : i + 2]
     u = np.clip((H - P) @ (Q - P) / ((Q - P) @ (Q - P)), 0, 1)
     return [(P + u * (Q - P)).tolist(), f"{LEVERS[i]} {near / mm:.0f} mm"]
 
 
-def _direct(arm: ThreeLeverArm, start: Floats, goal: Floats, H: Floats) -> dict[str, Any]:
+def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dict[str, Any] | None:
+    goal = arm.least(target, start)[0]
+    if np.isnan(goal).any():
+        return None
     (_, B, A, K), (_, B1, A1, K1) = arm.points(start), arm.points(goal)
     inside = [name for name, yes in in_quadrilateral(arm, start, goal, H).items() if yes]
     over = [name for name, yes in swept(arm, start, goal, H).items() if yes]
@@ -198,7 +199,6 @@ def _direct(arm: ThreeLeverArm, start: Floats, goal: Floats, H: Floats) -> dict[
     )
     passes = f"{' and '.join(over)} truly" if over else "no lever"
     return {
-        "goal": goal.tolist(),
         "quadrilaterals": np.stack([[A, K, K1, A1], [B, A, A1, B1]]).tolist(),
         "says": f"{lies}; on the direct way {passes} "
         f"{'pass' if len(over) > 1 else 'passes'} over H.",
@@ -217,21 +217,16 @@ def _cube(
     axes = [np.arange(low, high + STEP / 2, STEP) for low, high in arm.limits]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     free = distances(arm, grid, H).min(axis=-1) >= distance
-    count = _wave(
-        free,
-        [_proven(arm, grid, free, H, distance, j) for j in range(3)],
-        _begin(grid, free, start),
-    )
     low, high = arm.alpha_range(K1)
     curve = np.empty((0, 3))
     if not np.isnan(low):
         curve = arm.family(K1, np.linspace(low, high, 31))
-    cells = np.round((curve - arm.limits[:, 0]) / STEP).astype(int)
-    arrived = count[tuple(cells.T)]
-    arrived = arrived[arrived >= 0]
-    most = int(arrived.min() if len(arrived) else count.max())
+    goals = np.zeros_like(free)
+    goals[tuple(np.round((curve - arm.limits[:, 0]) / STEP).astype(int).T)] = True
+    proven = [_proven(arm, grid, free, H, distance, joint) for joint in range(3)]
+    count = _wave(free, proven, _begin(grid, free, start), goals)
     cube = np.where(count >= 0, np.minimum(count, AWAY - 1), np.where(free, AWAY, FORBIDDEN))
-    return cube.astype(np.uint8), max(most, 0), curve
+    return cube.astype(np.uint8), max(int(count.max()), 0), curve
 
 
 def _begin(grid: Floats, free: Bools, start: Floats) -> tuple[int, ...] | None:
@@ -255,23 +250,26 @@ def _proven(
     return good
 
 
-def _wave(free: Bools, steps: list[Bools], start: tuple[int, ...] | None) -> Ints:
-    """Steps from the start to every posture; -1 where none lead."""
+def _wave(free: Bools, proven: list[Bools], start: tuple[int, ...] | None, goals: Bools) -> Ints:
+    """Steps from the start to every posture, until the first goal is reached; -1 elsewhere."""
     count = np.full(free.shape, -1)
     if start is None:
         return count
-    front = np.zeros_like(free)
+    front, later = np.zeros_like(free), np.zeros_like(free)
     front[start] = True
+    along_joint = [
+        [np.moveaxis(x, joint, 0) for x in (later, front, good)]
+        for joint, good in enumerate(proven)
+    ]
     for n in range(AWAY):
         count[front] = n
-        later = np.zeros_like(free)
-        for joint, good in enumerate(steps):
-            to, of, way = (np.moveaxis(x, joint, 0) for x in (later, front, good))
-            to[1:] |= of[:-1] & way
-            to[:-1] |= of[1:] & way
-        front = later & (count < 0)
-        if not front.any():
+        if not front.any() or (front & goals).any():
             break
+        later[:] = False
+        for to, of, good in along_joint:
+            to[1:] |= of[:-1] & good
+            to[:-1] |= of[1:] & good
+        np.logical_and(later, count < 0, out=front)
     return count
 
 

@@ -31,7 +31,7 @@ function planExplorer(stage, root, id, data) {
   let shown = null, asked = JSON.stringify(first);
 
   const question = () => ({posture: state.q, target: state.target.slice(0, 2), obstacle: state.obstacle.slice(0, 2),
-                           distance: state.distance, way: state.way});
+                           distance: state.distance, way: state.way, sides: sides.on()});
   const grip = q => origin(frames(arm.chain, q).at(-1));
   const place = p => p.slice(0, 2).map(x => number(x / unit.size, 3)).join(", ");
 
@@ -124,13 +124,12 @@ function planExplorer(stage, root, id, data) {
     moment.value = time.moment;
     moment.setAttribute("aria-valuetext", fill(says.share, {share: Math.round(100 * time.moment / last())}));
     play.textContent = time.playing ? says.pause : says.play;
-    const {direct} = shown, told = sides.on() && direct ? [direct.says] : [];
-    stage.say([...(state.way ? [] : [shown.words]), ...told].join(" "));
+    stage.say([state.way ? "" : shown.words, shown.direct?.says || ""].join(" ").trim());
     stage.scene.marks = [state.target, state.obstacle].map(at => ({name: "", at, radius: 0}));
     const k = Math.round(time.moment), begun = k > 0;
     const ghosts = [{q: shown.moments.at(-1), past: true}, ...(begun ? [{q: state.q, past: false}] : [])];
     return [{name: arm.name, chain: arm.chain, q: begun ? shown.moments[k] : state.q, ghosts,
-      under: (g, cam) => drawBelow(g, cam, shown, state, sides.on(), shown.moments.map(q => frames(arm.chain, q).map(origin))),
+      under: (g, cam) => drawBelow(g, cam, shown, state, shown.moments.map(q => frames(arm.chain, q).map(origin))),
       over: (g, cam) => drawAbove(g, cam, shown, state)}];
   }, [cube], () => {
     drawCube(cube, seen.view, shown, Math.floor(time.wave), Math.round(time.moment), state.q);
@@ -144,14 +143,14 @@ const rows = ({values, shape: [count, width]}) =>
   Array.from({length: count}, (_, k) => Array.from(values.subarray(k * width, (k + 1) * width)));
 
 // The room about H, the quadrilaterals, what the levers sweep, the gripper's path.
-function drawBelow(g, {to, scale}, {kept, direct}, state, sides, postures) {
+function drawBelow(g, {to, scale}, {kept, direct}, state, postures) {
   const room = [...to(state.obstacle), state.distance * scale];
   g.beginPath();
   g.arc(...room, 0, 2 * Math.PI);
   g.fillStyle = clear(colors.ghost, 0.2);
   g.fill();
   const flat = points => points.map(([x, y]) => to([x, y, 0]));
-  if (sides && direct) direct.quadrilaterals.forEach((corners, k) => {
+  direct?.quadrilaterals.forEach((corners, k) => {
     const color = [colors.joint3, colors.joint2][k], points = flat(corners);
     polygon(g, points, clear(color, 0.12), color, 1.2);
     words(g, ["AK", "BA"][k], ...middle(points), color, 12, "center", "600");
