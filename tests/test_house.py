@@ -53,6 +53,7 @@ LAYERS = {
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
     "robokin.show.explorers": ("robokin",),
+    "robokin.show.motors": (*KINEMATICS, "robokin.show", "robokin.jobs.steppers"),
     "robokin.course": ("robokin",),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}

@@ -3,6 +3,7 @@
 try:
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
+    from .motors import motor_explorer
     from .palette import JOINT_STYLES
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_joints, plot_postures
@@ -19,6 +20,7 @@ __all__ = [
     "figure",
     "joint_explorer",
     "motion_explorer",
+    "motor_explorer",
     "plot_frames",
     "plot_joints",
     "plot_postures",
