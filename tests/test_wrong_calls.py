@@ -121,6 +121,7 @@ LOADER = loader_arm(1.2, 1.0)
 STATIONS = np.array([[1.5, 0.2, 0.3], [0.9, 0.9, 0.6]])
 PULSES = np.array([10.0, 8, 12])
 MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
+STEPPER = steppers.Stepper()
 PLAN = obstacles.plan(LEVERS, FOLDED, POINT)
 CHOICES = redundancy.methods(OBSTACLE, 1)
 TASK_OF_LEVERS = dict(arm=LEVERS, target=POINT, previous=FOLDED)
@@ -342,6 +343,7 @@ CALLS = {
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
     "plot_frames": (
         figures.plot_frames,
         dict(frames=BATCH, names=["a", "b", "c"], title="t", size=0.1, chain=True, alt="words"),
@@ -504,7 +506,18 @@ CALLS = {
         steppers.straight,
         dict(arm=LOADER, start=STATIONS[0], goal=STATIONS[1], per_degree=PULSES, limit=400.0),
     ),
-    "steppers.phases": (steppers.phases, dict(drive="wave", motor="bipolar")),
+    "steppers.phases": (steppers.phases, dict(drive="wave", motor="bipolar", windings=3)),
+    "steppers.Stepper": (steppers.Stepper, _fields(STEPPER)),
+    "steppers.Stepper.run": (
+        STEPPER.run,
+        dict(times=[0.01, 0.02], signs=[1, -1], load=0.001, load_inertia=1e-7),
+    ),
+    "steppers.Stepper.start_frequency": (
+        STEPPER.start_frequency,
+        dict(load=0.001, load_inertia=1e-7, pulses=8),
+    ),
+    "steppers.Run": (steppers.Run, _fields(STEPPER.run([0.01], [1]))),
+    "steppers.ramp": (steppers.ramp, dict(pulses=9, start=20.0, end=90.0, seconds=0.1)),
     "steppers.energised": (
         steppers.energised,
         dict(table=steppers.phases("wave", "unipolar"), signs=np.array([1, 1, -1]), row=1),
@@ -520,6 +533,7 @@ LENIENT = (
     "redundancy.Run",
     "visit_collect.faults",
     "conveyor.Trips",
+    "steppers.Run",
 )
 
 # ---- The wrong things

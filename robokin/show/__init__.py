@@ -3,6 +3,7 @@
 try:
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
+    from .motors import motor_explorer
     from .palette import JOINT_STYLES
     from .plan_explorer import plan_explorer
     from .player import Player, animate
@@ -21,6 +22,7 @@ __all__ = [
     "figure",
     "joint_explorer",
     "motion_explorer",
+    "motor_explorer",
     "plan_explorer",
     "plot_frames",
     "plot_joints",

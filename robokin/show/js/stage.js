@@ -75,7 +75,7 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   g.stroke();
 }
 
-const LOOK = `
+export const LOOK = `
 .rk.rk.rk {
   & .rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); align-items: start; }
   & .rk-asked canvas { height: clamp(300px, 38cqw, 350px); }
