@@ -426,6 +426,11 @@ CALLS = {
         obstacles.way_round,
         dict(arm=LEVERS, q0=FOLDED, target=POINT, H=OBSTACLE, distance=0.05),
     ),
+    "obstacles.way_round (two obstacles)": (
+        obstacles.way_round,
+        dict(arm=LEVERS, q0=FOLDED, target=POINT, H=[OBSTACLE, -OBSTACLE], distance=0.05),
+        ("H",),
+    ),
     "obstacles.Plan": (
         obstacles.Plan,
         _fields(PLAN),
