@@ -60,12 +60,12 @@ from robokin import (
     within,
 )
 from robokin import show as figures
-from robokin.jobs import obstacles, steppers, visit_collect
+from robokin.jobs import moving, obstacles, steppers, visit_collect
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
 PACKAGE = str(Path(robokin.__file__).parent)
-MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, steppers)
+MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, moving, steppers)
 OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
 # ---- The right calls
@@ -408,6 +408,10 @@ CALLS = {
         dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE),
     ),
     "obstacles.swept": (obstacles.swept, dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE)),
+    "obstacles.locate": (
+        obstacles.locate,
+        dict(P=POINT, Q=OBSTACLE, from_P=0.6, from_Q=0.7),
+    ),
     "obstacles.distances": (obstacles.distances, dict(arm=LEVERS, q=PATH, H=OBSTACLE)),
     "obstacles.clearance": (obstacles.clearance, dict(arm=LEVERS, path=PATH, H=OBSTACLE)),
     "obstacles.keeps": (
@@ -429,7 +433,7 @@ CALLS = {
     "obstacles.way_round (two obstacles)": (
         obstacles.way_round,
         dict(arm=LEVERS, q0=FOLDED, target=POINT, H=[OBSTACLE, -OBSTACLE], distance=0.05),
-        ("H",),
+        "H",
     ),
     "obstacles.Plan": (
         obstacles.Plan,
@@ -438,6 +442,18 @@ CALLS = {
     "obstacles.plan": (
         obstacles.plan,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE, distance=0.05),
+    ),
+    "moving.plan_moving": (
+        moving.plan_moving,
+        dict(
+            arm=LEVERS,
+            posture=FOLDED,
+            target=POINT,
+            obstacle=OBSTACLE,
+            velocity=np.array([0.3, 0.2]),
+            speed=1.0,
+            distance=0.05,
+        ),
     ),
     "obstacles.along": (obstacles.along, dict(path=PATH, s=S)),
     "steppers.out_of_reach": (steppers.out_of_reach, dict(arm=LOADER, point=STATIONS[0])),

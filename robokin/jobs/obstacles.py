@@ -23,11 +23,11 @@ import numpy as np
 
 from .._arrays import ArrayLike, Bools, Floats, Ints, frozen
 from .._validate import broadcast, choice, floats, instance, length, short, text, warn_if_degrees
-from ..arms.planar import ThreeLeverArm
+from ..arms.planar import ThreeLeverArm, two_link
 from ..units import deg, in_words
 
 LEVERS = ("OB", "BA", "AK")
-WAYS = ("direct", "via points", "search", "none")
+WAYS = ("direct", "via points", "wait", "search", "none")
 TOLERANCE = 1e-6  # of a lever's length: a clearance is known as well as this
 CLOSE = 1e-9  # of a lever's length: `keeps` cannot tell distances apart that are nearer than this
 # The via points' circles about H, in lever lengths. On the document's own, 1/7, the way keeps less
@@ -74,6 +74,22 @@ def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dic
     warn_if_degrees(q1, "q1", posture=1)
     least = _clearance(arm, np.stack([q0, q1]), H[None, None])[0]
     return dict(zip(LEVERS, (least <= 0).tolist(), strict=True))
+
+
+def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
+    """The places (2, 2) of an obstacle that two sensors, in the points P and Q, measure at these
+    distances, in metres; NaN where the circles do not meet.
+
+    The circles are the two arms that a two-link arm on P has to Q (`two_link`), and the obstacle
+    its elbow: row 0 lies right of the way from P to Q, row 1 left of it. A third distance tells
+    which. ValueError: P and Q in one point.
+    """
+    P, Q = _point(P, "P"), _point(Q, "Q")
+    if (P == Q).all():
+        raise ValueError(f"Q: wanted a point apart from P, got both at {P.tolist()}")
+    from_P, from_Q = length(from_P, "from_P"), length(from_Q, "from_Q")
+    q1 = two_link(from_P, from_Q, P).ik(Q)[:, :1]
+    return P + from_P * np.concatenate([np.cos(q1), np.sin(q1)], axis=-1)
 
 
 # --- How near does the arm come? ------------------------------------------------------------------
@@ -190,7 +206,7 @@ def way_round(
 class Plan:
     """What `plan` answers.
 
-    way        "direct", "via points", "search", or "none"
+    way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves
     words      the answer in sentences
     path       (k, 3) postures, the first being the start; (1, 3) if nothing was found: the arm
                stays
@@ -588,8 +604,8 @@ def _room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
     """The least distance of the obstacles H (m, 2) from the levers in every posture of the grid
     with these axes.
 
-    Lever OB knows gamma only, BA two of the angles, AK all: by complex numbers each lever is
-    measured on as small a grid as it needs, ten times as fast as posture by posture.
+    Lever OB knows gamma only, BA two of the angles, AK all: each is measured on as small a grid as
+    it needs, in complex numbers.
     """
     gamma, beta, alpha = (np.exp(1j * axis) for axis in axes)
     OB = gamma[:, None, None]
@@ -623,7 +639,7 @@ def _wave(free: Bools, start: tuple[int, ...]) -> Ints:
         front = (front[:, None] + steps).reshape(-1)
         front = front[open_[front]]
         open_[front] = False
-        # once each: of equal entries the one that is written last stays
+        # once each: of equal entries one is written last
         number = np.arange(len(front))
         flat[front] = number
         front = front[flat[front] == number]
@@ -681,9 +697,10 @@ def _back(
             node = max(before, key=lambda other: room[other])
             back.append(node)
         steps = _on(axes, np.array(back[::-1]))
-        path = _cut(arm, np.concatenate([steps, goals[[number]]]), H, distance)
-        if path is not None:
-            return path
+        path = np.concatenate([steps, goals[[number]]])
+        kept = _cut(arm, path, H, distance)
+        if kept is not None:
+            return path[kept]
     return None
 
 
@@ -692,18 +709,21 @@ def _on(axes: list[Floats], nodes: Ints) -> Floats:
     return np.stack([axis[i] for axis, i in zip(axes, nodes.T, strict=True)], axis=-1)
 
 
-def _cut(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> Floats | None:
-    """From every posture on, straight to the farthest that can be reached so; None if not even the
-    next can.
+def _cut(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> list[int] | None:
+    """From every posture on, straight to the farthest that can be reached so: the numbers of those
+    that are left; None if not even the next can. H may be (m, k, 2), its place at every posture.
     """
     kept = [0]
     while kept[-1] < len(path) - 1:
         here = kept[-1]
-        good = np.flatnonzero(_keeps(arm, path[here], path[here + 1 :], H, distance))
+        places = H
+        if H.shape[1] > 1:
+            places = np.stack(np.broadcast_arrays(H[:, here, None], H[:, here + 1 :]))
+        good = np.flatnonzero(_keeps(arm, path[here], path[here + 1 :], places, distance))
         if not len(good):
             return None
-        kept.append(here + 1 + good[-1])
-    return path[kept]
+        kept.append(here + 1 + int(good[-1]))
+    return kept
 
 
 def _taut(arm: ThreeLeverArm, path: Floats, goals: Floats, H: Floats, distance: float) -> Floats:
@@ -725,7 +745,7 @@ def _taut(arm: ThreeLeverArm, path: Floats, goals: Floats, H: Floats, distance: 
         good = _keeps(arm, path[-2], near, H, distance)
         if good.any():
             path[-1] = near[good.argmax()]
-        path = cast(Floats, _cut(arm, path, H, distance))  # not None: every part keeps it
+        path = path[cast(list[int], _cut(arm, path, H, distance))]  # every part keeps it
         if np.array_equal(path, before):
             break
     return path
