@@ -61,7 +61,7 @@ from robokin import (
     within,
 )
 from robokin import show as figures
-from robokin.jobs import conveyor, obstacles, redundancy, steppers, visit_collect
+from robokin.jobs import conveyor, moving, obstacles, redundancy, steppers, visit_collect
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
@@ -74,6 +74,7 @@ MODULES = (
     visit_collect,
     conveyor,
     obstacles,
+    moving,
     redundancy,
     steppers,
 )
@@ -441,6 +442,10 @@ CALLS = {
         dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE),
     ),
     "obstacles.swept": (obstacles.swept, dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE)),
+    "obstacles.locate": (
+        obstacles.locate,
+        dict(P=POINT, Q=OBSTACLE, from_P=0.6, from_Q=0.7),
+    ),
     "obstacles.distances": (obstacles.distances, dict(arm=LEVERS, q=PATH, H=OBSTACLE)),
     "obstacles.clearance": (obstacles.clearance, dict(arm=LEVERS, path=PATH, H=OBSTACLE)),
     "obstacles.keeps": (
@@ -459,6 +464,11 @@ CALLS = {
         obstacles.way_round,
         dict(arm=LEVERS, q0=FOLDED, target=POINT, H=OBSTACLE, distance=0.05),
     ),
+    "obstacles.way_round (two obstacles)": (
+        obstacles.way_round,
+        dict(arm=LEVERS, q0=FOLDED, target=POINT, H=[OBSTACLE, -OBSTACLE], distance=0.05),
+        "H",
+    ),
     "obstacles.Plan": (
         obstacles.Plan,
         _fields(PLAN),
@@ -466,6 +476,18 @@ CALLS = {
     "obstacles.plan": (
         obstacles.plan,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE, distance=0.05),
+    ),
+    "moving.plan_moving": (
+        moving.plan_moving,
+        dict(
+            arm=LEVERS,
+            posture=FOLDED,
+            target=POINT,
+            obstacle=OBSTACLE,
+            velocity=np.array([0.3, 0.2]),
+            speed=1.0,
+            distance=0.05,
+        ),
     ),
     "obstacles.along": (obstacles.along, dict(path=PATH, s=S)),
     "redundancy.race": (
