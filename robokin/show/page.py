@@ -200,9 +200,10 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion" or "levers"; `arm`:
-    see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence
-    it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands below.
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers" or
+    "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
+    every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
+    below.
 
     joint   q, rows of numbers
     levers  the point `target`, the posture q before it
@@ -211,6 +212,7 @@ class PageExplorer(TypedDict, total=False):
             postures have to reach the target (`wanted`), what it says then (`holds`) and before
             (`open`)
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
+    tour    names of kinds of tasks and of tours, the most points, places for those that are added
     """
 
     kind: str
@@ -242,6 +244,10 @@ class PageExplorer(TypedDict, total=False):
     panels: list[str]
     samples: int
     task: dict[str, Any]
+    kinds: list[str]
+    tours: list[str]
+    most: int
+    spare: list[list[float]]
 
 
 class PageAnswer(TypedDict):

@@ -15,6 +15,8 @@ import {camera, movedTo} from "./camera.js";
  * @property {{place: Point, text: string}} [near]  where the path passes "via"
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where `past` a limit
  * @property {boolean} [framed]  show the frame of every link
+ * @property {(g: CanvasRenderingContext2D, cam: object) => void} [under]  draws what else there is, below the arm
+ * @property {(g: CanvasRenderingContext2D, cam: object) => void} [over]  the same above it
  */
 
 /**
@@ -124,6 +126,7 @@ const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) => drawArm(
 function drawStood(one) {
   const {g, cam, scene, trace, tail, ghosts, rods, thick} = one, {to} = cam;
   stroke(g, trace.map(p => p && to(p)), clear(colors.path, 0.45), 1.4, [1, 4]);
+  one.under?.(g, cam);
   drawFoot(one, rods.length ? 1 : 0.4);
   for (const {q, past} of ghosts)
     stroke(g, frames(one.chain, q).map(f => to(origin(f))), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
@@ -136,6 +139,7 @@ function drawStood(one) {
     stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
     stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
   }
+  one.over?.(g, cam);
 }
 
 function drawFlange({g, cam, scene, faded, all, exists}) {
