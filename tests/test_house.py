@@ -53,6 +53,7 @@ LAYERS = {
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
     "robokin.show.explorers": ("robokin",),
+    "robokin.show.plan_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.course": ("robokin",),
     "robokin.show.tour_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
 }

@@ -318,6 +318,10 @@ CALLS = {
             row=1,
         ),
     ),
+    "plan_explorer": (
+        figures.plan_explorer,
+        dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
+    ),
     "plot_frames": (
         figures.plot_frames,
         dict(frames=BATCH, names=["a", "b", "c"], title="t", size=0.1, chain=True, alt="words"),

@@ -4,6 +4,7 @@ try:
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
     from .palette import JOINT_STYLES
+    from .plan_explorer import plan_explorer
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_joints, plot_postures
     from .sketch import Sketch
@@ -20,6 +21,7 @@ __all__ = [
     "figure",
     "joint_explorer",
     "motion_explorer",
+    "plan_explorer",
     "plot_frames",
     "plot_joints",
     "plot_postures",

@@ -7,6 +7,7 @@ const PATIENCE = 4000; // ms without an answer; then the view says so
 // Two questions under way: the second carries the receipt without which the first answer is held
 // back for 40 ms on its way (Nagle's algorithm meets the delayed receipt).
 const UNDER_WAY = 2;
+const SLOW = 100; // ms from question to answer: then a second one would only wait for the first, and grow old
 
 /**
  * The way from a view to its kernel.
@@ -26,7 +27,7 @@ const UNDER_WAY = 2;
 export function kernelOf(root, id, words, hear) {
   const says = element("p", {class: "rk-asleep", role: "status"});
   root.firstElementChild.append(element("style", {}, LOOK), says);
-  let port = null, wanted = null, sent = 0, timer = 0;
+  let port = null, wanted = null, sent = 0, timer = 0, slow = false;
   const questions = new Map();
 
   function stir(awake, sentence = "") {
@@ -42,10 +43,10 @@ export function kernelOf(root, id, words, hear) {
     stir(false, words.asleep);
   }
   function pump() {
-    while (port && wanted && questions.size < UNDER_WAY) {
+    while (port && wanted && questions.size < (slow ? 1 : UNDER_WAY)) {
       const question = wanted;
       [wanted, sent] = [null, sent + 1];
-      questions.set(sent, question);
+      questions.set(sent, {question, at: performance.now()});
       root.dataset.asked = sent;
       try {
         port(sent, question);
@@ -63,8 +64,9 @@ export function kernelOf(root, id, words, hear) {
   });
   root.addEventListener("robokin-sleep", sleep);
   root.addEventListener("robokin-answer", ({detail: {n, answer, buffers}}) => {
-    const question = questions.get(n);
-    if (!port || !question) return;
+    if (!port || !questions.has(n)) return;
+    const {question, at} = questions.get(n);
+    slow = performance.now() - at > SLOW;
     for (const k of questions.keys()) if (k <= n) questions.delete(k);
     stir(true, answer.error ? words.failed.replace("{error}", answer.error) : "");
     if (!answer.error) hear(unpacked(answer, buffers), question);
