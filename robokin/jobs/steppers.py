@@ -474,7 +474,8 @@ class Stepper:
 @dataclass(frozen=True, eq=False)
 class Run:
     """What a rotor did: at the times `t` (k,) in s its angle was `angle` (k,) and should have been
-    `due` (k,), both in rad; `lost` is how many steps it is behind in the end (negative: too far).
+    `due` (k,), both in rad. `lost` is how many steps the angle is short of `due` in the end; of
+    pulses with the sign -1 lost steps count negative.
 
     At rest it can stand only where the last row holds it. So the lost steps are always as many as
     the phase table has rows, or twice as many, and so on.

@@ -32,9 +32,9 @@ const MORE = `
   & .rk-run { height: 210px; }
   & .rk-facts td { white-space: normal; }
   & .rk-row button { width: auto; }
-  & .rk-columns { grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); align-items: start; }
+  & .rk-beside { display: grid; grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); gap: 0 18px; align-items: start; }
   @container (max-width: 600px) {
-    & .rk-columns { grid-template-columns: minmax(0, 1fr); }
+    & .rk-beside { grid-template-columns: minmax(0, 1fr); }
     & .rk-shaft { height: 330px; }
   }
   @media print { & .rk-lines { max-height: none; } }
@@ -158,7 +158,7 @@ function motorExplorer(root, data) {
         element("div", {class: "rk-row"}, button(says.back, pulse(-1)), button(says.on, pulse(1)), runs, button(says.begin, begin)), now),
       element("div", {class: "rk-side"}, kinds.row, ...counts.map(c => c.row), drives.row, ...sliders.map(s => s.row),
         element("div", {class: "rk-row"}, back.row, copyButton(says, inCode)), told)),
-    element("div", {class: "rk-below"}, element("div", {class: "rk-columns"}, lines, element("div", {}, curve, facts.node))),
+    element("div", {class: "rk-below"}, element("div", {class: "rk-beside"}, lines, element("div", {}, curve, facts.node))),
     element("p", {class: "rk-meant"}, data.meant)));
 
   // --- What is said
@@ -263,10 +263,11 @@ function drawMotor(g, w, h, size, {poles, teeth, space}, motor, theta, sent, say
     polygon(g, Array.from({length: teeth}, (_, k) => [[-0.26, 0.44], [-0.2, 0.59], [0.2, 0.59], [0.26, 0.44]]
       .map(([share, r]) => at(theta + pitch * (k + share), r))).flat(), colors.rod, colors.edge, 1.2);
   } else {
-    for (const [turn, color] of [[0, colors.joint2], [Math.PI, colors.rod]]) // N is the ring to take it by
+    for (const [turn, color, name] of [[0, colors.joint2, "N"], [Math.PI, colors.rod, "S"]]) {
       polygon(g, arc(theta + turn - Math.PI / 2, theta + turn + Math.PI / 2, 0.57), color, colors.edge, 1.2);
-    const [x, y] = at(theta + Math.PI, 0.42);
-    plainWords(g, "S", x, y + 5, colors.edge, true);
+      const [x, y] = at(theta + turn, 0.46); // on the screen the ring to take it by lies over the N
+      plainWords(g, name, x, y + 5, colors.edge, true);
+    }
   }
   const [x, y] = pull(motor, currents), strength = Math.sqrt(x * x + y * y), [u, v] = pull(motor, motor.currents[0]);
   const field = space * (Math.atan2(v, u) + 2 * Math.PI / n * sent), long = 0.29 * strength;
