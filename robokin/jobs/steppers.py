@@ -435,19 +435,19 @@ class Stepper:
         self, load: float = 0.0, load_inertia: float = 0.0, pulses: int = 48
     ) -> float:
         """The frequency, in whole pulses per second, at which the motor just follows from rest
-        without losing a step: one more, and it loses some. At most `LIMIT`; 0 if it loses some at
-        `SLOWEST` already. (Lower down a motor with little damping may lose steps by resonance.)
+        without losing a step: one more, and it loses some. At most `LIMIT`; 0 if even `SLOWEST` is
+        too fast. Found by halving: far below it a motor with little damping may lose steps, too, by
+        resonance.
 
         load, load_inertia  as for `run`. Source of the term: 003, II.3.1.
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
-        middle = SLOWEST
-        while high - low > 1:  # made at `low`, lost at `high`
+        while high - low > 1:  # made at `low` (or too slow to ask), lost at `high`
+            middle = (low + high) // 2
             times = np.arange(1, count + 1) / middle
             lost = self.run(times, np.ones(count), load, load_inertia).lost
             low, high = (low, middle) if lost else (middle, high)
-            middle = (low + high) // 2
         return float(low if low >= SLOWEST else 0)
 
     def run(

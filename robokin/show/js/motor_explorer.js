@@ -62,14 +62,22 @@ function motorExplorer(root, data) {
     [live, sent, playing, since] = [atRest(motor, 0), 0, null, LONG];
     ask();
   }
+  let stale = false, starts = {};
   function changed(other = false) { // `other`: another motor, another table
     motor = motorNow();
-    found = run(motor, times(), state.sign);
-    if (other) newTable();
-    tell();
-    if (other) begin();
-    else if (playing) play(); // the same from the start, with the new numbers
+    stale = true;
+    if (other) {
+      newTable();
+      starts = {};
+      begin();
+    } else if (playing) play(); // the same from the start, with the new numbers
     else wake();
+  }
+  function computed() { // once for every picture in which something has changed
+    if (!stale) return;
+    stale = false;
+    found = run(motor, times(), state.sign);
+    tell();
   }
   function newTable() {
     const rows = page().printed[drive()];
@@ -87,6 +95,7 @@ function motorExplorer(root, data) {
     ask();
   }
   function play() {
+    computed();
     const total = found.t.at(-1);
     playing = {begun: null, slow: Math.max(1, Math.round(SHOWN / total))};
     ask();
@@ -175,7 +184,7 @@ function motorExplorer(root, data) {
     const slow = Math.max(1, Math.round(SHOWN / found.t.at(-1)));
     const text = `${fill(which, {pulses, how, lost: Math.abs(lost)})} ${fill(says.slow, {slow})}`;
     if (told.textContent !== text) told.textContent = text;
-    const {slowest, limit, nearly} = data.rules, first = startFrequency(motor, pulses);
+    const {slowest, limit, nearly} = data.rules, first = starts[`${motor.load} ${motor.inertia}`] ??= startFrequency(motor, pulses);
     const torque = x => fill(says.torques, {value: number(1000 * x, 1)});
     facts.set([[fill(says.degrees, {value: plain(degrees(stepOf(motor)), 2)})], [torque(holdingTorque(motor))], [torque(startingTorque(motor))],
       [first ? fill(first < limit ? says.perSecond : says.orMore, {value: first}) : fill(says.none, {value: slowest})],
@@ -228,6 +237,7 @@ function motorExplorer(root, data) {
     return {t: null, on: !held && since < LONG};
   }
   const ask = pictures(root, [canvas, curve], time => {
+    computed();
     const {t, on} = moment(time);
     tellNow(live.theta, sent);
     drawCurve(curve, says, found, motor, t);
