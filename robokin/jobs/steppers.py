@@ -512,7 +512,7 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     ahead = np.minimum(k, count - k)  # from the start, or from the end
     with np.errstate(divide="ignore", invalid="ignore"):
         climbing = 2 * ahead / (low + np.sqrt(low**2 + 2 * more * ahead))
-    since = np.where(ahead <= done, climbing, up + (ahead - done) / top)
+    since = np.where(ahead < done, climbing, up + (ahead - done) / top)
     return np.where(k <= count - k, since, duration - since)
 
 

@@ -203,7 +203,10 @@ function motorExplorer(root, data) {
     grip.textContent = page().teeth ? "" : "N";
     runs.textContent = playing ? says.stop : says.run;
   }
-  const bent = () => motor.load > holdingTorque(motor);
+  const bent = () => { // more than the row that is on can hold
+    const n = motor.currents.length, [x, y] = pull(motor, motor.currents[((sent % n) + n) % n]);
+    return motor.load > motor.torque * Math.sqrt(x * x + y * y);
+  };
   function inCode() {
     const text = key => String(+value(key).toPrecision(6));
     return fill(data.code, {rotor: kind().rotor, motor: kind().motor, windings: page().windings, drive: drive(), pulses, sign: state.sign,

@@ -130,7 +130,7 @@ export function ramp(count, start, end, seconds) {
   const done = (low + top) / 2 * up, duration = 2 * up + (count - 2 * done) / top;
   return Array.from({length: count}, (_, i) => {
     const k = i + 1, ahead = Math.min(k, count - k);
-    const since = ahead <= done ? 2 * ahead / (low + Math.sqrt(low * low + 2 * more * ahead)) : up + (ahead - done) / top;
+    const since = ahead < done ? 2 * ahead / (low + Math.sqrt(low * low + 2 * more * ahead)) : up + (ahead - done) / top;
     return k <= count - k ? since : duration - since;
   });
 }
