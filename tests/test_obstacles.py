@@ -211,6 +211,41 @@ def test_clearance_is_a_bound_and_a_tight_one(L):
                 np.testing.assert_array_equal(kept, least > asked)
 
 
+@pytest.mark.parametrize("levers", [(0.9, 1.1, 0.6), (0.5, 0.3, 1.6), (1.7, 0.9, 0.2)])
+def test_levers_of_different_lengths(levers):
+    """As above, the places of the levers from `arm.points`, which knows their lengths; and
+    plans among them keep what they say.
+    """
+    rng, arm = np.random.default_rng(16), three_lever(levers)
+    share = np.linspace(0, 1, 301)[:, None]
+
+    def least_seen(q, H):
+        O_B_A_K = arm.points(q)  # test_planar.py holds them
+        start, end = O_B_A_K[..., :-1, :], O_B_A_K[..., 1:, :]
+        along = ((H - start) * (end - start)).sum(axis=-1) / np.array(levers) ** 2
+        foot = start + np.clip(along, 0, 1)[..., None] * (end - start)
+        return np.linalg.norm(foot - H, axis=-1)
+
+    for _ in range(60):
+        (a, b), H = rng.uniform(0, np.pi, (2, 3)), rng.uniform(-2.5, 2.5, 2)
+        found = clearance(arm, [a, b], H)[0]
+        sampled = least_seen(a + share * (b - a), H).min(axis=0)
+        assert (found <= sampled).all()
+        assert (sampled - found <= abs(b - a).sum() * sum(levers) / 300).all()
+        np.testing.assert_allclose(distances(arm, a, H), least_seen(a, H), rtol=0, atol=1e-14)
+    kept = 0
+    for _ in range(50):
+        q0 = rng.uniform(0.3, 2.8, 3)
+        target, H = arm.points(rng.uniform(0.3, 2.8, (2, 3)))[:, 3]
+        answer = plan(arm, q0, target, H)
+        if answer.found:
+            path = dense(answer.path, 301)
+            assert least_seen(path, H).min() >= arm.lever / 7
+            np.testing.assert_allclose(arm.points(answer.path[-1])[3], target, rtol=0, atol=1e-9)
+            kept += answer.way != "direct"
+    assert kept
+
+
 def test_a_lever_that_passes_over_has_no_clearance():
     q0, q1 = np.array([100, 120, 130]) * deg, np.array([60, 120, 130]) * deg
     for lever, u in ((0, 0.5), (1, 0.3), (2, 0.9)):

@@ -426,10 +426,11 @@ def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Flo
     c, s = np.cos(direction), np.sin(direction)
     x, y = np.empty_like(c), np.empty_like(s)  # of H from the start of each lever
     x[0], y[0] = H[..., 0], H[..., 1]
+    levers = arm.levers
     for i in (1, 2):
-        x[i], y[i] = x[i - 1] - arm.lever * c[i - 1], y[i - 1] - arm.lever * s[i - 1]
+        x[i], y[i] = x[i - 1] - levers[i - 1] * c[i - 1], y[i - 1] - levers[i - 1] * s[i - 1]
     along, across = c * x + s * y, c * y - s * x
-    beyond = along - np.clip(along, 0, arm.lever)
+    beyond = along - np.clip(along, 0, levers.reshape(3, *(1,) * (along.ndim - 1)))
     return np.sqrt(across**2 + beyond**2), along, beyond, across
 
 
@@ -546,7 +547,7 @@ def _bounds(
     The distance from a lever is a convex function along that line, and so it lies above its
     tangents at both ends.
     """
-    change, L = b - a, arm.lever
+    change, (OB, BA, _) = b - a, arm.levers
     places = H[0] + ends[..., None] * (H[1] - H[0])
     d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], places)
     turn = change * (ends[1] - ends[0])
@@ -554,8 +555,8 @@ def _bounds(
     omega, far = np.cumsum(turn, axis=0), np.sqrt((places**2).sum(axis=-1).max(axis=0))
     moved = np.sqrt(((places[1] - places[0]) ** 2).sum(axis=-1))
     stray = far * omega**2 + 2 * abs(omega) * moved
-    stray[1] += L * turn[1] ** 2
-    stray[2] += L * ((turn[1] + turn[2]) ** 2 + turn[2] ** 2)
+    stray[1] += OB * turn[1] ** 2
+    stray[2] += OB * (turn[1] + turn[2]) ** 2 + BA * turn[2] ** 2
     x, y = along[:, 1] - along[:, 0], across[:, 1] - across[:, 0]
     rise = (beyond * x[:, None] + across * y[:, None]) / np.where(d > 0, d, 1)
     d0, d1, rise0, rise1 = d[:, 0], d[:, 1], rise[:, 0], rise[:, 1]
@@ -613,11 +614,11 @@ def _room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
     AK = -BA * alpha
     room: Any = np.inf
     for place in H @ np.array([1, 1j]):
-        for lever in (OB, BA, AK):
+        for lever, long in zip((OB, BA, AK), arm.levers, strict=True):
             seen = place * lever.conj()  # with the lever on the real axis
-            beyond = seen.real - np.clip(seen.real, 0, arm.lever)
+            beyond = seen.real - np.clip(seen.real, 0, long)
             room = np.minimum(room, beyond**2 + seen.imag**2)
-            place = place - arm.lever * lever
+            place = place - long * lever
     return cast(Floats, np.sqrt(room))
 
 

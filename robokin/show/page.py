@@ -78,10 +78,14 @@ class PageTarget(TypedDict):
 
 
 class PageMark(TypedDict):
-    """A point (radius 0) or a ball: `at` where it stands still, else `way`."""
+    """A point (radius 0) or a ball: `at` where it stands still, else `way`. `reading`: a number to
+    write behind its name, with so many decimals.
+    """
 
     name: str
     radius: float
+    reading: NotRequired[PageWay]
+    decimals: NotRequired[int]
     at: NotRequired[list[float]]
     way: NotRequired[PageWay]
 
@@ -90,7 +94,8 @@ class PageScene(TypedDict):
     """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
     floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
     camera. With `grows` the picture shrinks where an arm or a target leaves it; a floor that is
-    `solid` hides what dips below it.
+    `solid` hides what dips below it. With `bases`, where they stand, all arms are in one picture.
+    `faces`: polygons, their corners.
     """
 
     size: float
@@ -103,6 +108,8 @@ class PageScene(TypedDict):
     marks: list[PageMark]
     grows: NotRequired[bool]
     solid: NotRequired[bool]
+    bases: NotRequired[list[list[float]]]
+    faces: NotRequired[list[list[list[float]]]]
 
 
 class Axis(TypedDict):
@@ -193,9 +200,10 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion" or "levers"; `arm`:
-    see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence
-    it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands below.
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers" or
+    "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
+    every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
+    below.
 
     joint   q, rows of numbers
     levers  the point `target`, the posture q before it
@@ -204,6 +212,7 @@ class PageExplorer(TypedDict, total=False):
             postures have to reach the target (`wanted`), what it says then (`holds`) and before
             (`open`)
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
+    tour    names of kinds of tasks and of tours, the most points, places for those that are added
     """
 
     kind: str
@@ -235,6 +244,10 @@ class PageExplorer(TypedDict, total=False):
     panels: list[str]
     samples: int
     task: dict[str, Any]
+    kinds: list[str]
+    tours: list[str]
+    most: int
+    spare: list[list[float]]
 
 
 class PageAnswer(TypedDict):

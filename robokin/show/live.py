@@ -1,0 +1,143 @@
+"""Views that must ask a kernel: the page draws and is dragged, Python answers.
+
+A view is an `explorers.Explorer` whose script (`js/live.js`) sends questions, and the answer of the
+run that stored it: with that it is drawn before any kernel is there, and stays in a saved notebook,
+an exported page and on paper. Then it is asleep, and says so. A widget without a view of its own
+wakes it: its model alone finds the place in the page. So nothing is stored that a page without a
+kernel would miss.
+"""
+
+import base64
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from . import plots
+from .explorers import Explorer
+from .page import inert
+
+Question: TypeAlias = dict[str, Any]
+Answer: TypeAlias = dict[str, Any]
+
+TYPES = ("uint8", "uint16", "int16", "float32")
+WORDS = {
+    "asleep": "Asleep: this view asks Python. Run its cell, and it follows your hand. You see what "
+    "the last run saw.",
+    "waiting": "No answer from Python yet. It may be busy with another cell; if the kernel was "
+    "restarted, run this cell again.",
+    "failed": "Python could not answer: {error}.",
+}
+# The page side of the widget. It finds its view whichever comes first, and one that is shown twice.
+MODEL = """
+export default { initialize({ model }) {
+  const id = "PLACE", places = [];
+  const meet = root => {
+    if (places.includes(root)) return;
+    places.push(root);
+    const to = places.length - 1;
+    const send = (n, question) => model.send({ to, n, question });
+    root.dispatchEvent(new CustomEvent("robokin-wake", { detail: send }));
+  };
+  const hear = ({ to, n, answer }, buffers) =>
+    places[to]?.dispatchEvent(
+      new CustomEvent("robokin-answer", { detail: { n, answer, buffers } }));
+  const sleep = () => {
+    document.removeEventListener("robokin-asks", asks);
+    places.splice(0).forEach(root => root.dispatchEvent(new CustomEvent("robokin-sleep")));
+  };
+  const asks = ({ detail }) => { if (detail.id === id) meet(detail.root); };
+  document.querySelectorAll(`[data-player="${id}"][data-ready]`).forEach(meet);
+  document.addEventListener("robokin-asks", asks);
+  model.on("msg:custom", hear);
+  model.on("comm_live_update", sleep);
+  return sleep;
+} };
+"""
+
+
+class Live(Explorer):
+    """An explorer that asks a kernel. Shows itself in a notebook; `save` writes it as a page, where
+    it is asleep.
+
+    data    a `page.PageExplorer` without `first` and the words of this module
+    still   as of every `Explorer`
+    first   the question with which it opens; its answer is stored
+    answer  question (what JSON holds) -> answer: a dict of what JSON holds and arrays of one of the
+            TYPES. It is called at every move of the pointer, in a thread of its own
+    """
+
+    def __init__(
+        self,
+        data: dict[str, Any],
+        still: plots.Figure,
+        first: Question,
+        answer: Callable[[Question], Answer],
+    ) -> None:
+        content, buffers = packed(answer(first))
+        words = {**data["words"], **WORDS}
+        data = data | {"words": words, "first": stored(content, buffers), "question": first}
+        super().__init__(data, still)
+        self.answer = answer
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        _wake(self.id, self.answer)
+        return super()._repr_mimebundle_(include, exclude)
+
+
+def packed(answer: Any) -> tuple[Any, list[bytes]]:
+    """An answer for JSON, and its arrays apart: in their place stands {"array": number, "type",
+    "shape"}. ValueError: an array of another type.
+    """
+    buffers: list[bytes] = []
+
+    def walk(value: Any) -> Any:
+        if isinstance(value, np.ndarray):
+            if str(value.dtype) not in TYPES:
+                wanted = ", ".join(TYPES)
+                raise ValueError(f"answer: wanted arrays of {wanted}, got {value.dtype}")
+            little = value.astype(value.dtype.newbyteorder("<"))
+            buffers.append(little.tobytes())
+            kind = {"type": str(value.dtype), "shape": list(value.shape)}
+            return {"array": len(buffers) - 1, **kind}
+        if isinstance(value, dict):
+            return {key: walk(each) for key, each in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [walk(each) for each in value]
+        return value
+
+    return walk(answer), buffers
+
+
+def stored(content: Any, buffers: list[bytes]) -> Any:
+    """What `packed` gives as JSON alone: arrays in base64."""
+    if isinstance(content, dict) and "array" in content:
+        return content | {"array": base64.b64encode(buffers[content["array"]]).decode()}
+    if isinstance(content, dict):
+        return {key: stored(each, buffers) for key, each in content.items()}
+    if isinstance(content, list):
+        return [stored(each, buffers) for each in content]
+    return content
+
+
+# --- The widget -----------------------------------------------------------------------------------
+
+_awake: dict[str, Any] = {}  # by the place that they wake: one that runs again replaces the older
+
+
+def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
+    """Answer the view in this place of the page from now on."""
+    from anywidget import AnyWidget  # here: it loads ipywidgets
+
+    def reply(model: Any, message: Any, _: Any) -> None:
+        try:
+            content, buffers = packed(answer(message["question"]))
+            inert(content)
+        except Exception as error:  # said in the view; in this thread nobody would read it
+            content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
+        model.send({"to": message["to"], "n": message["n"], "answer": content}, buffers)
+
+    if place in _awake:
+        _awake.pop(place).close()
+    _awake[place] = model = AnyWidget(_esm=MODEL.replace("PLACE", place))
+    model.on_msg(reply)

@@ -1,0 +1,375 @@
+"""The explorer of plans: an arm of three levers, its target and an obstacle to take by the hand.
+
+The page draws, a kernel plans: see `live`. Beside the plane stands the cube of postures, in which
+the levers forbid a body and a wave looks for the target's curve; it is a picture in steps of `STEP`
+for the eye, `robokin.jobs.obstacles.plan` searches in finer ones.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+
+from .._arrays import ArrayLike, Bools, Floats, Ints
+from .._validate import floats, instance
+from ..arms.planar import ThreeLeverArm
+from ..jobs.obstacles import (
+    LEVERS,
+    Plan,
+    along,
+    clearance,
+    distances,
+    in_quadrilateral,
+    keeps,
+    plan,
+    swept,
+    via_path,
+)
+from ..units import deg, in_words, length_unit, mm
+from . import plots
+from .camera import VIEW, extent, project, scene_data
+from .live import Answer, Live, Question
+from .page import Control
+from .palette import ALARM, DASHES, INK, JOINT_STYLES, SOFT
+from .twin import arm_data
+
+STEP = 12 * deg  # of the cube's postures
+MOMENTS = 41  # of a motion
+FORBIDDEN, AWAY = 255, 254  # in the cube: too near to the obstacle; free, and not reached
+WAYS = ("the plan", "two via points", "direct")
+TITLE = "From K to K1, past an obstacle H"
+MEANT = (
+    "Drag K, K1 and H, or move them by arrow keys. The cube holds all postures in steps of 12° "
+    "(the plan searches in finer ones): in the grey body a lever is too near to H; the squares are "
+    "the wave of the search, the triangles the target, the line is the path."
+)
+WORDS: Mapping[str, str] = {
+    "K": "K, where the gripper starts",
+    "K1": "K1, the target",
+    "H": "H, the obstacle",
+    "way": "way",
+    "quadrilaterals": "quadrilaterals",
+    "search": "search",
+    "steps": "{n} of {most} steps",
+    "motion": "motion",
+    "share": "{share} % of the way",
+    "play": "Play",
+    "pause": "Pause",
+    "cube": "The cube of postures. Arrow keys turn it, Home resets it.",
+    "copy": "Copy as Python",
+    "copied": "Copied",
+}
+
+
+def plan_explorer(
+    arm: ThreeLeverArm, posture: ArrayLike, target: ArrayLike, obstacle: ArrayLike
+) -> Live:
+    """Start K, target K1 and obstacle H to take, and the distance that all levers shall keep from H
+    (a seventh of a lever at first). A kernel answers every move by `plan`: the way and why, what
+    the levers sweep, how near they come and where; or by what two via points or the direct motion
+    would do. The search can be played in the cube of postures, the motion in the plane.
+
+    posture (3,) in radians: before the motion; target and obstacle (2,) in metres. ValueError: what
+    `plan` refuses. TypeError: an arm without three levers.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    distance, H = arm.lever / 7, floats(obstacle, "obstacle")
+    if H.ndim != 1:
+        raise ValueError(f"obstacle: wanted one point (2,), got shape {H.shape}")
+    known = plan(arm, posture, target, H, distance)
+    start, K1 = floats(posture, "posture"), floats(target, "target")
+    first = {
+        "posture": start.tolist(),
+        "target": K1[:2].tolist(),
+        "obstacle": H[:2].tolist(),
+        "distance": distance,
+        "way": 0,
+        "sides": False,
+    }
+    answer = _answer(arm, first)
+    summary = f"{arm.name}, a target and an obstacle to be moved. {known.words} {answer['verdict']}"
+    return Live(
+        _page(arm, first, known, summary),
+        _picture(arm, first, answer, summary),
+        first,
+        lambda question: _answer(arm, question),
+    )
+
+
+# --- What the kernel answers ----------------------------------------------------------------------
+
+
+def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
+    """What the page shows.
+
+    verdict, words  the answer in a sentence; why, as `plan` says it
+    way, kept       of the plan; whether the path that is shown keeps the distance
+    path            (k, 3) postures; the start alone where the arm stays
+    moments         (MOMENTS, 3) of its way
+    via             (., 2) the gripper's via points
+    nearest         where the levers come nearest: [place on the lever, words]
+    direct          the quadrilaterals AK and BA of the direct motion and what is to be said of
+                    them; None where they are not asked for, or do not exist
+    cube            steps of the wave to each posture, or FORBIDDEN, or AWAY
+    most, curve     how many steps are worth seeing; the target's postures (., 3)
+    """
+    start, K1, H = (np.array(question[key]) for key in ("posture", "target", "obstacle"))
+    distance, way = question["distance"], WAYS[question["way"]]
+    known = plan(arm, start, K1, H, distance)
+    path, each = known.path, known.clearance
+    if way != WAYS[0]:
+        path = _other(arm, way, start, K1, H, distance)
+        each = clearance(arm, path, H) if len(path) > 1 else each[:0]
+    each = each.min(axis=0) if len(path) > 1 else distances(arm, start, H)
+    lever, near = int(each.argmin()), float(each.min())
+    verdict, kept = _verdict(known, way, path, lever, near, distance)
+    by_points = way == WAYS[1] or (way == WAYS[0] and known.way == "via points")
+    cube, most, curve = _cube(arm, start, K1, H, distance)
+    return {
+        "verdict": verdict,
+        "words": known.words,
+        "way": known.way,
+        "kept": kept,
+        "path": path.tolist(),
+        "moments": _moments(path).astype(np.float32),
+        "via": arm.points(path[1:-1])[:, 3].tolist() if by_points else [],
+        "nearest": _nearest(arm, path, H, lever, near),
+        "direct": _direct(arm, start, K1, H) if question["sides"] else None,
+        "cube": cube,
+        "most": most,
+        "curve": curve.astype(np.float32),
+    }
+
+
+def _other(
+    arm: ThreeLeverArm, way: str, start: Floats, K1: Floats, H: Floats, distance: float
+) -> Floats:
+    """The direct motion, or that by K2 and K3, safe or not; the start alone where there is none."""
+    if way == WAYS[2]:
+        path = np.stack([start, arm.least(K1, start)[0]])
+    else:
+        try:
+            path = via_path(arm, start, K1, H, max(distance, arm.lever / 7))
+        except ValueError:  # H lies in K or K1
+            return start[None]
+    return start[None] if np.isnan(path).any() else path
+
+
+def _moments(path: Floats) -> Floats:
+    if len(path) == 1:
+        return np.repeat(path, 2, axis=0)
+    return along(path, np.linspace(0, 1, MOMENTS))
+
+
+def _verdict(
+    known: Plan, way: str, path: Floats, lever: int, near: float, distance: float
+) -> tuple[str, bool]:
+    """In one sentence, and whether the distance is kept."""
+    if len(path) == 1:
+        out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
+        return ("No: the arm stays." if way == WAYS[0] else f"No: {out}."), False
+    S = f"S = {abs(np.diff(path, axis=0)).sum() / deg:.0f}° (direct {known.least / deg:.0f}°)"
+    far = f"comes as near as {in_words(near)}" if near else "sweeps H"
+    kept = near >= distance
+    name = known.way if way == WAYS[0] else f"{way}, {'safe' if kept else 'not safe'}"
+    return f"{name[0].upper()}{name[1:]}: {S}, lever {LEVERS[lever]} {far}.", kept
+
+
+def _nearest(arm: ThreeLeverArm, path: Floats, H: Floats, i: int, near: float) -> list[Any]:
+    """Where lever i comes as near to H as the path says, as well as it is seen; in words."""
+    q = along(path, np.linspace(0, 1, 121)) if len(path) > 1 else path
+    k = distances(arm, q, H)[:, i].argmin()
+    P, Q = arm.points(q[k])[i : i + 2]
+    u = np.clip((H - P) @ (Q - P) / ((Q - P) @ (Q - P)), 0, 1)
+    return [(P + u * (Q - P)).tolist(), f"{LEVERS[i]} {near / mm:.0f} mm"]
+
+
+def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dict[str, Any] | None:
+    goal = arm.least(target, start)[0]
+    if np.isnan(goal).any():
+        return None
+    (_, B, A, K), (_, B1, A1, K1) = arm.points(start), arm.points(goal)
+    inside = [name for name, yes in in_quadrilateral(arm, start, goal, H).items() if yes]
+    over = [name for name, yes in swept(arm, start, goal, H).items() if yes]
+    lies = (
+        f"H lies in the quadrilateral of {' and '.join(inside)}"
+        if inside
+        else ("H lies in neither quadrilateral")
+    )
+    passes = f"{' and '.join(over)} truly" if over else "no lever"
+    return {
+        "quadrilaterals": np.stack([[A, K, K1, A1], [B, A, A1, B1]]).tolist(),
+        "says": f"{lies}; on the direct way {passes} "
+        f"{'pass' if len(over) > 1 else 'passes'} over H.",
+    }
+
+
+# --- The cube of postures -------------------------------------------------------------------------
+
+
+def _cube(
+    arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
+) -> tuple[Any, int, Floats]:
+    """A wave from the start through the postures, as lab 10, section 6, has it: (n, n, n) steps,
+    how many lead to the target's curve (or all there are), and the curve (., 3).
+    """
+    axes = [np.arange(low, high + STEP / 2, STEP) for low, high in arm.limits]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    free = distances(arm, grid, H).min(axis=-1) >= distance
+    low, high = arm.alpha_range(K1)
+    curve = np.empty((0, 3))
+    if not np.isnan(low):
+        curve = arm.family(K1, np.linspace(low, high, 31))
+    goals = np.zeros_like(free)
+    goals[tuple(np.round((curve - arm.limits[:, 0]) / STEP).astype(int).T)] = True
+    proven = [_proven(arm, grid, free, H, distance, joint) for joint in range(3)]
+    count = _wave(free, proven, _begin(grid, free, start), goals)
+    cube = np.where(count >= 0, np.minimum(count, AWAY - 1), np.where(free, AWAY, FORBIDDEN))
+    return cube.astype(np.uint8), max(int(count.max()), 0), curve
+
+
+def _begin(grid: Floats, free: Bools, start: Floats) -> tuple[int, ...] | None:
+    """The free posture of the grid nearest to the start."""
+    away = np.where(free, abs(grid - start).max(axis=-1), np.inf)
+    cell = tuple(int(i) for i in np.unravel_index(away.argmin(), away.shape))
+    return cell if away[cell] <= STEP else None
+
+
+def _proven(
+    arm: ThreeLeverArm, grid: Floats, free: Bools, H: Floats, distance: float, joint: int
+) -> Bools:
+    """Which steps of one joint, from each posture to the next one, keep the distance."""
+    here, later = (
+        tuple(part if j == joint else slice(None) for j in range(3))
+        for part in (slice(None, -1), slice(1, None))
+    )
+    both = free[here] & free[later]
+    good = np.zeros_like(both)
+    good[both] = keeps(arm, grid[here][both], grid[later][both], H, distance)
+    return good
+
+
+def _wave(free: Bools, proven: list[Bools], start: tuple[int, ...] | None, goals: Bools) -> Ints:
+    """Steps from the start to every posture, until the first goal is reached; -1 elsewhere."""
+    count = np.full(free.shape, -1)
+    if start is None:
+        return count
+    front, later = np.zeros_like(free), np.zeros_like(free)
+    front[start] = True
+    along_joint = [
+        [np.moveaxis(x, joint, 0) for x in (later, front, good)]
+        for joint, good in enumerate(proven)
+    ]
+    for n in range(AWAY):
+        count[front] = n
+        if not front.any() or (front & goals).any():
+            break
+        later[:] = False
+        for to, of, good in along_joint:
+            to[1:] |= of[:-1] & good
+            to[:-1] |= of[1:] & good
+        np.logical_and(later, count < 0, out=front)
+    return count
+
+
+# --- What the page gets ---------------------------------------------------------------------------
+
+
+def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dict[str, Any]:
+    size = extent(arm)
+    name, unit = length_unit(size)
+    marks = [
+        ("", np.array([*first[key], 0.0]), radius)
+        for key, radius in (("target", 0.0), ("obstacle", first["distance"]))
+    ]
+    scene = scene_data([arm], [_moments(np.array(known.path))[None]], {}, marks, size)
+    scene["grows"], scene["marks"] = True, []
+    L = arm.lever
+    distance: Control = {
+        "name": "distance",
+        "unit": "mm",
+        "low": 20 * L,
+        "high": 400 * L,
+        "step": L,
+        "decimals": 1,
+    }
+    return {
+        "kind": "plan",
+        "title": TITLE,
+        "summary": summary,
+        "alt": summary,
+        "meant": MEANT,
+        "arm": arm_data(arm),
+        "unit": {"name": name, "size": unit, "code": name},
+        "units": [],
+        "dashes": DASHES,
+        "scene": scene,
+        "controls": [distance],
+        "branches": list(WAYS),
+        "words": dict(WORDS),
+        "code": "from robokin.jobs.obstacles import plan\n# arm = three_lever(...)\n"
+        "plan(arm, ({posture}), ({target}), ({obstacle}), {distance})\n",
+    }
+
+
+# --- The still picture ----------------------------------------------------------------------------
+
+
+def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> plots.Figure:
+    """The plane, and the cube beside it."""
+    fig = plots.figure(alt, width=4.6, height=2.2)
+    blue, orange, green = (style["color"] for style in JOINT_STYLES[:3])
+    plane, cube = fig.add_axes((0, 0, 0.58, 0.9)), fig.add_axes((0.6, 0, 0.4, 0.9))
+    points = arm.points(answer["moments"].astype(float))
+    K1, H = first["target"], np.array(first["obstacle"])
+    turn = np.linspace(0, 2 * np.pi, 73)
+    disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    plane.fill(*disc.T, color="0.88")
+    # few lines of one colour: a small file
+    plane.add_collection(LineCollection(list(points[::3]), color="#B3D4E8", linewidth=0.8))
+    plane.plot(*points[:, 3].T, color=blue)
+    plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")
+    plane.plot(*points[0].T, color=INK, linewidth=4, marker="o", markerfacecolor="white")
+    plane.plot(*H, "X", color=ALARM, markersize=8)
+    for text, (x, y) in (("K", points[0, 3]), ("K1", K1), ("H", H)):
+        plane.annotate(text, (x, y), (7, 5), textcoords="offset points")
+    ends = np.pi * np.stack(np.meshgrid((0, 1), (0, 1), (0, 1), indexing="ij"), axis=-1)
+    edges = [np.moveaxis(ends, j, 2).reshape(4, 2, 3) for j in range(3)]
+    lines = list(project(np.concatenate(edges)))
+    cube.add_collection(LineCollection(lines, color="0.75", linewidth=0.8))
+    faces, shades = _body(answer["cube"] == FORBIDDEN)
+    cube.add_collection(PolyCollection(list(project(faces)), facecolors=shades, linewidth=0))
+    cube.plot(*project(answer["curve"]).T, "^", color=green, markersize=3)
+    path = project(np.array(answer["path"]))
+    cube.plot(*path.T, color=orange, linewidth=2)
+    cube.plot(*path[0], "o", color=INK)
+    for text, place in (("γ", (90, 0, -12)), ("β", (192, 90, 0)), ("α", (-12, 0, 90))):
+        x, y = project(np.array(place) * deg)
+        cube.annotate(text, (x, y), ha="center", va="center")
+    for ax in (plane, cube):
+        ax.set_aspect("equal")
+        ax.set_axis_off()
+    fig.text(0.016, 0.975, TITLE, fontsize=10, fontweight="bold", va="top")
+    return fig
+
+
+def _body(blocked: Bools) -> tuple[Floats, list[str]]:
+    """The faces of the forbidden body that are seen, the farther ones first: corners (n, 4, 3) in
+    radians, and their colours.
+    """
+    (ca, ce), (sa, se) = np.cos(VIEW), np.sin(VIEW)
+    toward = np.array([ce * ca, ce * sa, se])
+    faces, shades = [], []
+    for axis, shade in enumerate(("0.62", "0.7", "0.82")):
+        side = 1 if toward[axis] > 0 else -1
+        beside = np.roll(blocked, -side, axis=axis)
+        np.moveaxis(beside, axis, 0)[-1 if side > 0 else 0] = False
+        middle = np.argwhere(blocked & ~beside) + 0.5 * side * np.eye(3)[axis]
+        a, b = 0.5 * np.delete(np.eye(3), axis, axis=0)
+        ring = np.stack([a + b, a - b, -a - b, b - a])
+        faces.append(np.clip((middle[:, None] + ring) * STEP, 0, np.pi))
+        shades += [shade] * len(middle)
+    every = np.concatenate(faces)
+    order = (every.mean(axis=1) @ toward).argsort(kind="stable")
+    return every[order], [shades[k] for k in order]

@@ -1,0 +1,221 @@
+"""Explorers that ask a kernel, and `interact` with a re-plot of the same content beside them.
+
+    python tests/benchmarks/bench_live.py
+
+In JupyterLab a handle is dragged with 60 moves of the pointer at 60 a second: from a move to the
+paint of the first answer that knows of it (median, the ninth of ten). In the same run `interact`
+with a Matplotlib figure of the same content, from a key to the new image. Wanted: at least 4 times
+as fast. Then 1000 drags: memory of page and kernel before and after, errors in the console;
+wanted: no error, and less than 2 MB (page) and 5 MB (kernel) more.
+"""
+
+import math
+import shutil
+import statistics
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import nbformat
+import psutil
+from bench_explorers import theirs
+from conftest import FLAGS, JupyterLab
+
+
+class Case(NamedTuple):
+    """cell: shows the explorer; handle: what is dragged; interact: the same content by hand."""
+
+    cell: str
+    handle: str
+    interact: str
+
+
+CASES = {
+    "plan": Case(
+        """\
+from robokin import deg, three_lever
+from robokin.show import plan_explorer
+arm = three_lever(1.0)
+start = arm.family((1.2, 1.7), 118 * deg)
+live = plan_explorer(arm, start, (1.9, 0.3), (1.2, 1.3))
+live""",
+        "H",
+        """\
+import numpy as np
+import matplotlib.pyplot as plt
+from ipywidgets import interact
+def planned(x=1.2, y=1.3):
+    said = live.answer(live.data["question"] | {"obstacle": [x, y]})  # the same numbers
+    fig = plt.figure(figsize=(9, 4))
+    plane, cube = fig.add_subplot(1, 2, 1), fig.add_subplot(1, 2, 2, projection="3d")
+    for points in arm.points(said["moments"].astype(float)):
+        plane.plot(*points.T, color="C0", lw=0.5)
+    plane.plot(*arm.points(start).T, color="k", lw=4, marker="o")
+    plane.add_patch(plt.Circle((x, y), 1 / 7, color="0.8"))
+    plane.set(aspect="equal", title=said["verdict"])
+    cube.voxels(said["cube"] == 255, facecolors="0.7")
+    cube.scatter(*np.argwhere(said["cube"] == said["most"]).T, s=4)
+    cube.plot(*(said["moments"] / (12 * deg)).T, lw=2)
+    plt.show()
+interact(planned, x=(0.5, 2.0, 0.02), y=(0.5, 2.0, 0.02));""",
+    ),
+    "tour": Case(
+        """\
+import numpy as np
+from robokin import spbu_arm
+from robokin.jobs.visit_collect import Task, workspace
+from robokin.show import tour_explorer
+arm = spbu_arm(5, 4)
+cloud = np.random.default_rng(3).uniform([-6, -6, 0.3], [6, 6, 5], size=(60, 3))
+cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][:11]
+live = tour_explorer(Task(5, 4, 25, [0.2] * 3, cloud[0], cloud[1:], "visit"))
+live""",
+        "'0'",
+        """\
+import matplotlib.pyplot as plt
+from ipywidgets import interact
+def toured(x=2.0, y=3.0):
+    points = [[x, y, 2.0], *cloud[2:].tolist()]
+    said = live.answer(live.data["question"] | {"points": points})  # the same numbers
+    ax = plt.figure(figsize=(6, 4.5)).add_subplot(projection="3d")
+    for name, style in (("greedy", "C1--"), ("best", "C0-")):
+        t, q = said[name]["t"], said[name]["q"].astype(float)
+        way = np.stack([np.interp(np.linspace(0, t[-1], 200), t, joint) for joint in q.T], axis=-1)
+        ax.plot(*arm.fk(way).translation.T, style)
+        print(said[name]["cells"])
+    ax.plot(*arm.frames(q[0]).translation.T, "k-o", lw=5)
+    ax.scatter(*np.array(points).T)
+    ax.set(title=said["says"])
+    plt.show()
+interact(toured, x=(-6.0, 6.0, 0.1), y=(-6.0, 6.0, 0.1));""",
+    ),
+}
+
+# From each move to the task after the frame with the first answer that was asked for after it.
+PAINTS = """root => {
+  const moves = [];
+  window.paints = [];
+  document.addEventListener("pointermove", e => moves.push({at: e.timeStamp}), true);
+  new MutationObserver(changes => changes.forEach(({attributeName: name}) => {
+    if (name === "data-asked")
+      for (const move of moves) move.asked ??= +root.dataset.asked;
+    if (name === "data-answered") requestAnimationFrame(() => {
+      const n = +root.dataset.answered, channel = new MessageChannel();
+      channel.port1.onmessage = () => {
+        const now = performance.now();
+        for (const move of moves) if (move.asked <= n) {
+          window.paints.push(now - move.at);
+          move.asked = Infinity;
+        }
+      };
+      channel.port2.postMessage(0);
+    });
+  })).observe(root, {attributes: true});
+}"""
+DRAGS = """(node, count) => new Promise(done => {
+  const r = node.getBoundingClientRect(), x = r.x + r.width / 2, y = r.y + r.height / 2;
+  const tell = (type, clientX, clientY) =>
+    node.dispatchEvent(new PointerEvent(type, {pointerId: 1, clientX, clientY}));
+  node.setPointerCapture = () => {};
+  let i = 0;
+  const go = () => {
+    tell("pointerdown", x, y);
+    for (let k = 0; k < 5; k++)
+      tell("pointermove", x + 8 * k * Math.sin(i), y + 8 * k * Math.cos(i / 3));
+    tell("pointerup", x, y);
+    node.dispatchEvent(new KeyboardEvent("keydown", {key: "Home", bubbles: true}));
+    if (++i < count) requestAnimationFrame(go); else done();
+  };
+  go();
+})"""
+
+
+def ours(page, root, handle):
+    """Times from move to paint of the second of two drags, ms."""
+    root.evaluate(PAINTS)
+    box = root.locator(f"[data-handle={handle}]").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    for _ in range(2):
+        page.evaluate("window.paints.length = 0")
+        page.mouse.move(x, y)
+        page.mouse.down()
+        begun = time.perf_counter()
+        for i in range(60):
+            turn = (i + 1) / 60 * 2 * math.pi
+            page.mouse.move(x + 30 * math.sin(turn), y + 20 * (1 - math.cos(turn)))
+            page.wait_for_timeout(max(0, 1000 * (begun + (i + 1) / 60 - time.perf_counter())))
+        page.wait_for_timeout(1500)
+        page.mouse.up()
+        page.wait_for_timeout(500)
+    return sorted(page.evaluate("window.paints"))
+
+
+def memory(page, lab):
+    """Megabytes of page and kernel in use."""
+    session = page.context.new_cdp_session(page)
+    for _ in range(3):
+        session.send("HeapProfiler.collectGarbage")
+    used = session.send("Runtime.getHeapUsage")["usedSize"]
+    session.detach()
+    children = psutil.Process(lab.process.pid).children(recursive=True)
+    kernel = sum(p.memory_info().rss for p in children if "ipykernel" in " ".join(p.cmdline()))
+    return used / 1e6, kernel / 1e6
+
+
+def main():
+    path = next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
+    if path is None:
+        raise SystemExit("no Chromium on this machine")
+    from playwright.sync_api import sync_playwright
+
+    v4 = nbformat.v4
+    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
+    for name, case in CASES.items():
+        cells = [v4.new_markdown_cell("# live", id="title")]
+        cells += [v4.new_code_cell(x, id=f"c{i}") for i, x in enumerate((case.cell, case.interact))]
+        with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+            labs = Path(folder) / "labs"
+            labs.mkdir()
+            notebook = v4.new_notebook(cells=cells, metadata={"kernelspec": kernel})
+            nbformat.write(notebook, labs / "live.ipynb")
+            with JupyterLab(Path(folder), labs) as lab:
+                browser = playwright.chromium.launch(
+                    executable_path=path, headless=True, args=FLAGS
+                )
+                page, errors = browser.new_page(viewport={"width": 1366, "height": 1000}), []
+                page.on("console", lambda m, e=errors: m.type == "error" and e.append(m.text))
+                page.on("pageerror", lambda error, e=errors: e.append(str(error)))
+                lab.open(page, "live.ipynb")
+                lab.run_all(page, "live.ipynb")
+                root = page.locator(".robokin-player[data-awake]")
+                root.wait_for(timeout=30_000)
+                root.scroll_into_view_if_needed()
+                paints = ours(page, root, case.handle)
+                fast = statistics.median(paints)
+                print(
+                    f"{name}: move to the paint of its answer, median {fast:.0f} ms, nine of ten "
+                    f"in {paints[int(0.9 * (len(paints) - 1))]:.0f} ms ({len(paints)} moves)",
+                    flush=True,
+                )
+                slow = theirs(page, page.locator(".jp-CodeCell").nth(1))
+                print(f"{name}: interact {slow:.0f} ms, {slow / fast:.1f} times as long")
+                root.scroll_into_view_if_needed()
+                node = root.locator(f"[data-handle={case.handle}]")
+                used = []
+                for drags in (200, 1000):  # the first ones warm up
+                    node.evaluate(DRAGS, drags)
+                    page.wait_for_timeout(3000)
+                    used.append(memory(page, lab))
+                (page0, kernel0), (page1, kernel1) = used
+                print(
+                    f"{name}: 1000 drags, page {page0:.1f} -> {page1:.1f} MB, kernel "
+                    f"{kernel0:.1f} -> {kernel1:.1f} MB, {len(errors)} errors {errors[:3]}"
+                )
+                browser.close()
+
+
+if __name__ == "__main__":
+    main()
