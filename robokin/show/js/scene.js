@@ -1,6 +1,6 @@
 // The scene: arms, targets and marks in space, above a floor.
 
-import {dot, distance, frames, origin, plus, turned} from "./kinematics.js";
+import {dot, distance, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {clear, colors, FONT, hit, jointColor, polygon, prepared, shape, spot, stroke, tiled, words} from "./canvas.js";
 import {camera} from "./camera.js";
 
@@ -108,7 +108,7 @@ function drawArmInSpace(pen, arm, [x, y, w, h], named) {
   arm.under?.(g, cam);
   drawFoot(pen, rods.length ? 1 : 0.4);
   for (const {q, past} of ghosts)
-    stroke(g, frames(arm.chain, q).map(f => to(origin(f))), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
+    stroke(g, polyline(arm.chain, q).map(to), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
   g.globalAlpha = arm.faded ? 0.3 : 1;
   if (dips) drawArm(g, cam, arm.chain, rods.flatMap(raised), joints, thick, size, 0);
   else drawArm(g, cam, arm.chain, rods, joints, thick, size);
