@@ -193,8 +193,8 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion" or "levers"; `arm`:
-    see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers"
+    or "plan"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence
     it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands below.
 
     joint   q, rows of numbers
@@ -203,6 +203,7 @@ class PageExplorer(TypedDict, total=False):
             table, the unit of travel in radians; `task`, an exercise: how many different
             postures have to reach the target (`wanted`), what it says then (`holds`) and before
             (`open`)
+    plan    names of the ways as `branches`; and what `live.Live` adds
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
     """
 
