@@ -193,9 +193,10 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers"
-    or "plan"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`: every sentence
-    it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands below.
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers",
+    "plan"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
+    every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
+    below.
 
     joint   q, rows of numbers
     levers  the point `target`, the posture q before it

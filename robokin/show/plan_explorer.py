@@ -318,7 +318,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dic
 
 def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> plots.Figure:
     """The plane, and the cube beside it."""
-    fig = plots.figure(alt, width=4.6, height=2.2)
+    fig = plots.figure(alt, width=4.4, height=2.1)
     blue, orange, green = (style["color"] for style in JOINT_STYLES[:3])
     plane, cube = fig.add_axes((0, 0, 0.58, 0.9)), fig.add_axes((0.6, 0, 0.4, 0.9))
     points = arm.points(answer["moments"].astype(float))
@@ -327,7 +327,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     plane.fill(*disc.T, color="0.88")
     # few lines of one colour: a small file
-    plane.add_collection(LineCollection(list(points[::3]), color="#B3D4E8", linewidth=0.8))
+    plane.add_collection(LineCollection(list(points[::4]), color="#B3D4E8", linewidth=0.8))
     plane.plot(*points[:, 3].T, color=blue)
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")
     plane.plot(*points[0].T, color=INK, linewidth=4, marker="o", markerfacecolor="white")

@@ -258,7 +258,7 @@ const LOOK = `
   & .rk-run > div { flex: 1; }
   & .rk-run .rk-slide { grid-template-columns: 4.8em minmax(60px, 1fr); }
   & .rk-play { min-width: 4.6em; }
-  & .rk-mark { font-size: 11px; background: none; text-shadow: 0 0 3px var(--rk-paper), 0 0 3px var(--rk-paper); }
+  & .rk-mark { font-size: 11px; background: color-mix(in srgb, var(--rk-paper) 75%, transparent); }
   @media (pointer: fine) {
     & .rk-mark { width: 20px; height: 20px; margin: -10px 0 0 -10px; }
   }
