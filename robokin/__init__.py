@@ -28,6 +28,7 @@ from .arms import (
     spbu_arm,
     spherical_wrist,
     three_lever,
+    turning_base,
     two_link,
     within,
 )
@@ -89,6 +90,7 @@ __all__ = [
     "spherical_wrist",
     "three_lever",
     "trapezoidal",
+    "turning_base",
     "two_link",
     "within",
 ]

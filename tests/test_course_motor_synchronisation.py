@@ -4,9 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from robokin import deg, loader_arm
 from robokin.course import check, solution, variant
+from robokin.course.motor_synchronisation import PREDICTIONS
+from robokin.course.predictions import filled
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
 A, B = 0.45, 0.3
@@ -129,3 +132,33 @@ def test_a_test_of_one_direction_or_one_table_is_told_what_it_misses():
         "motor_synchronisation.3", lambda w: len(np.asarray(w("wave", [1, 1, -1]))) == 4
     )
     assert only_wave.mistake.startswith("accepts: ")
+
+
+def test_lost_steps_come_in_fours_by_another_integration_too():
+    # p10, with SciPy and without the windings' time constant: the answer does not hang on it
+    def lost(frequency):
+        theta, omega, since, ends = (
+            0.0,
+            0.0,
+            0.0,
+            [*np.arange(1, 49) / frequency, 48 / frequency + 1],
+        )
+        for k, end in enumerate(ends):
+            found = solve_ivp(
+                lambda _, y, k=k: [
+                    y[1],
+                    (0.02 * math.sin(k * TURN / 4 - y[0]) - 6e-5 * y[1]) / 1e-6,
+                ],
+                (since, end),
+                (theta, omega),
+                rtol=1e-7,
+                atol=1e-9,
+            )
+            (theta, omega), since = found.y[:, -1], end
+        return 48 - theta / (TURN / 4)
+
+    answers = [lost(f) for f in (100, 150, 200)]
+    assert answers == pytest.approx([4 * round(n / 4) for n in answers], abs=0.01)
+    assert round(answers[0]) == 0 and all(4 < n < 49 for n in answers[1:])
+    options, right = filled(PREDICTIONS["p10"])[1:]
+    assert options[right].text.startswith("Only 4, 8, 12")

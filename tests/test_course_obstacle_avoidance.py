@@ -118,7 +118,7 @@ def test_a_wrong_inside_is_named(wrong, named):
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas"])
-def test_what_one_knows_already_does_not_pass_both_obstacles(who):
+def test_what_one_knows_already_does_not_pass_the_bar(who):
     task = variant("obstacle_avoidance", who)
     start = np.array(task["start"]) * deg
     end = arm.least(task["target"], start)[0]
@@ -126,15 +126,33 @@ def test_what_one_knows_already_does_not_pass_both_obstacles(who):
         "direct": [start, end],
         "back": [end, start],
         "degrees": np.array([start, end]) / deg,
-        "round 1": way_round(arm, start, task["target"], task["obstacles"][0], task["distance"]),
-        "round 2": way_round(arm, start, task["target"], task["obstacles"][1], task["distance"]),
+        "round an end": way_round(arm, start, task["target"], task["bar"][0], task["distance"]),
+        "round both ends": way_round(arm, start, task["target"], task["bar"], task["distance"]),
     }
+    assert paths["round both ends"] is not None
     for name, path in paths.items():
         if path is not None:
             verdict = check("obstacle_avoidance.2", path, who=who)
             assert not verdict.holds and verdict.mistake, name
     assert "degrees" in check("obstacle_avoidance.2", paths["degrees"], who=who).mistake
     assert check("obstacle_avoidance.2", paths["back"], who=who).mistake == "another start"
+    # the ends are kept, and what is between them is not
+    verdict = check("obstacle_avoidance.2", paths["round both ends"], who=who)
+    assert "between its ends" in verdict.mistake
+
+
+@pytest.mark.parametrize("who", ["Ada", "Jonas", "your name"])
+def test_a_bar_is_passed_by_folding_and_by_points_near_enough(who):
+    """And what the sentence in the hints says of points h apart is true."""
+    task = variant("obstacle_avoidance", who)
+    start, (first, last) = np.array(task["start"]) * deg, np.array(task["bar"])
+    for count in (10, 16):
+        points = first + np.linspace(0, 1, count)[:, None] * (last - first)
+        asked = np.hypot(task["distance"], np.hypot(*(points[1] - points[0])) / 2)
+        path = way_round(arm, start, task["target"], points, asked)
+        fine = first + np.linspace(0, 1, 400)[:, None] * (last - first)
+        assert clearance(arm, path, fine).min() >= task["distance"] - 1e-6
+        assert check("obstacle_avoidance.2", path, who=who).holds
 
 
 @cache

@@ -284,8 +284,9 @@ def test_the_numbers_behind_the_predictions():
     assert lab._axis_facts()["height"] == 3.0  # 3-4-5
     assert -1.017 < lab._dip_facts()["low"] < -1.016
     facts = lab._belt_facts()
-    assert (facts["even"], facts["uneven"]) == (120, 85) and facts["rule"] > facts["even"]
-    assert facts["first"] == 90
+    assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
+    assert (facts["least"], facts["greatest"]) == (80, 90)  # other orders of the same gaps
+    assert facts["first"] == 95
     changes = lab._change_facts()
     assert [changes[k] > 0 for k in ("axis", "prices", "speeds", "onward")] == [1, 1, 0, 1]
     for seed in range(5):  # against the package's own optimum

@@ -475,6 +475,34 @@ def test_a_click_on_a_row_chooses_it_and_a_key_does(opened):
     assert shows_every_branch(shown).seen.menus["branch"] == 0
 
 
+def test_levers_of_other_lengths(opened):
+    """Three more sliders; arm, curve and words follow, and the lines of Python have the lengths."""
+    arm = three_lever((0.9, 1.1, 0.6))
+    shown = opened(target_explorer(arm), arm)
+    assert opened(target_explorer(LEVERS)).look().boxes.keys() == {"x", "y", "alpha"}
+    first = shown.look()
+    assert [first.boxes[f"lever {name}"] for name in ("OB", "BA", "AK")] == [0.9, 1.1, 0.6]
+    shown.type("x", 1.4)
+    shown.type("y", 0.7)
+    for lengths in ((0.9, 1.1, 0.6), (0.7, 1.1, 0.6), (0.7, 1.2, 0.45), (1.3, 1.0, 0.3)):
+        for name, length in zip(("OB", "BA", "AK"), lengths, strict=True):
+            shown.type(f"lever {name}", length)
+        seen = shown.look()
+        space = shown.code(seen)
+        assert space["arm"].levers.tolist() == list(lengths)
+        assert np.allclose(space["arm"].fk(space["q"]).translation, (1.4, 0.7, 0), atol=1e-9)
+        told = [float(x) for x in re.findall(r"(?:gamma|beta|alpha) (-?[\d.]+)", seen.says)]
+        assert np.allclose(told, space["q"] / deg, atol=0.06)
+        before = np.array(shown.data["q"])
+        least = space["arm"].least((1.4, 0.7), before)
+        told = [float(x) for x in re.findall(r"alpha = ([\d.]+)°: ([\d.]+)°", seen.says)[0]]
+        assert np.allclose(told, [least[0][2] / deg, least[1] / deg], atol=0.06)
+    assert all(a != b for a, b in zip(seen.pixels, first.pixels, strict=True))
+    shown.type("lever AK", 1.5)  # the border |OB - BA| + AK is now behind the point
+    shown.type("lever BA", 0.5)
+    assert shown.look().says == "No posture reaches this point."
+
+
 # --- Motions --------------------------------------------------------------------------------------
 
 

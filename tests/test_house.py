@@ -54,7 +54,9 @@ LAYERS = {
     "robokin.show": KINEMATICS,
     "robokin.show.explorers": ("robokin",),
     "robokin.show.plan_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
+    "robokin.show.motors": (*KINEMATICS, "robokin.show", "robokin.jobs.steppers"),
     "robokin.course": ("robokin",),
+    "robokin.show.tour_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
 }
 DRAWING = {"matplotlib", "PIL", "ipywidgets", "IPython", "anywidget", "traitlets"}
 HEAVY = DRAWING | {

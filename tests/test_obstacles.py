@@ -16,6 +16,7 @@ from machines import oracle
 from robokin import SCARA, deg, loader_arm, three_lever, within
 from robokin.jobs import obstacles
 from robokin.jobs.obstacles import (
+    CIRCLES,
     LEVERS,
     TOLERANCE,
     WORK,
@@ -210,6 +211,41 @@ def test_clearance_is_a_bound_and_a_tight_one(L):
                 np.testing.assert_array_equal(kept, least > asked)
 
 
+@pytest.mark.parametrize("levers", [(0.9, 1.1, 0.6), (0.5, 0.3, 1.6), (1.7, 0.9, 0.2)])
+def test_levers_of_different_lengths(levers):
+    """As above, the places of the levers from `arm.points`, which knows their lengths; and
+    plans among them keep what they say.
+    """
+    rng, arm = np.random.default_rng(16), three_lever(levers)
+    share = np.linspace(0, 1, 301)[:, None]
+
+    def least_seen(q, H):
+        O_B_A_K = arm.points(q)  # test_planar.py holds them
+        start, end = O_B_A_K[..., :-1, :], O_B_A_K[..., 1:, :]
+        along = ((H - start) * (end - start)).sum(axis=-1) / np.array(levers) ** 2
+        foot = start + np.clip(along, 0, 1)[..., None] * (end - start)
+        return np.linalg.norm(foot - H, axis=-1)
+
+    for _ in range(60):
+        (a, b), H = rng.uniform(0, np.pi, (2, 3)), rng.uniform(-2.5, 2.5, 2)
+        found = clearance(arm, [a, b], H)[0]
+        sampled = least_seen(a + share * (b - a), H).min(axis=0)
+        assert (found <= sampled).all()
+        assert (sampled - found <= abs(b - a).sum() * sum(levers) / 300).all()
+        np.testing.assert_allclose(distances(arm, a, H), least_seen(a, H), rtol=0, atol=1e-14)
+    kept = 0
+    for _ in range(50):
+        q0 = rng.uniform(0.3, 2.8, 3)
+        target, H = arm.points(rng.uniform(0.3, 2.8, (2, 3)))[:, 3]
+        answer = plan(arm, q0, target, H)
+        if answer.found:
+            path = dense(answer.path, 301)
+            assert least_seen(path, H).min() >= arm.lever / 7
+            np.testing.assert_allclose(arm.points(answer.path[-1])[3], target, rtol=0, atol=1e-9)
+            kept += answer.way != "direct"
+    assert kept
+
+
 def test_a_lever_that_passes_over_has_no_clearance():
     q0, q1 = np.array([100, 120, 130]) * deg, np.array([60, 120, 130]) * deg
     for lever, u in ((0, 0.5), (1, 0.3), (2, 0.9)):
@@ -321,6 +357,83 @@ def test_work_without_end_is_refused(monkeypatch):
             call()
 
 
+def test_of_several_obstacles_the_least_counts():
+    """The same as each by itself, put together."""
+    rng = np.random.default_rng(15)
+    for _ in range(40):
+        path, H = rng.uniform(0, np.pi, (4, 3)), rng.uniform(-2.5, 2.5, (3, 2))
+        alone = np.min([clearance(ARM, path, each) for each in H], axis=0)
+        np.testing.assert_allclose(clearance(ARM, path, H), alone, rtol=0, atol=1.01e-6)
+        for distance in (0.05, 0.2, 0.5):
+            each = [keeps(ARM, path[:-1], path[1:], h, distance) for h in H]
+            np.testing.assert_array_equal(
+                keeps(ARM, path[:-1], path[1:], H, distance), np.all(each, axis=0)
+            )
+
+
+@pytest.fixture(scope="module")
+def two_drawn():
+    """Random tasks with a second obstacle, which leaves start and target free."""
+    rng, found = np.random.default_rng(16), []
+    for q0, K1, H in tasks(max(TASKS // 2, 24), seed=17):
+        second = rng.uniform(-2.5, 2.5, 2)
+        found.append((q0, K1, np.array([H, second])[:: rng.choice([1, -1])]))
+    return found
+
+
+def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
+    ways, differs = [], 0
+    for q0, K1, H in two_drawn:
+        answer = plan(ARM, q0, K1, H)
+        ways.append(answer.way)
+        too_near = min(
+            *(seen(q0, h).min() for h in H), np.hypot(*(K1 - H).T).min(), np.hypot(*H.T).min()
+        )
+        assert ("No path keeps" in answer.words) == (too_near < KEPT)
+        if not answer.found:
+            continue
+        sampled = np.min([seen(dense(answer.path), h).min(axis=1) for h in H], axis=0)
+        assert sampled.min() >= KEPT and (answer.path[0] == q0).all()
+        assert (answer.clearance <= sampled).all()
+        np.testing.assert_allclose(ARM.points(answer.posture)[3], K1, rtol=0, atol=1e-12)
+        differs += any(plan(ARM, q0, K1, h).cost < answer.cost - 1e-6 for h in H)
+    assert {"via points", "search", "none"} <= set(ways) and differs > 3
+
+
+def test_the_via_points_lie_about_the_obstacle_that_is_in_the_way_first(two_drawn):
+    """Told from the gripper's places and from the words."""
+    count = 0
+    for q0, K1, H in two_drawn:
+        answer = plan(ARM, q0, K1, H)
+        if answer.way != "via points":
+            continue
+        away = np.hypot(*(ARM.points(answer.via)[:, None, 3] - H).T)  # (2 obstacles, 2 points)
+        about = abs(away - answer.radius).max(axis=1) < 1e-12
+        assert about.sum() == 1
+        assert f"{1000 * answer.radius:.1f} mm from obstacle {about.argmax() + 1}" in answer.words
+        near = [
+            (seen(dense([q0, ARM.least(K1, q0)[0]])[0], h).min(axis=1) < KEPT).argmax() for h in H
+        ]
+        met = [h for h, first in zip((0, 1), near, strict=True) if first > 0]
+        if met:
+            assert about.argmax() == min(met, key=lambda h: near[h])
+            count += len(met) == 1
+    assert count
+
+
+def test_words_number_the_obstacles_where_there_are_several():
+    far = (-2.0, -2.0)
+    for words, obstacle in (
+        ("Obstacle 2 lies on the base", (far, (0.05, 0))),
+        ("The target lies 100.0 mm from obstacle 2", (far, (1.8, 0.7))),
+        ("already 0.0 mm from obstacle 1", (KNOWN[3], far)),
+        ("The way is direct: no obstacle is in it.", (far, far)),
+    ):
+        assert words in plan(ARM, Q0, (1.8, 0.6), obstacle).words
+    q0, K1, H = next(tasks(1))
+    assert "lever AK sweeps an obstacle. " in plan(ARM, q0, K1, [far, H]).words
+
+
 @pytest.fixture(scope="module")
 def drawn():
     """Random tasks (q0, target, obstacle)."""
@@ -356,20 +469,32 @@ def test_plans_keep_their_clearance_or_say_that_there_is_none(answers):
         assert answer.cost == pytest.approx(abs(np.diff(answer.path, axis=0)).sum())
         assert answer.cost >= answer.least - 1e-9
     assert ways.count("direct") == 0
-    assert ways.count("search") > 0.7 * TASKS
+    assert ways.count("search") > 0.5 * TASKS and ways.count("via points") > 0.1 * TASKS
 
 
 def test_the_words_name_the_lever_that_is_nearest(answers):
     """And of levers that meet in the nearest point, the one nearer to the base."""
     told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
     for q0, K1, H, answer in answers:
-        paths = [[q0, ARM.least(K1, q0)[0]], via_path(ARM, q0, K1, H)]
         if "No path keeps" in answer.words:
             continue
-        assert ("not both within reach" in answer.words) == bool(np.isnan(paths[1]).any())
+        circles = {f"{1000 * r:.1f} mm from the obst": via_path(ARM, q0, K1, H, r) for r in CIRCLES}
+        reached = [path for path in circles.values() if not np.isnan(path).any()]
+        assert ("not both within reach" in answer.words) == (not reached)
+        paths = [[q0, ARM.least(K1, q0)[0]]]
+        paths += [path for words, path in circles.items() if words in answer.words]
         found = told.findall(answer.words)
-        assert len(found) == 2 - np.isnan(paths[1]).any() and found[0][1] == "sweeps"
-        for (name, what, near), path in zip(found, paths, strict=False):
+        assert found[0][1] == "sweeps"
+        if answer.way == "via points":
+            assert len(found) == 1 and len(paths) == 2
+            np.testing.assert_allclose(answer.path, paths[1], rtol=0, atol=1e-12)
+            continue
+        assert len(found) == len(paths) == 1 + bool(reached)
+        if reached:  # of circles that do not keep the distance the best is named
+            assert clearance(ARM, paths[1], H).min() == max(
+                clearance(ARM, path, H).min() for path in reached
+            )
+        for (name, what, near), path in zip(found, paths, strict=True):
             parts = seen(dense(path, 20_001), H)
             least = parts.min(axis=(0, 1))
             fast = abs(np.diff(path, axis=0)).sum(axis=1).max() * 3 / 20_000
@@ -388,7 +513,7 @@ def test_the_way_round_is_taut(answers):
     """
     searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
     nearer = [is_taut(path, K1, H, KEPT) for H, K1, path in searched]
-    assert len(searched) > 0.7 * TASKS and sum(nearer) <= 0.05 * len(searched)
+    assert len(searched) > 0.5 * TASKS and sum(nearer) <= 0.05 * len(searched)
 
 
 def is_taut(path, K1, H, distance):
@@ -509,17 +634,38 @@ def test_via_points_serve_where_less_is_asked():
     """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's way serves a
     smaller distance.
     """
-    ways = []
+    ways, radii = [], []
     for q0, K1, H in tasks(min(TASKS, 30)):
         answer = plan(ARM, q0, K1, H, distance=0.09)
         ways.append(answer.way)
         if answer.way == "via points":
-            assert "The via points K2 and K3 lead round it." in answer.words
+            radii.append(answer.radius)
+            assert f"points K2 and K3, {1000 * radii[-1]:.1f} mm from the obst" in answer.words
             assert seen(dense(answer.path), H).min() >= 0.09 and len(answer.path) == 4
             np.testing.assert_allclose(
-                np.hypot(*(ARM.points(answer.via)[:, 3] - H).T), 1 / 7, atol=1e-12
+                np.hypot(*(ARM.points(answer.via)[:, 3] - H).T), radii[-1], atol=1e-12
             )
-    assert "via points" in ways and "search" in ways
+    assert radii.count(1 / 7) > 2 and "search" in ways
+
+
+def test_of_the_circles_the_first_that_keeps_the_distance_is_taken(answers):
+    """None smaller than the distance or than L/7; L/7 itself never keeps L/7 (errata S3-n)."""
+    radii = []
+    for q0, K1, H, answer in answers:
+        tried = [via_path(ARM, q0, K1, H, r) for r in CIRCLES]
+        kept = [not np.isnan(p).any() and clearance(ARM, p, H).min() >= KEPT for p in tried]
+        if answer.way == "via points":
+            assert answer.radius == CIRCLES[np.argmax(kept)] and any(kept)
+            radii.append(answer.radius)
+        else:
+            assert np.isnan(answer.radius) and (not any(kept) or "No path" in answer.words)
+    assert len(set(radii)) > 1 and min(radii) > 1 / 7
+    for distance in (0.1, 0.2, 0.21, 0.4):
+        told = [plan(ARM, *answer[:3], distance).words for answer in answers[:12]]
+        named = [float(n) / 1000 for n in re.findall(r"K3, ([0-9.]+) mm", " ".join(told))]
+        tried = {max(distance, 1 / 7), *(r for r in CIRCLES if r > distance)}
+        assert len(named) > 3
+        assert all(min(abs(r - each) for each in tried) < 5.1e-5 for r in named)
 
 
 Q0 = np.array([100, 110, 120]) * deg
@@ -648,7 +794,12 @@ WRONG = {
     "one posture is no path": (lambda: clearance(ARM, Q0, (1, 2)), r"two or more.*\(3,\)"),
     "a path of one": (lambda: clearance(ARM, [Q0], (1, 2)), r"two or more.*\(1, 3\)"),
     "a batch of paths": (lambda: clearance(ARM, [[Q0, Q0]] * 2, (1, 2)), r"\(2, 2, 3\)"),
-    "two obstacles": (lambda: clearance(ARM, [Q0, Q0], [(1, 2)] * 2), "one single point"),
+    "two obstacles": (lambda: swept(ARM, Q0, Q0, [(1, 2)] * 2), "one single point"),
+    "a batch of obstacles": (
+        lambda: clearance(ARM, [Q0, Q0], [[(1, 2)] * 2] * 3),
+        r"H: wanted one point \(2,\) or several \(m, 2\), got \(3, 2, 2\)",
+    ),
+    "an empty list of obstacles": (lambda: plan(ARM, Q0, GOAL, np.empty((0, 2))), r"\(0, 2\)"),
     "angles beyond the numbers": (lambda: clearance(ARM, [Q0, Q0 + 1e10], FAR), "radians, got 1e"),
     "along nothing": (lambda: along([Q0], 0.5), "two or more"),
     "along at NaN": (lambda: along([Q0, Q0], np.nan), "s: wanted finite"),
@@ -710,8 +861,10 @@ def test_degrees_get_a_hint():
 
 def test_an_arm_with_room_for_too_many_postures_is_refused():
     wide = type(ARM)("wide", ARM.geometry, [(-20.0, 20.0)] * 3)
-    with pytest.raises(ValueError, match=rf"arm: .*{WORK} postures, got 9.6"):
+    with pytest.raises(ValueError, match=rf"arm: .*{WORK} postures, .* of 1 obst.*got 9.6"):
         way_round(wide, Q0, GOAL, FAR, 0.1)
+    with pytest.raises(ValueError, match="of 50 obstacles, got 2.3"):
+        way_round(ARM, Q0, GOAL, [FAR] * 50, 0.1)
     narrow = type(ARM)("narrow", ARM.geometry, [(0.0, 3.2)] * 3)
     assert way_round(narrow, Q0, GOAL, FAR, 0.1) is not None
 
@@ -767,10 +920,17 @@ def test_a_plan_is_data():
         {"least": -1},
         {"least": [1, 2]},
         {"least": np.inf},
+        {"radius": 0.2},  # of a search
+        {"way": "via points"},  # and no radius
+        {"way": "via points", "radius": -0.2},
+        {"way": "via points", "radius": np.inf},
+        {"way": "via points", "radius": [0.1, 0.2]},
         {"way": "none", "path": np.empty((0, 3)), "clearance": np.empty((0, 3))},
         {"way": "direct", "path": [Q0], "clearance": np.empty((0, 3))},
     ],
 )
 def test_a_plan_of_parts_that_do_not_belong_together_is_refused(wrong):
-    with pytest.raises(ValueError, match=f"^({'|'.join([*wrong, 'path', 'clearance'])}): wanted"):
+    with pytest.raises(
+        ValueError, match=f"^({'|'.join([*wrong, 'path', 'clearance', 'radius'])}): wanted"
+    ):
         a_plan(**wrong)

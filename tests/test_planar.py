@@ -248,7 +248,9 @@ def test_follow_takes_the_family_as_rows():
     "call, words",
     [
         (lambda: three_lever(0), "positive length"),
-        (lambda: three_lever([1, 1]), "positive length"),
+        (lambda: three_lever([1, 1]), "one positive length in metres, or three"),
+        (lambda: three_lever([1, 1, 0]), "positive length"),
+        (lambda: three_lever(np.ones((2, 3))), r"array of shape \(2, 3\)"),
         (lambda: ARM.family((1, 2, 3, 4), 2.0), r"\(4,\)"),
         (lambda: ARM.family(np.ones((4, 2)), np.ones(3)), r"\(4,\) and \(3,\)"),
         (lambda: ARM.sweep(np.ones((4, 2)), np.ones(3)), "single point"),
@@ -336,3 +338,159 @@ def test_no_posture_of_the_family_moves_less_than_the_least():
         assert (np.nanmin(sums[:, reached], axis=0) < S[reached] + 1e-3).all()
         assert np.isnan(S[~reached]).all() and np.isnan(q[~reached]).all()
         assert np.allclose(ARM.fk(q[reached]).translation[:, :2], K[reached], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("lengths", [1.0, (0.9, 1.1, 0.6)])
+def test_a_range_has_two_ends_or_none(lengths):
+    """Where gamma stays below 0 all along the family, the upper end was given without a lower."""
+    arm = three_lever(lengths)
+    KO, phi = np.meshgrid(np.linspace(0, 3.2, 60), np.linspace(-np.pi, np.pi, 60))
+    K = np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
+    low, high = arm.alpha_range(K)
+    np.testing.assert_array_equal(np.isnan(low), np.isnan(high))
+    alphas = np.linspace(*arm.alpha_range(K, limited=False), 200)
+    gamma = arm.family(K, alphas)[..., 0]
+    served = ((gamma > 0) & (gamma < np.pi)).any(axis=0)
+    assert served.any() and not np.isnan(low[served]).any()
+
+
+# --- Levers of different lengths ------------------------------------------------------------------
+
+LENGTHS = np.random.default_rng(31).uniform(0.2, 1.5, (12, 3))
+LENGTHS[0], LENGTHS[1], LENGTHS[2] = (0.9, 1.1, 0.6), (1.0, 1.2, 0.3), (0.3, 0.4, 2.0)
+unequal = pytest.mark.parametrize("lengths", LENGTHS, ids=lambda each: str(each.round(2)))
+
+
+def turning(lengths, q):
+    """B, A, K as complex numbers (3, ...), as `chain`, for any lengths and batches."""
+    gamma, beta, alpha = np.moveaxis(q, -1, 0)
+    turns = np.stack([np.exp(1j * gamma), -np.exp(1j * beta), -np.exp(1j * alpha)])
+    levers = np.reshape(lengths, (3,) + (1,) * gamma.ndim) * np.cumprod(turns, axis=0)
+    return np.cumsum(levers, axis=0)
+
+
+def ring(rng, lengths, n):
+    a, b, c = lengths
+    KO, phi = rng.uniform(abs(a - b) + c, a + b + c, n), rng.uniform(-np.pi, np.pi, n)
+    return np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
+
+
+def test_equal_levers_are_one_length():
+    one, three = three_lever(0.3), three_lever((0.3, 0.3, 0.3))
+    rng = np.random.default_rng(32)
+    K, before = random_points(rng, 500, 0.3), rng.uniform(0, np.pi, (500, 3))
+    for mine, same in zip(one.least(K, before), three.least(K, before), strict=True):
+        np.testing.assert_array_equal(mine, same)
+    assert one.lever == three.lever == 0.3 and one.levers.tolist() == [0.3] * 3
+    assert three_lever((1, 2, 6)).lever == 3 and three_lever((1, 2, 6)).reach == 9
+
+
+@unequal
+def test_unequal_levers_reach_their_points(lengths):
+    arm, rng = three_lever(lengths), np.random.default_rng(33)
+    K = ring(rng, lengths, 300)
+    low, high = arm.alpha_range(K, limited=False)
+    q = arm.family(K[:, None], low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 101))
+    assert (q[..., 1:] >= 0).all() and (q[..., 1:] <= np.pi + 1e-12).all()
+    there = turning(lengths, q)[-1]
+    assert abs(there - (K @ [1, 1j])[:, None]).max() < 1e-13
+    assert abs(arm.fk(q).translation[..., :2] - K[:, None]).max() < 1e-13
+    points = turning(lengths, q)
+    np.testing.assert_allclose(arm.points(q)[..., 1:, :], _pairs(np.moveaxis(points, 0, -1)))
+    assert (np.diff(q[..., 0], axis=-1) > 0).all()
+
+
+@unequal
+def test_unequal_families_end_where_the_triangle_ends(lengths):
+    """The highest alpha is 180 degrees; the lowest one is where OA is as long as OB and BA
+    together, or 0 where K is too near for that.
+    """
+    (a, b, c), rng = lengths, np.random.default_rng(34)
+    arm, K = three_lever(lengths), ring(rng, lengths, 400)
+    KO = np.hypot(*K.T)
+    low, high = arm.alpha_range(K, limited=False)
+    KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(low))
+    assert (high == np.pi).all() and (KB <= a + KO + 1e-9).all() and (a <= KB + KO + 1e-9).all()
+    stretched = KO > a + b - c
+    cosine = ((a + b) ** 2 + c**2 - KO**2)[stretched] / (2 * (a + b) * c)
+    np.testing.assert_allclose(np.cos(low[stretched]), cosine, rtol=0, atol=1e-13)
+    assert (low[~stretched] == 0).all()
+    assert stretched.all() == (c >= min(a, b)) or stretched.mean() > 0.9
+    assert np.isnan(arm.family(K, low - 1e-6)).all() and np.isnan(arm.family(K, high + 1e-6)).all()
+    kept = np.stack(arm.alpha_range(K), axis=-1)
+    alphas = low + (high - low) * np.linspace(0, 1, 2001)[:, None]
+    marked = within(arm, arm.family(K, alphas)).all(axis=-1)
+    with np.errstate(invalid="ignore"):
+        assert marked[(alphas > kept[:, 0] + 1e-9) & (alphas < kept[:, 1] - 1e-9)].all()
+        left = (alphas > kept[:, 0] - 1e-9) & (alphas < kept[:, 1] + 1e-9)
+    assert not marked[~left].any() and 0.2 < marked.mean() < 0.9
+
+
+@unequal
+def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
+    """Any three angles within 0 to 180 degrees are the family's posture for their own alpha, where
+    K is farther away than |OB - BA| + AK; nearer, some are not.
+    """
+    arm, rng = three_lever(lengths), np.random.default_rng(35)
+    q = rng.uniform(0, np.pi, (20_000, 3))
+    K = _pairs(turning(lengths, q)[-1])
+    far = np.hypot(*K.T) > abs(lengths[0] - lengths[1]) + lengths[2]
+    found = arm.family(K[far], q[far, 2])
+    turns = abs((found - q[far] + np.pi) % (2 * np.pi) - np.pi)
+    assert far.sum() > 1000 and turns.max() < 1e-5 and np.median(turns) < 1e-14
+    assert np.isnan(arm.family(K[~far], q[~far, 2])).all()
+    # B on the other side of OK: always nearer, and almost up to the border
+    q[:, 1] *= 0.05
+    q[:, 2] *= 0.05
+    q[::2, 2] = np.pi - q[::2, 2]
+    B, _, K = turning(lengths, q)
+    other = abs(K[(K.conj() * B).imag < 0]) / arm.geometry.inner
+    assert 0.98 < other.max() <= 1 + 1e-12
+
+
+@unequal
+def test_no_posture_of_unequal_levers_moves_less_than_the_least(lengths):
+    """By brute force: 100 targets and postures, each against 8001 postures of its family."""
+    arm, rng = three_lever(lengths), np.random.default_rng(36)
+    K, before = ring(rng, lengths, 100), rng.uniform(0, np.pi, (100, 3))
+    for limited in (False, True):
+        low, high = arm.alpha_range(K, limited)
+        q, S = arm.least(K, before, limited)
+        reached = ~np.isnan(low)
+        sums = abs(arm.family(K, np.linspace(low, high, 8001)) - before).sum(-1)[:, reached]
+        assert (sums.min(axis=0) > S[reached] - 1e-13).all()
+        assert (sums.min(axis=0) < S[reached] + 0.02).all()
+        assert np.isnan(S[~reached]).all() and np.isnan(q[~reached]).all() and reached.sum() > 20
+        assert abs(arm.fk(q[reached]).translation[:, :2] - K[reached]).max() < 1e-12
+        np.testing.assert_allclose(abs(q - before).sum(axis=-1), S, rtol=0, atol=1e-13)
+
+
+def test_a_minimum_that_equal_levers_do_not_have():
+    """gamma - beta + alpha is least between the ends of this family, and no angle stays."""
+    arm, K = three_lever((1.313, 0.534, 0.247)), np.array([1.057, 0.0])
+    low, high = arm.alpha_range(K, limited=False)
+    rows = arm.family(K, np.linspace(low, high, 20_001))
+    level = (rows @ [1, -1, 1]).argmin()
+    assert 100 < level < 19_900
+    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum, near by
+    q, S = arm.least(K, before, limited=False)
+    sums = abs(rows - before).sum(axis=-1)
+    assert abs(q - before).min() > 1e-3 and sums.min() - 1e-7 < S <= sums.min()
+    assert abs(q - rows[sums.argmin()]).max() < 1e-3
+
+
+def test_many_unequal_tasks_are_each_for_itself():
+    arm, rng = three_lever((0.9, 1.1, 0.6)), np.random.default_rng(37)
+    K, before = ring(rng, (0.9, 1.1, 0.6), 2300), rng.uniform(0, np.pi, (2300, 3))
+    S = arm.least(K, before)[1]
+    for i in range(0, 2300, 230):
+        np.testing.assert_allclose(arm.least(K[i], before[i])[1], S[i], rtol=0, atol=1e-13)
+    assert arm.least(K.reshape(10, 230, 2), before[0])[0].shape == (10, 230, 3)
+
+
+def test_unequal_levers_say_why_a_point_is_out_of_reach():
+    arm = three_lever((0.9, 1.1, 0.6))
+    assert "not farther than |OB \N{MINUS SIGN} BA| + AK (800.0 mm)" in arm.out_of_reach((0.8, 0))
+    assert "farther than three levers (2600.0 mm)" in arm.out_of_reach((0, 2.61))
+    assert arm.out_of_reach((0, 2.59)) == arm.out_of_reach((0.81, 0)) == ""
+    assert len(arm.table((1.5, 1.0), step=1 * deg)) > 50

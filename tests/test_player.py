@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, Polygon
 from matplotlib.text import Text
 
 from robokin import (
@@ -580,6 +580,91 @@ def test_marks_of_unfit_shapes_are_refused(motions, change, message):
         animate(IRB140, T, motions[1], **change)
 
 
+# --- Several arms in one picture, faces, readings -------------------------------------------------
+
+BASES = np.array([[0.2, -0.5], [0.2, 0.7], [0.2, 1.9]])
+BELT = [[0.7, -1, 0.1], [0.8, -1, 0.1], [0.8, 2, 0.1], [0.7, 2, 0.1]]
+
+
+def test_arms_on_bases_share_a_picture_that_holds_them(motions):
+    three = [motions[k] for k in (1, 2, 3)]
+    alone = animate(IRB140, T, motions[1]).data["scene"]
+    scene = animate([IRB140] * 3, T, three, bases=BASES, faces=[BELT]).data["scene"]
+    assert "bases" not in alone and "faces" not in alone
+    assert scene["bases"] == [[*base, 0] for base in BASES.tolist()] and scene["faces"] == [BELT]
+    seen = np.array(scene["seen"])
+    for base, q in zip(BASES, three, strict=True):
+        tool = IRB140.fk(q).translation + [*base, 0]
+        for side in np.concatenate([np.eye(3), -np.eye(3)]):
+            assert (seen @ side).max() >= (tool @ side).max() - 0.02
+    assert seen[:, 1].min() <= -0.99 and seen[:, 1].max() >= 1.99  # the belt
+
+
+def test_the_still_picture_has_every_arm_where_it_stands(motions):
+    one = animate(IRB140, T, motions[1])
+    pair = animate([IRB140] * 2, T, [motions[1]] * 2, bases=BASES[:2], faces=[BELT])
+    assert len(one.still.axes) == len(pair.still.axes) == 1
+    view = pair.data["scene"]["view"]
+    tip = project(IRB140.fk(motions[1][-1]).translation + np.pad(BASES[:2], ((0, 0), (0, 1))), view)
+    drawn = np.concatenate([line.get_xydata() for line in pair.still.axes[0].lines])
+    for place in tip:
+        assert np.linalg.norm(drawn - place, axis=-1).min() < 1e-9
+    corners = project(np.array(BELT), view)
+    assert any(
+        len(patch.get_xy()) == 5 and np.allclose(patch.get_xy()[:4], corners)
+        for patch in pair.still.findobj(Polygon)
+    )
+
+
+def test_with_bases_no_distance_to_via_is_told(motions):
+    via = {"via": IRB140.fk(motions[1][900])}
+    pair = [IRB140] * 2, T, [motions[1]] * 2
+    assert animate(*pair, targets=via).data["arms"][0]["via"]
+    assert animate(*pair, targets=via, bases=BASES[:2]).data["arms"][0]["via"] is None
+
+
+def test_a_reading_is_exact_and_has_its_decimals(motions):
+    count, clock = np.floor(3 * T), np.round(T + 0.25, 2)
+    clock[:40] = np.nan
+    player = animate(
+        IRB140,
+        T,
+        motions[1],
+        points={"bin": (1, 0, 0), "s": CIRCLING},
+        readings={"bin": count, "s": clock},
+    )
+    marks = {mark["name"]: mark for mark in player.data["scene"]["marks"]}
+    for name, values, decimals in (("bin", count, 0), ("s", clock, 2)):
+        way = marks[name]["reading"]
+        got = unpacked(way, 1, way["samples"])[0, :, 0]
+        assert np.allclose(got, values[kept(player)], rtol=0, atol=1e-3, equal_nan=True)
+        assert marks[name]["decimals"] == decimals
+    words = [text.get_text() for text in player.still.findobj(Text)]
+    assert f"bin: {count[-1]:.0f}" in words and f"s: {clock[-1]:.2f}" in words
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"bases": [[0, 0]]}, r"bases: wanted x and y for each of several arms, \(2, 2\)"),
+        ({"bases": np.zeros((2, 3))}, "bases: wanted x and y"),
+        ({"bases": [[0, 0], [0, np.nan]]}, "bases: wanted finite"),
+        ({"faces": [BELT[:2]]}, "faces: wanted 3 to 100 corners"),
+        ({"faces": BELT}, "faces: wanted 3 to 100 corners"),
+        ({"faces": 7}, "faces: wanted a list of polygons"),
+        ({"readings": {"nobody": T}}, "readings: wanted names of points or circles, got 'nobody'"),
+        ({"readings": [T]}, "readings: wanted a dict"),
+        ({"readings": {"p": T[:7]}}, r"reading p: wanted shape \(2001,\).*got \(7,\)"),
+        ({"readings": {"p": 1e10 * T}}, "reading p: wanted numbers up to"),
+    ],
+)
+def test_wrong_surroundings_are_refused(motions, change, message):
+    with pytest.raises(ValueError, match=message):
+        animate([IRB140] * 2, T, [motions[1]] * 2, points={"p": (0, 0, 0)}, **change)
+    with pytest.raises(ValueError, match="bases: wanted x and y for each of several arms"):
+        animate(IRB140, T, motions[1], bases=[[0, 0]])
+
+
 # --- Size and sameness ----------------------------------------------------------------------------
 
 
@@ -611,7 +696,7 @@ def test_the_page_stays_small(motions):
     )
     assert 110 <= len(player.data["times"]) <= 121
     assert len(player.html.encode()) < 650_000
-    assert len(animate(IRB140, T, motions[1]).html.encode()) < 75_000
+    assert len(animate(IRB140, T, motions[1]).html.encode()) < 77_000
 
 
 def test_words_for_the_notebook(blended):
@@ -1032,6 +1117,53 @@ def test_marks_move_on_the_page(page, motions, tmp_path):
     clock.fill("350")
     ink(page, ".rk-scene")
     assert page.evaluate("written.length") and "ball" not in page.evaluate("written")
+
+
+def test_arms_on_bases_stand_apart_in_one_picture_and_readings_change(page, tmp_path):
+    """Two resting arms and what is written: where, and when it changes."""
+    arm, t = spbu_arm(0.5, 0.4), np.linspace(0, 4, 41)
+    q = np.broadcast_to([0.2, 0.4, 0.3], (41, 3))
+    count = np.floor(t)
+    player = animate(
+        [arm, arm],
+        t,
+        [q, q],
+        bases=[[0, 0], [0, 2]],
+        faces=[[[0.5, -1, 0], [0.6, -1, 0], [0.6, 3, 0], [0.5, 3, 0]]],
+        points={"left": (0, 0, 0), "right": (0, 2, 0)},
+        readings={"right": count},
+    )
+    page.add_init_script("""window.written = [];
+        const write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            window.written.push([text, x, y]);
+            return write.call(this, text, x, y); };
+        window.spots = [];
+        const arc = CanvasRenderingContext2D.prototype.arc;
+        CanvasRenderingContext2D.prototype.arc = function (x, y, r, ...rest) {
+            if (this.canvas.className.includes("rk-scene")) window.spots.push([x, y, r]);
+            return arc.call(this, x, y, r, ...rest); };""")
+    show(page, player, tmp_path)
+    clock = page.get_by_label("time", exact=True)
+    for ticks, said in (
+        ("0", "right: 0"),
+        ("95", "right: 0"),
+        ("100", "right: 1"),
+        ("395", "right: 3"),
+    ):
+        clock.fill("1")
+        ink(page, ".rk-scene")
+        page.evaluate("written.length = spots.length = 0")
+        clock.fill(ticks)
+        ink(page, ".rk-scene")
+        words = [text for text, *_ in page.evaluate("written")]
+        assert said in words and "left" in words
+        assert sum(word.startswith("right") for word in words) == 1
+    spots = np.array(page.evaluate("spots"))
+    points, tools = (spots[abs(spots[:, 2] - radius) < 1e-6][:, :2] for radius in (3.5, 3.6))
+    assert len(points) == len(tools) == 2
+    assert np.allclose(tools[1] - tools[0], points[1] - points[0], atol=1e-6)
+    assert np.linalg.norm(points[1] - points[0]) > 100
 
 
 PAINTED = """selector => {

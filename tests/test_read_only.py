@@ -83,6 +83,7 @@ def plan():
 ROOTS = {
     **{name: lambda arm=arm: arm for name, arm in MACHINES.items()},
     "three_lever": lambda: three_lever(0.5),
+    "three_lever, unequal": lambda: three_lever((0.5, 0.4, 0.3)),
     "Link": Link,
     "identity": Transform,
     "pose": lambda: Transform(A.rotation, (0.1, 0.2, 0.3)),

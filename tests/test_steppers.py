@@ -1,23 +1,31 @@
-"""Pulses, frequencies, pulse trains and phases of the log loader's motors (003, II.3, paper 1;
-errata S3-s, S3-t).
+"""Pulses, frequencies, pulse trains and phases of the log loader's motors, and what their rotors
+make of them (003, II.3, paper 1; errata S3-s, S3-t).
 """
+
+import itertools
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from machines import oracle
+from scipy.integrate import quad, solve_ivp
 from scipy.optimize import linprog
+from scipy.special import ellipk
 
 from robokin import SCARA, deg, loader_arm, three_lever
 from robokin.jobs.steppers import (
     COLUMNS,
     LIMIT,
     Move,
+    Stepper,
     counts,
     energised,
     frequencies,
     joint_values,
     out_of_reach,
     phases,
+    ramp,
     shortest_turn,
     station_postures,
     straight,
@@ -365,7 +373,24 @@ def test_wrong_calls_are_refused():
         (lambda: phases([], "bipolar"), "drive: wanted one of"),
         (lambda: phases("wave", "tripolar"), "motor: wanted one of"),
         (lambda: phases("wave", None), "motor: wanted one of"),
+        (lambda: phases("wave", "unipolar", 2), "windings: wanted a whole number from 3 to 6"),
+        (lambda: phases("wave", "bipolar", 7), "windings: wanted a whole number from 2 to 6"),
         (lambda: energised(table, [1, 0]), r"\+1 and -1"),
+        (lambda: Stepper("passive", "bipolar", 3), "motor: wanted 'unipolar' for a passive rotor"),
+        (lambda: Stepper(rotor="iron"), "rotor: wanted one of"),
+        (lambda: Stepper(windings=2), "windings: wanted"),
+        (lambda: Stepper(inertia=0), "inertia: wanted one positive number"),
+        (lambda: Stepper(rise=-1e-3), "rise: wanted no negative number"),
+        (lambda: Stepper().run([2, 1], [1, 1]), "times and signs: wanted times .* not fall"),
+        (lambda: Stepper().run([-1], [1]), "times and signs: wanted times .* from 0 on"),
+        (lambda: Stepper().run([1, 2], [1]), "as many signs"),
+        (lambda: Stepper().run([1], [0.5]), r"\+1 and -1"),
+        (lambda: Stepper().run([1e4], [1]), "times: wanted a run of at most 100000 steps"),
+        (lambda: Stepper().run([1], [1], load_inertia=-1), "load_inertia: wanted no negative"),
+        (lambda: Stepper().run([1], [1], load=1e300), "load: wanted one that turns"),
+        (lambda: ramp(0, 10, 20, 1), "pulses: wanted a whole number from 1 to"),
+        (lambda: ramp(5, 30, 20, 1), "start and end: wanted a frequency that rises, got 30 to 20"),
+        (lambda: ramp(5, 10, 20, -1), "seconds: wanted no negative number"),
         (lambda: energised(table, [[1]]), r"\+1 and -1"),
         (lambda: energised(table, [1], row=1.5), "row: wanted a whole number.*1.5"),
         (lambda: energised(table, [1], row=True), "row: wanted a whole number.*True"),
@@ -442,3 +467,228 @@ def test_the_order_of_the_rows_is_the_direction():
     assert states.shape == (len(signs) + 1, 4)
     # one winding changes at a time
     assert (abs(np.diff(states[:, ::2], axis=0)).sum(axis=1) == 1).all()
+
+
+# ---- rotors
+
+KINDS = [("active", "unipolar", n) for n in range(3, 7)]
+KINDS += [("active", "bipolar", n) for n in range(2, 7)]
+KINDS += [("passive", "unipolar", n) for n in range(3, 7)]
+DRIVES = ("wave", "two-phase", "half-step")
+MOTORS = [Stepper(*kind, drive) for kind in KINDS for drive in DRIVES]
+every_motor = pytest.mark.parametrize(
+    "motor", MOTORS, ids=lambda m: f"{m.rotor}-{m.motor}-{m.windings}-{m.drive}"
+)
+STARTS = Stepper()  # the motor of table 1
+
+
+def places(motor):
+    """Where each winding pulls: evenly round the ring, or half of it where currents turn."""
+    whole_turn = 180 if motor.motor == "bipolar" else 360
+    return np.arange(motor.windings) * whole_turn / motor.windings * deg
+
+
+def even(count, frequency):
+    return np.arange(1, count + 1) / frequency, np.ones(count)
+
+
+@every_motor
+def test_the_field_of_any_number_of_windings_turns_evenly(motor):
+    table = phases(motor.drive, motor.motor, motor.windings)
+    ways = (2 if motor.motor == "bipolar" else 1) * (2 if motor.drive == "half-step" else 1)
+    assert len(table) == ways * motor.windings == len({*map(tuple, table.tolist())})
+    if motor.motor == "bipolar":
+        assert (table[:, ::2] == -table[:, 1::2]).all()
+        table = table[:, ::2]
+    field = table @ np.exp(1j * places(motor))
+    assert np.angle(np.roll(field, -1) / field) == pytest.approx(2 * np.pi / len(table))
+    on = np.count_nonzero(table, axis=1).tolist()
+    assert on == {"wave": [1], "two-phase": [2], "half-step": [1, 2]}[motor.drive] * (
+        len(table) // (2 if motor.drive == "half-step" else 1)
+    )
+
+
+@every_motor
+def test_the_step_is_a_turn_by_phases_and_teeth(motor):
+    step = motor.step / deg
+    halves = 2 if motor.drive == "half-step" else 1
+    if motor.rotor == "active":  # a magnet of two poles; 003, II.3.1: 10 degrees and more
+        poles = 2 if motor.motor == "bipolar" else 1
+        assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
+    else:
+        # the rotor goes on by the difference between its teeth and the poles: a vernier
+        poles, teeth = 2 * motor.windings, motor.periods
+        assert step == pytest.approx((360 / poles - 360 / teeth) / halves)
+        assert step < 10 or motor.windings == 3
+
+
+def test_steps_of_passive_rotors_are_the_documents():
+    steps = [Stepper("passive", windings=n, drive=d).step / deg for n in (4, 5, 6) for d in DRIVES]
+    assert min(steps) >= 1 and max(steps) <= 9 + 1e-9
+
+
+@pytest.mark.parametrize("motor, strong", [("unipolar", 4), ("bipolar", 2)])
+def test_two_of_the_documents_windings_hold_root_two_as_much(motor, strong):
+    one, two, half = (Stepper("active", motor, strong, d).holding_torque for d in DRIVES)
+    assert two == pytest.approx(math.sqrt(2) * one) and half == one == Stepper().torque
+
+
+@every_motor
+def test_the_motor_holds_the_holding_torque_and_no_more(motor):
+    below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
+    assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
+    # the load has drawn it back to where the sine is steepest
+    bent = motor.periods * (motor.run([], []).angle[0] - below.angle[0])
+    assert np.sin(bent) == pytest.approx(
+        0.99 * motor.holding_torque / motor.torque / abs(motor.pulls[0])
+    )
+    weak = abs(motor.pulls[0]) == pytest.approx(abs(motor.pulls).min())
+    assert weak and above.lost > 0 and above.angle[-1] < -2 * np.pi / motor.periods
+
+
+@every_motor
+def test_the_starting_torque_is_taken_from_row_to_row_and_no_more(motor):
+    # So much time between the pulses that only torques count.
+    slow = replace(motor, inertia=4e-4 * motor.periods, damping=4e-3 * motor.periods, rise=0.0)
+    t, signs = even(len(motor.currents), 0.15)
+    lost = [slow.run(t, signs, load=k * motor.starting_torque).lost for k in (0.96, 1.04)]
+    assert lost[0] == 0 < lost[1]
+
+
+@pytest.mark.parametrize("count", [2, 4, 6])
+def test_a_rotor_swings_like_a_pendulum(count):
+    # Half steps: 45, 22.5 and 15 degrees of the field. The period of a pendulum is known for every
+    # amplitude: 4 K(sin(A/2)) / omega; towards small ones 2 pi / omega, omega^2 = N T / J.
+    motor = Stepper("active", "bipolar", count, "half-step", damping=5e-7, rise=0.0)
+    run = motor.run([0.0], [1])
+    off = run.angle - run.due
+    up = np.flatnonzero((off[:-1] < 0) & (off[1:] >= 0))[:2]
+    cross = run.t[up] - off[up] * (run.t[up + 1] - run.t[up]) / (off[up + 1] - off[up])
+    omega = math.sqrt(motor.periods * motor.torque * abs(motor.pulls[1]) / motor.inertia)
+    away = np.pi / (2 * count)
+    assert np.diff(cross) == pytest.approx(4 * ellipk(math.sin(away / 2) ** 2) / omega, rel=1e-3)
+    if count == 6:
+        assert 1 / np.diff(cross) == pytest.approx(omega / (2 * np.pi), rel=0.006)
+
+
+RUNS = {
+    "none lost": (Stepper(), 100, 0.0, 0.0),
+    "lost": (Stepper(drive="two-phase"), 200, 0.004, 1e-6),
+    "bipolar": (Stepper("active", "bipolar", 3, "half-step"), 300, 0.0, 5e-7),
+    "passive": (Stepper("passive", "unipolar", 3, "two-phase"), 250, 0.0, 0.0),
+    "at once": (Stepper("passive", "unipolar", 4, rise=0.0), 150, 0.005, 0.0),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_a_run_is_what_scipy_integrates(name):
+    motor, frequency, load, load_inertia = RUNS[name]
+    t, signs = even(12, frequency)
+    run = motor.run(t, signs, load, load_inertia)
+    # The law written anew: one sine for each winding, the currents as equations of their own.
+    at, inertia = places(motor), motor.inertia + load_inertia
+    table = phases(motor.drive, motor.motor, motor.windings)
+    table = table[:, ::2] if motor.motor == "bipolar" else table
+
+    def law(_, y, goal):
+        theta, omega, i = y[0], y[1], y[2:] if motor.rise else goal
+        i = i if motor.rotor == "active" else i * i
+        torque = motor.torque * (i * np.sin(at - motor.periods * theta)).sum()
+        lag = (goal - y[2:]) / motor.rise if motor.rise else 0 * goal
+        return [omega, (torque - motor.damping * omega - load) / inertia, *lag]
+
+    y, angle = np.array([run.angle[0], 0.0, *table[0]]), []
+    edges = [0.0, *t, run.t[-1]]
+    for k, (begin, end) in enumerate(itertools.pairwise(edges)):
+        here = run.t[(run.t >= begin - 1e-12) & (run.t <= end + 1e-12)]
+        goal = table[k % len(table)].astype(float)
+        found = solve_ivp(
+            law,
+            (begin, end + 1e-9),
+            y,
+            "DOP853",
+            args=(goal,),
+            rtol=1e-11,
+            atol=1e-12,
+            dense_output=True,
+        )
+        angle.append((here, found.sol(here)[0]))
+        y = found.sol(end)
+    for here, wanted in angle:
+        assert np.interp(here, run.t, run.angle) == pytest.approx(wanted, abs=1e-5)
+    assert (run.lost != 0) == (name == "lost")
+
+
+@every_motor
+def test_steps_are_lost_in_whole_rounds_of_the_table(motor):
+    motor = replace(motor, rise=0.0)
+    lost = [motor.run(*even(24, f), load_inertia=3e-5).lost for f in (60, 250, 480)]
+    assert all(n % len(motor.currents) == 0 for n in lost) and any(lost)
+    run = motor.run(*even(24, 480), load_inertia=3e-5)
+    assert run.due[-1] - run.angle[-1] == pytest.approx(run.lost * motor.step, abs=0.02)
+    assert run.due[-1] - run.due[0] == pytest.approx(24 * motor.step)
+
+
+def test_what_the_motor_starts_at_it_starts_at():
+    for drive, inertia in ((DRIVES[0], 0.0), (DRIVES[2], 2e-6)):
+        motor = Stepper(drive=drive)
+        top = motor.start_frequency(load_inertia=inertia)
+        assert 10 < top < LIMIT
+        assert motor.run(*even(48, top), load_inertia=inertia).lost == 0
+        assert motor.run(*even(48, top + 1), load_inertia=inertia).lost != 0
+    assert Stepper().start_frequency(load=0.0199) == 0
+    tops = [Stepper().start_frequency(load_inertia=k * 1e-6) for k in (1, 8)]
+    assert sorted(tops, reverse=True) == tops and len(set(tops)) == 2
+
+
+def test_four_times_the_inertia_is_half_the_tempo():
+    # the same equation in another time, so the same angles
+    heavy = replace(STARTS, damping=2 * STARTS.damping, rise=2 * STARTS.rise)
+    for frequency in (100, 180):
+        one = STARTS.run(*even(20, frequency))
+        two = heavy.run(*even(20, frequency / 2), load_inertia=3 * STARTS.inertia)
+        assert two.t == pytest.approx(2 * one.t) and two.lost == one.lost
+        assert two.angle == pytest.approx(one.angle, abs=1e-6)
+    assert one.lost
+
+
+def test_the_other_way_is_the_mirror_image():
+    for motor in MOTORS[::5]:
+        t, signs = even(20, 230)
+        there, back = motor.run(t, signs), motor.run(t, -signs)
+        mirrored = 2 * there.angle[0] - back.angle
+        assert mirrored == pytest.approx(there.angle, abs=1e-6) and back.lost == -there.lost
+
+
+def test_a_ramp_makes_a_frequency_that_a_start_does_not():
+    motor = Stepper(drive="two-phase")
+    assert motor.run(*even(48, 200), load_inertia=1e-6).lost == 48
+    assert motor.run(ramp(48, 40, 200, 0.15), np.ones(48), load_inertia=1e-6).lost == 0
+    # too short a ramp loses some of them
+    assert 0 < motor.run(ramp(48, 40, 200, 0.05), np.ones(48), load_inertia=1e-6).lost < 48
+
+
+@pytest.mark.parametrize(
+    "asked", [(48, 40, 200, 0.15), (20, 50, 400, 0.3), (1, 10, 90, 2), (7, 5, 9, 0)]
+)
+def test_a_ramp_has_as_many_pulses_as_its_frequencies_add_up_to(asked):
+    count, start, end, seconds = asked
+    times = ramp(*asked)
+    duration = times[-1]
+    rise = (end - start) / seconds if seconds else np.inf
+
+    def frequency(t):
+        near = min(t, duration - t)
+        return min(end, start + rise * near) if seconds else end
+
+    for k, t in enumerate(times, 1):
+        corners = [x for x in (seconds, duration / 2, duration - seconds) if 0 < x < t]
+        assert quad(frequency, 0, t, points=corners or None)[0] == pytest.approx(k, abs=1e-6)
+    assert times == pytest.approx(duration - np.concatenate([times[-2::-1], [0]]), abs=1e-12)
+    gaps = np.diff(times, prepend=0)
+    assert 1 / end - 1e-12 <= gaps.min() and gaps.max() <= 1 / start + 1e-12
+
+
+def test_an_even_ramp_is_an_even_move():
+    times, signs = synchronised([0], [37], 250).pulses()[0]
+    assert ramp(37, 250, 250, 1.0) == pytest.approx(times) and signs.sum() == 37

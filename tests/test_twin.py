@@ -676,13 +676,14 @@ def test_words_of_ties(twin):
 # --- Three levers --------------------------------------------------------------------------------
 
 
-def test_three_levers(twin):
+@pytest.mark.parametrize("lengths", [0.3, (0.27, 0.33, 0.18), (0.2, 0.15, 0.5), (0.5, 0.4, 0.1)])
+def test_three_levers(twin, lengths):
     """The family of a point, its ends, and the least turn. An arctangent decides where the family
     ends, so that a point within rounding of a border of gamma is left out.
     """
-    arm, rng = three_lever(0.3), np.random.default_rng(13)
-    L, n = arm.lever, 1500
-    r = np.concatenate([rng.uniform(0, 3.3, 1000), rng.choice([1.0, 3.0], 500) + beyond(rng, 500)])
+    arm, rng = three_lever(lengths), np.random.default_rng(13)
+    L, n, borders = arm.lever, 1500, np.array([arm.geometry.inner, arm.reach]) / arm.lever
+    r = np.concatenate([rng.uniform(0, 3.3, 1000), rng.choice(borders, 500) + beyond(rng, 500)])
     phi = rng.uniform(-np.pi, np.pi, n)
     points = L * r[:, None] * np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=-1)
     points[::97, 2] = beyond(rng, len(points[::97])) * L
@@ -702,7 +703,8 @@ def test_three_levers(twin):
             narrow = free[:, 1] - free[:, 0] < 1e-6
             sure = ~narrow
         close(got[sure], ends[sure], 1e-7)
-        close(got[sure & (r > 1.001)], ends[sure & (r > 1.001)], 1e-11)
+        inside = sure & (r > borders[0] + 0.001)
+        close(got[inside], ends[inside], 1e-11)
     alpha = rng.uniform(0, 3.3, n)
     low = arm.alpha_range(points, False)[0]
     alpha[::3] = np.where(np.isnan(low), 1.0, low)[::3]
@@ -729,10 +731,21 @@ def test_three_levers(twin):
         close(got, q, 1e-6)
 
 
+def test_other_levers_are_another_arm(twin):
+    """What the page makes of other lengths is what Python would have handed over."""
+    arm, rng = arm_data(three_lever((0.3, 0.2, 0.4))), np.random.default_rng(15)
+    for lengths in rng.uniform(0.1, 2, (20, 3)).tolist():
+        got = twin.page.evaluate("([arm, levers]) => withLevers(arm, levers)", [arm, lengths])
+        assert got == json.loads(json.dumps(arm_data(three_lever(lengths))))
+
+
 # --- What Python hands over ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("arm", [*ARMS.values(), three_lever(0.3)], ids=lambda arm: arm.name)
+LEVERS = three_lever(0.3), three_lever((0.27, 0.33, 0.18))
+
+
+@pytest.mark.parametrize("arm", [*ARMS.values(), *LEVERS], ids=lambda arm: arm.name)
 def test_data_is_whole(arm):
     """JSON holds it, and every number comes back to the last bit."""
     data = arm_data(arm)

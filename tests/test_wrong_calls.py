@@ -56,16 +56,28 @@ from robokin import (
     spherical_wrist,
     three_lever,
     trapezoidal,
+    turning_base,
     two_link,
     within,
 )
 from robokin import show as figures
-from robokin.jobs import obstacles, steppers, visit_collect
+from robokin.jobs import conveyor, moving, obstacles, redundancy, steppers, visit_collect
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
 PACKAGE = str(Path(robokin.__file__).parent)
-MODULES = (robokin, arms, motion, figures, visit_collect, obstacles, steppers)
+MODULES = (
+    robokin,
+    arms,
+    motion,
+    figures,
+    visit_collect,
+    conveyor,
+    obstacles,
+    moving,
+    redundancy,
+    steppers,
+)
 OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
 # ---- The right calls
@@ -110,7 +122,10 @@ LOADER = loader_arm(1.2, 1.0)
 STATIONS = np.array([[1.5, 0.2, 0.3], [0.9, 0.9, 0.6]])
 PULSES = np.array([10.0, 8, 12])
 MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
+STEPPER = steppers.Stepper()
 PLAN = obstacles.plan(LEVERS, FOLDED, POINT)
+CHOICES = redundancy.methods(OBSTACLE, 1)
+TASK_OF_LEVERS = dict(arm=LEVERS, target=POINT, previous=FOLDED)
 RECORDING = motion.record(IRB140, TIMES, np.where(TIMES[:, None] < 0.5, MOTION, MOTION + 2))
 RECORDINGS = motion.record(IRB140, TIMES, np.stack([MOTION, MOTION]))
 PAGE = "page.html, in a folder of the test"
@@ -230,6 +245,8 @@ CALLS = {
     "loader_arm": (loader_arm, dict(A=1.2, B=1.0)),
     "spbu_arm": (spbu_arm, dict(l1=2.0, l2=1.5)),
     "three_lever": (three_lever, dict(L=0.5)),
+    "three_lever (unequal)": (three_lever, dict(L=np.array([0.5, 0.4, 0.3]))),
+    "turning_base": (turning_base, dict(arm=LEVERS)),
     "two_link": (two_link, dict(l1=0.5, l2=0.4, base=np.array([0.1, 0.2]))),
     "explain": (explain, dict(arm=IRB140, pose=T, row=1)),
     "explain (SCARA)": (explain, dict(arm=SCARA, pose=PLACE, row=1)),
@@ -279,6 +296,9 @@ CALLS = {
             circles=[((0.1, 0.2, 0.3), 0.1)],
             names=None,
             floor=False,
+            bases=None,
+            faces=[[(0, 0, 0), (1, 0, 0), (0, 1, 0)]],
+            readings={"p": TIMES},
         ),
     ),
     "animate (controls)": (
@@ -294,11 +314,13 @@ CALLS = {
             points=(),
             circles=(),
             names=["one", "two"],
+            bases=np.array([[0.0, 0.0], [0.0, 1.0]]),
         ),
         "q",
         "slider",
         "switch",
         "names",
+        "bases",
     ),
     "Player": (figures.Player, dict(data=PLAYER.data, still=PLAYER.still)),
     "Explorer": (figures.Explorer, dict(data=EXPLORER.data, still=EXPLORER.still)),
@@ -307,6 +329,7 @@ CALLS = {
     "figure": (figures.figure, dict(alt="words", width=3, height=2)),
     "joint_explorer": (figures.joint_explorer, dict(arm=IRB140, q=SIX)),
     "target_explorer": (figures.target_explorer, dict(arm=SCARA)),
+    "tour_explorer": (figures.tour_explorer, dict(task=TASK)),
     "motion_explorer": (
         figures.motion_explorer,
         dict(
@@ -321,6 +344,7 @@ CALLS = {
         figures.plan_explorer,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE),
     ),
+    "motor_explorer": (figures.motor_explorer, dict(motor=STEPPER)),
     "plot_frames": (
         figures.plot_frames,
         dict(frames=BATCH, names=["a", "b", "c"], title="t", size=0.1, chain=True, alt="words"),
@@ -407,11 +431,21 @@ CALLS = {
     ),
     "visit_collect.answer": (visit_collect.answer, dict(task=TASK, above_floor=False)),
     "visit_collect.report": (visit_collect.report, dict(task=TASK, result=RESULT)),
+    "conveyor.spaced": (conveyor.spaced, dict(count=4, gap=0.15, spread=0.5, seed=3)),
+    "conveyor.Trips": (conveyor.Trips, _fields(conveyor.serve([0.1], 0.1, S, S + 1)[0])),
+    "conveyor.serve": (
+        conveyor.serve,
+        dict(offsets=S, v=0.1, window=S, ways=S + 1, arms=2, pitch=2.0, first_come=False),
+    ),
     "obstacles.in_quadrilateral": (
         obstacles.in_quadrilateral,
         dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE),
     ),
     "obstacles.swept": (obstacles.swept, dict(arm=LEVERS, q0=FOLDED, q1=OPENED, H=OBSTACLE)),
+    "obstacles.locate": (
+        obstacles.locate,
+        dict(P=POINT, Q=OBSTACLE, from_P=0.6, from_Q=0.7),
+    ),
     "obstacles.distances": (obstacles.distances, dict(arm=LEVERS, q=PATH, H=OBSTACLE)),
     "obstacles.clearance": (obstacles.clearance, dict(arm=LEVERS, path=PATH, H=OBSTACLE)),
     "obstacles.keeps": (
@@ -430,6 +464,11 @@ CALLS = {
         obstacles.way_round,
         dict(arm=LEVERS, q0=FOLDED, target=POINT, H=OBSTACLE, distance=0.05),
     ),
+    "obstacles.way_round (two obstacles)": (
+        obstacles.way_round,
+        dict(arm=LEVERS, q0=FOLDED, target=POINT, H=[OBSTACLE, -OBSTACLE], distance=0.05),
+        "H",
+    ),
     "obstacles.Plan": (
         obstacles.Plan,
         _fields(PLAN),
@@ -438,7 +477,34 @@ CALLS = {
         obstacles.plan,
         dict(arm=LEVERS, posture=FOLDED, target=POINT, obstacle=OBSTACLE, distance=0.05),
     ),
+    "moving.plan_moving": (
+        moving.plan_moving,
+        dict(
+            arm=LEVERS,
+            posture=FOLDED,
+            target=POINT,
+            obstacle=OBSTACLE,
+            velocity=np.array([0.3, 0.2]),
+            speed=1.0,
+            distance=0.05,
+        ),
+    ),
     "obstacles.along": (obstacles.along, dict(path=PATH, s=S)),
+    "redundancy.race": (
+        redundancy.race,
+        dict(methods=CHOICES, arm=LEVERS, targets=np.array([POINT, POINT]), start=FOLDED),
+    ),
+    "redundancy.methods": (redundancy.methods, dict(obstacle=OBSTACLE, seed=1)),
+    "redundancy.least_movement": (redundancy.least_movement, TASK_OF_LEVERS),
+    "redundancy.pseudo_inverse": (redundancy.pseudo_inverse, TASK_OF_LEVERS),
+    "redundancy.gradient_projection": (redundancy.gradient_projection, TASK_OF_LEVERS),
+    "redundancy.equal_angles": (redundancy.equal_angles, TASK_OF_LEVERS),
+    "redundancy.random_choice": (redundancy.random_choice, dict(seed=1)),
+    "redundancy.distance_rule": (redundancy.distance_rule, dict(obstacle=OBSTACLE)),
+    "redundancy.Run": (
+        redundancy.Run,
+        dict(postures=PATH, turns=S, failed=np.zeros(3, dtype=bool), seconds=0.1),
+    ),
     "steppers.out_of_reach": (steppers.out_of_reach, dict(arm=LOADER, point=STATIONS[0])),
     "steppers.station_postures": (steppers.station_postures, dict(arm=LOADER, points=STATIONS)),
     "steppers.shortest_turn": (steppers.shortest_turn, dict(start=0.1, goal=S)),
@@ -462,7 +528,18 @@ CALLS = {
         steppers.straight,
         dict(arm=LOADER, start=STATIONS[0], goal=STATIONS[1], per_degree=PULSES, limit=400.0),
     ),
-    "steppers.phases": (steppers.phases, dict(drive="wave", motor="bipolar")),
+    "steppers.phases": (steppers.phases, dict(drive="wave", motor="bipolar", windings=3)),
+    "steppers.Stepper": (steppers.Stepper, _fields(STEPPER)),
+    "steppers.Stepper.run": (
+        STEPPER.run,
+        dict(times=[0.01, 0.02], signs=[1, -1], load=0.001, load_inertia=1e-7),
+    ),
+    "steppers.Stepper.start_frequency": (
+        STEPPER.start_frequency,
+        dict(load=0.001, load_inertia=1e-7, pulses=8),
+    ),
+    "steppers.Run": (steppers.Run, _fields(STEPPER.run([0.01], [1]))),
+    "steppers.ramp": (steppers.ramp, dict(pulses=9, start=20.0, end=90.0, seconds=0.1)),
     "steppers.energised": (
         steppers.energised,
         dict(table=steppers.phases("wave", "unipolar"), signs=np.array([1, 1, -1]), row=1),
@@ -470,7 +547,16 @@ CALLS = {
 }
 
 # What is made for us to answer with, and what says in words what is wrong with anything.
-LENIENT = ("Recording", "Jump", "Extreme", "obstacles.Plan", "visit_collect.faults")
+LENIENT = (
+    "Recording",
+    "Jump",
+    "Extreme",
+    "obstacles.Plan",
+    "redundancy.Run",
+    "visit_collect.faults",
+    "conveyor.Trips",
+    "steppers.Run",
+)
 
 # ---- The wrong things
 

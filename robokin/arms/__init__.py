@@ -9,6 +9,7 @@ from .link import Link, dh_links
 from .planar import ThreeLeverArm, three_lever, two_link
 from .scara import ScaraPose, scara_arm
 from .spherical_wrist import spherical_wrist
+from .turning import turning_base
 
 __all__ = [
     "IRB140",
@@ -35,6 +36,7 @@ __all__ = [
     "spherical_wrist",
     "three_lever",
     "total_length",
+    "turning_base",
     "two_link",
     "unwrapped",
     "within",

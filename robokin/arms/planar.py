@@ -1,8 +1,8 @@
 """Planar arms: all joints turn about z, and everything happens in the plane z = 0.
 
 `two_link` is the arm of source 002: two lengths, two elbows.
-`three_lever` is the arm of source 003: three equal levers OB, BA, AK, one joint more than a point
-of the plane needs.
+`three_lever` is the arm of source 003: three levers OB, BA, AK, one joint more than a point of the
+plane needs.
 """
 
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._arrays import ArrayLike, Bools, Floats, fixed, stack
-from .._validate import broadcast, floats, length, positive, warn_if_degrees
+from .._validate import broadcast, floats, length, positive, short, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, in_words, wrapped
@@ -20,6 +20,7 @@ from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
 MOST_ROWS = 2_000_000  # of a table: a second or two
+PORTION = 1000  # tasks looked at together where each has hundreds of postures to compare
 
 
 def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
@@ -112,9 +113,9 @@ class TwoLinkGeometry:
         return x, y, distance(x, y), abs(z)
 
 
-def three_lever(L: float) -> "ThreeLeverArm":
-    """The arm of source 003 for levers of length L in metres, q = (gamma, beta, alpha), each from 0
-    to 180 degrees.
+def three_lever(L: ArrayLike) -> "ThreeLeverArm":
+    """The arm of source 003 for levers of length L in metres, or of three lengths (3,), those of
+    OB, BA, AK; q = (gamma, beta, alpha), each from 0 to 180 degrees.
 
     O      the base, in the origin
     gamma  the angle of lever OB from the +x axis, counter-clockwise
@@ -123,47 +124,77 @@ def three_lever(L: float) -> "ThreeLeverArm":
     K      the gripper, the flange's origin; below 180 degrees the chain turns clockwise on the way
            to it
 
-    Source: 003, III.1.1, figures 15 and 16. ValueError: L not one positive number.
+    Source: 003, III.1.1, figures 15 and 16; the document's levers are equal, and "may be of
+    different lengths as well" (II.2). ValueError: L not one positive number, or three.
+
+    >>> from robokin import deg, three_lever
+    >>> three_lever((0.9, 1.1, 0.6)).points([90 * deg, 90 * deg, 180 * deg]).round(3) + 0.0
+    array([[0. , 0. ],
+           [0. , 0.9],
+           [1.1, 0.9],
+           [1.7, 0.9]])
     """
     return ThreeLeverArm("Three levers", ThreeLeverGeometry(L), np.array([(0, 180)] * 3) * deg)
 
 
 class ThreeLeverGeometry:
-    """Three levers of the length `lever` (see `three_lever`). No inverse: a family of postures
-    cannot be listed row by row.
+    """Three levers (see `three_lever`). No inverse: a family of postures cannot be listed row by
+    row.
+
+    levers  the lengths of OB, BA, AK
+    lever   their mean: what is counted in lever lengths (tolerances, the document's L/7)
+    inner   |OB - BA| + AK, for equal levers one length; a point must lie farther away
     """
 
     target = np.ndarray
+    levers: tuple[float, float, float]
     lever: float
+    inner: float
     reach: float
     links: tuple[Link, ...]
 
-    def __init__(self, L: float) -> None:
-        L = length(L, "L")
+    def __init__(self, L: ArrayLike) -> None:
+        levers = floats(L, "L")
+        if levers.shape not in ((), (3,)) or not (levers > 0).all():
+            wanted = "one positive length in metres, or three"
+            raise ValueError(f"L: wanted {wanted}, got {short(L)}")
+        a, b, c = np.broadcast_to(levers, 3).tolist()
         folded = Quaternion.from_angle_axis(-180 * deg, Z)
         # an interior angle of 0 lays the next lever back upon this one
-        elbow = Transform(folded, (L, 0, 0))
-        links = (Link(), Link(elbow), Link(elbow, after=Transform(translation=(L, 0, 0))))
-        vars(self).update(lever=L, reach=3 * L, links=links)
+        links = (
+            Link(),
+            Link(Transform(folded, (a, 0, 0))),
+            Link(Transform(folded, (b, 0, 0)), after=Transform(translation=(c, 0, 0))),
+        )
+        lever = a if a == b == c else (a + b + c) / 3
+        vars(self).update(levers=(a, b, c), lever=lever, inner=abs(a - b) + c, reach=a + b + c)
+        vars(self).update(links=links)
 
     __setattr__ = __delattr__ = fixed
 
 
 class ThreeLeverArm(Arm):
-    """An arm of three equal levers (see `three_lever`). It reaches a point K in a family of
-    postures, one for every value of the free angle alpha: `family` takes the place of `ik`.
+    """An arm of three levers (see `three_lever`). It reaches a point K in a family of postures, one
+    for every value of the free angle alpha: `family` takes the place of `ik`.
 
-    Reached are the points with L < KO <= 3 L. Methods take points (..., 2), points (..., 3) with z
-    = 0, or Transforms. With `limited` they keep gamma, too, within 0 to 180 degrees; the document
-    asks for it and does not test it (errata S3-g). gamma is not wrapped: it lies between the
-    direction of K and half a turn more.
+    Reached are the points with |OB - BA| + AK < KO <= OB + BA + AK, for levers of one length L
+    those with L < KO <= 3 L. All their postures have B on the counter-clockwise side of the line
+    OK; nearer points have others, too, and so a second family. Methods take points (..., 2), points
+    (..., 3) with z = 0, or Transforms. With `limited` they keep gamma, too, within 0 to 180
+    degrees; the document asks for it and does not test it (errata S3-g). gamma is not wrapped: it
+    lies between the direction of K and half a turn more.
     """
 
     geometry: ThreeLeverGeometry
 
     @property
+    def levers(self) -> Floats:
+        """The lengths (3,) of OB, BA, AK, in metres."""
+        return np.array(self.geometry.levers)
+
+    @property
     def lever(self) -> float:
-        """The length L of each lever, in metres."""
+        """The mean length of the levers, in metres: the length of each where they are equal."""
         return self.geometry.lever
 
     def points(self, q: ArrayLike) -> Floats:
@@ -172,23 +203,25 @@ class ThreeLeverArm(Arm):
         direction = np.stack(
             [0 * gamma, gamma, gamma + beta - np.pi, gamma + beta + alpha - 2 * np.pi], axis=-1
         )
-        steps = self.lever * np.stack([np.cos(direction), np.sin(direction)], axis=-1)
+        steps = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
         steps[..., 0, :] = 0.0
+        steps[..., 1:, :] *= self.levers[:, None]
         return np.cumsum(steps, axis=-2)
 
     def alpha_range(self, point: Any, limited: bool = True) -> tuple[Floats, Floats]:
         """The lowest and the highest alpha that reach the point, (...) each; NaN where none does.
 
-        At the lowest one beta is 180 degrees (or gamma 0), the highest one is 180 degrees (or gamma
-        is): along the family gamma only grows with alpha. Source: 003, (2) and (3), figure 17.
+        At the lowest one beta is 180 degrees (or gamma 0; or alpha, which needs a lever AK shorter
+        than both others), the highest one is 180 degrees (or gamma is): along the family gamma only
+        grows with alpha. Source: 003, (2) and (3), figure 17.
         """
         KO, phi = self._polar(point)
-        low, high = _angle(self.lever, 2 * self.lever, KO), np.where(np.isnan(KO), np.nan, np.pi)
+        low, high = self._lowest(KO), np.where(np.isnan(KO), np.nan, np.pi)
         if limited:
             at_zero, at_half = self._alpha_of_gamma(KO, -phi), self._alpha_of_gamma(KO, np.pi - phi)
             low = np.where(phi + self._gamma1(KO, low) < 0, at_zero, low)
             high = np.where(phi + self._gamma1(KO, high) > np.pi, at_half, high)
-            nowhere = (low > high) | (phi + self._gamma1(KO, low) > np.pi + ROUNDING)
+            nowhere = ~(low <= high) | (phi + self._gamma1(KO, low) > np.pi + ROUNDING)
             low, high = np.where(nowhere, np.nan, low), np.where(nowhere, np.nan, high)
         return low, high
 
@@ -249,10 +282,11 @@ class ThreeLeverArm(Arm):
 
         Returns (q, S): points (...) and previous (..., 3) -> (..., 3) and (...), NaN where the
         point is out of reach. S as a function of alpha has a kink where an angle stays as it was,
-        and between its kinks and its ends it has at most one more minimum, that of alpha + beta -
-        gamma: so a few postures are compared, without a step (errata S3-h: the sweep of 0.01
-        degrees stops up to 0.006 degrees above).
+        and between its kinks and its ends it can only be least where a sum like alpha + beta -
+        gamma is level: so a few postures are compared, without a step (errata S3-h: the sweep of
+        0.01 degrees stops up to 0.006 degrees above).
         """
+        a, b, c = self.geometry.levers
         before = self._previous(previous)
         KO, phi = self._polar(point)
         shape = broadcast("point and previous", KO.shape, before.shape[:-1])
@@ -261,17 +295,16 @@ class ThreeLeverArm(Arm):
         low, high = (np.broadcast_to(end, shape) for end in self.alpha_range(point, limited))
 
         # beta as before: then A lies at the distance OA from O, on one of two sides of the line OK.
-        OA = 2 * self.lever * np.sin(beta0 / 2)
-        at_A = _angle(OA, self.lever, KO)
+        BAO, at_A = _beside(b, a, beta0), _angle(_across(a, b, beta0), c, KO)
         alphas = np.stack(
             [
                 low,
                 high,
                 alpha0,
                 self._alpha_of_gamma(KO, gamma0 - phi),
-                (np.pi - beta0) / 2 + at_A,
-                (np.pi - beta0) / 2 - at_A,
-                self._bottom(KO, low, high),
+                BAO + at_A,
+                BAO - at_A,
+                *([self._bottom(KO, low, high)] if a == b == c else self._level(KO, low, high)),
             ],
             axis=-1,
         )
@@ -291,18 +324,18 @@ class ThreeLeverArm(Arm):
         3 L.
         """
         x, y, z = _plane(_single(point))
-        KO, L = float(distance(x, y)), self.lever
-        if abs(z) > ROUNDING * L:
+        (a, b, c), inner, reach = self.geometry.levers, self.geometry.inner, self.reach
+        KO = float(distance(x, y))
+        if abs(z) > ROUNDING * self.lever:
             return f"it lies {in_words(float(abs(z)))} beside the plane z = 0 of the levers"
-        if KO <= L:
+        if KO <= inner:
+            what = "one lever" if a == b == c else "|OB \N{MINUS SIGN} BA| + AK"
             return (
-                f"it lies {in_words(KO)} from the base, not farther than one lever ({in_words(L)})"
+                f"it lies {in_words(KO)} from the base, not farther than {what} ({in_words(inner)})"
             )
-        if KO > 3 * L * (1 + ROUNDING):
-            return (
-                f"it lies {in_words(KO)} from the base, farther than three levers "
-                f"({in_words(3 * L)})"
-            )
+        if KO > reach * (1 + ROUNDING):
+            far = f"farther than three levers ({in_words(reach)})"
+            return f"it lies {in_words(KO)} from the base, {far}"
         if np.isnan(self.alpha_range((x, y))[0]):
             return "every posture that reaches it has gamma outside 0 to 180 degrees"
         return ""
@@ -319,39 +352,48 @@ class ThreeLeverArm(Arm):
         x, y, z = _plane(point)
         KO = distance(x, y)
         reached = (
-            (KO > self.lever)
-            & (KO <= 3 * self.lever * (1 + ROUNDING))
+            (KO > self.geometry.inner)
+            & (KO <= self.reach * (1 + ROUNDING))
             & (abs(z) <= ROUNDING * self.lever)
         )
         return np.where(reached, KO, np.nan), np.where(reached, np.arctan2(y, x), np.nan)
 
+    def _lowest(self, KO: Floats) -> Floats:
+        """The alpha at which O, B and A are in line, or 0 where the levers need not stretch."""
+        a, b, c = self.geometry.levers
+        return np.where(KO <= a + b - c, 0.0, _angle(c, a + b, KO))
+
     def _posture(self, KO: Floats, phi: Floats | float, alpha: Floats) -> Floats:
-        low = _angle(self.lever, 2 * self.lever, KO)
+        a, b, c = self.geometry.levers
+        low = self._lowest(KO)
         alpha = np.where(
             (alpha >= low - ROUNDING) & (alpha <= np.pi + ROUNDING),
             np.clip(alpha, low, np.pi),
             np.nan,
         )
-        KB = 2 * self.lever * np.sin(alpha / 2)  # the isosceles triangle BAK
-        gamma = phi + _angle(KO, self.lever, KB)
-        beta = _angle(KB, self.lever, KO) + (np.pi - alpha) / 2
+        KB = _across(b, c, alpha)
+        gamma = phi + _angle(KO, a, KB)
+        beta = _angle(KB, a, KO) + _beside(b, c, alpha)
         return np.stack(np.broadcast_arrays(gamma, beta, alpha), axis=-1)
 
     def _gamma1(self, KO: Floats, alpha: Floats) -> Floats:
         """The angle KOB of the document's figure 18."""
-        return _angle(KO, self.lever, 2 * self.lever * np.sin(alpha / 2))
+        a, b, c = self.geometry.levers
+        return _angle(KO, a, _across(b, c, alpha))
 
     def _alpha_of_gamma(self, KO: Floats, gamma1: Floats) -> Floats:
         """The alpha that belongs to the angle KOB; NaN where there is none."""
-        KB = np.sqrt(KO**2 + self.lever**2 - 2 * KO * self.lever * np.cos(gamma1))
-        half = KB / (2 * self.lever)
-        exists = (half <= 1 + ROUNDING) & (gamma1 >= 0) & (gamma1 <= np.pi)
+        a, b, c = self.geometry.levers
+        KB = np.sqrt(KO**2 + a**2 - 2 * KO * a * np.cos(gamma1))
+        spare = (KB - abs(b - c)) * (KB + abs(b - c))
+        half = np.sqrt(np.maximum(spare, 0)) / (2 * np.sqrt(b * c))
+        exists = (half <= 1 + ROUNDING) & (KB >= abs(b - c)) & (gamma1 >= 0) & (gamma1 <= np.pi)
         return np.where(exists, 2 * np.arcsin(np.minimum(half, 1)), np.nan)
 
     def _bottom(self, KO: Floats, low: Floats, high: Floats) -> Floats:
-        """The alpha between low and high with the least alpha + beta - gamma: six times, the best
-        of 33 and its neighbours. Half of the digits of alpha are enough, since the sum is flat
-        there.
+        """For equal levers, of which no other sum has a minimum between its ends: the alpha between
+        low and high with the least alpha + beta - gamma. Six times, the best of 33 and its
+        neighbours. Half of the digits of alpha are enough, since the sum is flat there.
         """
         for _ in range(6):
             alphas = low[..., None] + (high - low)[..., None] * np.linspace(0, 1, 33)
@@ -360,6 +402,58 @@ class ThreeLeverArm(Arm):
             low = np.take_along_axis(alphas, np.maximum(best - 1, 0), axis=-1)[..., 0]
             high = np.take_along_axis(alphas, np.minimum(best + 1, 32), axis=-1)[..., 0]
         return (low + high) / 2
+
+    def _level(self, KO: Floats, low: Floats, high: Floats) -> Floats:
+        """For levers of any lengths: six alphas (6, ...), the first and the last between low and
+        high at which beta + alpha - gamma, gamma - beta + alpha, or gamma + beta - alpha is level;
+        others stand in for those that are missing. (gamma + beta + alpha, the direction of the last
+        lever, is level only where O, B and A are in line.)
+        """
+        if KO.size > PORTION:
+            flat = np.stack([KO, low, high]).reshape(3, -1)
+            starts = range(0, KO.size, PORTION)
+            parts = [self._level(*flat[:, i : i + PORTION]) for i in starts]
+            return np.concatenate(parts, axis=-1).reshape(6, *KO.shape)
+        alphas = low[..., None] + (high - low)[..., None] * np.linspace(0, 1, 257)
+        turns = np.diff(np.sign(self._slopes(KO[..., None], alphas)), axis=-2) != 0
+        first, last = turns.argmax(axis=-2), 255 - turns[..., ::-1, :].argmax(axis=-2)
+        cell = np.concatenate([first, last], axis=-1)  # (..., 6)
+        start, end = (np.take_along_axis(alphas, cell + i, axis=-1) for i in (0, 1))
+        for _ in range(7):
+            alphas = start[..., None] + (end - start)[..., None] * np.linspace(0, 1, 17)
+            slopes = self._slopes(KO[..., None, None], alphas)
+            own = np.stack([slopes[..., i, :, i % 3] for i in range(6)], axis=-2)
+            cell = (np.diff(np.sign(own), axis=-1) != 0).argmax(axis=-1)[..., None]
+            start, end = (np.take_along_axis(alphas, cell + i, axis=-1)[..., 0] for i in (0, 1))
+        return np.moveaxis((start + end) / 2, -1, 0)
+
+    def _slopes(self, KO: Floats, alpha: Floats) -> Floats:
+        """How fast the three sums of `_level` change with alpha, up to a positive factor: (..., 3).
+
+        With K held fast gamma, beta and alpha change like the areas of the triangles BAK, OAK (with
+        a minus where A lies counter-clockwise of OK) and OBK.
+        """
+        a, b, c = self.geometry.levers
+        gamma, beta, alpha = np.moveaxis(self._posture(KO, 0.0, alpha), -1, 0)
+        height = a * np.sin(gamma)  # of B over the line OK
+        changes = [b * c * np.sin(alpha), KO * (b * np.sin(gamma + beta) - height), KO * height]
+        return np.stack([sum(changes) - 2 * change for change in changes], axis=-1)
+
+
+def _across(a: float, b: float, angle: Floats) -> Floats:
+    """The third side of a triangle with the sides a and b around an angle; for equal ones the
+    document's 2 a sin(angle / 2), to the last bit.
+    """
+    chord = 2 * np.sqrt(a * b) * np.sin(angle / 2)
+    return distance(a - b + 0 * chord, chord)
+
+
+def _beside(a: float, b: float, angle: Floats) -> Floats:
+    """The angle between the side a and the third side of the same triangle. By the law of tangents:
+    it keeps all digits in a flat one.
+    """
+    half = angle / 2
+    return (np.pi - angle) / 2 + np.arctan2((b - a) * np.cos(half), (b + a) * np.sin(half))
 
 
 def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:

@@ -14,11 +14,13 @@ from .._arrays import Floats
 from ..arms import loader_arm
 from ..jobs.steppers import (
     Move,
+    Stepper,
     counts,
     energised,
     frequencies,
     joint_values,
     phases,
+    ramp,
     shortest_turn,
     station_postures,
     synchronised,
@@ -1332,6 +1334,61 @@ def _far_view() -> str:
     )
 
 
+@cache
+def _missed() -> dict[str, dict[int, int]]:
+    """Steps lost of 48 by the motor of table 1, over the frequency in pulses per second: from rest,
+    and with a ramp of 0.1 s from 40 on.
+    """
+    motor, ones = Stepper(), np.ones(48)
+    tempos = range(60, 281, 10)
+    return {
+        "from rest": {f: motor.run(ramp(48, f, f, 0), ones).lost for f in tempos},
+        "with a ramp": {f: motor.run(ramp(48, 40, f, 0.1), ones).lost for f in tempos},
+    }
+
+
+def _missed_facts() -> dict[str, Any]:
+    found = sorted({n for ways in _missed().values() for n in ways.values()} - {0})
+    return {
+        "some": ", ".join(map(str, found)),
+        "few": found[0],
+        "common": int(np.gcd.reduce(found)),
+        "tempo": 160,
+        "lost": _missed()["from rest"][160],
+        "runs": sum(map(len, _missed().values())),
+    }
+
+
+def _missed_right(facts: Mapping[str, Any]) -> int:
+    return 1 if facts["common"] == 4 else 0
+
+
+def _missed_view() -> Any:
+    from ..show import JOINT_STYLES, figure
+
+    first = next(f for f, n in _missed()["from rest"].items() if n)
+    fig = figure(
+        f"Steps lost of 48 over the frequency. From rest nearly all are lost from {first} pulses "
+        "per second on, with a ramp only at much higher frequencies, and always a multiple of 4.",
+        6.4,
+        3.2,
+    )
+    ax = fig.subplots()
+    for j, (name, ways) in enumerate(_missed().items()):
+        look = {"color": JOINT_STYLES[j]["color"], "marker": "os"[j], "ms": 5}
+        ax.plot(list(ways), list(ways.values()), ls=("-", "--")[j], label=name, **look)
+    ax.legend(fontsize=9)
+    ax.set(
+        xlabel="frequency, pulses/s",
+        ylabel="steps lost of 48",
+        yticks=range(0, 49, 8),
+        title="Lost steps come in fours; a ramp loses fewer",
+    )
+    ax.grid(axis="y", lw=0.5)
+    fig.tight_layout()
+    return fig
+
+
 EXERCISES = {
     "1": Function(
         task="The posture for a point, joint 1 the short way round",
@@ -1393,7 +1450,7 @@ EXERCISES = {
     ),
 }
 
-# Objective 1: p1, p2. Objective 2: p3 to p7. Objective 3: p8, p9.
+# Objective 1: p1, p2. Objective 2: p3 to p7. Objective 3: p8 to p10.
 PREDICTIONS = {
     "p1": Prediction(
         question="The gripper passes the vertical axis on a straight line, {beside:.0f} mm beside "
@@ -1720,5 +1777,43 @@ PREDICTIONS = {
         view=_far_view,
         unit="°",
         within=0.02,
+    ),
+    "p10": Prediction(
+        question="The motor of table 1 (wave drive, four rows) stands still and gets 48 pulses, "
+        "faster than its rotor can follow. In the end it stands again, and one winding is on. How "
+        "many steps can be missing?",
+        options=(
+            Option(
+                "Any number from 1 to 48: it depends on the frequency.",
+                "At rest the magnet stands where the winding that is on holds it. Between the "
+                "windings nothing does.",
+                "a step taken for a place to stand",
+                "Switch a1 on and turn the magnet by hand: in a whole turn there is one place "
+                "where it stays.",
+            ),
+            Option(
+                "Only 4, 8, 12 and so on.",
+                "The winding that is on holds the magnet at one place of the turn, and a turn is "
+                "four steps. In {runs} runs the lost steps were {some}.",
+            ),
+            Option(
+                "One or two: then it has caught up.",
+                "Behind by more than half a turn it is pulled backwards, and the next pulses pull "
+                "it to and fro. At {tempo} pulses per second it loses {lost} of 48.",
+                "a lag taken for a loss",
+                "A lag of one step is made good by the next pull; a lag of three is a pull the "
+                "other way.",
+            ),
+            Option(
+                "All 48: it does not move at all.",
+                "It often loses nearly all. But with a ramp that is too short it follows at first, "
+                "and loses {few} of 48.",
+                "the start taken for the whole run",
+                "What it has made before it falls behind, it keeps.",
+            ),
+        ),
+        facts=_missed_facts,
+        right=_missed_right,
+        view=_missed_view,
     ),
 }

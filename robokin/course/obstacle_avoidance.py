@@ -587,21 +587,22 @@ INSIDE_MISTAKES = (
 )
 
 
-# --- 2: a path of one's own, past two obstacles ---------------------------------------------------
+# --- 2: a path of one's own, past a bar -----------------------------------------------------------
 
 KEPT = 0.1  # m: asked for in the exercise
+BETWEEN = 0.02  # m: between the points at which the bar is measured; KEPT is right to 0.5 mm
 MOST_POSTURES = 12
 UNITS = {
     "start": ("° (gamma, beta, alpha)", 1.0),
     "target": ("m", 1.0),
-    "obstacles": ("m", 1.0),
+    "bar": ("m, its two ends", 1.0),
     "distance": ("mm", mm),
     "most": ("° of movement S at most", deg),
 }
 
 
 def given(who: Any) -> Numbers:
-    """A start, a target, and two obstacles in between, far enough out for the folded arm."""
+    """A start, a target, and a bar in between, far enough out for the folded arm."""
     return Numbers(dict(_task(normalised(who))), UNITS)
 
 
@@ -619,31 +620,39 @@ def _task(who: str) -> Mapping[str, Any]:
         A, K_ = ARM.points(along(direct, 0.3 + 0.1 * roll.randrange(4)))[2:]
         first = np.round(A + (0.4 + 0.1 * roll.randrange(5)) * (K_ - A), 2)
         far, angle = 1.2 + 0.05 * roll.randrange(19), (40 + 5 * roll.randrange(8)) * deg
-        places = [first, np.round([far * np.cos(angle), far * np.sin(angle)], 2)]
-        if np.hypot(*first) < 1.15 or np.hypot(*(first - places[1])) < 0.4:
+        bar = np.stack([first, np.round([far * np.cos(angle), far * np.sin(angle)], 2)])
+        places = _bar(bar)
+        room = [np.hypot(*places.T) - 1.1, np.hypot(*(places - target).T) - 0.15]
+        room += [_distances(start[None] * deg, place).min() - 0.15 for place in places[::5]]
+        if np.hypot(*(bar[1] - bar[0])) < 0.4 or min(map(np.min, room)) < 0:
             continue
         least = _cheapest(start * deg, target, places)
-        if least is None or _one_is_enough(start * deg, target, places):
+        if least is None or _ends_are_enough(start * deg, target, bar):
             continue
         return {
             "start": tuple(start.tolist()),
             "target": tuple(target.tolist()),
-            "obstacles": tuple(tuple(place.tolist()) for place in places),
+            "bar": tuple(tuple(end.tolist()) for end in bar),
             "distance": KEPT,
             "most": (10 * np.ceil(least / deg / 10) + 30) * deg,
         }
 
 
-def _one_is_enough(q0: Floats, target: Floats, places: Sequence[Floats]) -> bool:
-    """Whether the way round one of the obstacles passes the other as well."""
-    for one, other in ((places[0], places[1]), (places[1], places[0])):
-        path = way_round(ARM, q0, target, one, KEPT)
-        if path is not None and _distances(_sampled(path, 41), other).min() > 0.8 * KEPT:
-            return True
-    return False
+def _bar(ends: Any) -> Floats:
+    """Points (m, 2) of a bar, with its ends."""
+    first, last = np.asarray(ends)
+    count = int(np.hypot(*(last - first)) / BETWEEN) + 2
+    points: Floats = first + np.linspace(0, 1, count)[:, None] * (last - first)
+    return points
 
 
-def _cheapest(q0: Floats, target: Floats, places: Sequence[Floats]) -> float | None:
+def _ends_are_enough(q0: Floats, target: Floats, bar: Floats) -> bool:
+    """Whether a way round both ends of the bar keeps half of the distance from all of it."""
+    path = way_round(ARM, q0, target, bar, KEPT)
+    return path is not None and bool(clearance(ARM, path, _bar(bar)).min() > KEPT / 2)
+
+
+def _cheapest(q0: Floats, target: Floats, places: Floats) -> float | None:
     """The movement of the cheapest fold, swing, unfold of some; None: none of them keeps the
     distance.
     """
@@ -664,11 +673,13 @@ def _cheapest(q0: Floats, target: Floats, places: Sequence[Floats]) -> float | N
     for k in range(3):
         a, b = paths[:, k, None], paths[:, k + 1, None]
         seen = (a + shares * (b - a)).reshape(-1, 3)
-        for place in places:
+        for place in places[::4]:
             near = _distances(seen, place).min(axis=-1).reshape(len(paths), -1)
             far &= near.min(axis=-1) >= KEPT + 0.03
+            if not far.any():
+                return None
     for path, cost in sorted(zip(paths[far], S[far], strict=True), key=lambda pair: pair[1]):
-        if all(clearance(ARM, path, place).min() >= KEPT for place in places):
+        if clearance(ARM, path, places).min() >= KEPT:
             return float(cost)
     return None
 
@@ -692,7 +703,9 @@ def _path_form(answer: Any, given: Mapping[str, Any]) -> Floats:
 
 
 def _path_faults(path: Floats, given: Mapping[str, Any]) -> list[Fault]:
-    """Begins at the start; ends at the target; inside the limits; both distances; movement."""
+    """Begins at the start; ends at the target; inside the limits; the distance from the ends of the
+    bar, and from what is between them; movement.
+    """
     start = np.array(given["start"]) * deg
     if abs(path).max() > 4 * np.pi:
         return [("degrees for radians", DEGREES)] * 6
@@ -719,8 +732,9 @@ def _path_faults(path: Floats, given: Mapping[str, Any]) -> list[Fault]:
         name = ("gamma", "beta", "alpha")[j]
         says = f"Posture {i + 1}: {name} is {path[i, j] / deg:.1f}°, allowed are 0 to 180°."
         faults.append(("past a limit", says))
-    for number, place in enumerate(given["obstacles"], start=1):
-        faults += _too_near(path, np.array(place), number, given["distance"])
+    bar = _bar(given["bar"])
+    faults += _too_near(path, bar[[0, -1]], "the ends of the bar", given["distance"])
+    faults += _too_near(path, bar[1:-1], "the bar between its ends", given["distance"])
     S = float(abs(np.diff(path, axis=0)).sum())
     if S > given["most"] + 1e-9:
         says = f"S is {S / deg:.1f}°, at most {given['most'] / deg:.0f}° are allowed."
@@ -728,32 +742,31 @@ def _path_faults(path: Floats, given: Mapping[str, Any]) -> list[Fault]:
     return faults
 
 
-def _too_near(path: Floats, place: Floats, number: int, distance: float) -> list[Fault]:
+def _too_near(path: Floats, places: Floats, name: str, distance: float) -> list[Fault]:
     turn = abs(np.diff(path, axis=0)).sum()
     if turn > 200:
         return [("too much movement", "The joints turn round and round.")]
-    least = clearance(ARM, path, place)
+    least = clearance(ARM, path, places)
     if least.min() >= distance - 1e-5:
         return []
     part, lever = np.unravel_index(least.argmin(), least.shape)
-    name = ("OB", "BA", "AK")[lever]
     near = f"{least.min() / mm:.0f} mm"
-    points = ARM.points(along(path, np.linspace(0, 1, 501)))
-    gripper = float(np.hypot(*(points[:, 3] - place).T).min())
-    corners = float(_distances(path, place).min())
+    points = ARM.points(along(path, np.linspace(0, 1, 501)))[:, 3]
+    gripper = float(np.hypot(*(points[:, None] - places).T).min())
+    corners = min(float(_distances(path, place).min()) for place in places)
     says = (
-        f"Between postures {part + 1} and {part + 2} lever {name} comes as near as {near} to "
-        f"obstacle {number}; wanted are {distance / mm:.0f} mm."
+        f"Between postures {part + 1} and {part + 2} lever {('OB', 'BA', 'AK')[lever]} comes as "
+        f"near as {near} to {name}; wanted are {distance / mm:.0f} mm."
     )
     if corners >= distance:
         says += f" Every posture of the path keeps {corners / mm:.0f} mm: look at the way between."
         if gripper >= distance:
             says += " The gripper keeps it on the way, a lever does not."
-        return [(f"obstacle {number} between two postures", says)]
+        return [(f"{name}: too near between two postures", says)]
     if gripper >= distance:
         says += " The gripper keeps it, a lever does not."
-        return [(f"obstacle {number}: the gripper passes, a lever does not", says)]
-    return [(f"too near to obstacle {number}", says)]
+        return [(f"{name}: the gripper passes, a lever does not", says)]
+    return [(f"too near to {name}", says)]
 
 
 # --- 3: a test for checks -------------------------------------------------------------------------
@@ -1449,20 +1462,21 @@ EXERCISES = {
         mistakes=INSIDE_MISTAKES,
     ),
     "2": Value(
-        task="A path of your own past two obstacles: postures from the start to the target on "
-        "which all levers keep the distance from both.",
+        task="A path of your own past a bar: postures from the start to the target on which all "
+        "levers keep the distance from all of the bar.",
         objective=2,
         hints=(
-            "Look at what the folded arm occupies: with beta = alpha = 60° it is a triangle beside "
-            "the base, and no obstacle of yours is there. Fold, swing, unfold.",
-            "path = [start, (gamma of the start, fold), (gamma of the end, fold), end] with "
-            "end = arm.least(target, start)[0] or a place of arm.family(target, alpha). Then "
-            "measure: clearance(arm, path, H).min(axis=1) for each of the two obstacles says which "
-            "part is too near.",
-            "Let loops try: beta and alpha of the fold from 45° to 120° in steps of 15°, and five "
-            "alphas of the target's family. Keep a path if clearance is at least the distance for "
-            "both obstacles, and take the one with the least S. Or let the wave of section 6 run "
-            "with the steps that both obstacles allow.",
+            "A bar is many points, and way_round takes many. Which points are enough, so that the "
+            "levers cannot come nearer to what lies between two of them? Or go by hand: the folded "
+            "arm, beta = alpha = 60°, is a triangle beside the base, where no bar of yours is.",
+            "points = first + np.linspace(0, 1, 10)[:, None] * (last - first). If a lever keeps d "
+            "from two points that are h apart, it keeps sqrt(d**2 - (h / 2)**2) from what is "
+            "between them: so ask for a little more than the distance. By hand: path = [start, "
+            "(gamma of the start, fold), (gamma of the end, fold), end].",
+            "way_round(arm, start, target, points, 1.1 * distance) with start in radians. Measure "
+            "its answer with clearance(arm, path, many_points).min(axis=1), which says which part "
+            "is too near, and add up S. If it finds nothing, let loops try folds: beta and alpha "
+            "from 45° to 120° in steps of 15°, and five alphas of the target's family.",
         ),
         form=_path_form,
         faults=_path_faults,

@@ -14,6 +14,7 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import three_lever
 from ..arms.branches import within
+from ..jobs.redundancy import methods, race
 from ..units import deg, wrapped
 from .exercises import Catch, Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
@@ -1641,6 +1642,64 @@ def _greed_view() -> Any:
     return fig
 
 
+RACED = 100
+
+
+@cache
+def _race() -> dict[str, Floats]:
+    """The turns (100,) of each task in degrees: name of the rule -> turns."""
+    rules = methods((0, 0), seed=1)  # no obstacle is asked for
+    rules = {name: rules[name] for name in ("random choice", "equal angles", "least movement")}
+    postures = np.random.default_rng(7).uniform(0, np.pi, (3 * RACED, 3))
+    places = ARM.points(postures)[:, 3]
+    places = places[np.isfinite(ARM.alpha_range(places)[0])][:RACED]
+    runs = race(rules, ARM, places, np.array([60, 120, 120]) * deg)
+    return {name: run.turns / deg for name, run in runs.items()}
+
+
+@cache
+def _race_facts() -> dict[str, Any]:
+    turns = _race()
+    least, dice = turns["least movement"].mean(), turns["random choice"].mean()
+    return {
+        "tasks": len(turns["least movement"]),
+        "least": float(least),
+        "dice": float(dice),
+        "added": float(dice - least),
+        "percent": float(100 * (dice / least - 1)),
+        "equal": float(100 * (turns["equal angles"].mean() / least - 1)),
+    }
+
+
+def _race_right(facts: Mapping[str, Any]) -> int:
+    more = facts["percent"]
+    return 0 if more < 5 else 1 if more < 100 else 2 if more < 500 else 3
+
+
+def _race_view() -> Any:
+    from ..show import figure
+
+    turns, facts = _race(), _race_facts()
+    fig = figure(
+        f"The turns of all joints, added up over {facts['tasks']} tasks, for three rules. All "
+        "rise evenly; dice are the steepest, equal angles and least movement lie close together.",
+        height=3.4,
+    )
+    ax = fig.subplots()
+    for (name, each), color, dash in zip(
+        turns.items(), ("#D55E00", "#009E73", "#0072B2"), ("--", ":", "-"), strict=True
+    ):
+        ax.plot(np.append(0, np.cumsum(each)), color=color, ls=dash, lw=1.8, label=name)
+    ax.legend(frameon=False)
+    ax.set(
+        xlabel="tasks done",
+        ylabel="turns in all, °",
+        title=f"Dice turn the joints {facts['percent']:.0f} % more than the least movement",
+    )
+    fig.tight_layout()
+    return fig
+
+
 # --- The tables -----------------------------------------------------------------------------------
 
 EXERCISES = {
@@ -1706,7 +1765,7 @@ EXERCISES = {
     ),
 }
 
-# Objective 1: p1 to p5. Objective 2: p6, p7. Objective 3: p8, p9.
+# Objective 1: p1 to p5. Objective 2: p6, p7. Objective 3: p8, p9, p10.
 PREDICTIONS = {
     "p1": Prediction(
         question="The arm stands upright: gamma = 90°, beta = 180°, alpha = 180°. The gripper is "
@@ -2007,5 +2066,42 @@ PREDICTIONS = {
         facts=_greed_facts,
         right=_greed_right,
         view=_greed_view,
+    ),
+    "p10": Prediction(
+        question="{tasks} random targets, one after the other. One arm takes the least movement "
+        "each time, another throws dice: any alpha of the family. How much more do all joints of "
+        "the second one turn in the end?",
+        options=(
+            Option(
+                "Hardly more: over many tasks chance evens out.",
+                "Chance evens out where it errs to both sides. Above the least there is only one "
+                "side.",
+                "what is never less taken for what is sometimes less",
+                "Who takes any road to work is on some days as quick as by the shortest one, and "
+                "never quicker.",
+            ),
+            Option(
+                "About {percent:.0f} % more.",
+                "{least:.0f}° a task are needed even at the least, to get from target to target. "
+                "The choice of alpha adds {added:.0f}°. Equal angles, which look at no posture "
+                "before, cost {equal:.0f} % more.",
+            ),
+            Option(
+                "About three times as much.",
+                "Then two thirds of all turns would be waste. The way from one target to the next "
+                "has to be turned under any rule: {least:.0f}° a task.",
+                "the freedom taken for most of the movement",
+                "From a target in front to one behind, no alpha saves the turn of gamma.",
+            ),
+            Option(
+                "More than five times as much: the family is endless.",
+                "It has endless postures, and all of them between two ends.",
+                "endlessly many taken for endlessly far",
+                "Between two neighbours of the family there are endless others, and all are near.",
+            ),
+        ),
+        facts=_race_facts,
+        right=_race_right,
+        view=_race_view,
     ),
 }

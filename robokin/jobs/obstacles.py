@@ -17,19 +17,22 @@ Points are (2,), or (3,) with z = 0, in metres.
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
 from .._arrays import ArrayLike, Bools, Floats, Ints, frozen
 from .._validate import broadcast, choice, floats, instance, length, short, text, warn_if_degrees
-from ..arms.planar import ThreeLeverArm
+from ..arms.planar import ThreeLeverArm, two_link
 from ..units import deg, in_words
 
 LEVERS = ("OB", "BA", "AK")
-WAYS = ("direct", "via points", "search", "none")
+WAYS = ("direct", "via points", "wait", "search", "none")
 TOLERANCE = 1e-6  # of a lever's length: a clearance is known as well as this
 CLOSE = 1e-9  # of a lever's length: `keeps` cannot tell distances apart that are nearer than this
+# The via points' circles about H, in lever lengths. On the document's own, 1/7, the way keeps less
+# than 1/7 from H; on a larger one it may keep that.
+CIRCLES = (1 / 7, 0.16, 0.18, 0.20, 0.225, 0.25)
 STEP = 5 * deg  # of the grid of postures in which `way_round` searches
 # Of a lever's length, kept between the grid's postures and the clearance, tried in this order. One
 # step of the first joint can move the gripper by 0.26 lever lengths: a small clearance needs the
@@ -69,8 +72,24 @@ def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dic
     q0, q1, H = _posture(q0, "q0"), _posture(q1, "q1"), _point(H, "H")
     warn_if_degrees(q0, "q0", posture=1)
     warn_if_degrees(q1, "q1", posture=1)
-    least = _clearance(arm, np.stack([q0, q1]), H)[0]
+    least = _clearance(arm, np.stack([q0, q1]), H[None, None])[0]
     return dict(zip(LEVERS, (least <= 0).tolist(), strict=True))
+
+
+def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
+    """The places (2, 2) of an obstacle that two sensors, in the points P and Q, measure at these
+    distances, in metres; NaN where the circles do not meet.
+
+    The circles are the two arms that a two-link arm on P has to Q (`two_link`), and the obstacle
+    its elbow: row 0 lies right of the way from P to Q, row 1 left of it. A third distance tells
+    which. ValueError: P and Q in one point.
+    """
+    P, Q = _point(P, "P"), _point(Q, "Q")
+    if (P == Q).all():
+        raise ValueError(f"Q: wanted a point apart from P, got both at {P.tolist()}")
+    from_P, from_Q = length(from_P, "from_P"), length(from_Q, "from_Q")
+    q1 = two_link(from_P, from_Q, P).ik(Q)[:, :1]
+    return P + from_P * np.concatenate([np.cos(q1), np.sin(q1)], axis=-1)
 
 
 # --- How near does the arm come? ------------------------------------------------------------------
@@ -89,7 +108,7 @@ def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
 
 def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
     """The least distance of every lever from H along a path (k, 3): (k - 1, 3), one row for every
-    part.
+    part. H is one obstacle (2,), or several (m, 2): then the least over all of them.
 
     Not a sample but a bound: the arm comes nowhere nearer, and at some place at most `TOLERANCE`
     lever lengths farther; 0 where a lever passes over H. It is found by halving those stretches of
@@ -97,14 +116,14 @@ def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
     stretches.
     """
     instance(arm, ThreeLeverArm, "arm")
-    path, H = _path(path), _point(H, "H")
+    path, H = _path(path), _obstacles(H, "H")
     warn_if_degrees(path, "path", posture=1)
     return _clearance(arm, path, H)
 
 
 def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance: float) -> Bools:
-    """Do all levers keep this distance (metres) from H on the motions from postures a (..., 3) to b
-    (..., 3)? bool (...).
+    """Do all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2), on the
+    motions from postures a (..., 3) to b (..., 3)? bool (...).
 
     As certain as `clearance` and quicker, since a motion is given up at the first stretch that is
     too near. One that comes to the distance within 1e-9 of a lever's length may count as too near.
@@ -112,7 +131,7 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     """
     instance(arm, ThreeLeverArm, "arm")
     a, b = _angles(a, "a"), _angles(b, "b")
-    H, distance = _point(H, "H"), length(distance, "distance")
+    H, distance = _obstacles(H, "H"), length(distance, "distance")
     warn_if_degrees(a, "a", posture=1)
     warn_if_degrees(b, "b", posture=1)
     shape = broadcast("a and b", a.shape, b.shape)
@@ -132,14 +151,8 @@ def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floa
     is no line.
     """
     K, K1, H, radius = _point(K, "K"), _point(K1, "K1"), _point(H, "H"), length(radius, "radius")
-    points = []
-    for name, end in (("K", K), ("K1", K1)):
-        x, y = end - H
-        if np.hypot(x, y) == 0:
-            raise ValueError(f"H: wanted an obstacle apart from {name}, got both at {H.tolist()}")
-        square = np.array([-y, x]) / np.hypot(x, y)
-        points.append(H - square * radius * (1.0 if square @ H > 0 else -1.0))
-    return np.stack(points)
+    points: Floats = H + radius * _square(K, K1, H)
+    return points
 
 
 def via_path(
@@ -157,14 +170,12 @@ def via_path(
     S3-n): see `clearance`.
     """
     instance(arm, ThreeLeverArm, "arm")
-    path, K1 = [_posture(q0, "q0")], _point(target, "target")
+    q0, K1, H = _posture(q0, "q0"), _point(target, "target"), _point(H, "H")
     if not isinstance(limited, bool):
         raise ValueError(f"limited: wanted True or False, got {short(limited)}")
-    radius = arm.lever / 7 if radius is None else radius
-    for point in (*via_points(arm.points(path[0])[3], K1, H, radius), K1):
-        known = not np.isnan(path[-1]).any()
-        path.append(arm.least(point, path[-1], limited)[0] if known else path[-1])
-    return np.stack(path)
+    radius = arm.lever / 7 if radius is None else length(radius, "radius")
+    (path,) = _via_paths(arm, q0, K1, H, np.array([radius]), limited)
+    return cast(Floats, path)
 
 
 # --- A better way round: search among postures ----------------------------------------------------
@@ -174,7 +185,7 @@ def way_round(
     arm: ThreeLeverArm, q0: ArrayLike, target: ArrayLike, H: ArrayLike, distance: float
 ) -> Floats | None:
     """A path (k, 3) from posture q0 to the target, with little movement, on which all levers keep
-    the distance from H; None if none is found.
+    the distance from H, one obstacle (2,) or several (m, 2); None if none is found.
 
     The postures (gamma, beta, alpha) fill a cube of 180 degrees a side, in which the target is a
     curve: its `family`. From q0 a wave spreads through the grid of those postures that keep the
@@ -184,7 +195,7 @@ def way_round(
     wide: a passage narrower than that can be missed. ValueError: a posture q0 outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
-    q0, K1, H = _start(arm, q0, "q0"), _point(target, "target"), _point(H, "H")
+    q0, K1, H = _start(arm, q0, "q0"), _point(target, "target"), _obstacles(H, "H")
     return _way_round(arm, q0, K1, H, length(distance, "distance"))
 
 
@@ -195,7 +206,7 @@ def way_round(
 class Plan:
     """What `plan` answers.
 
-    way        "direct", "via points", "search", or "none"
+    way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves
     words      the answer in sentences
     path       (k, 3) postures, the first being the start; (1, 3) if nothing was found: the arm
                stays
@@ -203,6 +214,8 @@ class Plan:
                inf without one
     least      S of the direct motion in radians, which no path can undercut; NaN if the target is
                out of reach
+    radius     of the circle about the obstacle on which the via points lie, in metres; NaN if it is
+               not by via points that the plan goes
 
     Arrays are read-only copies. ValueError: parts that do not belong together.
     """
@@ -212,6 +225,7 @@ class Plan:
     path: Floats
     clearance: Floats
     least: float
+    radius: float = np.nan
 
     def __post_init__(self) -> None:
         choice(self.way, "way", WAYS)
@@ -231,6 +245,11 @@ class Plan:
         least = floats(self.least, "least", finite=False)
         if least.ndim or least < 0:
             raise ValueError(f"least: wanted one sum of changes, got {short(self.least)}")
+        radius = floats(self.radius, "radius", finite=False)
+        if radius.ndim or np.isnan(radius) == (self.way == "via points") or radius <= 0:
+            wanted = f"wanted one length with way 'via points' alone, here {self.way!r}"
+            raise ValueError(f"radius: {wanted}, got {short(self.radius)}")
+        object.__setattr__(self, "radius", float(radius))
         object.__setattr__(self, "path", frozen(path))
         object.__setattr__(self, "clearance", frozen(np.asarray(self.clearance, dtype=float)))
         object.__setattr__(self, "least", float(least))
@@ -269,13 +288,17 @@ def plan(
 
     All levers keep `distance` (metres; L/7 unless given) from the obstacle along the whole path, or
     the plan says in words that none was found. Tried in this order: the direct motion with least
-    movement; the document's via points K2, K3; a search among postures. Angles stay within 0 to 180
-    degrees. ValueError: a posture outside.
+    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, none smaller
+    than the distance or than L/7, of which the first that keeps the distance is taken; a search
+    among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside.
+
+    Of several obstacles (m, 2) all are kept clear of; the via points lie about the one that is in
+    the way first.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = _start(arm, posture, "posture"), _point(target, "target")
     distance = arm.lever / 7 if distance is None else length(distance, "distance")
-    H = None if obstacle is None else _point(obstacle, "obstacle")
+    H = None if obstacle is None else _obstacles(obstacle, "obstacle")
     unreached = arm.out_of_reach(K1)
     if unreached:
         return _none(start, f"The target is out of reach: {unreached}.")
@@ -291,18 +314,28 @@ def plan(
         return _none(start, f"{too_near} {hint}", least)
     clear = _clearance(arm, direct, H)
     if clear.min() >= distance:
-        words = "The way is direct: the obstacle is not in it."
-        return Plan("direct", words, direct, clear, least)
-    words = f"On the direct way {_nearest(arm, clear)}."
-    by_points = via_path(arm, start, K1, H, max(distance, arm.lever / 7))
-    if np.isnan(by_points).any():
+        none = "the obstacle is not" if len(H) == 1 else "no obstacle is"
+        return Plan("direct", f"The way is direct: {none} in it.", direct, clear, least)
+    words = f"On the direct way {_nearest(arm, clear, H)}."
+    first = _in_the_way(arm, direct, H, distance)
+    radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
+    radii = np.unique(np.append(radii, max(distance, CIRCLES[0] * arm.lever)))
+    paths = _via_paths(arm, start, K1, H[first, 0], radii)
+    reached = ~np.isnan(paths).any(axis=(1, 2))
+    if not reached.any():
         words += " The via points K2 and K3 are not both within reach."
     else:
-        clear = _clearance(arm, by_points, H)
-        if clear.min() >= distance:
-            words += " The via points K2 and K3 lead round it."
-            return Plan("via points", words, by_points, clear, least)
-        words += f" By the via points K2 and K3 {_nearest(arm, clear)}."
+        paths, radii = paths[reached], radii[reached]
+        clears = _clearances(arm, paths[:, :-1].reshape(-1, 3), paths[:, 1:].reshape(-1, 3), H)
+        clears = clears.reshape(-1, 3, 3)
+        room = clears.min(axis=(1, 2))
+        best = int((room >= distance).argmax() if room.max() >= distance else room.argmax())
+        radius = float(radii[best])
+        circle = f"the via points K2 and K3, {in_words(radius)} from {_named(H, first)}"
+        if room[best] >= distance:
+            words += f" T{circle[1:]}, lead round it."
+            return Plan("via points", words, paths[best], clears[best], least, radius)
+        words += f" By {circle}, {_nearest(arm, clears[best], H)}."
     by_search = _way_round(arm, start, K1, H, distance)
     if by_search is not None:
         words += " A search among postures finds a way."
@@ -329,26 +362,44 @@ def _none(start: Floats, words: str, least: float = np.nan) -> Plan:
 
 def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> str:
     """Why no path can keep the distance, in a sentence; "" if one could."""
-    O_H, K1_H, q_H = np.hypot(*H), np.hypot(*(K1 - H)), _distances(arm, start, H)
-    if O_H < distance:
-        return f"The obstacle lies on the base or {in_words(O_H)} beside it."
+    O_H, K1_H = np.hypot(*H[:, 0].T), np.hypot(*(K1 - H[:, 0]).T)
+    q_H = _distances(arm, start, H)[:, 0]  # (m, 3)
+    if O_H.min() < distance:
+        name = _named(H, int(O_H.argmin())).capitalize()
+        return f"{name} lies on the base or {in_words(O_H.min())} beside it."
     if q_H.min() < distance:
+        which, lever = np.unravel_index(q_H.argmin(), q_H.shape)
         return (
-            f"At the start lever {LEVERS[q_H.argmin()]} is already {in_words(q_H.min())} from "
-            f"the obstacle."
+            f"At the start lever {LEVERS[lever]} is already {in_words(q_H.min())} from "
+            f"{_named(H, int(which))}."
         )
-    if K1_H < distance:
-        return f"The target lies {in_words(K1_H)} from the obstacle."
+    if K1_H.min() < distance:
+        return f"The target lies {in_words(K1_H.min())} from {_named(H, int(K1_H.argmin()))}."
     return ""
 
 
-def _nearest(arm: ThreeLeverArm, clear: Floats) -> str:
+def _named(H: Floats, which: int) -> str:
+    return "the obstacle" if len(H) == 1 else f"obstacle {which + 1}"
+
+
+def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
     least = clear.min(axis=0)
     # two levers are equally near at the joint where they meet: the first is named
     lever = LEVERS[(least <= least.min() + TOLERANCE * arm.lever).argmax()]
+    one = len(H) == 1
     if not least.min():
-        return f"lever {lever} sweeps the obstacle"
-    return f"lever {lever} comes as near as {in_words(least.min())}"
+        return f"lever {lever} sweeps {'the' if one else 'an'} obstacle"
+    near = f"lever {lever} comes as near as {in_words(least.min())}"
+    return near if one else f"{near} to an obstacle"
+
+
+def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
+    """Of several obstacles the one that is in the way first, else the nearest. By samples: nothing
+    is promised with it.
+    """
+    near = _distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
+    first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])
+    return int(np.lexsort((near.min(axis=1), first))[0])
 
 
 def _inside(corners: Floats, point: Floats) -> Bools:
@@ -375,20 +426,55 @@ def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Flo
     c, s = np.cos(direction), np.sin(direction)
     x, y = np.empty_like(c), np.empty_like(s)  # of H from the start of each lever
     x[0], y[0] = H[..., 0], H[..., 1]
+    levers = arm.levers
     for i in (1, 2):
-        x[i], y[i] = x[i - 1] - arm.lever * c[i - 1], y[i - 1] - arm.lever * s[i - 1]
+        x[i], y[i] = x[i - 1] - levers[i - 1] * c[i - 1], y[i - 1] - levers[i - 1] * s[i - 1]
     along, across = c * x + s * y, c * y - s * x
-    beyond = along - np.clip(along, 0, arm.lever)
+    beyond = along - np.clip(along, 0, levers.reshape(3, *(1,) * (along.ndim - 1)))
     return np.sqrt(across**2 + beyond**2), along, beyond, across
 
 
 def _distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
+    q = np.broadcast_to(q, (*np.broadcast_shapes(q.shape[:-1], H.shape[:-1]), 3))
     return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
 
 
+def _square(K: Floats, K1: Floats, H: Floats) -> Floats:
+    """The directions (2, 2) from H to K2 and to K3."""
+    directions = []
+    for name, end in (("K", K), ("K1", K1)):
+        x, y = end - H
+        if np.hypot(x, y) == 0:
+            raise ValueError(f"H: wanted an obstacle apart from {name}, got both at {H.tolist()}")
+        square = np.array([-y, x]) / np.hypot(x, y)
+        directions.append(square * (-1.0 if square @ H > 0 else 1.0))
+    return np.stack(directions)
+
+
+def _via_paths(
+    arm: ThreeLeverArm, q0: Floats, K1: Floats, H: Floats, radii: Floats, limited: bool = True
+) -> Floats:
+    """`via_path` for each of the radii (r,): (r, 4, 3)."""
+    K2, K3 = np.moveaxis(H + radii[:, None, None] * _square(arm.points(q0)[3], K1, H), 1, 0)
+    path = [np.tile(q0, (len(radii), 1))]
+    for places in (K2, K3, np.tile(K1, (len(radii), 1))):
+        known = ~np.isnan(path[-1]).any(axis=-1, keepdims=True)
+        reached = arm.least(places, np.where(known, path[-1], q0), limited)[0]
+        path.append(np.where(known, reached, np.nan))
+    return np.stack(path, axis=1)
+
+
+# In what follows H is (m, 1, 2), m obstacles that stand; or (2, m, n, 2), where they are at the
+# start and at the end of each of n motions, between which they move evenly.
+
+
 def _clearance(arm: ThreeLeverArm, path: Floats, H: Floats) -> Floats:
-    a, b, tolerance = path[:-1], path[1:], TOLERANCE * arm.lever
-    least = np.full(a.shape, np.inf)
+    return _clearances(arm, path[:-1], path[1:], H)
+
+
+def _clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Floats:
+    """Of the motions a -> b (n, 3): (n, 3)."""
+    least, tolerance = np.full(a.shape, np.inf), TOLERANCE * arm.lever
 
     def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
         np.minimum.at(least, part, here.T)
@@ -422,10 +508,13 @@ def _measure(
     halve: Callable[[Ints, Floats, Floats], Bools],
 ) -> None:
     """Measure stretches of the motions a -> b (n, 3), at first the whole motions, and halve those
-    of which `halve(part, here, bound)` says so: number of the motion (m,), distances of the levers
-    at an end of the stretch (3, m), and what they are at least on all of it.
+    of which `halve(part, here, bound)` says so: number of the motion (k,), distances of the levers
+    at an end of the stretch (3, k), and what they are at least on all of it. With several obstacles
+    every motion is measured beside each of them.
     """
-    part, start, end = np.arange(len(a)), np.zeros(len(a)), np.ones(len(a))
+    n, m = len(a), H.shape[-3]
+    H = np.broadcast_to(H, (2, m, n, 2)).reshape(2, -1, 2)
+    part, start, end = np.arange(n * m), np.zeros(n * m), np.ones(n * m)
     work = len(part)
     while len(part):
         if work > WORK:
@@ -436,7 +525,8 @@ def _measure(
             )
         now, later = slice(-PORTION, None), slice(None, -PORTION)
         i, s, e = part[now], start[now], end[now]
-        which = halve(i, *_bounds(arm, a[i].T, b[i].T, np.stack([s, e]), H))
+        motion = i % n
+        which = halve(motion, *_bounds(arm, a[motion].T, b[motion].T, np.stack([s, e]), H[:, i]))
         i, s, e = i[which], s[which], e[which]
         middle = (s + e) / 2
         part = np.concatenate([part[later], i, i])
@@ -448,23 +538,28 @@ def _measure(
 def _bounds(
     arm: ThreeLeverArm, a: Floats, b: Floats, ends: Floats, H: Floats
 ) -> tuple[Floats, Floats]:
-    """For stretches of the motions a -> b (3, n) between two `ends` (2, n): the smaller of the
-    distances (3, n) at the ends, and lower bounds for all between.
+    """For stretches of the motions a -> b (3, n) between two `ends` (2, n), and an obstacle that
+    goes from H[0] to H[1] (2, n, 2) during the motion: the smaller of the distances (3, n) at the
+    ends, and lower bounds for all between.
 
     Seen from a lever, the obstacle goes from one place to another, almost straight: it strays from
     the line by at most an eighth of its greatest acceleration, the stretch being the unit of time.
     The distance from a lever is a convex function along that line, and so it lies above its
     tangents at both ends.
     """
-    change, L = b - a, arm.lever
-    d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], H)
+    change, (OB, BA, _) = b - a, arm.levers
+    places = H[0] + ends[..., None] * (H[1] - H[0])
+    d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], places)
     turn = change * (ends[1] - ends[0])
-    stray = np.hypot(*H) * np.cumsum(turn, axis=0) ** 2
-    stray[1] += L * turn[1] ** 2
-    stray[2] += L * ((turn[1] + turn[2]) ** 2 + turn[2] ** 2)
+    # a turning view of a place: omega^2 times its distance, and twice omega times its speed
+    omega, far = np.cumsum(turn, axis=0), np.sqrt((places**2).sum(axis=-1).max(axis=0))
+    moved = np.sqrt(((places[1] - places[0]) ** 2).sum(axis=-1))
+    stray = far * omega**2 + 2 * abs(omega) * moved
+    stray[1] += OB * turn[1] ** 2
+    stray[2] += OB * (turn[1] + turn[2]) ** 2 + BA * turn[2] ** 2
     x, y = along[:, 1] - along[:, 0], across[:, 1] - across[:, 0]
     rise = (beyond * x[:, None] + across * y[:, None]) / np.where(d > 0, d, 1)
-    (d0, d1), (rise0, rise1) = (np.moveaxis(v, 1, 0) for v in (d, rise))
+    d0, d1, rise0, rise1 = d[:, 0], d[:, 1], rise[:, 0], rise[:, 1]
     here = np.minimum(d0, d1)
     inner = (rise0 < 0) & (rise1 > 0)  # the tangents meet between the ends
     meet = (d0 * rise1 - d1 * rise0 + rise0 * rise1) / np.where(inner, rise1 - rise0, 1)
@@ -478,20 +573,22 @@ def _way_round(
     if np.isnan(low):
         return None
     goals = arm.family(K1, np.linspace(low, high, int((high - low) / (1 * deg)) + 2))
-    goals = goals[(_distances(arm, goals, H) >= distance).all(axis=-1)]
+    goals = goals[(_distances(arm, goals, H) >= distance).all(axis=(0, 2))]
     if not len(goals):
         return None
-    size = np.prod(np.ptp(arm.limits, axis=1) / STEP)
+    size = len(H) * np.prod(np.ptp(arm.limits, axis=1) / STEP)
     if size > WORK:
-        raise ValueError(f"arm: wanted limits for a grid of {WORK} postures, got {size:.6g}")
+        raise ValueError(
+            f"arm: wanted limits for a grid of {WORK} postures, each beside each of {len(H)} "
+            f"obstacles, got {size:.6g}"
+        )
     axes = [_axis(value, *limits) for value, limits in zip(q0, arm.limits, strict=True)]
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    room = _distances(arm, grid, H).min(axis=-1)
+    room = _room(arm, axes, H[:, 0])
     start = tuple(int(np.abs(axis - value).argmin()) for axis, value in zip(axes, q0, strict=True))
     for margin in MARGINS:
         free = room >= distance + margin * arm.lever
         waves = _wave(free, start)
-        path = _back(arm, grid, room, waves, _arrivals(axes, goals, waves), goals, H, distance)
+        path = _back(arm, axes, room, waves, _arrivals(axes, goals, waves), goals, H, distance)
         if path is not None:
             return _taut(arm, path, goals, H, distance)
     return None
@@ -502,6 +599,27 @@ def _axis(value: float, low: float, high: float) -> Floats:
     down, up = np.arange(value, low, -STEP), np.arange(value, high, STEP)
     every = np.concatenate([[low, high], down, up])
     return np.unique(every.clip(min(low, value), max(high, value)))
+
+
+def _room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
+    """The least distance of the obstacles H (m, 2) from the levers in every posture of the grid
+    with these axes.
+
+    Lever OB knows gamma only, BA two of the angles, AK all: each is measured on as small a grid as
+    it needs, in complex numbers.
+    """
+    gamma, beta, alpha = (np.exp(1j * axis) for axis in axes)
+    OB = gamma[:, None, None]
+    BA = -OB * beta[:, None]
+    AK = -BA * alpha
+    room: Any = np.inf
+    for place in H @ np.array([1, 1j]):
+        for lever, long in zip((OB, BA, AK), arm.levers, strict=True):
+            seen = place * lever.conj()  # with the lever on the real axis
+            beyond = seen.real - np.clip(seen.real, 0, long)
+            room = np.minimum(room, beyond**2 + seen.imag**2)
+            place = place - long * lever
+    return cast(Floats, np.sqrt(room))
 
 
 def _wave(free: Bools, start: tuple[int, ...]) -> Ints:
@@ -520,8 +638,12 @@ def _wave(free: Bools, start: tuple[int, ...]) -> Ints:
     while len(front):
         flat[front] = count
         front = (front[:, None] + steps).reshape(-1)
-        front = np.unique(front[open_[front]])
+        front = front[open_[front]]
         open_[front] = False
+        # once each: of equal entries one is written last
+        number = np.arange(len(front))
+        flat[front] = number
+        front = front[flat[front] == number]
         count += 1
     return waves[inside]
 
@@ -548,7 +670,7 @@ def _arrivals(axes: list[Floats], goals: Floats, waves: Ints) -> tuple[Ints, Int
 
 def _back(
     arm: ThreeLeverArm,
-    grid: Floats,
+    axes: list[Floats],
     room: Floats,
     waves: Ints,
     arrivals: tuple[Ints, Ints],
@@ -560,10 +682,10 @@ def _back(
     corners.
     """
     nodes, numbers = (column[:400] for column in arrivals)
-    good = _keeps(arm, grid[tuple(nodes.T)], goals[numbers], H, distance)
+    good = _keeps(arm, _on(axes, nodes), goals[numbers], H, distance)
     for node, number in list(zip(nodes[good], numbers[good], strict=True))[:5]:
         node = tuple(node.tolist())
-        back = [goals[number], grid[node]]
+        back = [node]
         while waves[node] > 0:
             before = []
             for i in range(3):
@@ -574,25 +696,35 @@ def _back(
                         before.append(other)
             # of ways with equal S the one with more room
             node = max(before, key=lambda other: room[other])
-            back.append(grid[node])
-        path = _cut(arm, np.stack(back[::-1]), H, distance)
-        if path is not None:
-            return path
+            back.append(node)
+        steps = _on(axes, np.array(back[::-1]))
+        path = np.concatenate([steps, goals[[number]]])
+        kept = _cut(arm, path, H, distance)
+        if kept is not None:
+            return path[kept]
     return None
 
 
-def _cut(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> Floats | None:
-    """From every posture on, straight to the farthest that can be reached so; None if not even the
-    next can.
+def _on(axes: list[Floats], nodes: Ints) -> Floats:
+    """Postures (n, 3) of the grid."""
+    return np.stack([axis[i] for axis, i in zip(axes, nodes.T, strict=True)], axis=-1)
+
+
+def _cut(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> list[int] | None:
+    """From every posture on, straight to the farthest that can be reached so: the numbers of those
+    that are left; None if not even the next can. H may be (m, k, 2), its place at every posture.
     """
     kept = [0]
     while kept[-1] < len(path) - 1:
         here = kept[-1]
-        good = np.flatnonzero(_keeps(arm, path[here], path[here + 1 :], H, distance))
+        places = H
+        if H.shape[1] > 1:
+            places = np.stack(np.broadcast_arrays(H[:, here, None], H[:, here + 1 :]))
+        good = np.flatnonzero(_keeps(arm, path[here], path[here + 1 :], places, distance))
         if not len(good):
             return None
-        kept.append(here + 1 + good[-1])
-    return path[kept]
+        kept.append(here + 1 + int(good[-1]))
+    return kept
 
 
 def _taut(arm: ThreeLeverArm, path: Floats, goals: Floats, H: Floats, distance: float) -> Floats:
@@ -600,18 +732,23 @@ def _taut(arm: ThreeLeverArm, path: Floats, goals: Floats, H: Floats, distance: 
     allows, and the goal moved along its curve to where it is nearest to the last of them."""
     shares = np.linspace(1, 0, 33)[:, None]
     for _ in range(4):
+        before = path.copy()
         for i in range(1, len(path) - 1):
             a, via, b = path[i - 1], path[i], path[i + 1]
             pulled = via + shares * (np.clip(via, np.minimum(a, b), np.maximum(a, b)) - via)
-            good = _keeps(arm, a, pulled, H, distance) & _keeps(arm, pulled, b, H, distance)
-            path[i] = pulled[good.argmax()] if good.any() else via
+            starts = np.concatenate([np.broadcast_to(a, pulled.shape), pulled])
+            ends = np.concatenate([pulled, np.broadcast_to(b, pulled.shape)])
+            to, on = _keeps(arm, starts, ends, H, distance).reshape(2, -1)
+            path[i] = pulled[(to & on).argmax()] if (to & on).any() else via
         S = abs(goals - path[-2]).sum(axis=-1)
         near = goals[S < abs(path[-1] - path[-2]).sum()]
         near = near[abs(near - path[-2]).sum(axis=-1).argsort()]
         good = _keeps(arm, path[-2], near, H, distance)
         if good.any():
             path[-1] = near[good.argmax()]
-        path = cast(Floats, _cut(arm, path, H, distance))  # not None: every part keeps it
+        path = path[cast(list[int], _cut(arm, path, H, distance))]  # every part keeps it
+        if np.array_equal(path, before):
+            break
     return path
 
 
@@ -659,6 +796,14 @@ def _points(value: ArrayLike, name: str) -> Floats:
     if (abs(points) > FARTHEST).any():
         raise ValueError(f"{name}: wanted points in metres, got {abs(points).max():.6g}")
     return points[..., :2]
+
+
+def _obstacles(value: ArrayLike, name: str) -> Floats:
+    """One point (2,) or several (m, 2) as (m, 1, 2)."""
+    points = _points(value, name)
+    if points.ndim > 2 or not points.size:
+        raise ValueError(f"{name}: wanted one point (2,) or several (m, 2), got {points.shape}")
+    return points.reshape(-1, 1, 2)
 
 
 def _point(value: ArrayLike, name: str) -> Floats:

@@ -3,11 +3,13 @@
 try:
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
+    from .motors import motor_explorer
     from .palette import JOINT_STYLES
     from .plan_explorer import plan_explorer
     from .player import Player, animate
     from .plots import figure, plot_frames, plot_joints, plot_postures
     from .sketch import Sketch
+    from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:
     raise ImportError(f"robokin.show: {error}; pip install 'robokin[show]' brings it") from error
 
@@ -20,10 +22,12 @@ __all__ = [
     "figure",
     "joint_explorer",
     "motion_explorer",
+    "motor_explorer",
     "plan_explorer",
     "plot_frames",
     "plot_joints",
     "plot_postures",
     "plot_velocity_ellipsoid",
     "target_explorer",
+    "tour_explorer",
 ]

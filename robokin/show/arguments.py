@@ -219,6 +219,45 @@ def marks(points: Any, circles: Any, lead: tuple[int, ...], count: int) -> list[
     return found
 
 
+def standing(bases: Any, count: int) -> Floats | None:
+    """Where `count` arms stand in one space: (count, 2)."""
+    if bases is None:
+        return None
+    found = in_sight(floats(bases, "bases"), "bases")
+    if count < 2 or found.shape != (count, 2):
+        wanted = f"x and y for each of several arms, ({max(count, 2)}, 2)"
+        raise ValueError(f"bases: wanted {wanted}, got {short(bases)}")
+    return found
+
+
+def polygons(faces: Any) -> list[Floats]:
+    """The corners (k, 3) of each face."""
+    found = []
+    for face in several(faces, "faces", "a list of polygons"):
+        corners = in_sight(floats(face, "faces", 3), "faces")
+        if corners.ndim != 2 or not 3 <= len(corners) <= 100:
+            raise ValueError(f"faces: wanted 3 to 100 corners (x, y, z), got {short(face)}")
+        found.append(corners)
+    return found
+
+
+def readings(
+    values: Any, marks: Sequence[Mark], lead: tuple[int, ...], count: int
+) -> dict[str, Floats]:
+    """Name of a mark -> numbers (motions or 1, samples or 1)."""
+    if not isinstance(values, Mapping):
+        raise ValueError(f"readings: wanted a dict name -> numbers, got {short(values)}")
+    found = {}
+    for name, given in several(values.items(), "readings", "a dict name -> numbers"):
+        if name not in [mark[0] for mark in marks]:
+            raise ValueError(f"readings: wanted names of points or circles, got {short(name)}")
+        numbers = floats(given, f"reading {name}", finite=False)
+        found[name] = numbers.reshape(*_moving(numbers.shape, lead, count, f"reading {name}"))
+        if (abs(found[name]) > HORIZON).any():
+            raise ValueError(f"reading {name}: wanted numbers up to {HORIZON:g}")
+    return found
+
+
 def _named(places: Any, name: str) -> list[tuple[str, Any]]:
     what = "a list or a dict of them"
     if isinstance(places, Mapping):

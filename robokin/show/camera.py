@@ -5,6 +5,7 @@ a page in `js/camera.js`.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..arms.dexterity import total_length
 from ..arms.link import Link
 from ..transform import Transform
 from ..units import deg, wrapped
-from .numbers import TIE, packed, rounded, series_step, tidy
+from .numbers import TIE, fewest, packed, rounded, series_step, tidy
 from .page import PageLink, PageMark, PageScene, PageTarget, PageWay
 
 View: TypeAlias = tuple[float, float]
@@ -25,6 +26,26 @@ Mark: TypeAlias = tuple[str, Floats, float]
 
 VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
 SPECK, HORIZON = 1e-3, 1e9  # metres
+
+
+@dataclass(frozen=True)
+class Around:
+    """What a player's space may hold besides: arms that stand in one picture at `bases` (arms, 2),
+    None: each in its own; polygons (k, 3); numbers (motions or 1, samples or 1) behind the names of
+    marks.
+    """
+
+    bases: Floats | None = None
+    faces: Sequence[Floats] = ()
+    readings: Mapping[str, Floats] = field(default_factory=dict)
+
+    def places(self, count: int) -> Floats:
+        """Where the arms stand: (count, 3)."""
+        flat = np.zeros((count, 2)) if self.bases is None else self.bases
+        return np.column_stack([flat, np.zeros(count)])
+
+
+NOTHING_MORE = Around()
 # the views straight at the planes x = 0, y = 0 and z = 0
 STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
@@ -93,13 +114,21 @@ def scene_data(
     size: float,
     kept: Ints | None = None,
     solid: bool = False,
+    around: Around = NOTHING_MORE,
 ) -> PageScene:
     """Where the camera stands, what it has to see, the floor and what lies in the space. `kept` as
     in `stations`. A `solid` floor is at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
-    parts = [arm_points(arm, q).reshape(-1, 3) for arm, q in zip(arms, postures, strict=True)]
-    tools = [flange(arm, q) for arm, q in zip(arms, postures, strict=True)]
+    bases = around.places(len(arms))
+    parts = [
+        arm_points(arm, q).reshape(-1, 3) + base
+        for arm, q, base in zip(arms, postures, bases, strict=True)
+    ]
+    tools = [
+        Transform(translation=base) @ flange(arm, q)
+        for arm, q, base in zip(arms, postures, bases, strict=True)
+    ]
     tips = [
         (pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3)
         for pose in (*tools, *targets.values())
@@ -110,8 +139,10 @@ def scene_data(
         for _, places, radius in marks
         for sign in (1, -1)
     ]
+    parts += around.faces
     across = [k for k in range(3) if k != (2 if flat is None else flat)]
-    seen = np.concatenate([*(foot * np.eye(3)[k] for k in across), *parts])
+    feet = [foot * np.eye(3)[k] + base for base in bases for k in across]
+    seen = np.concatenate([*feet, *parts])
     low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
     step = series_step(max(*(high - low)[across], size / 3) * (1 + TIE) / 8)
     low[across] = np.floor(low[across] / step + 0.1) * step
@@ -125,12 +156,16 @@ def scene_data(
         "grid": tidy(step, 6),
         "seen": outermost(np.concatenate([seen, *tips])),
         "floor": [rounded(low, 4), rounded(high, 4)],
-        "view": rounded(best_view(places, flat), 4),
+        "view": rounded(best_view(places - bases.mean(axis=0), flat), 4),
         "targets": stations(targets, kept),
-        "marks": list(_drawn(marks, kept)),
+        "marks": list(_drawn(marks, kept, around.readings)),
     }
     if solid:
         scene["solid"] = True
+    if around.bases is not None:
+        scene["bases"] = [rounded(base, 4) for base in bases]
+    if around.faces:
+        scene["faces"] = [[rounded(corner, 4) for corner in face] for face in around.faces]
     return scene
 
 
@@ -146,12 +181,19 @@ def stations(targets: Mapping[str, Transform], kept: Ints | None = None) -> list
     return found
 
 
-def _drawn(marks: Iterable[Mark], kept: Ints | None) -> Iterator[PageMark]:
+def _drawn(
+    marks: Iterable[Mark], kept: Ints | None, readings: Mapping[str, Floats]
+) -> Iterator[PageMark]:
     for name, places, radius in marks:
+        mark: PageMark = {"name": name, "radius": radius}
         if places.ndim > 1:
-            yield {"name": name, "radius": radius, "way": _way(places, kept)}
+            mark["way"] = _way(places, kept)
         else:
-            yield {"name": name, "radius": radius, "at": rounded(places)}
+            mark["at"] = rounded(places)
+        if name in readings:
+            mark["reading"] = _way(readings[name][..., None], kept)
+            mark["decimals"] = fewest(readings[name])
+        yield mark
 
 
 def _way(rows: Floats, kept: Ints | None) -> PageWay:

@@ -151,8 +151,9 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     nearest to the last posture.
 
     Six-axis arms: place, and roll, pitch, yaw as in `joint_explorer`. SCARA: place and the tool's
-    angle. Positioning arms: the place. Three levers: the place, the free angle alpha, and the curve
-    of what it costs to come there from the posture before. TypeError: an arm with neither.
+    angle. Positioning arms: the place. Three levers: the place, the free angle alpha, the curve of
+    what it costs to come there from the posture before, and of unequal ones the lengths. TypeError:
+    an arm with neither.
     """
     if isinstance(arm, ThreeLeverArm):
         return _levers_explorer(arm)
@@ -295,6 +296,14 @@ def _levers_explorer(arm: ThreeLeverArm) -> Explorer:
     step = 1 if size == mm else 0.001
     controls = [_control(letter, name, -most, most, step) for letter in "xy"]
     controls.append(_control("alpha", "°", 0, 180, 1))
+    unequal = len(set(arm.geometry.levers)) > 1
+    if unequal:
+        low, high = (
+            np.round(share * arm.reach / (50 * mm)) * 50 * mm / size for share in (0.1, 0.6)
+        )
+        controls += [
+            _control(f"lever {lever}", name, low, high, step) for lever in ("OB", "BA", "AK")
+        ]
     where = ", ".join(_number(x, 0 if size == mm else 3) for x in place[:2] / size)
     summary = (
         f"{arm.name} and a point to be moved, at ({where}) {name}, with a free angle: gamma, beta, "
@@ -306,7 +315,8 @@ def _levers_explorer(arm: ThreeLeverArm) -> Explorer:
         "q": before.tolist(),
         "target": {"place": place.tolist()},
         "meant": TAKE + "The broken posture is where S is counted from.",
-        "code": f"{_imports(arm)}\n# arm = three_lever(...)\n"
+        "code": f"{_imports(arm, *['three_lever'] * unequal)}\n"
+        f"{'arm = three_lever(({levers}))' if unequal else '# arm = three_lever(...)'}\n"
         f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",
     }
     return Explorer(data, _picture(summary, arm, before))

@@ -176,6 +176,18 @@ def _ticks(low: float, step: float, count: int) -> Scale:
     )
 
 
+def fewest(values: Floats, most: int = 2) -> int:
+    """With how many decimals these values are written exactly, at most `most`."""
+    return next(
+        (
+            d
+            for d in range(most)
+            if np.allclose(values, values.round(d), rtol=0, atol=1e-9, equal_nan=True)
+        ),
+        most,
+    )
+
+
 def decimals(curves: Iterable[Floats]) -> int:
     """How many decimals show the greatest value of this quantity with three digits; at least
     one.

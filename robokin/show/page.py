@@ -78,10 +78,14 @@ class PageTarget(TypedDict):
 
 
 class PageMark(TypedDict):
-    """A point (radius 0) or a ball: `at` where it stands still, else `way`."""
+    """A point (radius 0) or a ball: `at` where it stands still, else `way`. `reading`: a number to
+    write behind its name, with so many decimals.
+    """
 
     name: str
     radius: float
+    reading: NotRequired[PageWay]
+    decimals: NotRequired[int]
     at: NotRequired[list[float]]
     way: NotRequired[PageWay]
 
@@ -90,7 +94,8 @@ class PageScene(TypedDict):
     """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
     floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
     camera. With `grows` the picture shrinks where an arm or a target leaves it; a floor that is
-    `solid` hides what dips below it.
+    `solid` hides what dips below it. With `bases`, where they stand, all arms are in one picture.
+    `faces`: polygons, their corners.
     """
 
     size: float
@@ -103,6 +108,8 @@ class PageScene(TypedDict):
     marks: list[PageMark]
     grows: NotRequired[bool]
     solid: NotRequired[bool]
+    bases: NotRequired[list[list[float]]]
+    faces: NotRequired[list[list[list[float]]]]
 
 
 class Axis(TypedDict):
@@ -193,8 +200,8 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers",
-    "plan"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers", "plan",
+    "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
     every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
     below.
 
@@ -206,6 +213,7 @@ class PageExplorer(TypedDict, total=False):
             (`open`)
     plan    names of the ways as `branches`; and what `live.Live` adds
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
+    tour    names of kinds of tasks and of tours, the most points, places for those that are added
     """
 
     kind: str
@@ -237,6 +245,10 @@ class PageExplorer(TypedDict, total=False):
     panels: list[str]
     samples: int
     task: dict[str, Any]
+    kinds: list[str]
+    tours: list[str]
+    most: int
+    spare: list[list[float]]
 
 
 class PageAnswer(TypedDict):

@@ -339,7 +339,9 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     lines = list(project(np.concatenate(edges)))
     cube.add_collection(LineCollection(lines, color="0.75", linewidth=0.8))
     faces, shades = _body(answer["cube"] == FORBIDDEN)
-    cube.add_collection(PolyCollection(list(project(faces)), facecolors=shades, linewidth=0))
+    cube.add_collection(
+        PolyCollection(list(project(faces)), facecolors=shades, linewidth=0, antialiased=False)
+    )
     cube.plot(*project(answer["curve"]).T, "^", color=green, markersize=3)
     path = project(np.array(answer["path"]))
     cube.plot(*path.T, color=orange, linewidth=2)

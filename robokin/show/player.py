@@ -10,6 +10,7 @@ import hashlib
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,8 @@ from ..transform import Transform
 from ..units import deg, length_unit
 from . import arguments, findings, plots
 from .arguments import Targets
-from .camera import Mark, chain, extent, flange, scene_data
-from .numbers import decimals, packed, rounded, scale, scales, thin, tidy
+from .camera import NOTHING_MORE, Around, Mark, chain, extent, flange, scene_data
+from .numbers import decimals, fewest, packed, rounded, scale, scales, thin, tidy
 from .page import (
     Axis,
     Page,
@@ -45,6 +46,7 @@ from .scene import Scene
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
 # Steps of the greatest joint value, speed, acceleration: the joint values also pose the arm.
 FINEST = (32000, 16000, 8000)
+NO_READINGS: Mapping[str, ArrayLike] = MappingProxyType({})
 
 
 def animate(
@@ -60,6 +62,9 @@ def animate(
     circles: Iterable[Any] | Mapping[Any, Any] = (),
     names: Sequence[str] | None = None,
     floor: bool = False,
+    bases: ArrayLike | None = None,
+    faces: Iterable[ArrayLike] = (),
+    readings: Mapping[str, ArrayLike] = NO_READINGS,
 ) -> "Player":
     """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end
     of a cell.
@@ -80,12 +85,17 @@ def animate(
     points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs where the arm is planar. Metres, base coordinates.
     floor    the floor lies at height 0 and hides what dips below it; else it lies under everything
+    bases    where several arms stand together in one picture: (arms, 2), x and y in m; targets,
+             points, circles and faces are then in coordinates of the floor. Points can name them
+    faces    polygons to draw behind the arms, such as a belt: corners (k, 3), m
+    readings numbers that change, to write behind the names of points: a dict name -> (samples,),
+             or with the leading axes of q; a whole number stays until the next sample has another
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, where it depends on slider and switch alone, (..., 1,
     3); a target is a Transform of such a shape without the 3. NaN where it is not there. No
-    distance is told from a "via" that moves with time. Several arms side by side have the same
-    targets, points and circles; nothing else is drawn beside them, no line and no face.
+    distance is told from a "via" that moves with time, nor with `bases`. Several arms side by side
+    have the same targets, points, circles and faces.
 
     ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
     numbers. TypeError: an arm or a target of another kind.
@@ -98,9 +108,14 @@ def animate(
     marks = arguments.marks(points, circles, lead, count)
     title = " and ".join(dict.fromkeys(names)) if title is None else arguments.plain(title, "title")
     solid = arguments.yes(floor, "floor")
-    data = page_data(names, tracks, named, marks, sliding, switching, title, solid)
+    around = Around(
+        arguments.standing(bases, len(tracks)),
+        arguments.polygons(faces),
+        arguments.readings(readings, marks, lead, count),
+    )
+    data = page_data(names, tracks, named, marks, sliding, switching, title, solid, around)
     motions = [(track.arm, track.q[0]) for track in tracks]
-    still = still_picture(names, motions, named, marks, data["scene"], title, data["alt"])
+    still = still_picture(names, motions, named, marks, data["scene"], title, data["alt"], around)
     return Player(data, still)
 
 
@@ -161,6 +176,7 @@ def page_data(
     switch: Switch | None,
     title: str,
     solid: bool,
+    around: Around,
 ) -> Page:
     """What the page draws."""
     arms, t = [track.arm for track in tracks], tracks[0].t
@@ -174,7 +190,7 @@ def page_data(
     ]
     places = [decimals([c[k] for c in curves]) for k in (1, 2)]
     via = targets.get("via")
-    if via is not None and via.shape and via.shape[1] > 1:
+    if around.bases is not None or via is not None and via.shape and via.shape[1] > 1:
         via = None  # one that moves is at no place to pass
     drawn: list[PageArm] = [
         {
@@ -193,7 +209,7 @@ def page_data(
         for arm, name, track, curve, u in zip(arms, names, tracks, curves, units, strict=True)
     ]
     postures = [track.q[:, kept] for track in tracks]
-    scene = scene_data(arms, postures, targets, marks, size, kept, solid)
+    scene = scene_data(arms, postures, targets, marks, size, kept, solid, around)
     summary, alt = findings.words(drawn, t, targets, unit, slider, switch)
     return {
         "title": title,
@@ -283,12 +299,14 @@ def still_picture(
     scene_page: PageScene,
     title: str,
     alt: str,
+    around: Around = NOTHING_MORE,
 ) -> plots.Figure:
     """The first and the last posture of each arm with the path of its tool; what moves stands where
     it is at last.
     """
-    count = len(motions)
-    figure = plots.figure(alt, width=4.5 * count if count > 1 else 6.4, height=4.5)
+    count = 1 if around.bases is not None else len(motions)
+    height = 4.5 if around.bases is None else 3.4
+    figure = plots.figure(alt, width=4.5 * count if count > 1 else 6.4, height=height)
     figure.text(
         0.016,
         0.985,
@@ -298,18 +316,13 @@ def still_picture(
         va="top",
         parse_math=False,
     )
-    for k, (arm, q) in enumerate(motions):
+    bases = around.places(len(motions))
+    for k in range(count):
         ax = figure.add_axes((k / count, 0, 1 / count, 0.93))
         scene = Scene(ax, size=scene_page["size"], like=scene_page)
-        exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
-        path = flange(arm, q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
-        scene.base()
-        if len(exists):
-            scene.arm(arm, q[exists[0]], "first")
-            scene.arm(arm, q[exists[-1]], "last")
-            scene.triad(flange(arm, q[exists[-1]]), width=2.4)
-        if np.isfinite(path).all(axis=-1).any():
-            scene.trace(path)
+        scene.faces(around.faces)
+        for i in range(len(motions)) if count == 1 else [k]:
+            _still_arm(scene, *motions[i], bases[i])
         for name, pose in targets.items():
             scene.triad(pose[0, -1] if pose.shape else pose, name)
         for name, places, radius in marks:
@@ -320,7 +333,10 @@ def still_picture(
                 scene.ball(centre, radius)
             else:
                 scene.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
-            if name:
+            if name in around.readings:
+                value = around.readings[name][0, -1]
+                scene.label(f"{name}: {value:.{fewest(around.readings[name])}f}", centre)
+            elif name:
                 scene.label(name, centre)
         scene.finish()
         if count > 1:
@@ -336,3 +352,16 @@ def still_picture(
                 parse_math=False,
             )
     return figure
+
+
+def _still_arm(scene: Scene, arm: Arm, q: Floats, base: Floats) -> None:
+    """One arm that stands at `base`, first and last, and the path of its tool."""
+    exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
+    path = flange(arm, q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
+    scene.base(base)
+    if len(exists):
+        scene.arm(arm, q[exists[0]], "first", base)
+        scene.arm(arm, q[exists[-1]], "last", base)
+        scene.triad(Transform(translation=base) @ flange(arm, q[exists[-1]]), width=2.4)
+    if np.isfinite(path).all(axis=-1).any():
+        scene.trace(path + base)

@@ -3,7 +3,7 @@
 `plots` draws postures and frames with it, `player` its still picture.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -87,11 +87,11 @@ class Scene:
             *flat.T, **{"solid_capstyle": "round", "solid_joinstyle": "round", **style}
         )[0]
 
-    def arm(self, arm: Arm, q: Floats, strength: str = "last") -> None:
+    def arm(self, arm: Arm, q: Floats, strength: str = "last", base: Floats | float = 0.0) -> None:
         """One posture q (n,), as "last" (dark, with joints and shadow), "first" (lighter) or
-        "between" (faint).
+        "between" (faint), of an arm that stands at `base` (3,).
         """
-        points = arm_points(arm, q)
+        points = arm_points(arm, q) + base
         if not np.isfinite(points).all():
             return
         color, width, z = {"last": (INK, 6, 5), "first": (SOFT, 5, 4), "between": (FAINT, 2.5, 2)}[
@@ -119,8 +119,8 @@ class Scene:
             zorder=z + 0.1,
         )
 
-    def base(self) -> None:
-        """The foot of the arm at the origin."""
+    def base(self, at: Floats | float = 0.0) -> None:
+        """The foot of the arm, at the origin or at (3,)."""
         angle = np.linspace(0, 2 * np.pi, 60)
         ring = (
             0.07
@@ -129,7 +129,7 @@ class Scene:
                 np.cos(angle)[:, None] * np.eye(3)[self.across[0]]
                 + np.sin(angle)[:, None] * np.eye(3)[self.across[1]]
             )
-        )
+        ) + at
         self.ax.add_patch(Polygon(self.project(ring), facecolor=FOOT, edgecolor=SOFT, zorder=1))
         self.corners.append(ring)
         self.drawn.append((self.project(ring), 1))
@@ -184,6 +184,16 @@ class Scene:
         self.corners.append(centre[None])
         x, y = self.project(centre)
         self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0))
+
+    def faces(self, polygons: Sequence[Floats]) -> None:
+        """Polygons (k, 3) behind the arms, the farther ones first."""
+        (ca, ce), (sa, se) = np.cos(self.view), np.sin(self.view)
+        for corners in sorted(
+            polygons, key=lambda face: face.mean(axis=0) @ [ce * ca, ce * sa, se]
+        ):
+            self.corners.append(corners)
+            flat = self.project(corners)
+            self.ax.add_patch(Polygon(flat, facecolor=FOOT, edgecolor=SOFT, lw=0.8, zorder=0.6))
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
         """Words beside a point (3,); `finish` finds them a free place."""

@@ -2,6 +2,8 @@
 the same tasks.
 
     python tests/benchmarks/obstacle_tasks.py [tasks]
+    python tests/benchmarks/obstacle_tasks.py tasks --two        with a second obstacle anywhere
+    python tests/benchmarks/obstacle_tasks.py tasks --moving     it moves: those of test_moving.py
     python tests/benchmarks/obstacle_tasks.py tasks --brute
 
 The tasks (2000) are those of tests/test_obstacles.py: lever AK sweeps the obstacle on the direct
@@ -15,7 +17,7 @@ import sys
 from collections import Counter
 from itertools import product
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
@@ -25,9 +27,11 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
+from test_moving import least_on_the_way, moving_tasks
 from test_obstacles import ARM, KEPT, dense, seen, tasks
 
 from robokin import deg
+from robokin.jobs.moving import plan_moving
 from robokin.jobs.obstacles import clearance, plan, via_path
 
 
@@ -92,12 +96,62 @@ def share(counts, total):
     )
 
 
+def print_times(times):
+    for way, each in times.items():
+        median, most, longest = 1e3 * np.percentile(each, (50, 95, 100))
+        print(
+            f"CPU time of a plan that ends in {way!r}, ms: median {median:.0f}, 95 % {most:.0f}, "
+            f"longest {longest:.0f}"
+        )
+
+
+def past_two(n):
+    rng, found, broken, times = np.random.default_rng(16), Counter(), 0, {}
+    for q0, K1, H in tasks(n, seed=17):
+        both = np.array([H, rng.uniform(-2.5, 2.5, 2)])
+        start = process_time()
+        answer = plan(ARM, q0, K1, both)
+        times.setdefault(answer.way, []).append(process_time() - start)
+        too_near = "No path keeps" in answer.words
+        found["start or target too near" if too_near else answer.way] += 1
+        if answer.found:
+            broken += min(seen(dense(answer.path), h).min() for h in both) < KEPT
+    print_found(n, found, broken)
+    print_times(times)
+
+
+def past_moving(n):
+    found, broken, times = Counter(), 0, {}
+    for q0, K1, H, v in moving_tasks(n):
+        start = process_time()
+        answer, when = plan_moving(ARM, q0, K1, H, v, 1.0)
+        times.setdefault(answer.way, []).append(process_time() - start)
+        too_near = "At the start" in answer.words
+        found["start too near" if too_near else answer.way] += 1
+        if answer.found:
+            broken += least_on_the_way(answer.path, when, H, v, 4001).min() < KEPT
+    print_found(n, found, broken)
+    print_times(times)
+
+
+def print_found(n, found, broken):
+    open_tasks = n - sum(count for name, count in found.items() if "too near" in name)
+    print(f"{n} tasks: {share(found, n)}")
+    print(
+        f"open tasks {open_tasks}: solved {1 - found['none'] / open_tasks:.1%}; plans that break "
+        f"their clearance: {broken}"
+    )
+
+
 def main(n):
-    found, circles, broken, times, rows = Counter(), [Counter() for _ in range(3)], 0, [], []
+    found, circles, broken, rows = Counter(), [Counter() for _ in range(3)], 0, []
+    times, radii = {}, Counter()
     for q0, K1, H in tasks(n):
-        start = perf_counter()
+        start = process_time()
         answer = plan(ARM, q0, K1, H)
-        times.append(perf_counter() - start)
+        times.setdefault(answer.way, []).append(process_time() - start)
+        if answer.way == "via points":
+            radii[f"{1000 * answer.radius:.0f} mm"] += 1
         if "No path keeps" in answer.words:
             found["start or target too near"] += 1
             continue
@@ -124,11 +178,8 @@ def main(n):
         f"movement over that of the direct way: median {np.median(cost / least):.2f}, "
         f"total {cost.sum() / least.sum():.2f}; corners: {Counter(corners.astype(int).tolist())}"
     )
-    print(
-        "time per plan in ms: median {:.0f}, 95 % {:.0f}, longest {:.0f}".format(
-            *(1e3 * np.percentile(times, (50, 95, 100)))
-        )
-    )
+    print(f"via points that win, by radius: {dict(radii.most_common())}")
+    print_times(times)
     for factor, counts in zip((1, 1.5, 2), circles, strict=True):
         print(f"document's via points, circle {factor} L/7: {share(counts, open_tasks)}")
     wide = Counter(
@@ -139,5 +190,6 @@ def main(n):
 
 
 if __name__ == "__main__":
-    run = beside_brute_force if "--brute" in sys.argv else main
+    runs = {"--brute": beside_brute_force, "--two": past_two, "--moving": past_moving}
+    run = next((runs[word] for word in sys.argv if word in runs), main)
     run(int(sys.argv[1]) if len(sys.argv) > 1 else 2000)

@@ -14,40 +14,30 @@ def inside(corners, H):
     return odd
 
 
-# --- 2: Past two obstacles
-import itertools
-
+# --- 2: Past a bar
 import numpy as np
 
 from robokin import deg, three_lever
 from robokin.course import variant
-from robokin.jobs.obstacles import clearance
+from robokin.jobs.obstacles import clearance, way_round
 
 who = "your name"
 my_task = variant("obstacle_avoidance", who)
 arm = three_lever(1.0)
-my_start = np.array(my_task["start"]) * deg
+my_start, (first, last) = np.array(my_task["start"]) * deg, np.array(my_task["bar"])
 
 
-def folded_path(beta, alpha, end):
-    """Fold, swing, unfold."""
-    first, last = [my_start[0], beta, alpha], [end[0], beta, alpha]
-    return np.array([my_start, first, last, end])
+def points_of_the_bar(count):
+    return first + np.linspace(0, 1, count)[:, None] * (last - first)
 
 
-def movement(path):
-    return abs(np.diff(path, axis=0)).sum()
-
-
-ends = arm.family(my_task["target"], np.linspace(*arm.alpha_range(my_task["target"]), 5))
-folds = np.arange(45, 121, 15) * deg
-my_path = None
-for beta, alpha, end in itertools.product(folds, folds, ends):
-    path = folded_path(beta, alpha, end)
-    if my_path is not None and movement(path) >= movement(my_path):
-        continue
-    if all(clearance(arm, path, H).min() >= my_task["distance"] for H in my_task["obstacles"]):
-        my_path = path
+# whoever keeps d from two points h apart keeps sqrt(d**2 - (h / 2)**2) from what is between them
+few = points_of_the_bar(10)
+h = np.hypot(*(few[1] - few[0]))
+asked = np.hypot(my_task["distance"], h / 2)
+my_path = way_round(arm, my_start, my_task["target"], few, asked)
+movement = abs(np.diff(my_path, axis=0)).sum()
+least = clearance(arm, my_path, points_of_the_bar(200)).min()
 
 # --- 3: A test for checks
 import numpy as np

@@ -1,6 +1,6 @@
 // The camera of a page: metres in base coordinates to CSS pixels on a canvas. (Figures: camera.py and scene.py.)
 
-import {dot} from "./kinematics.js";
+import {dot, plus} from "./kinematics.js";
 
 /**
  * @typedef {object} Camera  a parallel projection
@@ -28,3 +28,6 @@ export function camera([azimuth, elevation], corners, [left, top, width, height]
           along: v => [scale * dot(v, right), -scale * dot(v, up)],
           across: (dx, dy) => right.map((r, k) => (dx * r - dy * up[k]) / scale)};
 }
+
+/** The same camera for the coordinates of what stands at `base`. @param {Camera} cam @param {Point} base */
+export const movedTo = (cam, base) => ({...cam, to: p => cam.to(plus(p, base))});

@@ -1,4 +1,4 @@
-// Three equal levers: a family of postures for one point. As planar.py, which is the reference.
+// Three levers: a family of postures for one point. As planar.py, which is the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
 // to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
@@ -16,27 +16,53 @@ function angleOf(a, b, c, {ROUNDING}) {
   return 2 * Math.atan2(root(beside), root(around));
 }
 
+// The third side of a triangle with the sides a and b around an angle.
+const across = (a, b, angle) => distance2(a - b, 2 * Math.sqrt(a * b) * Math.sin(angle / 2));
+
+// The angle between the side a and the third side of the same triangle.
+const beside = (a, b, angle) =>
+  (Math.PI - angle) / 2 + Math.atan2((b - a) * Math.cos(angle / 2), (b + a) * Math.sin(angle / 2));
+
 // Distance KO and direction phi of a point; NaN where it is out of reach.
-function polar({geometry: {lever: L}, tolerances: {ROUNDING}}, {place: [x, y, z]}) {
+function polar({geometry: {lever, inner, reach}, tolerances: {ROUNDING}}, {place: [x, y, z]}) {
   const KO = distance2(x, y);
-  const reached = KO > L && KO <= 3 * L * (1 + ROUNDING) && Math.abs(z) <= ROUNDING * L;
+  const reached = KO > inner && KO <= reach * (1 + ROUNDING) && Math.abs(z) <= ROUNDING * lever;
   return reached ? [KO, Math.atan2(y, x)] : [NaN, NaN];
 }
 
-function leverPosture({geometry: {lever: L}, tolerances}, KO, phi, alpha) {
-  const {ROUNDING} = tolerances, low = angleOf(L, 2 * L, KO, tolerances);
+// The alpha at which O, B and A are in line, or 0 where the levers need not stretch.
+const lowest = ({geometry: {levers: [a, b, c]}, tolerances}, KO) =>
+  KO <= a + b - c ? 0 : angleOf(c, a + b, KO, tolerances);
+
+function leverPosture(arm, KO, phi, alpha) {
+  const {geometry: {levers: [a, b, c]}, tolerances} = arm, {ROUNDING} = tolerances, low = lowest(arm, KO);
   if (!(alpha >= low - ROUNDING && alpha <= Math.PI + ROUNDING)) return nowhere(3);
   alpha = between(alpha, low, Math.PI);
-  const KB = 2 * L * Math.sin(alpha / 2);
-  return [phi + angleOf(KO, L, KB, tolerances),
-          angleOf(KB, L, KO, tolerances) + (Math.PI - alpha) / 2, alpha];
+  const KB = across(b, c, alpha);
+  return [phi + angleOf(KO, a, KB, tolerances), angleOf(KB, a, KO, tolerances) + beside(b, c, alpha), alpha];
 }
 
 // The alpha that belongs to the angle KOB; NaN where there is none.
-function alphaOfGamma({geometry: {lever: L}, tolerances: {ROUNDING}}, KO, gamma1) {
-  const half = Math.sqrt(KO * KO + L * L - 2 * KO * L * Math.cos(gamma1)) / (2 * L);
-  if (!(half <= 1 + ROUNDING && gamma1 >= 0 && gamma1 <= Math.PI)) return NaN;
+function alphaOfGamma({geometry: {levers: [a, b, c]}, tolerances: {ROUNDING}}, KO, gamma1) {
+  const KB = Math.sqrt(KO * KO + a * a - 2 * KO * a * Math.cos(gamma1)), gap = Math.abs(b - c);
+  const half = Math.sqrt(Math.max((KB - gap) * (KB + gap), 0)) / (2 * Math.sqrt(b * c));
+  if (!(half <= 1 + ROUNDING && KB >= gap && gamma1 >= 0 && gamma1 <= Math.PI)) return NaN;
   return 2 * Math.asin(Math.min(half, 1));
+}
+
+/**
+ * The same arm with levers OB, BA, AK of other lengths, in metres: what planar.py makes of them.
+ * @param {Object} arm
+ * @param {number[]} levers
+ * @returns {Object}
+ */
+export function withLevers(arm, levers) {
+  const [a, b, c] = levers, reach = a + b + c, [first, ...chain] = structuredClone(arm.chain);
+  chain[0].before[3] = a; // the rows of [R | p]: this is x of p
+  chain[1].before[3] = b;
+  chain[1].after[3] = c;
+  const geometry = {...arm.geometry, levers, lever: reach / 3, inner: Math.abs(a - b) + c, reach};
+  return {...arm, chain: [first, ...chain], reach, geometry};
 }
 
 /**
@@ -48,13 +74,13 @@ function alphaOfGamma({geometry: {lever: L}, tolerances: {ROUNDING}}, KO, gamma1
  * @returns {number[]}
  */
 export function alpha_range(arm, point, limited = true) {
-  const {geometry: {lever: L}, tolerances} = arm, [KO, phi] = polar(arm, point);
-  const gamma = alpha => phi + angleOf(KO, L, 2 * L * Math.sin(alpha / 2), tolerances);
-  let low = angleOf(L, 2 * L, KO, tolerances), high = Number.isNaN(KO) ? NaN : Math.PI;
+  const {geometry: {levers: [a, b, c]}, tolerances} = arm, [KO, phi] = polar(arm, point);
+  const gamma = alpha => phi + angleOf(KO, a, across(b, c, alpha), tolerances);
+  let low = lowest(arm, KO), high = Number.isNaN(KO) ? NaN : Math.PI;
   if (limited) {
     if (gamma(low) < 0) low = alphaOfGamma(arm, KO, -phi);
     if (gamma(high) > Math.PI) high = alphaOfGamma(arm, KO, Math.PI - phi);
-    if (low > high || gamma(low) > Math.PI + tolerances.ROUNDING) return [NaN, NaN];
+    if (!(low <= high) || gamma(low) > Math.PI + tolerances.ROUNDING) return [NaN, NaN];
   }
   return [low, high];
 }
@@ -69,24 +95,36 @@ export function alpha_range(arm, point, limited = true) {
  */
 export const family = (arm, point, alpha) => leverPosture(arm, ...polar(arm, point), alpha);
 
-// The alpha between low and high with the least alpha + beta - gamma: six times, the best of 33 and
-// its neighbours.
-function bottom(arm, KO, low, high) {
-  for (let round = 0; round < 6; round++) {
-    const alphas = Array.from({length: 33}, (_, i) => low + (high - low) * (i / 32));
-    const sums = alphas.map(each => {
-      const [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
-      return alpha + beta - gamma;
-    });
-    const best = sums.indexOf(Math.min(...sums));
-    [low, high] = [alphas[Math.max(best - 1, 0)], alphas[Math.min(best + 1, 32)]];
-  }
-  return (low + high) / 2;
+// How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha, up to a
+// positive factor: see planar.py.
+function slopes(arm, KO, each) {
+  const [a, b, c] = arm.geometry.levers, [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
+  const height = a * Math.sin(gamma);
+  const changes = [b * c * Math.sin(alpha), KO * (b * Math.sin(gamma + beta) - height), KO * height];
+  const sum = changes[0] + changes[1] + changes[2];
+  return changes.map(change => sum - 2 * change);
+}
+
+// Six alphas: the first and the last at which each of these sums is level. (Of equal levers only the first sum has a
+// minimum; planar.py finds it in another way, as well as half of the digits tell.)
+function level(arm, KO, low, high) {
+  const alphas = Array.from({length: 257}, (_, i) => low + (high - low) * (i / 256));
+  const signs = alphas.map(alpha => slopes(arm, KO, alpha).map(Math.sign));
+  const turns = [0, 1, 2].map(k => alphas.slice(1).map((_, i) => signs[i][k] !== signs[i + 1][k]));
+  return turns.flatMap((turn, k) => [Math.max(turn.indexOf(true), 0), turn.lastIndexOf(true)].map(cell => {
+    let [start, end] = cell < 0 ? [low, low] : [alphas[cell], alphas[cell + 1]];
+    for (let i = 0; i < 28; i++) {
+      const middle = (start + end) / 2;
+      if (Math.sign(slopes(arm, KO, middle)[k]) === signs[Math.max(cell, 0)][k]) start = middle;
+      else end = middle;
+    }
+    return (start + end) / 2;
+  }));
 }
 
 /**
  * The posture at a point with the smallest sum S of the angles' changes from `previous`: the
- * kinks and ends of S as a function of alpha and its one minimum between them are compared.
+ * kinks and ends of S as a function of alpha and where it is level between them are compared.
  * @param {Object} arm
  * @param {{place: number[]}} point
  * @param {number[]} previous
@@ -94,13 +132,12 @@ function bottom(arm, KO, low, high) {
  * @returns {number[]}
  */
 export function least(arm, point, previous, limited = true) {
-  const {geometry: {lever: L}, tolerances} = arm, [gamma0, beta0, alpha0] = previous;
+  const {geometry: {levers: [a, b, c]}, tolerances} = arm, [gamma0, beta0, alpha0] = previous;
   const [KO, phi] = polar(arm, point), [low, high] = alpha_range(arm, point, limited);
   if (Number.isNaN(low)) return nowhere(3);
-  const atA = angleOf(2 * L * Math.sin(beta0 / 2), L, KO, tolerances);
-  const alphas = [low, high, alpha0, alphaOfGamma(arm, KO, gamma0 - phi),
-                  (Math.PI - beta0) / 2 + atA, (Math.PI - beta0) / 2 - atA,
-                  bottom(arm, KO, low, high)];
+  const BAO = beside(b, a, beta0), atA = angleOf(across(a, b, beta0), c, KO, tolerances);
+  const alphas = [low, high, alpha0, alphaOfGamma(arm, KO, gamma0 - phi), BAO + atA, BAO - atA,
+                  ...level(arm, KO, low, high)];
   const rows = alphas.map(alpha =>
     leverPosture(arm, KO, phi, between(Number.isNaN(alpha) ? low : alpha, low, high)));
   return leastTravel(rows, previous);

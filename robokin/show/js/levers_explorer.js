@@ -1,15 +1,15 @@
 // The explorer of an arm that reaches a point in a family of postures: the point is taken by the hand,
-// the free angle chosen on the curve of what it costs. What is said, and every number of the arm,
-// comes from Python (page.py: PageExplorer).
+// the free angle chosen on the curve of what it costs, and levers of different lengths by sliders. What
+// is said, and every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {plus} from "./kinematics.js";
-import {alpha_range, family, least} from "./levers.js";
+import {alpha_range, family, least, withLevers} from "./levers.js";
 import {fill} from "./blanks.js";
 import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
 import {control, element, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
 import {copyButton, slider, stageOf} from "./stage.js";
-import {degrees, inCode, plain, radians} from "./turns.js";
+import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 
 /**
  * Fills every waiting place with this id.
@@ -19,11 +19,13 @@ import {degrees, inCode, plain, radians} from "./turns.js";
 export const explore = (id, data) => waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
 function leversExplorer(stage, data) {
-  const {arm, words: says, unit} = data, home = [...data.target.place];
+  const {words: says, unit} = data, home = [...data.target.place];
+  let {arm} = data;
   const state = {place: [...home], before: [...data.q], alpha: data.q[2]};
   const sliders = data.controls.map((spec, k) => slider(spec, value => {
     if (k < 2) state.place[k] = value * unit.size;
-    else state.alpha = radians(value);
+    else if (k === 2) state.alpha = radians(value);
+    else arm = withLevers(arm, arm.geometry.levers.map((old, i) => i === k - 3 ? value * unit.size : old));
     stage.changed();
   }));
   const cost = q => q.reduce((sum, x, j) => sum + Math.abs(x - state.before[j]), 0);
@@ -38,7 +40,7 @@ function leversExplorer(stage, data) {
     button(says.least, () => { state.alpha = least(arm, state, state.before)[2]; }),
     button(says.begin, () => { if (shown) state.before = family(arm, state, state.alpha); }),
     copyButton(says, () => fill(data.code, {...inCode({place: state.place}, unit),
-      alpha: plain(degrees(state.alpha), 3)}))), canvas, stage.says);
+      alpha: plain(degrees(state.alpha), 3), levers: lengths(arm.geometry.levers, {size: 1}).join(", ")}))), canvas, stage.says);
   const pick = event => {
     if (shown) state.alpha = shown.alphaAt(event.offsetX);
     stage.changed();
@@ -63,7 +65,9 @@ function leversExplorer(stage, data) {
     const [low, high] = alpha_range(arm, state), exists = !Number.isNaN(low);
     if (exists) state.alpha = Math.min(Math.max(state.alpha, low), high);
     const q = exists ? family(arm, state, state.alpha) : state.before;
-    [state.place[0] / unit.size, state.place[1] / unit.size, degrees(state.alpha)].forEach((x, k) => sliders[k].set(x));
+    const inUnit = x => x / unit.size, values = [...state.place.slice(0, 2).map(inUnit), degrees(state.alpha),
+      ...arm.geometry.levers.map(inUnit)];
+    sliders.forEach((each, k) => each.set(values[k]));
     const best = exists ? least(arm, state, state.before) : null;
     costs = exists ? {low, high, alpha: state.alpha, best: best[2],
       at: alpha => cost(family(arm, state, alpha))} : null;

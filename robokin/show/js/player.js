@@ -6,10 +6,8 @@ import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {places, recording} from "./recordings.js";
 import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
-import {choice, control, element, range, waiting} from "./elements.js";
-
-const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
-const TICKS = 400, SPEEDS = [0.25, 0.5, 1, 2, 4];
+import {clockRow, runningClock} from "./clock.js";
+import {choice, element, range, waiting} from "./elements.js";
 
 /** Fills every waiting place with this id. */
 export const play = (id, data) => waiting(id).forEach(root => start(root, data));
@@ -32,7 +30,7 @@ function start(root, data) {
   }
   function draw(now) {
     clock.pass(now);
-    sized(parts, inSpace, data.arms.length);
+    sized(parts, inSpace, data.arms.length, scene.bases ? 1 : data.arms.length);
     const moment = momentAt(data.times, state.time), arms = shown.arms.map(arm => armAt(arm, moment));
     shown.columns.forEach((column, k) => shownAt(column, moment, shown.arms[k].gaps));
     Object.assign(scene, motions.around(shown.motion, moment));
@@ -44,7 +42,7 @@ function start(root, data) {
 
   root.replaceChildren(parts.frame);
   const ask = pictures(root, [parts.scene, parts.curves], draw); // also draws the first picture
-  const clock = runningClock(root, parts, state, data.times, ask);
+  const clock = runningClock(parts, parts.frame, state, () => [data.times[0], data.times.at(-1)], ask);
   parts.slider?.addEventListener("input", () => { state.value = +parts.slider.value; choose(); ask(); });
   parts.menu?.addEventListener("change", () => { state.choice = +parts.menu.value; choose(); ask(); });
   orbit(parts.scene, scene, state, ask);
@@ -60,18 +58,12 @@ function furniture(data, scene) {
     curves: element("canvas", {class: "rk-curves", role: "img", "aria-label":
       `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, speeds, accelerations. ` +
       "The greatest values stand in the table."}),
-    icon: element("span"),
-    scrub: range("time", TICKS),
-    time: element("span", {class: "rk-value"}),
-    speed: choice("playing speed", SPEEDS.map(speed => `${speed}\u00D7`)),
+    ...clockRow(),
     table: element("div", {class: "rk-table"}),
     notes: element("ul", {class: "rk-notes"}),
   };
-  parts.button = control("button", {type: "button", "aria-label": "play", title: "play or pause (Space)"}, parts.icon);
-  parts.speed.value = SPEEDS.indexOf(1);
   // above the pictures: on a small screen the hand and what it moves are seen together
-  const rows = [element("div", {class: "rk-row rk-clock"}, parts.button,
-    element("label", {class: "rk-long"}, parts.scrub, parts.time), element("label", {}, "playback", parts.speed))];
+  const rows = [parts.row];
   const {slider, switch: menu} = data;
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider) {
@@ -87,9 +79,9 @@ function furniture(data, scene) {
   return parts;
 }
 
-// A canvas that has the whole width takes the height that its arms fill.
-function sized({scene, curves}, inSpace, count) {
-  const [, rows] = tiled(count, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
+// A canvas that has the whole width takes the height that its arms fill: so many have curves, so many pictures are there.
+function sized({scene, curves}, inSpace, arms, count) {
+  const [, rows] = tiled(arms, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
   curves.style.height = rows > 1 ? `${rows * 330}px` : "";
   scene.style.height = whole && scene.clientWidth
     ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * (count > 1 ? 290 : 340), Math.max(190, inSpace.height(count, scene.clientWidth))))}px` : "";
@@ -194,48 +186,6 @@ function shownAt(column, {i, share}, gaps) {
 }
 
 // --- Time -----------------------------------------------------------------------------------------------------------
-
-// The clock of a player, with its button, its slider and the Space key. pass(now): time goes on; set(time): it stops
-// there; tell(): time and slider show it.
-function runningClock(root, parts, state, times, ask) {
-  let before = 0;
-  const begin = times[0], end = times.at(-1), tick = (end - begin) / TICKS;
-  function run(on) {
-    state.playing = on;
-    if (on && state.time >= end) state.time = begin;
-    before = performance.now();
-    parts.icon.innerHTML = `<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true"><path d="${on ? PAUSE : PLAY}"/></svg>`;
-    parts.button.setAttribute("aria-label", on ? "pause" : "play");
-    if (on) ask();
-  }
-  function pass(now) {
-    if (!state.playing) return;
-    // The first stamp may lie before the click; and what was hidden for a while goes on where it was.
-    state.time = Math.min(end, state.time + Math.min(500, Math.max(0, now - before)) / 1000 * SPEEDS[parts.speed.value]);
-    before = Math.max(before, now);
-    if (state.time >= end) run(false);
-    else ask();
-  }
-  function set(time) {
-    run(false);
-    state.time = Math.min(end, Math.max(begin, time));
-    ask();
-  }
-  function tell() {
-    parts.time.textContent = `${number(state.time, 2)} s`;
-    parts.scrub.value = Math.round((state.time - begin) / tick);
-    parts.scrub.setAttribute("aria-valuetext", parts.time.textContent);
-  }
-  parts.button.addEventListener("click", () => run(!state.playing));
-  parts.scrub.addEventListener("input", () => set(begin + parts.scrub.value * tick));
-  parts.frame.addEventListener("keydown", event => {
-    if (event.key !== " " || ["BUTTON", "SELECT"].includes(event.target.tagName)) return;
-    event.preventDefault();
-    run(!state.playing);
-  });
-  run(false);
-  return {pass, set, tell};
-}
 
 // Pressing and dragging on the curves sets the time.
 function scrubbing(canvas, overTime, clock) {

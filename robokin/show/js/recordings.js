@@ -1,5 +1,7 @@
 // Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over time.
 
+import {number} from "./canvas.js";
+
 const NOTHING = -32768;
 
 /**
@@ -41,22 +43,32 @@ export function recording(arm, motions, samples, unit) {
 }
 
 /**
- * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their `pose` or `at`.
+ * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their `pose` or `at`, and
+ * behind their name what there is to read.
  * @param {object[]} things  page.py: PageTarget or PageMark
  * @param {"pose"|"at"} key
  */
 export function places(things, key) {
   const columns = key === "pose" ? 12 : 3;
-  const where = things.map(({way, ...thing}) => {
-    if (!way) return () => thing;
-    const {motions, samples} = way, values = unpacked(way, motions, columns, samples);
+  const where = things.map(({way, reading, decimals, ...thing}) => {
+    const at = way && numbers(way, columns), read = reading && numbers(reading, 1);
     return (motion, i, share) => {
-      const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
-      const now = Array.from({length: columns}, (_, k) => between(values, first + k * samples, samples > 1 ? share : 0));
-      return now.some(Number.isNaN) ? null : {...thing, [key]: now};
+      const now = at && at(motion, i, share), [value] = read ? read(motion, i, 0) : [NaN];
+      if (now && now.some(Number.isNaN)) return null;
+      const name = Number.isNaN(value) ? thing.name : `${thing.name}: ${number(value, decimals)}`;
+      return {...thing, name, ...now && {[key]: now}};
     };
   });
   return (motion, i, share) => where.map(one => one(motion, i, share)).filter(thing => thing);
+}
+
+// A PageWay -> (motion, sample, share) -> its columns.
+function numbers(way, columns) {
+  const {motions, samples} = way, values = unpacked(way, motions, columns, samples);
+  return (motion, i, share) => {
+    const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
+    return Array.from({length: columns}, (_, k) => between(values, first + k * samples, samples > 1 ? share : 0));
+  };
 }
 
 // NaN beside a sample that exists does not count before the time has left it.

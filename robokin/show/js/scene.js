@@ -2,7 +2,7 @@
 
 import {dot, distance, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {clear, colors, FONT, hit, jointColor, polygon, prepared, shape, spot, stroke, tiled, words} from "./canvas.js";
-import {camera} from "./camera.js";
+import {camera, movedTo} from "./camera.js";
 
 /**
  * @typedef {object} Shown  an arm as a picture shows it
@@ -24,7 +24,8 @@ import {camera} from "./camera.js";
  *
  * draw(view, arms, clock)   one picture: view [azimuth, elevation], arms Shown[], words for the right upper corner.
  *                           Returns whether there was room for one
- * cameras()                 those of the last picture, one for each arm: `to` projects a point to CSS pixels
+ * cameras()                 those of the last picture, one for each arm, or one for all where they stand together in
+ *                           one: `to` projects a point to CSS pixels
  * hold(on)                  while on, the cameras of the last picture stay: for as long as something is dragged
  * height(count, width)      how high a canvas of this width is well filled by so many arms
  *
@@ -39,16 +40,17 @@ export function sceneView(canvas, scene) {
   function draw(view, arms, clock) {
     const ready = prepared(canvas);
     if (!ready) return false;
-    const [g, w, h] = ready, [columns, rows] = tiled(arms.length, w), cw = w / columns, ch = h / rows;
-    cameras = arms.map((arm, i) => {
+    const pictures = scene.bases ? [arms] : arms.map(arm => [arm]);
+    const [g, w, h] = ready, [columns, rows] = tiled(pictures.length, w), cw = w / columns, ch = h / rows;
+    cameras = pictures.map((shown, i) => {
       const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
-      const corners = scene.grows ? [...space.corners, ...reached(scene, arm)] : space.corners;
+      const corners = scene.grows ? [...space.corners, ...reached(scene, shown[0])] : space.corners;
       const cam = held && cameras[i] || camera(view, corners, inside(cell));
       g.save();
       g.beginPath();
       g.rect(...cell);
       g.clip();
-      drawArmInSpace({g, cam, scene, space}, arm, cell, arms.length > 1);
+      drawSpace({g, cam, scene, space}, shown, cell, pictures.length > 1);
       g.restore();
       if (i % columns) stroke(g, [[cell[0], cell[1] + 10], [cell[0], cell[1] + ch - 10]], colors.grid, 1);
       return cam;
@@ -89,48 +91,71 @@ function reached(scene, arm) {
     .filter(p => p.every(Number.isFinite));
 }
 
-// One arm and all that is around it. A pen is {g, cam, scene, space}: on what, how seen, what is there.
-function drawArmInSpace(pen, arm, [x, y, w, h], named) {
-  const {g, cam, scene} = pen, {to} = cam, {size} = scene, {trace = [], tail = [], ghosts = []} = arm;
-  const joints = [], moved = [], all = frames(arm.chain, arm.q, joints, moved);
-  const exists = arm.q.every(Number.isFinite), rods = exists ? limbs(all, joints, moved, size) : [];
-  const thick = Math.min(15, Math.max(5, 0.045 * size * cam.scale));
-  const dips = scene.solid && rods.some(ends => Math.min(ends[0][2], ends[1][2]) < -1e-9);
+// Arms in one picture and all that is around them. A pen is {g, cam, scene, space}: on what, how seen, what is there.
+function drawSpace(pen, arms, [x, y, w, h], named) {
+  const {g, cam, scene} = pen, {to} = cam, [first] = arms, all = arms.map((arm, i) => stood(pen, arm, scene.bases?.[i]));
+  const sunk = all.filter(one => one.dips);
   drawFloor(pen);
-  if (dips) {
-    drawArm(g, cam, arm.chain, rods, joints, thick, size);
-    drawFloor(pen, true);
-  }
-  if (pen.space.spatial) drawShadow(pen, trace, rods, thick);
+  for (const one of sunk) drawRods(one);
+  if (sunk.length) drawFloor(pen, true);
+  if (pen.space.spatial) all.forEach(drawShadow);
+  drawFaces(pen);
   for (const {at, radius} of scene.marks) if (radius) ball(g, to(at), radius * cam.scale);
   drawRoute(pen);
+  [...all].sort((p, q) => p.depth - q.depth).forEach(drawStood);
+  const {labels, taken} = drawPlaces(pen, first.near);
+  all.forEach(drawFlange);
+  place(g, labels, [...all.flatMap(one => one.trace.filter(p => p).map(one.cam.to)), ...taken], [x + 4, y + 24, w - 8, h - 46]);
+  compass(g, cam, [x + w - 34, y + h - 34]);
+  if (named) words(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (arms.some(arm => arm.faded)) words(g, "no solution here", x + w / 2, y + (named ? 40 : 22), colors.alarm, 14, "center", "600");
+}
+
+// An arm in its place: a pen of its own coordinates, what Shown has, its frames and limbs.
+function stood(pen, arm, base = [0, 0, 0]) {
+  const {size, solid} = pen.scene, joints = [], moved = [], all = frames(arm.chain, arm.q, joints, moved);
+  const exists = arm.q.every(Number.isFinite), rods = exists ? limbs(all, joints, moved, size) : [];
+  return {...pen, trace: [], tail: [], ghosts: [], ...arm, cam: movedTo(pen.cam, base), all, joints, exists, rods,
+    depth: dot(base, pen.cam.toward), thick: Math.min(15, Math.max(5, 0.045 * size * pen.cam.scale)),
+    dips: solid && rods.some(ends => Math.min(ends[0][2], ends[1][2]) < -1e-9)};
+}
+
+const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) => drawArm(g, cam, chain, rods, joints, thick, scene.size, from);
+
+// The arm, its path before and behind it.
+function drawStood(one) {
+  const {g, cam, scene, trace, tail, ghosts, rods, thick} = one, {to} = cam;
   stroke(g, trace.map(p => p && to(p)), clear(colors.path, 0.45), 1.4, [1, 4]);
-  arm.under?.(g, cam);
-  drawFoot(pen, rods.length ? 1 : 0.4);
+  one.under?.(g, cam);
+  drawFoot(one, rods.length ? 1 : 0.4);
   for (const {q, past} of ghosts)
-    stroke(g, polyline(arm.chain, q).map(to), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
-  g.globalAlpha = arm.faded ? 0.3 : 1;
-  if (dips) drawArm(g, cam, arm.chain, rods.flatMap(raised), joints, thick, size, 0);
-  else drawArm(g, cam, arm.chain, rods, joints, thick, size);
-  if (arm.framed) for (const frame of all) triad(g, cam, frame, 0.08 * size, 1.8, 1);
+    stroke(g, polyline(one.chain, q).map(to), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
+  g.globalAlpha = one.faded ? 0.3 : 1;
+  if (one.dips) drawRods({...one, rods: rods.flatMap(raised)}, 0);
+  else drawRods(one);
+  if (one.framed) for (const frame of one.all) triad(g, cam, frame, 0.08 * scene.size, 1.8, 1);
   g.globalAlpha = 1;
   if (tail.length > 1) {
     stroke(g, tail.map(p => p && to(p)), clear(colors.paper, 0.85), 4.5);
     stroke(g, tail.map(p => p && to(p)), colors.path, 2.2);
   }
-  arm.over?.(g, cam);
-  const {labels, taken} = drawPlaces(pen, arm.near);
-  if (exists) {
-    g.globalAlpha = arm.faded ? 0.4 : 1;
-    const flange = all[all.length - 1];
-    triad(g, cam, flange, 0.13 * size, 3, 1, true);
-    spot(g, to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
-    g.globalAlpha = 1;
-  }
-  place(g, labels, [...trace.filter(p => p).map(to), ...taken], [x + 4, y + 24, w - 8, h - 46]);
-  compass(g, cam, [x + w - 34, y + h - 34]);
-  if (named) words(g, arm.name, x + 10, y + 18, colors.ink, 13, "left", "600");
-  if (arm.faded) words(g, "no solution here", x + w / 2, y + (named ? 40 : 22), colors.alarm, 14, "center", "600");
+  one.over?.(g, cam);
+}
+
+function drawFlange({g, cam, scene, faded, all, exists}) {
+  if (!exists) return;
+  g.globalAlpha = faded ? 0.4 : 1;
+  const flange = all[all.length - 1];
+  triad(g, cam, flange, 0.13 * scene.size, 3, 1, true);
+  spot(g, cam.to(origin(flange)), 3.6, colors.hub, colors.path, 1.8);
+  g.globalAlpha = 1;
+}
+
+// Polygons, the farther ones first.
+function drawFaces({g, cam, scene: {faces = []}}) {
+  const depth = corners => corners.reduce((sum, p) => sum + dot(p, cam.toward), 0) / corners.length;
+  for (const corners of [...faces].sort((p, q) => depth(p) - depth(q)))
+    polygon(g, corners.map(cam.to), colors.foot, colors.footEdge, 1);
 }
 
 // Targets, points, and how near the path passes: their labels, and the places on the canvas that labels keep off.
@@ -165,7 +190,7 @@ function drawFloor({g, cam: {to}, scene: {grid, floor: [low, high]}, space: {a, 
 }
 
 // The path and the arm on the floor.
-function drawShadow({g, cam: {to}, scene}, trace, rods, thick) {
+function drawShadow({g, cam: {to}, scene, trace, rods, thick}) {
   const sunk = ([x, y]) => to([x, y, scene.floor[0][2]]);
   stroke(g, trace.map(p => p && sunk(p)), clear(colors.soft, 0.16), 1.5);
   for (const [p, q] of rods) stroke(g, [sunk(p), sunk(q)], clear(colors.soft, 0.13), thick);

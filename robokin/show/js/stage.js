@@ -37,8 +37,10 @@ export function stageOf(root, data) {
     say(text) { if (says.textContent !== text) says.textContent = text; },
     run(answer, canvases = [], beside = () => {}) {
       ask = pictures(root, [canvas, ...canvases], () => {
-        if (stale) arms = answer();
-        stale = false;
+        if (stale) {
+          stale = false; // before: what moves by itself has changed again by then
+          arms = answer();
+        }
         beside();
         const room = view.draw(state.view, arms, "");
         if (room) {
@@ -73,7 +75,7 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   g.stroke();
 }
 
-const LOOK = `
+export const LOOK = `
 .rk.rk.rk {
   & .rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); align-items: start; }
   & .rk-asked canvas { height: clamp(300px, 38cqw, 350px); }

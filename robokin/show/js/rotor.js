@@ -1,0 +1,142 @@
+// The rotor of a stepper motor, as jobs/steppers.py has it: the same law, the same steps of the
+// integration. test_motor_explorer.py holds the two together.
+
+/**
+ * @typedef {object} Motor  motors.py: PageMotor, one of `kinds` with one of its drives
+ * @property {number} turn  rad, from winding to winding in the ring
+ * @property {number} periods  how often a pull comes round in one turn of the rotor
+ * @property {number} sharp  1: a current pulls by its value, 2: by its square
+ * @property {number[][]} currents  the rows of the phase table
+ * @property {number} torque @property {number} inertia @property {number} damping @property {number} rise
+ * @property {number} load  N m, always backwards
+ * @property {{fine: number[], settled: number, slowest: number, limit: number, nearly: number}} rules
+ * @typedef {{theta: number, omega: number, currents: number[]}} State
+ */
+
+/** Direction and strength of what currents pull with, as x and y. */
+export function pull({turn, sharp}, currents) {
+  let x = 0, y = 0;
+  currents.forEach((i, k) => {
+    const much = sharp === 2 ? i * i : i;
+    x += much * Math.cos(turn * k);
+    y += much * Math.sin(turn * k);
+  });
+  return [x, y];
+}
+
+export const stepOf = motor => 2 * Math.PI / (motor.currents.length * motor.periods);
+const strength = ([x, y]) => Math.sqrt(x * x + y * y);
+const pulls = motor => motor.currents.map(row => pull(motor, row));
+
+/** The greatest load that every row holds; the greatest that still goes from every row to the next. */
+export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
+export function startingTorque(motor) {
+  const all = pulls(motor);
+  return motor.torque * Math.min(...all.map(([x, y], k) => {
+    const [u, v] = all[(k + 1) % all.length];
+    const [a, b] = [u - x, v - y], share = Math.min(1, Math.max(0, -(x * a + y * b) / (a * a + b * b)));
+    return strength([x + share * a, y + share * b]);
+  }));
+}
+
+/** Where the rotor rests in the row that `sent` pulses lead to, counted on from row 0; rad. */
+export function resting(motor, sent) {
+  const all = pulls(motor), n = all.length, [x, y] = all[0], row = ((sent % n) + n) % n;
+  const bent = Math.asin(Math.min(1, Math.max(-1, motor.load / (motor.torque * strength(all[row])))));
+  return (Math.atan2(y, x) + 2 * Math.PI / n * sent - bent) / motor.periods;
+}
+
+function rhythm(motor) {
+  const most = Math.max(...pulls(motor).map(strength));
+  const swing = Math.sqrt(motor.inertia / (motor.periods * motor.torque * most)), {fine, settled} = motor.rules;
+  return {
+    longest: Math.min(fine[0] * Math.min(swing, motor.inertia / motor.damping), fine[1] * motor.rise || Infinity),
+    settle: settled * Math.max(2 * motor.inertia / motor.damping, motor.damping * swing * swing / motor.inertia),
+  };
+}
+
+/** A rotor at rest in the row that `sent` pulses lead to. @returns {State} */
+export const atRest = (motor, sent) => ({theta: resting(motor, sent), omega: 0, currents: [...rowOf(motor, sent)]});
+const rowOf = ({currents}, sent) => currents[((sent % currents.length) + currents.length) % currents.length];
+
+/**
+ * The rotor some seconds later, by fourth order Runge-Kutta; `state` is changed.
+ * @param {Motor} motor
+ * @param {State} state
+ * @param {number} sent  pulses: the row that is on
+ * @param {number} seconds
+ * @param {(elapsed: number) => void} [each]  told after each step
+ */
+export function advance(motor, state, sent, seconds, each = () => {}) {
+  const goal = rowOf(motor, sent), count = Math.ceil(seconds / rhythm(motor).longest);
+  if (!count) return;
+  const {periods, torque, inertia, damping, load, rise} = motor, h = seconds / count;
+  const left = rise ? Math.exp(-h / 2 / rise) : 0;
+  const nearer = () => { state.currents = state.currents.map((i, k) => goal[k] + (i - goal[k]) * left); };
+  const faster = ([x, y], theta, omega) => {
+    const a = periods * theta;
+    return (torque * (y * Math.cos(a) - x * Math.sin(a)) - (damping * omega + load)) / inertia;
+  };
+  let p0 = pull(motor, rise ? state.currents : goal);
+  for (let i = 0; i < count; i++) {
+    nearer();
+    const p1 = pull(motor, state.currents);
+    nearer();
+    const p2 = pull(motor, state.currents), {theta, omega} = state;
+    const a0 = faster(p0, theta, omega);
+    const w1 = omega + h / 2 * a0, a1 = faster(p1, theta + h / 2 * omega, w1);
+    const w2 = omega + h / 2 * a1, a2 = faster(p1, theta + h / 2 * w1, w2);
+    const w3 = omega + h * a2, a3 = faster(p2, theta + h * w2, w3);
+    state.theta += h / 6 * (omega + 2 * w1 + 2 * w2 + w3);
+    state.omega += h / 6 * (a0 + 2 * a1 + 2 * a2 + a3);
+    p0 = p2;
+    each((i + 1) * h);
+  }
+}
+
+/**
+ * A run from rest in row 0: `sign` pulses at these times, and then to rest.
+ * @returns {{t: number[], angle: number[], sent: number[], lost: number}}
+ */
+export function run(motor, times, sign) {
+  const state = atRest(motor, 0), found = {t: [0], angle: [state.theta], sent: [0]};
+  const ends = [...times, (times.at(-1) ?? 0) + rhythm(motor).settle];
+  ends.forEach((end, k) => {
+    const since = k ? ends[k - 1] : 0;
+    advance(motor, state, sign * k, end - since, elapsed => {
+      found.t.push(since + elapsed);
+      found.angle.push(state.theta);
+      found.sent.push(sign * k);
+    });
+  });
+  return {...found, lost: behind(motor, state, sign * times.length)};
+}
+
+/** How many steps the rotor is behind what was sent. */
+export const behind = (motor, state, sent) => rounded((resting(motor, sent) - state.theta) / stepOf(motor));
+
+/** The times of pulses, as `ramp`. */
+export function ramp(count, start, end, seconds) {
+  const more = seconds > 0 ? (end - start) / seconds : 0, low = more ? start : end;
+  const top = Math.min(end, Math.sqrt(low * low + more * count)), up = more ? (top - low) / more : 0;
+  const done = (low + top) / 2 * up, duration = 2 * up + (count - 2 * done) / top;
+  return Array.from({length: count}, (_, i) => {
+    const k = i + 1, ahead = Math.min(k, count - k);
+    const since = ahead <= done ? 2 * ahead / (low + Math.sqrt(low * low + 2 * more * ahead)) : up + (ahead - done) / top;
+    return k <= count - k ? since : duration - since;
+  });
+}
+
+/** As `Stepper.start_frequency`. */
+export function startFrequency(motor, count) {
+  const {slowest, limit} = motor.rules;
+  let low = slowest - 1, high = limit + 1, middle = slowest;
+  while (high - low > 1) {
+    if (run(motor, ramp(count, middle, middle, 0), 1).lost) high = middle;
+    else low = middle;
+    middle = Math.floor((low + high) / 2);
+  }
+  return low < slowest ? 0 : low;
+}
+
+const rounded = x => Math.round(x) || 0; // no minus zero

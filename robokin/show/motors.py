@@ -1,0 +1,286 @@
+"""A stepper motor in a page, seen along its shaft, that answers to the hand, without a kernel.
+
+The page computes by `js/rotor.js`, which has the law of `jobs.steppers.Stepper`; the phase tables,
+the places of the poles and every word come from here.
+"""
+
+from dataclasses import asdict, fields
+from typing import TypedDict
+
+import numpy as np
+
+from .._validate import instance
+from ..jobs.steppers import FINE, LIMIT, NEARLY, ROTORS, SETTLED, SLOWEST, Stepper, phases
+from . import plots
+from .explorers import Explorer
+from .page import Control
+from .palette import FAINT, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
+
+PULSES = 48  # of a run
+DRIVES = {"wave": "wave", "two-phase": "two-phase", "half-step": "half step"}
+KINDS = {
+    ("active", "unipolar"): "magnet (active), unipolar",
+    ("active", "bipolar"): "magnet (active), bipolar",
+    ("passive", "unipolar"): "soft iron (passive), unipolar",
+}
+ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # of currents + and -, of a pole
+PLUS, MINUS = "+", "\N{MINUS SIGN}"
+WORDS = {
+    "motor": "rotor, feed",
+    "windings": "windings",
+    "drive": "drive",
+    "back": "\N{MINUS SIGN}1 pulse",
+    "on": "+1 pulse",
+    "run": f"Run {PULSES} pulses",
+    "stop": "Stop",
+    "begin": "Begin again",
+    "backwards": "backwards",
+    "copy": "Copy as Python",
+    "copied": "Copied",
+    "row": "pulse",
+    "takeRotor": "rotor",
+    "rotorAt": "rotor {angle}°",
+    "fieldAt": "field {angle}°",
+    "table": "Phase table: which lead gets the plus, pulse by pulse.",
+    "curves": "Steps over time, as sent and as the rotor makes them. The words beside say the end.",
+    "curveTitle": "Steps sent, and made by the rotor",
+    "curveTime": "time, ms",
+    "sent": "sent",
+    "made": "rotor",
+    "gap": "{lost} lost",
+    "allMade": "{pulses} pulses, {how}: the rotor makes every step.",
+    "someLost": "{pulses} pulses, {how}: {lost} of {pulses} steps lost.",
+    "runsBack": "{pulses} pulses, {how}: {lost} steps lost. The load runs back.",
+    "tooMany": "{pulses} pulses, {how}: {lost} steps too many.",
+    "plain": "{end} per second from the first to the last",
+    "ramped": "from {start} up to {top} per second and down again",
+    "slow": "Run shows it {slow} times slower.",
+    "inStep": "Pulses sent: {sent}. The rotor stands where they say.",
+    "behind": "Pulses sent: {sent}. The rotor is {lost} steps behind.",
+    "ahead": "Pulses sent: {sent}. The rotor is {lost} steps ahead.",
+    "held": "In your hand. Let it go.",
+    "tooMuch": "This row does not hold the load.",
+    "step": "step",
+    "holding": "holding torque",
+    "starting": "starting torque",
+    "startFrequency": "maximum start frequency",
+    "commutation": "maximum commutation frequency",
+    "degrees": "{value}°",
+    "torques": "{value} mN m",
+    "perSecond": "{value} pulses/s",
+    "none": "none: not even {value} pulses/s",
+    "orMore": "{value} pulses/s or more",
+}
+MEANT = (
+    "Take hold of the ring on the rotor: turn it away, and let it go. A line of the table switches "
+    "the windings as it says. The load is a weight on a drum: it pulls backwards all the time."
+)
+CONTROLS: dict[str, Control] = {
+    key: {"name": name, "unit": unit, "low": low, "high": high, "step": step, "decimals": decimals}
+    for key, name, unit, low, high, step, decimals in (
+        ("end", "frequency", "/s", SLOWEST, LIMIT, 5, 0),
+        ("load", "load torque", "mN m", 0, 40, 0.5, 1),
+        ("inertia", "load inertia", "g cm²", 0, 50, 1, 0),
+        ("start", "ramp from", "/s", SLOWEST, 200, 5, 0),
+        ("ramp", "ramp time", "ms", 0, 500, 10, 0),
+    )
+}
+SIZES = {"end": 1.0, "load": 1e-3, "inertia": 1e-7, "start": 1.0, "ramp": 1e-3}
+OPENING = {"end": 160, "load": 0, "inertia": 0, "start": 40, "ramp": 0}
+
+
+class PagePole(TypedDict):
+    """A pole of the stator: where it stands in rad, whose winding it carries, +1 or -1 wound, and
+    the name written on it.
+    """
+
+    at: float
+    winding: int
+    sign: int
+    name: str
+
+
+class PageMotor(TypedDict):
+    """One rotor and feed with so many windings: as rotor.js takes it (`turn`, `periods`, `sharp`),
+    the poles, the teeth of a passive rotor (0: a magnet), how far the field turns in the picture
+    for one turn of the ring, the heads of the table, and for each drive the currents and the table
+    as the document prints it.
+    """
+
+    windings: int
+    turn: float
+    periods: int
+    sharp: int
+    poles: list[PagePole]
+    teeth: int
+    space: float
+    heads: list[str]
+    currents: dict[str, list[list[int]]]
+    printed: dict[str, list[list[str]]]
+
+
+def motor_explorer(motor: Stepper | None = None) -> Explorer:
+    """A stepper motor seen along its shaft: windings coloured by their currents, the field, the
+    rotor to be turned by hand; beside it the phase table with the row that is on. Pulses come one
+    by one or as a run at a frequency, with a load and a ramp; what the rotor loses is counted and
+    drawn over time. Menus choose rotor, feed, windings and drive.
+
+    It opens as `motor`, or as that of the document's table 1, whose torque, inertia, damping and
+    `rise` it keeps. TypeError: not a Stepper. ValueError: one whose runs are too long to compute.
+    """
+    opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
+    own = {f.name: getattr(opened, f.name) for f in fields(Stepper) if f.type is float}
+    changed = [
+        f"{name}={value!r}" for name, value in own.items() if value != asdict(Stepper())[name]
+    ]
+    motors = {
+        (rotor, feed): [_motor(rotor, feed, n) for n in range(2 if feed == "bipolar" else 3, 7)]
+        for rotor, feed in KINDS
+    }
+    kind = opened.rotor, opened.motor
+    counts = [one["windings"] for one in motors[kind]]
+    lost = opened.run(np.arange(1, PULSES + 1) / OPENING["end"], np.ones(PULSES)).lost
+    summary = (
+        f"A stepper motor, {KINDS[kind]}, {opened.windings} windings, "
+        f"{DRIVES[opened.drive]} drive, {opened.step * 180 / np.pi:.3g}° per step. "
+        f"{PULSES} pulses at {OPENING['end']} per second: "
+        + (f"{lost} steps lost." if lost else "no step lost.")
+    )
+    data = {
+        "kind": "motor",
+        "title": "A stepper motor, seen along its shaft",
+        "summary": summary,
+        "alt": summary,
+        "meant": MEANT,
+        "words": WORDS,
+        "pulses": PULSES,
+        "rules": {
+            "fine": list(FINE),
+            "settled": SETTLED,
+            "slowest": SLOWEST,
+            "limit": int(LIMIT),
+            "nearly": NEARLY,
+        },
+        "own": own,
+        "kinds": [
+            {"rotor": rotor, "motor": feed, "name": name, "motors": motors[rotor, feed]}
+            for (rotor, feed), name in KINDS.items()
+        ],
+        "drives": [{"key": key, "name": name} for key, name in DRIVES.items()],
+        "opening": {
+            "kind": [*KINDS].index(kind),
+            "motor": counts.index(opened.windings),
+            "drive": [*DRIVES].index(opened.drive),
+            **OPENING,
+        },
+        "controls": [{"key": key, "size": SIZES[key], **c} for key, c in CONTROLS.items()],
+        "code": "import numpy as np\nfrom robokin.jobs.steppers import Stepper, ramp\n\n"
+        f'motor = Stepper("{{rotor}}", "{{motor}}", {{windings}}, "{{drive}}"'
+        f"{''.join(f', {text}' for text in changed)})\n"
+        "times = ramp({pulses}, {start}, {end}, {ramp})\n"
+        "run = motor.run(times, np.full({pulses}, {sign}), load={load}, load_inertia={inertia})\n"
+        "run.lost",
+    }
+    return Explorer(data, _picture(opened, summary))
+
+
+# --- What the page gets ---------------------------------------------------------------------------
+
+
+def _motor(rotor: str, feed: str, n: int) -> PageMotor:
+    first = Stepper(rotor, feed, n)
+    tables = {drive: phases(drive, feed, n) for drive in DRIVES}
+    return {
+        "windings": n,
+        "turn": (np.pi if feed == "bipolar" else 2 * np.pi) / n,
+        "periods": first.periods,
+        "sharp": 1 + ROTORS.index(rotor),
+        "poles": _poles(rotor, feed, n),
+        "teeth": 0 if rotor == "active" else first.periods,
+        "space": 1.0 if rotor == "active" else 0.5,
+        "heads": _heads(rotor, feed, n),
+        "currents": {d: Stepper(rotor, feed, n, d).currents.tolist() for d in DRIVES},
+        "printed": {
+            d: [[PLUS if x > 0 else "" for x in row] for row in t.tolist()]
+            for d, t in tables.items()
+        },
+    }
+
+
+def _heads(rotor: str, feed: str, n: int) -> list[str]:
+    """The columns of the table: those of the document where it has them, letters elsewhere."""
+    if feed == "bipolar":
+        return [f"{end}{k + 1}" for k in range(n) for end in "ab"]
+    return ["a1", "b1", "a2", "b2"] if (rotor, n) == ("active", 4) else list("abcdef"[:n])
+
+
+def _poles(rotor: str, feed: str, n: int) -> list[PagePole]:
+    """A magnet between one-way windings has a pole for each; else opposite poles make a pair. In a
+    bipolar motor they are wound against each other; a passive rotor asks for no sign.
+    """
+    pairs = rotor == "passive" or feed == "bipolar"
+    count = 2 * n if pairs else n
+    names = [str(k + 1) for k in range(n)] if feed == "bipolar" else _heads(rotor, feed, n)
+    return [
+        {
+            "at": 2 * np.pi * k / count,
+            "winding": k % n,
+            "sign": -1 if feed == "bipolar" and k >= n else 1,
+            "name": names[k % n],
+        }
+        for k in range(count)
+    ]
+
+
+# --- The still picture ----------------------------------------------------------------------------
+
+
+def _picture(motor: Stepper, alt: str) -> plots.Figure:
+    """The motor in the first row of its table, and the table."""
+    page = _motor(motor.rotor, motor.motor, motor.windings)
+    rows, currents = page["printed"][motor.drive], page["currents"][motor.drive][0]
+    fig = plots.figure(alt, width=8.0, height=4.2)
+    ax, beside = fig.subplots(1, 2, width_ratios=(1, 1.1))
+    ring = np.linspace(0, 2 * np.pi, 361)
+    for radius in (1.0, 0.9):
+        ax.plot(radius * np.cos(ring), radius * np.sin(ring), color=SOFT, lw=1.2)
+    half = min(0.28, 0.9 * np.pi / len(page["poles"]) * 0.6)
+    for pole in page["poles"]:
+        now = currents[pole["winding"]] * pole["sign"]
+        color = {0: PANEL_GRID, 1: ON, -1: OTHER}[now]
+        at = pole["at"]
+        corners = [(0.66, -half), (0.66, half), (0.88, half), (0.88, -half)]
+        ax.fill(*np.transpose([r * _way(at + d) for r, d in corners]), fc=color, ec=INK, lw=1)
+        mark = {0: "", 1: PLUS, -1: MINUS}[now]
+        ax.text(*(0.77 * _way(at)), f"{pole['name']}{mark}", ha="center", va="center", fontsize=9)
+    theta = float(np.angle(motor.pulls[0])) / motor.periods
+    if motor.rotor == "active":
+        for turn, color, name in ((0, NORTH, "N"), (np.pi, FAINT, "S")):
+            side = theta + turn + np.linspace(-np.pi / 2, np.pi / 2, 91)
+            ax.fill(0.56 * np.cos(side), 0.56 * np.sin(side), fc=color, ec=INK, lw=1)
+            ax.text(*(0.4 * _way(theta + turn)), name, ha="center", va="center", weight="bold")
+    else:
+        pitch = 2 * np.pi / page["teeth"]
+        turns = theta + pitch * (np.arange(page["teeth"])[:, None] + (-0.25, -0.2, 0.2, 0.25))
+        rim = np.tile((0.44, 0.58, 0.58, 0.44), page["teeth"])
+        ax.fill(rim * np.cos(turns.ravel()), rim * np.sin(turns.ravel()), fc=FAINT, ec=INK, lw=1)
+    ax.set(aspect="equal", xlim=(-1.05, 1.05), ylim=(-1.05, 1.05))
+    ax.set_title(f"{KINDS[motor.rotor, motor.motor]}", fontsize=10, color=REMARK)
+    cells = [["pulse", *page["heads"]]]
+    cells += [[str(k + 1), *row] for k, row in enumerate(rows)]
+    height = 1 / (len(cells) + 0.5)
+    for k, line in enumerate(cells):
+        for j, text in enumerate(line):
+            x, y = (j + 0.5) / len(line), 1 - (k + 0.5) * height
+            size = min(11.0, 170 / len(cells))
+            bold = "bold" if k == 1 else "normal"
+            beside.text(x, y, text, ha="center", va="center", fontsize=size, weight=bold)
+    beside.set_title(f"phase table, {DRIVES[motor.drive]}", fontsize=10, color=REMARK)
+    for one in (ax, beside):
+        one.set_axis_off()
+    fig.tight_layout()
+    return fig
+
+
+def _way(angle: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    return np.array([np.cos(angle), np.sin(angle)])

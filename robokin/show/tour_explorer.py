@@ -1,0 +1,295 @@
+"""The explorer of tours: points, start and links taken by the hand; Python says what greed makes of
+them, and what the best order does.
+
+The page draws, and asks a kernel at every move (`live`). Points are numbered as in a `Task`, from
+0. What is said stands here.
+"""
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from .._arrays import Bools, Floats, Ints
+from .._validate import instance
+from ..arms import Arm, spbu_arm
+from ..jobs.visit_collect import (
+    UNDER,
+    Result,
+    Task,
+    best_visit,
+    collect,
+    itinerary,
+    lowest,
+    out_of_workspace,
+    visit,
+    workspace,
+)
+from ..units import deg, length_unit
+from . import plots
+from .camera import Mark, best_view, extent, scene_data
+from .live import Answer, Live, Question
+from .numbers import rounded
+from .page import Control, PageExplorer, PageScene
+from .palette import INK, JOINT_STYLES
+from .scene import Scene
+from .twin import chain
+
+MOST = 12  # points: the page stays legible, and the best order is there in some 10 ms
+WHILE_HELD = 10  # points: the best order of more is looked for when the hand lets go
+KINDS = ("visit", "collect")
+TOURS = ("greedy", "best")
+GREEDY, BEST = JOINT_STYLES[1]["color"], JOINT_STYLES[0]["color"]
+WORDS = {
+    "task": "task",
+    "tour": "tour",
+    "order": "order, and when (s)",
+    "count": "within T",
+    "time": "time, s",
+    "add": "Add a point",
+    "remove": "Remove point {k}",
+    "copy": "Copy as Python",
+    "copied": "Copied",
+    "takeStart": "p0, in the plane of the screen",
+    "takePoint": "point {k}, in the plane of the screen",
+    "away": "out of reach",
+}
+MEANT = (
+    "Drag p0 and the points: they move in the plane of the screen; turn the view to move them "
+    "another way. A row of the table sets the arm on its tour; play shows it. Above a point stands "
+    "its place in the greedy tour, below it that in the best. The dotted circle is as far as the "
+    "arm reaches on the floor."
+)
+
+
+def tour_explorer(task: Task) -> Live:
+    """The points of a task and its start to take and drag, links and time on sliders, visit or
+    collect; the greedy tour (`visit`, `collect`) and the best one (`best_visit`) follow, each drawn
+    as the tool goes; what greed loses, and a clock along which the arm goes either.
+
+    It asks the kernel: see `live`. The clock runs without. TypeError: not a Task. ValueError: more
+    than MOST points.
+    """
+    count = len(instance(task, Task, "task").points)
+    if count > MOST:
+        raise ValueError(f"task: wanted at most {MOST} points to be moved, got {count}")
+
+    def answer(question: Question) -> Answer:
+        return answered(question, task.speeds)
+
+    first: Question = {
+        "l1": task.l1,
+        "l2": task.l2,
+        "T": task.T,
+        "kind": task.kind,
+        "p0": task.p0.tolist(),
+        "points": task.points.tolist(),
+        "held": False,
+    }
+    arm, told = spbu_arm(task.l1, task.l2), answer(first)
+    name, size = length_unit(extent(arm))
+    length = 1.0 if name == "m" else 10.0
+    reach = extent(arm) / size
+    alt = f"An arm and {count} points to be moved. {' '.join([told['says'], *told['notes']])}"
+    data: PageExplorer = {
+        "kind": "tour",
+        "title": "Which order? Move the points",
+        "summary": alt,
+        "alt": alt,
+        "unit": {"name": name, "size": size, "code": name},
+        "scene": _scene(arm, task),
+        "controls": [
+            _control("L1", name, 0.1 * reach, reach, 0.1 * length),
+            _control("L2", name, 0.1 * reach, reach, 0.1 * length),
+            _control("T", "s", 0, max(10, np.ceil(task.T / 2.5) * 10), 0.1),
+        ],
+        "words": WORDS,
+        "kinds": list(KINDS),
+        "tours": list(TOURS),
+        "most": MOST,
+        "spare": [rounded(p, 2) for p in _spare(task)],
+        "meant": MEANT,
+        "code": "from robokin.jobs.visit_collect import Task\n"
+        f"task = Task({{l1}}, {{l2}}, T={{T}}, speeds={task.speeds.tolist()},\n"
+        '            p0={p0},\n            points={points},\n            kind="{kind}")',
+    }
+    return Live(dict(data), _picture(alt, arm, task, told), first, answer)
+
+
+def answered(question: Question, speeds: Floats) -> Answer:
+    """What Python says of a task that the hand has made, with points out of reach left out.
+
+    question  l1, l2, T, kind, p0, points as of a `Task`; held: whether the hand still holds it
+    speeds    (3,) greatest joint speeds, rad/s
+
+    chain     the links of the arm, for the page's `frames`
+    reached   whether each point is in the workspace; `start`: p0
+    greedy    the tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points served,
+    best      `cells` of the table. None: there is none, or not yet
+    says      what greed loses; `notes`: what is out of reach, where the tool dips under the floor
+    """
+    l1, l2 = question["l1"], question["l2"]
+    points = np.array(question["points"], dtype=float).reshape(-1, 3)
+    inside: Bools = np.all(workspace(l1, l2, np.vstack([question["p0"], points])), axis=-1)
+    said: Answer = {
+        "chain": chain(spbu_arm(l1, l2).links),
+        "start": bool(inside[0]),
+        "reached": inside[1:].tolist(),
+        "greedy": None,
+        "best": None,
+        "notes": _lost(l1, l2, question["p0"], points, inside),
+    }
+    served = np.flatnonzero(inside[1:])
+    if not inside[0] or not len(served):
+        return said | {"says": "There is no tour."}
+    kind = question["kind"]
+    task = Task(l1, l2, question["T"], speeds, question["p0"], points[served], kind)
+    results = {"greedy": collect(task) if kind == "collect" else visit(task)}
+    on_axis = bool(np.isnan(task.q[0]).any())
+    if kind == "collect" and not on_axis:
+        results["best"] = results["greedy"]  # errata S0-r
+    elif kind == "visit" and not (question["held"] and len(served) > WHILE_HELD):
+        results["best"] = best_visit(task)
+    for name, result in results.items():
+        said[name], dips = _tour(task, result, served)
+        if dips and dips not in said["notes"]:
+            said["notes"].append(dips)
+    among = f"{len(served)}" if inside.all() else f"{len(served)} in reach"
+    return said | {"says": _says(task, results, among)}
+
+
+# --- What is said ---------------------------------------------------------------------------------
+
+
+def _says(task: Task, results: dict[str, Result], n: str) -> str:
+    """What greed loses, in one sentence; n: of how many points."""
+    greedy, best = results["greedy"], results.get("best")
+    few = len(greedy.order)
+    if task.kind == "collect":
+        if best is None:
+            return f"Cheapest first brings {few} of {n}; p0 is on axis 1: more may be possible."
+        return f"Cheapest first brings {few} of {n} in {greedy.time:.2f} s; no choice brings more."
+    if best is None:
+        return f"Nearest first visits {few} of {n}. The best order comes when you let go."
+    if lost := len(best.order) - few:
+        return (
+            f"Greed loses {_points(lost)}: nearest first visits {few} of {n}, the best order "
+            f"{few + lost}."
+        )
+    late = greedy.time - best.time
+    if round(late, 2):
+        return f"Greed loses no point, but {late:.2f} s: both visit {few} of {n}."
+    return f"Greed loses nothing: nearest first visits {few} of {n}, and no order more or sooner."
+
+
+def _points(count: int) -> str:
+    return f"{count} point{'s' if count > 1 else ''}"
+
+
+def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Bools) -> list[str]:
+    """Why p0 and points are out of reach, in as many digits as a hand can mean."""
+
+    def told(p: Sequence[float] | Floats) -> str:
+        reasons = "; ".join(out_of_workspace(l1, l2, p))
+        return re.sub(r"-?\d+\.\d+", lambda x: _number(float(x[0]), ".4g"), reasons)
+
+    named = {"p0": p0} | {f"Point {i}": p for i, p in enumerate(points)}
+    return [
+        f"{name} {told(p)}."
+        for (name, p), fine in zip(named.items(), inside, strict=True)
+        if not fine
+    ]
+
+
+def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
+    """A tour for the page, and where on it the tool dips deepest under the floor, if it does."""
+    t, q = itinerary(task, result)
+    order = [int(served[i]) for i in result.order]
+    stops = ["p0"]
+    for i in order:
+        stops += [f"point {i}", "p0"] if task.kind == "collect" else [f"point {i}"]
+    z = lowest(task.l1, task.l2, q[:-1], q[1:])
+    dips = ""
+    if len(z) and z.min() < -UNDER * (task.l1 + task.l2):
+        k = int(z.argmin())
+        ends = " and ".join(sorted(stops[k : k + 2]))  # the way back is no other place
+        dips = f"Between {ends} the tool dips under the floor, down to {_number(z[k], '.2f')} m."
+    parts = [f"{i}\N{NO-BREAK SPACE}({at:.2f})" for i, at in zip(order, result.times, strict=True)]
+    tour = {
+        "t": t.astype(np.float32),
+        "q": q.astype(np.float32),
+        "order": order,
+        "times": list(result.times),
+        "cells": [", ".join(parts) or "\N{EN DASH}", str(len(order)), f"{result.time:.2f}"],
+    }
+    return tour, dips
+
+
+def _number(x: float, form: str) -> str:
+    return f"{x:{form}}".replace("-", "\N{MINUS SIGN}")
+
+
+# --- What the page gets ---------------------------------------------------------------------------
+
+
+def _scene(arm: Arm, task: Task) -> PageScene:
+    """Space for the points and what lies about them, seen from their side; the picture shrinks for
+    the rest.
+    """
+    places = np.vstack([task.p0, task.points])
+    ring, out = (
+        np.arange(0, 360, 30) * deg,
+        max(1.2 * np.hypot(*places.T[:2]).max(), 0.65 * extent(arm)),
+    )
+    around = out * np.stack([np.cos(ring), np.sin(ring), 0 * ring], axis=-1)
+    marks: list[Mark] = [("", p, 0.0) for p in (*around, *places)]
+    scene = scene_data([arm], [task.q[None, :1]], {}, marks, extent(arm), solid=True)
+    scene["marks"], scene["grows"] = [], True
+    scene["view"] = rounded([best_view(places, None)[0], 40 * deg], 4)
+    return scene
+
+
+def _control(name: str, unit: str, low: float, high: float, step: float) -> Control:
+    ends = [float(np.round(x, 3)) for x in (low, high)]
+    return {
+        "name": name,
+        "unit": unit,
+        "low": ends[0],
+        "high": ends[1],
+        "step": step,
+        "decimals": 2,
+    }
+
+
+def _spare(task: Task) -> Floats:
+    """Places (MOST, 3) for points that are added: all about the arm, each turned on by the golden
+    angle.
+    """
+    turn = np.arange(MOST) * np.pi * (3 - 5**0.5)
+    rise = np.linspace(5, 55, MOST) * deg
+    d = abs(task.l1 - task.l2) + 0.6 * (task.l1 + task.l2 - abs(task.l1 - task.l2))
+    places: Floats = d * np.stack(
+        [np.cos(turn) * np.cos(rise), np.sin(turn) * np.cos(rise), np.sin(rise)], axis=-1
+    )
+    return places
+
+
+def _picture(alt: str, arm: Arm, task: Task, told: Answer) -> plots.Figure:
+    """The arm at the start, and both tours."""
+    fig = plots.figure(alt, width=6.4, height=4.5)
+    fig.text(0.016, 0.985, told["says"], fontsize=10, fontweight="bold", va="top")
+    scene = Scene(fig.add_axes((0, 0, 1, 0.93)), size=extent(arm), like=_scene(arm, task))
+    scene.base()
+    scene.arm(arm, told["greedy"]["q"][0].astype(float), "first")
+    for name, color, style in (("best", BEST, "-"), ("greedy", GREEDY, (0, (4, 2)))):
+        if told[name]:
+            t, q = told[name]["t"], told[name]["q"].astype(float)
+            share = np.linspace(0, t[-1], 400)
+            ways = np.stack([np.interp(share, t, joint) for joint in q.T], axis=-1)
+            scene.line(arm.fk(ways).translation, color=color, linewidth=2, linestyle=style)
+    for name, p in zip(["p0", *map(str, range(MOST))], [task.p0, *task.points], strict=False):
+        scene.drop(p)
+        scene.line([p], linestyle="none", marker="o", color=INK, markersize=5)
+        scene.label(name, p)
+    scene.finish("dashed: greedy, solid: best")
+    return fig

@@ -1,0 +1,192 @@
+"""The motor explorer in a real browser: it says and draws what `Stepper` says of the same motor,
+whatever hand moves it; without a kernel and without a network.
+"""
+
+import json
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+import test_explorers
+from axe_playwright_python.sync_playwright import Axe
+
+from robokin.jobs.steppers import Stepper, phases, ramp
+from robokin.show import motor_explorer
+from robokin.show.page import script
+
+context, opened = test_explorers.context, test_explorers.opened  # fixtures
+MOTORS = {
+    "table 1": Stepper(),
+    "table 2": Stepper("active", "bipolar", 2, "two-phase"),
+    "half steps": Stepper("active", "bipolar", 5, "half-step"),
+    "passive": Stepper("passive", "unipolar", 3, "two-phase", damping=1e-4),
+    "at once": Stepper("passive", "unipolar", 6, rise=0.0),
+}
+
+
+@cache
+def told(motor):
+    """What the page is given."""
+    return motor_explorer(motor).data
+
+
+@pytest.fixture(scope="module")
+def rotor(context):
+    """The page's law: `rotor(name, motor, load, load_inertia, *arguments)` -> what it returns."""
+    page = context.new_page()
+    page.goto("about:blank")
+    page.add_script_tag(content=f"{script('rotor')}\nwindow.rotor = $rotor;")
+
+    def call(name, motor, load, load_inertia, *arguments):
+        data = told(motor)
+        kind = data["kinds"][data["opening"]["kind"]]["motors"][data["opening"]["motor"]]
+        given = kind | data["own"] | {"rules": data["rules"], "load": load}
+        given |= {"currents": kind["currents"][motor.drive]}
+        given["inertia"] += load_inertia
+        return page.evaluate(
+            "([name, text, rest]) => rotor[name](JSON.parse(text), ...rest)",
+            [name, json.dumps(given), [*arguments]],
+        )
+
+    yield call
+    page.close()
+
+
+@pytest.mark.parametrize("name", MOTORS)
+def test_the_page_has_the_law_of_python(rotor, name):
+    motor, seen = MOTORS[name], set()
+    for frequency, load, load_inertia, sign in (
+        (60, 0.0, 0.0, 1),
+        (90, 0.006, 4e-7, 1),
+        (450, 0.0, 5e-6, -1),
+    ):
+        times = np.arange(1, 25) / frequency
+        ours = motor.run(times, np.full(24, sign), load, load_inertia)
+        page = rotor("run", motor, load, load_inertia, times.tolist(), sign)
+        assert page["t"] == pytest.approx(ours.t, abs=1e-12)
+        assert page["angle"] == pytest.approx(ours.angle, abs=1e-6)
+        assert page["lost"] == ours.lost
+        assert np.ptp(page["angle"]) > 0.03  # it did turn
+        seen.add(ours.lost != 0)
+    assert seen == {False, True}
+    for what, value in (
+        ("holdingTorque", motor.holding_torque),
+        ("startingTorque", motor.starting_torque),
+        ("stepOf", motor.step),
+    ):
+        assert rotor(what, motor, 0.0, 0.0) == pytest.approx(value)
+    if name in ("table 1", "passive"):
+        assert rotor("startFrequency", motor, 0.002, 3e-7, 48) == motor.start_frequency(0.002, 3e-7)
+
+
+@pytest.mark.parametrize(
+    "asked", [(48, 40, 200, 0.15), (20, 50, 400, 0.3), (1, 10, 90, 2), (7, 9, 9, 0)]
+)
+def test_the_ramps_of_the_page_are_pythons(context, asked):
+    page = context.new_page()
+    page.add_script_tag(content=f"{script('rotor')}\nwindow.rotor = $rotor;")
+    times = page.evaluate("asked => rotor.ramp(...asked)", [*asked])
+    page.close()
+    assert times == pytest.approx(ramp(*asked), abs=1e-12)
+
+
+def lost(shown):
+    """The lost steps that the explorer tells, and Python's answer to the code that it copies."""
+    seen = shown.look()
+    said = re.search(r"(\d+)(?: of 48)? steps lost", seen.says)
+    assert said or "every step" in seen.says
+    code = shown.code(seen)
+    return int(said[1]) if said else 0, code["run"].lost, code
+
+
+def test_it_tells_what_python_finds(opened):
+    shown = opened(motor_explorer())
+    assert lost(shown)[:2] == (44, 44) and "44 lost" in shown.look().words[1]
+    shown.slide("frequency", 100)
+    assert lost(shown)[:2] == (0, 0) and "lost" not in shown.look().words[1]
+    shown.slide("frequency", 200)
+    shown.type("load inertia", 10)
+    shown.choose("drive", 1)
+    told, ours, code = lost(shown)
+    assert told == ours == 48 and code["motor"].drive == "two-phase"
+    shown.type("ramp time", 150)
+    assert lost(shown)[:2] == (0, 0)
+    shown.type("load torque", 10)
+    told, ours, code = lost(shown)
+    assert told == ours > 0
+    facts = shown.look().rows[-5:]
+    start = code["motor"].start_frequency(0.01, 1e-6)
+    assert facts[0][1] == "90°" and facts[1][1].startswith("28.3 mN m")
+    assert facts[3][1] == f"{start:.0f} pulses/s" and facts[4][1] == "333 pulses/s"
+    shown.choose("rotor, feed", 2)
+    told, ours, code = lost(shown)
+    assert told == ours and code["motor"].rotor == "passive" and code["motor"].windings == 4
+
+
+@pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])
+def test_the_tables_are_the_documents(opened, motor):
+    shown = opened(motor_explorer(motor))
+    marks = [[cell == "+" for cell in row[1:]] for row in shown.look().rows[:4]]
+    assert (np.array(marks) == (phases(motor.drive, motor.motor) == 1)).all()
+    assert np.sum(marks) == (4 if motor.motor == "unipolar" else 8)
+
+
+def test_a_hand_turns_the_rotor_and_the_pulses_go_on(opened):
+    shown = opened(motor_explorer())
+    state = shown.rk.locator(".rk-state")
+    resting = shown.look()
+    assert resting.chosen == 0 and resting.handles["rotor"]["name"] == "rotor, rotor 0°"
+    box = shown.rk.locator("canvas").first.bounding_box()
+    centre = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+    angles = []
+
+    def each(seen, stop):
+        angles.append(int(re.search(r"(-?\d+)°", seen.handles["rotor"]["name"])[1]))
+
+    ways = (60, 120, 170, 230)
+    stops = [
+        centre + 90 * np.array([np.cos(w * np.pi / 180), -np.sin(w * np.pi / 180)]) for w in ways
+    ]
+    seen = shown.drag("rotor", *stops, each=each)
+    assert angles == pytest.approx(ways, abs=2) and seen.pixels[0] != resting.pixels[0]
+    # past half a turn it falls to the next place where a1 holds it: four steps on
+    shown.page.wait_for_function(
+        "document.querySelector('.rk-state').textContent.includes('4 steps ahead')"
+    )
+    shown.rk.get_by_role("button", name="Begin again").click()
+    shown.rk.get_by_role("button", name="+1 pulse").click()
+    assert shown.look().chosen == 1 and state.inner_text().startswith("Pulses sent: 1.")
+    shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")  # back
+    shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")
+    assert shown.look().chosen == 3 and "Pulses sent: \u22121." in state.inner_text()
+    shown.rk.get_by_role("button", name="Begin again").click()
+    before = shown.look()
+    shown.handle("rotor").focus()
+    shown.page.keyboard.down("ArrowLeft")
+    assert "5°" in shown.look().handles["rotor"]["name"] and "hand" in state.inner_text()
+    shown.page.keyboard.up("ArrowLeft")
+    run = shown.rk.get_by_role("button", name="Run 48 pulses")
+    run.click()
+    shown.page.wait_for_timeout(700)
+    after = shown.look()
+    assert after.pixels[0] != before.pixels[0] and "44" in after.says
+    assert int(re.search(r"\d+", state.inner_text())[0]) > 0
+    shown.rk.get_by_role("button", name="Stop").click()
+
+
+def test_it_needs_no_network_and_axe_finds_nothing(browser, opened):
+    with browser.new_context(viewport={"width": 390, "height": 800}, color_scheme="dark") as small:
+        small.add_init_script(test_explorers.WATCH)
+        asked = []
+        small.on("request", lambda request: asked.append(request.url))
+        shown = opened(motor_explorer(MOTORS["half steps"]), within=small)
+        shown.look()
+        assert all(url.startswith("file:") for url in asked) and asked
+        assert shown.page.evaluate("document.documentElement.scrollWidth") <= 390
+        found = (
+            Axe().run(shown.page, options={"resultTypes": ["violations"]}).response["violations"]
+        )
+        bad = [v["id"] for v in found if v["impact"] in ("serious", "critical")]
+        assert bad == [], bad
+        shown.page.close()

@@ -1,0 +1,363 @@
+"""The explorer of tours: what Python answers to a hand (laws over random tasks), and what the page
+shows of it, in JupyterLab beside a kernel and asleep in a file.
+"""
+
+import itertools
+import json
+import re
+
+import nbformat
+import numpy as np
+import pytest
+from conftest import JupyterLab
+
+from robokin import spbu_arm
+from robokin.jobs.visit_collect import Task, best_visit, collect, visit, workspace
+from robokin.show import tour_explorer
+from robokin.show.tour_explorer import WHILE_HELD, answered
+
+SPEEDS = np.array([0.2, 0.2, 0.2])
+FOUR = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (0, 1.0, -1.1, -1.2, -1.3)])
+CIRCLE = Task(5, 4, 7.5, SPEEDS, FOUR[0], FOUR[1:], "visit")
+
+
+def asked(**changes):
+    opening = {"l1": 5.0, "l2": 4.0, "T": 7.5, "kind": "visit", "held": False}
+    return opening | {"p0": FOUR[0].tolist(), "points": FOUR[1:].tolist()} | changes
+
+
+def some(rng, count):
+    """Points about an arm of 9 m, some of them out of its reach."""
+    return rng.uniform([-8, -8, -1], [8, 8, 6], size=(count, 3))
+
+
+# --- What Python answers --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["visit", "collect"])
+def test_random_tasks_are_answered_whatever_is_out_of_reach(kind):
+    rng, tours, away, lost = np.random.default_rng(15), 0, 0, 0
+    for _ in range(150):
+        l1, l2, T = rng.uniform([0.5, 0.5, 0], [9, 9, 60])
+        p0, *points = some(rng, rng.integers(2, 10)).tolist()
+        question = asked(l1=l1, l2=l2, T=T, kind=kind, p0=p0, points=points)
+        told = answered(question, SPEEDS)
+        inside = workspace(l1, l2, [p0, *points]).all(axis=-1)
+        assert (told["start"], told["reached"]) == (inside[0], inside[1:].tolist())
+        named = [note.split(" is ")[0] for note in told["notes"] if " the tool dips " not in note]
+        names = ["p0", *(f"Point {i}" for i in range(len(points)))]
+        assert named == [name for name, fine in zip(names, inside, strict=True) if not fine]
+        away += not inside.all()
+        if not (inside[0] and inside[1:].any()):
+            assert told["greedy"] is told["best"] is None
+            continue
+        tours += 1
+        for tour in (told["greedy"], told["best"]):
+            assert len(set(tour["order"])) == len(tour["order"])
+            assert all(inside[1 + i] for i in tour["order"])
+            assert (np.diff([0, *tour["times"]]) >= 0).all()
+            assert tour["t"][-1] <= T * (1 + 1e-6)
+            # the way of the arm ends where it should, at the time that is told
+            stops = spbu_arm(l1, l2).fk(tour["q"].astype(float)).translation
+            step = 2 if kind == "collect" else 1
+            assert np.allclose(stops[::step][0], p0, rtol=0, atol=1e-5)
+            served = np.array(points)[tour["order"]].reshape(-1, 3)
+            assert np.allclose(stops[1::step], served, rtol=0, atol=1e-5)
+            assert np.allclose(tour["t"][step::step], tour["times"], rtol=0, atol=1e-5)
+        few, many = len(told["greedy"]["order"]), len(told["best"]["order"])
+        assert many >= few
+        if many == few and few:
+            assert told["best"]["times"][-1] <= told["greedy"]["times"][-1] + 1e-9
+        lost += many > few
+    assert tours > 30 and away > 100, "no law without cases"
+    assert (lost > 3) == (kind == "visit"), "cheapest first is the best, nearest first is not"
+
+
+def test_tours_are_those_of_the_package_with_the_points_numbered_as_the_hand_has_them():
+    points = [[2, 3, 2], [20, 0, 0], [1, 3, 3], [-4, 1, 3], [0, 5, -1], [4, -3, 1]]
+    question, kept = asked(points=points, T=40), [0, 2, 3, 5]
+    for kind, rules in {"visit": (visit, best_visit), "collect": (collect, collect)}.items():
+        told = answered(question | {"kind": kind}, SPEEDS)
+        task = Task(5, 4, 40, SPEEDS, FOUR[0], [points[i] for i in kept], kind)
+        for name, rule in zip(("greedy", "best"), rules, strict=True):
+            result = rule(task)
+            assert told[name]["order"] == [kept[i] for i in result.order]
+            assert told[name]["times"] == list(result.times)
+
+
+def test_more_than_ten_points_wait_for_the_best_order_until_the_hand_lets_go():
+    rng = np.random.default_rng(4)
+    cloud = some(rng, 60)
+    cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][: WHILE_HELD + 1].tolist()
+    for count, held in itertools.product((WHILE_HELD, WHILE_HELD + 1), (False, True)):
+        told = answered(asked(points=cloud[:count], T=25, held=held), SPEEDS)
+        assert (told["best"] is None) == (held and count > WHILE_HELD)
+        assert ("let go" in told["says"]) == (told["best"] is None)
+
+
+def test_what_greed_loses_is_said():
+    # errata S0-q: the lure costs two points
+    said = answered(asked(), SPEEDS)["says"]
+    assert said == "Greed loses 2 points: nearest first visits 1 of 4, the best order 3."
+    assert "loses nothing" in answered(asked(T=20), SPEEDS)["says"]
+    assert "loses no point, but 9.50 s" in answered(asked(T=16.2), SPEEDS)["says"]
+    away = asked(points=[*FOUR[1:].tolist(), [0, 0, 12]])
+    assert "3 in reach" not in answered(away, SPEEDS)["says"]
+    assert "1 of 4 in reach" in answered(away, SPEEDS)["says"]
+
+
+def test_a_start_on_axis_1_has_no_best_way_to_collect():
+    told = answered(asked(kind="collect", p0=[0, 0, 6.5], T=60), SPEEDS)
+    assert told["best"] is None and "on axis 1" in told["says"] and told["greedy"]["order"]
+    assert answered(asked(p0=[0, 0, 6.5], T=60), SPEEDS)["best"]["order"]
+
+
+def test_a_tour_under_the_floor_is_named_with_its_depth():
+    # errata S0-u
+    low = asked(p0=[6, 0, 1], points=[[1.05, 0, 0.1]], T=60)
+    wanted = "Between p0 and point 0 the tool dips under the floor, down to −1.02 m."
+    assert answered(low, SPEEDS)["notes"] == [wanted]
+    assert answered(low | {"kind": "collect"}, SPEEDS)["notes"] == [wanted], "said once"
+    assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], "never for l1 <= l2"
+
+
+def test_what_is_stored_is_small_and_says_what_is_seen():
+    explorer = tour_explorer(CIRCLE)
+    assert len(explorer.html) < 90_000
+    assert "Greed loses 2 points" in explorer.data["alt"] and explorer.data["alt"] in explorer.html
+    assert explorer.still.alt == explorer.data["alt"]
+
+
+# --- What the page shows --------------------------------------------------------------------------
+
+COPIES = """
+const clipboard = {writeText: async text => { window.copied = text; }};
+Object.defineProperty(navigator, "clipboard", {value: clipboard});
+"""
+
+
+def opened(browser, width=1366):
+    page = browser.new_page(viewport={"width": width, "height": 900})
+    page.complaints = []
+    page.on("pageerror", lambda error: page.complaints.append(str(error)))
+    page.on(
+        "console",
+        lambda line: (
+            line.type == "error" and page.complaints.append(f"{line.text} {line.location}")
+        ),
+    )
+    page.add_init_script(COPIES)
+    return page
+
+
+def cells(page):
+    """The table: for each tour what is said of it."""
+    rows = page.locator(".rk-tours tbody tr")
+    return [
+        [cell.replace("\xa0", " ") for cell in row.locator("td").all_inner_texts()]
+        for row in rows.all()
+    ]
+
+
+def handle(page, name):
+    return page.locator(f"[data-handle='{name}']")
+
+
+def test_asleep_in_a_file_the_clock_runs_and_the_rest_does_not(browser, tmp_path):
+    tour_explorer(CIRCLE).save(tmp_path / "tour.html")
+    page = opened(browser, 390)
+    page.goto(f"file://{tmp_path}/tour.html")
+    page.locator(".rk-asleep", has_text="Asleep").wait_for()
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    greedy, best = visit(CIRCLE), best_visit(CIRCLE)
+    assert [row[1:] for row in cells(page)] == [
+        [str(len(r.order)), f"{r.time:.2f}"] for r in (greedy, best)
+    ]
+    assert page.locator(".rk-side").evaluate("e => e.inert")
+    assert page.locator(".rk-handles").evaluate("e => e.inert")
+
+    picture = "document.querySelector('.rk-scene').toDataURL()"
+    frame = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    scrub = page.get_by_role("slider", name="time")
+    seen = set()
+    for result, row in ((greedy, 0), (best, 1)):
+        page.locator(".rk-choose").nth(row).click()
+        for share in (0, 0.3, 0.75, 0.83, 1):
+            scrub.fill(str(round(400 * share)))
+            page.evaluate(frame)
+            seen.add(page.evaluate(picture))
+            at = round(400 * share) / 400 * CIRCLE.T
+            served = {i for i, t in zip(result.order, result.times, strict=True) if t <= at}
+            full = page.locator(".rk-served").evaluate_all("all => all.map(e => +e.dataset.handle)")
+            assert set(full) == served
+    assert len(seen) == 7, "one start, two places to the lure, four along the best order"
+    scrub.fill("0")
+    page.locator(".rk-clock button").click()
+    page.wait_for_function("+document.querySelector('.rk-clock input').value > 10")
+    page.get_by_role("button", name="pause").click()
+    assert not page.complaints
+    page.close()
+
+
+def test_beside_a_kernel_it_shows_what_python_says_of_what_it_shows(browser, tmp_path):
+    code = f"""
+import numpy as np
+from robokin.jobs.visit_collect import Task
+from robokin.show import tour_explorer
+tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}, "visit"))"""
+    v4 = nbformat.v4
+    lab = v4.new_notebook(
+        cells=[v4.new_markdown_cell("# Tours", id="head"), v4.new_code_cell(code, id="tours")],
+        metadata={
+            "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}
+        },
+    )
+    (tmp_path / "labs").mkdir()
+    nbformat.write(lab, tmp_path / "labs" / "tours.ipynb")
+    with JupyterLab(tmp_path, tmp_path / "labs") as jupyter:
+        page = opened(browser)
+        jupyter.open(page, "tours.ipynb")
+        jupyter.run_all(page, "tours.ipynb")
+        root = page.locator(".robokin-player[data-awake]")
+        root.wait_for(timeout=10_000)
+        before = len(page.complaints)  # of JupyterLab itself
+        _drags(page, root)
+        _typed(page, root)
+        _out_of_reach(page, root)
+        _many(page, root)
+        assert page.complaints[before:] == []
+        page.close()
+
+
+def settled(page, root):
+    """Wait until the last question is answered and shown."""
+    page.wait_for_timeout(60)
+    page.wait_for_function(
+        "root => root.dataset.asked === root.dataset.answered", arg=root.element_handle()
+    )
+    page.wait_for_timeout(60)
+
+
+def shown_task(page):
+    """The task that the page shows, by its own "Copy as Python"."""
+    page.locator(".rk-word").last.click()  # Copy as Python
+    space = {}
+    exec(page.evaluate("window.copied"), space)
+    return space["task"]
+
+
+def told(task, *rules):
+    rows = []
+    for rule in rules:
+        result = rule(task)
+        order = ", ".join(f"{i} ({t:.2f})" for i, t in zip(result.order, result.times, strict=True))
+        rows.append([order or "–", str(len(result.order)), f"{result.time:.2f}"])
+    return rows
+
+
+def drag(page, root, name, dx, dy, drop=True):
+    box = handle(page, name).bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(1, 9):
+        page.mouse.move(x + dx * k / 8, y + dy * k / 8)
+        page.wait_for_timeout(12)
+    if drop:
+        page.mouse.up()
+    settled(page, root)
+
+
+def _drags(page, root):
+    seen = [cells(page)]
+    for name, dx, dy in (("3", -60, -20), ("3", 150, 10), ("p0", 40, -30), ("0", -30, -40)):
+        was = handle(page, name).bounding_box()
+        drag(page, root, name, dx, dy)
+        task = shown_task(page)
+        assert cells(page) == told(task, visit, best_visit)
+        seen.append(cells(page))
+        assert handle(page, name).bounding_box() != was
+    assert len({json.dumps(each) for each in seen}) == 5, "nothing has followed the hand"
+
+
+def _typed(page, root):
+    for label, value in (
+        ("T, s, exactly", "29"),
+        ("L1, m, exactly", "4.5"),
+        ("L2, m, exactly", "4.2"),
+    ):
+        page.get_by_label(label).fill(value)
+        page.get_by_label(label).press("Enter")
+    settled(page, root)
+    task = shown_task(page)
+    assert (task.T, task.l1, task.l2) == (29, 4.5, 4.2)
+    assert cells(page) == told(task, visit, best_visit)
+    page.get_by_label("task").select_option("1")
+    settled(page, root)
+    task = shown_task(page)
+    assert task.kind == "collect" and cells(page) == told(task, collect, collect)
+    page.get_by_label("task").select_option("0")
+    handle(page, "1").focus()
+    for key in ("ArrowUp", "Shift+ArrowLeft", "ArrowRight"):
+        handle(page, "1").press(key)
+    settled(page, root)
+    moved = shown_task(page)
+    assert not np.allclose(moved.points[1], task.points[1])
+    assert cells(page) == told(moved, visit, best_visit)
+    handle(page, "1").press("Home")
+    settled(page, root)
+    assert np.allclose(shown_task(page).points[1], FOUR[2], rtol=0, atol=1e-4)
+
+
+def _out_of_reach(page, root):
+    within = shown_task(page)
+    drag(page, root, "2", 10, 190, drop=False)
+    assert "rk-away" in handle(page, "2").get_attribute("class")
+    assert (
+        page.locator(".rk-notes li").first.inner_text().startswith("Point 2 is under floor: z = −")
+    )
+    rest = Task(
+        within.l1,
+        within.l2,
+        within.T,
+        SPEEDS,
+        within.p0,
+        np.delete(within.points, 2, axis=0),
+        "visit",
+    )
+    renumbered = {0: 0, 1: 1, 2: 3}
+    for row, rule in zip(cells(page), (visit, best_visit), strict=True):
+        order = [int(i) for i in re.findall(r"(\d+) \(", row[0])]
+        assert order == [renumbered[i] for i in rule(rest).order]
+    page.mouse.up()
+    handle(page, "2").press("Home")
+    settled(page, root)
+    assert page.locator(".rk-notes li").count() == 0
+    drag(page, root, "p0", 0, 250)
+    assert page.locator(".rk-says").inner_text() == "There is no tour."
+    assert [row[0] for row in cells(page)] == ["–", "–"]
+    handle(page, "p0").press("Home")
+    settled(page, root)
+
+
+def _many(page, root):
+    while page.get_by_role("button", name="Add a point").is_enabled():
+        page.get_by_role("button", name="Add a point").click()
+        settled(page, root)
+    task = shown_task(page)
+    assert len(task.points) == 12 and cells(page) == told(task, visit, best_visit)
+    drag(page, root, "4", 15, 12, drop=False)
+    assert cells(page)[1] == ["–"] * 3 and "let go" in page.locator(".rk-says").inner_text()
+    page.mouse.up()
+    settled(page, root)
+    task = shown_task(page)
+    assert cells(page) == told(task, visit, best_visit)
+    for left in (11, 10):
+        page.get_by_role("button", name="Remove point").click()
+        settled(page, root)
+        assert handle(page, str(left - 1)).count() and not handle(page, str(left)).count()
+    drag(page, root, "1", 25, 8, drop=False)
+    assert cells(page)[1][0] != "–", "ten points: the best order while the hand holds one"
+    page.mouse.up()
+    settled(page, root)
+    assert cells(page) == told(shown_task(page), visit, best_visit)
