@@ -28,7 +28,7 @@ function planExplorer(stage, root, id, data) {
   const state = {q: [...first.posture], target: [...first.target, 0], obstacle: [...first.obstacle, 0],
                  distance: first.distance, way: first.way};
   const time = {wave: 0, moment: 0, playing: false, before: 0}, seen = {view: [...CUBE.view]};
-  let shown = null, asked = JSON.stringify(first);
+  let shown = null, asked = JSON.stringify(first), drawn = {}; // in the cube: drawing it takes longest
 
   const question = () => ({posture: state.q, target: state.target.slice(0, 2), obstacle: state.obstacle.slice(0, 2),
                            distance: state.distance, way: state.way, sides: sides.on()});
@@ -132,7 +132,9 @@ function planExplorer(stage, root, id, data) {
       under: (g, cam) => drawBelow(g, cam, shown, state, shown.moments.map(q => polyline(arm.chain, q))),
       over: (g, cam) => drawAbove(g, cam, shown, state)}];
   }, [cube], () => {
-    drawCube(cube, seen.view, shown, Math.floor(time.wave), Math.round(time.moment), state.q);
+    const looks = [Math.floor(time.wave), Math.round(time.moment), state.q, seen.view, cube.clientWidth, cube.clientHeight, colors.ink];
+    if (drawn.about !== shown || drawn.looks !== looks.join()) drawCube(cube, seen.view, shown, looks[0], looks[1], state.q);
+    drawn = {about: shown, looks: looks.join()};
     if (time.playing) stage.changed();
   });
   orbit(cube, CUBE, seen, stage.changed);
