@@ -997,6 +997,30 @@ def test_the_ellipsoid_and_the_axes_come_and_go(opened):
         assert shown.rk.get_by_role("checkbox", name="joint axes").is_checked() == (kind == "joint")
 
 
+def test_other_postures_are_drawn_with_all_of_their_joints(opened):
+    shown = opened(target_explorer(LEVERS), LEVERS)
+    shown.press("free", "ArrowUp")
+    lines = shown.page.evaluate(
+        """() => new Promise(done => {
+          const pen = CanvasRenderingContext2D.prototype, {moveTo, lineTo, stroke} = pen, all = [];
+          let line = [];
+          pen.moveTo = function (x, y) { line = [[x, y]]; return moveTo.call(this, x, y); };
+          pen.lineTo = function (x, y) { line.push([x, y]); return lineTo.call(this, x, y); };
+          pen.stroke = function (...a) {
+            if (this.getLineDash().join() === "3,7") all.push(line);  // the posture before
+            return stroke.apply(this, a);
+          };
+          document.querySelector("[data-handle=free]").dispatchEvent(
+            new KeyboardEvent("keydown", {key: "ArrowUp", bubbles: true}));
+          requestAnimationFrame(() => requestAnimationFrame(() => done(all)));
+        })"""
+    )
+    [line] = [np.array(line) for line in lines]
+    lengths = np.linalg.norm(np.diff(line, axis=0), axis=1)
+    lengths = lengths[lengths > 1]
+    assert len(lengths) == 3 and np.ptp(lengths) < 0.01, "three equal levers"
+
+
 def test_an_explorer_opens_with_its_arm_filling_the_scene(opened):
     for make in (joint_explorer, target_explorer):
         for arm in (IRB140, SCARA, PUMA560):

@@ -11,6 +11,7 @@ import nbformat
 import numpy as np
 import pytest
 import test_browser
+from axe_playwright_python.sync_playwright import Axe
 from conftest import ROOT, until
 
 from robokin import deg, three_lever
@@ -325,6 +326,8 @@ def test_an_exported_page_sleeps_and_what_needs_no_kernel_lives(quiet, stored, t
     cube.press("ArrowRight")
     quiet.evaluate(test_browser.NEXT_FRAME)
     assert cube.evaluate("e => e.toDataURL()") != before, "the cube can be turned"
+    found = Axe().run(quiet, context=".rk").response["violations"]
+    assert [rule["id"] for rule in found if rule["impact"] in ("serious", "critical")] == []
     assert quiet.errors == [] and quiet.outside == []
 
 
@@ -333,7 +336,7 @@ def test_a_notebook_stores_a_small_picture_and_nbval_passes(stored):
     assert set(notebook.metadata) == {"kernelspec", "language_info"}
     [output] = notebook.cells[1].outputs
     html = output.data["text/html"]
-    assert set(output.data) == {"text/html", "text/plain"} and len(html.encode()) < 92_000
+    assert set(output.data) == {"text/html", "text/plain"} and len(html.encode()) < 94_000
     assert re.search(r'<img alt="[^"]{60,}" [^>]*src="data:image/png;base64,', html)
     assert "widget" not in stored.read_text()
     rules = ROOT / "tests" / "nbval_sanitize.cfg"

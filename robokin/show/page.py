@@ -200,7 +200,7 @@ class Control(TypedDict):
 
 
 class PageExplorer(TypedDict, total=False):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers" or
+    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers", "plan",
     "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
     every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
     below.
@@ -211,6 +211,7 @@ class PageExplorer(TypedDict, total=False):
             table, the unit of travel in radians; `task`, an exercise: how many different
             postures have to reach the target (`wanted`), what it says then (`holds`) and before
             (`open`)
+    plan    names of the ways as `branches`; and what `live.Live` adds
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
     tour    names of kinds of tasks and of tours, the most points, places for those that are added
     """

@@ -216,15 +216,15 @@ def _cube(
     """
     axes = [np.arange(low, high + STEP / 2, STEP) for low, high in arm.limits]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    free = distances(arm, grid, H).min(axis=-1) >= distance
+    room = distances(arm, grid, H).min(axis=-1)
+    free = room >= distance
     low, high = arm.alpha_range(K1)
     curve = np.empty((0, 3))
     if not np.isnan(low):
         curve = arm.family(K1, np.linspace(low, high, 31))
     goals = np.zeros_like(free)
     goals[tuple(np.round((curve - arm.limits[:, 0]) / STEP).astype(int).T)] = True
-    proven = [_proven(arm, grid, free, H, distance, joint) for joint in range(3)]
-    count = _wave(free, proven, _begin(grid, free, start), goals)
+    count = _wave(free, _proven(arm, grid, room, H, distance), _begin(grid, free, start), goals)
     cube = np.where(count >= 0, np.minimum(count, AWAY - 1), np.where(free, AWAY, FORBIDDEN))
     return cube.astype(np.uint8), max(int(count.max()), 0), curve
 
@@ -236,18 +236,25 @@ def _begin(grid: Floats, free: Bools, start: Floats) -> tuple[int, ...] | None:
     return cell if away[cell] <= STEP else None
 
 
-def _proven(
-    arm: ThreeLeverArm, grid: Floats, free: Bools, H: Floats, distance: float, joint: int
-) -> Bools:
-    """Which steps of one joint, from each posture to the next one, keep the distance."""
-    here, later = (
-        tuple(part if j == joint else slice(None) for j in range(3))
-        for part in (slice(None, -1), slice(1, None))
+def _proven(arm: ThreeLeverArm, grid: Floats, room: Floats, H: Floats, distance: float) -> Any:
+    """For each joint: which of its steps, from each posture to the next one, keep the distance."""
+    # how much arm a joint carries: no point of that moves farther than this times the turn
+    carried = np.cumsum(arm.levers[::-1])[::-1]
+    proven, asked = [], []
+    for joint in range(3):
+        (here, there), (q0, q1) = (
+            (x[:-1], x[1:]) for x in (np.moveaxis(each, joint, 0) for each in (room, grid))
+        )
+        proven.append((here + there - carried[joint] * STEP) / 2 >= distance)  # lab 10, section 4
+        open_ = ~proven[joint] & (here >= distance) & (there >= distance)
+        asked.append((open_, q0[open_], q1[open_]))
+    q0, q1 = (np.concatenate([each[k] for each in asked]) for k in (1, 2))
+    kept = np.split(
+        keeps(arm, q0, q1, H, distance), np.cumsum([len(each[1]) for each in asked[:2]])
     )
-    both = free[here] & free[later]
-    good = np.zeros_like(both)
-    good[both] = keeps(arm, grid[here][both], grid[later][both], H, distance)
-    return good
+    for good, (open_, *_), answer in zip(proven, asked, kept, strict=True):
+        good[open_] = answer
+    return proven
 
 
 def _wave(free: Bools, proven: list[Bools], start: tuple[int, ...] | None, goals: Bools) -> Ints:
@@ -258,7 +265,7 @@ def _wave(free: Bools, proven: list[Bools], start: tuple[int, ...] | None, goals
     front, later = np.zeros_like(free), np.zeros_like(free)
     front[start] = True
     along_joint = [
-        [np.moveaxis(x, joint, 0) for x in (later, front, good)]
+        (np.moveaxis(later, joint, 0), np.moveaxis(front, joint, 0), good)
         for joint, good in enumerate(proven)
     ]
     for n in range(AWAY):
@@ -318,7 +325,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dic
 
 def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> plots.Figure:
     """The plane, and the cube beside it."""
-    fig = plots.figure(alt, width=4.6, height=2.2)
+    fig = plots.figure(alt, width=4.4, height=2.1)
     blue, orange, green = (style["color"] for style in JOINT_STYLES[:3])
     plane, cube = fig.add_axes((0, 0, 0.58, 0.9)), fig.add_axes((0.6, 0, 0.4, 0.9))
     points = arm.points(answer["moments"].astype(float))
@@ -327,7 +334,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     plane.fill(*disc.T, color="0.88")
     # few lines of one colour: a small file
-    plane.add_collection(LineCollection(list(points[::3]), color="#B3D4E8", linewidth=0.8))
+    plane.add_collection(LineCollection(list(points[::4]), color="#B3D4E8", linewidth=0.8))
     plane.plot(*points[:, 3].T, color=blue)
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")
     plane.plot(*points[0].T, color=INK, linewidth=4, marker="o", markerfacecolor="white")
@@ -339,7 +346,9 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     lines = list(project(np.concatenate(edges)))
     cube.add_collection(LineCollection(lines, color="0.75", linewidth=0.8))
     faces, shades = _body(answer["cube"] == FORBIDDEN)
-    cube.add_collection(PolyCollection(list(project(faces)), facecolors=shades, linewidth=0))
+    cube.add_collection(
+        PolyCollection(list(project(faces)), facecolors=shades, linewidth=0, antialiased=False)
+    )
     cube.plot(*project(answer["curve"]).T, "^", color=green, markersize=3)
     path = project(np.array(answer["path"]))
     cube.plot(*path.T, color=orange, linewidth=2)

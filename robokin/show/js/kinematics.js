@@ -55,6 +55,17 @@ export function frames(chain, q, joints = [], moved = []) {
   return all;
 }
 
+/**
+ * The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. As arm_points of camera.py.
+ * @param {Object[]} chain
+ * @param {number[]} q
+ * @returns {number[][]}
+ */
+export function polyline(chain, q) {
+  const joints = [], ends = frames(chain, q, joints);
+  return ends.flatMap((end, i) => (i < joints.length ? [end, joints[i]] : [end])).map(origin);
+}
+
 /** @param {number[]} m  12 numbers @returns {number[]} */
 export const origin = m => [m[3], m[7], m[11]];
 /** v turned by m. @param {number[]} m @param {number[]} v @returns {number[]} */

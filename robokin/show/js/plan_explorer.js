@@ -1,7 +1,7 @@
 // The explorer of plans: start, target and obstacle are taken by the hand, a kernel plans (live.js), and what it
 // answers is drawn in the plane and in the cube of postures. What is said comes from Python (plan_explorer.py).
 
-import {frames, origin} from "./kinematics.js";
+import {frames, origin, polyline} from "./kinematics.js";
 import {least} from "./levers.js";
 import {fill} from "./blanks.js";
 import {clear, colors, number, polygon, prepared, spot, stroke, words} from "./canvas.js";
@@ -28,7 +28,7 @@ function planExplorer(stage, root, id, data) {
   const state = {q: [...first.posture], target: [...first.target, 0], obstacle: [...first.obstacle, 0],
                  distance: first.distance, way: first.way};
   const time = {wave: 0, moment: 0, playing: false, before: 0}, seen = {view: [...CUBE.view]};
-  let shown = null, asked = JSON.stringify(first);
+  let shown = null, asked = JSON.stringify(first), drawn = {}; // in the cube: drawing it takes longest
 
   const question = () => ({posture: state.q, target: state.target.slice(0, 2), obstacle: state.obstacle.slice(0, 2),
                            distance: state.distance, way: state.way, sides: sides.on()});
@@ -129,10 +129,12 @@ function planExplorer(stage, root, id, data) {
     const k = Math.round(time.moment), begun = k > 0;
     const ghosts = [{q: shown.moments.at(-1), past: true}, ...(begun ? [{q: state.q, past: false}] : [])];
     return [{name: arm.name, chain: arm.chain, q: begun ? shown.moments[k] : state.q, ghosts,
-      under: (g, cam) => drawBelow(g, cam, shown, state, shown.moments.map(q => frames(arm.chain, q).map(origin))),
+      under: (g, cam) => drawBelow(g, cam, shown, state, shown.moments.map(q => polyline(arm.chain, q))),
       over: (g, cam) => drawAbove(g, cam, shown, state)}];
   }, [cube], () => {
-    drawCube(cube, seen.view, shown, Math.floor(time.wave), Math.round(time.moment), state.q);
+    const looks = [Math.floor(time.wave), Math.round(time.moment), state.q, seen.view, cube.clientWidth, cube.clientHeight, colors.ink];
+    if (drawn.about !== shown || drawn.looks !== looks.join()) drawCube(cube, seen.view, shown, looks[0], looks[1], state.q);
+    drawn = {about: shown, looks: looks.join()};
     if (time.playing) stage.changed();
   });
   orbit(cube, CUBE, seen, stage.changed);
@@ -147,8 +149,11 @@ function drawBelow(g, {to, scale}, {kept, direct}, state, postures) {
   const room = [...to(state.obstacle), state.distance * scale];
   g.beginPath();
   g.arc(...room, 0, 2 * Math.PI);
-  g.fillStyle = clear(colors.ghost, 0.2);
+  g.fillStyle = clear(colors.ghost, 0.25);
   g.fill();
+  g.strokeStyle = colors.ghost;
+  g.lineWidth = 1;
+  g.stroke();
   const flat = points => points.map(([x, y]) => to([x, y, 0]));
   direct?.quadrilaterals.forEach((corners, k) => {
     const color = [colors.joint3, colors.joint2][k], points = flat(corners);
@@ -169,12 +174,12 @@ function drawAbove(g, {to}, {via, nearest: [at, text], kept}, state) {
   if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
   spot(g, p, 3.5, colors.near);
   const left = p[0] <= x + 1; // where it is swept, to the left: the tool's frame points to the right
-  words(g, text, p[0] + (left ? -16 : 9), p[1] + (p[1] < y - 1 ? -8 : 17), kept ? colors.near : colors.alarm, 12.5,
+  words(g, text, p[0] + (left ? -16 : 9), p[1] + (far > 3 ? p[1] < y ? -8 : 17 : 34), kept ? colors.near : colors.alarm, 12.5,
     left ? "right" : "left", "600");
   via.forEach((point, k) => {
     const place = to([...point, 0]);
     spot(g, place, 4, colors.path);
-    words(g, `K${k + 2}`, place[0] - 8, place[1] + 14, colors.path, 12, "right", "600");
+    words(g, `K${k + 2}`, place[0] - 8, place[1] + (k ? 15 : -5), colors.path, 12, "right", "600");
   });
 }
 
@@ -255,7 +260,10 @@ const LOOK = `
   & .rk-run > div { flex: 1; }
   & .rk-run .rk-slide { grid-template-columns: 4.8em minmax(60px, 1fr); }
   & .rk-play { min-width: 4.6em; }
-  & .rk-mark { font-size: 11px; }
+  & .rk-mark { font-size: 11px; background: color-mix(in srgb, var(--rk-paper) 75%, transparent); }
+  @media (pointer: fine) {
+    & .rk-mark { width: 20px; height: 20px; margin: -10px 0 0 -10px; }
+  }
   & .rk-verdict { margin: 0 0 4px; font-weight: 650; min-height: 1.4em; }
   & .rk-verdict.rk-past { text-decoration: none; }
   @container (max-width: 600px) {

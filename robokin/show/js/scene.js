@@ -1,6 +1,6 @@
 // The scene: arms, targets and marks in space, above a floor.
 
-import {dot, distance, frames, origin, plus, turned} from "./kinematics.js";
+import {dot, distance, frames, origin, plus, polyline, turned} from "./kinematics.js";
 import {clear, colors, FONT, hit, jointColor, polygon, prepared, shape, spot, stroke, tiled, words} from "./canvas.js";
 import {camera, movedTo} from "./camera.js";
 
@@ -129,7 +129,7 @@ function drawStood(one) {
   one.under?.(g, cam);
   drawFoot(one, rods.length ? 1 : 0.4);
   for (const {q, past} of ghosts)
-    stroke(g, frames(one.chain, q).map(f => to(origin(f))), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
+    stroke(g, polyline(one.chain, q).map(to), clear(colors.ghost, 0.42), Math.max(2, 0.3 * thick), past ? [3, 7] : []);
   g.globalAlpha = one.faded ? 0.3 : 1;
   if (one.dips) drawRods({...one, rods: rods.flatMap(raised)}, 0);
   else drawRods(one);
