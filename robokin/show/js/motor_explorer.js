@@ -21,7 +21,7 @@ const SHOWN = 8; // seconds that a run takes to show
 const LONG = 2; // seconds of the motor: longer no rotor is watched that does not come to rest
 
 const MORE = `
-.rk.rk.rk {
+.rk.rk.rk.rk-motor {
   & .rk-shaft { height: clamp(300px, 40cqw, 380px); touch-action: pan-y; }
   & .rk-state { margin: 6px 0 0; min-height: 1.4em; }
   & .rk-slide { grid-template-columns: 6.2em minmax(60px, 1fr) 5em 3.4em; }
@@ -160,7 +160,7 @@ function motorExplorer(root, data) {
     wake();
   }
 
-  root.replaceChildren(element("div", {class: "rk", role: "group", "aria-label": data.title},
+  root.replaceChildren(element("div", {class: "rk rk-motor", role: "group", "aria-label": data.title},
     element("style", {}, STYLE + LOOK + MORE), element("div", {class: "rk-title"}, data.title),
     element("div", {class: "rk-views rk-asked"},
       element("div", {}, element("div", {class: "rk-space"}, canvas, layer),

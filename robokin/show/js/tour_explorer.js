@@ -56,7 +56,6 @@ function tourExplorer(root, id, stage, data) {
   });
   rows.node.classList.add("rk-tours");
   const notes = element("ul", {class: "rk-notes"});
-  stage.side.parentElement.classList.add("rk-touring");
   beside(stage.side, stage.says, notes);
   stage.below.append(rows.node);
 
@@ -65,6 +64,7 @@ function tourExplorer(root, id, stage, data) {
   beside(space, parts.row);
   const end = () => (heard ? heard.question : home).T;
   const clock = runningClock(parts, root.firstElementChild, state, () => [0, end()], stage.changed);
+  root.firstElementChild.classList.add("rk-tour");
   root.firstElementChild.append(element("style", {}, LOOK));
 
   // --- what the hand holds
@@ -191,10 +191,10 @@ const inCode = ({l1, l2, T, kind, p0, points}) => {
   return {l1: plain(l1, 4), l2: plain(l2, 4), T: plain(T, 3), kind, p0: list(p0), points: `[${points.map(list).join(", ")}]`};
 };
 
-// A page has the looks of all its outputs: what must win here is named twice.
+// A page has the looks of all its outputs: these are for this one.
 const LOOK = `
-.rk.rk.rk {
-  & .rk-views.rk-asked.rk-touring { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); }
+.rk.rk.rk.rk-tour {
+  & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); }
   & .rk-handle.rk-point { background: var(--rk-paper); }
   & .rk-handle.rk-left { border-style: dashed; }
   & .rk-handle.rk-served { background: var(--own); color: var(--rk-paper); }
@@ -209,6 +209,6 @@ const LOOK = `
   & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px; margin-right: 6px; vertical-align: middle;
     border-top: 3px dashed var(--rk-joint2); }
   & .rk-tours tr:nth-child(2) .rk-choose::before { border-top: 3px solid var(--rk-joint1); }
-  @container (max-width: 600px) { & .rk-views.rk-asked.rk-touring { grid-template-columns: minmax(0, 1fr); } }
+  @container (max-width: 600px) { & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr); } }
   @media print { & .rk-space .rk-handles { display: block; } }
 }`;
