@@ -14,7 +14,8 @@ import robokin
 
 PACKAGES = ("robokin", "robokin.arms", "robokin.motion", "robokin.show")
 JOBS = tuple(
-    f"robokin.jobs.{job}" for job in ("visit_collect", "conveyor", "obstacles", "steppers")
+    f"robokin.jobs.{job}"
+    for job in ("visit_collect", "conveyor", "obstacles", "moving", "redundancy", "steppers")
 )
 NAMES = {"np": np, **{name: getattr(robokin, name) for name in robokin.__all__}}
 HOW = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS

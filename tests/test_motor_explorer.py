@@ -161,6 +161,9 @@ def test_a_hand_turns_the_rotor_and_the_pulses_go_on(opened):
     shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")
     assert shown.look().chosen == 3 and "Pulses sent: \u22121." in state.inner_text()
     shown.rk.get_by_role("button", name="Begin again").click()
+    shown.rk.get_by_role("button", name="3", exact=True).click()  # a line of the table
+    assert shown.look().chosen == 2 and "Pulses sent: 2." in state.inner_text()
+    shown.rk.get_by_role("button", name="Begin again").click()
     before = shown.look()
     shown.handle("rotor").focus()
     shown.page.keyboard.down("ArrowLeft")
@@ -173,6 +176,10 @@ def test_a_hand_turns_the_rotor_and_the_pulses_go_on(opened):
     assert after.pixels[0] != before.pixels[0] and "44" in after.says
     assert int(re.search(r"\d+", state.inner_text())[0]) > 0
     shown.rk.get_by_role("button", name="Stop").click()
+    shown.type("load torque", 30)  # more than 20 mN m
+    shown.look()
+    assert state.inner_text() == "This row does not hold the load."
+    assert "The load runs back" in shown.look().says
 
 
 def test_it_needs_no_network_and_axe_finds_nothing(browser, opened):

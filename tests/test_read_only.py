@@ -108,6 +108,7 @@ ROOTS = {
     "task": task,
     "result": lambda: visit(task()),
     "move": lambda: steppers.synchronised([0, 0, 0], [40, -20, 8]),
+    "run of a rotor": lambda: steppers.Stepper().run([0.01], [1]),
     "plan": plan,
     "JOINT_STYLES": lambda: JOINT_STYLES,
     "COLUMNS": lambda: steppers.COLUMNS,

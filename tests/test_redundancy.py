@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from robokin import SCARA, deg, three_lever
+from robokin.jobs import redundancy
 from robokin.jobs.obstacles import distances
 from robokin.jobs.redundancy import (
     distance_rule,
@@ -147,6 +148,18 @@ def test_the_distance_rule_stops_the_lever_that_comes_near(arm):
             assert abs(step[lever]) < 0.01 * abs(step).max()
             stood += 1
     assert stood > 20
+
+
+@arms
+def test_on_the_way_joints_stop_at_their_limits(arm, monkeypatch):
+    K, before = tasks(arm, 200)
+    seen = []
+    monkeypatch.setattr(
+        redundancy, "distances", lambda arm, q, H: seen.append(q) or distances(arm, q, H)
+    )
+    distance_rule(H)(arm, K, before)
+    on_the_way = np.array(seen[::3])  # it asks for three in every step, the first where it stands
+    assert on_the_way.min() == 0 and on_the_way.max() == np.pi and len(on_the_way) > 50
 
 
 @arms

@@ -6,6 +6,7 @@ data/second_reading.csv the findings (A1 to H12). Every target exists.
 
 import csv
 import importlib
+import inspect
 import json
 import re
 
@@ -41,8 +42,8 @@ def has_section(path, section):
     return re.search(rf"^## {heading}", prose(path), re.M) is not None
 
 
-def exists(name):
-    """Whether a dotted name stands below robokin."""
+def found(name):
+    """What a dotted name below robokin stands for; None if nothing."""
     for module in ("robokin", "robokin.arms", "robokin.motion", "robokin.show", "robokin.course"):
         value = importlib.import_module(module)
         for part in name.removeprefix("robokin.").split("."):
@@ -54,8 +55,8 @@ def exists(name):
             else:
                 value = getattr(value, part)
         else:
-            return True
-    return False
+            return value
+    return None
 
 
 @pytest.mark.parametrize("source", COUNTS)
@@ -77,7 +78,7 @@ def test_every_capability_of_a_document_has_its_place(source):
             assert has_section(path, section), f"{row}: {lab} {section}"
         assert names == "–" or "`" in names, f"{row}: {names}"
         for name in re.findall(r"`([^`]+)`", names):
-            assert exists(name), f"{row}: {name}"
+            assert found(name) is not None, f"{row}: {name}"
 
 
 def findings():
@@ -104,6 +105,20 @@ def test_a_finding_is_dealt_with_where_it_says(line):
             text = (ROOT / match[1]).read_text(encoding="utf-8")
             assert match[2] is None or re.search(rf"^def {match[2]}\(", text, re.M), place
         elif place.startswith("robokin."):
-            assert exists(place), place
+            assert found(place) is not None, place
         else:
             assert (ROOT / place).exists(), place
+
+
+def test_every_box_of_the_flow_charts_leads_to_the_source_of_its_function():
+    """Companion 003, figures 29 to 33. That the names drawn exist, its own cells hold."""
+    path, figures = COMPANIONS["003"], []
+    for figure, names in re.findall(r"^\| (29|3[0-3]) \|[^|]+\|([^|]+)\|", prose(path), re.M):
+        figures.append(figure)
+        linked = re.findall(r"\[`([^`]+)`\]\(([^)]+)\)", names)
+        assert linked, names
+        for name, target in linked:
+            value = found(name)
+            assert value is not None, name
+            assert (path.parent / target).resolve().samefile(inspect.getsourcefile(value)), name
+    assert sorted(set(figures)) == ["29", "30", "31", "32", "33"]

@@ -692,3 +692,5 @@ def test_a_ramp_has_as_many_pulses_as_its_frequencies_add_up_to(asked):
 def test_an_even_ramp_is_an_even_move():
     times, signs = synchronised([0], [37], 250).pulses()[0]
     assert ramp(37, 250, 250, 1.0) == pytest.approx(times) and signs.sum() == 37
+    for no_time in (0.0, 1e-9, 5e-324):
+        assert ramp(37, 40, 250, no_time) == pytest.approx(times, abs=1e-8)

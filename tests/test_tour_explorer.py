@@ -9,7 +9,6 @@ import re
 import nbformat
 import numpy as np
 import pytest
-from conftest import JupyterLab
 
 from robokin import spbu_arm
 from robokin.jobs.visit_collect import Task, best_visit, collect, visit, workspace
@@ -128,8 +127,30 @@ def test_what_is_stored_is_small_and_says_what_is_seen():
     assert explorer.still.alt == explorer.data["alt"]
 
 
+@pytest.mark.parametrize(
+    "task",
+    [
+        Task(5, 4, 0, SPEEDS, FOUR[0], FOUR[1:], "visit"),
+        Task(5, 4, 60, SPEEDS, [0, 0, 6.5], FOUR[1:], "collect"),
+        Task(0.5, 8, 20, SPEEDS, [0, 8, 1], [[8, 0, 1]], "visit"),
+        Task(0.005, 0.004, 60, SPEEDS, FOUR[0] / 1000, FOUR[1:] / 1000, "visit"),
+    ],
+    ids=["no time", "p0 on axis 1", "a short link", "millimetres"],
+)
+def test_it_opens_with_any_task(task):
+    explorer = tour_explorer(task)
+    low, high = ([spec[key] for spec in explorer.data["controls"]] for key in ("low", "high"))
+    size = explorer.data["unit"]["size"]
+    for value, least, most in zip((task.l1 / size, task.l2 / size, task.T), low, high, strict=True):
+        assert least <= value <= most
+    added = asked(l1=task.l1, l2=task.l2, p0=task.p0.tolist(), points=explorer.data["spare"])
+    assert sum(answered(added, SPEEDS)["reached"]) >= 10, "points that are added can be served"
+    assert len(explorer.html) < 90_000
+
+
 # --- What the page shows --------------------------------------------------------------------------
 
+FRAMES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 COPIES = """
 const clipboard = {writeText: async text => { window.copied = text; }};
 Object.defineProperty(navigator, "clipboard", {value: clipboard});
@@ -177,14 +198,13 @@ def test_asleep_in_a_file_the_clock_runs_and_the_rest_does_not(browser, tmp_path
     assert page.locator(".rk-handles").evaluate("e => e.inert")
 
     picture = "document.querySelector('.rk-scene').toDataURL()"
-    frame = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
     scrub = page.get_by_role("slider", name="time")
     seen = set()
     for result, row in ((greedy, 0), (best, 1)):
         page.locator(".rk-choose").nth(row).click()
         for share in (0, 0.3, 0.75, 0.83, 1):
             scrub.fill(str(round(400 * share)))
-            page.evaluate(frame)
+            page.evaluate(FRAMES)
             seen.add(page.evaluate(picture))
             at = round(400 * share) / 400 * CIRCLE.T
             served = {i for i, t in zip(result.order, result.times, strict=True) if t <= at}
@@ -199,7 +219,7 @@ def test_asleep_in_a_file_the_clock_runs_and_the_rest_does_not(browser, tmp_path
     page.close()
 
 
-def test_beside_a_kernel_it_shows_what_python_says_of_what_it_shows(browser, tmp_path):
+def test_beside_a_kernel_it_shows_what_python_says_of_what_it_shows(browser, jupyter):
     code = f"""
 import numpy as np
 from robokin.jobs.visit_collect import Task
@@ -212,30 +232,28 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
             "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}
         },
     )
-    (tmp_path / "labs").mkdir()
-    nbformat.write(lab, tmp_path / "labs" / "tours.ipynb")
-    with JupyterLab(tmp_path, tmp_path / "labs") as jupyter:
-        page = opened(browser)
-        jupyter.open(page, "tours.ipynb")
-        jupyter.run_all(page, "tours.ipynb")
-        root = page.locator(".robokin-player[data-awake]")
-        root.wait_for(timeout=10_000)
-        before = len(page.complaints)  # of JupyterLab itself
-        _drags(page, root)
-        _typed(page, root)
-        _out_of_reach(page, root)
-        _many(page, root)
-        assert page.complaints[before:] == []
-        page.close()
+    nbformat.write(lab, jupyter.labs / "tours.ipynb")
+    page = opened(browser)
+    jupyter.open(page, "tours.ipynb")
+    jupyter.run_all(page, "tours.ipynb")
+    root = page.locator(".robokin-player[data-awake]")
+    root.wait_for(timeout=10_000)
+    before = len(page.complaints)  # of JupyterLab itself
+    _drags(page, root)
+    _typed(page, root)
+    _out_of_reach(page, root)
+    _many(page, root)
+    assert page.complaints[before:] == []
+    page.close()
 
 
 def settled(page, root):
-    """Wait until the last question is answered and shown."""
-    page.wait_for_timeout(60)
+    """Wait until the last question is asked, answered and shown."""
+    page.evaluate(FRAMES)
     page.wait_for_function(
         "root => root.dataset.asked === root.dataset.answered", arg=root.element_handle()
     )
-    page.wait_for_timeout(60)
+    page.evaluate(FRAMES)
 
 
 def shown_task(page):

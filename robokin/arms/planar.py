@@ -124,8 +124,8 @@ def three_lever(L: ArrayLike) -> "ThreeLeverArm":
     K      the gripper, the flange's origin; below 180 degrees the chain turns clockwise on the way
            to it
 
-    Source: 003, III.1.1, figures 15 and 16; the document's levers are equal, and "may be of
-    different lengths as well" (II.2). ValueError: L not one positive number, or three.
+    Source: 003, III.1.1, figures 15 and 16, for equal levers; that they may differ says II.2.
+    ValueError: L not one positive number, or three.
 
     >>> from robokin import deg, three_lever
     >>> three_lever((0.9, 1.1, 0.6)).points([90 * deg, 90 * deg, 180 * deg]).round(3) + 0.0

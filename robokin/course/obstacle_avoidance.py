@@ -1747,9 +1747,8 @@ PREDICTIONS = {
             ),
             Option(
                 "About a quarter.",
-                "{keep} of {count}. Where only the gripper was too near, a larger circle mends "
-                "it. {near} come nearer "
-                "all the same.",
+                "{keep} of {count}. Where only the gripper was too near, a larger circle can help. "
+                "{near} come nearer all the same.",
             ),
             Option(
                 "About two thirds.",

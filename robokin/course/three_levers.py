@@ -1667,6 +1667,7 @@ def _race_facts() -> dict[str, Any]:
         "dice": float(dice),
         "added": float(dice - least),
         "percent": float(100 * (dice / least - 1)),
+        "times": float(dice / least),
         "equal": float(100 * (turns["equal angles"].mean() / least - 1)),
     }
 
@@ -2069,8 +2070,8 @@ PREDICTIONS = {
     ),
     "p10": Prediction(
         question="{tasks} random targets, one after the other. One arm takes the least movement "
-        "each time, another throws dice: any alpha of the family. How much more do all joints of "
-        "the second one turn in the end?",
+        "each time, another throws dice: any alpha of the family. How much do all joints of the "
+        "second one turn in the end, beside those of the first?",
         options=(
             Option(
                 "Hardly more: over many tasks chance evens out.",
@@ -2081,10 +2082,10 @@ PREDICTIONS = {
                 "never quicker.",
             ),
             Option(
-                "About {percent:.0f} % more.",
-                "{least:.0f}° a task are needed even at the least, to get from target to target. "
-                "The choice of alpha adds {added:.0f}°. Equal angles, which look at no posture "
-                "before, cost {equal:.0f} % more.",
+                "About {times:.1f} times as much.",
+                "The least movement takes {least:.0f}° a task: to get from target to target the "
+                "arm has to turn anyhow. Dice add {added:.0f}°. Equal angles, which look at no "
+                "posture before, take {equal:.0f} % more than the least movement.",
             ),
             Option(
                 "About three times as much.",

@@ -435,19 +435,19 @@ class Stepper:
         self, load: float = 0.0, load_inertia: float = 0.0, pulses: int = 48
     ) -> float:
         """The frequency, in whole pulses per second, at which the motor just follows from rest
-        without losing a step: one more, and it loses some. At most `LIMIT`; 0 if it loses some at
-        `SLOWEST` already. (Lower down a motor with little damping may lose steps by resonance.)
+        without losing a step: one more, and it loses some. At most `LIMIT`; 0 if even `SLOWEST` is
+        too fast. Found by halving: far below it a motor with little damping may lose steps, too, by
+        resonance.
 
         load, load_inertia  as for `run`. Source of the term: 003, II.3.1.
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
-        middle = SLOWEST
-        while high - low > 1:  # made at `low`, lost at `high`
+        while high - low > 1:  # made at `low` (or too slow to ask), lost at `high`
+            middle = (low + high) // 2
             times = np.arange(1, count + 1) / middle
             lost = self.run(times, np.ones(count), load, load_inertia).lost
             low, high = (low, middle) if lost else (middle, high)
-            middle = (low + high) // 2
         return float(low if low >= SLOWEST else 0)
 
     def run(
@@ -474,7 +474,8 @@ class Stepper:
 @dataclass(frozen=True, eq=False)
 class Run:
     """What a rotor did: at the times `t` (k,) in s its angle was `angle` (k,) and should have been
-    `due` (k,), both in rad; `lost` is how many steps it is behind in the end (negative: too far).
+    `due` (k,), both in rad. `lost` is how many steps the angle is short of `due` in the end; of
+    pulses with the sign -1 lost steps count negative.
 
     At rest it can stand only where the last row holds it. So the lost steps are always as many as
     the phase table has rows, or twice as many, and so on.
@@ -511,7 +512,7 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     ahead = np.minimum(k, count - k)  # from the start, or from the end
     with np.errstate(divide="ignore", invalid="ignore"):
         climbing = 2 * ahead / (low + np.sqrt(low**2 + 2 * more * ahead))
-    since = np.where(ahead <= done, climbing, up + (ahead - done) / top)
+    since = np.where(ahead < done, climbing, up + (ahead - done) / top)
     return np.where(k <= count - k, since, duration - since)
 
 

@@ -24,7 +24,7 @@ JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
 )
 DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # as the page gets them
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
-ALARM, TRACE = "#B3261E", "#0072B2"
+ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: the trace, in the background
 
 # Figures: lines and words, postures from strong to faint, the floor.
 INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"

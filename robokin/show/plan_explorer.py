@@ -31,7 +31,7 @@ from . import plots
 from .camera import VIEW, extent, project, scene_data
 from .live import Answer, Live, Question
 from .page import Control
-from .palette import ALARM, DASHES, INK, JOINT_STYLES, SOFT
+from .palette import ALARM, DASHES, INK, JOINT_STYLES, PALE, SOFT
 from .twin import arm_data
 
 STEP = 12 * deg  # of the cube's postures
@@ -334,7 +334,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     plane.fill(*disc.T, color="0.88")
     # few lines of one colour: a small file
-    plane.add_collection(LineCollection(list(points[::4]), color="#B3D4E8", linewidth=0.8))
+    plane.add_collection(LineCollection(list(points[::4]), color=PALE, linewidth=0.8))
     plane.plot(*points[:, 3].T, color=blue)
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")
     plane.plot(*points[0].T, color=INK, linewidth=4, marker="o", markerfacecolor="white")

@@ -58,7 +58,7 @@ MEANT = (
     "Drag p0 and the points: they move in the plane of the screen; turn the view to move them "
     "another way. A row of the table sets the arm on its tour; play shows it. Above a point stands "
     "its place in the greedy tour, below it that in the best. The dotted circle is as far as the "
-    "arm reaches on the floor."
+    "arm reaches on the floor; a wide red band, a way under the floor."
 )
 
 
@@ -90,6 +90,7 @@ def tour_explorer(task: Task) -> Live:
     name, size = length_unit(extent(arm))
     length = 1.0 if name == "m" else 10.0
     reach = extent(arm) / size
+    short = min(0.1 * reach, task.l1 / size, task.l2 / size)
     alt = f"An arm and {count} points to be moved. {' '.join([told['says'], *told['notes']])}"
     data: PageExplorer = {
         "kind": "tour",
@@ -99,15 +100,15 @@ def tour_explorer(task: Task) -> Live:
         "unit": {"name": name, "size": size, "code": name},
         "scene": _scene(arm, task),
         "controls": [
-            _control("L1", name, 0.1 * reach, reach, 0.1 * length),
-            _control("L2", name, 0.1 * reach, reach, 0.1 * length),
+            _control("L1", name, short, reach, 0.1 * length),
+            _control("L2", name, short, reach, 0.1 * length),
             _control("T", "s", 0, max(10, np.ceil(task.T / 2.5) * 10), 0.1),
         ],
         "words": WORDS,
         "kinds": list(KINDS),
         "tours": list(TOURS),
         "most": MOST,
-        "spare": [rounded(p, 2) for p in _spare(task)],
+        "spare": [rounded(p, 4) for p in _spare(task)],
         "meant": MEANT,
         "code": "from robokin.jobs.visit_collect import Task\n"
         f"task = Task({{l1}}, {{l2}}, T={{T}}, speeds={task.speeds.tolist()},\n"
@@ -237,10 +238,8 @@ def _scene(arm: Arm, task: Task) -> PageScene:
     the rest.
     """
     places = np.vstack([task.p0, task.points])
-    ring, out = (
-        np.arange(0, 360, 30) * deg,
-        max(1.2 * np.hypot(*places.T[:2]).max(), 0.65 * extent(arm)),
-    )
+    ring = np.arange(0, 360, 30) * deg
+    out = max(1.2 * np.hypot(*places.T[:2]).max(), 0.65 * extent(arm))
     around = out * np.stack([np.cos(ring), np.sin(ring), 0 * ring], axis=-1)
     marks: list[Mark] = [("", p, 0.0) for p in (*around, *places)]
     scene = scene_data([arm], [task.q[None, :1]], {}, marks, extent(arm), solid=True)

@@ -61,6 +61,36 @@ def planned(x=1.2, y=1.3):
     plt.show()
 interact(planned, x=(0.5, 2.0, 0.02), y=(0.5, 2.0, 0.02));""",
     ),
+    "tour": Case(
+        """\
+import numpy as np
+from robokin import spbu_arm
+from robokin.jobs.visit_collect import Task, workspace
+from robokin.show import tour_explorer
+arm = spbu_arm(5, 4)
+cloud = np.random.default_rng(3).uniform([-6, -6, 0.3], [6, 6, 5], size=(60, 3))
+cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][:11]
+live = tour_explorer(Task(5, 4, 25, [0.2] * 3, cloud[0], cloud[1:], "visit"))
+live""",
+        "'0'",
+        """\
+import matplotlib.pyplot as plt
+from ipywidgets import interact
+def toured(x=2.0, y=3.0):
+    points = [[x, y, 2.0], *cloud[2:].tolist()]
+    said = live.answer(live.data["question"] | {"points": points})  # the same numbers
+    ax = plt.figure(figsize=(6, 4.5)).add_subplot(projection="3d")
+    for name, style in (("greedy", "C1--"), ("best", "C0-")):
+        t, q = said[name]["t"], said[name]["q"].astype(float)
+        way = np.stack([np.interp(np.linspace(0, t[-1], 200), t, joint) for joint in q.T], axis=-1)
+        ax.plot(*arm.fk(way).translation.T, style)
+        print(said[name]["cells"])
+    ax.plot(*arm.frames(q[0]).translation.T, "k-o", lw=5)
+    ax.scatter(*np.array(points).T)
+    ax.set(title=said["says"])
+    plt.show()
+interact(toured, x=(-6.0, 6.0, 0.1), y=(-6.0, 6.0, 0.1));""",
+    ),
 }
 
 # From each move to the task after the frame with the first answer that was asked for after it.

@@ -68,7 +68,8 @@ TESTS = {
     "robokin/motion/recording.py": ["recording", "plots"],
     "robokin/jobs/__main__.py": ["jobs_command"],
     "robokin/jobs/visit_collect.py": ["visit_collect", "jobs_command"],
-    "robokin/jobs/obstacles.py": ["obstacles"],
+    "robokin/jobs/obstacles.py": ["obstacles", "moving"],
+    "robokin/jobs/moving.py": ["moving"],
     "robokin/jobs/steppers.py": ["steppers", "loader"],
 }
 # After these, for every module; drawing is slow, and sees little of them.

@@ -81,8 +81,14 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
 
 
 def _own_name(app: Any, docname: str, source: list[str]) -> None:
-    """A companion calls itself #."""
+    """A companion calls itself #; where it leads to our source, the site leads to its reference."""
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
+    up = "../" * docname.count("/")
+    source[0] = re.sub(
+        r"\]\((?:\.\./)+(robokin/[\w/]+)\.py\)",
+        lambda link: f"]({up}api/{link[1].replace('/', '.')}.rst)",
+        source[0],
+    )
 
 
 def _numbered(app: Any, doctree: nodes.document) -> None:

@@ -21,7 +21,7 @@ const SHOWN = 8; // seconds that a run takes to show
 const LONG = 2; // seconds of the motor: longer no rotor is watched that does not come to rest
 
 const MORE = `
-.rk.rk.rk {
+.rk.rk.rk.rk-motor {
   & .rk-shaft { height: clamp(300px, 40cqw, 380px); touch-action: pan-y; }
   & .rk-state { margin: 6px 0 0; min-height: 1.4em; }
   & .rk-slide { grid-template-columns: 6.2em minmax(60px, 1fr) 5em 3.4em; }
@@ -32,9 +32,9 @@ const MORE = `
   & .rk-run { height: 210px; }
   & .rk-facts td { white-space: normal; }
   & .rk-row button { width: auto; }
-  & .rk-columns { grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); align-items: start; }
+  & .rk-beside { display: grid; grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); gap: 0 18px; align-items: start; }
   @container (max-width: 600px) {
-    & .rk-columns { grid-template-columns: minmax(0, 1fr); }
+    & .rk-beside { grid-template-columns: minmax(0, 1fr); }
     & .rk-shaft { height: 330px; }
   }
   @media print { & .rk-lines { max-height: none; } }
@@ -62,14 +62,22 @@ function motorExplorer(root, data) {
     [live, sent, playing, since] = [atRest(motor, 0), 0, null, LONG];
     ask();
   }
+  let stale = false, starts = {};
   function changed(other = false) { // `other`: another motor, another table
     motor = motorNow();
-    found = run(motor, times(), state.sign);
-    if (other) newTable();
-    tell();
-    if (other) begin();
-    else if (playing) play(); // the same from the start, with the new numbers
+    stale = true;
+    if (other) {
+      newTable();
+      starts = {};
+      begin();
+    } else if (playing) play(); // the same from the start, with the new numbers
     else wake();
+  }
+  function computed() { // once for every picture in which something has changed
+    if (!stale) return;
+    stale = false;
+    found = run(motor, times(), state.sign);
+    tell();
   }
   function newTable() {
     const rows = page().printed[drive()];
@@ -87,6 +95,7 @@ function motorExplorer(root, data) {
     ask();
   }
   function play() {
+    computed();
     const total = found.t.at(-1);
     playing = {begun: null, slow: Math.max(1, Math.round(SHOWN / total))};
     ask();
@@ -151,14 +160,14 @@ function motorExplorer(root, data) {
     wake();
   }
 
-  root.replaceChildren(element("div", {class: "rk", role: "group", "aria-label": data.title},
+  root.replaceChildren(element("div", {class: "rk rk-motor", role: "group", "aria-label": data.title},
     element("style", {}, STYLE + LOOK + MORE), element("div", {class: "rk-title"}, data.title),
     element("div", {class: "rk-views rk-asked"},
       element("div", {}, element("div", {class: "rk-space"}, canvas, layer),
         element("div", {class: "rk-row"}, button(says.back, pulse(-1)), button(says.on, pulse(1)), runs, button(says.begin, begin)), now),
       element("div", {class: "rk-side"}, kinds.row, ...counts.map(c => c.row), drives.row, ...sliders.map(s => s.row),
         element("div", {class: "rk-row"}, back.row, copyButton(says, inCode)), told)),
-    element("div", {class: "rk-below"}, element("div", {class: "rk-columns"}, lines, element("div", {}, curve, facts.node))),
+    element("div", {class: "rk-below"}, element("div", {class: "rk-beside"}, lines, element("div", {}, curve, facts.node))),
     element("p", {class: "rk-meant"}, data.meant)));
 
   // --- What is said
@@ -175,7 +184,7 @@ function motorExplorer(root, data) {
     const slow = Math.max(1, Math.round(SHOWN / found.t.at(-1)));
     const text = `${fill(which, {pulses, how, lost: Math.abs(lost)})} ${fill(says.slow, {slow})}`;
     if (told.textContent !== text) told.textContent = text;
-    const {slowest, limit, nearly} = data.rules, first = startFrequency(motor, pulses);
+    const {slowest, limit, nearly} = data.rules, first = starts[`${motor.load} ${motor.inertia}`] ??= startFrequency(motor, pulses);
     const torque = x => fill(says.torques, {value: number(1000 * x, 1)});
     facts.set([[fill(says.degrees, {value: plain(degrees(stepOf(motor)), 2)})], [torque(holdingTorque(motor))], [torque(startingTorque(motor))],
       [first ? fill(first < limit ? says.perSecond : says.orMore, {value: first}) : fill(says.none, {value: slowest})],
@@ -194,7 +203,10 @@ function motorExplorer(root, data) {
     grip.textContent = page().teeth ? "" : "N";
     runs.textContent = playing ? says.stop : says.run;
   }
-  const bent = () => motor.load > holdingTorque(motor);
+  const bent = () => { // more than the row that is on can hold
+    const n = motor.currents.length, [x, y] = pull(motor, motor.currents[((sent % n) + n) % n]);
+    return motor.load > motor.torque * Math.sqrt(x * x + y * y);
+  };
   function inCode() {
     const text = key => String(+value(key).toPrecision(6));
     return fill(data.code, {rotor: kind().rotor, motor: kind().motor, windings: page().windings, drive: drive(), pulses, sign: state.sign,
@@ -228,6 +240,7 @@ function motorExplorer(root, data) {
     return {t: null, on: !held && since < LONG};
   }
   const ask = pictures(root, [canvas, curve], time => {
+    computed();
     const {t, on} = moment(time);
     tellNow(live.theta, sent);
     drawCurve(curve, says, found, motor, t);
@@ -263,10 +276,11 @@ function drawMotor(g, w, h, size, {poles, teeth, space}, motor, theta, sent, say
     polygon(g, Array.from({length: teeth}, (_, k) => [[-0.26, 0.44], [-0.2, 0.59], [0.2, 0.59], [0.26, 0.44]]
       .map(([share, r]) => at(theta + pitch * (k + share), r))).flat(), colors.rod, colors.edge, 1.2);
   } else {
-    for (const [turn, color] of [[0, colors.joint2], [Math.PI, colors.rod]]) // N is the ring to take it by
+    for (const [turn, color, name] of [[0, colors.joint2, "N"], [Math.PI, colors.rod, "S"]]) {
       polygon(g, arc(theta + turn - Math.PI / 2, theta + turn + Math.PI / 2, 0.57), color, colors.edge, 1.2);
-    const [x, y] = at(theta + Math.PI, 0.42);
-    plainWords(g, "S", x, y + 5, colors.edge, true);
+      const [x, y] = at(theta + turn, 0.46); // on the screen the ring to take it by lies over the N
+      plainWords(g, name, x, y + 5, colors.edge, true);
+    }
   }
   const [x, y] = pull(motor, currents), strength = Math.sqrt(x * x + y * y), [u, v] = pull(motor, motor.currents[0]);
   const field = space * (Math.atan2(v, u) + 2 * Math.PI / n * sent), long = 0.29 * strength;

@@ -53,6 +53,7 @@ function planExplorer(stage, root, id, data) {
     element("div", {}, own(says.search, wave), own(says.motion, moment)))));
   root.querySelector(".rk-title").after(verdict);
   stage.below.append(stage.says);
+  root.firstElementChild.classList.add("rk-plan");
   root.firstElementChild.append(element("style", {}, LOOK));
 
   const stop = () => { time.playing = false; };
@@ -249,8 +250,9 @@ function drawCube(canvas, view, {cube: {values, shape: [n]}, faces, curve, momen
   });
 }
 
+// A page has the looks of all its outputs: these are for this one.
 const LOOK = `
-.rk.rk.rk {
+.rk.rk.rk.rk-plan {
   & .rk-views.rk-asked { grid-template-columns: minmax(0, 7fr) minmax(0, 5fr); gap: 4px 12px; }
   & .rk-space { grid-row: 1 / span 2; }
   & .rk-own { grid-column: 2; grid-row: 1; }

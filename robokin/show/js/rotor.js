@@ -14,13 +14,15 @@
  */
 
 /** Direction and strength of what currents pull with, as x and y. */
-export function pull({turn, sharp}, currents) {
+export const pull = (motor, currents) => summed(currents, ...waysOf(motor), motor.sharp);
+const waysOf = ({turn, currents: [row]}) => [row.map((_, k) => Math.cos(turn * k)), row.map((_, k) => Math.sin(turn * k))];
+function summed(currents, across, along, sharp) {
   let x = 0, y = 0;
-  currents.forEach((i, k) => {
-    const much = sharp === 2 ? i * i : i;
-    x += much * Math.cos(turn * k);
-    y += much * Math.sin(turn * k);
-  });
+  for (let k = 0; k < currents.length; k++) {
+    const much = sharp === 2 ? currents[k] * currents[k] : currents[k];
+    x += much * across[k];
+    y += much * along[k];
+  }
   return [x, y];
 }
 
@@ -65,24 +67,25 @@ const rowOf = ({currents}, sent) => currents[((sent % currents.length) + current
  * @param {State} state
  * @param {number} sent  pulses: the row that is on
  * @param {number} seconds
- * @param {(elapsed: number) => void} [each]  told after each step
+ * @param {?(elapsed: number) => void} [each]  told after each step
+ * @param {number} [longest]  step, s
  */
-export function advance(motor, state, sent, seconds, each = () => {}) {
-  const goal = rowOf(motor, sent), count = Math.ceil(seconds / rhythm(motor).longest);
+export function advance(motor, state, sent, seconds, each = null, longest = rhythm(motor).longest) {
+  const goal = rowOf(motor, sent), count = Math.ceil(seconds / longest), [across, along] = waysOf(motor);
   if (!count) return;
-  const {periods, torque, inertia, damping, load, rise} = motor, h = seconds / count;
-  const left = rise ? Math.exp(-h / 2 / rise) : 0;
-  const nearer = () => { state.currents = state.currents.map((i, k) => goal[k] + (i - goal[k]) * left); };
+  const {periods, sharp, torque, inertia, damping, load, rise} = motor, h = seconds / count, {currents} = state;
+  const left = rise ? Math.exp(-h / 2 / rise) : 0, now = i => summed(i, across, along, sharp);
+  const nearer = () => { for (let k = 0; k < goal.length; k++) currents[k] = goal[k] + (currents[k] - goal[k]) * left; };
   const faster = ([x, y], theta, omega) => {
     const a = periods * theta;
     return (torque * (y * Math.cos(a) - x * Math.sin(a)) - (damping * omega + load)) / inertia;
   };
-  let p0 = pull(motor, rise ? state.currents : goal);
+  let p0 = now(rise ? currents : goal);
   for (let i = 0; i < count; i++) {
     nearer();
-    const p1 = pull(motor, state.currents);
+    const p1 = now(currents);
     nearer();
-    const p2 = pull(motor, state.currents), {theta, omega} = state;
+    const p2 = now(currents), {theta, omega} = state;
     const a0 = faster(p0, theta, omega);
     const w1 = omega + h / 2 * a0, a1 = faster(p1, theta + h / 2 * omega, w1);
     const w2 = omega + h / 2 * a1, a2 = faster(p1, theta + h / 2 * w1, w2);
@@ -90,26 +93,31 @@ export function advance(motor, state, sent, seconds, each = () => {}) {
     state.theta += h / 6 * (omega + 2 * w1 + 2 * w2 + w3);
     state.omega += h / 6 * (a0 + 2 * a1 + 2 * a2 + a3);
     p0 = p2;
-    each((i + 1) * h);
+    if (each) each((i + 1) * h);
   }
 }
 
 /**
- * A run from rest in row 0: `sign` pulses at these times, and then to rest.
+ * A run from rest in row 0: pulses of one sign at these times, and then to rest.
  * @returns {{t: number[], angle: number[], sent: number[], lost: number}}
  */
 export function run(motor, times, sign) {
-  const state = atRest(motor, 0), found = {t: [0], angle: [state.theta], sent: [0]};
-  const ends = [...times, (times.at(-1) ?? 0) + rhythm(motor).settle];
+  const found = {t: [0], angle: [resting(motor, 0)], sent: [0]};
+  const lost = lostOf(motor, times, sign, (time, state, sent) => {
+    found.t.push(time);
+    found.angle.push(state.theta);
+    found.sent.push(sent);
+  });
+  return {...found, lost};
+}
+
+function lostOf(motor, times, sign = 1, each = null) {
+  const state = atRest(motor, 0), {longest, settle} = rhythm(motor), ends = [...times, (times.at(-1) ?? 0) + settle];
   ends.forEach((end, k) => {
     const since = k ? ends[k - 1] : 0;
-    advance(motor, state, sign * k, end - since, elapsed => {
-      found.t.push(since + elapsed);
-      found.angle.push(state.theta);
-      found.sent.push(sign * k);
-    });
+    advance(motor, state, sign * k, end - since, each && (elapsed => each(since + elapsed, state, sign * k)), longest);
   });
-  return {...found, lost: behind(motor, state, sign * times.length)};
+  return behind(motor, state, sign * times.length);
 }
 
 /** How many steps the rotor is behind what was sent. */
@@ -122,7 +130,7 @@ export function ramp(count, start, end, seconds) {
   const done = (low + top) / 2 * up, duration = 2 * up + (count - 2 * done) / top;
   return Array.from({length: count}, (_, i) => {
     const k = i + 1, ahead = Math.min(k, count - k);
-    const since = ahead <= done ? 2 * ahead / (low + Math.sqrt(low * low + 2 * more * ahead)) : up + (ahead - done) / top;
+    const since = ahead < done ? 2 * ahead / (low + Math.sqrt(low * low + 2 * more * ahead)) : up + (ahead - done) / top;
     return k <= count - k ? since : duration - since;
   });
 }
@@ -130,11 +138,11 @@ export function ramp(count, start, end, seconds) {
 /** As `Stepper.start_frequency`. */
 export function startFrequency(motor, count) {
   const {slowest, limit} = motor.rules;
-  let low = slowest - 1, high = limit + 1, middle = slowest;
+  let low = slowest - 1, high = limit + 1;
   while (high - low > 1) {
-    if (run(motor, ramp(count, middle, middle, 0), 1).lost) high = middle;
+    const middle = Math.floor((low + high) / 2);
+    if (lostOf(motor, ramp(count, middle, middle, 0))) high = middle;
     else low = middle;
-    middle = Math.floor((low + high) / 2);
   }
   return low < slowest ? 0 : low;
 }
