@@ -5,8 +5,9 @@
 In JupyterLab a handle is dragged with 60 moves of the pointer at 60 a second: from a move to the
 paint of the first answer that knows of it (median, the ninth of ten). Then like with like: from one
 key to the paint, of the explorer and, in the same run, of `interact` with a Matplotlib figure of
-the same content. Wanted: at least 4 times as fast. Then 1000 drags: memory of page and kernel before and after, errors in the console;
-wanted: no error, and less than 2 MB (page) and 5 MB (kernel) more.
+the same content. Wanted: at least 4 times as fast. Then 1000 drags: memory of page and kernel
+before and after, errors in the console; wanted: no error, and less than 2 MB (page) and 5 MB
+(kernel) more.
 """
 
 import math
