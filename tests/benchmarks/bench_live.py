@@ -47,6 +47,7 @@ import numpy as np
 import matplotlib.pyplot as plt
 from ipywidgets import interact
 def planned(x=1.2, y=1.3):
+    print("x =", x)
     said = live.answer(live.data["question"] | {"obstacle": [x, y]})  # the same numbers
     fig = plt.figure(figsize=(9, 4))
     plane, cube = fig.add_subplot(1, 2, 1), fig.add_subplot(1, 2, 2, projection="3d")
@@ -77,6 +78,7 @@ live""",
 import matplotlib.pyplot as plt
 from ipywidgets import interact
 def toured(x=2.0, y=3.0):
+    print("x =", x)
     points = [[x, y, 2.0], *cloud[2:].tolist()]
     said = live.answer(live.data["question"] | {"points": points})  # the same numbers
     ax = plt.figure(figsize=(6, 4.5)).add_subplot(projection="3d")
@@ -85,8 +87,16 @@ def toured(x=2.0, y=3.0):
         way = np.stack([np.interp(np.linspace(0, t[-1], 200), t, joint) for joint in q.T], axis=-1)
         ax.plot(*arm.fk(way).translation.T, style)
         print(said[name]["cells"])
+        for rank, k in enumerate(said[name]["order"], 1):
+            va = "top" if name == "best" else "bottom"
+            ax.text(*points[k], f"{rank}.", color=style[:2], va=va)
     ax.plot(*arm.frames(q[0]).translation.T, "k-o", lw=5)
     ax.scatter(*np.array(points).T)
+    for k, (px, py, pz) in enumerate(points):
+        ax.plot([px, px], [py, py], [0, pz], "k:", lw=1)
+        ax.text(px, py, pz, f"{k} ", ha="right")
+    turn = np.linspace(0, 2 * np.pi, 73)
+    ax.plot(9 * np.cos(turn), 9 * np.sin(turn), 0 * turn, "k:", lw=1)
     ax.set(title=said["says"])
     plt.show()
 interact(toured, x=(-6.0, 6.0, 0.1), y=(-6.0, 6.0, 0.1));""",
@@ -114,6 +124,28 @@ PAINTS = """root => {
       channel.port2.postMessage(0);
     });
   })).observe(root, {attributes: true});
+}"""
+# The same of a slider that is dragged to the right: the printed x says which moves an image knows.
+THEIR_PAINTS = """cell => {
+  const moves = [], slider = cell.querySelector("[role=slider]");
+  const now = () => +slider.getAttribute("aria-valuenow");
+  const shown = () => +(cell.innerText.match(/x = (-?[\\d.]+)/g) || ["NaN"]).at(-1).slice(4);
+  window.paints = [];
+  const noted = e => setTimeout(() => moves.push([e.timeStamp, now()]));
+  document.addEventListener("pointermove", noted, true);
+  new MutationObserver(changes => changes.forEach(({addedNodes}) => addedNodes.forEach(node => {
+    for (const img of node.querySelectorAll ? [node, ...node.querySelectorAll("img")] : [])
+      if (img.tagName === "IMG") img.decode().then(() => requestAnimationFrame(() => {
+        const x = shown(), channel = new MessageChannel();
+        channel.port1.onmessage = () => {
+          for (const move of moves) if (move[1] <= x + 1e-9) {
+            window.paints.push(performance.now() - move[0]);
+            move[1] = Infinity;
+          }
+        };
+        channel.port2.postMessage(0);
+      }), () => {});
+  }))).observe(cell, {childList: true, subtree: true});
 }"""
 DRAGS = """(node, count) => new Promise(done => {
   const r = node.getBoundingClientRect(), x = r.x + r.width / 2, y = r.y + r.height / 2;
@@ -150,6 +182,26 @@ def ours(page, root, handle):
         page.wait_for_timeout(1500)
         page.mouse.up()
         page.wait_for_timeout(500)
+    return sorted(page.evaluate("window.paints"))
+
+
+def theirs_dragged(page, cell):
+    """Times from move to paint of 60 moves of the slider of `interact`, ms."""
+    cell.scroll_into_view_if_needed()
+    page.wait_for_timeout(500)
+    cell.evaluate(THEIR_PAINTS)
+    box = cell.locator("[role=slider]").first.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.wait_for_timeout(1500)
+    page.evaluate("window.paints.length = 0")
+    begun = time.perf_counter()
+    for i in range(60):
+        page.mouse.move(x + i + 1, y)
+        page.wait_for_timeout(max(0, 1000 * (begun + (i + 1) / 60 - time.perf_counter())))
+    page.wait_for_timeout(4000)
+    page.mouse.up()
     return sorted(page.evaluate("window.paints"))
 
 
@@ -212,10 +264,18 @@ def main():
                     flush=True,
                 )
                 key = pressed(page, root, case.handle)
+                theirs_paints = theirs_dragged(page, page.locator(".jp-CodeCell").nth(1))
+                slow = statistics.median(theirs_paints)
+                print(
+                    f"{name}: interact, dragged alike, median {slow:.0f} ms ({len(theirs_paints)} "
+                    f"moves): {slow / fast:.1f} times as long",
+                    flush=True,
+                )
                 slow = theirs(page, page.locator(".jp-CodeCell").nth(1))
                 print(
-                    f"{name}: from a key {key:.0f} ms, interact {slow:.0f} ms, {slow / key:.1f} "
-                    f"times as long (as a move of the drag: {slow / fast:.1f})"
+                    f"{name}: from a key {key:.0f} ms, interact {slow:.0f} ms: {slow / key:.1f} "
+                    f"times as long",
+                    flush=True,
                 )
                 root.scroll_into_view_if_needed()
                 node = root.locator(f"[data-handle={case.handle}]")
