@@ -1,5 +1,5 @@
-"""Running a student's answer: nothing it does gets out. Not an exception, not a print, not a loop
-without an end, not a change of what it was given.
+"""Runs a student's answer so that nothing it does gets out: no exception, no print, no endless
+loop, no change of its input.
 """
 
 import contextlib
@@ -12,6 +12,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +20,8 @@ import numpy as np
 from ..arms.scara import ScaraPose
 from ..transform import Transform
 
-SECONDS = 4.0  # for all cases of a check together; of a test, for each program
+SECONDS = 4.0  # of CPU time, for all cases of a check together; of a test, for each program
+WALL = 90.0  # by the clock on the wall, the same way: sleeping and C's own threads take no CPU here
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
@@ -72,34 +74,23 @@ def run(
     answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]], each: bool = False
 ) -> list[Outcome]:
     """What `answer` makes of every case, up to the first one that does not end in time: `SECONDS`
-    for all of them, or for `each`.
+    of CPU for all of them, or for `each`, and `WALL` seconds where it waits or computes elsewhere.
+
+    The answer runs in a thread of its own. So `TimeUp`, which arrives between any two steps of
+    Python, cannot reach the thread that asks.
     """
-    outcomes: list[Outcome] = []
-    watch, streams = Watch(), (sys.stdout, sys.stderr)
-    threading.Thread(target=watch.run, daemon=True).start()
+    worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
+        with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            for case in cases:
-                if each:
-                    watch.begin()
-                outcomes.append(_call(answer, case))
-                if outcomes[-1] is NEVER:
-                    break
-    except TimeUp:
-        outcomes.append(NEVER)
+            worker.start()
+            worker.watch(each)
     finally:
-        while True:  # it may come while we are here
-            try:
-                watch.over = True
-                while not watch.gone:
-                    time.sleep(0.001)
-                _raise_in(watch.thread, None)
-                break
-            except TimeUp:
-                continue
+        worker.end()
         sys.stdout, sys.stderr = streams
-    return outcomes[: len(cases)]
+    outcomes = worker.outcomes[: len(cases)]
+    ended = len(outcomes) == len(cases) or any(outcome is NEVER for outcome in outcomes)
+    return outcomes if ended else [*outcomes, NEVER]
 
 
 def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
@@ -109,9 +100,7 @@ def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
             result = answer(*given)
     except TimeUp:
         return NEVER
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:  # SystemExit, too: nothing gets out
+    except BaseException as error:  # also SystemExit and KeyboardInterrupt: nothing gets out
         return Outcome(
             name="raises an error", says=f"It raises {_told(error)}{_where(answer, error)}."
         )
@@ -145,27 +134,65 @@ def _told(error: BaseException) -> str:
     return type(error).__name__
 
 
-class Watch:
-    """Raises `TimeUp` in the thread that made it, again and again, from `SECONDS` on until `over`.
-    Between two steps of Python: a call into C is not interrupted. Without a lock, which an
-    exception in the wrong place would leave locked.
+class _Worker(threading.Thread):
+    """The thread in which an answer runs. Python keeps an exception that another thread sends
+    until the next step, so three things happen in this order: the worker says `done`, the watching
+    thread takes back what it sent, and only then may the worker `leave`.
     """
 
-    def __init__(self) -> None:
-        self.thread, self.over, self.gone = threading.get_ident(), False, False
-        self.begin()
-
-    def begin(self) -> None:
-        """The time begins anew."""
-        self.end = time.monotonic() + SECONDS
+    def __init__(self, answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> None:
+        super().__init__(daemon=True)
+        self.answer, self.cases = answer, cases
+        self.outcomes: list[Outcome] = []
+        self.done, self.leave = threading.Lock(), threading.Lock()
+        self.done.acquire()
+        self.leave.acquire()
 
     def run(self) -> None:
-        """In a thread of its own."""
-        while not self.over:
-            if time.monotonic() > self.end:
-                _raise_in(self.thread, TimeUp)
-            time.sleep(0.01)
-        self.gone = True
+        # A `finally` calls its first function before Python looks for an exception that was sent.
+        try:
+            try:
+                try:
+                    self._answer()
+                finally:
+                    self.done.release()
+            finally:
+                self.leave.acquire()
+        except TimeUp:
+            pass
+
+    def _answer(self) -> None:
+        with np.errstate(all="ignore"):
+            for case in self.cases:
+                self.outcomes.append(_call(self.answer, case))
+                if self.outcomes[-1] is NEVER:
+                    break
+
+    def watch(self, each: bool) -> None:
+        """Wait until it is done, or until its time is up."""
+        cpu = time.process_time
+        if hasattr(time, "pthread_getcpuclockid") and self.ident:
+            cpu = partial(time.clock_gettime, time.pthread_getcpuclockid(self.ident))
+        seen, begin, wall = 0, cpu(), time.monotonic()
+        while not self.done.acquire(timeout=0.01):
+            if each and len(self.outcomes) > seen:
+                seen, begin, wall = len(self.outcomes), cpu(), time.monotonic()
+            if cpu() - begin > SECONDS or time.monotonic() - wall > WALL:
+                return
+        self.done.release()
+
+    def end(self) -> None:
+        """Stop it, however often it catches `TimeUp`. A call into C that does not come back within
+        `WALL` seconds is left behind.
+        """
+        last = time.monotonic() + WALL
+        while self.ident and not self.done.acquire(timeout=0.01) and time.monotonic() < last:
+            _raise_in(self.ident, TimeUp)
+        if self.ident:
+            _raise_in(self.ident, None)
+            self.leave.release()
+            if time.monotonic() < last:
+                self.join()
 
 
 def _raise_in(thread: int, error: type[BaseException] | None) -> None:
