@@ -16,6 +16,7 @@ from scipy.special import ellipk
 from robokin import SCARA, deg, loader_arm, three_lever
 from robokin.jobs.steppers import (
     COLUMNS,
+    FASTEST,
     LIMIT,
     Move,
     Stepper,
@@ -658,6 +659,19 @@ def test_the_other_way_is_the_mirror_image():
         there, back = motor.run(t, signs), motor.run(t, -signs)
         mirrored = 2 * there.angle[0] - back.angle
         assert mirrored == pytest.approx(there.angle, abs=1e-6) and back.lost == -there.lost
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_rotor_is_refused_where_load_or_torque_turn_it_too_fast(sign):
+    """A torque T turns it at T / damping in the end; both count, whichever way the load pulls."""
+    motor = Stepper(torque=1e3, damping=2, inertia=1e-3, rise=0)
+    assert motor.run([1e-3], [1], load=2 * sign * FASTEST).lost != 0
+    with pytest.raises(ValueError, match="load: wanted one that turns the rotor at 1e"):
+        motor.run([1e-3], [1], load=2.002 * sign * FASTEST)
+    strong = {"damping": 1, "inertia": 1e-9, "rise": 0}
+    assert Stepper(torque=FASTEST, **strong).run([1e-9], [1], load=sign).lost == 0
+    with pytest.raises(ValueError, match="load: wanted one that turns the rotor at 1e"):
+        Stepper(torque=1.001 * FASTEST, **strong).run([1e-9], [1], load=sign)
 
 
 def test_a_ramp_makes_a_frequency_that_a_start_does_not():

@@ -1,6 +1,7 @@
 """`python -m robokin.course summary`: the teacher's table, against one that is counted here."""
 
 import csv
+import html
 import os
 import random
 import re
@@ -196,6 +197,10 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
     assert (second.who, second.lab) == ("bob_17", "scara_motion")
     assert [e["state"] for e in second.data["exercises"]] == ["unanswered"] * 2 + ["holds"]
     assert second.data["remarks"] == ["scara_motion.3: judged with the numbers of 'Bob'."]
+    page = summary.page_of(made)
+    listed = re.findall(r"<li>(.*?)</li>", page[page.index("<h2>Remarks</h2>") :])
+    assert [html.unescape(each) for each in listed] == made.remarks
+    assert "<h2>Remarks" not in summary.page_of(summary.Summary())
     assert second.data["predictions"][0]["choice"] == "b"
 
 
