@@ -5,15 +5,17 @@
     python tests/rerun.py --sample                      one value a cell, as the tests do
     python tests/rerun.py --seed 7                      again in a random order, besides
 
-1. Top to bottom, then every cell again alone, last to first: the same outputs.
-2. Every value after `# try` in place of the one before it, and all cells again that it reaches: no
-   exception; and in a figure that changes, no title, label or alternative text has a number that
-   was typed in. Each value runs in a fork of the process, as the cells above have left it.
+1. Top to bottom. On the way, every value after `# try` in place of the one before it, and all
+   cells again that it reaches: no exception; and in a figure that changes, no title, label or
+   alternative text has a number that was typed in. Each value runs in a fork of the process, as the
+   cells above have left it.
+2. Then every cell again alone, last to first: the same outputs.
 """
 
 import argparse
 import ast
 import contextlib
+import dis
 import io
 import json
 import os
@@ -26,6 +28,7 @@ import types
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+FORKS = hasattr(os, "fork")  # a value is tried in a fork
 TRY = re.compile(r"^(?P<head>\s*[A-Za-z_][\w, \[\]]*? = )(?P<value>.*?)  # try (?P<more>.+)$")
 # Numbers that are names. All others in a figure's words are results or inputs, and are computed.
 NAMES = re.compile(
@@ -35,6 +38,8 @@ NAMES = re.compile(
     r"(?: \d\b(?:,| and| to| or)?)+"
     r"|[A-Za-zα-ωΑ-Ω]_?\{?\d\}?(?!\d)|[A-Za-zα-ω]+\d\b"
 )  # q1, C2, K1, z_0, l2
+FIXED = (types.ModuleType, types.FunctionType, type, str, float, int, tuple)  # and robokin's
+SETS = (ast.Assign, ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef, ast.Expr)
 ASKED = re.compile(r"^(predict|check|progress|hint|solution|variant)\(")
 
 
@@ -44,17 +49,17 @@ class Cell:
     def __init__(self, source: str) -> None:
         self.source = source
         tree = ast.parse(source)
-        self.reads: set[str] = set()
+        self.reads: set[str] = set()  # before the cell sets them itself
         self.writes: set[str] = set()
         self.changed: set[str] = set()  # where it stands: values[3] = 1, names.append("C")
+        sure: set[str] = set()
+        for statement in tree.body:
+            reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
+            self.reads |= reads - sure
+            self.writes |= writes
+            sure |= writes if isinstance(statement, SETS) else set()  # others may be left out
         for node in ast.walk(tree):
-            if isinstance(node, ast.Name):
-                (self.reads if isinstance(node.ctx, ast.Load) else self.writes).add(node.id)
-            elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-                self.writes.add(node.name)
-            elif isinstance(node, ast.alias):
-                self.writes.add((node.asname or node.name).split(".")[0])
-            elif isinstance(node, ast.Attribute) or (
+            if isinstance(node, ast.Attribute) or (
                 isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
             ):
                 base = node.value
@@ -125,19 +130,22 @@ class Run:
             if self.cells[n].reads & names:
                 found.append(n)
                 names = names | self._left(n)
-        wanted = set().union(*(self.cells[n].reads for n in found))
+            else:  # what it sets is as it was
+                names = names - self.cells[n].writes
         for n in reversed(later):
-            if n in found or self._left(n) & wanted:
+            wanted = set().union(*(self.cells[m].reads for m in found if m > n))
+            if n not in found and self._left(n) & wanted:
                 found = sorted({n, *found})
-                wanted = wanted | self.cells[n].reads
         return found
 
     def _left(self, k: int) -> set[str]:
-        """The names that cell k makes or changes; a module is no value to change."""
-        modules = {
-            name for name, value in self.space.items() if isinstance(value, types.ModuleType)
+        """The names that cell k makes or changes. What cannot change is no value to change."""
+        fixed = {
+            name
+            for name, value in self.space.items()
+            if isinstance(value, FIXED) or type(value).__module__.startswith("robokin.")
         }
-        return self.cells[k].writes | (self.cells[k].changed - modules)
+        return self.cells[k].writes | (self.cells[k].changed - fixed)
 
 
 class Shown:
@@ -171,35 +179,20 @@ def _figure(fig) -> tuple[list[str], str]:
     return [word for word in words if word], json.dumps(drawn)
 
 
-def again(path: Path, seed: int | None = None) -> list[str]:
-    """What goes wrong when each cell is run again alone: last to first, or in a random order."""
-    lab, faults = Run(path), []
-    with _in(path.parent):
-        first = [lab.run(k).text for k in range(len(lab.cells))]
-        order = list(reversed(range(len(lab.cells))))
-        if seed is not None:
-            random.Random(seed).shuffle(order)
-        for k in order:
-            try:
-                text = lab.run(k).text
-            except Exception as error:
-                faults.append(f"[{k + 1}] again: {type(error).__name__}: {error}")
-                continue
-            if text != first[k]:
-                a, b = _differ(first[k], text)
-                faults.append(f"[{k + 1}] again: {b!r} in place of {a!r}")
-    return faults
-
-
-def tried(path: Path, sample: bool = False) -> tuple[int, list[str]]:
-    """(how many values, what goes wrong with them). `sample`: one value for each line."""
-    lab, faults, reports, shown = Run(path), [], [], []
+def faults(
+    path: Path, sample: bool = False, seed: int | None = None
+) -> tuple[int, list[str], list[str]]:
+    """(how many values were tried, what goes wrong with them, what goes wrong when each cell is run
+    again alone: last to first, and with a `seed` in a random order, too). `sample`: one value for
+    each line.
+    """
+    lab, wrong, reports, shown = Run(path), [], [], []
     with _in(path.parent):
         for k, cell in enumerate(lab.cells):
             try:
-                lines = cell.tries()
+                lines = cell.tries() if FORKS else []
             except (SyntaxError, ValueError) as error:
-                faults.append(f"[{k + 1}] {error}")
+                wrong.append(f"[{k + 1}] {error}")
                 lines = []
             if sample:
                 lines = list(dict(random.Random(path.stem).sample(lines, len(lines))).items())
@@ -208,19 +201,41 @@ def tried(path: Path, sample: bool = False) -> tuple[int, list[str]]:
                 rows[n] = line
                 reports.append((k, line.strip(), _forked(lab, k, "\n".join(rows))))
             shown.append(lab.run(k))
+        orders = [list(reversed(range(len(lab.cells))))]
+        if seed is not None:
+            orders.append(random.Random(seed).sample(orders[0], len(lab.cells)))
+        again = [fault for order in orders for fault in _again(lab, order, shown)]
     for k, line, report in reports:
-        name = f"[{k + 1}] {line}"
-        if isinstance(report, str):
-            faults.append(f"{name}: {report}")
+        wrong += _told(lab, shown, f"[{k + 1}] {line}", report)
+    return len(reports), list(dict.fromkeys(wrong)), again
+
+
+def _again(lab: Run, order: list[int], shown: list["Shown"]) -> list[str]:
+    wrong = []
+    for k in order:
+        try:
+            text = lab.run(k).text
+        except Exception as error:
+            wrong.append(f"[{k + 1}] again: {type(error).__name__}: {error}")
             continue
-        for n, words, drawn in report:
-            if drawn == shown[n].drawn:
-                continue
-            for word in words:
-                for part in lab.cells[n].typed:
-                    if re.search(rf"(?<![\d.]){re.escape(part)}(?!\.?\d)", NAMES.sub(" ", word)):
-                        faults.append(f"{name}: [{n + 1}] has {part!r} typed in: {word!r}")
-    return len(reports), list(dict.fromkeys(faults))
+        if text != shown[k].text:
+            a, b = _differ(shown[k].text, text)
+            wrong.append(f"[{k + 1}] again: {b!r} in place of {a!r}")
+    return wrong
+
+
+def _told(lab: Run, shown: list["Shown"], name: str, report) -> list[str]:
+    """What is wrong with a value, by what its cells showed."""
+    if isinstance(report, str):
+        return [f"{name}: {report}"]
+    return [
+        f"{name}: [{n + 1}] has {part!r} typed in: {word!r}"
+        for n, words, drawn in report
+        if drawn != shown[n].drawn
+        for word in words
+        for part in lab.cells[n].typed
+        if re.search(rf"(?<![\d.]){re.escape(part)}(?!\.?\d)", NAMES.sub(" ", word))
+    ]
 
 
 def _forked(lab: Run, k: int, source: str):
@@ -248,6 +263,22 @@ def _forked(lab: Run, k: int, source: str):
         answer = pipe.read()
     os.waitpid(child, 0)
     return [tuple(x) for x in found] if isinstance(found := json.loads(answer), list) else found
+
+
+def _globals(code: types.CodeType) -> tuple[set[str], set[str]]:
+    """The names that a piece of a cell reads from the kernel and sets there. What a function reads
+    counts where it is defined.
+    """
+    reads, writes = set(), set()
+    for step in dis.get_instructions(code):
+        if step.opname in ("LOAD_NAME", "LOAD_GLOBAL", "LOAD_FROM_DICT_OR_GLOBALS"):
+            reads.add(step.argval)
+        elif step.opname in ("STORE_NAME", "STORE_GLOBAL", "DELETE_NAME", "DELETE_GLOBAL"):
+            writes.add(step.argval)
+    for inner in code.co_consts:
+        if isinstance(inner, types.CodeType):
+            reads |= _globals(inner)[0]
+    return reads, writes
 
 
 def _differ(a: str, b: str) -> tuple[str, str]:
@@ -282,17 +313,14 @@ def main() -> int:
     for path in (path.resolve() for path in paths):
         start = time.perf_counter()
         try:
-            faults = again(path)
-            if given.seed is not None:
-                faults += again(path, given.seed)
-            count, more = tried(path, given.sample)
-            faults += more
+            count, wrong, again = faults(path, given.sample, given.seed)
+            wrong += again
         except Exception as error:
-            count, faults = 0, [f"does not run: {type(error).__name__}: {error}"]
-        bad += bool(faults)
-        word = f"{len(faults)} faults" if faults else "stands"
+            count, wrong = 0, [f"does not run: {type(error).__name__}: {error}"]
+        bad += bool(wrong)
+        word = f"{len(wrong)} faults" if wrong else "stands"
         print(f"{path.name}: {word}, {count} values tried, {time.perf_counter() - start:.1f} s")
-        for fault in faults:
+        for fault in wrong:
             print("   ", fault)
     return 1 if bad else 0
 

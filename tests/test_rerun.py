@@ -5,36 +5,31 @@ in a random order besides.
 """
 
 import json
-import os
 
 import pytest
 import rerun
 from conftest import NOTEBOOKS
 
 PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
-every_notebook = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="a value is tried in a fork")
+forks = pytest.mark.skipif(not rerun.FORKS, reason="a value is tried in a fork")
 # Python 3.12 warns of forking with threads about; the children here only compute
 pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
 
 
-@every_notebook
-def test_every_cell_can_be_run_again(path):
-    assert rerun.again(path) == []
-
-
-@forks
-@every_notebook
-def test_a_value_to_try_breaks_nothing_and_makes_no_words_lie(path):
-    assert rerun.tried(path, sample=True)[1] == []
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+def test_cells_can_be_run_again_and_values_tried(path):
+    """No cell shows another thing when it is run again; no value breaks a cell or makes words
+    lie.
+    """
+    _, tried, again = rerun.faults(path, sample=True)
+    assert tried == [] and again == []
 
 
 def test_a_name_with_two_meanings_is_found(tmp_path):
     path = _lab(tmp_path, "a = 1", "print(a + 1)", "a = 5", "def f():\n    return b", "b = 2")
-    [fault] = rerun.again(path)
-    assert fault == "[2] again: '6' in place of '2'"
-    assert rerun.again(_lab(tmp_path, "a = 1", "print(a + 1)", "b = 5")) == []
-    [fault] = rerun.again(_lab(tmp_path, "a = 1", "print(a)", "del a\nc = 1"))[:1]
+    assert rerun.faults(path) == (0, [], ["[2] again: '6' in place of '2'"])
+    assert rerun.faults(_lab(tmp_path, "a = 1", "print(a + 1)", "b = 5")) == (0, [], [])
+    fault = rerun.faults(_lab(tmp_path, "a = 1", "print(a)", "del a\nc = 1"))[2][0]
     assert "NameError" in fault
 
 
@@ -44,7 +39,7 @@ FIGURE = "from robokin.show import figure\nfig = figure({alt})\nfig.subplots().p
 @forks
 def test_a_value_that_breaks_or_a_number_that_was_typed_in_is_found(tmp_path):
     def faults(*cells):
-        return rerun.tried(_lab(tmp_path, *cells))
+        return rerun.faults(_lab(tmp_path, *cells))[:2]
 
     assert faults("a = 1  # try 2, 3", FIGURE.format(alt='f"Up to {a}, q1 and axis 2"')) == (2, [])
     count, [two, three] = faults("a = 1  # try 2, 3", FIGURE.format(alt='"Up to 1"'))
@@ -57,6 +52,11 @@ def test_a_value_that_breaks_or_a_number_that_was_typed_in_is_found(tmp_path):
     assert "invalid syntax" in fault
     # a cell that the value reaches may need one that it does not reach
     assert faults("a = 1  # try 2", "b = 3", "print(a + b)") == (1, [])
+    # a name that a cell sets anew is not the one that the value reached
+    assert faults("a = 1  # try 0", "a = 2", "print(1 / a)") == (1, [])
+    assert faults("a = 1  # try 0", "if a:\n    a = 2", "print(1 / a)")[1]
+    assert faults("a = 1  # try 0", "def f():\n    return 1 / a", "b = 2", "print(f() + b)")[1]
+    assert faults("a = [1]\nb = 1  # try 0", "a[0] = b", "a.append(2)", "print(1 / a[0])")[1]
     # what a value changes does not stay: the next one starts from what the cells above left
     assert faults("x = [1]", "a = 1  # try 2, 3\nx.append(a)", "assert len(x) == 2")[1] == []
 
