@@ -66,6 +66,37 @@ def jupyter(tmp_path_factory):
         yield lab
 
 
+@pytest.fixture(scope="session")
+def exported(tmp_path_factory):
+    """`exported[name]`: a page of the notebook `name`, such as "documents/glossary", as
+    robokin.course exports it.
+    """
+    return Exported(tmp_path_factory)
+
+
+class Exported(dict):
+    """Pages, each made when it is first asked for. All workers of pytest-xdist share them: a page
+    appears in their folder whole.
+    """
+
+    def __init__(self, factory):
+        self.own = factory.mktemp("exported")
+        base = factory.getbasetemp()
+        base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+        self.shared = base / "pages"
+        self.shared.mkdir(exist_ok=True)
+
+    def __missing__(self, name):
+        from robokin.course.export import export
+
+        page = f"{Path(name).name}.html"
+        if not (self.shared / page).exists():
+            export(NOTEBOOKS / f"{name}.ipynb", self.own / page)
+            os.replace(self.own / page, self.shared / page)
+        self[name] = self.shared / page
+        return self[name]
+
+
 class JupyterLab:
     """A JupyterLab server that leaves nothing outside the folder `home`; a context manager."""
 

@@ -55,9 +55,8 @@ def test_every_formula_becomes_mathml(path):
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-def test_a_page_fetches_nothing_and_has_every_formula(path, tmp_path):
-    page = tmp_path / "page.html"
-    export(path, page)
+def test_a_page_fetches_nothing_and_has_every_formula(path, exported):
+    page = exported[path.relative_to(NOTEBOOKS).with_suffix("").as_posix()]
     text = page.read_text(encoding="utf-8")
     fetches = Fetches(text)
     assert fetches.found == []

@@ -49,7 +49,7 @@ TYPED = Prediction(
 )
 
 
-page, exported = test_browser.page, test_browser.exported
+page = test_browser.page
 
 
 @pytest.fixture
