@@ -1,5 +1,5 @@
 """What a page draws: the description of its data (an explorer's arm: `twin.arm_data`; numbers in
-few bytes: `numbers.Packed`); its script, joined from modules; its HTML, and saving it.
+few bytes: `numbers.Packed`); its HTML with the script that draws it, and saving it.
 """
 
 import base64
@@ -7,11 +7,10 @@ import contextlib
 import html
 import json
 import os
-import re
-from importlib.resources import files
 from typing import Any, NotRequired, TypedDict
 
 from .._validate import short
+from .joiner import script
 from .numbers import Packed, Scale
 from .palette import css
 
@@ -278,61 +277,6 @@ class PageQuestion(TypedDict):
     within: float
     choice: str | None
     view: str
-
-
-# --- The script -----------------------------------------------------------------------------------
-
-IMPORT = re.compile(r'import \{ ?([\w$]+(?:, [\w$]+)*),? ?\} from "\./(\w+)\.js";')
-EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
-
-
-def script(name: str) -> str:
-    """The module `name` of the folder js and all that it imports, each once and in its own scope,
-    as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
-    `explorers.Explorer`. Without blank lines, leading blanks, and lines that begin with //, /* or
-    *, which only people read; a line that another has to follow takes it in: in a notebook each
-    line costs ten bytes more.
-
-    ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and
-    `export function`, `const` or `class`.
-    """
-    modules: dict[str, str] = {}
-    _add(modules, name, (), f"{name}.js")
-    return "\n".join(modules.values())
-
-
-def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: str) -> None:
-    """Put `name` behind what it imports."""
-    file = files(__package__).joinpath("js", f"{name}.js")
-    if name in importers or not file.is_file():
-        raise ValueError(f"{place}: there is no module {name}.js, or it imports itself")
-    lines, exports, begun = [], [], ""
-    for i, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
-        line, place = line.strip(), f"{name}.js, line {i}"
-        if not line or line.startswith(("//", "/*", "*")):
-            continue
-        if begun or re.match(r"import\b", line):
-            begun = f"{begun} {line}".strip()
-            if not begun.endswith(";"):
-                continue
-            found = IMPORT.fullmatch(begun)
-            if not found:
-                raise ValueError(f"{place}: wanted an import of names, got {short(begun)}")
-            if found[2] not in modules:
-                _add(modules, found[2], (*importers, name), place)
-            line, begun = f"const {{{found[1].strip(' ,')}}} = ${found[2]};", ""
-        elif re.match(r"export\b", line):
-            found = EXPORT.match(line)
-            if not found:
-                raise ValueError(f"{place}: wanted an export of one name, got {short(line)}")
-            exports.append(found[2])
-            line = line.removeprefix("export ")
-        lines.append(line)
-    if begun:
-        raise ValueError(f"{place}: an import does not end")
-    ends = [line[-1] in ";,({" and "//" not in line for line in lines]
-    body = "".join(line + (" " if more else "\n") for line, more in zip(lines, ends, strict=True))
-    modules[name] = f"const ${name} = (() => {{\n{body}return {{{', '.join(exports)}}};\n}})();"
 
 
 # --- HTML -----------------------------------------------------------------------------------------
