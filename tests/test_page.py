@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import NODE, ROOT
 from test_player import unpacked
 
 from robokin.show import JOINT_STYLES, joiner, page, palette
@@ -76,7 +76,7 @@ def modules(tmp_path, monkeypatch):
 def run(script, ending):
     """What `ending` gives behind the script, in Node."""
     code = f"{script}\nconsole.log(JSON.stringify({ending}));"
-    done = subprocess.run(["node", "-e", code], text=True, capture_output=True, check=True)
+    done = subprocess.run([NODE, "-e", code], text=True, capture_output=True, check=True)
     return done.stdout.strip()
 
 
