@@ -16,11 +16,12 @@ const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits
  * @param {number[]} q
  * @returns {boolean[]}
  */
-export const within = (arm, q) => q.map((value, j) => {
-  const [low, high] = room(arm, j);
-  if (arm.prismatic[j]) return value >= low && value <= high;
-  return value + TURN * Math.ceil((low - value) / TURN) <= high;
-});
+export const within = (arm, q) =>
+  q.map((value, j) => {
+    const [low, high] = room(arm, j);
+    if (arm.prismatic[j]) return value >= low && value <= high;
+    return value + TURN * Math.ceil((low - value) / TURN) <= high;
+  });
 
 /**
  * For each turning joint the value nearest to `near`, whole turns from q.
@@ -33,12 +34,13 @@ export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
 // As `unwrapped`, but inside the limits where there is such a value.
-const inside = (arm, q, near) => unwrapped(arm, q, near).map((value, j) => {
-  const [low, high] = room(arm, j);
-  const up = value + TURN * Math.max(Math.ceil((low - value) / TURN), 0);
-  const best = up - TURN * Math.max(Math.ceil((up - high) / TURN), 0);
-  return best >= low && best <= high && !arm.prismatic[j] ? best : value;
-});
+const inside = (arm, q, near) =>
+  unwrapped(arm, q, near).map((value, j) => {
+    const [low, high] = room(arm, j);
+    const up = value + TURN * Math.max(Math.ceil((low - value) / TURN), 0);
+    const best = up - TURN * Math.max(Math.ceil((up - high) / TURN), 0);
+    return best >= low && best <= high && !arm.prismatic[j] ? best : value;
+  });
 
 /**
  * Joint values as people read them: inside the limits and nearest to q, else the least past them.
@@ -46,13 +48,15 @@ const inside = (arm, q, near) => unwrapped(arm, q, near).map((value, j) => {
  * @param {number[]} q
  * @returns {number[]}
  */
-export const representative = (arm, q) => inside(arm, q, q).map((value, j) => {
-  const [low, high] = arm.limits[j], [lowest, highest] = room(arm, j);
-  if (arm.prismatic[j] || !(value < lowest || value > highest)) return value;
-  const above = value - TURN * Math.floor((value - high) / TURN);
-  const below = value + TURN * Math.floor((low - value) / TURN);
-  return above - high <= low - below ? above : below;
-});
+export const representative = (arm, q) =>
+  inside(arm, q, q).map((value, j) => {
+    const [low, high] = arm.limits[j],
+      [lowest, highest] = room(arm, j);
+    if (arm.prismatic[j] || !(value < lowest || value > highest)) return value;
+    const above = value - TURN * Math.floor((value - high) / TURN);
+    const below = value + TURN * Math.floor((low - value) / TURN);
+    return above - high <= low - below ? above : below;
+  });
 
 /**
  * The row with the least travel from q, each joint inside its limits if it can; NaN if there is
@@ -62,14 +66,22 @@ export const representative = (arm, q) => inside(arm, q, q).map((value, j) => {
  * @param {number[]} q
  * @returns {number[]}
  */
-export const nearest = (arm, rows, q) => leastTravel(rows.map(row => inside(arm, row, q)), q);
+export const nearest = (arm, rows, q) =>
+  leastTravel(
+    rows.map(row => inside(arm, row, q)),
+    q,
+  );
 
 // Where a motion along one row begins: joints that a singularity leaves free there look ahead to
 // the first sample that fixes them.
 function start(arm, track) {
   const first = track.find(exists) || track[0];
   const later = track.find(q => {
-    const chosen = choose(arm, q, q.map((value, j) => value + j)); // no two shifts cancel
+    const chosen = choose(
+      arm,
+      q,
+      q.map((value, j) => value + j),
+    ); // no two shifts cancel
     return chosen.every((value, j) => Math.abs(value - q[j]) <= 1e-12);
   });
   const q = choose(arm, first, later || first).map(value => (Number.isNaN(value) ? 0 : value));
@@ -85,10 +97,15 @@ function start(arm, track) {
  * @returns {number[][]}  the posture of each sample
  */
 export function follow(arm, samples, row) {
-  let before = start(arm, samples.map(rows => rows[row])), started = false;
+  let before = start(
+      arm,
+      samples.map(rows => rows[row]),
+    ),
+    started = false;
   return samples.map(rows => {
-    const options = (started ? rows : [rows[row]])
-      .map(q => choose(arm, unwrapped(arm, q, before), before));
+    const options = (started ? rows : [rows[row]]).map(q =>
+      choose(arm, unwrapped(arm, q, before), before),
+    );
     const q = leastTravel(options, before);
     if (exists(q)) [before, started] = [q, true];
     return q;
@@ -97,11 +114,15 @@ export function follow(arm, samples, row) {
 
 // How joint j stands past its limit.
 function excess(arm, q, j) {
-  const [low, high] = arm.limits[j], value = representative(arm, q)[j], {name, size} = arm.units[j];
+  const [low, high] = arm.limits[j],
+    value = representative(arm, q)[j],
+    {name, size} = arm.units[j];
   const over = value > high ? value - high : low - value;
   return fill(arm.sentences.past, {
-    joint: j + 1, limit: arm.limits_in_words[j][value > high ? 1 : 0],
-    value: oneDecimal(value / size) + name, over: oneDecimal(over / size) + name,
+    joint: j + 1,
+    limit: arm.limits_in_words[j][value > high ? 1 : 0],
+    value: oneDecimal(value / size) + name,
+    over: oneDecimal(over / size) + name,
   });
 }
 
@@ -113,7 +134,8 @@ function excess(arm, q, j) {
  * @returns {string}
  */
 export function explain(arm, pose, row) {
-  const {sentences, carried: what} = arm, q = ik(arm, pose)[row];
+  const {sentences, carried: what} = arm,
+    q = ik(arm, pose)[row];
   const flags = arm.branches[row].map(flag => (flag > 0 ? "+1" : "-1")).join(", ");
   if (!exists(q)) {
     const {kind, metres} = geometryOf(arm).gap(arm, pose, row);

@@ -7,23 +7,61 @@ export const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sa
 
 /** The colours of palette.py by their names, six digits each; `readColors` fills them in. */
 export const colors = {
-  paper: "", ink: "", soft: "", line: "", grid: "", border: "", rim: "", alarm: "", path: "", near: "", accent: "",
-  chosen: "", button: "", hover: "", rest: "", edge: "", link: "", shine: "", rodEdge: "", rod: "", rodShine: "", hub: "",
-  foot: "", footEdge: "", ghost: "", ballShine: "", ball: "", ballEdge: "", x: "", y: "", z: "",
-  joint1: "", joint2: "", joint3: "", joint4: "", joint5: "", joint6: "",
+  paper: "",
+  ink: "",
+  soft: "",
+  line: "",
+  grid: "",
+  border: "",
+  rim: "",
+  alarm: "",
+  path: "",
+  near: "",
+  accent: "",
+  chosen: "",
+  button: "",
+  hover: "",
+  rest: "",
+  edge: "",
+  link: "",
+  shine: "",
+  rodEdge: "",
+  rod: "",
+  rodShine: "",
+  hub: "",
+  foot: "",
+  footEdge: "",
+  ghost: "",
+  ballShine: "",
+  ball: "",
+  ballEdge: "",
+  x: "",
+  y: "",
+  z: "",
+  joint1: "",
+  joint2: "",
+  joint3: "",
+  joint4: "",
+  joint5: "",
+  joint6: "",
 };
 
 /** Reads the colours that the style sheet gives an element in .rk now. @param {Element} place */
 export function readColors(place) {
   const style = getComputedStyle(place);
-  for (const name of Object.keys(colors)) colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
+  for (const name of Object.keys(colors))
+    colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
 }
 
 /** The colour of a joint. @param {number} j from 0 */
-export const jointColor = j => colors[`joint${j % 6 + 1}`];
+export const jointColor = j => colors[`joint${(j % 6) + 1}`];
 
 /** A colour that lets through what is behind it. @param {string} color @param {number} share from 0 to 1 */
-export const clear = (color, share) => color + Math.round(255 * share).toString(16).padStart(2, "0");
+export const clear = (color, share) =>
+  color +
+  Math.round(255 * share)
+    .toString(16)
+    .padStart(2, "0");
 
 /**
  * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at most two by two device
@@ -32,7 +70,9 @@ export const clear = (color, share) => color + Math.round(255 * share).toString(
  * @returns {?[CanvasRenderingContext2D, number, number]} context, width and height
  */
 export function prepared(canvas) {
-  const ratio = Math.min(2, window.devicePixelRatio || 1), w = canvas.clientWidth, h = canvas.clientHeight;
+  const ratio = Math.min(2, window.devicePixelRatio || 1),
+    w = canvas.clientWidth,
+    h = canvas.clientHeight;
   if (!w || !h) return null;
   if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
     canvas.width = Math.round(w * ratio);
@@ -55,13 +95,24 @@ export function stroke(g, points, color, width, dash = []) {
   for (const p of points) {
     if (!p || Number.isNaN(p[1])) pen = false;
     else if (pen) g.lineTo(p[0], p[1]);
-    else { g.moveTo(p[0], p[1]); pen = true; }
+    else {
+      g.moveTo(p[0], p[1]);
+      pen = true;
+    }
   }
   g.stroke();
   g.setLineDash([]);
 }
 
-export const upright = (g, x, top, bottom, ...look) => stroke(g, [[x, top], [x, bottom]], ...look);
+export const upright = (g, x, top, bottom, ...look) =>
+  stroke(
+    g,
+    [
+      [x, top],
+      [x, bottom],
+    ],
+    ...look,
+  );
 
 /** Fills and outlines what `draw` traces. */
 export function shape(g, draw, fill, edge, width) {
@@ -76,7 +127,8 @@ export function shape(g, draw, fill, edge, width) {
   g.stroke();
 }
 
-export const polygon = (g, points, ...look) => shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
+export const polygon = (g, points, ...look) =>
+  shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
 export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) =>
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 
@@ -92,7 +144,11 @@ export function words(g, text, x, y, color = colors.ink, size = 12, align = "lef
 }
 
 /** A number with so many decimals, a real minus sign and no minus zero. */
-export const number = (x, decimals) => x.toFixed(decimals).replace(/^-(?=0\.?0*$)/, "").replace("-", "\u2212");
+export const number = (x, decimals) =>
+  x
+    .toFixed(decimals)
+    .replace(/^-(?=0\.?0*$)/, "")
+    .replace("-", "\u2212");
 
 /** Whether a box [left, top, width, height] meets one of several. */
 export const hit = ([x, y, w, h], boxes) =>

@@ -3,8 +3,10 @@
 import {number} from "./canvas.js";
 import {choice, control, element, range} from "./elements.js";
 
-const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
-const TICKS = 400, SPEEDS = [0.25, 0.5, 1, 2, 4];
+const PLAY = "M3 1.5v11l9-5.5z",
+  PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
+const TICKS = 400,
+  SPEEDS = [0.25, 0.5, 1, 2, 4];
 
 /** What is seen of a clock: a row of the page, and its parts. */
 export function clockRow() {
@@ -12,12 +14,24 @@ export function clockRow() {
     icon: element("span"),
     scrub: range("time", TICKS),
     time: element("span", {class: "rk-value"}),
-    speed: choice("playing speed", SPEEDS.map(speed => `${speed}\u00D7`)),
+    speed: choice(
+      "playing speed",
+      SPEEDS.map(speed => `${speed}\u00D7`),
+    ),
   };
-  parts.button = control("button", {type: "button", "aria-label": "play", title: "play or pause (Space)"}, parts.icon);
+  parts.button = control(
+    "button",
+    {type: "button", "aria-label": "play", title: "play or pause (Space)"},
+    parts.icon,
+  );
   parts.speed.value = SPEEDS.indexOf(1);
-  parts.row = element("div", {class: "rk-row rk-clock"}, parts.button,
-    element("label", {class: "rk-long"}, parts.scrub, parts.time), element("label", {}, "playback", parts.speed));
+  parts.row = element(
+    "div",
+    {class: "rk-row rk-clock"},
+    parts.button,
+    element("label", {class: "rk-long"}, parts.scrub, parts.time),
+    element("label", {}, "playback", parts.speed),
+  );
   return parts;
 }
 
@@ -44,7 +58,10 @@ export function runningClock(parts, frame, state, span, ask) {
     if (!state.playing) return;
     const end = span()[1];
     // The first stamp may lie before the click; and what was hidden for a while goes on where it was.
-    state.time = Math.min(end, state.time + Math.min(500, Math.max(0, now - before)) / 1000 * SPEEDS[parts.speed.value]);
+    state.time = Math.min(
+      end,
+      state.time + (Math.min(500, Math.max(0, now - before)) / 1000) * SPEEDS[parts.speed.value],
+    );
     before = Math.max(before, now);
     if (state.time >= end) run(false);
     else ask();
@@ -64,7 +81,7 @@ export function runningClock(parts, frame, state, span, ask) {
   parts.button.addEventListener("click", () => run(!state.playing));
   parts.scrub.addEventListener("input", () => {
     const [begin, end] = span();
-    set(begin + parts.scrub.value * (end - begin) / TICKS);
+    set(begin + (parts.scrub.value * (end - begin)) / TICKS);
   });
   frame.addEventListener("keydown", event => {
     if (event.key !== " " || ["BUTTON", "SELECT"].includes(event.target.tagName)) return;

@@ -54,8 +54,13 @@ export const STYLE = `
   }
 }`;
 
-export const sceneCanvas = (scene, alt) => control("canvas", {class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
-  role: "img", tabindex: 0, "aria-label": alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : "")});
+export const sceneCanvas = (scene, alt) =>
+  control("canvas", {
+    class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
+    role: "img",
+    tabindex: 0,
+    "aria-label": alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : ""),
+  });
 
 const KEYS = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
@@ -66,7 +71,10 @@ export function orbit(canvas, scene, state, ask) {
     state.view = [state.view[0] - dx, Math.min(1.57, Math.max(-0.3, state.view[1] + dy))];
     ask();
   };
-  const reset = () => { state.view = [...scene.view]; ask(); };
+  const reset = () => {
+    state.view = [...scene.view];
+    ask();
+  };
   let grip = null;
   canvas.addEventListener("pointerdown", event => {
     canvas.setPointerCapture(event.pointerId);
@@ -97,23 +105,29 @@ export function orbit(canvas, scene, state, ask) {
 export function pictures(root, canvases, draw) {
   let asked = 0;
   const ask = () => {
-    if (!asked) asked = requestAnimationFrame(now => {
-      asked = 0;
-      if (!root.isConnected) return;
-      if (!colors.ink) readColors(canvases[0]); // asked for before any canvas has told its size
-      if (draw(now) === false) watch();
-    });
+    if (!asked)
+      asked = requestAnimationFrame(now => {
+        asked = 0;
+        if (!root.isConnected) return;
+        if (!colors.ink) readColors(canvases[0]); // asked for before any canvas has told its size
+        if (draw(now) === false) watch();
+      });
   };
   const media = ["(prefers-color-scheme: dark)", "print"].map(query => matchMedia(query));
-  const theme = new MutationObserver(look), sizes = new ResizeObserver(look);
-  const turned = () => { look(); if (root.isConnected) draw(performance.now()); }; // paper does not wait
+  const theme = new MutationObserver(look),
+    sizes = new ResizeObserver(look);
+  const turned = () => {
+    look();
+    if (root.isConnected) draw(performance.now());
+  }; // paper does not wait
   function look() {
     if (root.isConnected) {
       readColors(canvases[0]); // inside .rk, which has them
       theme.observe(document.body, {attributeFilter: ["data-jp-theme-light"]});
       for (const one of media) one.addEventListener("change", turned);
       ask();
-    } else { // taken out; if it is put back, its canvases get a size again
+    } else {
+      // taken out; if it is put back, its canvases get a size again
       theme.disconnect();
       for (const one of media) one.removeEventListener("change", turned);
     }

@@ -23,8 +23,12 @@ export function element(tag, attributes = {}, ...children) {
 export const control = (tag, attributes, ...children) =>
   element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
 
-export const choice = (name, texts) => control("select", {"aria-label": name},
-  ...texts.map((text, i) => element("option", {value: i}, text)));
+export const choice = (name, texts) =>
+  control(
+    "select",
+    {"aria-label": name},
+    ...texts.map((text, i) => element("option", {value: i}, text)),
+  );
 
 /** A slider over whole numbers from 0 on. */
 export const range = (name, most) =>

@@ -18,14 +18,18 @@ const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 
 // The triangle of two levers whose ends are d apart, by half angles: see `two_levers`. null: none.
 function twoLevers(upper, fore, d, {ROUNDING}) {
-  const slack = ROUNDING * (upper + fore), fold = d - Math.abs(upper - fore);
+  const slack = ROUNDING * (upper + fore),
+    fold = d - Math.abs(upper - fore);
   let stretch = upper + fore - d;
   if (!(stretch >= -slack && fold >= -slack)) return null;
   stretch = Math.max(stretch, 0);
   const around = upper + fore + d;
-  const short = Math.max(d - (upper - fore), 0), long = Math.max(d + (upper - fore), 0);
-  return {ahead: 2 * Math.atan2(Math.sqrt(stretch * short), Math.sqrt(around * long)),
-          turn: 2 * Math.atan2(Math.sqrt(stretch * around), Math.sqrt(short * long))};
+  const short = Math.max(d - (upper - fore), 0),
+    long = Math.max(d + (upper - fore), 0);
+  return {
+    ahead: 2 * Math.atan2(Math.sqrt(stretch * short), Math.sqrt(around * long)),
+    turn: 2 * Math.atan2(Math.sqrt(stretch * around), Math.sqrt(short * long)),
+  };
 }
 
 // The border (name -> metres beyond it) that is passed the farthest.
@@ -39,39 +43,53 @@ function worst(borders) {
 // For front/back and elbow, as Elbow.solve: {q, plane, ahead} or null; besides the joints the
 // directions (cosine, sine) of the arm's plane and of the forearm above the horizon.
 function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
-  const {ROUNDING, STRAIGHT, FREE} = tolerances, {upper, fore, reach, lateral: b} = e;
-  const rho2 = x * x + y * y, r2 = rho2 - b * b, tiny = FREE * reach;
+  const {ROUNDING, STRAIGHT, FREE} = tolerances,
+    {upper, fore, reach, lateral: b} = e;
+  const rho2 = x * x + y * y,
+    r2 = rho2 - b * b,
+    tiny = FREE * reach;
   if (!(r2 >= -2 * ROUNDING * Math.abs(b) * reach)) return [null, null, null, null];
   const free = rho2 <= tiny * tiny;
-  return SIGNS.flatMap(front => SIGNS.map(flag => {
-    const r = front * Math.sqrt(Math.max(r2, 0));
-    const cos1 = free ? front : (x * r + y * b) / rho2;
-    const sin1 = (free ? 0 : (y * r - x * b) / rho2) + 0;
+  return SIGNS.flatMap(front =>
+    SIGNS.map(flag => {
+      const r = front * Math.sqrt(Math.max(r2, 0));
+      const cos1 = free ? front : (x * r + y * b) / rho2;
+      const sin1 = (free ? 0 : (y * r - x * b) / rho2) + 0;
 
-    const u = r - e.shoulder_x, w = z - e.shoulder_z;
-    const d2 = u * u + w * w, scale = 2 * upper * fore;
-    let unfolded = (d2 - (upper - fore) * (upper - fore)) / scale;
-    let unstretched = ((upper + fore) * (upper + fore) - d2) / scale;
-    const innermost = 2 * Math.abs(upper - fore) * reach / scale;
-    const outermost = 2 * (upper + fore) * reach / scale;
-    if (!(unfolded >= -ROUNDING * innermost && unstretched >= -ROUNDING * outermost)) return null;
-    if (unstretched <= STRAIGHT * outermost) unstretched = 0;
-    if (unfolded <= STRAIGHT * innermost) unfolded = 0;
-    const cosG = unfolded - 1, sinG = e.sign3 * flag * Math.sqrt(unfolded * unstretched);
-    const along = upper - fore + fore * unfolded, across = fore * sinG;
-    const c = along * u + across * w, s = along * w - across * u, length = Math.sqrt(c * c + s * s);
-    // equal levers, folded, leave joint 2 free
-    const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
+      const u = r - e.shoulder_x,
+        w = z - e.shoulder_z;
+      const d2 = u * u + w * w,
+        scale = 2 * upper * fore;
+      let unfolded = (d2 - (upper - fore) * (upper - fore)) / scale;
+      let unstretched = ((upper + fore) * (upper + fore) - d2) / scale;
+      const innermost = (2 * Math.abs(upper - fore) * reach) / scale;
+      const outermost = (2 * (upper + fore) * reach) / scale;
+      if (!(unfolded >= -ROUNDING * innermost && unstretched >= -ROUNDING * outermost)) return null;
+      if (unstretched <= STRAIGHT * outermost) unstretched = 0;
+      if (unfolded <= STRAIGHT * innermost) unfolded = 0;
+      const cosG = unfolded - 1,
+        sinG = e.sign3 * flag * Math.sqrt(unfolded * unstretched);
+      const along = upper - fore + fore * unfolded,
+        across = fore * sinG;
+      const c = along * u + across * w,
+        s = along * w - across * u,
+        length = Math.sqrt(c * c + s * s);
+      // equal levers, folded, leave joint 2 free
+      const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
 
-    const [cos2, sin2] = onward([cosA, sinA], turns.upper);
-    const [cos3, sin3] = onward([cosG, sinG], turns.fore);
-    return {
-      q: [Math.atan2(e.sign1 * sin1, cos1), Math.atan2(e.sign2 * sin2, cos2),
-          Math.atan2(e.sign3 * sin3, cos3)],
-      plane: [cos1, sin1],
-      ahead: [cosA * cosG - sinA * sinG, sinA * cosG + cosA * sinG],
-    };
-  }));
+      const [cos2, sin2] = onward([cosA, sinA], turns.upper);
+      const [cos3, sin3] = onward([cosG, sinG], turns.fore);
+      return {
+        q: [
+          Math.atan2(e.sign1 * sin1, cos1),
+          Math.atan2(e.sign2 * sin2, cos2),
+          Math.atan2(e.sign3 * sin3, cos3),
+        ],
+        plane: [cos1, sin1],
+        ahead: [cosA * cosG - sinA * sinG, sinA * cosG + cosA * sinG],
+      };
+    }),
+  );
 }
 
 const bend = (e, q) => e.fore_angle - e.upper_angle + e.sign3 * q[2];
@@ -79,8 +97,7 @@ const bend = (e, q) => e.fore_angle - e.upper_angle + e.sign3 * q[2];
 // How far in front of axis 1 the point is.
 function radius(e, q) {
   const elevation = e.upper_angle + e.sign2 * q[1];
-  return e.shoulder_x
-    + (e.upper * Math.cos(elevation) + e.fore * Math.cos(elevation + bend(e, q)));
+  return e.shoulder_x + (e.upper * Math.cos(elevation) + e.fore * Math.cos(elevation + bend(e, q)));
 }
 
 const elbowHeld = ({geometry: {elbow: e}, tolerances: {SINGULAR}}, q) => ({
@@ -89,7 +106,8 @@ const elbowHeld = ({geometry: {elbow: e}, tolerances: {SINGULAR}}, q) => ({
 });
 
 function elbowGap({geometry: {elbow: e}, tolerances: {ROUNDING}}, [x, y, z], front) {
-  const rho2 = x * x + y * y, r2 = rho2 - e.lateral * e.lateral;
+  const rho2 = x * x + y * y,
+    r2 = rho2 - e.lateral * e.lateral;
   if (r2 < -2 * ROUNDING * Math.abs(e.lateral) * e.reach)
     return {kind: "axis", metres: Math.abs(e.lateral) - Math.sqrt(rho2)};
   const d = distance2(front * Math.sqrt(Math.max(r2, 0)) - e.shoulder_x, z - e.shoulder_z);
@@ -110,7 +128,8 @@ const elbow = {
 
 // The wrist's own frame at the tool, as 12 numbers, its origin being the wrist centre.
 function wristFrame({geometry: {wrist}}, {rotation, place}) {
-  const m = matrix(product(rotation, wrist.from_flange)), [x, y, z] = wrist.centre_from_flange;
+  const m = matrix(product(rotation, wrist.from_flange)),
+    [x, y, z] = wrist.centre_from_flange;
   for (let k = 0; k < 3; k++)
     m[4 * k + 3] = place[k] + m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z;
   return m;
@@ -118,27 +137,40 @@ function wristFrame({geometry: {wrist}}, {rotation, place}) {
 
 const wrist = {
   ik(arm, pose) {
-    const {wrist: {sign5, sign6}, turns} = arm.geometry, m = wristFrame(arm, pose);
+    const {
+        wrist: {sign5, sign6},
+        turns,
+      } = arm.geometry,
+      m = wristFrame(arm, pose);
     return elbowRows(arm, origin(m)).flatMap(row => {
       if (!row) return [nowhere(6), nowhere(6)];
       // seen from the forearm: axis 4 points ce ahead, se up
-      const [cos1, sin1] = row.plane, [ce, se] = onward(row.ahead, turns.axis4);
+      const [cos1, sin1] = row.plane,
+        [ce, se] = onward(row.ahead, turns.axis4);
       const ahead = k => cos1 * m[k] + sin1 * m[4 + k];
       const aside = k => sign5 * (cos1 * m[4 + k] - sin1 * m[k]);
       const below = k => sign5 * (se * ahead(k) - ce * m[8 + k]);
-      const aside2 = aside(2), below2 = below(2), cos5 = ce * ahead(2) + se * m[10];
+      const aside2 = aside(2),
+        below2 = below(2),
+        cos5 = ce * ahead(2) + se * m[10];
       const length = Math.sqrt(below2 * below2 + aside2 * aside2);
-      const stuck = length < arm.tolerances.STUCK, sin5 = stuck ? 0 : length;
-      const cos4 = stuck ? 1 : below2 / length, sin4 = stuck ? 0 : aside2 / length;
+      const stuck = length < arm.tolerances.STUCK,
+        sin5 = stuck ? 0 : length;
+      const cos4 = stuck ? 1 : below2 / length,
+        sin4 = stuck ? 0 : aside2 / length;
       const sin6 = sign6 * (cos4 * aside(0) - sin4 * below(0));
       const cos6 = cos4 * aside(1) - sin4 * below(1);
-      const q4 = Math.atan2(sin4, cos4), q5 = Math.atan2(sin5, cos5), q6 = Math.atan2(sin6, cos6);
+      const q4 = Math.atan2(sin4, cos4),
+        q5 = Math.atan2(sin5, cos5),
+        q6 = Math.atan2(sin6, cos6);
       const one = [...row.q, q4, q5, q6];
       return [one, stuck ? [...one] : [...row.q, opposite(q4), -q5, opposite(q6)]];
     });
   },
-  held: (arm, q) =>
-    ({...elbowHeld(arm, q), wrist: Math.abs(Math.sin(q[4])) < arm.tolerances.SINGULAR}),
+  held: (arm, q) => ({
+    ...elbowHeld(arm, q),
+    wrist: Math.abs(Math.sin(q[4])) < arm.tolerances.SINGULAR,
+  }),
   choose({geometry, tolerances: {NOISY}}, q, previous) {
     if (!(Math.abs(Math.sin(q[4])) < NOISY)) return q;
     const sense = geometry.wrist.sign6 * (Math.cos(q[4]) > 0 ? 1 : -1);
@@ -157,7 +189,8 @@ const scara = {
     const levers = twoLevers(upper, fore, distance2(x, y), tolerances);
     return SIGNS.map(flag => {
       if (!levers) return nowhere(4);
-      const q1 = Math.atan2(y, x) - flag * levers.ahead, q2 = flag * levers.turn + 0;
+      const q1 = Math.atan2(y, x) - flag * levers.ahead,
+        q2 = flag * levers.turn + 0;
       return [wrapped(q1), q2, wrapped(angle - q1 - q2), height - z];
     });
   },
@@ -178,20 +211,28 @@ const way = ({base}, [x, y]) => [x - base[0] + 0, y - base[1] + 0];
 
 const twoLink = {
   ik({geometry, tolerances}, {place}) {
-    const {l1, l2, reach} = geometry, [x, y] = way(geometry, place);
+    const {l1, l2, reach} = geometry,
+      [x, y] = way(geometry, place);
     const levers = twoLevers(l1, l2, distance2(x, y), tolerances);
     const reached = levers && Math.abs(place[2]) <= tolerances.ROUNDING * reach;
-    return SIGNS.map(flag => (reached ? [wrapped(Math.atan2(y, x) - flag * levers.ahead) + 0,
-                                         wrapped(flag * levers.turn) + 0] : nowhere(2)));
+    return SIGNS.map(flag =>
+      reached
+        ? [wrapped(Math.atan2(y, x) - flag * levers.ahead) + 0, wrapped(flag * levers.turn) + 0]
+        : nowhere(2),
+    );
   },
   held: scara.held,
   choose(arm, q, previous) {
     return folded(arm.geometry.l1, arm.geometry.l2, q[1], arm) ? [previous[0], q[1]] : q;
   },
   gap({geometry}, {place}) {
-    const {l1, l2} = geometry, d = distance2(...way(geometry, place));
-    return worst({stretched: d - (l1 + l2), base: Math.abs(l1 - l2) - d,
-                  plane: Math.abs(place[2])});
+    const {l1, l2} = geometry,
+      d = distance2(...way(geometry, place));
+    return worst({
+      stretched: d - (l1 + l2),
+      base: Math.abs(l1 - l2) - d,
+      plane: Math.abs(place[2]),
+    });
   },
 };
 

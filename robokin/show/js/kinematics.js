@@ -30,10 +30,23 @@ export function compose(a, b) {
  */
 export function motion({axis: [x, y, z], prismatic}, q) {
   if (prismatic) return [1, 0, 0, x * q, 0, 1, 0, y * q, 0, 0, 1, z * q];
-  const c = Math.cos(q), s = Math.sin(q), v = 1 - c;
-  return [c + x * x * v, x * y * v - z * s, x * z * v + y * s, 0,
-          y * x * v + z * s, c + y * y * v, y * z * v - x * s, 0,
-          z * x * v - y * s, z * y * v + x * s, c + z * z * v, 0];
+  const c = Math.cos(q),
+    s = Math.sin(q),
+    v = 1 - c;
+  return [
+    c + x * x * v,
+    x * y * v - z * s,
+    x * z * v + y * s,
+    0,
+    y * x * v + z * s,
+    c + y * y * v,
+    y * z * v - x * s,
+    0,
+    z * x * v - y * s,
+    z * y * v + x * s,
+    c + z * z * v,
+    0,
+  ];
 }
 
 /**
@@ -62,22 +75,29 @@ export function frames(chain, q, joints = [], moved = []) {
  * @returns {number[][]}
  */
 export function polyline(chain, q) {
-  const joints = [], ends = frames(chain, q, joints);
+  const joints = [],
+    ends = frames(chain, q, joints);
   return ends.flatMap((end, i) => (i < joints.length ? [end, joints[i]] : [end])).map(origin);
 }
 
 /** @param {number[]} m  12 numbers @returns {number[]} */
 export const origin = m => [m[3], m[7], m[11]];
 /** v turned by m. @param {number[]} m @param {number[]} v @returns {number[]} */
-export const turned = (m, [x, y, z]) => [m[0] * x + m[1] * y + m[2] * z,
-  m[4] * x + m[5] * y + m[6] * z, m[8] * x + m[9] * y + m[10] * z];
+export const turned = (m, [x, y, z]) => [
+  m[0] * x + m[1] * y + m[2] * z,
+  m[4] * x + m[5] * y + m[6] * z,
+  m[8] * x + m[9] * y + m[10] * z,
+];
 /** a + k b. @param {number[]} a @param {number[]} b @param {number} [k] @returns {number[]} */
 export const plus = (a, b, k = 1) => [a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]];
 /** @param {number[]} a @param {number[]} b @returns {number} */
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 /** @param {number[]} a @param {number[]} b @returns {number[]} */
-export const cross = (a, b) =>
-  [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const cross = (a, b) => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 /** @param {number[]} a @param {number[]} b @returns {number} */
 export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
@@ -87,7 +107,8 @@ export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[
  * @returns {number}
  */
 export function rint(x) {
-  const down = Math.floor(x), rest = x - down;
+  const down = Math.floor(x),
+    rest = x - down;
   return rest < 0.5 || (rest === 0.5 && down % 2 === 0) ? down : down + 1;
 }
 
@@ -106,8 +127,11 @@ export const wrapped = (angle, near = 0) => angle - TURN * rint((angle - near) /
  * @returns {number[]}
  */
 export const product = ([aw, ax, ay, az], [bw, bx, by, bz]) => [
-  aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-  aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw];
+  aw * bw - ax * bx - ay * by - az * bz,
+  aw * bx + ax * bw + ay * bz - az * by,
+  aw * by - ax * bz + ay * bw + az * bx,
+  aw * bz + ax * by - ay * bx + az * bw,
+];
 
 /**
  * The transform of a rotation and a place.
@@ -116,11 +140,32 @@ export const product = ([aw, ax, ay, az], [bw, bx, by, bz]) => [
  * @returns {number[]}  12 numbers
  */
 export function matrix([w, x, y, z], [px, py, pz] = [0, 0, 0]) {
-  const x2 = 2 * x, y2 = 2 * y, z2 = 2 * z, wx = w * x2, wy = w * y2, wz = w * z2;
-  const xx = x * x2, xy = x * y2, xz = x * z2, yy = y * y2, yz = y * z2, zz = z * z2;
-  return [1 - (yy + zz), xy - wz, xz + wy, px,
-          xy + wz, 1 - (xx + zz), yz - wx, py,
-          xz - wy, yz + wx, 1 - (xx + yy), pz];
+  const x2 = 2 * x,
+    y2 = 2 * y,
+    z2 = 2 * z,
+    wx = w * x2,
+    wy = w * y2,
+    wz = w * z2;
+  const xx = x * x2,
+    xy = x * y2,
+    xz = x * z2,
+    yy = y * y2,
+    yz = y * z2,
+    zz = z * z2;
+  return [
+    1 - (yy + zz),
+    xy - wz,
+    xz + wy,
+    px,
+    xy + wz,
+    1 - (xx + zz),
+    yz - wx,
+    py,
+    xz - wy,
+    yz + wx,
+    1 - (xx + yy),
+    pz,
+  ];
 }
 
 /**
@@ -129,11 +174,22 @@ export function matrix([w, x, y, z], [px, py, pz] = [0, 0, 0]) {
  * @returns {number[]}  w, x, y, z; the largest one is positive
  */
 export function quaternion([xx, xy, xz, , yx, yy, yz, , zx, zy, zz]) {
-  const wx = zy - yz, wy = xz - zx, wz = yx - xy, sxy = yx + xy, sxz = xz + zx, syz = zy + yz;
-  const rows = [[1 + xx + yy + zz, wx, wy, wz], [wx, 1 + xx - yy - zz, sxy, sxz],
-                [wy, sxy, 1 - xx + yy - zz, syz], [wz, sxz, syz, 1 - xx - yy + zz]];
-  const row = rows.reduce((best, each, k) => (each[k] > best[0] ? [each[k], each] : best),
-                          [rows[0][0], rows[0]])[1];
+  const wx = zy - yz,
+    wy = xz - zx,
+    wz = yx - xy,
+    sxy = yx + xy,
+    sxz = xz + zx,
+    syz = zy + yz;
+  const rows = [
+    [1 + xx + yy + zz, wx, wy, wz],
+    [wx, 1 + xx - yy - zz, sxy, sxz],
+    [wy, sxy, 1 - xx + yy - zz, syz],
+    [wz, sxz, syz, 1 - xx - yy + zz],
+  ];
+  const row = rows.reduce(
+    (best, each, k) => (each[k] > best[0] ? [each[k], each] : best),
+    [rows[0][0], rows[0]],
+  )[1];
   const length = Math.sqrt(row.reduce((sum, part) => sum + part * part, 0));
   return row.map(part => part / length);
 }
@@ -146,16 +202,20 @@ export function quaternion([xx, xy, xz, , yx, yy, yz, , zx, zy, zz]) {
  * @returns {number[]}
  */
 export function slerp(a, b, s) {
-  let same = 0, less = 0, more = 0;
+  let same = 0,
+    less = 0,
+    more = 0;
   for (let i = 0; i < 4; i++) same += a[i] * b[i];
   // the margin keeps rounding noise from choosing the direction of a half turn
   const sign = same < -1e-14 ? -1 : 1;
   for (let i = 0; i < 4; i++) {
-    const apart = a[i] - sign * b[i], beside = a[i] + sign * b[i];
+    const apart = a[i] - sign * b[i],
+      beside = a[i] + sign * b[i];
     less += apart * apart;
     more += beside * beside;
   }
-  const angle = 2 * Math.atan2(Math.sqrt(less), Math.sqrt(more)), whole = Math.sin(angle);
+  const angle = 2 * Math.atan2(Math.sqrt(less), Math.sqrt(more)),
+    whole = Math.sin(angle);
   const ofA = angle === 0 ? 1 - s : Math.sin((1 - s) * angle) / whole;
   const ofB = sign * (angle === 0 ? s : Math.sin(s * angle) / whole);
   return a.map((part, i) => ofA * part + ofB * b[i]);
@@ -176,7 +236,8 @@ export const fk = (chain, q) => frames(chain, q).at(-1);
  * @returns {{place: number[], rotation?: number[], angle?: number}}
  */
 export function pose(arm, q) {
-  const m = fk(arm.chain, q), place = origin(m);
+  const m = fk(arm.chain, q),
+    place = origin(m);
   if (arm.target === "Transform") return {rotation: quaternion(m), place};
   return arm.target === "ScaraPose" ? {place, angle: Math.atan2(m[4], m[0])} : {place};
 }
@@ -188,7 +249,8 @@ export function pose(arm, q) {
  * @returns {number[][]}  6 rows of n
  */
 export function jacobian(chain, q) {
-  const joints = [], tip = origin(frames(chain, q, joints).at(-1));
+  const joints = [],
+    tip = origin(frames(chain, q, joints).at(-1));
   const columns = chain.map((link, i) => {
     const axis = turned(joints[i], link.axis);
     if (link.prismatic) return [...axis, 0, 0, 0];
@@ -207,17 +269,23 @@ function squared(vectors) {
   const a = vectors.map(vector => [...vector]);
   for (let sweep = 0, again = true; again && sweep < 30; sweep++) {
     again = false;
-    for (let i = 0; i < a.length; i++) for (let j = i + 1; j < a.length; j++) {
-      const p = inner(a[i], a[i]), q = inner(a[j], a[j]), r = inner(a[i], a[j]);
-      if (Math.abs(r) <= 1e-15 * Math.sqrt(p * q)) continue;
-      again = true;
-      const zeta = (q - p) / (2 * r);
-      const t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.sqrt(1 + zeta * zeta));
-      const c = 1 / Math.sqrt(1 + t * t), s = c * t;
-      for (const rows of [a, turns])
-        [rows[i], rows[j]] = [rows[i].map((x, k) => c * x - s * rows[j][k]),
-                              rows[j].map((y, k) => s * rows[i][k] + c * y)];
-    }
+    for (let i = 0; i < a.length; i++)
+      for (let j = i + 1; j < a.length; j++) {
+        const p = inner(a[i], a[i]),
+          q = inner(a[j], a[j]),
+          r = inner(a[i], a[j]);
+        if (Math.abs(r) <= 1e-15 * Math.sqrt(p * q)) continue;
+        again = true;
+        const zeta = (q - p) / (2 * r);
+        const t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.sqrt(1 + zeta * zeta));
+        const c = 1 / Math.sqrt(1 + t * t),
+          s = c * t;
+        for (const rows of [a, turns])
+          [rows[i], rows[j]] = [
+            rows[i].map((x, k) => c * x - s * rows[j][k]),
+            rows[j].map((y, k) => s * rows[i][k] + c * y),
+          ];
+      }
   }
   return {lengths: a.map(vector => Math.sqrt(inner(vector, vector))), turns};
 }
@@ -231,9 +299,11 @@ function squared(vectors) {
  */
 export function distance_from_singularity(arm, q) {
   if (q.some(Number.isNaN)) return NaN;
-  const whole = jacobian(arm.chain, q), {reach, prismatic} = arm;
-  const rows = arm.movable.map(r => whole[r].map((x, j) =>
-    (r < 3 ? x / reach : x) * (prismatic[j] ? reach : 1)));
+  const whole = jacobian(arm.chain, q),
+    {reach, prismatic} = arm;
+  const rows = arm.movable.map(r =>
+    whole[r].map((x, j) => (r < 3 ? x / reach : x) * (prismatic[j] ? reach : 1)),
+  );
   const columns = q.map((_, j) => rows.map(row => row[j]));
   return Math.min(...squared(rows.length < q.length ? rows : columns).lengths);
 }
@@ -246,6 +316,7 @@ export function distance_from_singularity(arm, q) {
  */
 export function ellipsoid(chain, q) {
   const {lengths, turns} = squared(jacobian(chain, q).slice(0, 3));
-  return [0, 1, 2].sort((i, j) => lengths[j] - lengths[i])
+  return [0, 1, 2]
+    .sort((i, j) => lengths[j] - lengths[i])
     .map(i => turns[i].map(part => part * lengths[i]));
 }

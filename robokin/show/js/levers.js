@@ -12,7 +12,8 @@ const spare = (a, b, c) => Math.max(a, b) - c + Math.min(a, b);
 function angleOf(a, b, c, {ROUNDING}) {
   const flat = 4 * ROUNDING * ((a + b) * (a + b));
   const root = part => Math.sqrt(part < 0 && part > -flat ? 0 : part);
-  const beside = spare(c, b, a) * spare(c, a, b), around = spare(a, b, c) * (a + b + c);
+  const beside = spare(c, b, a) * spare(c, a, b),
+    around = spare(a, b, c) * (a + b + c);
   return 2 * Math.atan2(root(beside), root(around));
 }
 
@@ -31,20 +32,48 @@ function polar({geometry: {lever, inner, reach}, tolerances: {ROUNDING}}, {place
 }
 
 // The alpha at which O, B and A are in line, or 0 where the levers need not stretch.
-const lowest = ({geometry: {levers: [a, b, c]}, tolerances}, KO) =>
-  KO <= a + b - c ? 0 : angleOf(c, a + b, KO, tolerances);
+const lowest = (
+  {
+    geometry: {
+      levers: [a, b, c],
+    },
+    tolerances,
+  },
+  KO,
+) => (KO <= a + b - c ? 0 : angleOf(c, a + b, KO, tolerances));
 
 function leverPosture(arm, KO, phi, alpha) {
-  const {geometry: {levers: [a, b, c]}, tolerances} = arm, {ROUNDING} = tolerances, low = lowest(arm, KO);
+  const {
+      geometry: {
+        levers: [a, b, c],
+      },
+      tolerances,
+    } = arm,
+    {ROUNDING} = tolerances,
+    low = lowest(arm, KO);
   if (!(alpha >= low - ROUNDING && alpha <= Math.PI + ROUNDING)) return nowhere(3);
   alpha = between(alpha, low, Math.PI);
   const KB = across(b, c, alpha);
-  return [phi + angleOf(KO, a, KB, tolerances), angleOf(KB, a, KO, tolerances) + beside(b, c, alpha), alpha];
+  return [
+    phi + angleOf(KO, a, KB, tolerances),
+    angleOf(KB, a, KO, tolerances) + beside(b, c, alpha),
+    alpha,
+  ];
 }
 
 // The alpha that belongs to the angle KOB; NaN where there is none.
-function alphaOfGamma({geometry: {levers: [a, b, c]}, tolerances: {ROUNDING}}, KO, gamma1) {
-  const KB = Math.sqrt(KO * KO + a * a - 2 * KO * a * Math.cos(gamma1)), gap = Math.abs(b - c);
+function alphaOfGamma(
+  {
+    geometry: {
+      levers: [a, b, c],
+    },
+    tolerances: {ROUNDING},
+  },
+  KO,
+  gamma1,
+) {
+  const KB = Math.sqrt(KO * KO + a * a - 2 * KO * a * Math.cos(gamma1)),
+    gap = Math.abs(b - c);
   const half = Math.sqrt(Math.max((KB - gap) * (KB + gap), 0)) / (2 * Math.sqrt(b * c));
   if (!(half <= 1 + ROUNDING && KB >= gap && gamma1 >= 0 && gamma1 <= Math.PI)) return NaN;
   return 2 * Math.asin(Math.min(half, 1));
@@ -57,7 +86,9 @@ function alphaOfGamma({geometry: {levers: [a, b, c]}, tolerances: {ROUNDING}}, K
  * @returns {Object}
  */
 export function withLevers(arm, levers) {
-  const [a, b, c] = levers, reach = a + b + c, [first, ...chain] = structuredClone(arm.chain);
+  const [a, b, c] = levers,
+    reach = a + b + c,
+    [first, ...chain] = structuredClone(arm.chain);
   chain[0].before[3] = a; // the rows of [R | p]: this is x of p
   chain[1].before[3] = b;
   chain[1].after[3] = c;
@@ -74,9 +105,16 @@ export function withLevers(arm, levers) {
  * @returns {number[]}
  */
 export function alpha_range(arm, point, limited = true) {
-  const {geometry: {levers: [a, b, c]}, tolerances} = arm, [KO, phi] = polar(arm, point);
+  const {
+      geometry: {
+        levers: [a, b, c],
+      },
+      tolerances,
+    } = arm,
+    [KO, phi] = polar(arm, point);
   const gamma = alpha => phi + angleOf(KO, a, across(b, c, alpha), tolerances);
-  let low = lowest(arm, KO), high = Number.isNaN(KO) ? NaN : Math.PI;
+  let low = lowest(arm, KO),
+    high = Number.isNaN(KO) ? NaN : Math.PI;
   if (limited) {
     if (gamma(low) < 0) low = alphaOfGamma(arm, KO, -phi);
     if (gamma(high) > Math.PI) high = alphaOfGamma(arm, KO, Math.PI - phi);
@@ -98,9 +136,14 @@ export const family = (arm, point, alpha) => leverPosture(arm, ...polar(arm, poi
 // How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha, up to a
 // positive factor: see planar.py.
 function slopes(arm, KO, each) {
-  const [a, b, c] = arm.geometry.levers, [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
+  const [a, b, c] = arm.geometry.levers,
+    [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
   const height = a * Math.sin(gamma);
-  const changes = [b * c * Math.sin(alpha), KO * (b * Math.sin(gamma + beta) - height), KO * height];
+  const changes = [
+    b * c * Math.sin(alpha),
+    KO * (b * Math.sin(gamma + beta) - height),
+    KO * height,
+  ];
   const sum = changes[0] + changes[1] + changes[2];
   return changes.map(change => sum - 2 * change);
 }
@@ -111,15 +154,17 @@ function level(arm, KO, low, high) {
   const alphas = Array.from({length: 257}, (_, i) => low + (high - low) * (i / 256));
   const signs = alphas.map(alpha => slopes(arm, KO, alpha).map(Math.sign));
   const turns = [0, 1, 2].map(k => alphas.slice(1).map((_, i) => signs[i][k] !== signs[i + 1][k]));
-  return turns.flatMap((turn, k) => [Math.max(turn.indexOf(true), 0), turn.lastIndexOf(true)].map(cell => {
-    let [start, end] = cell < 0 ? [low, low] : [alphas[cell], alphas[cell + 1]];
-    for (let i = 0; i < 28; i++) {
-      const middle = (start + end) / 2;
-      if (Math.sign(slopes(arm, KO, middle)[k]) === signs[Math.max(cell, 0)][k]) start = middle;
-      else end = middle;
-    }
-    return (start + end) / 2;
-  }));
+  return turns.flatMap((turn, k) =>
+    [Math.max(turn.indexOf(true), 0), turn.lastIndexOf(true)].map(cell => {
+      let [start, end] = cell < 0 ? [low, low] : [alphas[cell], alphas[cell + 1]];
+      for (let i = 0; i < 28; i++) {
+        const middle = (start + end) / 2;
+        if (Math.sign(slopes(arm, KO, middle)[k]) === signs[Math.max(cell, 0)][k]) start = middle;
+        else end = middle;
+      }
+      return (start + end) / 2;
+    }),
+  );
 }
 
 /**
@@ -132,13 +177,29 @@ function level(arm, KO, low, high) {
  * @returns {number[]}
  */
 export function least(arm, point, previous, limited = true) {
-  const {geometry: {levers: [a, b, c]}, tolerances} = arm, [gamma0, beta0, alpha0] = previous;
-  const [KO, phi] = polar(arm, point), [low, high] = alpha_range(arm, point, limited);
+  const {
+      geometry: {
+        levers: [a, b, c],
+      },
+      tolerances,
+    } = arm,
+    [gamma0, beta0, alpha0] = previous;
+  const [KO, phi] = polar(arm, point),
+    [low, high] = alpha_range(arm, point, limited);
   if (Number.isNaN(low)) return nowhere(3);
-  const BAO = beside(b, a, beta0), atA = angleOf(across(a, b, beta0), c, KO, tolerances);
-  const alphas = [low, high, alpha0, alphaOfGamma(arm, KO, gamma0 - phi), BAO + atA, BAO - atA,
-                  ...level(arm, KO, low, high)];
+  const BAO = beside(b, a, beta0),
+    atA = angleOf(across(a, b, beta0), c, KO, tolerances);
+  const alphas = [
+    low,
+    high,
+    alpha0,
+    alphaOfGamma(arm, KO, gamma0 - phi),
+    BAO + atA,
+    BAO - atA,
+    ...level(arm, KO, low, high),
+  ];
   const rows = alphas.map(alpha =>
-    leverPosture(arm, KO, phi, between(Number.isNaN(alpha) ? low : alpha, low, high)));
+    leverPosture(arm, KO, phi, between(Number.isNaN(alpha) ? low : alpha, low, high)),
+  );
   return leastTravel(rows, previous);
 }

@@ -27,12 +27,18 @@ const SLOW = 100; // ms from question to answer: then a second one would only wa
 export function kernelOf(root, id, words, hear) {
   const says = element("p", {class: "rk-asleep", role: "status"});
   root.firstElementChild.append(element("style", {}, LOOK), says);
-  let port = null, wanted = null, sent = 0, timer = 0, slow = false;
+  let port = null,
+    wanted = null,
+    sent = 0,
+    timer = 0,
+    slow = false;
   const questions = new Map();
 
   function stir(awake, sentence = "") {
     root.toggleAttribute("data-awake", awake);
-    root.querySelectorAll(".rk-handles, .rk-side").forEach(part => { part.inert = !awake; });
+    root.querySelectorAll(".rk-handles, .rk-side").forEach(part => {
+      part.inert = !awake;
+    });
     says.textContent = sentence;
     says.hidden = !sentence;
   }
@@ -50,7 +56,8 @@ export function kernelOf(root, id, words, hear) {
       root.dataset.asked = sent;
       try {
         port(sent, question);
-      } catch { // its kernel is gone
+      } catch {
+        // its kernel is gone
         return sleep();
       }
     }
@@ -75,10 +82,12 @@ export function kernelOf(root, id, words, hear) {
   });
   sleep();
   document.dispatchEvent(new CustomEvent("robokin-asks", {detail: {id, root}}));
-  return {ask(question) {
-    wanted = question;
-    pump();
-  }};
+  return {
+    ask(question) {
+      wanted = question;
+      pump();
+    },
+  };
 }
 
 const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float32: Float32Array};
@@ -92,11 +101,18 @@ const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float3
 export function unpacked(answer, buffers = []) {
   if (Array.isArray(answer)) return answer.map(each => unpacked(each, buffers));
   if (!answer || typeof answer !== "object") return answer;
-  if (!("array" in answer)) return Object.fromEntries(Object.entries(answer).map(([key, value]) => [key, unpacked(value, buffers)]));
-  const bytes = typeof answer.array === "string"
-    ? Uint8Array.from(atob(answer.array), letter => letter.charCodeAt(0)) : buffers[answer.array];
+  if (!("array" in answer))
+    return Object.fromEntries(
+      Object.entries(answer).map(([key, value]) => [key, unpacked(value, buffers)]),
+    );
+  const bytes =
+    typeof answer.array === "string"
+      ? Uint8Array.from(atob(answer.array), letter => letter.charCodeAt(0))
+      : buffers[answer.array];
   // a copy: a buffer may begin at an odd place
-  const values = new TYPES[answer.type](bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+  const values = new TYPES[answer.type](
+    bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength),
+  );
   return {values, shape: answer.shape};
 }
 

@@ -47,14 +47,21 @@ export const ptp = (q0, q1, s) => q0.map((value, j) => value + clipped(s) * (q1[
  * @returns {Object}  a pose
  */
 export function blend(start, via, goal, fraction, s, corner = "parabola") {
-  const share = clipped(s), b = fraction;
+  const share = clipped(s),
+    b = fraction;
   const x = b > 0 ? clipped((share - 0.5 + b) / (2 * b)) : Number(share >= 0.5);
   const first = lerp(start, via, Math.min(2 * share, 1 - 2 * b));
   const last = lerp(via, goal, Math.max(2 * share - 1, 2 * b));
   let poses = [first, via, last];
   if (corner === "quintic") {
-    poses = [first, lerp(first, via, 0.4), lerp(first, via, 0.8),
-             lerp(last, via, 0.8), lerp(last, via, 0.4), last];
+    poses = [
+      first,
+      lerp(first, via, 0.4),
+      lerp(first, via, 0.8),
+      lerp(last, via, 0.8),
+      lerp(last, via, 0.4),
+      last,
+    ];
   }
   // de Casteljau: between neighbours, again and again, until one is left
   while (poses.length > 1) poses = poses.slice(1).map((pose, i) => lerp(poses[i], pose, x));
@@ -88,11 +95,13 @@ export const linear = duration => timeLaw(duration, x => x);
  * @param {number} [ramp]  the share of each ramp, at most 0.5
  * @returns {function(number): number}  s at t
  */
-export const trapezoidal = (duration, ramp = 0.25) => timeLaw(duration, x => {
-  const left = Math.min(x, 1 - x), up = Math.min(left, ramp);
-  const s = (1 / (1 - ramp)) * (up * up / (2 * ramp) + (left - up));
-  return x > 0.5 ? 1 - s : s;
-});
+export const trapezoidal = (duration, ramp = 0.25) =>
+  timeLaw(duration, x => {
+    const left = Math.min(x, 1 - x),
+      up = Math.min(left, ramp);
+    const s = (1 / (1 - ramp)) * ((up * up) / (2 * ramp) + (left - up));
+    return x > 0.5 ? 1 - s : s;
+  });
 
 /**
  * Speed and acceleration are zero at both ends.
@@ -114,11 +123,17 @@ export function differentiate(values, t, order = 1) {
   const last = t.length - 1;
   return values.map((row, i) => {
     // the slope at t[i] of the parabola through three samples
-    const k = Math.min(Math.max(i, 1), last - 1), h = t[k] - t[k - 1], g = t[k + 1] - t[k];
+    const k = Math.min(Math.max(i, 1), last - 1),
+      h = t[k] - t[k - 1],
+      g = t[k + 1] - t[k];
     const x = t[i] - t[k];
-    const [a, b, c] = [(2 * x - g) / (h * (h + g)), -(2 * x + h - g) / (h * g),
-                       (2 * x + h) / (g * (h + g))];
-    return row.map((value, j) => (Number.isNaN(value) ? NaN
-      : a * values[k - 1][j] + b * values[k][j] + c * values[k + 1][j]));
+    const [a, b, c] = [
+      (2 * x - g) / (h * (h + g)),
+      -(2 * x + h - g) / (h * g),
+      (2 * x + h) / (g * (h + g)),
+    ];
+    return row.map((value, j) =>
+      Number.isNaN(value) ? NaN : a * values[k - 1][j] + b * values[k][j] + c * values[k + 1][j],
+    );
   });
 }

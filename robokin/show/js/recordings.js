@@ -9,22 +9,27 @@ const NOTHING = -32768;
  * @returns {Float64Array}
  */
 export function unpacked({steps, data}, motions, columns, samples) {
-  const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)), values = new Float64Array(motions * columns * samples);
-  let at = 0, to = 0;
-  for (let motion = 0; motion < motions; motion++) for (let column = 0; column < columns; column++) {
-    const step = steps[motion][column] ?? steps[motion];
-    for (let i = 0, whole = 0, slope = 0; i < samples; i++) {
-      let folded = 0, shift = 0, byte;
-      do {
-        byte = bytes[at++];
-        folded |= (byte & 127) << shift;
-        shift += 7;
-      } while (byte > 127);
-      slope += folded & 1 ? -(folded + 1) / 2 : folded / 2;
-      whole += slope;
-      values[to++] = whole === NOTHING ? NaN : whole * step;
+  const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)),
+    values = new Float64Array(motions * columns * samples);
+  let at = 0,
+    to = 0;
+  for (let motion = 0; motion < motions; motion++)
+    for (let column = 0; column < columns; column++) {
+      const step = steps[motion][column] ?? steps[motion];
+      for (let i = 0, whole = 0, slope = 0; i < samples; i++) {
+        let folded = 0,
+          shift = 0,
+          byte;
+        do {
+          byte = bytes[at++];
+          folded |= (byte & 127) << shift;
+          shift += 7;
+        } while (byte > 127);
+        slope += folded & 1 ? -(folded + 1) / 2 : folded / 2;
+        whole += slope;
+        values[to++] = whole === NOTHING ? NaN : whole * step;
+      }
     }
-  }
   return values;
 }
 
@@ -33,12 +38,15 @@ export function unpacked({steps, data}, motions, columns, samples) {
  * array over the samples; q(motion, sample, share): joint values in radians and metres between two samples.
  */
 export function recording(arm, motions, samples, unit) {
-  const joints = arm.chain.length, inner = arm.chain.map(link => link.prismatic ? unit.size : Math.PI / 180);
+  const joints = arm.chain.length,
+    inner = arm.chain.map(link => (link.prismatic ? unit.size : Math.PI / 180));
   const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples));
   const row = (k, motion, j) => (motion * joints + j) * samples;
   return {
-    quantity: (k, motion) => inner.map((_, j) => all[k].subarray(row(k, motion, j), row(k, motion, j) + samples)),
-    q: (motion, i, share = 0) => inner.map((size, j) => size * between(all[0], row(0, motion, j) + i, share)),
+    quantity: (k, motion) =>
+      inner.map((_, j) => all[k].subarray(row(k, motion, j), row(k, motion, j) + samples)),
+    q: (motion, i, share = 0) =>
+      inner.map((size, j) => size * between(all[0], row(0, motion, j) + i, share)),
   };
 }
 
@@ -51,12 +59,14 @@ export function recording(arm, motions, samples, unit) {
 export function places(things, key) {
   const columns = key === "pose" ? 12 : 3;
   const where = things.map(({way, reading, decimals, ...thing}) => {
-    const at = way && numbers(way, columns), read = reading && numbers(reading, 1);
+    const at = way && numbers(way, columns),
+      read = reading && numbers(reading, 1);
     return (motion, i, share) => {
-      const now = at && at(motion, i, share), [value] = read ? read(motion, i, 0) : [NaN];
+      const now = at && at(motion, i, share),
+        [value] = read ? read(motion, i, 0) : [NaN];
       if (now && now.some(Number.isNaN)) return null;
       const name = Number.isNaN(value) ? thing.name : `${thing.name}: ${number(value, decimals)}`;
-      return {...thing, name, ...now && {[key]: now}};
+      return {...thing, name, ...(now && {[key]: now})};
     };
   });
   return (motion, i, share) => where.map(one => one(motion, i, share)).filter(thing => thing);
@@ -64,12 +74,16 @@ export function places(things, key) {
 
 // A PageWay -> (motion, sample, share) -> its columns.
 function numbers(way, columns) {
-  const {motions, samples} = way, values = unpacked(way, motions, columns, samples);
+  const {motions, samples} = way,
+    values = unpacked(way, motions, columns, samples);
   return (motion, i, share) => {
     const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
-    return Array.from({length: columns}, (_, k) => between(values, first + k * samples, samples > 1 ? share : 0));
+    return Array.from({length: columns}, (_, k) =>
+      between(values, first + k * samples, samples > 1 ? share : 0),
+    );
   };
 }
 
 // NaN beside a sample that exists does not count before the time has left it.
-const between = (values, i, share) => share ? values[i] + share * (values[i + 1] - values[i]) : values[i];
+const between = (values, i, share) =>
+  share ? values[i] + share * (values[i + 1] - values[i]) : values[i];

@@ -24,7 +24,8 @@ export function distance2(x, y) {
  * @returns {number[]}
  */
 export function leastTravel(options, q) {
-  let best = options[0], shortest = Infinity;
+  let best = options[0],
+    shortest = Infinity;
   for (const option of options) {
     const travel = option.reduce((sum, value, j) => sum + Math.abs(value - q[j]), 0);
     if (travel < shortest) [best, shortest] = [option, travel];

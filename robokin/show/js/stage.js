@@ -18,23 +18,50 @@ import {handleLayer} from "./handles.js";
  * @param {object} data  page.py: PageExplorer
  */
 export function stageOf(root, data) {
-  const scene = {...data.scene, unit: data.unit}, state = {view: [...scene.view]};
-  const canvas = sceneCanvas(scene, data.alt), view = sceneView(canvas, scene), camera = () => view.cameras()[0];
+  const scene = {...data.scene, unit: data.unit},
+    state = {view: [...scene.view]};
+  const canvas = sceneCanvas(scene, data.alt),
+    view = sceneView(canvas, scene),
+    camera = () => view.cameras()[0];
   const handles = handleLayer(canvas, camera, on => view.hold(on), changed);
-  const side = element("div", {class: "rk-side"}), below = element("div", {class: "rk-below"});
+  const side = element("div", {class: "rk-side"}),
+    below = element("div", {class: "rk-below"});
   const says = element("p", {class: "rk-says", role: "status"});
-  let arms = null, stale = true, ask = () => {};
+  let arms = null,
+    stale = true,
+    ask = () => {};
   function changed() {
     stale = true;
     ask();
   }
-  root.replaceChildren(element("div", {class: "rk", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE + LOOK), element("div", {class: "rk-title"}, data.title),
-    element("div", {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`}, element("div", {class: "rk-space"}, canvas, handles.layer), side),
-    below, element("p", {class: "rk-meant"}, data.meant)));
+  root.replaceChildren(
+    element(
+      "div",
+      {class: "rk", role: "group", "aria-label": data.title},
+      element("style", {}, STYLE + LOOK),
+      element("div", {class: "rk-title"}, data.title),
+      element(
+        "div",
+        {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`},
+        element("div", {class: "rk-space"}, canvas, handles.layer),
+        side,
+      ),
+      below,
+      element("p", {class: "rk-meant"}, data.meant),
+    ),
+  );
 
-  return {scene, side, below, says, handles, camera, changed,
-    say(text) { if (says.textContent !== text) says.textContent = text; },
+  return {
+    scene,
+    side,
+    below,
+    says,
+    handles,
+    camera,
+    changed,
+    say(text) {
+      if (says.textContent !== text) says.textContent = text;
+    },
     run(answer, canvases = [], beside = () => {}) {
       ask = pictures(root, [canvas, ...canvases], () => {
         if (stale) {
@@ -50,24 +77,43 @@ export function stageOf(root, data) {
         return room;
       });
       orbit(canvas, scene, state, ask);
-    }};
+    },
+  };
 }
 
 // What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose outline
 // is that of the ellipse that its semi-axes make on the screen.
 function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   if (!q.every(Number.isFinite)) return;
-  const joints = [], tip = origin(frames(chain, q, joints).at(-1));
-  if (axes) joints.forEach((joint, j) => {
-    const way = turned(joint, chain[j].axis), ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
-    stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
-  });
+  const joints = [],
+    tip = origin(frames(chain, q, joints).at(-1));
+  if (axes)
+    joints.forEach((joint, j) => {
+      const way = turned(joint, chain[j].axis),
+        ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
+      stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
+    });
   if (!ellipsoid) return;
-  const [a, b, c] = [[0, 0], [0, 1], [1, 1]].map(([i, j]) =>
-    ellipsoid.map(axis => camera.along(axis)).reduce((sum, s) => sum + s[i] * s[j], 0));
-  const middle = (a + c) / 2, apart = Math.sqrt((a - c) * (a - c) / 4 + b * b), [x, y] = camera.to(tip);
+  const [a, b, c] = [
+    [0, 0],
+    [0, 1],
+    [1, 1],
+  ].map(([i, j]) =>
+    ellipsoid.map(axis => camera.along(axis)).reduce((sum, s) => sum + s[i] * s[j], 0),
+  );
+  const middle = (a + c) / 2,
+    apart = Math.sqrt(((a - c) * (a - c)) / 4 + b * b),
+    [x, y] = camera.to(tip);
   g.beginPath();
-  g.ellipse(x, y, Math.sqrt(middle + apart), Math.sqrt(Math.max(0, middle - apart)), Math.atan2(2 * b, a - c) / 2, 0, 2 * Math.PI);
+  g.ellipse(
+    x,
+    y,
+    Math.sqrt(middle + apart),
+    Math.sqrt(Math.max(0, middle - apart)),
+    Math.atan2(2 * b, a - c) / 2,
+    0,
+    2 * Math.PI,
+  );
   g.fillStyle = clear(colors.accent, 0.14);
   g.fill();
   g.strokeStyle = colors.accent;
@@ -136,22 +182,40 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   const label = [name, unit].filter(Boolean).join(", ");
   const range = control("input", {type: "range", min: low, max: high, step, "aria-label": label});
   const exact = control("input", {type: "number", step, "aria-label": `${label}, exactly`});
-  const row = element("div", {class: "rk-slide"}, element("span", {}, name), range, exact, element("span", {}, unit));
+  const row = element(
+    "div",
+    {class: "rk-slide"},
+    element("span", {}, name),
+    range,
+    exact,
+    element("span", {}, unit),
+  );
   range.addEventListener("input", () => take(+range.value));
   let typing = false; // what is being typed is not written over; what was taken is shown
-  exact.addEventListener("input", () => { typing = true; });
+  exact.addEventListener("input", () => {
+    typing = true;
+  });
   const taken = () => {
     typing = false;
     if (Number.isFinite(exact.valueAsNumber)) take(exact.valueAsNumber);
   };
   exact.addEventListener("change", taken);
-  exact.addEventListener("keydown", event => { if (event.key === "Enter") taken(); }); // JupyterLab keeps it from the field
-  return {row, reach(most) { range.max = most; range.step = most / 1000; }, set(value) {
-    const text = String(+value.toFixed(decimals));
-    range.value = value;
-    range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
-    if (!typing && exact.value !== text) exact.value = text;
-  }};
+  exact.addEventListener("keydown", event => {
+    if (event.key === "Enter") taken();
+  }); // JupyterLab keeps it from the field
+  return {
+    row,
+    reach(most) {
+      range.max = most;
+      range.step = most / 1000;
+    },
+    set(value) {
+      const text = String(+value.toFixed(decimals));
+      range.value = value;
+      range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
+      if (!typing && exact.value !== text) exact.value = text;
+    },
+  };
 }
 
 /**
@@ -161,9 +225,18 @@ export function slider({name, unit, low, high, step, decimals}, take) {
  * @param {(k: number) => void} take
  */
 export function menu(name, texts, take) {
-  const select = control("select", {"aria-label": name}, ...texts.map((text, k) => element("option", {value: k}, text)));
+  const select = control(
+    "select",
+    {"aria-label": name},
+    ...texts.map((text, k) => element("option", {value: k}, text)),
+  );
   select.addEventListener("change", () => take(+select.value));
-  return {row: element("label", {class: "rk-slide"}, element("span", {}, name), select), set(k) { select.value = k; }};
+  return {
+    row: element("label", {class: "rk-slide"}, element("span", {}, name), select),
+    set(k) {
+      select.value = k;
+    },
+  };
 }
 
 /**
@@ -196,26 +269,39 @@ export function table(names, heads, widths, take) {
     if (take) row.addEventListener("click", () => take(k));
     return {row, cells, button};
   });
-  const head = heads.length ? [element("thead", {}, element("tr", {}, ...heads.map(text =>
-    element("th", {scope: "col"}, text))))] : [];
-  const node = element("div", {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}${take ? " rk-rows" : ""}`}, element("table", {}, ...head,
-    element("tbody", {}, ...lines.map(line => line.row))));
-  return {node, set(rows, chosen = -1, exists = null) {
-    rows.forEach((texts, k) => {
-      const {row, cells, button} = lines[k];
-      row.classList.toggle("rk-none", !!exists && !exists[k]);
-      if (take) {
-        if (k === chosen) row.setAttribute("aria-current", "true");
-        else row.removeAttribute("aria-current");
-        button.setAttribute("aria-pressed", String(k === chosen));
-      }
-      texts.forEach((cell, j) => {
-        const {text, past} = typeof cell === "string" ? {text: cell, past: false} : cell;
-        if (cells[j].textContent !== text) cells[j].textContent = text;
-        cells[j].classList.toggle("rk-past", past);
+  const head = heads.length
+    ? [
+        element(
+          "thead",
+          {},
+          element("tr", {}, ...heads.map(text => element("th", {scope: "col"}, text))),
+        ),
+      ]
+    : [];
+  const node = element(
+    "div",
+    {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}${take ? " rk-rows" : ""}`},
+    element("table", {}, ...head, element("tbody", {}, ...lines.map(line => line.row))),
+  );
+  return {
+    node,
+    set(rows, chosen = -1, exists = null) {
+      rows.forEach((texts, k) => {
+        const {row, cells, button} = lines[k];
+        row.classList.toggle("rk-none", !!exists && !exists[k]);
+        if (take) {
+          if (k === chosen) row.setAttribute("aria-current", "true");
+          else row.removeAttribute("aria-current");
+          button.setAttribute("aria-pressed", String(k === chosen));
+        }
+        texts.forEach((cell, j) => {
+          const {text, past} = typeof cell === "string" ? {text: cell, past: false} : cell;
+          if (cells[j].textContent !== text) cells[j].textContent = text;
+          cells[j].classList.toggle("rk-past", past);
+        });
       });
-    });
-  }};
+    },
+  };
 }
 
 /**
@@ -229,7 +315,8 @@ export function copyButton(words, code) {
     const text = code();
     try {
       await navigator.clipboard.writeText(text);
-    } catch { // a page from a file may not: the old way
+    } catch {
+      // a page from a file may not: the old way
       const area = element("textarea", {});
       area.value = text;
       button.after(area);
@@ -239,7 +326,9 @@ export function copyButton(words, code) {
       button.focus();
     }
     button.textContent = words.copied;
-    setTimeout(() => { button.textContent = words.copy; }, 1500);
+    setTimeout(() => {
+      button.textContent = words.copy;
+    }, 1500);
   });
   return button;
 }
