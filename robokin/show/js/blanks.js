@@ -1,4 +1,5 @@
-// Fills the blanks of sentences, which stand in verdicts.py and explorers.py, with numbers as Python writes them.
+// Fills the blanks of sentences, which stand in verdicts.py and explorers.py, with numbers as
+// Python writes them.
 
 import {rint} from "./kinematics.js";
 

@@ -1,4 +1,5 @@
-// The choice among the rows of `ik`, and what is to be said of them. As branches.py and verdicts.py.
+// The choice among the rows of `ik`, and what is to be said of them. As branches.py and
+// verdicts.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";

@@ -1,4 +1,5 @@
-// The camera of a page: metres in base coordinates to CSS pixels on a canvas. (Figures: camera.py and scene.py.)
+// The camera of a page: metres in base coordinates to CSS pixels on a canvas. (Figures: camera.py
+// and scene.py.)
 
 import {dot, plus} from "./kinematics.js";
 
@@ -8,7 +9,8 @@ import {dot, plus} from "./kinematics.js";
  * @property {Point} toward  the direction to the camera
  * @property {(p: Point) => Pixel} to  where a point is on the canvas
  * @property {(v: Point) => Pixel} along  the same of a direction
- * @property {(dx: number, dy: number) => Point} across  the way in space, across the line of sight, of pixels
+ * @property {(dx: number, dy: number) => Point} across  the way in space, across the line of sight,
+ *   of pixels
  */
 
 /**
@@ -43,5 +45,9 @@ export function camera([azimuth, elevation], corners, [left, top, width, height]
   };
 }
 
-/** The same camera for the coordinates of what stands at `base`. @param {Camera} cam @param {Point} base */
+/**
+ * The same camera for the coordinates of what stands at `base`.
+ * @param {Camera} cam
+ * @param {Point} base
+ */
 export const movedTo = (cam, base) => ({...cam, to: p => cam.to(plus(p, base))});

@@ -56,7 +56,11 @@ export function readColors(place) {
 /** The colour of a joint. @param {number} j from 0 */
 export const jointColor = j => colors[`joint${(j % 6) + 1}`];
 
-/** A colour that lets through what is behind it. @param {string} color @param {number} share from 0 to 1 */
+/**
+ * A colour that lets through what is behind it.
+ * @param {string} color
+ * @param {number} share from 0 to 1
+ */
 export const clear = (color, share) =>
   color +
   Math.round(255 * share)
@@ -64,8 +68,9 @@ export const clear = (color, share) =>
     .padStart(2, "0");
 
 /**
- * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at most two by two device
- * pixels each); null where the canvas has no size now: then it keeps what it shows.
+ * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at
+ * most two by two device pixels each); null where the canvas has no size now: then it keeps what it
+ * shows.
  * @param {HTMLCanvasElement} canvas
  * @returns {?[CanvasRenderingContext2D, number, number]} context, width and height
  */

@@ -1,4 +1,5 @@
-// The clock of what moves: a button, a slider of the time, a menu of how fast it goes, the Space key.
+// The clock of what moves: a button, a slider of the time, a menu of how fast it goes, the Space
+// key.
 
 import {number} from "./canvas.js";
 import {choice, control, element, range} from "./elements.js";
@@ -50,14 +51,17 @@ export function runningClock(parts, frame, state, span, ask) {
     state.playing = on;
     if (on && state.time >= end) state.time = begin;
     before = performance.now();
-    parts.icon.innerHTML = `<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true"><path d="${on ? PAUSE : PLAY}"/></svg>`;
+    parts.icon.innerHTML =
+      '<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true">' +
+      `<path d="${on ? PAUSE : PLAY}"/></svg>`;
     parts.button.setAttribute("aria-label", on ? "pause" : "play");
     if (on) ask();
   }
   function pass(now) {
     if (!state.playing) return;
     const end = span()[1];
-    // The first stamp may lie before the click; and what was hidden for a while goes on where it was.
+    // The first stamp may lie before the click; and what was hidden for a while goes on where it
+    // was.
     state.time = Math.min(
       end,
       state.time + (Math.min(500, Math.max(0, now - before)) / 1000) * SPEEDS[parts.speed.value],

@@ -19,7 +19,8 @@ import {
 /**
  * @typedef {object} Panel
  * @property {string} label
- * @property {{unit: string, scale: number[], joints: number[]}[]} axes  scale: lowest tick, step, count, decimals
+ * @property {{unit: string, scale: number[], joints: number[]}[]} axes  scale: lowest tick, step,
+ *   count, decimals
  * @property {Float64Array[]} curves  of each joint, over the times
  * @property {Set<number>} gaps  samples after which the lines break
  * @property {?number[][]} limits  [low, high], of each joint
@@ -32,8 +33,9 @@ import {
  * Draws columns of panels.
  *
  * draw(columns, times, ticks, now)  one picture; a column is {title, panels: Panel[]}
- * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or, with `held`, in that
- *                                   column whatever the place; and the number of the column
+ * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or,
+ *                                   with `held`, in that column whatever the place; and the number
+ *                                   of the column
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
@@ -121,7 +123,6 @@ export function curvesView(canvas, patterns) {
 const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
 
-// Names with their lines, above the panels, evenly in as many rows as it takes; returns where the panels may begin.
 // How wide the numbers beside the panels are.
 function widest(g, {panels}) {
   g.font = `11px ${FONT}`;
@@ -139,6 +140,8 @@ function widest(g, {panels}) {
   );
 }
 
+// Names with their lines, above the panels, evenly in as many rows as it takes; returns where the
+// panels may begin.
 function legend(g, patterns, column, left, width, y) {
   const joints = column.panels[0].curves.length,
     rows = Math.ceil((joints * 38) / width),
@@ -264,7 +267,8 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
         );
 }
 
-// The words of the marks, in at most three lines: [text, [left, top, width, height], color, size, weight].
+// The words of the marks, in at most three lines: [text, [left, top, width, height], color, size,
+// weight].
 function noted(g, marks, x, [left, right, top]) {
   const notes = [];
   g.font = `600 11px ${FONT}`;
@@ -286,8 +290,8 @@ function noted(g, marks, x, [left, right, top]) {
   return notes;
 }
 
-// The words of the limits, as above: beside their lines, off other words and, nearly, off the curves. At most three;
-// where there is no such place, the band alone has to do.
+// The words of the limits, as above: beside their lines, off other words and, nearly, off the
+// curves. At most three; where there is no such place, the band alone has to do.
 function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], notes) {
   const found = [];
   const each = (right - left) / times.length,
@@ -297,7 +301,9 @@ function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], n
     const limit = panel.limits[side][j],
       at = lines[k],
       unit = units[j];
-    const text = `q${j + 1} limit ${number(limit, +!Number.isInteger(limit))}${unit[0] === "\u00B0" ? "" : " "}${unit}`;
+    const value = number(limit, +!Number.isInteger(limit)),
+      gap = unit[0] === "\u00B0" ? "" : " ";
+    const text = `q${j + 1} limit ${value}${gap}${unit}`;
     const w = g.measureText(text).width,
       taken = [...notes, ...found].map(([, place]) => place);
     let best = null,

@@ -1,7 +1,8 @@
 // Elements of a page, and the places that wait for an output.
 
 /**
- * The places in the page that wait for this output: each only once, and the same one may stand twice in a page.
+ * The places in the page that wait for this output: each only once, and the same one may stand
+ * twice in a page.
  * @param {string} id
  * @returns {HTMLElement[]}
  */
@@ -19,7 +20,10 @@ export function element(tag, attributes = {}, ...children) {
   return node;
 }
 
-/** JupyterLab takes arrow keys and Space for itself unless the very element with the focus forbids it. */
+/**
+ * JupyterLab takes arrow keys and Space for itself unless the very element with the focus forbids
+ * it.
+ */
 export const control = (tag, attributes, ...children) =>
   element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
 

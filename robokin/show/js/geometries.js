@@ -1,5 +1,5 @@
-// The inverse kinematics and the singularities of every geometry (three levers: levers.js). As arms/elbow.py,
-// spherical_wrist.py, scara.py and planar.py, which are the reference.
+// The inverse kinematics and the singularities of every geometry (three levers: levers.js). As
+// arms/elbow.py, spherical_wrist.py, scara.py and planar.py, which are the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
 // to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
@@ -114,7 +114,7 @@ function elbowGap({geometry: {elbow: e}, tolerances: {ROUNDING}}, [x, y, z], fro
   return worst({stretched: d - (e.upper + e.fore), folded: Math.abs(e.upper - e.fore) - d});
 }
 
-// --- The geometries: ik, singularities, free joints, why a row is missing -----------------------
+// --- The geometries: ik, singularities, free joints, why a row is missing ------------------------
 
 const elbow = {
   ik: (arm, {place}) => elbowRows(arm, place).map(row => (row ? row.q : nowhere(3))),

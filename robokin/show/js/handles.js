@@ -6,7 +6,10 @@ import {element, control} from "./elements.js";
 
 const NEAR = 12; // px: no handle is drawn nearer to the edge of the scene
 
-/** How far arrows and arcs stand off what they move, in metres for a camera: the same on every screen. */
+/**
+ * How far arrows and arcs stand off what they move, in metres for a camera: the same on every
+ * screen.
+ */
 export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
 
 /**
@@ -189,7 +192,8 @@ export function squareTo(axis) {
 }
 
 /**
- * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob beside it.
+ * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob
+ * beside it.
  * @param {Object[]} chain
  * @param {number[]} q
  * @param {number} i
@@ -214,7 +218,8 @@ export function gripOf(chain, q, i, camera) {
       sunk = dot(way, turned(joints[i], chain[i].axis));
     if (Math.sqrt(dot(way, way) - sunk * sunk) > reach)
       return plus(from, plus(bend, from, -1), share);
-    if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3]; // a link farther out: its own joint has its ring at 0.6
+    // a link farther out: its own joint has its ring at 0.6
+    if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3];
   }
   return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);
 }

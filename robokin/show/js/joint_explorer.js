@@ -1,5 +1,5 @@
-// The joint explorer: joints taken by the hand. What is said, and every number of the arm, comes from
-// Python (page.py: PageExplorer).
+// The joint explorer: joints taken by the hand. What is said, and every number of the arm, comes
+// from Python (page.py: PageExplorer).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";

@@ -69,7 +69,8 @@ export function frames(chain, q, joints = [], moved = []) {
 }
 
 /**
- * The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. As arm_points of camera.py.
+ * The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. As arm_points of
+ * camera.py.
  * @param {Object[]} chain
  * @param {number[]} q
  * @returns {number[][]}

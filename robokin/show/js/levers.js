@@ -133,8 +133,8 @@ export function alpha_range(arm, point, limited = true) {
  */
 export const family = (arm, point, alpha) => leverPosture(arm, ...polar(arm, point), alpha);
 
-// How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha, up to a
-// positive factor: see planar.py.
+// How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha,
+// up to a positive factor: see planar.py.
 function slopes(arm, KO, each) {
   const [a, b, c] = arm.geometry.levers,
     [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
@@ -148,8 +148,9 @@ function slopes(arm, KO, each) {
   return changes.map(change => sum - 2 * change);
 }
 
-// Six alphas: the first and the last at which each of these sums is level. (Of equal levers only the first sum has a
-// minimum; planar.py finds it in another way, as well as half of the digits tell.)
+// Six alphas: the first and the last at which each of these sums is level. (Of equal levers only
+// the first sum has a minimum; planar.py finds it in another way, as well as half of the digits
+// tell.)
 function level(arm, KO, low, high) {
   const alphas = Array.from({length: 257}, (_, i) => low + (high - low) * (i / 256));
   const signs = alphas.map(alpha => slopes(arm, KO, alpha).map(Math.sign));

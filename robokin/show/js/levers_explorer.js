@@ -1,6 +1,6 @@
-// The explorer of an arm that reaches a point in a family of postures: the point is taken by the hand,
-// the free angle chosen on the curve of what it costs, and levers of different lengths by sliders. What
-// is said, and every number of the arm, comes from Python (page.py: PageExplorer).
+// The explorer of an arm that reaches a point in a family of postures: the point is taken by the
+// hand, the free angle chosen on the curve of what it costs, and levers of different lengths by
+// sliders. What is said, and every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";

@@ -7,7 +7,8 @@ const PATIENCE = 4000; // ms without an answer; then the view says so
 // Two questions under way: the second carries the receipt without which the first answer is held
 // back for 40 ms on its way (Nagle's algorithm meets the delayed receipt).
 const UNDER_WAY = 2;
-const SLOW = 100; // ms from question to answer: then a second one would only wait for the first, and grow old
+// ms from question to answer: then a second one would only wait for the first, and grow old
+const SLOW = 100;
 
 /**
  * The way from a view to its kernel.
@@ -15,8 +16,8 @@ const SLOW = 100; // ms from question to answer: then a second one would only wa
  * ask(question)  whatever JSON can hold. The newest question is always answered in the end; older
  *                ones may be skipped while the kernel is at work.
  *
- * While asleep, controls and handles do not take a hand, and one sentence says why. `root.dataset` tells: `awake`,
- * the numbers of the last question `asked` and the last one `answered`.
+ * While asleep, controls and handles do not take a hand, and one sentence says why. `root.dataset`
+ * tells: `awake`, the numbers of the last question `asked` and the last one `answered`.
  *
  * @param {HTMLElement} root  in which the view has been built
  * @param {string} id  of the output
@@ -93,7 +94,8 @@ export function kernelOf(root, id, words, hear) {
 const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float32: Float32Array};
 
 /**
- * An answer with its arrays: live.py sends {"array": its number, or base64, "type", "shape"} in their place.
+ * An answer with its arrays: live.py sends {"array": its number, or base64, "type", "shape"} in
+ * their place.
  * @param {object} answer
  * @param {DataView[]} [buffers]
  * @returns {object}
@@ -118,6 +120,7 @@ export function unpacked(answer, buffers = []) {
 
 const LOOK = `
 .rk.rk.rk {
-  & .rk-asleep { margin: 4px 0 0; padding: 4px 8px; border-left: 3px solid var(--rk-rest); color: var(--rk-soft); }
+  & .rk-asleep { margin: 4px 0 0; padding: 4px 8px; border-left: 3px solid var(--rk-rest);
+    color: var(--rk-soft); }
   & [inert] { opacity: .5; }
 }`;

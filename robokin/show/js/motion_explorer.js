@@ -1,5 +1,5 @@
-// The motion explorer: a blended motion whose stations are taken by the hand. What is said, and every
-// number of the arm, comes from Python (page.py: PageExplorer).
+// The motion explorer: a blended motion whose stations are taken by the hand. What is said, and
+// every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {fk, matrix, origin, plus} from "./kinematics.js";
 import {ik} from "./geometries.js";
@@ -93,7 +93,8 @@ function motionExplorer(stage, data) {
     () => {
       const {time, ...asked} = state,
         key = JSON.stringify(asked);
-      if (key !== known) [known, found] = [key, motionOf(data, state)]; // the clock alone changes nothing
+      // the clock alone changes nothing
+      if (key !== known) [known, found] = [key, motionOf(data, state)];
       const {t, q, v, a, tool, missing} = found;
       sliders.forEach((s, k) =>
         s.set(k < 3 ? state.via.place[k] / unit.size : state[["blend", "duration"][k - 3]]),

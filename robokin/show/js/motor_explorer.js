@@ -1,5 +1,6 @@
-// The motor explorer: a stepper motor seen along its shaft, its phase table, and what its rotor makes
-// of the pulses. What is said, the tables and the poles come from Python (motors.py), the law is rotor.js.
+// The motor explorer: a stepper motor seen along its shaft, its phase table, and what its rotor
+// makes of the pulses. What is said, the tables and the poles come from Python (motors.py), the law
+// is rotor.js.
 
 import {fill} from "./blanks.js";
 import {colors, number, polygon, prepared, shape, spot, stroke, upright, words} from "./canvas.js";
@@ -44,7 +45,8 @@ const MORE = `
   & .rk-run { height: 210px; }
   & .rk-facts td { white-space: normal; }
   & .rk-row button { width: auto; }
-  & .rk-beside { display: grid; grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); gap: 0 18px; align-items: start; }
+  & .rk-beside { display: grid; grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); gap: 0 18px;
+    align-items: start; }
   @container (max-width: 600px) {
     & .rk-beside { grid-template-columns: minmax(0, 1fr); }
     & .rk-shaft { height: 330px; }
@@ -425,8 +427,10 @@ function motorExplorer(root, data) {
       const [g, w, h] = ready,
         size = Math.min(w, h) / 2 - 6;
       drawMotor(g, w, h, size, page(), motor, live.theta, sent, says);
-      const far = size * (page().teeth ? 0.52 : 0.46);
-      grip.style.transform = `translate(${w / 2 + far * Math.cos(live.theta)}px, ${h / 2 - far * Math.sin(live.theta)}px)`;
+      const far = size * (page().teeth ? 0.52 : 0.46),
+        x = w / 2 + far * Math.cos(live.theta),
+        y = h / 2 - far * Math.sin(live.theta);
+      grip.style.transform = `translate(${x}px, ${y}px)`;
     }
     if (on) ask();
     return !!ready;
@@ -579,7 +583,8 @@ function plainWords(g, text, x, y, color, strong) {
   g.fillText(text, x, y);
 }
 
-// Steps over time: what was sent as a staircase, what the rotor made as a line, and where the clock is.
+// Steps over time: what was sent as a staircase, what the rotor made as a line, and where the clock
+// is.
 function drawCurve(canvas, says, {t, angle, sent}, motor, clock) {
   const ready = prepared(canvas);
   if (!ready) return;

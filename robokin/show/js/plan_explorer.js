@@ -1,5 +1,6 @@
-// The explorer of plans: start, target and obstacle are taken by the hand, a kernel plans (live.js), and what it
-// answers is drawn in the plane and in the cube of postures. What is said comes from Python (plan_explorer.py).
+// The explorer of plans: start, target and obstacle are taken by the hand, a kernel plans
+// (live.js), and what it answers is drawn in the plane and in the cube of postures. What is said
+// comes from Python (plan_explorer.py).
 
 import {frames, origin, polyline} from "./kinematics.js";
 import {least} from "./levers.js";
@@ -340,7 +341,8 @@ function drawAbove(g, {to}, {via, nearest: [at, text], kept}, state) {
     );
   if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
   spot(g, p, 3.5, colors.near);
-  const left = p[0] <= x + 1; // where it is swept, to the left: the tool's frame points to the right
+  // where it is swept, to the left: the tool's frame points to the right
+  const left = p[0] <= x + 1;
   words(
     g,
     text,
@@ -358,7 +360,8 @@ function drawAbove(g, {to}, {via, nearest: [at, text], kept}, state) {
   });
 }
 
-// The faces of the forbidden body by direction (axis and side): cells [i, j, k] that have one there.
+// The faces of the forbidden body by direction (axis and side): cells [i, j, k] that have one
+// there.
 function facesOf({values, shape: [n]}) {
   const forbidden = (i, j, k) =>
     Math.min(i, j, k) >= 0 && Math.max(i, j, k) < n && values[(i * n + j) * n + k] === FORBIDDEN;
@@ -385,7 +388,8 @@ const RING = [
   [-0.5, 0.5],
 ];
 
-// The cube of postures, its side being 1: the body, the wave after so many steps, target, path and posture.
+// The cube of postures, its side being 1: the body, the wave after so many steps, target, path and
+// posture.
 function drawCube(
   canvas,
   view,

@@ -69,7 +69,7 @@ function start(root, data) {
   choose();
 }
 
-// --- What is on the page --------------------------------------------------------------------------------------------
+// --- What is on the page -------------------------------------------------------------------------
 
 function furniture(data, scene) {
   const parts = {
@@ -78,8 +78,8 @@ function furniture(data, scene) {
       class: "rk-curves",
       role: "img",
       "aria-label":
-        `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, speeds, accelerations. ` +
-        "The greatest values stand in the table.",
+        `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, ` +
+        "speeds, accelerations. The greatest values stand in the table.",
     }),
     ...clockRow(),
     table: element("div", {class: "rk-table"}),
@@ -116,15 +116,20 @@ function furniture(data, scene) {
   return parts;
 }
 
-// A canvas that has the whole width takes the height that its arms fill: so many have curves, so many pictures are there.
+// A canvas that has the whole width takes the height that its arms fill: so many have curves, so
+// many pictures are there.
 function sized({scene, curves}, inSpace, arms, count) {
   const [, rows] = tiled(arms, curves.clientWidth),
     whole = scene.offsetTop !== curves.offsetTop;
   curves.style.height = rows > 1 ? `${rows * 330}px` : "";
-  scene.style.height =
-    whole && scene.clientWidth
-      ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * (count > 1 ? 290 : 340), Math.max(190, inSpace.height(count, scene.clientWidth))))}px`
-      : "";
+  const width = scene.clientWidth;
+  if (!whole || !width) {
+    scene.style.height = "";
+    return;
+  }
+  const most = tiled(count, width)[1] * (count > 1 ? 290 : 340),
+    filled = Math.max(190, inSpace.height(count, width));
+  scene.style.height = `${Math.round(Math.min(most, filled))}px`;
 }
 
 // The numbers of a motion, as a table and in words.
@@ -144,14 +149,15 @@ function tell(parts, data, {arms, motion}, value) {
   );
   const body = data.arms.flatMap(arm => {
     const units = [...new Set(arm.chain.map(link => (link.prismatic ? unit.name : "\u00B0")))];
-    const line = (name, per, limited, cell) =>
+    const per = time => units.map(u => `${u}/${time}`).join(" or ");
+    const line = (name, time, limited, cell) =>
       element(
         "tr",
         {},
         element(
           "th",
           {scope: "row"},
-          `${whose(arm)}${name}, ${units.map(u => `${u}/${per}`).join(" or ")}${limited ? " (of limit)" : ""}`,
+          `${whose(arm)}${name}, ${per(time)}${limited ? " (of limit)" : ""}`,
         ),
         ...arm.chain.map((_, j) => cell(j)),
       );
@@ -184,9 +190,10 @@ function tell(parts, data, {arms, motion}, value) {
   parts.slider.setAttribute("aria-valuetext", parts.value.textContent);
 }
 
-// --- Motions --------------------------------------------------------------------------------------------------------
+// --- Motions -------------------------------------------------------------------------------------
 
-// choose(motion): everything that changes with slider and switch; around(motion, moment): targets and marks then.
+// choose(motion): everything that changes with slider and switch; around(motion, moment): targets
+// and marks then.
 function motionsOf(data) {
   const {unit, slider, times} = data;
   const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
@@ -258,7 +265,7 @@ function panelOf(data, k, order, motion, recorded, gaps) {
   };
 }
 
-// --- A moment -------------------------------------------------------------------------------------------------------
+// --- A moment ------------------------------------------------------------------------------------
 
 // The sample before a time, and the share of the way to the next.
 function momentAt(times, time) {
@@ -290,7 +297,7 @@ function shownAt(column, {i, share}, gaps) {
     );
 }
 
-// --- Time -----------------------------------------------------------------------------------------------------------
+// --- Time ----------------------------------------------------------------------------------------
 
 // Pressing and dragging on the curves sets the time.
 function scrubbing(canvas, overTime, clock) {

@@ -1,11 +1,13 @@
-// Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over time.
+// Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over
+// time.
 
 import {number} from "./canvas.js";
 
 const NOTHING = -32768;
 
 /**
- * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN for no value.
+ * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN
+ * for no value.
  * @returns {Float64Array}
  */
 export function unpacked({steps, data}, motions, columns, samples) {
@@ -34,8 +36,9 @@ export function unpacked({steps, data}, motions, columns, samples) {
 }
 
 /**
- * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown units, for each joint an
- * array over the samples; q(motion, sample, share): joint values in radians and metres between two samples.
+ * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown
+ * units, for each joint an array over the samples; q(motion, sample, share): joint values in
+ * radians and metres between two samples.
  */
 export function recording(arm, motions, samples, unit) {
   const joints = arm.chain.length,
@@ -51,8 +54,8 @@ export function recording(arm, motions, samples, unit) {
 }
 
 /**
- * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their `pose` or `at`, and
- * behind their name what there is to read.
+ * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their
+ * `pose` or `at`, and behind their name what there is to read.
  * @param {object[]} things  page.py: PageTarget or PageMark
  * @param {"pose"|"at"} key
  */

@@ -7,9 +7,13 @@
  * @property {number} periods  how often a pull comes round in one turn of the rotor
  * @property {number} sharp  1: a current pulls by its value, 2: by its square
  * @property {number[][]} currents  the rows of the phase table
- * @property {number} torque @property {number} inertia @property {number} damping @property {number} rise
+ * @property {number} torque
+ * @property {number} inertia
+ * @property {number} damping
+ * @property {number} rise
  * @property {number} load  N m, always backwards
- * @property {{fine: number[], settled: number, slowest: number, limit: number, nearly: number}} rules
+ * @property {{fine: number[], settled: number, slowest: number, limit: number, nearly: number}}
+ *   rules
  * @typedef {{theta: number, omega: number, currents: number[]}} State
  */
 
@@ -34,7 +38,9 @@ export const stepOf = motor => (2 * Math.PI) / (motor.currents.length * motor.pe
 const strength = ([x, y]) => Math.sqrt(x * x + y * y);
 const pulls = motor => motor.currents.map(row => pull(motor, row));
 
-/** The greatest load that every row holds; the greatest that still goes from every row to the next. */
+/**
+ * The greatest load that every row holds; the greatest that still goes from every row to the next.
+ */
 export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
 export function startingTorque(motor) {
   const all = pulls(motor);

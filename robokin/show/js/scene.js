@@ -22,29 +22,34 @@ import {camera, movedTo} from "./camera.js";
  * @property {string} name
  * @property {object[]} chain  page.py: PageLink
  * @property {number[]} q  radians and metres
- * @property {(?Point)[]} [trace]  places of the tool, null where they break; `tail`: those behind it
+ * @property {(?Point)[]} [trace]  places of the tool, null where they break; `tail`: those behind
+ *   it
  * @property {(?Point)[]} [tail]
  * @property {boolean} [faded]  there is no solution here
  * @property {{place: Point, text: string}} [near]  where the path passes "via"
- * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where `past` a limit
+ * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where
+ *   `past` a limit
  * @property {boolean} [framed]  show the frame of every link
- * @property {(g: CanvasRenderingContext2D, cam: object) => void} [under]  draws what else there is, below the arm
+ * @property {(g: CanvasRenderingContext2D, cam: object) => void} [under]  draws what else there is,
+ *   below the arm
  * @property {(g: CanvasRenderingContext2D, cam: object) => void} [over]  the same above it
  */
 
 /**
  * Draws arms in space.
  *
- * draw(view, arms, clock)   one picture: view [azimuth, elevation], arms Shown[], words for the right upper corner.
+ * draw(view, arms, clock)   one picture: view [azimuth, elevation], arms Shown[], words for the
+ *                           right upper corner.
  *                           Returns whether there was room for one
- * cameras()                 those of the last picture, one for each arm, or one for all where they stand together in
- *                           one: `to` projects a point to CSS pixels
- * hold(on)                  while on, the cameras of the last picture stay: for as long as something is dragged
+ * cameras()                 those of the last picture, one for each arm, or one for all where they
+ *                           stand together in one: `to` projects a point to CSS pixels
+ * hold(on)                  while on, the cameras of the last picture stay: for as long as
+ *                           something is dragged
  * height(count, width)      how high a canvas of this width is well filled by so many arms
  *
  * @param {HTMLCanvasElement} canvas
- * @param {object} scene  page.py: PageScene, and the page's `unit`. `targets` ({name, pose}) and `marks` ({name, at,
- *   radius}) may be exchanged between two pictures
+ * @param {object} scene  page.py: PageScene, and the page's `unit`. `targets` ({name, pose}) and
+ *   `marks` ({name, at, radius}) may be exchanged between two pictures
  */
 export function sceneView(canvas, scene) {
   const space = surroundings(scene);
@@ -114,8 +119,8 @@ export function sceneView(canvas, scene) {
 // Room at the rims for words: names above, the scale below.
 const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
 
-// What stands still: the axes of the grid, a point of the floor, what the camera has to see: everything and its shadow.
-// The rest of the floor may leave the picture.
+// What stands still: the axes of the grid, a point of the floor, what the camera has to see:
+// everything and its shadow. The rest of the floor may leave the picture.
 function surroundings({flat, floor: [low], seen}) {
   const normal = flat ?? 2,
     [a, b] = [0, 1, 2].filter(i => i !== normal);
@@ -142,7 +147,8 @@ function reached(scene, arm) {
   ].filter(p => p.every(Number.isFinite));
 }
 
-// Arms in one picture and all that is around them. A pen is {g, cam, scene, space}: on what, how seen, what is there.
+// Arms in one picture and all that is around them. A pen is {g, cam, scene, space}: on what, how
+// seen, what is there.
 function drawSpace(pen, arms, [x, y, w, h], named) {
   const {g, cam, scene} = pen,
     {to} = cam,
@@ -267,7 +273,8 @@ function drawFaces({g, cam, scene: {faces = []}}) {
     polygon(g, corners.map(cam.to), colors.foot, colors.footEdge, 1);
 }
 
-// Targets, points, and how near the path passes: their labels, and the places on the canvas that labels keep off.
+// Targets, points, and how near the path passes: their labels, and the places on the canvas that
+// labels keep off.
 function drawPlaces({g, cam, scene}, near) {
   const {to} = cam,
     labels = [],

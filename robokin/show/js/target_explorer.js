@@ -1,5 +1,5 @@
-// The target explorer: a target taken by the hand, and all branches that reach it. What is said, and
-// every number of the arm, comes from Python (page.py: PageExplorer).
+// The target explorer: a target taken by the hand, and all branches that reach it. What is said,
+// and every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {distance_from_singularity, matrix, plus, product, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";

@@ -1,5 +1,6 @@
-// The explorer of tours: points taken by the hand, the tours that a kernel makes of them (live.js), and a clock
-// along which the arm goes them; the clock needs no kernel. What is said comes from Python (tour_explorer.py).
+// The explorer of tours: points taken by the hand, the tours that a kernel makes of them (live.js),
+// and a clock along which the arm goes them; the clock needs no kernel. What is said comes from
+// Python (tour_explorer.py).
 
 import {frames, origin, plus} from "./kinematics.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
@@ -12,7 +13,8 @@ import {copyButton, menu, slider, stageOf, table} from "./stage.js";
 import {plain} from "./turns.js";
 
 const FINE = 0.05; // rad of the fastest joint between two points of a drawn path
-const COLORS = {greedy: "joint2", best: "joint1"}; // apart for colour-blind readers, and by their dashes
+// apart for colour-blind readers, and by their dashes
+const COLORS = {greedy: "joint2", best: "joint1"};
 const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // where both go the same way, both are seen
 
 /**
@@ -250,7 +252,8 @@ function toured(chain, {t, q, order, times}, name) {
   };
 }
 
-// How each handle looks: served by now, still to be served, left, out of reach; and its place in both tours.
+// How each handle looks: served by now, still to be served, left, out of reach; and its place in
+// both tours.
 function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
   for (const node of layer.children) {
     const k = +node.dataset.handle,
@@ -267,7 +270,8 @@ function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
   }
 }
 
-// Below the arm: how far it reaches, how high the points stand, the tours; a band where the tool dips under the floor.
+// Below the arm: how far it reaches, how high the points stand, the tours; a band where the tool
+// dips under the floor.
 function below(g, {to}, {p0, points, l1, l2}, {tours}) {
   const ring = Array.from({length: 73}, (_, i) => (i * Math.PI) / 36).map(x =>
     to([(l1 + l2) * Math.cos(x), (l1 + l2) * Math.sin(x), 0]),
@@ -309,15 +313,20 @@ const LOOK = `
   & .rk-handle.rk-point { background: var(--rk-paper); }
   & .rk-handle.rk-left { border-style: dashed; }
   & .rk-handle.rk-served { background: var(--own); color: var(--rk-paper); }
-  & .rk-handle.rk-away { border-style: dotted; color: var(--rk-soft); text-decoration: line-through; background: var(--rk-grid); }
-  & .rk-point::before, & .rk-point::after { position: absolute; left: -6px; right: -6px; text-align: center; font-size: 11px;
-    text-shadow: 0 0 2px var(--rk-paper), 0 0 3px var(--rk-paper), 0 0 3px var(--rk-paper); pointer-events: none; }
-  & .rk-point::before { content: attr(data-greedy); bottom: calc(100% + 3px); color: var(--rk-joint2); }
+  & .rk-handle.rk-away { border-style: dotted; color: var(--rk-soft);
+    text-decoration: line-through; background: var(--rk-grid); }
+  & .rk-point::before, & .rk-point::after { position: absolute; left: -6px; right: -6px;
+    text-align: center; font-size: 11px;
+    text-shadow: 0 0 2px var(--rk-paper), 0 0 3px var(--rk-paper), 0 0 3px var(--rk-paper);
+    pointer-events: none; }
+  & .rk-point::before { content: attr(data-greedy); bottom: calc(100% + 3px);
+    color: var(--rk-joint2); }
   & .rk-point::after { content: attr(data-best); top: calc(100% + 3px); color: var(--rk-joint1); }
   & .rk-handles[inert] { opacity: 1; }
   & .rk-tours tr > :nth-child(2) { white-space: normal; text-align: left; width: 99%; }
   & .rk-many.rk-tours thead th { white-space: nowrap; }
-  & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px; margin-right: 6px; vertical-align: middle;
+  & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px;
+    margin-right: 6px; vertical-align: middle;
     border-top: 3px dashed var(--rk-joint2); }
   & .rk-tours tr:nth-child(2) .rk-choose::before { border-top: 3px solid var(--rk-joint1); }
   @container (max-width: 600px) { & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr); } }
