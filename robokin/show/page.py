@@ -13,6 +13,7 @@ from .._validate import short
 from .joiner import script
 from .numbers import Packed, Scale
 from .palette import css
+from .twin import ArmData, PageLink
 
 MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
 STILL = (
@@ -48,15 +49,6 @@ class Switch(TypedDict):
 
     label: str
     values: list[str]
-
-
-class PageLink(TypedDict):
-    """One link of a chain: the way to its joint, the joint's axis, the way to its end."""
-
-    before: list[float]
-    axis: list[float]
-    after: list[float]
-    prismatic: bool
 
 
 class PageWay(Packed):
@@ -148,8 +140,8 @@ class Flaws(TypedDict):
     """
 
     gaps: dict[str, list[int]]
-    jumps: dict[str, list[Any]]
-    leaps: dict[str, list[Any]]
+    jumps: dict[str, list[tuple[float, str]]]
+    leaps: dict[str, list[tuple[float, str]]]
     notes: dict[str, list[str]]
 
 
@@ -198,7 +190,54 @@ class Control(TypedDict):
     decimals: int
 
 
-class PageExplorer(TypedDict, total=False):
+class PageUnit(Unit):
+    """The same for an explorer, and how it is written in code."""
+
+    code: str
+
+
+class PagePose(TypedDict):
+    """A target as the scripts take it: a place; with `rotation` [w, x, y, z] a transform, with
+    `angle` a ScaraPose.
+    """
+
+    place: list[float]
+    rotation: NotRequired[list[float]]
+    angle: NotRequired[float]
+
+
+class FactRow(TypedDict):
+    """Numbers below an arm: what they are called, which fact of the posture they are, the heads of
+    their columns, their decimals.
+    """
+
+    name: str
+    fact: str
+    heads: list[str]
+    decimals: int
+
+
+class StartValues(TypedDict):
+    """How a blended motion opens: the numbers of its law, its corner and its branch, too."""
+
+    blend: float
+    duration: float
+    law: int
+    corner: int
+    row: int
+
+
+class BranchTask(TypedDict):
+    """An exercise: how many different postures have to reach the target; what it says then and
+    before.
+    """
+
+    wanted: int
+    holds: str
+    open: str
+
+
+class PageExplorer(TypedDict):
     """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers", "plan",
     "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
     every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
@@ -220,34 +259,34 @@ class PageExplorer(TypedDict, total=False):
     summary: str
     alt: str
     meant: str
-    arm: dict[str, Any]
-    unit: dict[str, Any]
-    units: list[dict[str, Any]]
-    dashes: list[list[float]]
+    unit: PageUnit
     scene: PageScene
     controls: list[Control]
     words: dict[str, str]
     code: str
-    q: list[float]
-    rows: list[dict[str, Any]]
-    target: dict[str, Any]
-    turns: list[float]
-    branches: list[str]
-    heads: list[str]
+    arm: NotRequired[ArmData]
+    units: NotRequired[list[PageUnit]]
+    dashes: NotRequired[list[list[float]]]
+    q: NotRequired[list[float]]
+    rows: NotRequired[list[FactRow]]
+    target: NotRequired[PagePose]
+    turns: NotRequired[list[float]]
+    branches: NotRequired[list[str]]
+    heads: NotRequired[list[str]]
     turning: NotRequired[list[int]]  # the joints whose angles the column "travel" adds
-    start: dict[str, Any]
-    via: dict[str, Any]
-    goal: dict[str, Any]
-    start_values: dict[str, Any]
-    laws: list[str]
-    corners: list[str]
-    panels: list[str]
-    samples: int
-    task: dict[str, Any]
-    kinds: list[str]
-    tours: list[str]
-    most: int
-    spare: list[list[float]]
+    start: NotRequired[PagePose]
+    via: NotRequired[PagePose]
+    goal: NotRequired[PagePose]
+    start_values: NotRequired[StartValues]
+    laws: NotRequired[list[str]]
+    corners: NotRequired[list[str]]
+    panels: NotRequired[list[str]]
+    samples: NotRequired[int]
+    task: NotRequired[BranchTask]
+    kinds: NotRequired[list[str]]
+    tours: NotRequired[list[str]]
+    most: NotRequired[int]
+    spare: NotRequired[list[list[float]]]
 
 
 class PageAnswer(TypedDict):
