@@ -44,6 +44,7 @@ def test_no_line_is_longer_than_100_columns(path):
 def types_in(text):
     """What stands in the braces behind the tags of JSDoc comments, and the rest of an @import."""
     for comment in re.findall(r"/\*\*.*?\*/", text, re.S):
+        comment = re.sub(r"\n\s*\*(?!/)", "\n", comment)
         for tag in re.finditer(r"@\w+\s*\{", comment):
             depth, end = 1, tag.end()
             while depth and end < len(comment):

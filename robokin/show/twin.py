@@ -184,7 +184,7 @@ class ArmData(TypedDict):
     prismatic: list[bool]
     units: list[JointUnit]
     speed_limits: list[float] | None
-    movable: list[bool]
+    movable: list[int]
     geometry: Inverse
     tolerances: Tolerances
     branches: NotRequired[list[list[int]]]

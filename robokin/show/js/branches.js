@@ -6,14 +6,26 @@ import {exists, leastTravel} from "./rows.js";
 import {geometryOf, ik, singularities} from "./geometries.js";
 import {fill, inWords, oneDecimal} from "./blanks.js";
 
+/** @import {ArmData, PagePose} from "./page.js" */
+/** @import {ClosedFormArm} from "./kinematics.js" */
+
+/**
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {number[]} previous
+ */
 const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 
-// The limits of a joint with the slack by which it may stand past them.
+/**
+ * The limits of a joint with the slack by which it may stand past them.
+ * @param {ArmData} arm
+ * @param {number} j
+ */
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
  * Which joints can stand at q inside their limits; a turning one at q or whole turns from it.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
  */
@@ -26,7 +38,7 @@ export const within = (arm, q) =>
 
 /**
  * For each turning joint the value nearest to `near`, whole turns from q.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near
  * @returns {number[]}
@@ -34,7 +46,12 @@ export const within = (arm, q) =>
 export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
-// As `unwrapped`, but inside the limits where there is such a value.
+/**
+ * As `unwrapped`, but inside the limits where there is such a value.
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {number[]} near
+ */
 const inside = (arm, q, near) =>
   unwrapped(arm, q, near).map((value, j) => {
     const [low, high] = room(arm, j);
@@ -45,7 +62,7 @@ const inside = (arm, q, near) =>
 
 /**
  * Joint values as people read them: inside the limits and nearest to q, else the least past them.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number[]}
  */
@@ -62,7 +79,7 @@ export const representative = (arm, q) =>
 /**
  * The row with the least travel from q, each joint inside its limits if it can; NaN if there is
  * none.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[][]} rows
  * @param {number[]} q
  * @returns {number[]}
@@ -73,8 +90,12 @@ export const nearest = (arm, rows, q) =>
     q,
   );
 
-// Where a motion along one row begins: joints that a singularity leaves free there look ahead to
-// the first sample that fixes them.
+/**
+ * Where a motion along one row begins: joints that a singularity leaves free there look ahead to
+ * the first sample that fixes them.
+ * @param {ArmData} arm
+ * @param {number[][]} track
+ */
 function start(arm, track) {
   const first = track.find(exists) || track[0];
   const later = track.find(q => {
@@ -92,7 +113,7 @@ function start(arm, track) {
 /**
  * One continuous motion through the rows of `ik` along a path: it starts on `row`, then every
  * sample takes the row nearest to the one before. NaN where no row exists.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[][][]} samples  the rows of each sample
  * @param {number} row
  * @returns {number[][]}  the posture of each sample
@@ -113,7 +134,12 @@ export function follow(arm, samples, row) {
   });
 }
 
-// How joint j stands past its limit.
+/**
+ * How joint j stands past its limit.
+ * @param {ClosedFormArm} arm
+ * @param {number[]} q
+ * @param {number} j
+ */
 function excess(arm, q, j) {
   const [low, high] = arm.limits[j],
     value = representative(arm, q)[j],
@@ -129,8 +155,8 @@ function excess(arm, q, j) {
 
 /**
  * In one sentence whether a row of `ik` is usable, and if not why: in Python's words.
- * @param {Object} arm
- * @param {{place: number[], rotation?: number[], angle?: number}} pose
+ * @param {ClosedFormArm} arm
+ * @param {PagePose} pose
  * @param {number} row
  * @returns {string}
  */

@@ -3,6 +3,8 @@
 
 import {dot, plus} from "./kinematics.js";
 
+/** @import {Box, Pixel, Point} from "./canvas.js" */
+
 /**
  * @typedef {object} Camera  a parallel projection
  * @property {number} scale  pixels to a metre
@@ -15,8 +17,9 @@ import {dot, plus} from "./kinematics.js";
 
 /**
  * The camera that fits corner points into a rectangle [left, top, width, height].
- * @param {[number, number]} view  azimuth and elevation
+ * @param {number[]} view  azimuth and elevation
  * @param {Point[]} corners
+ * @param {Box} box
  * @returns {Camera}
  */
 export function camera([azimuth, elevation], corners, [left, top, width, height]) {
@@ -49,5 +52,6 @@ export function camera([azimuth, elevation], corners, [left, top, width, height]
  * The same camera for the coordinates of what stands at `base`.
  * @param {Camera} cam
  * @param {Point} base
+ * @returns {Camera}
  */
 export const movedTo = (cam, base) => ({...cam, to: p => cam.to(plus(p, base))});

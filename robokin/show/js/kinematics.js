@@ -5,6 +5,17 @@
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
 // ("point"). An arm is what `arm_data` of twin.py hands over; no arm's numbers stand in a script.
 
+/** @import {ArmData, Inverse, PageLink, PagePose, With} from "./page.js" */
+
+/**
+ * An arm of one geometry.
+ * @template {Inverse} G
+ * @typedef {ArmData & {geometry: G}} ArmOf
+ */
+/** @typedef {With<ArmData, "branches" | "carried" | "sentences">} ClosedFormArm  one with `ik` */
+/** @typedef {With<PagePose, "rotation">} TransformPose */
+/** @typedef {With<PagePose, "angle">} ScaraPose */
+
 export const TURN = 2 * Math.PI;
 export const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
@@ -24,7 +35,7 @@ export function compose(a, b) {
 
 /**
  * What a joint does at q: a turn about its axis, or a shift along it.
- * @param {{axis: number[], prismatic: boolean}} link
+ * @param {Pick<PageLink, "axis" | "prismatic">} link
  * @param {number} q  radians, metres if prismatic
  * @returns {number[]}  12 numbers
  */
@@ -52,7 +63,7 @@ export function motion({axis: [x, y, z], prismatic}, q) {
 /**
  * The frames of a posture: base, after each link, the last one being the flange. Where given,
  * `joints` and `moved` receive the frame of each joint before and after its own motion.
- * @param {Object[]} chain  the links: {before, axis, after, prismatic}
+ * @param {PageLink[]} chain
  * @param {number[]} q
  * @param {number[][]} [joints]
  * @param {number[][]} [moved]
@@ -71,11 +82,12 @@ export function frames(chain, q, joints = [], moved = []) {
 /**
  * The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. As arm_points of
  * camera.py.
- * @param {Object[]} chain
+ * @param {PageLink[]} chain
  * @param {number[]} q
  * @returns {number[][]}
  */
 export function polyline(chain, q) {
+  /** @type {number[][]} */
   const joints = [],
     ends = frames(chain, q, joints);
   return ends.flatMap((end, i) => (i < joints.length ? [end, joints[i]] : [end])).map(origin);
@@ -187,10 +199,9 @@ export function quaternion([xx, xy, xz, , yx, yy, yz, , zx, zy, zz]) {
     [wy, sxy, 1 - xx + yy - zz, syz],
     [wz, sxz, syz, 1 - xx - yy + zz],
   ];
-  const row = rows.reduce(
-    (best, each, k) => (each[k] > best[0] ? [each[k], each] : best),
-    [rows[0][0], rows[0]],
-  )[1];
+  let largest = 0;
+  for (let k = 1; k < 4; k++) if (rows[k][k] > rows[largest][largest]) largest = k;
+  const row = rows[largest];
   const length = Math.sqrt(row.reduce((sum, part) => sum + part * part, 0));
   return row.map(part => part / length);
 }
@@ -224,17 +235,17 @@ export function slerp(a, b, s) {
 
 /**
  * The flange in base coordinates.
- * @param {Object[]} chain
+ * @param {PageLink[]} chain
  * @param {number[]} q
  * @returns {number[]}  12 numbers
  */
-export const fk = (chain, q) => frames(chain, q).at(-1);
+export const fk = (chain, q) => /** @type {number[]} */ (frames(chain, q).at(-1));
 
 /**
  * Where a posture brings the tool, as a pose of the kind that the arm can be asked for.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
- * @returns {{place: number[], rotation?: number[], angle?: number}}
+ * @returns {PagePose}
  */
 export function pose(arm, q) {
   const m = fk(arm.chain, q),
@@ -245,13 +256,15 @@ export function pose(arm, q) {
 
 /**
  * The geometric Jacobian at the flange: three rows of velocity, three of angular velocity.
- * @param {Object[]} chain
+ * @param {PageLink[]} chain
  * @param {number[]} q
  * @returns {number[][]}  6 rows of n
  */
 export function jacobian(chain, q) {
+  /** @type {number[][]} */
   const joints = [],
-    tip = origin(frames(chain, q, joints).at(-1));
+    ends = frames(chain, q, joints),
+    tip = origin(ends[ends.length - 1]);
   const columns = chain.map((link, i) => {
     const axis = turned(joints[i], link.axis);
     if (link.prismatic) return [...axis, 0, 0, 0];
@@ -260,11 +273,18 @@ export function jacobian(chain, q) {
   return [0, 1, 2, 3, 4, 5].map(row => columns.map(column => column[row]));
 }
 
+/**
+ * @param {number[]} a
+ * @param {number[]} b
+ */
 const inner = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 
-// Vectors turned by pairs until each is square to each other one (one-sided Jacobi, Hestenes 1958),
-// and the rows of the rotation that did it. Their lengths are the singular values, right to the
-// last digits also near zero, where the root of an eigenvalue is not.
+/**
+ * Vectors turned by pairs until each is square to each other one (one-sided Jacobi, Hestenes 1958),
+ * and the rows of the rotation that did it. Their lengths are the singular values, right to the
+ * last digits also near zero, where the root of an eigenvalue is not.
+ * @param {number[][]} vectors
+ */
 function squared(vectors) {
   const turns = vectors.map((_, i) => vectors.map((_, j) => Number(i === j)));
   const a = vectors.map(vector => [...vector]);
@@ -294,7 +314,7 @@ function squared(vectors) {
 /**
  * How little the tool moves in its worst direction: the smallest singular value of the Jacobian,
  * lengths in reaches of the arm; 0 is a singularity, NaN for NaN.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number}
  */
@@ -311,7 +331,7 @@ export function distance_from_singularity(arm, q) {
 
 /**
  * The semi-axes of the ellipsoid of tool velocities that joint speeds of length 1 make.
- * @param {Object[]} chain
+ * @param {PageLink[]} chain
  * @param {number[]} q
  * @returns {number[][]}  three vectors in m/s, the longest first
  */

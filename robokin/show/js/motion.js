@@ -2,28 +2,35 @@
 
 import {slerp} from "./kinematics.js";
 
+/** @import {PagePose} from "./page.js" */
+
+/**
+ * @param {number} s
+ */
 const clipped = s => Math.min(Math.max(s, 0), 1);
 
 /**
  * On the way from pose a (s = 0) to pose b (s = 1): straight, turning evenly.
- * @param {{place: number[], rotation?: number[], angle?: number}} a
- * @param {{place: number[], rotation?: number[], angle?: number}} b
+ * @param {PagePose} a
+ * @param {PagePose} b
  * @param {number} s
- * @returns {{place: number[], rotation?: number[], angle?: number}}
+ * @returns {PagePose}
  */
 export function lerp(a, b, s) {
+  /** @type {PagePose} */
   const there = {place: a.place.map((from, k) => from + (b.place[k] - from) * s)};
-  if (a.rotation) there.rotation = slerp(a.rotation, b.rotation, s);
-  if (a.angle !== undefined) there.angle = a.angle + (b.angle - a.angle) * s;
+  if (a.rotation && b.rotation) there.rotation = slerp(a.rotation, b.rotation, s);
+  if (a.angle !== undefined && b.angle !== undefined)
+    there.angle = a.angle + (b.angle - a.angle) * s;
   return there;
 }
 
 /**
  * The straight motion between two poses, at s in [0, 1].
- * @param {Object} start
- * @param {Object} goal
+ * @param {PagePose} start
+ * @param {PagePose} goal
  * @param {number} s
- * @returns {Object}  a pose
+ * @returns {PagePose}
  */
 export const lin = (start, goal, s) => lerp(start, goal, clipped(s));
 
@@ -38,13 +45,13 @@ export const ptp = (q0, q1, s) => q0.map((value, j) => value + clipped(s) * (q1[
 
 /**
  * Two straight motions whose corner is rounded while |s - 1/2| < `fraction`.
- * @param {Object} start
- * @param {Object} via
- * @param {Object} goal
+ * @param {PagePose} start
+ * @param {PagePose} via
+ * @param {PagePose} goal
  * @param {number} fraction  in [0, 0.5]
  * @param {number} s
  * @param {"parabola"|"quintic"} [corner]
- * @returns {Object}  a pose
+ * @returns {PagePose}
  */
 export function blend(start, via, goal, fraction, s, corner = "parabola") {
   const share = clipped(s),
@@ -70,15 +77,20 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
 
 /**
  * Two straight motions in a chain: at `via` for s = 1/2.
- * @param {Object} start
- * @param {Object} via
- * @param {Object} goal
+ * @param {PagePose} start
+ * @param {PagePose} via
+ * @param {PagePose} goal
  * @param {number} s
- * @returns {Object}  a pose
+ * @returns {PagePose}
  */
 export const lin_lin = (start, via, goal, s) => blend(start, via, goal, 0, s);
 
-// s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+/**
+ * s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+ * @param {number} duration
+ * @param {(x: number) => number} progress
+ * @returns {(t: number) => number}
+ */
 const timeLaw = (duration, progress) => t =>
   clipped(progress(Math.min(Math.max(t, 0), duration) / duration));
 

@@ -24,7 +24,7 @@ export interface ArmData {
   prismatic: boolean[];
   units: JointUnit[];
   speed_limits: number[] | null;
-  movable: boolean[];
+  movable: number[];
   geometry: Inverse;
   tolerances: Tolerances;
   branches?: number[][];

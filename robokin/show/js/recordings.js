@@ -3,11 +3,31 @@
 
 import {number} from "./canvas.js";
 
+/** @import {Packed, PageArm, PageWay, Unit} from "./page.js" */
+
+/**
+ * What may move, and what there is to read behind its name: a PageTarget or a PageMark.
+ * @typedef {{name: string, way?: PageWay, reading?: PageWay, decimals?: number}} Moving
+ */
+/**
+ * @template T
+ * @typedef {(motion: number, sample: number, share: number) => T} AtMoment
+ */
+/**
+ * @typedef {object} Recording
+ * @property {(k: number, motion: number) => Float64Array[]} quantity
+ * @property {(motion: number, sample: number, share?: number) => number[]} q
+ */
+
 const NOTHING = -32768;
 
 /**
  * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN
  * for no value.
+ * @param {Packed} packed
+ * @param {number} motions
+ * @param {number} columns
+ * @param {number} samples
  * @returns {Float64Array}
  */
 export function unpacked({steps, data}, motions, columns, samples) {
@@ -17,7 +37,8 @@ export function unpacked({steps, data}, motions, columns, samples) {
     to = 0;
   for (let motion = 0; motion < motions; motion++)
     for (let column = 0; column < columns; column++) {
-      const step = steps[motion][column] ?? steps[motion];
+      const own = steps[motion],
+        step = typeof own === "number" ? own : own[column];
       for (let i = 0, whole = 0, slope = 0; i < samples; i++) {
         let folded = 0,
           shift = 0,
@@ -39,43 +60,58 @@ export function unpacked({steps, data}, motions, columns, samples) {
  * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown
  * units, for each joint an array over the samples; q(motion, sample, share): joint values in
  * radians and metres between two samples.
+ * @param {Pick<PageArm, "chain" | "motion">} arm
+ * @param {number} motions
+ * @param {number} samples
+ * @param {Unit} unit
+ * @returns {Recording}
  */
 export function recording(arm, motions, samples, unit) {
   const joints = arm.chain.length,
     inner = arm.chain.map(link => (link.prismatic ? unit.size : Math.PI / 180));
   const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples));
-  const row = (k, motion, j) => (motion * joints + j) * samples;
+  /** @type {(motion: number, j: number) => number} */
+  const row = (motion, j) => (motion * joints + j) * samples;
   return {
     quantity: (k, motion) =>
-      inner.map((_, j) => all[k].subarray(row(k, motion, j), row(k, motion, j) + samples)),
+      inner.map((_, j) => all[k].subarray(row(motion, j), row(motion, j) + samples)),
     q: (motion, i, share = 0) =>
-      inner.map((size, j) => size * between(all[0], row(0, motion, j) + i, share)),
+      inner.map((size, j) => size * between(all[0], row(motion, j) + i, share)),
   };
 }
 
 /**
  * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their
  * `pose` or `at`, and behind their name what there is to read.
- * @param {object[]} things  page.py: PageTarget or PageMark
+ * @template {Moving} T
+ * @param {T[]} things
  * @param {"pose"|"at"} key
+ * @returns {AtMoment<T[]>}
  */
 export function places(things, key) {
   const columns = key === "pose" ? 12 : 3;
-  const where = things.map(({way, reading, decimals, ...thing}) => {
+  const where = things.map(({way, reading, decimals = 0, ...thing}) => {
     const at = way && numbers(way, columns),
       read = reading && numbers(reading, 1);
+    /** @type {AtMoment<?T>} */
     return (motion, i, share) => {
       const now = at && at(motion, i, share),
         [value] = read ? read(motion, i, 0) : [NaN];
       if (now && now.some(Number.isNaN)) return null;
       const name = Number.isNaN(value) ? thing.name : `${thing.name}: ${number(value, decimals)}`;
-      return {...thing, name, ...(now && {[key]: now})};
+      return /** @type {T} */ ({...thing, name, ...(now && {[key]: now})});
     };
   });
-  return (motion, i, share) => where.map(one => one(motion, i, share)).filter(thing => thing);
+  return (motion, i, share) =>
+    where.map(one => one(motion, i, share)).filter(thing => thing !== null);
 }
 
-// A PageWay -> (motion, sample, share) -> its columns.
+/**
+ * A PageWay -> (motion, sample, share) -> its columns.
+ * @param {PageWay} way
+ * @param {number} columns
+ * @returns {AtMoment<number[]>}
+ */
 function numbers(way, columns) {
   const {motions, samples} = way,
     values = unpacked(way, motions, columns, samples);
@@ -87,6 +123,11 @@ function numbers(way, columns) {
   };
 }
 
-// NaN beside a sample that exists does not count before the time has left it.
+/**
+ * NaN beside a sample that exists does not count before the time has left it.
+ * @param {Float64Array} values
+ * @param {number} i
+ * @param {number} share
+ */
 const between = (values, i, share) =>
   share ? values[i] + share * (values[i + 1] - values[i]) : values[i];
