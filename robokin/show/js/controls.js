@@ -3,6 +3,8 @@
 import {colors, FONT, readColors} from "./canvas.js";
 import {control} from "./elements.js";
 
+/** @import {PageScene} from "./page.js" */
+
 /**
  * Colours are those of palette.py. JupyterLab styles tables, labels and buttons of its own:
  * .rk.rk.rk outdoes it.
@@ -69,6 +71,10 @@ export const STYLE = `
   }
 }`;
 
+/**
+ * @param {Pick<PageScene, "flat">} scene
+ * @param {string} alt
+ */
 export const sceneCanvas = (scene, alt) =>
   control("canvas", {
     class: `rk-scene${scene.flat === null ? "" : " rk-flat"}`,
@@ -77,11 +83,19 @@ export const sceneCanvas = (scene, alt) =>
     "aria-label": alt + (scene.flat === null ? " Arrow keys turn the view, Home resets it." : ""),
   });
 
+/** @type {Object<string, [number, number]>} */
 const KEYS = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
-/** Dragging, arrow keys, Home and a double click turn state.view; `ask` gets it drawn. */
+/**
+ * Dragging, arrow keys, Home and a double click turn state.view; `ask` gets it drawn.
+ * @param {HTMLCanvasElement} canvas
+ * @param {Pick<PageScene, "flat" | "view">} scene
+ * @param {{view: number[]}} state  azimuth and elevation
+ * @param {() => void} ask
+ */
 export function orbit(canvas, scene, state, ask) {
   if (scene.flat !== null) return;
+  /** @type {(dx: number, dy: number) => void} */
   const turn = (dx, dy) => {
     state.view = [state.view[0] - dx, Math.min(1.57, Math.max(-0.3, state.view[1] + dy))];
     ask();
@@ -90,7 +104,7 @@ export function orbit(canvas, scene, state, ask) {
     state.view = [...scene.view];
     ask();
   };
-  let grip = null;
+  let grip = [0, 0];
   canvas.addEventListener("pointerdown", event => {
     canvas.setPointerCapture(event.pointerId);
     grip = [event.clientX, event.clientY];
