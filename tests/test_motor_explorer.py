@@ -13,7 +13,7 @@ from axe_playwright_python.sync_playwright import Axe
 
 from robokin.jobs.steppers import Stepper, phases, ramp
 from robokin.show import motor_explorer
-from robokin.show.page import script
+from robokin.show.joiner import script
 
 context, opened = test_explorers.context, test_explorers.opened  # fixtures
 MOTORS = {

@@ -5,10 +5,10 @@ import subprocess
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import NODE, ROOT
 from test_player import unpacked
 
-from robokin.show import JOINT_STYLES, page, palette
+from robokin.show import JOINT_STYLES, joiner, page, palette
 from robokin.show.numbers import packed
 
 SCRIPTS = sorted((ROOT / "robokin" / "show" / "js").glob("*.js"))
@@ -64,7 +64,7 @@ def test_words_can_be_read_in_both_themes():
 def modules(tmp_path, monkeypatch):
     """Write modules into a folder of their own; the joiner reads those."""
     (tmp_path / "js").mkdir()
-    monkeypatch.setattr(page, "files", lambda _: tmp_path)
+    monkeypatch.setattr(joiner, "files", lambda _: tmp_path)
 
     def write(**texts):
         for name, text in texts.items():
@@ -76,7 +76,7 @@ def modules(tmp_path, monkeypatch):
 def run(script, ending):
     """What `ending` gives behind the script, in Node."""
     code = f"{script}\nconsole.log(JSON.stringify({ending}));"
-    done = subprocess.run(["node", "-e", code], text=True, capture_output=True, check=True)
+    done = subprocess.run([NODE, "-e", code], text=True, capture_output=True, check=True)
     return done.stdout.strip()
 
 
@@ -94,8 +94,39 @@ def test_each_module_stands_once_in_its_own_scope(modules):
     script = page.script("top")
     assert script.count("const $base") == 1 and "words" not in script and "never" not in script
     assert run(script, "[$top.all(), Object.keys($top), $top.CSS]") == (
-        '[[2,6],["Top","late","CSS","all"],"\\n& p { margin: 0; }\\n"]'
+        '[[2,6],["Top","late","CSS","all"],"\\n  & p { margin: 0; }\\n"]'
     )
+
+
+@pytest.mark.parametrize(
+    "code, value",
+    [
+        ('/** @type {number} */ (found)[0] = "cast";', '["cast","b"]'),
+        ("found[0] = 2\n  * 3;", '[6,"b"]'),
+        ("found[0] = 8 // half\n  / 2 /* of it */ / 1;", '[4,"b"]'),
+        ('found[0] = "// \\" /*"; found[1] = \'" // */\';', '["// \\" /*","\\" // */"]'),
+        (r"found = '//\'/*'.match(/['\"`/]\/*/g); // words", """["//","'/"]"""),
+        (r"found = /[/*]\//.test('*/') ? 6 / 3 : 0 / 1;", "2"),
+        ("found[0] = `// ${`/* ${{a: '}`'}.a} */`} \\`\n  // ${1 /* one */ + 1}`;", None),
+        ("found = [1 - -1, 1 + +1, 2 - - 1]; let i = 1; found[3] = i++ + ++i;", "[2,2,3,4]"),
+        ("found = (() => { return typeof /x/; })();", '"object"'),
+        ("function one() { return 1; }\nfound = one() / 2; /* a\nb */ found /= 1;", "0.5"),
+        ("found = /* a */function(){return 1}/* b */() in/* c */[0, 1];", "true"),
+    ],
+)
+def test_comments_go_and_code_stays(modules, code, value):
+    text = f'let found = ["a", "b"];\n{code}\n'
+    plain = run(text, "found")
+    assert plain == value or value is None and "// " in plain
+    modules(top=f"{text}export const all = () => found;\n")
+    assert run(page.script("top"), "$top.all()") == plain
+
+
+def test_a_literal_that_does_not_end_is_refused_by_file_and_line(modules):
+    for text in ("const a = 'b;", "const a = `b${c;", "const a = `b;", "/* b", "let a = /b;"):
+        modules(top=f"// words\n{text}\n")
+        with pytest.raises(ValueError, match=r"top\.js, line 2: .* does not end"):
+            page.script("top")
 
 
 @pytest.mark.parametrize(
@@ -121,8 +152,11 @@ def test_an_import_of_another_form_is_refused_by_file_and_line(modules, text, me
 def test_a_player_has_the_modules_that_it_uses_and_no_words_for_people():
     script = page.script("player")
     assert not re.search(r"const \$(stage|handles|inverse|\w+_explorer) ", script)
-    assert script.count("(() => {\n") >= 6
-    assert not re.findall(r"^\s*(?://|/\*|\*)|^\s|^$", script, re.M)
+    assert script.count("(() => {\n") >= 6 and "\n\n" not in script
+    for path in SCRIPTS:
+        for words in re.findall(r"^ *(?://|/?\*\*?) (\w.{15,}[^*/])", path.read_text(), re.M):
+            assert words not in script
+    assert sorted(map(len, script.splitlines()))[-10] < 400, "no one could find a place in it"
 
 
 # --- Numbers --------------------------------------------------------------------------------------

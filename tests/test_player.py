@@ -29,7 +29,8 @@ from robokin import (
 )
 from robokin.show import animate, plot_joints
 from robokin.show.camera import arm_points, project
-from robokin.show.page import STILL, script
+from robokin.show.joiner import script
+from robokin.show.page import STILL
 from robokin.show.palette import css
 
 X, Y, Z = np.eye(3)

@@ -18,7 +18,8 @@ from ..arms.link import Link
 from ..transform import Transform
 from ..units import deg, wrapped
 from .numbers import TIE, fewest, packed, rounded, series_step, tidy
-from .page import PageLink, PageMark, PageScene, PageTarget, PageWay
+from .page import PageMark, PageScene, PageTarget, PageWay
+from .twin import PageLink
 
 View: TypeAlias = tuple[float, float]
 # name, place (3,) or places (motions or 1, samples or 1, 3), radius: 0 for a point

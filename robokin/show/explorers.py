@@ -8,7 +8,7 @@ does not exist or cannot be used stands in `arms/verdicts.py`, everything else t
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from . import plots
 from .arguments import named_targets
 from .camera import VIEW, arm_points, common_plane, extent, scene_data
 from .numbers import tidy
-from .page import Control, PageExplorer, PageScene
+from .page import Control, FactRow, PageExplorer, PagePose, PageScene, PageUnit
 from .palette import DASHES
 from .player import Output, still_picture
 from .scene import Scene
@@ -120,25 +120,35 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
         _control(f"q{i + 1}", unit["name"], low, high, 1 if unit["name"] != "m" else 0.001)
         for i, (unit, (low, high)) in enumerate(zip(_units(arm), limits, strict=True))
     ]
-    rows = [
-        {"name": f"position, {name}", "fact": "place", "heads": list("xyz")},
-        {"name": "orientation, °", "fact": "turns", "heads": ["roll", "pitch", "yaw"]},
-        {"name": "quaternion", "fact": "rotation", "heads": list("wxyz")},
-        {"name": "distance from singularity", "fact": "near", "heads": [""]},
+    facts = (
+        (f"position, {name}", "place", ["x", "y", "z"], 1 if size == mm else 3),
+        ("orientation, °", "turns", ["roll", "pitch", "yaw"], 1),
+        ("quaternion", "rotation", ["w", "x", "y", "z"], 4),
+        ("distance from singularity", "near", [""], 3),
+    )
+    rows: list[FactRow] = [
+        {"name": named, "fact": fact, "heads": heads, "decimals": decimals}
+        for named, fact, heads, decimals in facts
     ]
-    places = (1 if size == mm else 3, 1, 4, 3)
     values = ", ".join(f"q{i + 1} {_number(x, 0)}" for i, x in enumerate(start / _sizes(arm)))
     flange = arm.fk(start).translation / size
     summary = (
         f"{arm.name} with joints to be turned, at {values}: the flange is at "
-        f"({', '.join(_number(x, places[0]) for x in flange)}) {name}."
+        f"({', '.join(_number(x, facts[0][3]) for x in flange)}) {name}."
     )
-    data = _page(arm, "joint", f"{arm.name}: turn the joints", summary, controls, start[None])
+    data = _page(
+        arm,
+        "joint",
+        f"{arm.name}: turn the joints",
+        summary,
+        controls,
+        start[None],
+        meant=f"{TAKE}{TURNS} {MEANT}",
+        code=f"{_imports(arm)}\nq = np.array([{{q}}])\n{_code(arm)}.fk(q)",
+    )
     data |= {
         "q": start.tolist(),
-        "rows": [row | {"decimals": n} for row, n in zip(rows, places, strict=True)],
-        "meant": f"{TAKE}{TURNS} {MEANT}",
-        "code": f"{_imports(arm)}\nq = np.array([{{q}}])\n{_code(arm)}.fk(q)",
+        "rows": rows,
     }
     frames = arm.frames(start)
     still = _picture(summary, arm, start, frames=[frames[i] for i in range(len(arm.links))])
@@ -183,7 +193,17 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     shown = rows[np.isfinite(rows).all(axis=-1)]
     turning = np.flatnonzero(~arm.prismatic)
     whole = len(turning) == len(arm.links)
-    data = _page(arm, "target", f"{arm.name}: move the target", summary, controls, shown)
+    data = _page(
+        arm,
+        "target",
+        f"{arm.name}: move the target",
+        summary,
+        controls,
+        shown,
+        meant=TAKE + (f"{TURNS} " if arm.target is Transform else "") + MEANT,
+        code=f"{_imports(arm)}\ntarget = {_target_code(arm, size)}\n"
+        f"q = {_code(arm)}.ik(target)[{{row}}]",
+    )
     data |= {
         "q": q.tolist(),
         "turns": list(map(float, turns)),
@@ -198,9 +218,6 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),
-        "meant": TAKE + (f"{TURNS} " if arm.target is Transform else "") + MEANT,
-        "code": f"{_imports(arm)}\ntarget = {_target_code(arm, size)}\n"
-        f"q = {_code(arm)}.ik(target)[{{row}}]",
     }
     others = [rows[k] for k in np.flatnonzero(np.isfinite(rows).all(axis=-1)) if k != row]
     posed = {"target": _transform(target)} if arm.target is not np.ndarray else {}
@@ -246,7 +263,17 @@ def motion_explorer(
         f"{arm.name} on a blended motion past a via point that can be moved, 5 s, blend 0.1, "
         f"branch {_flags(arm, row)}: greatest speed {speed} (joint {j + 1})."
     )
-    data = _page(arm, "motion", f"{arm.name}: a blended motion", summary, controls, through, posed)
+    data = _page(
+        arm,
+        "motion",
+        f"{arm.name}: a blended motion",
+        summary,
+        controls,
+        through,
+        posed,
+        meant=TAKE + "Start and goal move, too. A click on a curve sets the clock.",
+        code=_motion_code(arm, stations),
+    )
     data |= {
         "start": _pose_data(start),
         "via": _pose_data(via),
@@ -258,8 +285,6 @@ def motion_explorer(
         "samples": SAMPLES,
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
         "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
-        "meant": TAKE + "Start and goal move, too. A click on a curve sets the clock.",
-        "code": _motion_code(arm, stations),
     }
     still = still_picture(
         [arm.name],
@@ -309,15 +334,22 @@ def _levers_explorer(arm: ThreeLeverArm) -> Explorer:
         f"{arm.name} and a point to be moved, at ({where}) {name}, with a free angle: gamma, beta, "
         f"alpha {', '.join(_number(x, 1) for x in before / deg)}°."
     )
-    data = _page(arm, "levers", f"{arm.name}: move the point", summary, controls, before[None])
     unit = " * mm" if size == mm else ""
+    data = _page(
+        arm,
+        "levers",
+        f"{arm.name}: move the point",
+        summary,
+        controls,
+        before[None],
+        meant=TAKE + "The broken posture is where S is counted from.",
+        code=f"{_imports(arm, *['three_lever'] * unequal)}\n"
+        f"{'arm = three_lever(({levers}))' if unequal else '# arm = three_lever(...)'}\n"
+        f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",
+    )
     data |= {
         "q": before.tolist(),
         "target": {"place": place.tolist()},
-        "meant": TAKE + "The broken posture is where S is counted from.",
-        "code": f"{_imports(arm, *['three_lever'] * unequal)}\n"
-        f"{'arm = three_lever(({levers}))' if unequal else '# arm = three_lever(...)'}\n"
-        f"q = arm.family(({{x}}{unit}, {{y}}{unit}), {{alpha}} * deg)",
     }
     return Explorer(data, _picture(summary, arm, before))
 
@@ -401,7 +433,7 @@ def _transform(pose: Pose) -> Transform:
     return pose.as_transform() if isinstance(pose, ScaraPose) else pose
 
 
-def _pose_data(pose: Pose) -> dict[str, Any]:
+def _pose_data(pose: Pose) -> PagePose:
     """As the scripts take a pose."""
     if isinstance(pose, ScaraPose):
         return {"place": pose.position.tolist(), "angle": float(pose.angle)}
@@ -424,6 +456,9 @@ def _page(
     controls: list[Control],
     opening: Floats,
     posed: Mapping[str, Transform] | None = None,
+    *,
+    meant: str,
+    code: str,
 ) -> PageExplorer:
     name, size = length_unit(extent(arm))
     return {
@@ -438,6 +473,8 @@ def _page(
         "scene": _scene(arm, posed or {}, opening),
         "controls": controls,
         "words": dict(WORDS),
+        "meant": meant,
+        "code": code,
     }
 
 
@@ -473,13 +510,12 @@ def _control(
     }
 
 
-def _units(arm: Arm) -> list[dict[str, Any]]:
+def _units(arm: Arm) -> list[PageUnit]:
     """Name, size and code of each joint's unit."""
     name, size = length_unit(extent(arm))
-    shift = {"name": name, "size": size, "code": "mm" if size == mm else "1"}
-    return [
-        shift if link.prismatic else {"name": "°", "size": deg, "code": "deg"} for link in arm.links
-    ]
+    shift: PageUnit = {"name": name, "size": size, "code": "mm" if size == mm else "1"}
+    turn: PageUnit = {"name": "°", "size": deg, "code": "deg"}
+    return [shift if link.prismatic else turn for link in arm.links]
 
 
 def _sizes(arm: Arm) -> Floats:

@@ -31,7 +31,7 @@ class Packed(TypedDict):
            -32768 is "no value here".
     """
 
-    steps: list[Any]
+    steps: list[float | list[float]]
     data: str
 
 

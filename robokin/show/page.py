@@ -1,5 +1,5 @@
 """What a page draws: the description of its data (an explorer's arm: `twin.arm_data`; numbers in
-few bytes: `numbers.Packed`); its script, joined from modules; its HTML, and saving it.
+few bytes: `numbers.Packed`); its HTML with the script that draws it, and saving it.
 """
 
 import base64
@@ -7,13 +7,13 @@ import contextlib
 import html
 import json
 import os
-import re
-from importlib.resources import files
 from typing import Any, NotRequired, TypedDict
 
 from .._validate import short
+from .joiner import script
 from .numbers import Packed, Scale
 from .palette import css
+from .twin import ArmData, PageLink
 
 MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
 STILL = (
@@ -49,15 +49,6 @@ class Switch(TypedDict):
 
     label: str
     values: list[str]
-
-
-class PageLink(TypedDict):
-    """One link of a chain: the way to its joint, the joint's axis, the way to its end."""
-
-    before: list[float]
-    axis: list[float]
-    after: list[float]
-    prismatic: bool
 
 
 class PageWay(Packed):
@@ -149,8 +140,8 @@ class Flaws(TypedDict):
     """
 
     gaps: dict[str, list[int]]
-    jumps: dict[str, list[Any]]
-    leaps: dict[str, list[Any]]
+    jumps: dict[str, list[tuple[float, str]]]
+    leaps: dict[str, list[tuple[float, str]]]
     notes: dict[str, list[str]]
 
 
@@ -199,7 +190,54 @@ class Control(TypedDict):
     decimals: int
 
 
-class PageExplorer(TypedDict, total=False):
+class PageUnit(Unit):
+    """The same for an explorer, and how it is written in code."""
+
+    code: str
+
+
+class PagePose(TypedDict):
+    """A target as the scripts take it: a place; with `rotation` [w, x, y, z] a transform, with
+    `angle` a ScaraPose.
+    """
+
+    place: list[float]
+    rotation: NotRequired[list[float]]
+    angle: NotRequired[float]
+
+
+class FactRow(TypedDict):
+    """Numbers below an arm: what they are called, which fact of the posture they are, the heads of
+    their columns, their decimals.
+    """
+
+    name: str
+    fact: str
+    heads: list[str]
+    decimals: int
+
+
+class StartValues(TypedDict):
+    """How a blended motion opens: the numbers of its law, its corner and its branch, too."""
+
+    blend: float
+    duration: float
+    law: int
+    corner: int
+    row: int
+
+
+class BranchTask(TypedDict):
+    """An exercise: how many different postures have to reach the target; what it says then and
+    before.
+    """
+
+    wanted: int
+    holds: str
+    open: str
+
+
+class PageExplorer(TypedDict):
     """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers", "plan",
     "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
     every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
@@ -221,34 +259,34 @@ class PageExplorer(TypedDict, total=False):
     summary: str
     alt: str
     meant: str
-    arm: dict[str, Any]
-    unit: dict[str, Any]
-    units: list[dict[str, Any]]
-    dashes: list[list[float]]
+    unit: PageUnit
     scene: PageScene
     controls: list[Control]
     words: dict[str, str]
     code: str
-    q: list[float]
-    rows: list[dict[str, Any]]
-    target: dict[str, Any]
-    turns: list[float]
-    branches: list[str]
-    heads: list[str]
+    arm: NotRequired[ArmData]
+    units: NotRequired[list[PageUnit]]
+    dashes: NotRequired[list[list[float]]]
+    q: NotRequired[list[float]]
+    rows: NotRequired[list[FactRow]]
+    target: NotRequired[PagePose]
+    turns: NotRequired[list[float]]
+    branches: NotRequired[list[str]]
+    heads: NotRequired[list[str]]
     turning: NotRequired[list[int]]  # the joints whose angles the column "travel" adds
-    start: dict[str, Any]
-    via: dict[str, Any]
-    goal: dict[str, Any]
-    start_values: dict[str, Any]
-    laws: list[str]
-    corners: list[str]
-    panels: list[str]
-    samples: int
-    task: dict[str, Any]
-    kinds: list[str]
-    tours: list[str]
-    most: int
-    spare: list[list[float]]
+    start: NotRequired[PagePose]
+    via: NotRequired[PagePose]
+    goal: NotRequired[PagePose]
+    start_values: NotRequired[StartValues]
+    laws: NotRequired[list[str]]
+    corners: NotRequired[list[str]]
+    panels: NotRequired[list[str]]
+    samples: NotRequired[int]
+    task: NotRequired[BranchTask]
+    kinds: NotRequired[list[str]]
+    tours: NotRequired[list[str]]
+    most: NotRequired[int]
+    spare: NotRequired[list[list[float]]]
 
 
 class PageAnswer(TypedDict):
@@ -278,61 +316,6 @@ class PageQuestion(TypedDict):
     within: float
     choice: str | None
     view: str
-
-
-# --- The script -----------------------------------------------------------------------------------
-
-IMPORT = re.compile(r'import \{ ?([\w$]+(?:, [\w$]+)*),? ?\} from "\./(\w+)\.js";')
-EXPORT = re.compile(r"export ((?:async )?function|const|class) ([\w$]+)")
-
-
-def script(name: str) -> str:
-    """The module `name` of the folder js and all that it imports, each once and in its own scope,
-    as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
-    `explorers.Explorer`. Without blank lines, leading blanks, and lines that begin with //, /* or
-    *, which only people read; a line that another has to follow takes it in: in a notebook each
-    line costs ten bytes more.
-
-    ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and
-    `export function`, `const` or `class`.
-    """
-    modules: dict[str, str] = {}
-    _add(modules, name, (), f"{name}.js")
-    return "\n".join(modules.values())
-
-
-def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: str) -> None:
-    """Put `name` behind what it imports."""
-    file = files(__package__).joinpath("js", f"{name}.js")
-    if name in importers or not file.is_file():
-        raise ValueError(f"{place}: there is no module {name}.js, or it imports itself")
-    lines, exports, begun = [], [], ""
-    for i, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
-        line, place = line.strip(), f"{name}.js, line {i}"
-        if not line or line.startswith(("//", "/*", "*")):
-            continue
-        if begun or re.match(r"import\b", line):
-            begun = f"{begun} {line}".strip()
-            if not begun.endswith(";"):
-                continue
-            found = IMPORT.fullmatch(begun)
-            if not found:
-                raise ValueError(f"{place}: wanted an import of names, got {short(begun)}")
-            if found[2] not in modules:
-                _add(modules, found[2], (*importers, name), place)
-            line, begun = f"const {{{found[1].strip(' ,')}}} = ${found[2]};", ""
-        elif re.match(r"export\b", line):
-            found = EXPORT.match(line)
-            if not found:
-                raise ValueError(f"{place}: wanted an export of one name, got {short(line)}")
-            exports.append(found[2])
-            line = line.removeprefix("export ")
-        lines.append(line)
-    if begun:
-        raise ValueError(f"{place}: an import does not end")
-    ends = [line[-1] in ";,({" and "//" not in line for line in lines]
-    body = "".join(line + (" " if more else "\n") for line, more in zip(lines, ends, strict=True))
-    modules[name] = f"const ${name} = (() => {{\n{body}return {{{', '.join(exports)}}};\n}})();"
 
 
 # --- HTML -----------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ would be another machine).
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal, NotRequired, TypeAlias, TypedDict, cast
 
 import numpy as np
 
@@ -31,7 +31,7 @@ KINDS: dict[type, str] = {
     ThreeLeverGeometry: "three_lever",
 }
 TARGETS: dict[type, str] = {Transform: "Transform", ScaraPose: "ScaraPose", np.ndarray: "point"}
-TOLERANCES = {
+TOLERANCES: "Tolerances" = {
     "ROUNDING": geometry.ROUNDING,
     "STRAIGHT": geometry.STRAIGHT,
     "FREE": geometry.FREE,
@@ -42,7 +42,157 @@ TOLERANCES = {
 }
 
 
-def arm_data(arm: Arm) -> dict[str, Any]:
+class PageLink(TypedDict):
+    """One link of a chain: the way to its joint, the joint's axis, the way to its end. A way is 12
+    numbers, the rows of [R | p].
+    """
+
+    before: list[float]
+    axis: list[float]
+    after: list[float]
+    prismatic: bool
+
+
+class ElbowData(TypedDict):
+    """`elbow.Elbow`."""
+
+    carried: str
+    sign1: float
+    sign2: float
+    sign3: float
+    shoulder_x: float
+    shoulder_z: float
+    lateral: float
+    upper: float
+    fore: float
+    upper_angle: float
+    fore_angle: float
+    reach: float
+
+
+class WristData(TypedDict):
+    """`spherical_wrist.Wrist`."""
+
+    sign5: float
+    sign6: float
+    axis4: float
+    from_flange: list[float]
+    centre_from_flange: list[float]
+
+
+class ElbowTurns(TypedDict):
+    """Cosine and sine of the fixed angles by which the inverse turns a direction on."""
+
+    upper: tuple[float, float]
+    fore: tuple[float, float]
+
+
+class WristTurns(ElbowTurns):
+    """The same with that of axis 4."""
+
+    axis4: tuple[float, float]
+
+
+class ElbowInverse(TypedDict):
+    """`elbow.ElbowGeometry`."""
+
+    kind: Literal["elbow"]
+    elbow: ElbowData
+    reach: float
+    turns: ElbowTurns
+
+
+class WristInverse(TypedDict):
+    """`spherical_wrist.SphericalWristGeometry`."""
+
+    kind: Literal["wrist"]
+    elbow: ElbowData
+    wrist: WristData
+    reach: float
+    turns: WristTurns
+
+
+class ScaraInverse(TypedDict):
+    """`scara.ScaraGeometry`."""
+
+    kind: Literal["scara"]
+    height: float
+    upper: float
+    fore: float
+    reach: float
+
+
+class TwoLinkInverse(TypedDict):
+    """`planar.TwoLinkGeometry`."""
+
+    kind: Literal["two_link"]
+    l1: float
+    l2: float
+    base: tuple[float, float]
+    reach: float
+
+
+class ThreeLeverInverse(TypedDict):
+    """`planar.ThreeLeverGeometry`."""
+
+    kind: Literal["three_lever"]
+    levers: tuple[float, float, float]
+    lever: float
+    inner: float
+    reach: float
+
+
+class NoInverse(TypedDict):
+    """An arm that geometries.js does not know."""
+
+    kind: None
+
+
+Inverse: TypeAlias = (
+    ElbowInverse | WristInverse | ScaraInverse | TwoLinkInverse | ThreeLeverInverse | NoInverse
+)
+
+
+class Tolerances(TypedDict):
+    """How near is near: TOLERANCES."""
+
+    ROUNDING: float
+    STRAIGHT: float
+    FREE: float
+    SINGULAR: float
+    STUCK: float
+    NOISY: float
+    SLACK: float
+
+
+class JointUnit(TypedDict):
+    """What a sentence counts a joint in: its name, and its size in radians or metres."""
+
+    name: str
+    size: float
+
+
+class ArmData(TypedDict):
+    """See `arm_data`."""
+
+    name: str
+    target: str | None
+    reach: float
+    chain: list[PageLink]
+    limits: list[list[float]]
+    limits_in_words: list[list[str]]
+    prismatic: list[bool]
+    units: list[JointUnit]
+    speed_limits: list[float] | None
+    movable: list[int]
+    geometry: Inverse
+    tolerances: Tolerances
+    branches: NotRequired[list[list[int]]]
+    carried: NotRequired[str]
+    sentences: NotRequired[dict[str, str]]
+
+
+def arm_data(arm: Arm) -> ArmData:
     """What the scripts of `js/` have to know of an arm, for JSON.
 
     name, reach   as in Python
@@ -59,7 +209,7 @@ def arm_data(arm: Arm) -> dict[str, Any]:
     """
     limits = instance(arm, Arm, "arm").limits.tolist()
     units = [(" mm", mm) if link.prismatic else ("°", deg) for link in arm.links]
-    data = {
+    data: ArmData = {
         "name": arm.name,
         "target": TARGETS.get(arm.target),
         "reach": float(arm.reach),
@@ -85,7 +235,7 @@ def arm_data(arm: Arm) -> dict[str, Any]:
     return data
 
 
-def chain(links: Sequence[Link]) -> list[dict[str, Any]]:
+def chain(links: Sequence[Link]) -> list[PageLink]:
     """The links for `frames` in kinematics.js: the fixed transforms as 12 numbers, the rows of
     [R | p].
     """
@@ -100,7 +250,7 @@ def chain(links: Sequence[Link]) -> list[dict[str, Any]]:
     ]
 
 
-def inverse_data(arm: Arm) -> dict[str, Any]:
+def inverse_data(arm: Arm) -> Inverse:
     """The numbers of an arm's inverse: `kind`, which geometries.js has to know (None: it does not),
     and the fields of the geometry by their names.
 
@@ -123,4 +273,4 @@ def inverse_data(arm: Arm) -> dict[str, Any]:
         data["turns"] = {
             name: [float(np.cos(angle)), float(np.sin(angle))] for name, angle in angles.items()
         }
-    return data
+    return cast(Inverse, data)

@@ -1,16 +1,27 @@
-// Fills the blanks of sentences, which stand in verdicts.py and explorers.py, with numbers as Python writes them.
+// Fills the blanks of sentences, which stand in verdicts.py and explorers.py, with numbers as
+// Python writes them.
 
 import {rint} from "./kinematics.js";
+
+/** @typedef {Object<string, string | number>} Facts  what fills the blanks, by their names */
 
 /**
  * A sentence with its blanks filled.
  * @param {string} sentence
- * @param {Object<string, *>} facts
+ * @param {Facts} facts
  * @returns {string}
  */
-export const fill = (sentence, facts) => sentence.replace(/\{(\w+)\}/g, (_, name) => facts[name]);
+export const fill = (sentence, facts) =>
+  sentence.replace(/\{(\w+)\}/g, (_, name) => String(facts[name]));
 
-// One decimal as Python writes it: of two equally near ones the even one.
+/**
+ * One decimal as Python writes it: of two equally near ones the even one.
+ * @param {number} x
+ */
 export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);
-// as `in_words` of units.py
+
+/**
+ * as `in_words` of units.py
+ * @param {number} x  metres
+ */
 export const inWords = x => (x < 10 ? `${oneDecimal(x / 1e-3)} mm` : `${oneDecimal(x)} m`);

@@ -1,30 +1,44 @@
-// The choice among the rows of `ik`, and what is to be said of them. As branches.py and verdicts.py.
+// The choice among the rows of `ik`, and what is to be said of them. As branches.py and
+// verdicts.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";
 import {geometryOf, ik, singularities} from "./geometries.js";
 import {fill, inWords, oneDecimal} from "./blanks.js";
 
+/** @import {ArmData, PagePose} from "./page.js" */
+/** @import {ClosedFormArm} from "./kinematics.js" */
+
+/**
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {number[]} previous
+ */
 const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 
-// The limits of a joint with the slack by which it may stand past them.
+/**
+ * The limits of a joint with the slack by which it may stand past them.
+ * @param {ArmData} arm
+ * @param {number} j
+ */
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
  * Which joints can stand at q inside their limits; a turning one at q or whole turns from it.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
  */
-export const within = (arm, q) => q.map((value, j) => {
-  const [low, high] = room(arm, j);
-  if (arm.prismatic[j]) return value >= low && value <= high;
-  return value + TURN * Math.ceil((low - value) / TURN) <= high;
-});
+export const within = (arm, q) =>
+  q.map((value, j) => {
+    const [low, high] = room(arm, j);
+    if (arm.prismatic[j]) return value >= low && value <= high;
+    return value + TURN * Math.ceil((low - value) / TURN) <= high;
+  });
 
 /**
  * For each turning joint the value nearest to `near`, whole turns from q.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near
  * @returns {number[]}
@@ -32,44 +46,64 @@ export const within = (arm, q) => q.map((value, j) => {
 export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
-// As `unwrapped`, but inside the limits where there is such a value.
-const inside = (arm, q, near) => unwrapped(arm, q, near).map((value, j) => {
-  const [low, high] = room(arm, j);
-  const up = value + TURN * Math.max(Math.ceil((low - value) / TURN), 0);
-  const best = up - TURN * Math.max(Math.ceil((up - high) / TURN), 0);
-  return best >= low && best <= high && !arm.prismatic[j] ? best : value;
-});
+/**
+ * As `unwrapped`, but inside the limits where there is such a value.
+ * @param {ArmData} arm
+ * @param {number[]} q
+ * @param {number[]} near
+ */
+const inside = (arm, q, near) =>
+  unwrapped(arm, q, near).map((value, j) => {
+    const [low, high] = room(arm, j);
+    const up = value + TURN * Math.max(Math.ceil((low - value) / TURN), 0);
+    const best = up - TURN * Math.max(Math.ceil((up - high) / TURN), 0);
+    return best >= low && best <= high && !arm.prismatic[j] ? best : value;
+  });
 
 /**
  * Joint values as people read them: inside the limits and nearest to q, else the least past them.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number[]}
  */
-export const representative = (arm, q) => inside(arm, q, q).map((value, j) => {
-  const [low, high] = arm.limits[j], [lowest, highest] = room(arm, j);
-  if (arm.prismatic[j] || !(value < lowest || value > highest)) return value;
-  const above = value - TURN * Math.floor((value - high) / TURN);
-  const below = value + TURN * Math.floor((low - value) / TURN);
-  return above - high <= low - below ? above : below;
-});
+export const representative = (arm, q) =>
+  inside(arm, q, q).map((value, j) => {
+    const [low, high] = arm.limits[j],
+      [lowest, highest] = room(arm, j);
+    if (arm.prismatic[j] || !(value < lowest || value > highest)) return value;
+    const above = value - TURN * Math.floor((value - high) / TURN);
+    const below = value + TURN * Math.floor((low - value) / TURN);
+    return above - high <= low - below ? above : below;
+  });
 
 /**
  * The row with the least travel from q, each joint inside its limits if it can; NaN if there is
  * none.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[][]} rows
  * @param {number[]} q
  * @returns {number[]}
  */
-export const nearest = (arm, rows, q) => leastTravel(rows.map(row => inside(arm, row, q)), q);
+export const nearest = (arm, rows, q) =>
+  leastTravel(
+    rows.map(row => inside(arm, row, q)),
+    q,
+  );
 
-// Where a motion along one row begins: joints that a singularity leaves free there look ahead to
-// the first sample that fixes them.
+/**
+ * Where a motion along one row begins: joints that a singularity leaves free there look ahead to
+ * the first sample that fixes them.
+ * @param {ArmData} arm
+ * @param {number[][]} track
+ */
 function start(arm, track) {
   const first = track.find(exists) || track[0];
   const later = track.find(q => {
-    const chosen = choose(arm, q, q.map((value, j) => value + j)); // no two shifts cancel
+    const chosen = choose(
+      arm,
+      q,
+      q.map((value, j) => value + j),
+    ); // no two shifts cancel
     return chosen.every((value, j) => Math.abs(value - q[j]) <= 1e-12);
   });
   const q = choose(arm, first, later || first).map(value => (Number.isNaN(value) ? 0 : value));
@@ -79,41 +113,56 @@ function start(arm, track) {
 /**
  * One continuous motion through the rows of `ik` along a path: it starts on `row`, then every
  * sample takes the row nearest to the one before. NaN where no row exists.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[][][]} samples  the rows of each sample
  * @param {number} row
  * @returns {number[][]}  the posture of each sample
  */
 export function follow(arm, samples, row) {
-  let before = start(arm, samples.map(rows => rows[row])), started = false;
+  let before = start(
+      arm,
+      samples.map(rows => rows[row]),
+    ),
+    started = false;
   return samples.map(rows => {
-    const options = (started ? rows : [rows[row]])
-      .map(q => choose(arm, unwrapped(arm, q, before), before));
+    const options = (started ? rows : [rows[row]]).map(q =>
+      choose(arm, unwrapped(arm, q, before), before),
+    );
     const q = leastTravel(options, before);
     if (exists(q)) [before, started] = [q, true];
     return q;
   });
 }
 
-// How joint j stands past its limit.
+/**
+ * How joint j stands past its limit.
+ * @param {ClosedFormArm} arm
+ * @param {number[]} q
+ * @param {number} j
+ */
 function excess(arm, q, j) {
-  const [low, high] = arm.limits[j], value = representative(arm, q)[j], {name, size} = arm.units[j];
+  const [low, high] = arm.limits[j],
+    value = representative(arm, q)[j],
+    {name, size} = arm.units[j];
   const over = value > high ? value - high : low - value;
   return fill(arm.sentences.past, {
-    joint: j + 1, limit: arm.limits_in_words[j][value > high ? 1 : 0],
-    value: oneDecimal(value / size) + name, over: oneDecimal(over / size) + name,
+    joint: j + 1,
+    limit: arm.limits_in_words[j][value > high ? 1 : 0],
+    value: oneDecimal(value / size) + name,
+    over: oneDecimal(over / size) + name,
   });
 }
 
 /**
  * In one sentence whether a row of `ik` is usable, and if not why: in Python's words.
- * @param {Object} arm
- * @param {{place: number[], rotation?: number[], angle?: number}} pose
+ * @param {ClosedFormArm} arm
+ * @param {PagePose} pose
  * @param {number} row
  * @returns {string}
  */
 export function explain(arm, pose, row) {
-  const {sentences, carried: what} = arm, q = ik(arm, pose)[row];
+  const {sentences, carried: what} = arm,
+    q = ik(arm, pose)[row];
   const flags = arm.branches[row].map(flag => (flag > 0 ? "+1" : "-1")).join(", ");
   if (!exists(q)) {
     const {kind, metres} = geometryOf(arm).gap(arm, pose, row);

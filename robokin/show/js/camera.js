@@ -1,6 +1,9 @@
-// The camera of a page: metres in base coordinates to CSS pixels on a canvas. (Figures: camera.py and scene.py.)
+// The camera of a page: metres in base coordinates to CSS pixels on a canvas. (Figures: camera.py
+// and scene.py.)
 
 import {dot, plus} from "./kinematics.js";
+
+/** @import {Box, Pixel, Point} from "./canvas.js" */
 
 /**
  * @typedef {object} Camera  a parallel projection
@@ -8,26 +11,47 @@ import {dot, plus} from "./kinematics.js";
  * @property {Point} toward  the direction to the camera
  * @property {(p: Point) => Pixel} to  where a point is on the canvas
  * @property {(v: Point) => Pixel} along  the same of a direction
- * @property {(dx: number, dy: number) => Point} across  the way in space, across the line of sight, of pixels
+ * @property {(dx: number, dy: number) => Point} across  the way in space, across the line of sight,
+ *   of pixels
  */
 
 /**
  * The camera that fits corner points into a rectangle [left, top, width, height].
- * @param {[number, number]} view  azimuth and elevation
+ * @param {number[]} view  azimuth and elevation
  * @param {Point[]} corners
+ * @param {Box} box
  * @returns {Camera}
  */
 export function camera([azimuth, elevation], corners, [left, top, width, height]) {
-  const ca = Math.cos(azimuth), sa = Math.sin(azimuth), ce = Math.cos(elevation), se = Math.sin(elevation);
-  const right = [-sa, ca, 0], up = [-se * ca, -se * sa, ce], toward = [ce * ca, ce * sa, se];
-  const xs = corners.map(p => dot(p, right)), ys = corners.map(p => dot(p, up));
-  const x0 = Math.min(...xs), x1 = Math.max(...xs), y0 = Math.min(...ys), y1 = Math.max(...ys);
+  const ca = Math.cos(azimuth),
+    sa = Math.sin(azimuth),
+    ce = Math.cos(elevation),
+    se = Math.sin(elevation);
+  const right = [-sa, ca, 0],
+    up = [-se * ca, -se * sa, ce],
+    toward = [ce * ca, ce * sa, se];
+  const xs = corners.map(p => dot(p, right)),
+    ys = corners.map(p => dot(p, up));
+  const x0 = Math.min(...xs),
+    x1 = Math.max(...xs),
+    y0 = Math.min(...ys),
+    y1 = Math.max(...ys);
   const scale = Math.max(1e-9, Math.min(width / (x1 - x0 || 1), height / (y1 - y0 || 1)));
-  const cx = left + width / 2 - scale * (x0 + x1) / 2, cy = top + height / 2 + scale * (y0 + y1) / 2;
-  return {scale, toward, to: p => [cx + scale * dot(p, right), cy - scale * dot(p, up)],
-          along: v => [scale * dot(v, right), -scale * dot(v, up)],
-          across: (dx, dy) => right.map((r, k) => (dx * r - dy * up[k]) / scale)};
+  const cx = left + width / 2 - (scale * (x0 + x1)) / 2,
+    cy = top + height / 2 + (scale * (y0 + y1)) / 2;
+  return {
+    scale,
+    toward,
+    to: p => [cx + scale * dot(p, right), cy - scale * dot(p, up)],
+    along: v => [scale * dot(v, right), -scale * dot(v, up)],
+    across: (dx, dy) => right.map((r, k) => (dx * r - dy * up[k]) / scale),
+  };
 }
 
-/** The same camera for the coordinates of what stands at `base`. @param {Camera} cam @param {Point} base */
+/**
+ * The same camera for the coordinates of what stands at `base`.
+ * @param {Camera} cam
+ * @param {Point} base
+ * @returns {Camera}
+ */
 export const movedTo = (cam, base) => ({...cam, to: p => cam.to(plus(p, base))});

@@ -1,51 +1,108 @@
 // Lines, shapes and words on a canvas, in the colours of the page; numbers as people write them.
 
 /** @typedef {[number, number]} Pixel  CSS pixels from the left upper corner of a canvas */
-/** @typedef {[number, number, number]} Point  metres, base coordinates */
+/** @typedef {number[]} Point  x, y, z in metres, base coordinates */
+/** @typedef {[number, number, number, number]} Box  left, top, width, height in CSS pixels */
+/** @typedef {[color: string, width: number, dash?: number[]]} Look  of a line */
+/** @typedef {[fill: string, edge?: string, width?: number]} Filling  and the edge, if any */
+/** @typedef {CanvasRenderingContext2D} Context */
+/** @typedef {keyof typeof colors} Color */
 
 export const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sans-serif";
 
 /** The colours of palette.py by their names, six digits each; `readColors` fills them in. */
 export const colors = {
-  paper: "", ink: "", soft: "", line: "", grid: "", border: "", rim: "", alarm: "", path: "", near: "", accent: "",
-  chosen: "", button: "", hover: "", rest: "", edge: "", link: "", shine: "", rodEdge: "", rod: "", rodShine: "", hub: "",
-  foot: "", footEdge: "", ghost: "", ballShine: "", ball: "", ballEdge: "", x: "", y: "", z: "",
-  joint1: "", joint2: "", joint3: "", joint4: "", joint5: "", joint6: "",
+  paper: "",
+  ink: "",
+  soft: "",
+  line: "",
+  grid: "",
+  border: "",
+  rim: "",
+  alarm: "",
+  path: "",
+  near: "",
+  accent: "",
+  chosen: "",
+  button: "",
+  hover: "",
+  rest: "",
+  edge: "",
+  link: "",
+  shine: "",
+  rodEdge: "",
+  rod: "",
+  rodShine: "",
+  hub: "",
+  foot: "",
+  footEdge: "",
+  ghost: "",
+  ballShine: "",
+  ball: "",
+  ballEdge: "",
+  x: "",
+  y: "",
+  z: "",
+  joint1: "",
+  joint2: "",
+  joint3: "",
+  joint4: "",
+  joint5: "",
+  joint6: "",
 };
 
 /** Reads the colours that the style sheet gives an element in .rk now. @param {Element} place */
 export function readColors(place) {
   const style = getComputedStyle(place);
-  for (const name of Object.keys(colors)) colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
+  for (const name of /** @type {Color[]} */ (Object.keys(colors)))
+    colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
 }
 
 /** The colour of a joint. @param {number} j from 0 */
-export const jointColor = j => colors[`joint${j % 6 + 1}`];
-
-/** A colour that lets through what is behind it. @param {string} color @param {number} share from 0 to 1 */
-export const clear = (color, share) => color + Math.round(255 * share).toString(16).padStart(2, "0");
+export const jointColor = j => colors[/** @type {Color} */ (`joint${(j % 6) + 1}`)];
 
 /**
- * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at most two by two device
- * pixels each); null where the canvas has no size now: then it keeps what it shows.
+ * A colour that lets through what is behind it.
+ * @param {string} color
+ * @param {number} share from 0 to 1
+ */
+export const clear = (color, share) =>
+  color +
+  Math.round(255 * share)
+    .toString(16)
+    .padStart(2, "0");
+
+/**
+ * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at
+ * most two by two device pixels each); null where the canvas has no size now: then it keeps what it
+ * shows.
  * @param {HTMLCanvasElement} canvas
- * @returns {?[CanvasRenderingContext2D, number, number]} context, width and height
+ * @returns {?[Context, number, number]} context, width and height
  */
 export function prepared(canvas) {
-  const ratio = Math.min(2, window.devicePixelRatio || 1), w = canvas.clientWidth, h = canvas.clientHeight;
+  const ratio = Math.min(2, window.devicePixelRatio || 1),
+    w = canvas.clientWidth,
+    h = canvas.clientHeight;
   if (!w || !h) return null;
   if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
     canvas.width = Math.round(w * ratio);
     canvas.height = Math.round(h * ratio);
   }
-  const g = canvas.getContext("2d");
+  const g = /** @type {Context} */ (canvas.getContext("2d"));
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.clearRect(0, 0, w, h);
   g.lineCap = g.lineJoin = "round";
   return [g, w, h];
 }
 
-/** A line through points; null or NaN interrupts it. @param {(?Pixel)[]} points */
+/**
+ * A line through points; null or NaN interrupts it.
+ * @param {Context} g
+ * @param {(?Pixel)[]} points
+ * @param {string} color
+ * @param {number} width
+ * @param {number[]} [dash]
+ */
 export function stroke(g, points, color, width, dash = []) {
   g.strokeStyle = color;
   g.lineWidth = width;
@@ -55,15 +112,36 @@ export function stroke(g, points, color, width, dash = []) {
   for (const p of points) {
     if (!p || Number.isNaN(p[1])) pen = false;
     else if (pen) g.lineTo(p[0], p[1]);
-    else { g.moveTo(p[0], p[1]); pen = true; }
+    else {
+      g.moveTo(p[0], p[1]);
+      pen = true;
+    }
   }
   g.stroke();
   g.setLineDash([]);
 }
 
-export const upright = (g, x, top, bottom, ...look) => stroke(g, [[x, top], [x, bottom]], ...look);
+/**
+ * @type {(g: Context, x: number, top: number, bottom: number, ...look: Look) => void}
+ */
+export const upright = (g, x, top, bottom, ...look) =>
+  stroke(
+    g,
+    [
+      [x, top],
+      [x, bottom],
+    ],
+    ...look,
+  );
 
-/** Fills and outlines what `draw` traces. */
+/**
+ * Fills and outlines what `draw` traces.
+ * @param {Context} g
+ * @param {() => void} draw
+ * @param {string} fill
+ * @param {string} [edge]
+ * @param {number} [width]
+ */
 export function shape(g, draw, fill, edge, width) {
   g.beginPath();
   draw();
@@ -71,16 +149,40 @@ export function shape(g, draw, fill, edge, width) {
   g.fillStyle = fill;
   g.fill();
   if (!width) return;
-  g.strokeStyle = edge;
+  if (edge) g.strokeStyle = edge;
   g.lineWidth = width;
   g.stroke();
 }
 
-export const polygon = (g, points, ...look) => shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
+/**
+ * @type {(g: Context, points: Pixel[], ...look: Filling) => void}
+ */
+export const polygon = (g, points, ...look) =>
+  shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
+
+/**
+ * A disc.
+ * @param {Context} g
+ * @param {Pixel} place
+ * @param {number} radius
+ * @param {string} fill
+ * @param {string} [edge]
+ * @param {number} [width]
+ */
 export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) =>
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 
-/** Words with a seam, readable over lines. */
+/**
+ * Words with a seam, readable over lines.
+ * @param {Context} g
+ * @param {string} text
+ * @param {number} x
+ * @param {number} y
+ * @param {string} [color]
+ * @param {number} [size]
+ * @param {CanvasTextAlign} [align]
+ * @param {string | number} [weight]
+ */
 export function words(g, text, x, y, color = colors.ink, size = 12, align = "left", weight = "") {
   g.font = `${weight} ${size}px ${FONT}`;
   g.textAlign = align;
@@ -91,14 +193,31 @@ export function words(g, text, x, y, color = colors.ink, size = 12, align = "lef
   g.fillText(text, x, y);
 }
 
-/** A number with so many decimals, a real minus sign and no minus zero. */
-export const number = (x, decimals) => x.toFixed(decimals).replace(/^-(?=0\.?0*$)/, "").replace("-", "\u2212");
+/**
+ * A number with so many decimals, a real minus sign and no minus zero.
+ * @param {number} x
+ * @param {number} decimals
+ */
+export const number = (x, decimals) =>
+  x
+    .toFixed(decimals)
+    .replace(/^-(?=0\.?0*$)/, "")
+    .replace("-", "\u2212");
 
-/** Whether a box [left, top, width, height] meets one of several. */
+/**
+ * Whether a box [left, top, width, height] meets one of several.
+ * @param {Box} box
+ * @param {Box[]} boxes
+ */
 export const hit = ([x, y, w, h], boxes) =>
   boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);
 
-/** How many columns and rows several arms take in a width. */
+/**
+ * How many columns and rows several arms take in a width.
+ * @param {number} count
+ * @param {number} width
+ * @returns {[number, number]}
+ */
 export function tiled(count, width) {
   const rows = Math.ceil(count / Math.max(1, Math.min(count, Math.floor(width / 260))));
   return [Math.ceil(count / rows), rows];

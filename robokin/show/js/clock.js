@@ -1,29 +1,47 @@
-// The clock of what moves: a button, a slider of the time, a menu of how fast it goes, the Space key.
+// The clock of what moves: a button, a slider of the time, a menu of how fast it goes, the Space
+// key.
 
 import {number} from "./canvas.js";
 import {choice, control, element, range} from "./elements.js";
 
-const PLAY = "M3 1.5v11l9-5.5z", PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
-const TICKS = 400, SPEEDS = [0.25, 0.5, 1, 2, 4];
+const PLAY = "M3 1.5v11l9-5.5z",
+  PAUSE = "M3 1.5h3v11H3zM8 1.5h3v11H8z";
+const TICKS = 400,
+  SPEEDS = [0.25, 0.5, 1, 2, 4];
 
-/** What is seen of a clock: a row of the page, and its parts. */
+/**
+ * What is seen of a clock: a row of the page, and its parts.
+ * @typedef {ReturnType<typeof clockRow>} ClockParts
+ */
+/** @typedef {ReturnType<typeof runningClock>} Clock */
+
 export function clockRow() {
-  const parts = {
-    icon: element("span"),
-    scrub: range("time", TICKS),
-    time: element("span", {class: "rk-value"}),
-    speed: choice("playing speed", SPEEDS.map(speed => `${speed}\u00D7`)),
-  };
-  parts.button = control("button", {type: "button", "aria-label": "play", title: "play or pause (Space)"}, parts.icon);
-  parts.speed.value = SPEEDS.indexOf(1);
-  parts.row = element("div", {class: "rk-row rk-clock"}, parts.button,
-    element("label", {class: "rk-long"}, parts.scrub, parts.time), element("label", {}, "playback", parts.speed));
-  return parts;
+  const icon = element("span"),
+    scrub = range("time", TICKS),
+    time = element("span", {class: "rk-value"});
+  const speed = choice(
+    "playing speed",
+    SPEEDS.map(each => `${each}\u00D7`),
+  );
+  const button = control(
+    "button",
+    {type: "button", "aria-label": "play", title: "play or pause (Space)"},
+    icon,
+  );
+  speed.selectedIndex = SPEEDS.indexOf(1);
+  const row = element(
+    "div",
+    {class: "rk-row rk-clock"},
+    button,
+    element("label", {class: "rk-long"}, scrub, time),
+    element("label", {}, "playback", speed),
+  );
+  return {icon, scrub, time, speed, button, row};
 }
 
 /**
  * pass(now): time goes on; set(time): it stops there; tell(): time and slider show it.
- * @param {object} parts  what clockRow gives
+ * @param {ClockParts} parts
  * @param {HTMLElement} frame  in which the Space key plays
  * @param {{time: number, playing: boolean}} state
  * @param {() => [number, number]} span  first and last time
@@ -31,24 +49,33 @@ export function clockRow() {
  */
 export function runningClock(parts, frame, state, span, ask) {
   let before = 0;
+  /** @param {boolean} on */
   function run(on) {
     const [begin, end] = span();
     state.playing = on;
     if (on && state.time >= end) state.time = begin;
     before = performance.now();
-    parts.icon.innerHTML = `<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true"><path d="${on ? PAUSE : PLAY}"/></svg>`;
+    parts.icon.innerHTML =
+      '<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true">' +
+      `<path d="${on ? PAUSE : PLAY}"/></svg>`;
     parts.button.setAttribute("aria-label", on ? "pause" : "play");
     if (on) ask();
   }
+  /** @param {number} now */
   function pass(now) {
     if (!state.playing) return;
     const end = span()[1];
-    // The first stamp may lie before the click; and what was hidden for a while goes on where it was.
-    state.time = Math.min(end, state.time + Math.min(500, Math.max(0, now - before)) / 1000 * SPEEDS[parts.speed.value]);
+    // The first stamp may lie before the click; and what was hidden for a while goes on where it
+    // was.
+    state.time = Math.min(
+      end,
+      state.time + (Math.min(500, Math.max(0, now - before)) / 1000) * SPEEDS[+parts.speed.value],
+    );
     before = Math.max(before, now);
     if (state.time >= end) run(false);
     else ask();
   }
+  /** @param {number} time */
   function set(time) {
     const [begin, end] = span();
     run(false);
@@ -58,16 +85,20 @@ export function runningClock(parts, frame, state, span, ask) {
   function tell() {
     const [begin, end] = span();
     parts.time.textContent = `${number(state.time, 2)} s`;
-    parts.scrub.value = Math.round((state.time - begin) / ((end - begin) / TICKS || 1));
+    parts.scrub.value = String(Math.round((state.time - begin) / ((end - begin) / TICKS || 1)));
     parts.scrub.setAttribute("aria-valuetext", parts.time.textContent);
   }
   parts.button.addEventListener("click", () => run(!state.playing));
   parts.scrub.addEventListener("input", () => {
     const [begin, end] = span();
-    set(begin + parts.scrub.value * (end - begin) / TICKS);
+    set(begin + (+parts.scrub.value * (end - begin)) / TICKS);
   });
   frame.addEventListener("keydown", event => {
-    if (event.key !== " " || ["BUTTON", "SELECT"].includes(event.target.tagName)) return;
+    if (
+      event.key !== " " ||
+      ["BUTTON", "SELECT"].includes(/** @type {Element} */ (event.target).tagName)
+    )
+      return;
     event.preventDefault();
     run(!state.playing);
   });

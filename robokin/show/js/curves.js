@@ -1,11 +1,26 @@
 // The curves: columns of panels over one time axis.
 
-import {clear, colors, FONT, hit, jointColor, number, polygon, prepared, spot, stroke, tiled, upright, words} from "./canvas.js";
+import {
+  clear,
+  colors,
+  FONT,
+  hit,
+  jointColor,
+  number,
+  polygon,
+  prepared,
+  spot,
+  stroke,
+  tiled,
+  upright,
+  words,
+} from "./canvas.js";
 
 /**
  * @typedef {object} Panel
  * @property {string} label
- * @property {{unit: string, scale: number[], joints: number[]}[]} axes  scale: lowest tick, step, count, decimals
+ * @property {{unit: string, scale: number[], joints: number[]}[]} axes  scale: lowest tick, step,
+ *   count, decimals
  * @property {Float64Array[]} curves  of each joint, over the times
  * @property {Set<number>} gaps  samples after which the lines break
  * @property {?number[][]} limits  [low, high], of each joint
@@ -18,8 +33,9 @@ import {clear, colors, FONT, hit, jointColor, number, polygon, prepared, spot, s
  * Draws columns of panels.
  *
  * draw(columns, times, ticks, now)  one picture; a column is {title, panels: Panel[]}
- * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or, with `held`, in that
- *                                   column whatever the place; and the number of the column
+ * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or,
+ *                                   with `held`, in that column whatever the place; and the number
+ *                                   of the column
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
@@ -31,34 +47,71 @@ export function curvesView(canvas, patterns) {
     const ready = prepared(canvas);
     if (!ready) return;
     const [g, w, h] = ready;
-    const t0 = times[0], t1 = times[times.length - 1];
+    const t0 = times[0],
+      t1 = times[times.length - 1];
     spans = [];
     const [across, rows] = tiled(columns.length, w);
     columns.forEach((column, c) => {
-      const width = w / across, height = h / rows, titled = columns.length > 1;
-      const left = (c % across) * width, above = Math.floor(c / across) * height;
+      const width = w / across,
+        height = h / rows,
+        titled = columns.length > 1;
+      const left = (c % across) * width,
+        above = Math.floor(c / across) * height;
       const right = column.panels.some(p => p.axes.length > 1) ? 46 : 16;
-      const room = Math.max(48, 14 + widest(g, column)), area = [left + room, width - room - right];
-      const below = legend(g, patterns, column, left + room, width - room - right, above + (titled ? 36 : 14));
+      const room = Math.max(48, 14 + widest(g, column)),
+        area = [left + room, width - room - right];
+      const below = legend(
+        g,
+        patterns,
+        column,
+        left + room,
+        width - room - right,
+        above + (titled ? 36 : 14),
+      );
       if (titled) words(g, column.title, left + room, above + 14, colors.ink, 13, "left", "600");
-      const bottom = above + height - 24, count = column.panels.length, tall = (bottom - below) / count;
-      const x = t => area[0] + area[1] * (t - t0) / (t1 - t0);
+      const bottom = above + height - 24,
+        count = column.panels.length,
+        tall = (bottom - below) / count;
+      const x = t => area[0] + (area[1] * (t - t0)) / (t1 - t0);
       spans.push([area[0], area[1], t0, t1, left, above]);
       column.panels.forEach((panel, k) => {
         const top = below + k * tall + 26;
-        drawPanel(g, patterns, panel, x, area, top, below + (k + 1) * tall - top - 4, times, ticks, now);
+        drawPanel(
+          g,
+          patterns,
+          panel,
+          x,
+          area,
+          top,
+          below + (k + 1) * tall - top - 4,
+          times,
+          ticks,
+          now,
+        );
       });
       const [first, step, n, decimals] = ticks;
       for (let i = 0; i < n; i++) {
         const t = first + i * step;
         if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
         const unit = t + step > t1 + 1e-9 ? " s" : "";
-        words(g, number(t, decimals) + unit, x(t) + (unit ? 4 : 0), bottom + 16, colors.soft, 11, "center");
+        words(
+          g,
+          number(t, decimals) + unit,
+          x(t) + (unit ? 4 : 0),
+          bottom + 16,
+          colors.soft,
+          11,
+          "center",
+        );
       }
     });
   }
 
-  function timeAt(px, py, held = spans.findLastIndex(([, , , , left, above]) => px >= left && py >= above)) {
+  function timeAt(
+    px,
+    py,
+    held = spans.findLastIndex(([, , , , left, above]) => px >= left && py >= above),
+  ) {
     const [left, width, t0, t1] = spans[Math.max(0, held)];
     return [t0 + (t1 - t0) * Math.min(1, Math.max(0, (px - left) / width)), Math.max(0, held)];
   }
@@ -70,30 +123,60 @@ export function curvesView(canvas, patterns) {
 const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
 
-// Names with their lines, above the panels, evenly in as many rows as it takes; returns where the panels may begin.
 // How wide the numbers beside the panels are.
 function widest(g, {panels}) {
   g.font = `11px ${FONT}`;
-  return Math.max(...panels.flatMap(({axes: [{scale: [low, step, count, decimals]}]}) =>
-    [low, low + (count - 1) * step].map(value => g.measureText(number(value, decimals)).width)));
+  return Math.max(
+    ...panels.flatMap(
+      ({
+        axes: [
+          {
+            scale: [low, step, count, decimals],
+          },
+        ],
+      }) =>
+        [low, low + (count - 1) * step].map(value => g.measureText(number(value, decimals)).width),
+    ),
+  );
 }
 
+// Names with their lines, above the panels, evenly in as many rows as it takes; returns where the
+// panels may begin.
 function legend(g, patterns, column, left, width, y) {
-  const joints = column.panels[0].curves.length, rows = Math.ceil(joints * 38 / width), inRow = Math.ceil(joints / rows);
-  const each = Math.min(56, width / inRow), long = each - 30;
+  const joints = column.panels[0].curves.length,
+    rows = Math.ceil((joints * 38) / width),
+    inRow = Math.ceil(joints / rows);
+  const each = Math.min(56, width / inRow),
+    long = each - 30;
   for (let j = 0; j < joints; j++) {
-    const x = left + (j % inRow) * each, row = y + 16 * Math.floor(j / inRow);
-    stroke(g, [[x, row - 4], [x + long, row - 4]], jointColor(j), 2.2, dashes(patterns, j, 2.2));
+    const x = left + (j % inRow) * each,
+      row = y + 16 * Math.floor(j / inRow);
+    stroke(
+      g,
+      [
+        [x, row - 4],
+        [x + long, row - 4],
+      ],
+      jointColor(j),
+      2.2,
+      dashes(patterns, j, 2.2),
+    );
     words(g, `q${j + 1}`, x + long + 4, row, colors.ink, 12);
   }
   return y + 16 * (rows - 1) + 2;
 }
 
 function drawPanel(g, patterns, panel, x, [left, width], top, height, times, ticks, now) {
-  const right = left + width, bottom = top + height, ys = [], units = [];
+  const right = left + width,
+    bottom = top + height,
+    ys = [],
+    units = [];
   const scales = panel.axes.map(({scale: [low, step, count], unit, joints}) => {
-    const y = v => bottom - height * (v - low) / (step * (count - 1));
-    for (const j of joints) { ys[j] = y; units[j] = unit; }
+    const y = v => bottom - (height * (v - low)) / (step * (count - 1));
+    for (const j of joints) {
+      ys[j] = y;
+      units[j] = unit;
+    }
     return y;
   });
   words(g, panel.label, left - 40, top - 8, colors.ink, 12, "left", "600");
@@ -104,10 +187,20 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
   const [low, step, count] = panel.axes[0].scale;
   for (let i = 0; i < count; i++) {
     const y = scales[0](low + i * step);
-    stroke(g, [[left, y], [right, y]], Math.abs(low + i * step) < step / 9 ? colors.line : colors.grid, 1);
+    stroke(
+      g,
+      [
+        [left, y],
+        [right, y],
+      ],
+      Math.abs(low + i * step) < step / 9 ? colors.line : colors.grid,
+      1,
+    );
   }
-  for (let i = 0; i < ticks[2]; i++) upright(g, x(ticks[0] + i * ticks[1]), top, bottom, colors.grid, 1);
-  for (const [j, side] of panel.near) band(g, ys[j](panel.limits[side][j]), side ? 1 : -1, left, right, jointColor(j));
+  for (let i = 0; i < ticks[2]; i++)
+    upright(g, x(ticks[0] + i * ticks[1]), top, bottom, colors.grid, 1);
+  for (const [j, side] of panel.near)
+    band(g, ys[j](panel.limits[side][j]), side ? 1 : -1, left, right, jointColor(j));
   for (const {time} of panel.marks) upright(g, x(time), top, bottom, colors.alarm, 1.2, [3, 3]);
   ys.forEach((y, j) => curve(g, patterns, panel, j, times, x, y));
   g.restore();
@@ -118,27 +211,64 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
     const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft;
     for (let i = 0; i < count; i++) {
       const y = scales[k](low + i * step) + 4;
-      words(g, number(low + i * step, decimals), k ? right + 6 : left - 6, y, color, 11, k ? "left" : "right");
+      words(
+        g,
+        number(low + i * step, decimals),
+        k ? right + 6 : left - 6,
+        y,
+        color,
+        11,
+        k ? "left" : "right",
+      );
     }
-    if (k) words(g, `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`, right + 42, top - 8, color, 12, "right", "600");
+    if (k)
+      words(
+        g,
+        `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`,
+        right + 42,
+        top - 8,
+        color,
+        12,
+        "right",
+        "600",
+      );
   });
   // The places of words are looked for once in a size and a theme, not in every picture.
   const where = [left, top, width, height, colors.ink].join();
   if (panel.where !== where) {
-    const rect = [left, right, top, bottom], notes = noted(g, panel.marks, x, rect);
-    Object.assign(panel, {where, words: [...notes, ...limitWords(g, panel, ys, units, times, x, rect, notes)]});
+    const rect = [left, right, top, bottom],
+      notes = noted(g, panel.marks, x, rect);
+    Object.assign(panel, {
+      where,
+      words: [...notes, ...limitWords(g, panel, ys, units, times, x, rect, notes)],
+    });
   }
-  for (const [text, [px, py, , h], color, size, weight] of panel.words) words(g, text, px, py + h - 2, color, size, "left", weight);
+  for (const [text, [px, py, , h], color, size, weight] of panel.words)
+    words(g, text, px, py + h - 2, color, size, "left", weight);
   upright(g, x(now), top, bottom, colors.ink, 1.4);
   ys.forEach((y, j) => {
     const at = y(panel.now[j]);
     if (at > top - 3 && at < bottom + 3) spot(g, [x(now), at], 4, jointColor(j));
   });
-  for (const {time, text} of panel.marks) if (text) for (const [y, tip] of [[top, top + 7], [bottom, bottom - 7]])
-    polygon(g, [[x(time) - 5, y], [x(time) + 5, y], [x(time), tip]], colors.alarm);
+  for (const {time, text} of panel.marks)
+    if (text)
+      for (const [y, tip] of [
+        [top, top + 7],
+        [bottom, bottom - 7],
+      ])
+        polygon(
+          g,
+          [
+            [x(time) - 5, y],
+            [x(time) + 5, y],
+            [x(time), tip],
+          ],
+          colors.alarm,
+        );
 }
 
-// The words of the marks, in at most three lines: [text, [left, top, width, height], color, size, weight].
+// The words of the marks, in at most three lines: [text, [left, top, width, height], color, size,
+// weight].
 function noted(g, marks, x, [left, right, top]) {
   const notes = [];
   g.font = `600 11px ${FONT}`;
@@ -146,29 +276,47 @@ function noted(g, marks, x, [left, right, top]) {
     if (!text) continue;
     const w = g.measureText(text).width;
     const px = x(time) + w + 12 > right ? Math.max(left + 3, x(time) - 6 - w) : x(time) + 6;
-    const place = [0, 1, 2].map(k => [px, top + 14 * k + 4, w, 12]).find(place => !hit(place, notes.map(note => note[1])));
+    const place = [0, 1, 2]
+      .map(k => [px, top + 14 * k + 4, w, 12])
+      .find(
+        place =>
+          !hit(
+            place,
+            notes.map(note => note[1]),
+          ),
+      );
     if (place) notes.push([text, place, colors.alarm, 11, "600"]);
   }
   return notes;
 }
 
-// The words of the limits, as above: beside their lines, off other words and, nearly, off the curves. At most three;
-// where there is no such place, the band alone has to do.
+// The words of the limits, as above: beside their lines, off other words and, nearly, off the
+// curves. At most three; where there is no such place, the band alone has to do.
 function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], notes) {
   const found = [];
-  const each = (right - left) / times.length, lines = panel.near.map(([j, side]) => ys[j](panel.limits[side][j]));
+  const each = (right - left) / times.length,
+    lines = panel.near.map(([j, side]) => ys[j](panel.limits[side][j]));
   g.font = `10px ${FONT}`;
   panel.near.forEach(([j, side], k) => {
-    const limit = panel.limits[side][j], at = lines[k], unit = units[j];
-    const text = `q${j + 1} limit ${number(limit, +!Number.isInteger(limit))}${unit[0] === "\u00B0" ? "" : " "}${unit}`;
-    const w = g.measureText(text).width, taken = [...notes, ...found].map(([, place]) => place);
-    let best = null, least = 16; // pixels of curves that the words may cover
+    const limit = panel.limits[side][j],
+      at = lines[k],
+      unit = units[j];
+    const value = number(limit, +!Number.isInteger(limit)),
+      gap = unit[0] === "\u00B0" ? "" : " ";
+    const text = `q${j + 1} limit ${value}${gap}${unit}`;
+    const w = g.measureText(text).width,
+      taken = [...notes, ...found].map(([, place]) => place);
+    let best = null,
+      least = 16; // pixels of curves that the words may cover
     for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
       if (y < top + 1 || y + 11 > bottom - 1) continue;
-      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length, beside = [];
+      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length,
+        beside = [];
       panel.curves.forEach((curve, i) => {
         const on = ys[i];
-        curve.forEach((v, k) => { if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[k])); });
+        curve.forEach((v, k) => {
+          if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[k]));
+        });
       });
       for (let px = left + 5; px + w + 5 < right; px += 6) {
         if (hit([px - 4, y, w + 8, 11], taken)) continue;
@@ -188,17 +336,31 @@ function band(g, at, side, left, right, color) {
   fade.addColorStop(1, clear(color, 0.05));
   g.fillStyle = fade;
   g.fillRect(left, at, right - left, -12 * side);
-  stroke(g, [[left, at], [right, at]], color, 1);
+  stroke(
+    g,
+    [
+      [left, at],
+      [right, at],
+    ],
+    color,
+    1,
+  );
 }
 
 function curve(g, patterns, panel, j, times, x, y) {
-  const color = jointColor(j), points = [], beyond = [];
+  const color = jointColor(j),
+    points = [],
+    beyond = [];
   panel.curves[j].forEach((value, i) => {
     const p = Number.isNaN(value) ? null : [x(times[i]), y(value)];
-    const over = p && panel.limits && (value < panel.limits[0][j] - 1e-3 || value > panel.limits[1][j] + 1e-3);
+    const over =
+      p && panel.limits && (value < panel.limits[0][j] - 1e-3 || value > panel.limits[1][j] + 1e-3);
     points.push(p);
     beyond.push(over ? p : null);
-    if (panel.gaps.has(i)) { points.push(null); beyond.push(null); }
+    if (panel.gaps.has(i)) {
+      points.push(null);
+      beyond.push(null);
+    }
   });
   if (beyond.some(p => p)) stroke(g, beyond, clear(colors.alarm, 0.35), 7);
   g.lineCap = "butt";

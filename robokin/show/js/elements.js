@@ -1,31 +1,63 @@
 // Elements of a page, and the places that wait for an output.
 
+/** @typedef {Record<string, string | number>} Attributes */
+
 /**
- * The places in the page that wait for this output: each only once, and the same one may stand twice in a page.
+ * The places in the page that wait for this output: each only once, and the same one may stand
+ * twice in a page.
  * @param {string} id
  * @returns {HTMLElement[]}
  */
 export function waiting(id) {
-  const roots = [...document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)];
+  const roots = /** @type {NodeListOf<HTMLElement>} */ (
+    document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`)
+  );
   for (const root of roots) root.dataset.ready = "";
-  return roots;
+  return [...roots];
 }
 
-/** @returns {HTMLElement} */
+/**
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {Attributes} [attributes]
+ * @param {...(string | Node)} children
+ * @returns {HTMLElementTagNameMap[T]}
+ */
 export function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, String(value));
   node.append(...children);
   return node;
 }
 
-/** JupyterLab takes arrow keys and Space for itself unless the very element with the focus forbids it. */
+/**
+ * JupyterLab takes arrow keys and Space for itself unless the very element with the focus forbids
+ * it.
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {Attributes} attributes
+ * @param {...(string | Node)} children
+ * @returns {HTMLElementTagNameMap[T]}
+ */
 export const control = (tag, attributes, ...children) =>
   element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
 
-export const choice = (name, texts) => control("select", {"aria-label": name},
-  ...texts.map((text, i) => element("option", {value: i}, text)));
+/**
+ * A menu. Its value is the number of a text.
+ * @param {string} name
+ * @param {string[]} texts
+ */
+export const choice = (name, texts) =>
+  control(
+    "select",
+    {"aria-label": name},
+    ...texts.map((text, i) => element("option", {value: i}, text)),
+  );
 
-/** A slider over whole numbers from 0 on. */
+/**
+ * A slider over whole numbers from 0 on.
+ * @param {string} name
+ * @param {number} most
+ */
 export const range = (name, most) =>
   control("input", {type: "range", min: 0, max: most, step: 1, value: 0, "aria-label": name});

@@ -1,5 +1,5 @@
-// The inverse kinematics and the singularities of every geometry (three levers: levers.js). As arms/elbow.py,
-// spherical_wrist.py, scara.py and planar.py, which are the reference.
+// The inverse kinematics and the singularities of every geometry (three levers: levers.js). As
+// arms/elbow.py, spherical_wrist.py, scara.py and planar.py, which are the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
 // to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
@@ -7,28 +7,72 @@
 import {matrix, origin, product, wrapped} from "./kinematics.js";
 import {distance2, nowhere} from "./rows.js";
 
+/**
+ * @import {ArmData, ElbowData, ElbowInverse, Inverse, PagePose, ScaraInverse, Tolerances,
+ *   TwoLinkInverse, WristInverse} from "./page.js"
+ */
+/** @import {ArmOf, ClosedFormArm, ScaraPose, TransformPose} from "./kinematics.js" */
+
+/** @typedef {[number, number]} Pair  cosine and sine of one angle */
+/** @typedef {{kind: string, metres: number}} Gap  which border is passed, and how far */
+/** @typedef {Object<string, boolean>} Held  which singularities hold */
+/** @typedef {{q: number[], plane: Pair, ahead: Pair}} ElbowRow */
+/**
+ * What is known of one geometry: the rows of `ik`, the singularities that hold at q, q with joints
+ * that are free there as they were before, and why a row is missing.
+ * @template {Inverse} G
+ * @typedef {{
+ *   ik(arm: ArmOf<G>, pose: PagePose): number[][],
+ *   held(arm: ArmOf<G>, q: number[]): Held,
+ *   choose(arm: ArmOf<G>, q: number[], previous: number[]): number[],
+ *   gap(arm: ClosedFormArm & ArmOf<G>, pose: PagePose, row: number): Gap,
+ * }} Geometry
+ */
+
 const SIGNS = [1, -1];
 
-// The pair (cosine, sine) of an angle, turned on by that of a constant angle.
+/**
+ * The pair (cosine, sine) of an angle, turned on by that of a constant angle.
+ * @param {Pair} angle
+ * @param {Pair} constant
+ * @returns {Pair}
+ */
 const onward = ([cosine, sine], [c, s]) =>
   s === 0 && c === 1 ? [cosine, sine] : [cosine * c - sine * s, sine * c + cosine * s];
 
-// Half a turn on, so that it stays within half a turn.
+/**
+ * Half a turn on, so that it stays within half a turn.
+ * @param {number} q
+ */
 const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 
-// The triangle of two levers whose ends are d apart, by half angles: see `two_levers`. null: none.
+/**
+ * The triangle of two levers whose ends are d apart, by half angles: see `two_levers`. null: none.
+ * @param {number} upper
+ * @param {number} fore
+ * @param {number} d
+ * @param {Tolerances} tolerances
+ */
 function twoLevers(upper, fore, d, {ROUNDING}) {
-  const slack = ROUNDING * (upper + fore), fold = d - Math.abs(upper - fore);
+  const slack = ROUNDING * (upper + fore),
+    fold = d - Math.abs(upper - fore);
   let stretch = upper + fore - d;
   if (!(stretch >= -slack && fold >= -slack)) return null;
   stretch = Math.max(stretch, 0);
   const around = upper + fore + d;
-  const short = Math.max(d - (upper - fore), 0), long = Math.max(d + (upper - fore), 0);
-  return {ahead: 2 * Math.atan2(Math.sqrt(stretch * short), Math.sqrt(around * long)),
-          turn: 2 * Math.atan2(Math.sqrt(stretch * around), Math.sqrt(short * long))};
+  const short = Math.max(d - (upper - fore), 0),
+    long = Math.max(d + (upper - fore), 0);
+  return {
+    ahead: 2 * Math.atan2(Math.sqrt(stretch * short), Math.sqrt(around * long)),
+    turn: 2 * Math.atan2(Math.sqrt(stretch * around), Math.sqrt(short * long)),
+  };
 }
 
-// The border (name -> metres beyond it) that is passed the farthest.
+/**
+ * The border (name -> metres beyond it) that is passed the farthest.
+ * @param {Object<string, number>} borders
+ * @returns {Gap}
+ */
 function worst(borders) {
   const [kind, metres] = Object.entries(borders).reduce((a, b) => (b[1] > a[1] ? b : a));
   return {kind, metres: Math.max(metres, 0)};
@@ -36,68 +80,109 @@ function worst(borders) {
 
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 
-// For front/back and elbow, as Elbow.solve: {q, plane, ahead} or null; besides the joints the
-// directions (cosine, sine) of the arm's plane and of the forearm above the horizon.
+/**
+ * For front/back and elbow, as Elbow.solve: {q, plane, ahead} or null; besides the joints the
+ * directions (cosine, sine) of the arm's plane and of the forearm above the horizon.
+ * @param {ArmOf<ElbowInverse | WristInverse>} arm
+ * @param {number[]} place
+ * @returns {(?ElbowRow)[]}
+ */
 function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
-  const {ROUNDING, STRAIGHT, FREE} = tolerances, {upper, fore, reach, lateral: b} = e;
-  const rho2 = x * x + y * y, r2 = rho2 - b * b, tiny = FREE * reach;
+  const {ROUNDING, STRAIGHT, FREE} = tolerances,
+    {upper, fore, reach, lateral: b} = e;
+  const rho2 = x * x + y * y,
+    r2 = rho2 - b * b,
+    tiny = FREE * reach;
   if (!(r2 >= -2 * ROUNDING * Math.abs(b) * reach)) return [null, null, null, null];
   const free = rho2 <= tiny * tiny;
-  return SIGNS.flatMap(front => SIGNS.map(flag => {
-    const r = front * Math.sqrt(Math.max(r2, 0));
-    const cos1 = free ? front : (x * r + y * b) / rho2;
-    const sin1 = (free ? 0 : (y * r - x * b) / rho2) + 0;
+  return SIGNS.flatMap(front =>
+    SIGNS.map(
+      /** @returns {?ElbowRow} */ flag => {
+        const r = front * Math.sqrt(Math.max(r2, 0));
+        const cos1 = free ? front : (x * r + y * b) / rho2;
+        const sin1 = (free ? 0 : (y * r - x * b) / rho2) + 0;
 
-    const u = r - e.shoulder_x, w = z - e.shoulder_z;
-    const d2 = u * u + w * w, scale = 2 * upper * fore;
-    let unfolded = (d2 - (upper - fore) * (upper - fore)) / scale;
-    let unstretched = ((upper + fore) * (upper + fore) - d2) / scale;
-    const innermost = 2 * Math.abs(upper - fore) * reach / scale;
-    const outermost = 2 * (upper + fore) * reach / scale;
-    if (!(unfolded >= -ROUNDING * innermost && unstretched >= -ROUNDING * outermost)) return null;
-    if (unstretched <= STRAIGHT * outermost) unstretched = 0;
-    if (unfolded <= STRAIGHT * innermost) unfolded = 0;
-    const cosG = unfolded - 1, sinG = e.sign3 * flag * Math.sqrt(unfolded * unstretched);
-    const along = upper - fore + fore * unfolded, across = fore * sinG;
-    const c = along * u + across * w, s = along * w - across * u, length = Math.sqrt(c * c + s * s);
-    // equal levers, folded, leave joint 2 free
-    const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
+        const u = r - e.shoulder_x,
+          w = z - e.shoulder_z;
+        const d2 = u * u + w * w,
+          scale = 2 * upper * fore;
+        let unfolded = (d2 - (upper - fore) * (upper - fore)) / scale;
+        let unstretched = ((upper + fore) * (upper + fore) - d2) / scale;
+        const innermost = (2 * Math.abs(upper - fore) * reach) / scale;
+        const outermost = (2 * (upper + fore) * reach) / scale;
+        if (!(unfolded >= -ROUNDING * innermost && unstretched >= -ROUNDING * outermost))
+          return null;
+        if (unstretched <= STRAIGHT * outermost) unstretched = 0;
+        if (unfolded <= STRAIGHT * innermost) unfolded = 0;
+        const cosG = unfolded - 1,
+          sinG = e.sign3 * flag * Math.sqrt(unfolded * unstretched);
+        const along = upper - fore + fore * unfolded,
+          across = fore * sinG;
+        const c = along * u + across * w,
+          s = along * w - across * u,
+          length = Math.sqrt(c * c + s * s);
+        // equal levers, folded, leave joint 2 free
+        const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
 
-    const [cos2, sin2] = onward([cosA, sinA], turns.upper);
-    const [cos3, sin3] = onward([cosG, sinG], turns.fore);
-    return {
-      q: [Math.atan2(e.sign1 * sin1, cos1), Math.atan2(e.sign2 * sin2, cos2),
-          Math.atan2(e.sign3 * sin3, cos3)],
-      plane: [cos1, sin1],
-      ahead: [cosA * cosG - sinA * sinG, sinA * cosG + cosA * sinG],
-    };
-  }));
+        const [cos2, sin2] = onward([cosA, sinA], turns.upper);
+        const [cos3, sin3] = onward([cosG, sinG], turns.fore);
+        return {
+          q: [
+            Math.atan2(e.sign1 * sin1, cos1),
+            Math.atan2(e.sign2 * sin2, cos2),
+            Math.atan2(e.sign3 * sin3, cos3),
+          ],
+          plane: [cos1, sin1],
+          ahead: [cosA * cosG - sinA * sinG, sinA * cosG + cosA * sinG],
+        };
+      },
+    ),
+  );
 }
 
+/**
+ * @param {ElbowData} e
+ * @param {number[]} q
+ */
 const bend = (e, q) => e.fore_angle - e.upper_angle + e.sign3 * q[2];
 
-// How far in front of axis 1 the point is.
+/**
+ * How far in front of axis 1 the point is.
+ * @param {ElbowData} e
+ * @param {number[]} q
+ */
 function radius(e, q) {
   const elevation = e.upper_angle + e.sign2 * q[1];
-  return e.shoulder_x
-    + (e.upper * Math.cos(elevation) + e.fore * Math.cos(elevation + bend(e, q)));
+  return e.shoulder_x + (e.upper * Math.cos(elevation) + e.fore * Math.cos(elevation + bend(e, q)));
 }
 
+/**
+ * @param {ArmOf<ElbowInverse | WristInverse>} arm
+ * @param {number[]} q
+ */
 const elbowHeld = ({geometry: {elbow: e}, tolerances: {SINGULAR}}, q) => ({
   shoulder: Math.abs(radius(e, q)) < SINGULAR * e.reach,
   elbow: Math.abs(Math.sin(bend(e, q))) < SINGULAR,
 });
 
+/**
+ * @param {ArmOf<ElbowInverse | WristInverse>} arm
+ * @param {number[]} place
+ * @param {number} front
+ * @returns {Gap}
+ */
 function elbowGap({geometry: {elbow: e}, tolerances: {ROUNDING}}, [x, y, z], front) {
-  const rho2 = x * x + y * y, r2 = rho2 - e.lateral * e.lateral;
+  const rho2 = x * x + y * y,
+    r2 = rho2 - e.lateral * e.lateral;
   if (r2 < -2 * ROUNDING * Math.abs(e.lateral) * e.reach)
     return {kind: "axis", metres: Math.abs(e.lateral) - Math.sqrt(rho2)};
   const d = distance2(front * Math.sqrt(Math.max(r2, 0)) - e.shoulder_x, z - e.shoulder_z);
   return worst({stretched: d - (e.upper + e.fore), folded: Math.abs(e.upper - e.fore) - d});
 }
 
-// --- The geometries: ik, singularities, free joints, why a row is missing -----------------------
+// --- The geometries: ik, singularities, free joints, why a row is missing ------------------------
 
+/** @type {Geometry<ElbowInverse>} */
 const elbow = {
   ik: (arm, {place}) => elbowRows(arm, place).map(row => (row ? row.q : nowhere(3))),
   held: elbowHeld,
@@ -108,60 +193,98 @@ const elbow = {
   gap: (arm, {place}, row) => elbowGap(arm, place, arm.branches[row][0]),
 };
 
-// The wrist's own frame at the tool, as 12 numbers, its origin being the wrist centre.
+/**
+ * The wrist's own frame at the tool, as 12 numbers, its origin being the wrist centre.
+ * @param {ArmOf<WristInverse>} arm
+ * @param {TransformPose} pose
+ */
 function wristFrame({geometry: {wrist}}, {rotation, place}) {
-  const m = matrix(product(rotation, wrist.from_flange)), [x, y, z] = wrist.centre_from_flange;
+  const m = matrix(product(rotation, wrist.from_flange)),
+    [x, y, z] = wrist.centre_from_flange;
   for (let k = 0; k < 3; k++)
     m[4 * k + 3] = place[k] + m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z;
   return m;
 }
 
+/** @type {Geometry<WristInverse>} */
 const wrist = {
-  ik(arm, pose) {
-    const {wrist: {sign5, sign6}, turns} = arm.geometry, m = wristFrame(arm, pose);
+  ik(arm, /** @type {TransformPose} */ pose) {
+    const {
+        wrist: {sign5, sign6},
+        turns,
+      } = arm.geometry,
+      m = wristFrame(arm, pose);
     return elbowRows(arm, origin(m)).flatMap(row => {
       if (!row) return [nowhere(6), nowhere(6)];
       // seen from the forearm: axis 4 points ce ahead, se up
-      const [cos1, sin1] = row.plane, [ce, se] = onward(row.ahead, turns.axis4);
+      const [cos1, sin1] = row.plane,
+        [ce, se] = onward(row.ahead, turns.axis4);
+      /** @type {(k: number) => number} */
       const ahead = k => cos1 * m[k] + sin1 * m[4 + k];
+      /** @type {(k: number) => number} */
       const aside = k => sign5 * (cos1 * m[4 + k] - sin1 * m[k]);
+      /** @type {(k: number) => number} */
       const below = k => sign5 * (se * ahead(k) - ce * m[8 + k]);
-      const aside2 = aside(2), below2 = below(2), cos5 = ce * ahead(2) + se * m[10];
+      const aside2 = aside(2),
+        below2 = below(2),
+        cos5 = ce * ahead(2) + se * m[10];
       const length = Math.sqrt(below2 * below2 + aside2 * aside2);
-      const stuck = length < arm.tolerances.STUCK, sin5 = stuck ? 0 : length;
-      const cos4 = stuck ? 1 : below2 / length, sin4 = stuck ? 0 : aside2 / length;
+      const stuck = length < arm.tolerances.STUCK,
+        sin5 = stuck ? 0 : length;
+      const cos4 = stuck ? 1 : below2 / length,
+        sin4 = stuck ? 0 : aside2 / length;
       const sin6 = sign6 * (cos4 * aside(0) - sin4 * below(0));
       const cos6 = cos4 * aside(1) - sin4 * below(1);
-      const q4 = Math.atan2(sin4, cos4), q5 = Math.atan2(sin5, cos5), q6 = Math.atan2(sin6, cos6);
+      const q4 = Math.atan2(sin4, cos4),
+        q5 = Math.atan2(sin5, cos5),
+        q6 = Math.atan2(sin6, cos6);
       const one = [...row.q, q4, q5, q6];
       return [one, stuck ? [...one] : [...row.q, opposite(q4), -q5, opposite(q6)]];
     });
   },
-  held: (arm, q) =>
-    ({...elbowHeld(arm, q), wrist: Math.abs(Math.sin(q[4])) < arm.tolerances.SINGULAR}),
+  held: (arm, q) => ({
+    ...elbowHeld(arm, q),
+    wrist: Math.abs(Math.sin(q[4])) < arm.tolerances.SINGULAR,
+  }),
   choose({geometry, tolerances: {NOISY}}, q, previous) {
     if (!(Math.abs(Math.sin(q[4])) < NOISY)) return q;
     const sense = geometry.wrist.sign6 * (Math.cos(q[4]) > 0 ? 1 : -1);
     const half = wrapped(q[3] - previous[3] + sense * (q[5] - previous[5])) / 2;
     return [q[0], q[1], q[2], previous[3] + half, q[4], previous[5] + sense * half];
   },
-  gap: (arm, pose, row) => elbowGap(arm, origin(wristFrame(arm, pose)), arm.branches[row][0]),
+  gap: (arm, /** @type {TransformPose} */ pose, row) =>
+    elbowGap(arm, origin(wristFrame(arm, pose)), arm.branches[row][0]),
 };
 
-// Equal levers that fold leave joint 1 free.
+/**
+ * Equal levers that fold leave joint 1 free.
+ * @param {number} one
+ * @param {number} two
+ * @param {number} q2
+ * @param {ArmOf<ScaraInverse | TwoLinkInverse>} arm
+ */
 const folded = (one, two, q2, {geometry: {reach}, tolerances: {FREE}}) =>
   Math.abs(one - two) <= FREE * reach && Math.abs(Math.cos(q2 / 2)) < FREE;
 
+/** @type {(arm: ArmData, q: number[]) => Held} */
+const stretched = ({tolerances: {SINGULAR}}, q) => ({elbow: Math.abs(Math.sin(q[1])) < SINGULAR});
+
+/** @type {Geometry<ScaraInverse>} */
 const scara = {
-  ik({geometry: {upper, fore, height}, tolerances}, {place: [x, y, z], angle}) {
+  ik(arm, /** @type {ScaraPose} */ {place: [x, y, z], angle}) {
+    const {
+      geometry: {upper, fore, height},
+      tolerances,
+    } = arm;
     const levers = twoLevers(upper, fore, distance2(x, y), tolerances);
     return SIGNS.map(flag => {
       if (!levers) return nowhere(4);
-      const q1 = Math.atan2(y, x) - flag * levers.ahead, q2 = flag * levers.turn + 0;
+      const q1 = Math.atan2(y, x) - flag * levers.ahead,
+        q2 = flag * levers.turn + 0;
       return [wrapped(q1), q2, wrapped(angle - q1 - q2), height - z];
     });
   },
-  held: ({tolerances: {SINGULAR}}, q) => ({elbow: Math.abs(Math.sin(q[1])) < SINGULAR}),
+  held: stretched,
   choose(arm, q, previous) {
     const {upper, fore} = arm.geometry;
     const back = folded(upper, fore, q[1], arm) ? q[0] - previous[0] : 0;
@@ -173,44 +296,66 @@ const scara = {
   },
 };
 
-// From the base to the tip of two links: -0 is 0, atan2 tells them apart, a point does not.
+/**
+ * From the base to the tip of two links: -0 is 0, atan2 tells them apart, a point does not.
+ * @param {TwoLinkInverse} geometry
+ * @param {number[]} place
+ * @returns {Pair}
+ */
 const way = ({base}, [x, y]) => [x - base[0] + 0, y - base[1] + 0];
 
+/** @type {Geometry<TwoLinkInverse>} */
 const twoLink = {
   ik({geometry, tolerances}, {place}) {
-    const {l1, l2, reach} = geometry, [x, y] = way(geometry, place);
+    const {l1, l2, reach} = geometry,
+      [x, y] = way(geometry, place);
     const levers = twoLevers(l1, l2, distance2(x, y), tolerances);
-    const reached = levers && Math.abs(place[2]) <= tolerances.ROUNDING * reach;
-    return SIGNS.map(flag => (reached ? [wrapped(Math.atan2(y, x) - flag * levers.ahead) + 0,
-                                         wrapped(flag * levers.turn) + 0] : nowhere(2)));
+    const flat = Math.abs(place[2]) <= tolerances.ROUNDING * reach;
+    return SIGNS.map(flag =>
+      levers && flat
+        ? [wrapped(Math.atan2(y, x) - flag * levers.ahead) + 0, wrapped(flag * levers.turn) + 0]
+        : nowhere(2),
+    );
   },
-  held: scara.held,
+  held: stretched,
   choose(arm, q, previous) {
     return folded(arm.geometry.l1, arm.geometry.l2, q[1], arm) ? [previous[0], q[1]] : q;
   },
   gap({geometry}, {place}) {
-    const {l1, l2} = geometry, d = distance2(...way(geometry, place));
-    return worst({stretched: d - (l1 + l2), base: Math.abs(l1 - l2) - d,
-                  plane: Math.abs(place[2])});
+    const {l1, l2} = geometry,
+      d = distance2(...way(geometry, place));
+    return worst({
+      stretched: d - (l1 + l2),
+      base: Math.abs(l1 - l2) - d,
+      plane: Math.abs(place[2]),
+    });
   },
 };
 
+/** @type {Object<string, Geometry<Inverse>>} */
 const GEOMETRIES = {elbow, wrist, scara, two_link: twoLink};
+/** @type {Pick<Geometry<Inverse>, "held" | "choose">} */
 const UNKNOWN = {held: () => ({}), choose: (arm, q) => q};
-export const geometryOf = arm => GEOMETRIES[arm.geometry.kind] || UNKNOWN;
+
+/**
+ * What is known of an arm's geometry; of one without an inverse only `held` and `choose`.
+ * @param {ArmData} arm
+ */
+export const geometryOf = arm =>
+  /** @type {Geometry<Inverse>} */ (GEOMETRIES[String(arm.geometry.kind)] || UNKNOWN);
 
 /**
  * All joint values that bring the flange to a pose of the arm's kind, in the order of its branches.
- * @param {Object} arm
- * @param {{place: number[], rotation?: number[], angle?: number}} pose
+ * @param {ArmData} arm
+ * @param {PagePose} pose
  * @returns {number[][]}  a row that does not exist is NaN
  */
 export const ik = (arm, pose) => geometryOf(arm).ik(arm, pose);
 
 /**
  * Which singularities hold at q.
- * @param {Object} arm
+ * @param {ArmData} arm
  * @param {number[]} q
- * @returns {Object<string, boolean>}
+ * @returns {Held}
  */
 export const singularities = (arm, q) => geometryOf(arm).held(arm, q);

@@ -6,7 +6,10 @@ import {element, control} from "./elements.js";
 
 const NEAR = 12; // px: no handle is drawn nearer to the edge of the scene
 
-/** How far arrows and arcs stand off what they move, in metres for a camera: the same on every screen. */
+/**
+ * How far arrows and arcs stand off what they move, in metres for a camera: the same on every
+ * screen.
+ */
 export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
 
 /**
@@ -34,13 +37,18 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
  */
 export function handleLayer(canvas, camera, hold, changed) {
   const layer = element("div", {class: "rk-handles"});
-  let handles = [], held = null;
+  let handles = [],
+    held = null;
 
   function button(handle) {
-    const node = control("button", {type: "button", class: `rk-handle ${handle.look}`,
-                                    "data-handle": handle.id}, handle.mark || "");
+    const node = control(
+      "button",
+      {type: "button", class: `rk-handle ${handle.look}`, "data-handle": handle.id},
+      handle.mark || "",
+    );
     if (handle.color) node.style.setProperty("--own", `var(--rk-${handle.color})`);
-    let from = null, move = null;
+    let from = null,
+      move = null;
     node.addEventListener("pointerdown", event => {
       event.preventDefault(); // no text is selected, no scrolling begins
       node.focus();
@@ -83,19 +91,28 @@ export function handleLayer(canvas, camera, hold, changed) {
     },
     /** To be called behind every picture. */
     place() {
-      const seen = camera(), {to} = seen, w = canvas.clientWidth, h = canvas.clientHeight, taken = [];
+      const seen = camera(),
+        {to} = seen,
+        w = canvas.clientWidth,
+        h = canvas.clientHeight,
+        taken = [];
       const room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
       // The one that is held keeps its way to its place, so that it stays under the pointer; the
       // others make room.
       for (const handle of [...handles].sort((a, b) => (b.id === held) - (a.id === held))) {
-        const {node, name, at, value} = handle, p = at(seen), place = to(p);
+        const {node, name, at, value} = handle,
+          p = at(seen),
+          place = to(p);
         node.hidden = !p.every(Number.isFinite);
-        const [x, y] = handle.id === held ? place.map((c, k) => c + handle.shift[k]) : apart(place, taken, room);
+        const [x, y] =
+          handle.id === held ? place.map((c, k) => c + handle.shift[k]) : apart(place, taken, room);
         handle.shift = [x - place[0], y - place[1]];
         taken.push([x, y]);
         // One that has left the scene waits at its edge, and can still be taken.
-        const [left, top] = [Math.min(Math.max(x, NEAR), w - NEAR),
-                             Math.min(Math.max(y, NEAR), h - NEAR)];
+        const [left, top] = [
+          Math.min(Math.max(x, NEAR), w - NEAR),
+          Math.min(Math.max(y, NEAR), h - NEAR),
+        ];
         node.classList.toggle("rk-outside", left !== x || top !== y);
         node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
         const says = `${name}, ${value()}`;
@@ -112,8 +129,9 @@ function apart([x, y], taken, room) {
   for (let i = 0; i < 8; i++) {
     const near = taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
     if (!near) break;
-    const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3], length = Math.sqrt(dx * dx + dy * dy);
-    [x, y] = [near[0] + room * dx / length, near[1] + room * dy / length];
+    const [dx, dy] = [x - near[0] || 1, y - near[1] || i - 3],
+      length = Math.sqrt(dx * dx + dy * dy);
+    [x, y] = [near[0] + (room * dx) / length, near[1] + (room * dy) / length];
   }
   return [x, y];
 }
@@ -138,7 +156,8 @@ export function alongCurve(camera, place, value, step) {
       const [before, here, after] = [-step, 0, step].map(x => camera.to(place(now + x)));
       const along = [0, 1].map(k => (after[k] - before[k]) / (2 * step));
       const bend = [0, 1].map(k => (after[k] - 2 * here[k] + before[k]) / (step * step));
-      const off = [0, 1].map(k => wanted[k] - here[k]), length = along[0] ** 2 + along[1] ** 2;
+      const off = [0, 1].map(k => wanted[k] - here[k]),
+        length = along[0] ** 2 + along[1] ** 2;
       if (length < (MOVES * camera.scale) ** 2) break;
       const rise = length - off[0] * bend[0] - off[1] * bend[1];
       const way = (off[0] * along[0] + off[1] * along[1]) / (rise > 0.1 * length ? rise : length);
@@ -156,8 +175,7 @@ const MOVES = 0.02; // m of screen per unit of the value: less is no movement th
  * @param {number[]} place  at the start, in metres
  * @returns {(dx: number, dy: number) => number[]}
  */
-export const inScreen = (camera, place) => (dx, dy) =>
-  plus(place, camera.across(dx, dy));
+export const inScreen = (camera, place) => (dx, dy) => plus(place, camera.across(dx, dy));
 
 /**
  * A vector square to `axis`, and one square to both.
@@ -167,13 +185,15 @@ export const inScreen = (camera, place) => (dx, dy) =>
 export function squareTo(axis) {
   const least = axis.map(Math.abs).indexOf(Math.min(...axis.map(Math.abs)));
   const other = [0, 1, 2].map(k => Number(k === least));
-  const a = plus(other, axis, -dot(other, axis)), length = Math.sqrt(dot(a, a));
+  const a = plus(other, axis, -dot(other, axis)),
+    length = Math.sqrt(dot(a, a));
   const first = a.map(x => x / length);
   return [first, cross(axis, first)];
 }
 
 /**
- * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob beside it.
+ * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob
+ * beside it.
  * @param {Object[]} chain
  * @param {number[]} q
  * @param {number} i
@@ -181,14 +201,25 @@ export function squareTo(axis) {
  * @returns {number[]}
  */
 export function gripOf(chain, q, i, camera) {
-  const joints = [], moved = [], all = frames(chain, q, joints, moved), here = origin(moved[i]), reach = reachOf(camera);
+  const joints = [],
+    moved = [],
+    all = frames(chain, q, joints, moved),
+    here = origin(moved[i]),
+    reach = reachOf(camera);
   if (chain[i].prismatic) return plus(here, turned(joints[i], chain[i].axis), 0.5 * reach);
-  const bends = all.slice(i + 1).flatMap((frame, k) => (k ? [joints[i + k], frame] : [frame])).map(origin);
-  let from = here, share = 0.6;
+  const bends = all
+    .slice(i + 1)
+    .flatMap((frame, k) => (k ? [joints[i + k], frame] : [frame]))
+    .map(origin);
+  let from = here,
+    share = 0.6;
   for (const bend of bends) {
-    const way = plus(bend, here, -1), sunk = dot(way, turned(joints[i], chain[i].axis));
-    if (Math.sqrt(dot(way, way) - sunk * sunk) > reach) return plus(from, plus(bend, from, -1), share);
-    if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3]; // a link farther out: its own joint has its ring at 0.6
+    const way = plus(bend, here, -1),
+      sunk = dot(way, turned(joints[i], chain[i].axis));
+    if (Math.sqrt(dot(way, way) - sunk * sunk) > reach)
+      return plus(from, plus(bend, from, -1), share);
+    // a link farther out: its own joint has its ring at 0.6
+    if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3];
   }
   return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);
 }

@@ -5,46 +5,122 @@
 
 import {between, distance2, leastTravel, nowhere} from "./rows.js";
 
-// By how much two sides are longer than the third, rounded alike whichever angle asks.
+/** @import {ThreeLeverInverse, Tolerances} from "./page.js" */
+/** @import {ArmOf} from "./kinematics.js" */
+
+/** @typedef {ArmOf<ThreeLeverInverse>} ThreeLeverArm */
+
+/**
+ * By how much two sides are longer than the third, rounded alike whichever angle asks.
+ * @param {number} a
+ * @param {number} b
+ * @param {number} c
+ */
 const spare = (a, b, c) => Math.max(a, b) - c + Math.min(a, b);
 
-// The angle between the sides a and b of a triangle, opposite c; NaN if there is no triangle.
+/**
+ * The angle between the sides a and b of a triangle, opposite c; NaN if there is no triangle.
+ * @param {number} a
+ * @param {number} b
+ * @param {number} c
+ * @param {Tolerances} tolerances
+ */
 function angleOf(a, b, c, {ROUNDING}) {
   const flat = 4 * ROUNDING * ((a + b) * (a + b));
+  /** @type {(part: number) => number} */
   const root = part => Math.sqrt(part < 0 && part > -flat ? 0 : part);
-  const beside = spare(c, b, a) * spare(c, a, b), around = spare(a, b, c) * (a + b + c);
+  const beside = spare(c, b, a) * spare(c, a, b),
+    around = spare(a, b, c) * (a + b + c);
   return 2 * Math.atan2(root(beside), root(around));
 }
 
-// The third side of a triangle with the sides a and b around an angle.
+/**
+ * The third side of a triangle with the sides a and b around an angle.
+ * @param {number} a
+ * @param {number} b
+ * @param {number} angle
+ */
 const across = (a, b, angle) => distance2(a - b, 2 * Math.sqrt(a * b) * Math.sin(angle / 2));
 
-// The angle between the side a and the third side of the same triangle.
+/**
+ * The angle between the side a and the third side of the same triangle.
+ * @param {number} a
+ * @param {number} b
+ * @param {number} angle
+ */
 const beside = (a, b, angle) =>
   (Math.PI - angle) / 2 + Math.atan2((b - a) * Math.cos(angle / 2), (b + a) * Math.sin(angle / 2));
 
-// Distance KO and direction phi of a point; NaN where it is out of reach.
+/**
+ * Distance KO and direction phi of a point; NaN where it is out of reach.
+ * @param {ThreeLeverArm} arm
+ * @param {{place: number[]}} point
+ * @returns {[number, number]}
+ */
 function polar({geometry: {lever, inner, reach}, tolerances: {ROUNDING}}, {place: [x, y, z]}) {
   const KO = distance2(x, y);
   const reached = KO > inner && KO <= reach * (1 + ROUNDING) && Math.abs(z) <= ROUNDING * lever;
   return reached ? [KO, Math.atan2(y, x)] : [NaN, NaN];
 }
 
-// The alpha at which O, B and A are in line, or 0 where the levers need not stretch.
-const lowest = ({geometry: {levers: [a, b, c]}, tolerances}, KO) =>
-  KO <= a + b - c ? 0 : angleOf(c, a + b, KO, tolerances);
+/**
+ * The alpha at which O, B and A are in line, or 0 where the levers need not stretch.
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ */
+const lowest = (
+  {
+    geometry: {
+      levers: [a, b, c],
+    },
+    tolerances,
+  },
+  KO,
+) => (KO <= a + b - c ? 0 : angleOf(c, a + b, KO, tolerances));
 
+/**
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ * @param {number} phi
+ * @param {number} alpha
+ */
 function leverPosture(arm, KO, phi, alpha) {
-  const {geometry: {levers: [a, b, c]}, tolerances} = arm, {ROUNDING} = tolerances, low = lowest(arm, KO);
+  const {
+      geometry: {
+        levers: [a, b, c],
+      },
+      tolerances,
+    } = arm,
+    {ROUNDING} = tolerances,
+    low = lowest(arm, KO);
   if (!(alpha >= low - ROUNDING && alpha <= Math.PI + ROUNDING)) return nowhere(3);
   alpha = between(alpha, low, Math.PI);
   const KB = across(b, c, alpha);
-  return [phi + angleOf(KO, a, KB, tolerances), angleOf(KB, a, KO, tolerances) + beside(b, c, alpha), alpha];
+  return [
+    phi + angleOf(KO, a, KB, tolerances),
+    angleOf(KB, a, KO, tolerances) + beside(b, c, alpha),
+    alpha,
+  ];
 }
 
-// The alpha that belongs to the angle KOB; NaN where there is none.
-function alphaOfGamma({geometry: {levers: [a, b, c]}, tolerances: {ROUNDING}}, KO, gamma1) {
-  const KB = Math.sqrt(KO * KO + a * a - 2 * KO * a * Math.cos(gamma1)), gap = Math.abs(b - c);
+/**
+ * The alpha that belongs to the angle KOB; NaN where there is none.
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ * @param {number} gamma1
+ */
+function alphaOfGamma(
+  {
+    geometry: {
+      levers: [a, b, c],
+    },
+    tolerances: {ROUNDING},
+  },
+  KO,
+  gamma1,
+) {
+  const KB = Math.sqrt(KO * KO + a * a - 2 * KO * a * Math.cos(gamma1)),
+    gap = Math.abs(b - c);
   const half = Math.sqrt(Math.max((KB - gap) * (KB + gap), 0)) / (2 * Math.sqrt(b * c));
   if (!(half <= 1 + ROUNDING && KB >= gap && gamma1 >= 0 && gamma1 <= Math.PI)) return NaN;
   return 2 * Math.asin(Math.min(half, 1));
@@ -52,31 +128,48 @@ function alphaOfGamma({geometry: {levers: [a, b, c]}, tolerances: {ROUNDING}}, K
 
 /**
  * The same arm with levers OB, BA, AK of other lengths, in metres: what planar.py makes of them.
- * @param {Object} arm
+ * @param {ThreeLeverArm} arm
  * @param {number[]} levers
- * @returns {Object}
+ * @returns {ThreeLeverArm}
  */
 export function withLevers(arm, levers) {
-  const [a, b, c] = levers, reach = a + b + c, [first, ...chain] = structuredClone(arm.chain);
+  const [a, b, c] = levers,
+    reach = a + b + c,
+    [first, ...chain] = structuredClone(arm.chain);
   chain[0].before[3] = a; // the rows of [R | p]: this is x of p
   chain[1].before[3] = b;
   chain[1].after[3] = c;
-  const geometry = {...arm.geometry, levers, lever: reach / 3, inner: Math.abs(a - b) + c, reach};
+  /** @type {ThreeLeverInverse} */
+  const geometry = {
+    ...arm.geometry,
+    levers: [a, b, c],
+    lever: reach / 3,
+    inner: Math.abs(a - b) + c,
+    reach,
+  };
   return {...arm, chain: [first, ...chain], reach, geometry};
 }
 
 /**
  * The lowest and the highest alpha that reach a point; NaN where none does. With `limited` gamma,
  * too, stays within 0 to 180 degrees.
- * @param {Object} arm
+ * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {boolean} [limited]
- * @returns {number[]}
+ * @returns {[number, number]}
  */
 export function alpha_range(arm, point, limited = true) {
-  const {geometry: {levers: [a, b, c]}, tolerances} = arm, [KO, phi] = polar(arm, point);
+  const {
+      geometry: {
+        levers: [a, b, c],
+      },
+      tolerances,
+    } = arm,
+    [KO, phi] = polar(arm, point);
+  /** @type {(alpha: number) => number} */
   const gamma = alpha => phi + angleOf(KO, a, across(b, c, alpha), tolerances);
-  let low = lowest(arm, KO), high = Number.isNaN(KO) ? NaN : Math.PI;
+  let low = lowest(arm, KO),
+    high = Number.isNaN(KO) ? NaN : Math.PI;
   if (limited) {
     if (gamma(low) < 0) low = alphaOfGamma(arm, KO, -phi);
     if (gamma(high) > Math.PI) high = alphaOfGamma(arm, KO, Math.PI - phi);
@@ -88,57 +181,92 @@ export function alpha_range(arm, point, limited = true) {
 /**
  * The posture (gamma, beta, alpha) that reaches a point with the free angle alpha; NaN where there
  * is none.
- * @param {Object} arm
+ * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {number} alpha
  * @returns {number[]}
  */
 export const family = (arm, point, alpha) => leverPosture(arm, ...polar(arm, point), alpha);
 
-// How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha, up to a
-// positive factor: see planar.py.
+/**
+ * How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha,
+ * up to a positive factor: see planar.py.
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ * @param {number} each  alpha
+ */
 function slopes(arm, KO, each) {
-  const [a, b, c] = arm.geometry.levers, [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
+  const [a, b, c] = arm.geometry.levers,
+    [gamma, beta, alpha] = leverPosture(arm, KO, 0, each);
   const height = a * Math.sin(gamma);
-  const changes = [b * c * Math.sin(alpha), KO * (b * Math.sin(gamma + beta) - height), KO * height];
+  const changes = [
+    b * c * Math.sin(alpha),
+    KO * (b * Math.sin(gamma + beta) - height),
+    KO * height,
+  ];
   const sum = changes[0] + changes[1] + changes[2];
   return changes.map(change => sum - 2 * change);
 }
 
-// Six alphas: the first and the last at which each of these sums is level. (Of equal levers only the first sum has a
-// minimum; planar.py finds it in another way, as well as half of the digits tell.)
+/**
+ * Six alphas: the first and the last at which each of these sums is level. (Of equal levers only
+ * the first sum has a minimum; planar.py finds it in another way, as well as half of the digits
+ * tell.)
+ * @param {ThreeLeverArm} arm
+ * @param {number} KO
+ * @param {number} low
+ * @param {number} high
+ */
 function level(arm, KO, low, high) {
   const alphas = Array.from({length: 257}, (_, i) => low + (high - low) * (i / 256));
   const signs = alphas.map(alpha => slopes(arm, KO, alpha).map(Math.sign));
   const turns = [0, 1, 2].map(k => alphas.slice(1).map((_, i) => signs[i][k] !== signs[i + 1][k]));
-  return turns.flatMap((turn, k) => [Math.max(turn.indexOf(true), 0), turn.lastIndexOf(true)].map(cell => {
-    let [start, end] = cell < 0 ? [low, low] : [alphas[cell], alphas[cell + 1]];
-    for (let i = 0; i < 28; i++) {
-      const middle = (start + end) / 2;
-      if (Math.sign(slopes(arm, KO, middle)[k]) === signs[Math.max(cell, 0)][k]) start = middle;
-      else end = middle;
-    }
-    return (start + end) / 2;
-  }));
+  return turns.flatMap((turn, k) =>
+    [Math.max(turn.indexOf(true), 0), turn.lastIndexOf(true)].map(cell => {
+      let [start, end] = cell < 0 ? [low, low] : [alphas[cell], alphas[cell + 1]];
+      for (let i = 0; i < 28; i++) {
+        const middle = (start + end) / 2;
+        if (Math.sign(slopes(arm, KO, middle)[k]) === signs[Math.max(cell, 0)][k]) start = middle;
+        else end = middle;
+      }
+      return (start + end) / 2;
+    }),
+  );
 }
 
 /**
  * The posture at a point with the smallest sum S of the angles' changes from `previous`: the
  * kinks and ends of S as a function of alpha and where it is level between them are compared.
- * @param {Object} arm
+ * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {number[]} previous
  * @param {boolean} [limited]
  * @returns {number[]}
  */
 export function least(arm, point, previous, limited = true) {
-  const {geometry: {levers: [a, b, c]}, tolerances} = arm, [gamma0, beta0, alpha0] = previous;
-  const [KO, phi] = polar(arm, point), [low, high] = alpha_range(arm, point, limited);
+  const {
+      geometry: {
+        levers: [a, b, c],
+      },
+      tolerances,
+    } = arm,
+    [gamma0, beta0, alpha0] = previous;
+  const [KO, phi] = polar(arm, point),
+    [low, high] = alpha_range(arm, point, limited);
   if (Number.isNaN(low)) return nowhere(3);
-  const BAO = beside(b, a, beta0), atA = angleOf(across(a, b, beta0), c, KO, tolerances);
-  const alphas = [low, high, alpha0, alphaOfGamma(arm, KO, gamma0 - phi), BAO + atA, BAO - atA,
-                  ...level(arm, KO, low, high)];
+  const BAO = beside(b, a, beta0),
+    atA = angleOf(across(a, b, beta0), c, KO, tolerances);
+  const alphas = [
+    low,
+    high,
+    alpha0,
+    alphaOfGamma(arm, KO, gamma0 - phi),
+    BAO + atA,
+    BAO - atA,
+    ...level(arm, KO, low, high),
+  ];
   const rows = alphas.map(alpha =>
-    leverPosture(arm, KO, phi, between(Number.isNaN(alpha) ? low : alpha, low, high)));
+    leverPosture(arm, KO, phi, between(Number.isNaN(alpha) ? low : alpha, low, high)),
+  );
   return leastTravel(rows, previous);
 }

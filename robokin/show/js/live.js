@@ -7,7 +7,8 @@ const PATIENCE = 4000; // ms without an answer; then the view says so
 // Two questions under way: the second carries the receipt without which the first answer is held
 // back for 40 ms on its way (Nagle's algorithm meets the delayed receipt).
 const UNDER_WAY = 2;
-const SLOW = 100; // ms from question to answer: then a second one would only wait for the first, and grow old
+// ms from question to answer: then a second one would only wait for the first, and grow old
+const SLOW = 100;
 
 /**
  * The way from a view to its kernel.
@@ -15,8 +16,8 @@ const SLOW = 100; // ms from question to answer: then a second one would only wa
  * ask(question)  whatever JSON can hold. The newest question is always answered in the end; older
  *                ones may be skipped while the kernel is at work.
  *
- * While asleep, controls and handles do not take a hand, and one sentence says why. `root.dataset` tells: `awake`,
- * the numbers of the last question `asked` and the last one `answered`.
+ * While asleep, controls and handles do not take a hand, and one sentence says why. `root.dataset`
+ * tells: `awake`, the numbers of the last question `asked` and the last one `answered`.
  *
  * @param {HTMLElement} root  in which the view has been built
  * @param {string} id  of the output
@@ -27,12 +28,18 @@ const SLOW = 100; // ms from question to answer: then a second one would only wa
 export function kernelOf(root, id, words, hear) {
   const says = element("p", {class: "rk-asleep", role: "status"});
   root.firstElementChild.append(element("style", {}, LOOK), says);
-  let port = null, wanted = null, sent = 0, timer = 0, slow = false;
+  let port = null,
+    wanted = null,
+    sent = 0,
+    timer = 0,
+    slow = false;
   const questions = new Map();
 
   function stir(awake, sentence = "") {
     root.toggleAttribute("data-awake", awake);
-    root.querySelectorAll(".rk-handles, .rk-side").forEach(part => { part.inert = !awake; });
+    root.querySelectorAll(".rk-handles, .rk-side").forEach(part => {
+      part.inert = !awake;
+    });
     says.textContent = sentence;
     says.hidden = !sentence;
   }
@@ -50,7 +57,8 @@ export function kernelOf(root, id, words, hear) {
       root.dataset.asked = sent;
       try {
         port(sent, question);
-      } catch { // its kernel is gone
+      } catch {
+        // its kernel is gone
         return sleep();
       }
     }
@@ -75,16 +83,19 @@ export function kernelOf(root, id, words, hear) {
   });
   sleep();
   document.dispatchEvent(new CustomEvent("robokin-asks", {detail: {id, root}}));
-  return {ask(question) {
-    wanted = question;
-    pump();
-  }};
+  return {
+    ask(question) {
+      wanted = question;
+      pump();
+    },
+  };
 }
 
 const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float32: Float32Array};
 
 /**
- * An answer with its arrays: live.py sends {"array": its number, or base64, "type", "shape"} in their place.
+ * An answer with its arrays: live.py sends {"array": its number, or base64, "type", "shape"} in
+ * their place.
  * @param {object} answer
  * @param {DataView[]} [buffers]
  * @returns {object}
@@ -92,16 +103,24 @@ const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float3
 export function unpacked(answer, buffers = []) {
   if (Array.isArray(answer)) return answer.map(each => unpacked(each, buffers));
   if (!answer || typeof answer !== "object") return answer;
-  if (!("array" in answer)) return Object.fromEntries(Object.entries(answer).map(([key, value]) => [key, unpacked(value, buffers)]));
-  const bytes = typeof answer.array === "string"
-    ? Uint8Array.from(atob(answer.array), letter => letter.charCodeAt(0)) : buffers[answer.array];
+  if (!("array" in answer))
+    return Object.fromEntries(
+      Object.entries(answer).map(([key, value]) => [key, unpacked(value, buffers)]),
+    );
+  const bytes =
+    typeof answer.array === "string"
+      ? Uint8Array.from(atob(answer.array), letter => letter.charCodeAt(0))
+      : buffers[answer.array];
   // a copy: a buffer may begin at an odd place
-  const values = new TYPES[answer.type](bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+  const values = new TYPES[answer.type](
+    bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength),
+  );
   return {values, shape: answer.shape};
 }
 
 const LOOK = `
 .rk.rk.rk {
-  & .rk-asleep { margin: 4px 0 0; padding: 4px 8px; border-left: 3px solid var(--rk-rest); color: var(--rk-soft); }
+  & .rk-asleep { margin: 4px 0 0; padding: 4px 8px; border-left: 3px solid var(--rk-rest);
+    color: var(--rk-soft); }
   & [inert] { opacity: .5; }
 }`;

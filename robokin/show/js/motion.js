@@ -2,28 +2,35 @@
 
 import {slerp} from "./kinematics.js";
 
+/** @import {PagePose} from "./page.js" */
+
+/**
+ * @param {number} s
+ */
 const clipped = s => Math.min(Math.max(s, 0), 1);
 
 /**
  * On the way from pose a (s = 0) to pose b (s = 1): straight, turning evenly.
- * @param {{place: number[], rotation?: number[], angle?: number}} a
- * @param {{place: number[], rotation?: number[], angle?: number}} b
+ * @param {PagePose} a
+ * @param {PagePose} b
  * @param {number} s
- * @returns {{place: number[], rotation?: number[], angle?: number}}
+ * @returns {PagePose}
  */
 export function lerp(a, b, s) {
+  /** @type {PagePose} */
   const there = {place: a.place.map((from, k) => from + (b.place[k] - from) * s)};
-  if (a.rotation) there.rotation = slerp(a.rotation, b.rotation, s);
-  if (a.angle !== undefined) there.angle = a.angle + (b.angle - a.angle) * s;
+  if (a.rotation && b.rotation) there.rotation = slerp(a.rotation, b.rotation, s);
+  if (a.angle !== undefined && b.angle !== undefined)
+    there.angle = a.angle + (b.angle - a.angle) * s;
   return there;
 }
 
 /**
  * The straight motion between two poses, at s in [0, 1].
- * @param {Object} start
- * @param {Object} goal
+ * @param {PagePose} start
+ * @param {PagePose} goal
  * @param {number} s
- * @returns {Object}  a pose
+ * @returns {PagePose}
  */
 export const lin = (start, goal, s) => lerp(start, goal, clipped(s));
 
@@ -38,23 +45,30 @@ export const ptp = (q0, q1, s) => q0.map((value, j) => value + clipped(s) * (q1[
 
 /**
  * Two straight motions whose corner is rounded while |s - 1/2| < `fraction`.
- * @param {Object} start
- * @param {Object} via
- * @param {Object} goal
+ * @param {PagePose} start
+ * @param {PagePose} via
+ * @param {PagePose} goal
  * @param {number} fraction  in [0, 0.5]
  * @param {number} s
  * @param {"parabola"|"quintic"} [corner]
- * @returns {Object}  a pose
+ * @returns {PagePose}
  */
 export function blend(start, via, goal, fraction, s, corner = "parabola") {
-  const share = clipped(s), b = fraction;
+  const share = clipped(s),
+    b = fraction;
   const x = b > 0 ? clipped((share - 0.5 + b) / (2 * b)) : Number(share >= 0.5);
   const first = lerp(start, via, Math.min(2 * share, 1 - 2 * b));
   const last = lerp(via, goal, Math.max(2 * share - 1, 2 * b));
   let poses = [first, via, last];
   if (corner === "quintic") {
-    poses = [first, lerp(first, via, 0.4), lerp(first, via, 0.8),
-             lerp(last, via, 0.8), lerp(last, via, 0.4), last];
+    poses = [
+      first,
+      lerp(first, via, 0.4),
+      lerp(first, via, 0.8),
+      lerp(last, via, 0.8),
+      lerp(last, via, 0.4),
+      last,
+    ];
   }
   // de Casteljau: between neighbours, again and again, until one is left
   while (poses.length > 1) poses = poses.slice(1).map((pose, i) => lerp(poses[i], pose, x));
@@ -63,15 +77,20 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
 
 /**
  * Two straight motions in a chain: at `via` for s = 1/2.
- * @param {Object} start
- * @param {Object} via
- * @param {Object} goal
+ * @param {PagePose} start
+ * @param {PagePose} via
+ * @param {PagePose} goal
  * @param {number} s
- * @returns {Object}  a pose
+ * @returns {PagePose}
  */
 export const lin_lin = (start, via, goal, s) => blend(start, via, goal, 0, s);
 
-// s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+/**
+ * s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+ * @param {number} duration
+ * @param {(x: number) => number} progress
+ * @returns {(t: number) => number}
+ */
 const timeLaw = (duration, progress) => t =>
   clipped(progress(Math.min(Math.max(t, 0), duration) / duration));
 
@@ -88,11 +107,13 @@ export const linear = duration => timeLaw(duration, x => x);
  * @param {number} [ramp]  the share of each ramp, at most 0.5
  * @returns {function(number): number}  s at t
  */
-export const trapezoidal = (duration, ramp = 0.25) => timeLaw(duration, x => {
-  const left = Math.min(x, 1 - x), up = Math.min(left, ramp);
-  const s = (1 / (1 - ramp)) * (up * up / (2 * ramp) + (left - up));
-  return x > 0.5 ? 1 - s : s;
-});
+export const trapezoidal = (duration, ramp = 0.25) =>
+  timeLaw(duration, x => {
+    const left = Math.min(x, 1 - x),
+      up = Math.min(left, ramp);
+    const s = (1 / (1 - ramp)) * ((up * up) / (2 * ramp) + (left - up));
+    return x > 0.5 ? 1 - s : s;
+  });
 
 /**
  * Speed and acceleration are zero at both ends.
@@ -114,11 +135,17 @@ export function differentiate(values, t, order = 1) {
   const last = t.length - 1;
   return values.map((row, i) => {
     // the slope at t[i] of the parabola through three samples
-    const k = Math.min(Math.max(i, 1), last - 1), h = t[k] - t[k - 1], g = t[k + 1] - t[k];
+    const k = Math.min(Math.max(i, 1), last - 1),
+      h = t[k] - t[k - 1],
+      g = t[k + 1] - t[k];
     const x = t[i] - t[k];
-    const [a, b, c] = [(2 * x - g) / (h * (h + g)), -(2 * x + h - g) / (h * g),
-                       (2 * x + h) / (g * (h + g))];
-    return row.map((value, j) => (Number.isNaN(value) ? NaN
-      : a * values[k - 1][j] + b * values[k][j] + c * values[k + 1][j]));
+    const [a, b, c] = [
+      (2 * x - g) / (h * (h + g)),
+      -(2 * x + h - g) / (h * g),
+      (2 * x + h) / (g * (h + g)),
+    ];
+    return row.map((value, j) =>
+      Number.isNaN(value) ? NaN : a * values[k - 1][j] + b * values[k][j] + c * values[k + 1][j],
+    );
   });
 }

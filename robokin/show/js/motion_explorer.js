@@ -1,5 +1,5 @@
-// The motion explorer: a blended motion whose stations are taken by the hand. What is said, and every
-// number of the arm, comes from Python (page.py: PageExplorer).
+// The motion explorer: a blended motion whose stations are taken by the hand. What is said, and
+// every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {fk, matrix, origin, plus} from "./kinematics.js";
 import {ik} from "./geometries.js";
@@ -18,88 +18,181 @@ import {lengths, plain} from "./turns.js";
  * @param {string} id
  * @param {object} data  page.py: PageExplorer
  */
-export const explore = (id, data) => waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
+export const explore = (id, data) =>
+  waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
 
 const LAWS = {quintic, trapezoidal, linear};
 const LEAP = 0.1; // rad or m, as in motion/recording.py
 const STATIONS = ["start", "via", "goal"];
 
 function motionExplorer(stage, data) {
-  const {arm, words, unit, units, samples} = data, n = arm.chain.length;
-  const copied = () => Object.fromEntries(STATIONS.map(name => [name, {...data[name], place: [...data[name].place]}]));
+  const {arm, words, unit, units, samples} = data,
+    n = arm.chain.length;
+  const copied = () =>
+    Object.fromEntries(STATIONS.map(name => [name, {...data[name], place: [...data[name].place]}]));
   const state = {...copied(), ...data.start_values, time: 0};
-  const set = (name, value) => { state[name] = value; stage.changed(); };
+  const set = (name, value) => {
+    state[name] = value;
+    stage.changed();
+  };
 
-  const sliders = data.controls.map((spec, k) => slider(spec, value => {
-    if (k < 3) state.via.place[k] = value * unit.size;
-    else state[["blend", "duration"][k - 3]] = Math.min(Math.max(value, spec.low), spec.high);
-    stage.changed();
-  }));
-  const menus = [menu(words.law, data.laws, k => set("law", k)), menu(words.corner, data.corners, k => set("corner", k)),
-                 menu(words.branch, data.branches, k => set("row", k))];
-  const scrub = slider({name: words.time, unit: "s", low: 0, high: 1, step: 0.001, decimals: 2}, value => {
-    state.time = Math.min(Math.max(value / state.duration, 0), 1);
-    stage.changed();
-  });
+  const sliders = data.controls.map((spec, k) =>
+    slider(spec, value => {
+      if (k < 3) state.via.place[k] = value * unit.size;
+      else state[["blend", "duration"][k - 3]] = Math.min(Math.max(value, spec.low), spec.high);
+      stage.changed();
+    }),
+  );
+  const menus = [
+    menu(words.law, data.laws, k => set("law", k)),
+    menu(words.corner, data.corners, k => set("corner", k)),
+    menu(words.branch, data.branches, k => set("row", k)),
+  ];
+  const scrub = slider(
+    {name: words.time, unit: "s", low: 0, high: 1, step: 0.001, decimals: 2},
+    value => {
+      state.time = Math.min(Math.max(value / state.duration, 0), 1);
+      stage.changed();
+    },
+  );
   const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": words.curves});
   const curves = curvesView(canvas, data.dashes);
-  const numbers = table([words.speed, words.acceleration], ["", ...units.map(({name}, j) => `q${j + 1} ${name}`)], units.map(() => 1));
+  const numbers = table(
+    [words.speed, words.acceleration],
+    ["", ...units.map(({name}, j) => `q${j + 1} ${name}`)],
+    units.map(() => 1),
+  );
   stage.side.append(canvas);
-  stage.below.append(element("div", {class: "rk-columns"}, ...[...sliders, ...menus, scrub].map(s => s.row)),
-    numbers.node, element("div", {class: "rk-row"}, stage.says, copyButton(words, () => inCode(data, state))));
-  canvas.addEventListener("pointerdown", event => { canvas.setPointerCapture(event.pointerId); clock(event); });
-  canvas.addEventListener("pointermove", event => { if (canvas.hasPointerCapture(event.pointerId)) clock(event); });
+  stage.below.append(
+    element("div", {class: "rk-columns"}, ...[...sliders, ...menus, scrub].map(s => s.row)),
+    numbers.node,
+    element(
+      "div",
+      {class: "rk-row"},
+      stage.says,
+      copyButton(words, () => inCode(data, state)),
+    ),
+  );
+  canvas.addEventListener("pointerdown", event => {
+    canvas.setPointerCapture(event.pointerId);
+    clock(event);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (canvas.hasPointerCapture(event.pointerId)) clock(event);
+  });
   const clock = event => {
     [state.time] = curves.timeAt(event.offsetX, event.offsetY, 0).map(t => t / state.duration);
     stage.changed();
   };
   stage.handles.set(stationHandles(stage, state, copied, data));
 
-  let known = "", found = null, drawn = [];
-  stage.run(() => {
-    const {time, ...asked} = state, key = JSON.stringify(asked);
-    if (key !== known) [known, found] = [key, motionOf(data, state)]; // the clock alone changes nothing
-    const {t, q, v, a, tool, missing} = found;
-    sliders.forEach((s, k) => s.set(k < 3 ? state.via.place[k] / unit.size : state[["blend", "duration"][k - 3]]));
-    menus.forEach((m, k) => m.set(state[["law", "corner", "row"][k]]));
-    scrub.reach(state.duration);
-    scrub.set(time * state.duration);
-    const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order));
-    const i = Math.round(time * (samples - 1));
-    for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
-    drawn = [[{title: arm.name, panels}], t, scaleOf(0, state.duration, 5), time * state.duration];
-    numbers.set([v, a].map((rows, order) => units.map((u, j) => (Number.isNaN(most(rows, j)) ? words.none : number(most(rows, j) / u.size, 1)
-      + (order === 0 && arm.speed_limits ? ` (${Math.round(100 * most(rows, j) / arm.speed_limits[j])}\u00A0%)` : "")))));
-    stage.say([nearWords(data, state, tool), ...notes(data, found)].join(" "));
-    stage.scene.targets = STATIONS.map(name => ({name, pose: matrix(state[name].rotation ||
-      [Math.cos((state[name].angle || 0) / 2), 0, 0, Math.sin((state[name].angle || 0) / 2)], state[name].place)}));
-    const posture = q[i].some(Number.isNaN) ? q.slice(0, i).findLast(row => !row.some(Number.isNaN)) || new Array(n).fill(NaN) : q[i];
-    return [{name: arm.name, chain: arm.chain, q: posture, faded: missing[i], trace: tool, tail: tool.slice(0, i + 1)}];
-  }, [canvas], () => curves.draw(...drawn));
+  let known = "",
+    found = null,
+    drawn = [];
+  stage.run(
+    () => {
+      const {time, ...asked} = state,
+        key = JSON.stringify(asked);
+      // the clock alone changes nothing
+      if (key !== known) [known, found] = [key, motionOf(data, state)];
+      const {t, q, v, a, tool, missing} = found;
+      sliders.forEach((s, k) =>
+        s.set(k < 3 ? state.via.place[k] / unit.size : state[["blend", "duration"][k - 3]]),
+      );
+      menus.forEach((m, k) => m.set(state[["law", "corner", "row"][k]]));
+      scrub.reach(state.duration);
+      scrub.set(time * state.duration);
+      const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order));
+      const i = Math.round(time * (samples - 1));
+      for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
+      drawn = [
+        [{title: arm.name, panels}],
+        t,
+        scaleOf(0, state.duration, 5),
+        time * state.duration,
+      ];
+      numbers.set(
+        [v, a].map((rows, order) =>
+          units.map((u, j) =>
+            Number.isNaN(most(rows, j))
+              ? words.none
+              : number(most(rows, j) / u.size, 1) +
+                (order === 0 && arm.speed_limits
+                  ? ` (${Math.round((100 * most(rows, j)) / arm.speed_limits[j])}\u00A0%)`
+                  : ""),
+          ),
+        ),
+      );
+      stage.say([nearWords(data, state, tool), ...notes(data, found)].join(" "));
+      stage.scene.targets = STATIONS.map(name => ({
+        name,
+        pose: matrix(
+          state[name].rotation || [
+            Math.cos((state[name].angle || 0) / 2),
+            0,
+            0,
+            Math.sin((state[name].angle || 0) / 2),
+          ],
+          state[name].place,
+        ),
+      }));
+      const posture = q[i].some(Number.isNaN)
+        ? q.slice(0, i).findLast(row => !row.some(Number.isNaN)) || new Array(n).fill(NaN)
+        : q[i];
+      return [
+        {
+          name: arm.name,
+          chain: arm.chain,
+          q: posture,
+          faded: missing[i],
+          trace: tool,
+          tail: tool.slice(0, i + 1),
+        },
+      ];
+    },
+    [canvas],
+    () => curves.draw(...drawn),
+  );
 }
 
 // The motion for what is asked: times, joint values, speeds, accelerations, the tool's places.
 function motionOf({arm, laws, corners, samples}, state) {
   const law = LAWS[laws[state.law]](state.duration);
-  const t = Float64Array.from({length: samples}, (_, i) => state.duration * i / (samples - 1));
-  const rows = Array.from(t, x => ik(arm, blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner])));
-  const q = follow(arm, rows, state.row), missing = q.map(row => row.some(Number.isNaN));
+  const t = Float64Array.from({length: samples}, (_, i) => (state.duration * i) / (samples - 1));
+  const rows = Array.from(t, x =>
+    ik(arm, blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner])),
+  );
+  const q = follow(arm, rows, state.row),
+    missing = q.map(row => row.some(Number.isNaN));
   // No difference is taken across a jump: where the branch ends, where a joint leaps (as `record`
   // says: by more than half a turn, or ten times as far as beside), at a corner without a blend.
-  const breaks = new Set(), step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
-  const leaps = (i, j) => (step(i, j) > Math.PI && !arm.prismatic[j])
-    || (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
-  for (let i = 1; i < samples; i++) if (missing[i] !== missing[i - 1] || q[i].some((_, j) => leaps(i, j))) breaks.add(i);
-  const gaps = new Set([...breaks].map(i => i - 1)), corner = state.blend === 0 ? (samples - 1) / 2 : -1;
-  const nothing = () => q.map(row => row.map(() => NaN)), v = nothing(), a = nothing();
+  const breaks = new Set(),
+    step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
+  const leaps = (i, j) =>
+    (step(i, j) > Math.PI && !arm.prismatic[j]) ||
+    (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
+  for (let i = 1; i < samples; i++)
+    if (missing[i] !== missing[i - 1] || q[i].some((_, j) => leaps(i, j))) breaks.add(i);
+  const gaps = new Set([...breaks].map(i => i - 1)),
+    corner = state.blend === 0 ? (samples - 1) / 2 : -1;
+  const nothing = () => q.map(row => row.map(() => NaN)),
+    v = nothing(),
+    a = nothing();
   const ends = [0, ...breaks, samples].sort((x, y) => x - y);
-  for (let k = 0; k + 1 < ends.length; k++) for (const [from, to] of corner > ends[k] + 1 && corner < ends[k + 1] - 2
-    ? [[ends[k], corner + 1], [corner, ends[k + 1]]] : [[ends[k], ends[k + 1]]]) {
-    if (to - from < 3 || missing[from]) continue;
-    const piece = q.slice(from, to), times = Array.from(t.slice(from, to));
-    const speeds = differentiate(piece, times), accelerations = differentiate(speeds, times);
-    for (let i = from; i < to; i++) [v[i], a[i]] = [speeds[i - from], accelerations[i - from]];
-  }
+  for (let k = 0; k + 1 < ends.length; k++)
+    for (const [from, to] of corner > ends[k] + 1 && corner < ends[k + 1] - 2
+      ? [
+          [ends[k], corner + 1],
+          [corner, ends[k + 1]],
+        ]
+      : [[ends[k], ends[k + 1]]]) {
+      if (to - from < 3 || missing[from]) continue;
+      const piece = q.slice(from, to),
+        times = Array.from(t.slice(from, to));
+      const speeds = differentiate(piece, times),
+        accelerations = differentiate(speeds, times);
+      for (let i = from; i < to; i++) [v[i], a[i]] = [speeds[i - from], accelerations[i - from]];
+    }
   if (corner > 0) a[corner] = a[corner].map(() => NaN);
   const tool = q.map((row, i) => (missing[i] ? null : origin(fk(arm.chain, row))));
   const jump = corner > 0 && !missing[corner] && v[corner - 1] ? corner : -1;
@@ -109,17 +202,35 @@ function motionOf({arm, laws, corners, samples}, state) {
 // A panel of curves: joint values (order 0), speeds or accelerations.
 function panelOf({arm, panels, units}, {t, gaps, jump}, rows, order) {
   const curves = units.map((u, j) => Float64Array.from(rows, row => row[j] / u.size));
-  const axes = [false, true].map(shifts => units.flatMap((_, j) => (arm.prismatic[j] === shifts ? [j] : [])))
-    .filter(joints => joints.length).map(joints => {
+  const axes = [false, true]
+    .map(shifts => units.flatMap((_, j) => (arm.prismatic[j] === shifts ? [j] : [])))
+    .filter(joints => joints.length)
+    .map(joints => {
       let [low, high] = [Infinity, -Infinity];
-      for (const j of joints) for (const x of curves[j]) if (!Number.isNaN(x)) [low, high] = [Math.min(low, x), Math.max(high, x)];
-      return {joints, unit: units[joints[0]].name + ["", "/s", "/s\u00B2"][order], scale: scaleOf(low, high, 4)};
+      for (const j of joints)
+        for (const x of curves[j])
+          if (!Number.isNaN(x)) [low, high] = [Math.min(low, x), Math.max(high, x)];
+      return {
+        joints,
+        unit: units[joints[0]].name + ["", "/s", "/s\u00B2"][order],
+        scale: scaleOf(low, high, 4),
+      };
     });
-  const limits = order === 0 ? [0, 1].map(side => arm.limits.map((pair, j) => pair[side] / units[j].size)) : null;
-  const near = limits ? curves.flatMap((curve, j) => [0, 1].filter(side => {
-    const sign = side ? 1 : -1, room = 0.03 * (limits[1][j] - limits[0][j]);
-    return curve.some(x => sign * (x - limits[side][j]) > -room);
-  }).map(side => [j, side])) : [];
+  const limits =
+    order === 0
+      ? [0, 1].map(side => arm.limits.map((pair, j) => pair[side] / units[j].size))
+      : null;
+  const near = limits
+    ? curves.flatMap((curve, j) =>
+        [0, 1]
+          .filter(side => {
+            const sign = side ? 1 : -1,
+              room = 0.03 * (limits[1][j] - limits[0][j]);
+            return curve.some(x => sign * (x - limits[side][j]) > -room);
+          })
+          .map(side => [j, side]),
+      )
+    : [];
   const marks = jump > 0 && order > 0 ? [{time: t[jump], text: ""}] : [];
   return {label: `${panels[order]}, ${axes[0].unit}`, axes, curves, gaps, limits, near, marks};
 }
@@ -127,42 +238,60 @@ function panelOf({arm, panels, units}, {t, gaps, jump}, rows, order) {
 // A scale of some ticks round the values: lowest tick, step, count, decimals.
 function scaleOf(low, high, wanted) {
   if (!(high - low > 1e-6 * Math.max(Math.abs(low), Math.abs(high), 1e-3))) {
-    const middle = Number.isFinite(low) ? low : 0, pad = 0.5 * Math.max(Math.abs(middle), 1);
+    const middle = Number.isFinite(low) ? low : 0,
+      pad = 0.5 * Math.max(Math.abs(middle), 1);
     [low, high] = [middle - pad, middle + pad];
   }
   const power = 10 ** Math.floor(Math.log10((high - low) / wanted));
-  const step = power * [1, 2, 2.5, 5, 10].find(k => power * k * wanted >= (high - low) * (1 - 1e-9));
-  const first = Math.floor(low / step + 1e-9), last = Math.ceil(high / step - 1e-9);
-  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) + (Math.abs(step / power - 2.5) < 1e-9 && power < 10 ? 1 : 0);
+  const step =
+    power * [1, 2, 2.5, 5, 10].find(k => power * k * wanted >= (high - low) * (1 - 1e-9));
+  const first = Math.floor(low / step + 1e-9),
+    last = Math.ceil(high / step - 1e-9);
+  const decimals =
+    Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) +
+    (Math.abs(step / power - 2.5) < 1e-9 && power < 10 ? 1 : 0);
   return [first * step, step, last - first + 1, power >= 10 ? 0 : decimals];
 }
 
 // NaN where there is nothing.
-const most = (rows, j) => rows.reduce((best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])), NaN);
+const most = (rows, j) =>
+  rows.reduce(
+    (best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])),
+    NaN,
+  );
 
 // How near the tool passes the via station.
 function nearWords({words, unit}, {via}, tool) {
   let least = Infinity;
   for (let i = 1; i < tool.length; i++) {
     if (!tool[i] || !tool[i - 1]) continue;
-    const way = plus(tool[i], tool[i - 1], -1), from = plus(via.place, tool[i - 1], -1);
+    const way = plus(tool[i], tool[i - 1], -1),
+      from = plus(via.place, tool[i - 1], -1);
     const length = way.reduce((sum, x) => sum + x * x, 0);
-    const share = length ? Math.min(1, Math.max(0, way.reduce((sum, x, k) => sum + x * from[k], 0) / length)) : 0;
+    const share = length
+      ? Math.min(1, Math.max(0, way.reduce((sum, x, k) => sum + x * from[k], 0) / length))
+      : 0;
     const apart = plus(from, way, -share);
     least = Math.min(least, Math.sqrt(apart.reduce((sum, x) => sum + x * x, 0)));
   }
-  return Number.isFinite(least) ? fill(words.near, {distance: number(least / unit.size, unit.size < 1 ? 1 : 3)}) : "";
+  return Number.isFinite(least)
+    ? fill(words.near, {distance: number(least / unit.size, unit.size < 1 ? 1 : 3)})
+    : "";
 }
 
 // What is wrong with the motion.
 function notes({arm, words, units}, {q, v, t, missing, jump}) {
-  const said = [], none = missing.filter(Boolean).length;
+  const said = [],
+    none = missing.filter(Boolean).length;
   if (none) said.push(fill(words.missingSamples, {none, all: q.length}));
   units.forEach((_, j) => {
-    const [low, high] = arm.limits[j], slack = arm.tolerances.SLACK;
+    const [low, high] = arm.limits[j],
+      slack = arm.tolerances.SLACK;
     const past = q.filter(row => row[j] < low - slack || row[j] > high + slack).length;
     if (past) said.push(fill(words.pastSamples, {joint: j + 1, past, all: q.length}));
-    const fast = arm.speed_limits ? v.filter(row => Math.abs(row[j]) > arm.speed_limits[j] * (1 + 1e-9)).length : 0;
+    const fast = arm.speed_limits
+      ? v.filter(row => Math.abs(row[j]) > arm.speed_limits[j] * (1 + 1e-9)).length
+      : 0;
     if (fast) said.push(fill(words.fastSamples, {joint: j + 1, past: fast, all: q.length}));
   });
   if (jump > 0) said.push(fill(words.jump, {time: number(t[jump], 2)}));
@@ -171,40 +300,80 @@ function notes({arm, words, units}, {q, v, t, missing, jump}) {
 
 // Start and goal freely in the plane of the screen, the via station along the base's axes, too.
 function stationHandles(stage, state, copied, data) {
-  const {unit, words, scene} = data, size = scene.size, fine = 5e-3 * (unit.size < 1 ? 1 : size / 2);
+  const {unit, words, scene} = data,
+    size = scene.size,
+    fine = 5e-3 * (unit.size < 1 ? 1 : size / 2);
   const kept = (place, from) => place.map((x, k) => (k === scene.flat ? from[k] : x));
-  const value = name => () => `${state[name].place.map(x => number(x / unit.size, 1)).join(", ")} ${unit.name}`;
-  const home = name => () => { state[name].place = copied()[name].place; };
+  const value = name => () =>
+    `${state[name].place.map(x => number(x / unit.size, 1)).join(", ")} ${unit.name}`;
+  const home = name => () => {
+    state[name].place = copied()[name].place;
+  };
   const free = STATIONS.map(name => ({
-    id: name, name: fill(words.takeStation, {name}), look: "rk-free", at: () => state[name].place, value: value(name), home: home(name),
+    id: name,
+    name: fill(words.takeStation, {name}),
+    look: "rk-free",
+    at: () => state[name].place,
+    value: value(name),
+    home: home(name),
     grab(camera) {
-      const from = state[name].place, to = inScreen(camera, from);
-      return (dx, dy) => { state[name].place = kept(to(dx, dy), from); };
+      const from = state[name].place,
+        to = inScreen(camera, from);
+      return (dx, dy) => {
+        state[name].place = kept(to(dx, dy), from);
+      };
     },
     step(right, up, big) {
-      const camera = stage.camera(), by = fine * camera.scale * (big ? 10 : 1), from = state[name].place;
+      const camera = stage.camera(),
+        by = fine * camera.scale * (big ? 10 : 1),
+        from = state[name].place;
       state[name].place = kept(plus(from, camera.across(right * by, -up * by)), from);
     },
   }));
-  const arrows = [0, 1, 2].filter(k => k !== scene.flat).map(k => {
-    const way = [0, 1, 2].map(i => Number(i === k));
-    return {
-      id: `via ${"xyz"[k]}`, name: fill(words.takeVia, {axis: "xyz"[k]}), look: "rk-arrow", mark: "xyz"[k], color: "xyz"[k],
-      at: camera => plus(state.via.place, way, reachOf(camera)), value: value("via"), home: home("via"),
-      grab(camera) {
-        const from = state.via.place, r = reachOf(camera), to = alongCurve(camera, x => plus(from, way, x + r), 0, fine);
-        return (dx, dy) => { state.via.place = plus(from, way, to(dx, dy)); };
-      },
-      step(right, up, big) { state.via.place = plus(state.via.place, way, (right + up) * fine * (big ? 10 : 1)); },
-    };
-  });
+  const arrows = [0, 1, 2]
+    .filter(k => k !== scene.flat)
+    .map(k => {
+      const way = [0, 1, 2].map(i => Number(i === k));
+      return {
+        id: `via ${"xyz"[k]}`,
+        name: fill(words.takeVia, {axis: "xyz"[k]}),
+        look: "rk-arrow",
+        mark: "xyz"[k],
+        color: "xyz"[k],
+        at: camera => plus(state.via.place, way, reachOf(camera)),
+        value: value("via"),
+        home: home("via"),
+        grab(camera) {
+          const from = state.via.place,
+            r = reachOf(camera),
+            to = alongCurve(camera, x => plus(from, way, x + r), 0, fine);
+          return (dx, dy) => {
+            state.via.place = plus(from, way, to(dx, dy));
+          };
+        },
+        step(right, up, big) {
+          state.via.place = plus(state.via.place, way, (right + up) * fine * (big ? 10 : 1));
+        },
+      };
+    });
   return [...free, ...arrows];
 }
 
 // The lines of Python that make the same motion.
 function inCode(data, state) {
   const {unit, code, laws, corners} = data;
-  const numbers = place => lengths(place, unit).map(x => `${x} * ${unit.code}`).join(", ");
-  return fill(code, {start: numbers(state.start.place), via: numbers(state.via.place), goal: numbers(state.goal.place),
-    law: laws[state.law], duration: state.duration, blend: plain(state.blend, 3), corner: corners[state.corner], row: state.row});
+  const numbers = place =>
+    lengths(place, unit)
+      .map(x => `${x} * ${unit.code}`)
+      .join(", ");
+  return fill(code, {
+    start: numbers(state.start.place),
+    via: numbers(state.via.place),
+    goal: numbers(state.goal.place),
+    law: laws[state.law],
+    duration: state.duration,
+    blend: plain(state.blend, 3),
+    corner: corners[state.corner],
+    row: state.row,
+  });
 }

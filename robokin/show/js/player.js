@@ -18,20 +18,25 @@ export const play = (id, data) => waiting(id).forEach(root => start(root, data))
  * @param {object} data  page.py: Page
  */
 function start(root, data) {
-  const scene = {...data.scene, unit: data.unit}, parts = furniture(data, scene);
-  const inSpace = sceneView(parts.scene, scene), overTime = curvesView(parts.curves, data.dashes);
+  const scene = {...data.scene, unit: data.unit},
+    parts = furniture(data, scene);
+  const inSpace = sceneView(parts.scene, scene),
+    overTime = curvesView(parts.curves, data.dashes);
   const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
   const motions = motionsOf(data);
   let shown;
 
   function choose() {
-    shown = motions.choose(state.choice * (data.slider ? data.slider.values.length : 1) + state.value);
+    shown = motions.choose(
+      state.choice * (data.slider ? data.slider.values.length : 1) + state.value,
+    );
     tell(parts, data, shown, state.value);
   }
   function draw(now) {
     clock.pass(now);
     sized(parts, inSpace, data.arms.length, scene.bases ? 1 : data.arms.length);
-    const moment = momentAt(data.times, state.time), arms = shown.arms.map(arm => armAt(arm, moment));
+    const moment = momentAt(data.times, state.time),
+      arms = shown.arms.map(arm => armAt(arm, moment));
     shown.columns.forEach((column, k) => shownAt(column, moment, shown.arms[k].gaps));
     Object.assign(scene, motions.around(shown.motion, moment));
     clock.tell();
@@ -42,22 +47,40 @@ function start(root, data) {
 
   root.replaceChildren(parts.frame);
   const ask = pictures(root, [parts.scene, parts.curves], draw); // also draws the first picture
-  const clock = runningClock(parts, parts.frame, state, () => [data.times[0], data.times.at(-1)], ask);
-  parts.slider?.addEventListener("input", () => { state.value = +parts.slider.value; choose(); ask(); });
-  parts.menu?.addEventListener("change", () => { state.choice = +parts.menu.value; choose(); ask(); });
+  const clock = runningClock(
+    parts,
+    parts.frame,
+    state,
+    () => [data.times[0], data.times.at(-1)],
+    ask,
+  );
+  parts.slider?.addEventListener("input", () => {
+    state.value = +parts.slider.value;
+    choose();
+    ask();
+  });
+  parts.menu?.addEventListener("change", () => {
+    state.choice = +parts.menu.value;
+    choose();
+    ask();
+  });
   orbit(parts.scene, scene, state, ask);
   scrubbing(parts.curves, overTime, clock);
   choose();
 }
 
-// --- What is on the page --------------------------------------------------------------------------------------------
+// --- What is on the page -------------------------------------------------------------------------
 
 function furniture(data, scene) {
   const parts = {
     scene: sceneCanvas(scene, data.alt),
-    curves: element("canvas", {class: "rk-curves", role: "img", "aria-label":
-      `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, speeds, accelerations. ` +
-      "The greatest values stand in the table."}),
+    curves: element("canvas", {
+      class: "rk-curves",
+      role: "img",
+      "aria-label":
+        `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, ` +
+        "speeds, accelerations. The greatest values stand in the table.",
+    }),
     ...clockRow(),
     table: element("div", {class: "rk-table"}),
     notes: element("ul", {class: "rk-notes"}),
@@ -71,103 +94,185 @@ function furniture(data, scene) {
     parts.value = element("span", {class: "rk-value"});
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   }
-  if (menu) rows[0].append(element("label", {}, menu.label, parts.menu = choice(menu.label, menu.values)));
-  parts.frame = element("div", {class: "rk", role: "group", "aria-label": data.title}, element("style", {}, STYLE),
-    element("div", {class: "rk-title"}, data.title), ...rows,
-    element("div", {class: `rk-views${data.arms.length > 1 ? " rk-wide" : ""}`}, parts.scene, parts.curves),
-    parts.table, parts.notes);
+  if (menu)
+    rows[0].append(
+      element("label", {}, menu.label, (parts.menu = choice(menu.label, menu.values))),
+    );
+  parts.frame = element(
+    "div",
+    {class: "rk", role: "group", "aria-label": data.title},
+    element("style", {}, STYLE),
+    element("div", {class: "rk-title"}, data.title),
+    ...rows,
+    element(
+      "div",
+      {class: `rk-views${data.arms.length > 1 ? " rk-wide" : ""}`},
+      parts.scene,
+      parts.curves,
+    ),
+    parts.table,
+    parts.notes,
+  );
   return parts;
 }
 
-// A canvas that has the whole width takes the height that its arms fill: so many have curves, so many pictures are there.
+// A canvas that has the whole width takes the height that its arms fill: so many have curves, so
+// many pictures are there.
 function sized({scene, curves}, inSpace, arms, count) {
-  const [, rows] = tiled(arms, curves.clientWidth), whole = scene.offsetTop !== curves.offsetTop;
+  const [, rows] = tiled(arms, curves.clientWidth),
+    whole = scene.offsetTop !== curves.offsetTop;
   curves.style.height = rows > 1 ? `${rows * 330}px` : "";
-  scene.style.height = whole && scene.clientWidth
-    ? `${Math.round(Math.min(tiled(count, scene.clientWidth)[1] * (count > 1 ? 290 : 340), Math.max(190, inSpace.height(count, scene.clientWidth))))}px` : "";
+  const width = scene.clientWidth;
+  if (!whole || !width) {
+    scene.style.height = "";
+    return;
+  }
+  const most = tiled(count, width)[1] * (count > 1 ? 290 : 340),
+    filled = Math.max(190, inSpace.height(count, width));
+  scene.style.height = `${Math.round(Math.min(most, filled))}px`;
 }
 
 // The numbers of a motion, as a table and in words.
 function tell(parts, data, {arms, motion}, value) {
-  const {slider, unit} = data, whose = arm => data.arms.length > 1 ? `${arm.name}: ` : "";
-  const near = arms.filter(arm => arm.near).map(arm => `${whose(arm)}path passes via at ${arm.near.text}`).join("; ");
+  const {slider, unit} = data,
+    whose = arm => (data.arms.length > 1 ? `${arm.name}: ` : "");
+  const near = arms
+    .filter(arm => arm.near)
+    .map(arm => `${whose(arm)}path passes via at ${arm.near.text}`)
+    .join("; ");
   const most = Math.max(...data.arms.map(arm => arm.chain.length));
-  const head = element("tr", {}, element("th", {scope: "col"}, near),
-    ...Array.from({length: most}, (_, j) => element("th", {scope: "col"}, `joint ${j + 1}`)));
+  const head = element(
+    "tr",
+    {},
+    element("th", {scope: "col"}, near),
+    ...Array.from({length: most}, (_, j) => element("th", {scope: "col"}, `joint ${j + 1}`)),
+  );
   const body = data.arms.flatMap(arm => {
-    const units = [...new Set(arm.chain.map(link => link.prismatic ? unit.name : "\u00B0"))];
-    const line = (name, per, limited, cell) => element("tr", {}, element("th", {scope: "row"},
-      `${whose(arm)}${name}, ${units.map(u => `${u}/${per}`).join(" or ")}${limited ? " (of limit)" : ""}`),
-      ...arm.chain.map((_, j) => cell(j)));
+    const units = [...new Set(arm.chain.map(link => (link.prismatic ? unit.name : "\u00B0")))];
+    const per = time => units.map(u => `${u}/${time}`).join(" or ");
+    const line = (name, time, limited, cell) =>
+      element(
+        "tr",
+        {},
+        element(
+          "th",
+          {scope: "row"},
+          `${whose(arm)}${name}, ${per(time)}${limited ? " (of limit)" : ""}`,
+        ),
+        ...arm.chain.map((_, j) => cell(j)),
+      );
     return [
-      line("greatest speed", "s", arm.share, j => element("td", {}, number(arm.speed[motion][j], data.decimals[0]) +
-        (arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : ""))),
-      line("greatest acceleration", "s\u00B2", false, j => typeof arm.acceleration[motion][j] === "string"
-        ? element("td", {class: "rk-jump"}, arm.acceleration[motion][j])
-        : element("td", {}, number(arm.acceleration[motion][j], data.decimals[1]))),
+      line("greatest speed", "s", arm.share, j =>
+        element(
+          "td",
+          {},
+          number(arm.speed[motion][j], data.decimals[0]) +
+            (arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : ""),
+        ),
+      ),
+      line("greatest acceleration", "s\u00B2", false, j =>
+        typeof arm.acceleration[motion][j] === "string"
+          ? element("td", {class: "rk-jump"}, arm.acceleration[motion][j])
+          : element("td", {}, number(arm.acceleration[motion][j], data.decimals[1])),
+      ),
     ];
   });
-  parts.table.replaceChildren(element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
-  parts.notes.replaceChildren(...data.arms.flatMap(arm => (arm.notes[motion] || []).map(text =>
-    element("li", {}, whose(arm) + text))));
+  parts.table.replaceChildren(
+    element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)),
+  );
+  parts.notes.replaceChildren(
+    ...data.arms.flatMap(arm =>
+      (arm.notes[motion] || []).map(text => element("li", {}, whose(arm) + text)),
+    ),
+  );
   if (!slider) return;
   parts.value.textContent = number(slider.values[value], slider.decimals);
   parts.slider.setAttribute("aria-valuetext", parts.value.textContent);
 }
 
-// --- Motions --------------------------------------------------------------------------------------------------------
+// --- Motions -------------------------------------------------------------------------------------
 
-// choose(motion): everything that changes with slider and switch; around(motion, moment): targets and marks then.
+// choose(motion): everything that changes with slider and switch; around(motion, moment): targets
+// and marks then.
 function motionsOf(data) {
   const {unit, slider, times} = data;
   const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
   const recordings = data.arms.map(arm => recording(arm, count, times.length, unit));
-  const targets = places(data.scene.targets, "pose"), marks = places(data.scene.marks, "at");
+  const targets = places(data.scene.targets, "pose"),
+    marks = places(data.scene.marks, "at");
   return {
     choose(motion) {
       const arms = data.arms.map((arm, k) => armIn(motion, arm, recordings[k], times.length, unit));
-      const columns = data.arms.map((arm, k) => ({title: arm.name,
-        panels: data.panels.map((_, order) => panelOf(data, k, order, motion, recordings[k], arms[k].gaps))}));
+      const columns = data.arms.map((arm, k) => ({
+        title: arm.name,
+        panels: data.panels.map((_, order) =>
+          panelOf(data, k, order, motion, recordings[k], arms[k].gaps),
+        ),
+      }));
       return {motion, arms, columns};
     },
-    around: (motion, {i, share}) => ({targets: targets(motion, i, share), marks: marks(motion, i, share)}),
+    around: (motion, {i, share}) => ({
+      targets: targets(motion, i, share),
+      marks: marks(motion, i, share),
+    }),
   };
 }
 
 function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
-  const breaks = new Set(gaps[motion]), near = via && via[motion];
+  const breaks = new Set(gaps[motion]),
+    near = via && via[motion];
   const trace = Array.from({length: samples}, (_, i) => tipOf(chain, recorded.q(motion, i)));
-  return {name, chain, gaps: breaks, places: trace, trace: broken(trace, breaks),
-    q: (i, share) => recorded.q(motion, i, share),
-    near: near && {place: near.slice(1), text: `${number(near[0], unit.size < 1 ? 1 : 3)} ${unit.name}`}};
-}
-
-const tipOf = (chain, q) => q.every(Number.isFinite) ? origin(frames(chain, q).at(-1)) : null;
-const broken = (places, gaps) => places.flatMap((p, i) => gaps.has(i) ? [p, null] : [p]);
-
-function panelOf(data, k, order, motion, recorded, gaps) {
-  const {label, own, axes, near} = data.panels[order], arm = data.arms[k];
   return {
-    label: label + (own && data.slider ? `   (scale follows ${data.slider.label})` : ""),
-    axes: Object.entries(axes).map(([kind, {unit, scales, of}]) => ({unit, scale: scales[of ? of[motion] : 0],
-      joints: arm.chain.flatMap((link, j) => link.prismatic === (kind === "shift") ? [j] : [])})),
-    curves: recorded.quantity(order, motion),
-    gaps,
-    limits: order === 0 ? arm.limits
-      : order === 1 && arm.speedLimits ? [arm.speedLimits.map(x => -x), arm.speedLimits] : null,
-    near: near[k],
-    marks: [...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
-            ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""}))],
+    name,
+    chain,
+    gaps: breaks,
+    places: trace,
+    trace: broken(trace, breaks),
+    q: (i, share) => recorded.q(motion, i, share),
+    near: near && {
+      place: near.slice(1),
+      text: `${number(near[0], unit.size < 1 ? 1 : 3)} ${unit.name}`,
+    },
   };
 }
 
-// --- A moment -------------------------------------------------------------------------------------------------------
+const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(frames(chain, q).at(-1)) : null);
+const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? [p, null] : [p]));
+
+function panelOf(data, k, order, motion, recorded, gaps) {
+  const {label, own, axes, near} = data.panels[order],
+    arm = data.arms[k];
+  return {
+    label: label + (own && data.slider ? `   (scale follows ${data.slider.label})` : ""),
+    axes: Object.entries(axes).map(([kind, {unit, scales, of}]) => ({
+      unit,
+      scale: scales[of ? of[motion] : 0],
+      joints: arm.chain.flatMap((link, j) => (link.prismatic === (kind === "shift") ? [j] : [])),
+    })),
+    curves: recorded.quantity(order, motion),
+    gaps,
+    limits:
+      order === 0
+        ? arm.limits
+        : order === 1 && arm.speedLimits
+          ? [arm.speedLimits.map(x => -x), arm.speedLimits]
+          : null,
+    near: near[k],
+    marks: [
+      ...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
+      ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""})),
+    ],
+  };
+}
+
+// --- A moment ------------------------------------------------------------------------------------
 
 // The sample before a time, and the share of the way to the next.
 function momentAt(times, time) {
   const last = times.length - 1;
   let i = 0;
-  for (let step = 1 << 10; step; step >>= 1) if (i + step <= last && times[i + step] <= time) i += step;
+  for (let step = 1 << 10; step; step >>= 1)
+    if (i + step <= last && times[i + step] <= time) i += step;
   return {i, share: i < last ? (time - times[i]) / (times[i + 1] - times[i]) : 0};
 }
 
@@ -175,17 +280,24 @@ function momentAt(times, time) {
 function armAt(arm, {i, share}) {
   const gap = arm.gaps.has(i);
   let q = arm.q(i, gap ? 0 : share);
-  const faded = !q.every(Number.isFinite) || gap && share > 0 && !arm.places[i + 1];
+  const faded = !q.every(Number.isFinite) || (gap && share > 0 && !arm.places[i + 1]);
   for (let back = i; !q.every(Number.isFinite) && back >= 0; back--) q = arm.q(back, 0);
-  return {...arm, q, faded, tail: [...broken(arm.places.slice(0, i + 1), arm.gaps), tipOf(arm.chain, q)]};
+  return {
+    ...arm,
+    q,
+    faded,
+    tail: [...broken(arm.places.slice(0, i + 1), arm.gaps), tipOf(arm.chain, q)],
+  };
 }
 
 function shownAt(column, {i, share}, gaps) {
-  for (const panel of column.panels) panel.now = panel.curves.map(curve =>
-    share && !gaps.has(i) ? curve[i] + share * (curve[i + 1] - curve[i]) : curve[i]);
+  for (const panel of column.panels)
+    panel.now = panel.curves.map(curve =>
+      share && !gaps.has(i) ? curve[i] + share * (curve[i + 1] - curve[i]) : curve[i],
+    );
 }
 
-// --- Time -----------------------------------------------------------------------------------------------------------
+// --- Time ----------------------------------------------------------------------------------------
 
 // Pressing and dragging on the curves sets the time.
 function scrubbing(canvas, overTime, clock) {

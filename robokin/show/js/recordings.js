@@ -1,75 +1,133 @@
-// Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over time.
+// Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over
+// time.
 
 import {number} from "./canvas.js";
+
+/** @import {Packed, PageArm, PageWay, Unit} from "./page.js" */
+
+/**
+ * What may move, and what there is to read behind its name: a PageTarget or a PageMark.
+ * @typedef {{name: string, way?: PageWay, reading?: PageWay, decimals?: number}} Moving
+ */
+/**
+ * @template T
+ * @typedef {(motion: number, sample: number, share: number) => T} AtMoment
+ */
+/**
+ * @typedef {object} Recording
+ * @property {(k: number, motion: number) => Float64Array[]} quantity
+ * @property {(motion: number, sample: number, share?: number) => number[]} q
+ */
 
 const NOTHING = -32768;
 
 /**
- * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN for no value.
+ * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN
+ * for no value.
+ * @param {Packed} packed
+ * @param {number} motions
+ * @param {number} columns
+ * @param {number} samples
  * @returns {Float64Array}
  */
 export function unpacked({steps, data}, motions, columns, samples) {
-  const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)), values = new Float64Array(motions * columns * samples);
-  let at = 0, to = 0;
-  for (let motion = 0; motion < motions; motion++) for (let column = 0; column < columns; column++) {
-    const step = steps[motion][column] ?? steps[motion];
-    for (let i = 0, whole = 0, slope = 0; i < samples; i++) {
-      let folded = 0, shift = 0, byte;
-      do {
-        byte = bytes[at++];
-        folded |= (byte & 127) << shift;
-        shift += 7;
-      } while (byte > 127);
-      slope += folded & 1 ? -(folded + 1) / 2 : folded / 2;
-      whole += slope;
-      values[to++] = whole === NOTHING ? NaN : whole * step;
+  const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)),
+    values = new Float64Array(motions * columns * samples);
+  let at = 0,
+    to = 0;
+  for (let motion = 0; motion < motions; motion++)
+    for (let column = 0; column < columns; column++) {
+      const own = steps[motion],
+        step = typeof own === "number" ? own : own[column];
+      for (let i = 0, whole = 0, slope = 0; i < samples; i++) {
+        let folded = 0,
+          shift = 0,
+          byte;
+        do {
+          byte = bytes[at++];
+          folded |= (byte & 127) << shift;
+          shift += 7;
+        } while (byte > 127);
+        slope += folded & 1 ? -(folded + 1) / 2 : folded / 2;
+        whole += slope;
+        values[to++] = whole === NOTHING ? NaN : whole * step;
+      }
     }
-  }
   return values;
 }
 
 /**
- * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown units, for each joint an
- * array over the samples; q(motion, sample, share): joint values in radians and metres between two samples.
+ * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown
+ * units, for each joint an array over the samples; q(motion, sample, share): joint values in
+ * radians and metres between two samples.
+ * @param {Pick<PageArm, "chain" | "motion">} arm
+ * @param {number} motions
+ * @param {number} samples
+ * @param {Unit} unit
+ * @returns {Recording}
  */
 export function recording(arm, motions, samples, unit) {
-  const joints = arm.chain.length, inner = arm.chain.map(link => link.prismatic ? unit.size : Math.PI / 180);
+  const joints = arm.chain.length,
+    inner = arm.chain.map(link => (link.prismatic ? unit.size : Math.PI / 180));
   const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples));
-  const row = (k, motion, j) => (motion * joints + j) * samples;
+  /** @type {(motion: number, j: number) => number} */
+  const row = (motion, j) => (motion * joints + j) * samples;
   return {
-    quantity: (k, motion) => inner.map((_, j) => all[k].subarray(row(k, motion, j), row(k, motion, j) + samples)),
-    q: (motion, i, share = 0) => inner.map((size, j) => size * between(all[0], row(0, motion, j) + i, share)),
+    quantity: (k, motion) =>
+      inner.map((_, j) => all[k].subarray(row(motion, j), row(motion, j) + samples)),
+    q: (motion, i, share = 0) =>
+      inner.map((size, j) => size * between(all[0], row(motion, j) + i, share)),
   };
 }
 
 /**
- * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their `pose` or `at`, and
- * behind their name what there is to read.
- * @param {object[]} things  page.py: PageTarget or PageMark
+ * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their
+ * `pose` or `at`, and behind their name what there is to read.
+ * @template {Moving} T
+ * @param {T[]} things
  * @param {"pose"|"at"} key
+ * @returns {AtMoment<T[]>}
  */
 export function places(things, key) {
   const columns = key === "pose" ? 12 : 3;
-  const where = things.map(({way, reading, decimals, ...thing}) => {
-    const at = way && numbers(way, columns), read = reading && numbers(reading, 1);
+  const where = things.map(({way, reading, decimals = 0, ...thing}) => {
+    const at = way && numbers(way, columns),
+      read = reading && numbers(reading, 1);
+    /** @type {AtMoment<?T>} */
     return (motion, i, share) => {
-      const now = at && at(motion, i, share), [value] = read ? read(motion, i, 0) : [NaN];
+      const now = at && at(motion, i, share),
+        [value] = read ? read(motion, i, 0) : [NaN];
       if (now && now.some(Number.isNaN)) return null;
       const name = Number.isNaN(value) ? thing.name : `${thing.name}: ${number(value, decimals)}`;
-      return {...thing, name, ...now && {[key]: now}};
+      return /** @type {T} */ ({...thing, name, ...(now && {[key]: now})});
     };
   });
-  return (motion, i, share) => where.map(one => one(motion, i, share)).filter(thing => thing);
+  return (motion, i, share) =>
+    where.map(one => one(motion, i, share)).filter(thing => thing !== null);
 }
 
-// A PageWay -> (motion, sample, share) -> its columns.
+/**
+ * A PageWay -> (motion, sample, share) -> its columns.
+ * @param {PageWay} way
+ * @param {number} columns
+ * @returns {AtMoment<number[]>}
+ */
 function numbers(way, columns) {
-  const {motions, samples} = way, values = unpacked(way, motions, columns, samples);
+  const {motions, samples} = way,
+    values = unpacked(way, motions, columns, samples);
   return (motion, i, share) => {
     const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
-    return Array.from({length: columns}, (_, k) => between(values, first + k * samples, samples > 1 ? share : 0));
+    return Array.from({length: columns}, (_, k) =>
+      between(values, first + k * samples, samples > 1 ? share : 0),
+    );
   };
 }
 
-// NaN beside a sample that exists does not count before the time has left it.
-const between = (values, i, share) => share ? values[i] + share * (values[i + 1] - values[i]) : values[i];
+/**
+ * NaN beside a sample that exists does not count before the time has left it.
+ * @param {Float64Array} values
+ * @param {number} i
+ * @param {number} share
+ */
+const between = (values, i, share) =>
+  share ? values[i] + share * (values[i + 1] - values[i]) : values[i];

@@ -7,17 +7,25 @@
  * @property {number} periods  how often a pull comes round in one turn of the rotor
  * @property {number} sharp  1: a current pulls by its value, 2: by its square
  * @property {number[][]} currents  the rows of the phase table
- * @property {number} torque @property {number} inertia @property {number} damping @property {number} rise
+ * @property {number} torque
+ * @property {number} inertia
+ * @property {number} damping
+ * @property {number} rise
  * @property {number} load  N m, always backwards
- * @property {{fine: number[], settled: number, slowest: number, limit: number, nearly: number}} rules
+ * @property {{fine: number[], settled: number, slowest: number, limit: number, nearly: number}}
+ *   rules
  * @typedef {{theta: number, omega: number, currents: number[]}} State
  */
 
 /** Direction and strength of what currents pull with, as x and y. */
 export const pull = (motor, currents) => summed(currents, ...waysOf(motor), motor.sharp);
-const waysOf = ({turn, currents: [row]}) => [row.map((_, k) => Math.cos(turn * k)), row.map((_, k) => Math.sin(turn * k))];
+const waysOf = ({turn, currents: [row]}) => [
+  row.map((_, k) => Math.cos(turn * k)),
+  row.map((_, k) => Math.sin(turn * k)),
+];
 function summed(currents, across, along, sharp) {
-  let x = 0, y = 0;
+  let x = 0,
+    y = 0;
   for (let k = 0; k < currents.length; k++) {
     const much = sharp === 2 ? currents[k] * currents[k] : currents[k];
     x += much * across[k];
@@ -26,40 +34,67 @@ function summed(currents, across, along, sharp) {
   return [x, y];
 }
 
-export const stepOf = motor => 2 * Math.PI / (motor.currents.length * motor.periods);
+export const stepOf = motor => (2 * Math.PI) / (motor.currents.length * motor.periods);
 const strength = ([x, y]) => Math.sqrt(x * x + y * y);
 const pulls = motor => motor.currents.map(row => pull(motor, row));
 
-/** The greatest load that every row holds; the greatest that still goes from every row to the next. */
+/**
+ * The greatest load that every row holds; the greatest that still goes from every row to the next.
+ */
 export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
 export function startingTorque(motor) {
   const all = pulls(motor);
-  return motor.torque * Math.min(...all.map(([x, y], k) => {
-    const [u, v] = all[(k + 1) % all.length];
-    const [a, b] = [u - x, v - y], share = Math.min(1, Math.max(0, -(x * a + y * b) / (a * a + b * b)));
-    return strength([x + share * a, y + share * b]);
-  }));
+  return (
+    motor.torque *
+    Math.min(
+      ...all.map(([x, y], k) => {
+        const [u, v] = all[(k + 1) % all.length];
+        const [a, b] = [u - x, v - y],
+          share = Math.min(1, Math.max(0, -(x * a + y * b) / (a * a + b * b)));
+        return strength([x + share * a, y + share * b]);
+      }),
+    )
+  );
 }
 
 /** Where the rotor rests in the row that `sent` pulses lead to, counted on from row 0; rad. */
 export function resting(motor, sent) {
-  const all = pulls(motor), n = all.length, [x, y] = all[0], row = ((sent % n) + n) % n;
-  const bent = Math.asin(Math.min(1, Math.max(-1, motor.load / (motor.torque * strength(all[row])))));
-  return (Math.atan2(y, x) + 2 * Math.PI / n * sent - bent) / motor.periods;
+  const all = pulls(motor),
+    n = all.length,
+    [x, y] = all[0],
+    row = ((sent % n) + n) % n;
+  const bent = Math.asin(
+    Math.min(1, Math.max(-1, motor.load / (motor.torque * strength(all[row])))),
+  );
+  return (Math.atan2(y, x) + ((2 * Math.PI) / n) * sent - bent) / motor.periods;
 }
 
 function rhythm(motor) {
   const most = Math.max(...pulls(motor).map(strength));
-  const swing = Math.sqrt(motor.inertia / (motor.periods * motor.torque * most)), {fine, settled} = motor.rules;
+  const swing = Math.sqrt(motor.inertia / (motor.periods * motor.torque * most)),
+    {fine, settled} = motor.rules;
   return {
-    longest: Math.min(fine[0] * Math.min(swing, motor.inertia / motor.damping), fine[1] * motor.rise || Infinity),
-    settle: settled * Math.max(2 * motor.inertia / motor.damping, motor.damping * swing * swing / motor.inertia),
+    longest: Math.min(
+      fine[0] * Math.min(swing, motor.inertia / motor.damping),
+      fine[1] * motor.rise || Infinity,
+    ),
+    settle:
+      settled *
+      Math.max(
+        (2 * motor.inertia) / motor.damping,
+        (motor.damping * swing * swing) / motor.inertia,
+      ),
   };
 }
 
 /** A rotor at rest in the row that `sent` pulses lead to. @returns {State} */
-export const atRest = (motor, sent) => ({theta: resting(motor, sent), omega: 0, currents: [...rowOf(motor, sent)]});
-const rowOf = ({currents}, sent) => currents[((sent % currents.length) + currents.length) % currents.length];
+export const atRest = (motor, sent) => ({
+  theta: resting(motor, sent),
+  omega: 0,
+  currents: [...rowOf(motor, sent)],
+});
+const rowOf = ({currents}, sent) =>
+  currents[((sent % currents.length) + currents.length) % currents.length];
 
 /**
  * The rotor some seconds later, by fourth order Runge-Kutta; `state` is changed.
@@ -71,11 +106,18 @@ const rowOf = ({currents}, sent) => currents[((sent % currents.length) + current
  * @param {number} [longest]  step, s
  */
 export function advance(motor, state, sent, seconds, each = null, longest = rhythm(motor).longest) {
-  const goal = rowOf(motor, sent), count = Math.ceil(seconds / longest), [across, along] = waysOf(motor);
+  const goal = rowOf(motor, sent),
+    count = Math.ceil(seconds / longest),
+    [across, along] = waysOf(motor);
   if (!count) return;
-  const {periods, sharp, torque, inertia, damping, load, rise} = motor, h = seconds / count, {currents} = state;
-  const left = rise ? Math.exp(-h / 2 / rise) : 0, now = i => summed(i, across, along, sharp);
-  const nearer = () => { for (let k = 0; k < goal.length; k++) currents[k] = goal[k] + (currents[k] - goal[k]) * left; };
+  const {periods, sharp, torque, inertia, damping, load, rise} = motor,
+    h = seconds / count,
+    {currents} = state;
+  const left = rise ? Math.exp(-h / 2 / rise) : 0,
+    now = i => summed(i, across, along, sharp);
+  const nearer = () => {
+    for (let k = 0; k < goal.length; k++) currents[k] = goal[k] + (currents[k] - goal[k]) * left;
+  };
   const faster = ([x, y], theta, omega) => {
     const a = periods * theta;
     return (torque * (y * Math.cos(a) - x * Math.sin(a)) - (damping * omega + load)) / inertia;
@@ -85,13 +127,17 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
     nearer();
     const p1 = now(currents);
     nearer();
-    const p2 = now(currents), {theta, omega} = state;
+    const p2 = now(currents),
+      {theta, omega} = state;
     const a0 = faster(p0, theta, omega);
-    const w1 = omega + h / 2 * a0, a1 = faster(p1, theta + h / 2 * omega, w1);
-    const w2 = omega + h / 2 * a1, a2 = faster(p1, theta + h / 2 * w1, w2);
-    const w3 = omega + h * a2, a3 = faster(p2, theta + h * w2, w3);
-    state.theta += h / 6 * (omega + 2 * w1 + 2 * w2 + w3);
-    state.omega += h / 6 * (a0 + 2 * a1 + 2 * a2 + a3);
+    const w1 = omega + (h / 2) * a0,
+      a1 = faster(p1, theta + (h / 2) * omega, w1);
+    const w2 = omega + (h / 2) * a1,
+      a2 = faster(p1, theta + (h / 2) * w1, w2);
+    const w3 = omega + h * a2,
+      a3 = faster(p2, theta + h * w2, w3);
+    state.theta += (h / 6) * (omega + 2 * w1 + 2 * w2 + w3);
+    state.omega += (h / 6) * (a0 + 2 * a1 + 2 * a2 + a3);
     p0 = p2;
     if (each) each((i + 1) * h);
   }
@@ -112,25 +158,42 @@ export function run(motor, times, sign) {
 }
 
 function lostOf(motor, times, sign = 1, each = null) {
-  const state = atRest(motor, 0), {longest, settle} = rhythm(motor), ends = [...times, (times.at(-1) ?? 0) + settle];
+  const state = atRest(motor, 0),
+    {longest, settle} = rhythm(motor),
+    ends = [...times, (times.at(-1) ?? 0) + settle];
   ends.forEach((end, k) => {
     const since = k ? ends[k - 1] : 0;
-    advance(motor, state, sign * k, end - since, each && (elapsed => each(since + elapsed, state, sign * k)), longest);
+    advance(
+      motor,
+      state,
+      sign * k,
+      end - since,
+      each && (elapsed => each(since + elapsed, state, sign * k)),
+      longest,
+    );
   });
   return behind(motor, state, sign * times.length);
 }
 
 /** How many steps the rotor is behind what was sent. */
-export const behind = (motor, state, sent) => rounded((resting(motor, sent) - state.theta) / stepOf(motor));
+export const behind = (motor, state, sent) =>
+  rounded((resting(motor, sent) - state.theta) / stepOf(motor));
 
 /** The times of pulses, as `ramp`. */
 export function ramp(count, start, end, seconds) {
-  const more = seconds > 0 ? (end - start) / seconds : 0, low = more ? start : end;
-  const top = Math.min(end, Math.sqrt(low * low + more * count)), up = more ? (top - low) / more : 0;
-  const done = (low + top) / 2 * up, duration = 2 * up + (count - 2 * done) / top;
+  const more = seconds > 0 ? (end - start) / seconds : 0,
+    low = more ? start : end;
+  const top = Math.min(end, Math.sqrt(low * low + more * count)),
+    up = more ? (top - low) / more : 0;
+  const done = ((low + top) / 2) * up,
+    duration = 2 * up + (count - 2 * done) / top;
   return Array.from({length: count}, (_, i) => {
-    const k = i + 1, ahead = Math.min(k, count - k);
-    const since = ahead < done ? 2 * ahead / (low + Math.sqrt(low * low + 2 * more * ahead)) : up + (ahead - done) / top;
+    const k = i + 1,
+      ahead = Math.min(k, count - k);
+    const since =
+      ahead < done
+        ? (2 * ahead) / (low + Math.sqrt(low * low + 2 * more * ahead))
+        : up + (ahead - done) / top;
     return k <= count - k ? since : duration - since;
   });
 }
@@ -138,7 +201,8 @@ export function ramp(count, start, end, seconds) {
 /** As `Stepper.start_frequency`. */
 export function startFrequency(motor, count) {
   const {slowest, limit} = motor.rules;
-  let low = slowest - 1, high = limit + 1;
+  let low = slowest - 1,
+    high = limit + 1;
   while (high - low > 1) {
     const middle = Math.floor((low + high) / 2);
     if (lostOf(motor, ramp(count, middle, middle, 0))) high = middle;

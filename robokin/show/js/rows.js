@@ -9,7 +9,12 @@ export const nowhere = n => new Array(n).fill(NaN);
 /** @param {number} x @param {number} low @param {number} high @returns {number} */
 export const between = (x, low, high) => Math.min(Math.max(x, low), high);
 
-/** The length of (x, y) as Python's `distance` has it. @param {number} x @param {number} y @returns {number} */
+/**
+ * The length of (x, y) as Python's `distance` has it.
+ * @param {number} x
+ * @param {number} y
+ * @returns {number}
+ */
 export function distance2(x, y) {
   const scale = Math.max(Math.abs(x), Math.abs(y), 1e-300);
   x /= scale;
@@ -24,7 +29,8 @@ export function distance2(x, y) {
  * @returns {number[]}
  */
 export function leastTravel(options, q) {
-  let best = options[0], shortest = Infinity;
+  let best = options[0],
+    shortest = Infinity;
   for (const option of options) {
     const travel = option.reduce((sum, value, j) => sum + Math.abs(value - q[j]), 0);
     if (travel < shortest) [best, shortest] = [option, travel];

@@ -8,33 +8,61 @@ import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 
 /**
- * The frame of an explorer: a scene with handles over it, a column of controls beside it, room below.
+ * The frame of an explorer: a scene with handles over it, a column of controls beside it, room
+ * below.
  *
- * run(answer)  from now on `answer()` is asked for what is to be drawn, once for every picture in which
- *              something has changed; it returns the arms that scene.js shows
+ * run(answer)  from now on `answer()` is asked for what is to be drawn, once for every picture in
+ *              which something has changed; it returns the arms that scene.js shows
  * changed()    something has changed
  *
  * @param {HTMLElement} root
  * @param {object} data  page.py: PageExplorer
  */
 export function stageOf(root, data) {
-  const scene = {...data.scene, unit: data.unit}, state = {view: [...scene.view]};
-  const canvas = sceneCanvas(scene, data.alt), view = sceneView(canvas, scene), camera = () => view.cameras()[0];
+  const scene = {...data.scene, unit: data.unit},
+    state = {view: [...scene.view]};
+  const canvas = sceneCanvas(scene, data.alt),
+    view = sceneView(canvas, scene),
+    camera = () => view.cameras()[0];
   const handles = handleLayer(canvas, camera, on => view.hold(on), changed);
-  const side = element("div", {class: "rk-side"}), below = element("div", {class: "rk-below"});
+  const side = element("div", {class: "rk-side"}),
+    below = element("div", {class: "rk-below"});
   const says = element("p", {class: "rk-says", role: "status"});
-  let arms = null, stale = true, ask = () => {};
+  let arms = null,
+    stale = true,
+    ask = () => {};
   function changed() {
     stale = true;
     ask();
   }
-  root.replaceChildren(element("div", {class: "rk", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE + LOOK), element("div", {class: "rk-title"}, data.title),
-    element("div", {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`}, element("div", {class: "rk-space"}, canvas, handles.layer), side),
-    below, element("p", {class: "rk-meant"}, data.meant)));
+  root.replaceChildren(
+    element(
+      "div",
+      {class: "rk", role: "group", "aria-label": data.title},
+      element("style", {}, STYLE + LOOK),
+      element("div", {class: "rk-title"}, data.title),
+      element(
+        "div",
+        {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`},
+        element("div", {class: "rk-space"}, canvas, handles.layer),
+        side,
+      ),
+      below,
+      element("p", {class: "rk-meant"}, data.meant),
+    ),
+  );
 
-  return {scene, side, below, says, handles, camera, changed,
-    say(text) { if (says.textContent !== text) says.textContent = text; },
+  return {
+    scene,
+    side,
+    below,
+    says,
+    handles,
+    camera,
+    changed,
+    say(text) {
+      if (says.textContent !== text) says.textContent = text;
+    },
     run(answer, canvases = [], beside = () => {}) {
       ask = pictures(root, [canvas, ...canvases], () => {
         if (stale) {
@@ -50,24 +78,43 @@ export function stageOf(root, data) {
         return room;
       });
       orbit(canvas, scene, state, ask);
-    }};
+    },
+  };
 }
 
-// What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose outline
-// is that of the ellipse that its semi-axes make on the screen.
+// What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose
+// outline is that of the ellipse that its semi-axes make on the screen.
 function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   if (!q.every(Number.isFinite)) return;
-  const joints = [], tip = origin(frames(chain, q, joints).at(-1));
-  if (axes) joints.forEach((joint, j) => {
-    const way = turned(joint, chain[j].axis), ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
-    stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
-  });
+  const joints = [],
+    tip = origin(frames(chain, q, joints).at(-1));
+  if (axes)
+    joints.forEach((joint, j) => {
+      const way = turned(joint, chain[j].axis),
+        ends = [-0.22, 0.22].map(k => camera.to(plus(origin(joint), way, k * size)));
+      stroke(g, ends, jointColor(j), 1.6, [7, 3, 1.5, 3]);
+    });
   if (!ellipsoid) return;
-  const [a, b, c] = [[0, 0], [0, 1], [1, 1]].map(([i, j]) =>
-    ellipsoid.map(axis => camera.along(axis)).reduce((sum, s) => sum + s[i] * s[j], 0));
-  const middle = (a + c) / 2, apart = Math.sqrt((a - c) * (a - c) / 4 + b * b), [x, y] = camera.to(tip);
+  const [a, b, c] = [
+    [0, 0],
+    [0, 1],
+    [1, 1],
+  ].map(([i, j]) =>
+    ellipsoid.map(axis => camera.along(axis)).reduce((sum, s) => sum + s[i] * s[j], 0),
+  );
+  const middle = (a + c) / 2,
+    apart = Math.sqrt(((a - c) * (a - c)) / 4 + b * b),
+    [x, y] = camera.to(tip);
   g.beginPath();
-  g.ellipse(x, y, Math.sqrt(middle + apart), Math.sqrt(Math.max(0, middle - apart)), Math.atan2(2 * b, a - c) / 2, 0, 2 * Math.PI);
+  g.ellipse(
+    x,
+    y,
+    Math.sqrt(middle + apart),
+    Math.sqrt(Math.max(0, middle - apart)),
+    Math.atan2(2 * b, a - c) / 2,
+    0,
+    2 * Math.PI,
+  );
   g.fillStyle = clear(colors.accent, 0.14);
   g.fill();
   g.strokeStyle = colors.accent;
@@ -81,31 +128,41 @@ export const LOOK = `
   & .rk-asked canvas { height: clamp(300px, 38cqw, 350px); }
   & .rk-space { position: relative; }
   & .rk-handles { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
-  & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px; margin: -13px 0 0 -13px; padding: 0;
-    border: 2px solid var(--own, var(--rk-accent)); border-radius: 50%; font-size: 12px; font-weight: 650; line-height: 1;
-    background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink); pointer-events: auto;
+  & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px;
+    margin: -13px 0 0 -13px; padding: 0;
+    border: 2px solid var(--own, var(--rk-accent)); border-radius: 50%; font-size: 12px;
+    font-weight: 650; line-height: 1;
+    background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink);
+    pointer-events: auto;
     touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
   & .rk-handle:hover, & .rk-handle:active { background: var(--rk-paper); }
   & .rk-handle:focus { z-index: 1; }
   & .rk-free { border-style: double; border-width: 4px; background: transparent; }
   & .rk-arc { width: 22px; height: 22px; margin: -11px 0 0 -11px; }
   & .rk-outside { opacity: .55; }
-  & .rk-slide { display: grid; grid-template-columns: 4.8em minmax(60px, 1fr) 5.4em 2.2em; gap: 6px; align-items: center; margin: 1px 0; }
+  & .rk-slide { display: grid; grid-template-columns: 4.8em minmax(60px, 1fr) 5.4em 2.2em;
+    gap: 6px; align-items: center; margin: 1px 0; }
   & .rk-slide select { grid-column: 2 / -1; }
-  & .rk-slide input[type=number] { font: inherit; width: 100%; height: 24px; margin: 0; padding: 0 2px; text-align: right;
-    color: var(--rk-ink); background: var(--rk-paper); border: 1px solid var(--rk-rest); border-radius: 4px; }
-  & .rk-columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr)); gap: 0 18px; margin-top: 4px; }
+  & .rk-slide input[type=number] { font: inherit; width: 100%; height: 24px; margin: 0;
+    padding: 0 2px; text-align: right;
+    color: var(--rk-ink); background: var(--rk-paper); border: 1px solid var(--rk-rest);
+    border-radius: 4px; }
+  & .rk-columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr));
+    gap: 0 18px; margin-top: 4px; }
   & .rk-word, & .rk-choose { width: auto; }
-  & .rk-choose { height: 20px; padding: 0 6px; background: none; border-color: transparent; white-space: nowrap; }
+  & .rk-choose { height: 20px; padding: 0 6px; background: none; border-color: transparent;
+    white-space: nowrap; }
   & .rk-table { margin-top: 4px; }
-  & .rk-asked .rk-table th:first-child, & .rk-many th:first-child { min-width: 0; white-space: nowrap; }
+  & .rk-asked .rk-table th:first-child, & .rk-many th:first-child { min-width: 0;
+    white-space: nowrap; }
   & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
   & .rk-many :is(th, td) { padding: 0 4px; line-height: 21px; }
   & .rk-many thead th { white-space: normal; vertical-align: bottom; line-height: 1.15; }
   & .rk-rows :is(td, th):nth-child(2) { text-align: left; }
   & .rk-few :is(th, td) { padding: 1px 4px; }
   & .rk-few td { min-width: 6.5em; text-align: left; }
-  & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen); font-weight: 650; color: var(--rk-ink); }
+  & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen);
+    font-weight: 650; color: var(--rk-ink); }
   & .rk-none > * { color: var(--rk-soft); }
   & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
   & .rk-says { margin: 4px 0 0; min-height: 2.8em; flex: 1 1 260px; }
@@ -122,13 +179,15 @@ export const LOOK = `
   @media print {
     & .rk-table { overflow: visible; }
     & .rk-table :is(th, td) { font-size: 9.5px; padding: 1px 2px; white-space: normal; }
-    & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns, & .rk-word { display: none; }
+    & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns,
+      & .rk-word { display: none; }
   }
 }`;
 
 /**
  * A slider with its value to read and to type.
- * @param {{name: string, unit: string, low: number, high: number, step: number, decimals: number}} spec
+ * @param {{name: string, unit: string, low: number, high: number, step: number, decimals: number}}
+ *   spec
  * @param {(value: number) => void} take
  * @returns {{row: HTMLElement, set: (value: number) => void}}
  */
@@ -136,22 +195,40 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   const label = [name, unit].filter(Boolean).join(", ");
   const range = control("input", {type: "range", min: low, max: high, step, "aria-label": label});
   const exact = control("input", {type: "number", step, "aria-label": `${label}, exactly`});
-  const row = element("div", {class: "rk-slide"}, element("span", {}, name), range, exact, element("span", {}, unit));
+  const row = element(
+    "div",
+    {class: "rk-slide"},
+    element("span", {}, name),
+    range,
+    exact,
+    element("span", {}, unit),
+  );
   range.addEventListener("input", () => take(+range.value));
   let typing = false; // what is being typed is not written over; what was taken is shown
-  exact.addEventListener("input", () => { typing = true; });
+  exact.addEventListener("input", () => {
+    typing = true;
+  });
   const taken = () => {
     typing = false;
     if (Number.isFinite(exact.valueAsNumber)) take(exact.valueAsNumber);
   };
   exact.addEventListener("change", taken);
-  exact.addEventListener("keydown", event => { if (event.key === "Enter") taken(); }); // JupyterLab keeps it from the field
-  return {row, reach(most) { range.max = most; range.step = most / 1000; }, set(value) {
-    const text = String(+value.toFixed(decimals));
-    range.value = value;
-    range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
-    if (!typing && exact.value !== text) exact.value = text;
-  }};
+  exact.addEventListener("keydown", event => {
+    if (event.key === "Enter") taken();
+  }); // JupyterLab keeps it from the field
+  return {
+    row,
+    reach(most) {
+      range.max = most;
+      range.step = most / 1000;
+    },
+    set(value) {
+      const text = String(+value.toFixed(decimals));
+      range.value = value;
+      range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
+      if (!typing && exact.value !== text) exact.value = text;
+    },
+  };
 }
 
 /**
@@ -161,9 +238,18 @@ export function slider({name, unit, low, high, step, decimals}, take) {
  * @param {(k: number) => void} take
  */
 export function menu(name, texts, take) {
-  const select = control("select", {"aria-label": name}, ...texts.map((text, k) => element("option", {value: k}, text)));
+  const select = control(
+    "select",
+    {"aria-label": name},
+    ...texts.map((text, k) => element("option", {value: k}, text)),
+  );
   select.addEventListener("change", () => take(+select.value));
-  return {row: element("label", {class: "rk-slide"}, element("span", {}, name), select), set(k) { select.value = k; }};
+  return {
+    row: element("label", {class: "rk-slide"}, element("span", {}, name), select),
+    set(k) {
+      select.value = k;
+    },
+  };
 }
 
 /**
@@ -196,26 +282,39 @@ export function table(names, heads, widths, take) {
     if (take) row.addEventListener("click", () => take(k));
     return {row, cells, button};
   });
-  const head = heads.length ? [element("thead", {}, element("tr", {}, ...heads.map(text =>
-    element("th", {scope: "col"}, text))))] : [];
-  const node = element("div", {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}${take ? " rk-rows" : ""}`}, element("table", {}, ...head,
-    element("tbody", {}, ...lines.map(line => line.row))));
-  return {node, set(rows, chosen = -1, exists = null) {
-    rows.forEach((texts, k) => {
-      const {row, cells, button} = lines[k];
-      row.classList.toggle("rk-none", !!exists && !exists[k]);
-      if (take) {
-        if (k === chosen) row.setAttribute("aria-current", "true");
-        else row.removeAttribute("aria-current");
-        button.setAttribute("aria-pressed", String(k === chosen));
-      }
-      texts.forEach((cell, j) => {
-        const {text, past} = typeof cell === "string" ? {text: cell, past: false} : cell;
-        if (cells[j].textContent !== text) cells[j].textContent = text;
-        cells[j].classList.toggle("rk-past", past);
+  const head = heads.length
+    ? [
+        element(
+          "thead",
+          {},
+          element("tr", {}, ...heads.map(text => element("th", {scope: "col"}, text))),
+        ),
+      ]
+    : [];
+  const node = element(
+    "div",
+    {class: `rk-table ${heads.length ? "rk-many" : "rk-few"}${take ? " rk-rows" : ""}`},
+    element("table", {}, ...head, element("tbody", {}, ...lines.map(line => line.row))),
+  );
+  return {
+    node,
+    set(rows, chosen = -1, exists = null) {
+      rows.forEach((texts, k) => {
+        const {row, cells, button} = lines[k];
+        row.classList.toggle("rk-none", !!exists && !exists[k]);
+        if (take) {
+          if (k === chosen) row.setAttribute("aria-current", "true");
+          else row.removeAttribute("aria-current");
+          button.setAttribute("aria-pressed", String(k === chosen));
+        }
+        texts.forEach((cell, j) => {
+          const {text, past} = typeof cell === "string" ? {text: cell, past: false} : cell;
+          if (cells[j].textContent !== text) cells[j].textContent = text;
+          cells[j].classList.toggle("rk-past", past);
+        });
       });
-    });
-  }};
+    },
+  };
 }
 
 /**
@@ -229,7 +328,8 @@ export function copyButton(words, code) {
     const text = code();
     try {
       await navigator.clipboard.writeText(text);
-    } catch { // a page from a file may not: the old way
+    } catch {
+      // a page from a file may not: the old way
       const area = element("textarea", {});
       area.value = text;
       button.after(area);
@@ -239,7 +339,9 @@ export function copyButton(words, code) {
       button.focus();
     }
     button.textContent = words.copied;
-    setTimeout(() => { button.textContent = words.copy; }, 1500);
+    setTimeout(() => {
+      button.textContent = words.copy;
+    }, 1500);
   });
   return button;
 }

@@ -1,5 +1,5 @@
-// The target explorer: a target taken by the hand, and all branches that reach it. What is said, and
-// every number of the arm, comes from Python (page.py: PageExplorer).
+// The target explorer: a target taken by the hand, and all branches that reach it. What is said,
+// and every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {distance_from_singularity, matrix, plus, product, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
@@ -9,38 +9,71 @@ import {number} from "./canvas.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
 import {copyButton, menu, slider, stageOf, table, tick} from "./stage.js";
-import {aboutAxis, ellipsoidOf, degrees, inCode, normal, radians, rollPitchYaw, rotationOf} from "./turns.js";
+import {
+  aboutAxis,
+  ellipsoidOf,
+  degrees,
+  inCode,
+  normal,
+  radians,
+  rollPitchYaw,
+  rotationOf,
+} from "./turns.js";
 
 /**
  * Fills every waiting place with this id.
  * @param {string} id
  * @param {object} data  page.py: PageExplorer
  */
-export const explore = (id, data) => waiting(id).forEach(root => targetExplorer(stageOf(root, data), data));
+export const explore = (id, data) =>
+  waiting(id).forEach(root => targetExplorer(stageOf(root, data), data));
 
 // Handles on the target, and a row of a table for every branch that reaches it.
 function targetExplorer(stage, data) {
-  const {arm, words, unit} = data, oriented = arm.target === "Transform", sizes = data.units.map(u => u.size);
+  const {arm, words, unit} = data,
+    oriented = arm.target === "Transform",
+    sizes = data.units.map(u => u.size);
   const home = {...data.target, turns: data.turns};
   const state = {...home, place: [...home.place], q: [...data.q], wanted: -1, chosen: 0};
   if (oriented) state.rotation = rotationOf(state.turns);
 
-  const sliders = data.controls.map((spec, k) => slider(spec, value => {
-    if (k < 3) state.place[k] = value * unit.size;
-    else if (oriented) {
-      state.turns[k - 3] = radians(value);
-      state.rotation = rotationOf(state.turns);
-    } else state.angle = radians(value);
-    stage.changed();
-  }));
-  const choice = menu(words.branch, [words.nearest, ...data.branches], k => { state.wanted = k - 1; stage.changed(); });
-  const more = tick(words.ellipsoid, stage.changed), axes = tick(words.axes, stage.changed);
-  stage.side.append(...sliders.map(s => s.row), choice.row, element("div", {class: "rk-row"}, more.row, axes.row,
-    copyButton(words, () => fill(data.code, {...inCode(state, unit), row: state.chosen}))), stage.says);
-  const rows = table(data.branches, data.heads, data.heads.slice(1).map(() => 1), k => {
-    state.wanted = k;
+  const sliders = data.controls.map((spec, k) =>
+    slider(spec, value => {
+      if (k < 3) state.place[k] = value * unit.size;
+      else if (oriented) {
+        state.turns[k - 3] = radians(value);
+        state.rotation = rotationOf(state.turns);
+      } else state.angle = radians(value);
+      stage.changed();
+    }),
+  );
+  const choice = menu(words.branch, [words.nearest, ...data.branches], k => {
+    state.wanted = k - 1;
     stage.changed();
   });
+  const more = tick(words.ellipsoid, stage.changed),
+    axes = tick(words.axes, stage.changed);
+  stage.side.append(
+    ...sliders.map(s => s.row),
+    choice.row,
+    element(
+      "div",
+      {class: "rk-row"},
+      more.row,
+      axes.row,
+      copyButton(words, () => fill(data.code, {...inCode(state, unit), row: state.chosen})),
+    ),
+    stage.says,
+  );
+  const rows = table(
+    data.branches,
+    data.heads,
+    data.heads.slice(1).map(() => 1),
+    k => {
+      state.wanted = k;
+      stage.changed();
+    },
+  );
   stage.below.append(rows.node);
 
   const turnBy = (axis, angle) => {
@@ -55,36 +88,63 @@ function targetExplorer(stage, data) {
       const near = nearest(arm, [row], last);
       return within(arm, near).every(Boolean) ? near : representative(arm, near);
     });
-    const exists = found.map(q => q.every(Number.isFinite)), inside = found.map(q => within(arm, q));
+    const exists = found.map(q => q.every(Number.isFinite)),
+      inside = found.map(q => within(arm, q));
     const usable = found.map((_, k) => exists[k] && inside[k].every(Boolean));
-    const travel = found.map(q => data.turning.reduce((sum, j) => sum + Math.abs(q[j] - last[j]), 0));
+    const travel = found.map(q =>
+      data.turning.reduce((sum, j) => sum + Math.abs(q[j] - last[j]), 0),
+    );
     const among = usable.some(Boolean) ? usable : exists;
-    const shortest = travel.reduce((best, x, k) => (among[k] && (best < 0 || x < travel[best]) ? k : best), -1);
+    const shortest = travel.reduce(
+      (best, x, k) => (among[k] && (best < 0 || x < travel[best]) ? k : best),
+      -1,
+    );
     const chosen = state.wanted >= 0 ? state.wanted : Math.max(shortest, 0);
     state.chosen = chosen;
     if (exists[chosen]) state.q = found[chosen];
 
-    sliders.forEach((s, k) => s.set(k < 3 ? state.place[k] / unit.size
-      : degrees(oriented ? state.turns[k - 3] : state.angle)));
+    sliders.forEach((s, k) =>
+      s.set(
+        k < 3 ? state.place[k] / unit.size : degrees(oriented ? state.turns[k - 3] : state.angle),
+      ),
+    );
     choice.set(state.wanted + 1);
-    rows.set(found.map((q, k) => [verdict(arm, words, q, inside[k], exists[k]),
-      ...q.map((x, j) => (exists[k] ? {text: number(x / sizes[j], 1), past: !inside[k][j]} : words.none)),
-      exists[k] ? number(distance_from_singularity(arm, q), 3) : words.none,
-      exists[k] ? number(degrees(travel[k]), 1) : words.none]), exists[chosen] ? chosen : -1, exists);
+    rows.set(
+      found.map((q, k) => [
+        verdict(arm, words, q, inside[k], exists[k]),
+        ...q.map((x, j) =>
+          exists[k] ? {text: number(x / sizes[j], 1), past: !inside[k][j]} : words.none,
+        ),
+        exists[k] ? number(distance_from_singularity(arm, q), 3) : words.none,
+        exists[k] ? number(degrees(travel[k]), 1) : words.none,
+      ]),
+      exists[chosen] ? chosen : -1,
+      exists,
+    );
     stage.say(told(data.task, found, exists) + summary(arm, words, state, usable, chosen));
 
     const asked = oriented ? matrix(state.rotation, state.place) : null;
     stage.scene.targets = asked ? [{name: words.target, pose: asked}] : [];
     stage.scene.marks = asked ? [] : [{name: words.target, at: state.place, radius: 0}];
-    return [{name: arm.name, chain: arm.chain, q: state.q, faded: !exists[chosen],
-             ghosts: found.flatMap((q, k) => (exists[k] && k !== chosen ? [{q, past: !usable[k]}] : [])),
-             axes: axes.on(), ellipsoid: more.on() && ellipsoidOf(arm, state.q)}];
+    return [
+      {
+        name: arm.name,
+        chain: arm.chain,
+        q: state.q,
+        faded: !exists[chosen],
+        ghosts: found.flatMap((q, k) => (exists[k] && k !== chosen ? [{q, past: !usable[k]}] : [])),
+        axes: axes.on(),
+        ellipsoid: more.on() && ellipsoidOf(arm, state.q),
+      },
+    ];
   });
 }
 
 // What can be taken of a target: its place, freely or along its axes; its turns about them.
 function targetHandles(stage, state, home, data, turnBy) {
-  const {arm, words, unit} = data, size = data.scene.size, oriented = arm.target === "Transform";
+  const {arm, words, unit} = data,
+    size = data.scene.size,
+    oriented = arm.target === "Transform";
   const fine = 5e-3 * (unit.size < 1 ? 1 : size / 2);
   const axes = () => (state.rotation ? matrix(state.rotation) : null);
   const axis = k => [0, 1, 2].map(i => (axes() ? axes()[4 * i + k] : Number(i === k)));
@@ -93,54 +153,102 @@ function targetHandles(stage, state, home, data, turnBy) {
   const rim = (camera, x, a, b) =>
     plus(plus(state.place, a, reachOf(camera) * Math.cos(x)), b, reachOf(camera) * Math.sin(x));
   const kept = place => place.map((x, k) => (k === flat ? state.place[k] : x));
-  const handles = [{
-    id: "free", name: words.takeFree, look: "rk-free", at: () => state.place, value,
-    grab(camera) {
-      const to = inScreen(camera, state.place);
-      return (dx, dy) => { state.place = kept(to(dx, dy)); };
+  const handles = [
+    {
+      id: "free",
+      name: words.takeFree,
+      look: "rk-free",
+      at: () => state.place,
+      value,
+      grab(camera) {
+        const to = inScreen(camera, state.place);
+        return (dx, dy) => {
+          state.place = kept(to(dx, dy));
+        };
+      },
+      step(right, up, big) {
+        const camera = stage.camera(),
+          by = fine * camera.scale * (big ? 10 : 1);
+        state.place = kept(plus(state.place, camera.across(right * by, -up * by)));
+      },
+      home() {
+        state.place = [...home.place];
+      },
     },
-    step(right, up, big) {
-      const camera = stage.camera(), by = fine * camera.scale * (big ? 10 : 1);
-      state.place = kept(plus(state.place, camera.across(right * by, -up * by)));
-    },
-    home() { state.place = [...home.place]; },
-  }];
-  for (const k of [0, 1, 2].filter(k => k !== flat)) handles.push({
-    id: "xyz"[k], name: fill(words.takeAlong, {axis: "xyz"[k]}), look: "rk-arrow", mark: "xyz"[k],
-    color: "xyz"[k], at: camera => plus(state.place, axis(k), reachOf(camera)), value,
-    grab(camera) {
-      const from = state.place, way = axis(k), r = reachOf(camera);
-      const to = alongCurve(camera, x => plus(from, way, x + r), 0, fine);
-      return (dx, dy) => { state.place = plus(from, way, to(dx, dy)); };
-    },
-    step(right, up, big) { state.place = plus(state.place, axis(k), (right + up) * fine * (big ? 10 : 1)); },
-    home() { state.place = [...home.place]; },
-  });
-  if (oriented) for (const k of [0, 1, 2]) handles.push({
-    id: `turn ${"xyz"[k]}`, name: fill(words.takeTurn, {axis: "xyz"[k]}), look: "rk-arc", mark: "\u21BB",
-    color: "xyz"[k],
-    at: camera => rim(camera, Math.PI / 4, axis((k + 1) % 3), axis((k + 2) % 3)),
-    value: () => `${state.turns.map(x => number(degrees(x), 1)).join(", ")} \u00B0`,
-    grab(camera) {
-      const [from, about] = [state.rotation, axis(k)];
-      const [a, b] = [axis((k + 1) % 3), axis((k + 2) % 3)];
-      const to = alongCurve(camera, x => rim(camera, x + Math.PI / 4, a, b), 0, 0.02);
-      return (dx, dy) => { state.rotation = from; turnBy(about, to(dx, dy)); };
-    },
-    step(right, up, big) { turnBy(axis(k), (right + up) * radians(big ? 10 : 1)); },
-    home() { [state.turns, state.rotation] = [[...home.turns], rotationOf(home.turns)]; },
-  });
-  if (arm.target === "ScaraPose") handles.push({
-    id: "angle", name: words.takeAngle, look: "rk-arc", mark: "\u21BB", color: "z",
-    at: camera => rim(camera, state.angle, [1, 0, 0], [0, 1, 0]),
-    value: () => `${number(degrees(state.angle), 1)} \u00B0`,
-    grab(camera) {
-      const to = alongCurve(camera, x => rim(camera, x, [1, 0, 0], [0, 1, 0]), state.angle, 0.02);
-      return (dx, dy) => { state.angle = to(dx, dy); };
-    },
-    step(right, up, big) { state.angle += (right + up) * radians(big ? 10 : 1); },
-    home() { state.angle = home.angle; },
-  });
+  ];
+  for (const k of [0, 1, 2].filter(k => k !== flat))
+    handles.push({
+      id: "xyz"[k],
+      name: fill(words.takeAlong, {axis: "xyz"[k]}),
+      look: "rk-arrow",
+      mark: "xyz"[k],
+      color: "xyz"[k],
+      at: camera => plus(state.place, axis(k), reachOf(camera)),
+      value,
+      grab(camera) {
+        const from = state.place,
+          way = axis(k),
+          r = reachOf(camera);
+        const to = alongCurve(camera, x => plus(from, way, x + r), 0, fine);
+        return (dx, dy) => {
+          state.place = plus(from, way, to(dx, dy));
+        };
+      },
+      step(right, up, big) {
+        state.place = plus(state.place, axis(k), (right + up) * fine * (big ? 10 : 1));
+      },
+      home() {
+        state.place = [...home.place];
+      },
+    });
+  if (oriented)
+    for (const k of [0, 1, 2])
+      handles.push({
+        id: `turn ${"xyz"[k]}`,
+        name: fill(words.takeTurn, {axis: "xyz"[k]}),
+        look: "rk-arc",
+        mark: "\u21BB",
+        color: "xyz"[k],
+        at: camera => rim(camera, Math.PI / 4, axis((k + 1) % 3), axis((k + 2) % 3)),
+        value: () => `${state.turns.map(x => number(degrees(x), 1)).join(", ")} \u00B0`,
+        grab(camera) {
+          const [from, about] = [state.rotation, axis(k)];
+          const [a, b] = [axis((k + 1) % 3), axis((k + 2) % 3)];
+          const to = alongCurve(camera, x => rim(camera, x + Math.PI / 4, a, b), 0, 0.02);
+          return (dx, dy) => {
+            state.rotation = from;
+            turnBy(about, to(dx, dy));
+          };
+        },
+        step(right, up, big) {
+          turnBy(axis(k), (right + up) * radians(big ? 10 : 1));
+        },
+        home() {
+          [state.turns, state.rotation] = [[...home.turns], rotationOf(home.turns)];
+        },
+      });
+  if (arm.target === "ScaraPose")
+    handles.push({
+      id: "angle",
+      name: words.takeAngle,
+      look: "rk-arc",
+      mark: "\u21BB",
+      color: "z",
+      at: camera => rim(camera, state.angle, [1, 0, 0], [0, 1, 0]),
+      value: () => `${number(degrees(state.angle), 1)} \u00B0`,
+      grab(camera) {
+        const to = alongCurve(camera, x => rim(camera, x, [1, 0, 0], [0, 1, 0]), state.angle, 0.02);
+        return (dx, dy) => {
+          state.angle = to(dx, dy);
+        };
+      },
+      step(right, up, big) {
+        state.angle += (right + up) * radians(big ? 10 : 1);
+      },
+      home() {
+        state.angle = home.angle;
+      },
+    });
   return handles;
 }
 
@@ -156,12 +264,18 @@ function told(task, rows, exists) {
   if (!task) return "";
   // at a singularity two rows may be one posture
   const same = (a, b) => a.every((x, j) => Math.abs(wrapped(x - b[j])) < 1e-6);
-  const count = rows.filter((q, k) => exists[k] && !rows.some((other, i) => i < k && exists[i] && same(q, other))).length;
+  const count = rows.filter(
+    (q, k) => exists[k] && !rows.some((other, i) => i < k && exists[i] && same(q, other)),
+  ).length;
   return `${fill(count === task.wanted ? task.holds : task.open, {count, wanted: task.wanted})} `;
 }
 
 function summary(arm, words, state, usable, chosen) {
-  const count = usable.filter(Boolean).length, why = explain(arm, state, chosen);
-  return fill(count ? (count === 1 ? words.oneUsable : words.someUsable) : words.noneUsable,
-              {count, all: usable.length, why});
+  const count = usable.filter(Boolean).length,
+    why = explain(arm, state, chosen);
+  return fill(count ? (count === 1 ? words.oneUsable : words.someUsable) : words.noneUsable, {
+    count,
+    all: usable.length,
+    why,
+  });
 }

@@ -1,5 +1,6 @@
-// The explorer of tours: points taken by the hand, the tours that a kernel makes of them (live.js), and a clock
-// along which the arm goes them; the clock needs no kernel. What is said comes from Python (tour_explorer.py).
+// The explorer of tours: points taken by the hand, the tours that a kernel makes of them (live.js),
+// and a clock along which the arm goes them; the clock needs no kernel. What is said comes from
+// Python (tour_explorer.py).
 
 import {frames, origin, plus} from "./kinematics.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
@@ -12,7 +13,8 @@ import {copyButton, menu, slider, stageOf, table} from "./stage.js";
 import {plain} from "./turns.js";
 
 const FINE = 0.05; // rad of the fastest joint between two points of a drawn path
-const COLORS = {greedy: "joint2", best: "joint1"}; // apart for colour-blind readers, and by their dashes
+// apart for colour-blind readers, and by their dashes
+const COLORS = {greedy: "joint2", best: "joint1"};
 const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // where both go the same way, both are seen
 
 /**
@@ -20,24 +22,44 @@ const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // where both go the same wa
  * @param {string} id
  * @param {object} data  page.py: PageExplorer
  */
-export const explore = (id, data) => waiting(id).forEach(root => tourExplorer(root, id, stageOf(root, data), data));
+export const explore = (id, data) =>
+  waiting(id).forEach(root => tourExplorer(root, id, stageOf(root, data), data));
 
 function tourExplorer(root, id, stage, data) {
-  const {words: says, unit, tours: names} = data, home = data.question;
-  const state = {...home, p0: [...home.p0], points: home.points.map(p => [...p]), touched: home.points.length - 1,
-    chosen: names.indexOf("best"), time: 0, playing: false};
-  let heard = null, asked = JSON.stringify(question(state));
+  const {words: says, unit, tours: names} = data,
+    home = data.question;
+  const state = {
+    ...home,
+    p0: [...home.p0],
+    points: home.points.map(p => [...p]),
+    touched: home.points.length - 1,
+    chosen: names.indexOf("best"),
+    time: 0,
+    playing: false,
+  };
+  let heard = null,
+    asked = JSON.stringify(question(state));
 
   // --- beside the scene
-  const keys = ["l1", "l2", "T"], sizes = [unit.size, unit.size, 1];
-  const sliders = data.controls.map((spec, k) => slider(spec, value => {
-    state[keys[k]] = Math.min(spec.high, Math.max(spec.low, value)) * sizes[k];
+  const keys = ["l1", "l2", "T"],
+    sizes = [unit.size, unit.size, 1];
+  const sliders = data.controls.map((spec, k) =>
+    slider(spec, value => {
+      state[keys[k]] = Math.min(spec.high, Math.max(spec.low, value)) * sizes[k];
+      stage.changed();
+    }),
+  );
+  const kind = menu(says.task, data.kinds, k => {
+    state.kind = data.kinds[k];
     stage.changed();
-  }));
-  const kind = menu(says.task, data.kinds, k => { state.kind = data.kinds[k]; stage.changed(); });
+  });
   const button = (text, act) => {
     const node = control("button", {type: "button", class: "rk-word"}, text);
-    node.addEventListener("click", () => { act(); stage.handles.set(handles()); stage.changed(); });
+    node.addEventListener("click", () => {
+      act();
+      stage.handles.set(handles());
+      stage.changed();
+    });
     return node;
   };
   const add = button(says.add, () => {
@@ -48,8 +70,17 @@ function tourExplorer(root, id, stage, data) {
     state.points.splice(state.touched, 1);
     state.touched = state.points.length - 1;
   });
-  stage.side.append(...sliders.map(s => s.row), kind.row, element("div", {class: "rk-row"}, add, remove,
-    copyButton(says, () => fill(data.code, inCode(state)))));
+  stage.side.append(
+    ...sliders.map(s => s.row),
+    kind.row,
+    element(
+      "div",
+      {class: "rk-row"},
+      add,
+      remove,
+      copyButton(says, () => fill(data.code, inCode(state))),
+    ),
+  );
   const rows = table(names, [says.tour, says.order, says.count, says.time], [1, 1, 1], k => {
     state.chosen = k;
     stage.changed();
@@ -60,7 +91,8 @@ function tourExplorer(root, id, stage, data) {
   stage.below.append(rows.node);
 
   // --- below the scene: alive while the rest is asleep
-  const parts = clockRow(), space = stage.handles.layer.parentElement;
+  const parts = clockRow(),
+    space = stage.handles.layer.parentElement;
   beside(space, parts.row);
   const end = () => (heard ? heard.question : home).T;
   const clock = runningClock(parts, root.firstElementChild, state, () => [0, end()], stage.changed);
@@ -68,40 +100,79 @@ function tourExplorer(root, id, stage, data) {
   root.firstElementChild.append(element("style", {}, LOOK));
 
   // --- what the hand holds
-  const hold = on => { state.held = on; };
-  const letGo = () => { hold(false); stage.changed(); };
+  const hold = on => {
+    state.held = on;
+  };
+  const letGo = () => {
+    hold(false);
+    stage.changed();
+  };
   for (const event of ["pointerup", "pointercancel", "lostpointercapture"])
     stage.handles.layer.addEventListener(event, letGo);
   stage.side.addEventListener("input", event => hold(event.target.type === "range"));
   stage.side.addEventListener("change", letGo);
   const handle = (name, id, mark, where, first, touch) => ({
-    id, name, mark, look: "rk-point", at: where,
-    value: () => `${where().map(x => number(x / unit.size, 2)).join(", ")} ${unit.name}`,
+    id,
+    name,
+    mark,
+    look: "rk-point",
+    at: where,
+    value: () =>
+      `${where()
+        .map(x => number(x / unit.size, 2))
+        .join(", ")} ${unit.name}`,
     grab(camera) {
-      const p = where(), to = inScreen(camera, [...p]);
+      const p = where(),
+        to = inScreen(camera, [...p]);
       touch();
       hold(true);
       return (dx, dy) => p.splice(0, 3, ...to(dx, dy));
     },
     step(right, up, big) {
-      const camera = stage.camera(), by = (big ? 30 : 3);
+      const camera = stage.camera(),
+        by = big ? 30 : 3;
       touch();
       where().splice(0, 3, ...plus(where(), camera.across(right * by, -up * by)));
     },
-    home: () => { where().splice(0, 3, ...first); },
+    home: () => {
+      where().splice(0, 3, ...first);
+    },
   });
   const handles = () => [
-    handle(says.takeStart, "p0", "p0", () => state.p0, home.p0, () => {}),
-    ...state.points.map((p, k) => handle(fill(says.takePoint, {k}), `${k}`, `${k}`, () => p, home.points[k] || [...p],
-      () => { state.touched = k; })),
+    handle(
+      says.takeStart,
+      "p0",
+      "p0",
+      () => state.p0,
+      home.p0,
+      () => {},
+    ),
+    ...state.points.map((p, k) =>
+      handle(
+        fill(says.takePoint, {k}),
+        `${k}`,
+        `${k}`,
+        () => p,
+        home.points[k] || [...p],
+        () => {
+          state.touched = k;
+        },
+      ),
+    ),
   ];
   stage.handles.set(handles());
 
   // --- what Python says
   const hear = (answer, asking) => {
     const tours = names.map(name => answer[name] && toured(answer.chain, answer[name], name));
-    heard = {answer, tours, question: asking,
-      cells: names.map(name => (answer[name] ? answer[name].cells : ["\u2013", "\u2013", "\u2013"]))};
+    heard = {
+      answer,
+      tours,
+      question: asking,
+      cells: names.map(name =>
+        answer[name] ? answer[name].cells : ["\u2013", "\u2013", "\u2013"],
+      ),
+    };
     state.time = Math.min(state.time, end());
     stage.says.textContent = answer.says;
     notes.replaceChildren(...answer.notes.map(text => element("li", {}, text)));
@@ -114,7 +185,8 @@ function tourExplorer(root, id, stage, data) {
   stage.run(() => {
     clock.pass(performance.now());
     clock.tell();
-    const asking = question(state), text = JSON.stringify(asking);
+    const asking = question(state),
+      text = JSON.stringify(asking);
     if (text !== asked) kernel.ask(asking);
     asked = text;
 
@@ -123,13 +195,21 @@ function tourExplorer(root, id, stage, data) {
     add.disabled = state.points.length >= data.most;
     remove.disabled = state.points.length < 2;
     remove.textContent = fill(says.remove, {k: state.touched});
-    const {answer, tours} = heard, tour = tours[state.chosen] || tours.find(Boolean);
+    const {answer, tours} = heard,
+      tour = tours[state.chosen] || tours.find(Boolean);
     rows.set(heard.cells, tours.indexOf(tour), tours.map(Boolean));
     mark(stage.handles.layer, state, heard, tour);
     last = tour ? tour.at(state.time) : last;
     stage.scene.marks = [state.p0, ...state.points].map(at => ({name: "", at, radius: 0}));
-    return [{name: "", chain: answer.chain, q: last, faded: false,
-      under: (g, cam) => below(g, cam, state, heard)}];
+    return [
+      {
+        name: "",
+        chain: answer.chain,
+        q: last,
+        faded: false,
+        under: (g, cam) => below(g, cam, state, heard),
+      },
+    ];
   });
 }
 
@@ -144,23 +224,41 @@ function beside(node, ...more) {
 
 // A tour that can be drawn and gone: the places of the tool, and the posture at a time.
 function toured(chain, {t, q, order, times}, name) {
-  const when = [...t.values], stops = when.map((_, k) => [...q.values.slice(3 * k, 3 * k + 3)]);
+  const when = [...t.values],
+    stops = when.map((_, k) => [...q.values.slice(3 * k, 3 * k + 3)]);
   const between = (a, b, share) => a.map((x, j) => x + share * (b[j] - x));
-  const places = stops.flatMap((to, k) => {
-    if (!k) return [to];
-    const count = Math.max(1, Math.ceil(Math.max(...to.map((x, j) => Math.abs(x - stops[k - 1][j]))) / FINE));
-    return Array.from({length: count}, (_, i) => between(stops[k - 1], to, (i + 1) / count));
-  }).map(posture => origin(frames(chain, posture).at(-1)));
-  return {name, places, order, times, dips: places.some(p => p[2] < 0), at(time) {
-    const k = when.findIndex(x => x > time);
-    return k < 1 ? stops.at(k) : between(stops[k - 1], stops[k], (time - when[k - 1]) / (when[k] - when[k - 1]));
-  }};
+  const places = stops
+    .flatMap((to, k) => {
+      if (!k) return [to];
+      const count = Math.max(
+        1,
+        Math.ceil(Math.max(...to.map((x, j) => Math.abs(x - stops[k - 1][j]))) / FINE),
+      );
+      return Array.from({length: count}, (_, i) => between(stops[k - 1], to, (i + 1) / count));
+    })
+    .map(posture => origin(frames(chain, posture).at(-1)));
+  return {
+    name,
+    places,
+    order,
+    times,
+    dips: places.some(p => p[2] < 0),
+    at(time) {
+      const k = when.findIndex(x => x > time);
+      return k < 1
+        ? stops.at(k)
+        : between(stops[k - 1], stops[k], (time - when[k - 1]) / (when[k] - when[k - 1]));
+    },
+  };
 }
 
-// How each handle looks: served by now, still to be served, left, out of reach; and its place in both tours.
+// How each handle looks: served by now, still to be served, left, out of reach; and its place in
+// both tours.
 function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
   for (const node of layer.children) {
-    const k = +node.dataset.handle, point = node.dataset.handle !== "p0", served = tour ? tour.order.indexOf(k) : -1;
+    const k = +node.dataset.handle,
+      point = node.dataset.handle !== "p0",
+      served = tour ? tour.order.indexOf(k) : -1;
     node.classList.toggle("rk-away", point ? reached[k] === false : !start);
     node.classList.toggle("rk-left", point && served < 0);
     node.classList.toggle("rk-served", served >= 0 && tour.times[served] <= time + 1e-9);
@@ -172,23 +270,40 @@ function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
   }
 }
 
-// Below the arm: how far it reaches, how high the points stand, the tours; a band where the tool dips under the floor.
+// Below the arm: how far it reaches, how high the points stand, the tours; a band where the tool
+// dips under the floor.
 function below(g, {to}, {p0, points, l1, l2}, {tours}) {
-  const ring = Array.from({length: 73}, (_, i) => i * Math.PI / 36).map(x => to([(l1 + l2) * Math.cos(x), (l1 + l2) * Math.sin(x), 0]));
+  const ring = Array.from({length: 73}, (_, i) => (i * Math.PI) / 36).map(x =>
+    to([(l1 + l2) * Math.cos(x), (l1 + l2) * Math.sin(x), 0]),
+  );
   stroke(g, ring, colors.rim, 1.2, [1.5, 4]);
   for (const [x, y, z] of [p0, ...points]) {
     stroke(g, [to([x, y, z]), to([x, y, 0])], colors.soft, 1, [2, 3]);
     spot(g, to([x, y, 0]), 2, colors.soft, colors.paper, 0.5);
   }
-  for (const tour of [...tours].reverse().filter(Boolean)) { // the dashed one last
-    if (tour.dips) stroke(g, tour.places.map(p => p[2] < 0 && to(p)), clear(colors.alarm, 0.35), 9);
+  for (const tour of [...tours].reverse().filter(Boolean)) {
+    // the dashed one last
+    if (tour.dips)
+      stroke(
+        g,
+        tour.places.map(p => p[2] < 0 && to(p)),
+        clear(colors.alarm, 0.35),
+        9,
+      );
     stroke(g, tour.places.map(to), colors[COLORS[tour.name]], ...LINES[tour.name]);
   }
 }
 
 const inCode = ({l1, l2, T, kind, p0, points}) => {
   const list = p => `[${p.map(x => plain(x, 6)).join(", ")}]`;
-  return {l1: plain(l1, 4), l2: plain(l2, 4), T: plain(T, 3), kind, p0: list(p0), points: `[${points.map(list).join(", ")}]`};
+  return {
+    l1: plain(l1, 4),
+    l2: plain(l2, 4),
+    T: plain(T, 3),
+    kind,
+    p0: list(p0),
+    points: `[${points.map(list).join(", ")}]`,
+  };
 };
 
 // A page has the looks of all its outputs: these are for this one.
@@ -198,15 +313,20 @@ const LOOK = `
   & .rk-handle.rk-point { background: var(--rk-paper); }
   & .rk-handle.rk-left { border-style: dashed; }
   & .rk-handle.rk-served { background: var(--own); color: var(--rk-paper); }
-  & .rk-handle.rk-away { border-style: dotted; color: var(--rk-soft); text-decoration: line-through; background: var(--rk-grid); }
-  & .rk-point::before, & .rk-point::after { position: absolute; left: -6px; right: -6px; text-align: center; font-size: 11px;
-    text-shadow: 0 0 2px var(--rk-paper), 0 0 3px var(--rk-paper), 0 0 3px var(--rk-paper); pointer-events: none; }
-  & .rk-point::before { content: attr(data-greedy); bottom: calc(100% + 3px); color: var(--rk-joint2); }
+  & .rk-handle.rk-away { border-style: dotted; color: var(--rk-soft);
+    text-decoration: line-through; background: var(--rk-grid); }
+  & .rk-point::before, & .rk-point::after { position: absolute; left: -6px; right: -6px;
+    text-align: center; font-size: 11px;
+    text-shadow: 0 0 2px var(--rk-paper), 0 0 3px var(--rk-paper), 0 0 3px var(--rk-paper);
+    pointer-events: none; }
+  & .rk-point::before { content: attr(data-greedy); bottom: calc(100% + 3px);
+    color: var(--rk-joint2); }
   & .rk-point::after { content: attr(data-best); top: calc(100% + 3px); color: var(--rk-joint1); }
   & .rk-handles[inert] { opacity: 1; }
   & .rk-tours tr > :nth-child(2) { white-space: normal; text-align: left; width: 99%; }
   & .rk-many.rk-tours thead th { white-space: nowrap; }
-  & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px; margin-right: 6px; vertical-align: middle;
+  & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px;
+    margin-right: 6px; vertical-align: middle;
     border-top: 3px dashed var(--rk-joint2); }
   & .rk-tours tr:nth-child(2) .rk-choose::before { border-top: 3px solid var(--rk-joint1); }
   @container (max-width: 600px) { & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr); } }

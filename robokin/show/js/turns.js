@@ -2,40 +2,106 @@
 
 import {ellipsoid, product} from "./kinematics.js";
 
-export const radians = x => x * Math.PI / 180;
-export const degrees = x => x * 180 / Math.PI;
+/** @import {ArmData, PageUnit, Unit} from "./page.js" */
+
+/**
+ * @param {number} x  degrees
+ */
+export const radians = x => (x * Math.PI) / 180;
+
+/**
+ * @param {number} x  radians
+ */
+export const degrees = x => (x * 180) / Math.PI;
+
+/**
+ * A turn about an axis of length 1.
+ * @param {number[]} axis
+ * @param {number} angle
+ * @returns {number[]}  w, x, y, z
+ */
 export const aboutAxis = ([x, y, z], angle) => {
   const s = Math.sin(angle / 2);
   return [Math.cos(angle / 2), x * s, y * s, z * s];
 };
-export const normal = q => { const length = Math.sqrt(q.reduce((sum, x) => sum + x * x, 0)); return q.map(x => x / length); };
 
-// As Quaternion.from_roll_pitch_yaw.
-export const rotationOf = ([roll, pitch, yaw]) => product(product(aboutAxis([0, 0, 1], yaw), aboutAxis([0, 1, 0], pitch)),
-                                                   aboutAxis([1, 0, 0], roll));
+/**
+ * A quaternion of length 1.
+ * @param {number[]} q
+ */
+export const normal = q => {
+  const length = Math.sqrt(q.reduce((sum, x) => sum + x * x, 0));
+  return q.map(x => x / length);
+};
 
-// As Quaternion.as_roll_pitch_yaw: at a pitch of a quarter turn roll is given as zero.
+/**
+ * As Quaternion.from_roll_pitch_yaw.
+ * @param {number[]} turns  roll, pitch, yaw
+ */
+export const rotationOf = ([roll, pitch, yaw]) =>
+  product(
+    product(aboutAxis([0, 0, 1], yaw), aboutAxis([0, 1, 0], pitch)),
+    aboutAxis([1, 0, 0], roll),
+  );
+
+/**
+ * As Quaternion.as_roll_pitch_yaw: at a pitch of a quarter turn roll is given as zero.
+ * @param {number[]} m  12 numbers
+ */
 export function rollPitchYaw(m) {
-  const flat = Math.sqrt(m[0] * m[0] + m[4] * m[4]), pitch = Math.atan2(-m[8], flat);
+  const flat = Math.sqrt(m[0] * m[0] + m[4] * m[4]),
+    pitch = Math.atan2(-m[8], flat);
   if (flat < 1e-9) return [0, pitch, Math.atan2(-m[1], m[5])];
   return [Math.atan2(m[9], m[10]), pitch, Math.atan2(m[4], m[0])];
 }
 
+/**
+ * A number in code.
+ * @param {number} x
+ * @param {number} decimals
+ */
 export const plain = (x, decimals) => String(+x.toFixed(decimals));
-// Joint values in code: "90.0 * deg, ...".
-export const inUnits = (units, q) => q.map((x, j) => `${plain(x / units[j].size, 3)} * ${units[j].code}`).join(", ");
-// A place in code, to a thousandth of a millimetre.
+
+/**
+ * Joint values in code: "90.0 * deg, ...".
+ * @param {PageUnit[]} units
+ * @param {number[]} q
+ */
+export const inUnits = (units, q) =>
+  q.map((x, j) => `${plain(x / units[j].size, 3)} * ${units[j].code}`).join(", ");
+
+/**
+ * A place in code, to a thousandth of a millimetre.
+ * @param {number[]} place
+ * @param {Pick<Unit, "size">} unit
+ */
 export const lengths = (place, unit) => place.map(x => plain(x / unit.size, unit.size < 1 ? 3 : 6));
-// A target's values for the blanks of a line of code.
+
+/**
+ * A target's values for the blanks of a line of code.
+ * @param {{place: number[], turns?: number[], angle?: number}} state
+ * @param {Unit} unit
+ * @returns {Object<string, string>}
+ */
 export const inCode = (state, unit) => ({
   ...Object.fromEntries(lengths(state.place, unit).map((text, k) => ["xyz"[k], text])),
-  ...(state.turns ? {roll: plain(degrees(state.turns[0]), 3), pitch: plain(degrees(state.turns[1]), 3),
-                     yaw: plain(degrees(state.turns[2]), 3)} : {}),
-  ...("angle" in state ? {angle: plain(degrees(state.angle), 3)} : {}),
+  ...(state.turns
+    ? {
+        roll: plain(degrees(state.turns[0]), 3),
+        pitch: plain(degrees(state.turns[1]), 3),
+        yaw: plain(degrees(state.turns[2]), 3),
+      }
+    : {}),
+  ...(state.angle === undefined ? {} : {angle: plain(degrees(state.angle), 3)}),
 });
 
-// The semi-axes of the ellipsoid of tool velocities, in a size that can be seen beside the arm.
+/**
+ * The semi-axes of the ellipsoid of tool velocities, in a size that can be seen beside the arm.
+ * @param {ArmData} arm
+ * @param {number[]} q
+ */
 export function ellipsoidOf(arm, q) {
-  const axes = ellipsoid(arm.chain, q), longest = Math.sqrt(axes[0].reduce((sum, x) => sum + x * x, 0)) || 1;
-  return axes.map(axis => axis.map(x => x * 0.25 * arm.reach / longest));
+  const axes = ellipsoid(arm.chain, q),
+    longest = Math.sqrt(axes[0].reduce((sum, x) => sum + x * x, 0)) || 1;
+  return axes.map(axis => axis.map(x => (x * 0.25 * arm.reach) / longest));
 }

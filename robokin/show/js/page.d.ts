@@ -1,0 +1,361 @@
+// Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,
+// numbers.py and motors.py, which say what everything is. Change those.
+
+/** T with these of its optional keys there. */
+export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
+
+export type Scale = [number, number, number, number];
+
+export type Inverse =
+  ElbowInverse | WristInverse | ScaraInverse | TwoLinkInverse | ThreeLeverInverse | NoInverse;
+
+export interface Packed {
+  steps: (number | number[])[];
+  data: string;
+}
+
+export interface ArmData {
+  name: string;
+  target: string | null;
+  reach: number;
+  chain: PageLink[];
+  limits: number[][];
+  limits_in_words: string[][];
+  prismatic: boolean[];
+  units: JointUnit[];
+  speed_limits: number[] | null;
+  movable: number[];
+  geometry: Inverse;
+  tolerances: Tolerances;
+  branches?: number[][];
+  carried?: string;
+  sentences?: Record<string, string>;
+}
+
+export interface PageLink {
+  before: number[];
+  axis: number[];
+  after: number[];
+  prismatic: boolean;
+}
+
+export interface Unit {
+  name: string;
+  size: number;
+}
+
+export interface Slider {
+  label: string;
+  values: number[];
+  decimals: number;
+}
+
+export interface Switch {
+  label: string;
+  values: string[];
+}
+
+export interface PageWay {
+  steps: (number | number[])[];
+  data: string;
+  motions: number;
+  samples: number;
+}
+
+export interface PageTarget {
+  name: string;
+  pose?: number[];
+  way?: PageWay;
+}
+
+export interface PageMark {
+  name: string;
+  radius: number;
+  reading?: PageWay;
+  decimals?: number;
+  at?: number[];
+  way?: PageWay;
+}
+
+export interface PageScene {
+  size: number;
+  flat: number | null;
+  grid: number;
+  seen: number[][];
+  floor: number[][];
+  view: number[];
+  targets: PageTarget[];
+  marks: PageMark[];
+  grows?: boolean;
+  solid?: boolean;
+  bases?: number[][];
+  faces?: number[][][];
+}
+
+export interface Axis {
+  unit: string;
+  scales: Scale[];
+  of: number[] | null;
+}
+
+export interface PagePanel {
+  label: string;
+  own: boolean;
+  near: number[][][];
+  axes: Record<string, Axis>;
+}
+
+export interface Greatest {
+  speed: number[][];
+  share: number[][] | null;
+  acceleration: (number | string)[][];
+}
+
+export interface Flaws {
+  gaps: Record<string, number[]>;
+  jumps: Record<string, [number, string][]>;
+  leaps: Record<string, [number, string][]>;
+  notes: Record<string, string[]>;
+}
+
+export interface PageArm {
+  speed: number[][];
+  share: number[][] | null;
+  acceleration: (number | string)[][];
+  gaps: Record<string, number[]>;
+  jumps: Record<string, [number, string][]>;
+  leaps: Record<string, [number, string][]>;
+  notes: Record<string, string[]>;
+  name: string;
+  chain: PageLink[];
+  motion: Packed[];
+  limits: number[][];
+  speedLimits: number[] | null;
+  via: (number[] | null)[] | null;
+}
+
+export interface Page {
+  title: string;
+  summary: string;
+  alt: string;
+  times: number[];
+  ticks: Scale;
+  slider: Slider | null;
+  switch: Switch | null;
+  unit: Unit;
+  dashes: number[][];
+  scene: PageScene;
+  panels: PagePanel[];
+  decimals: number[];
+  arms: PageArm[];
+}
+
+export interface Control {
+  name: string;
+  unit: string;
+  low: number;
+  high: number;
+  step: number;
+  decimals: number;
+}
+
+export interface PageUnit {
+  name: string;
+  size: number;
+  code: string;
+}
+
+export interface PagePose {
+  place: number[];
+  rotation?: number[];
+  angle?: number;
+}
+
+export interface FactRow {
+  name: string;
+  fact: string;
+  heads: string[];
+  decimals: number;
+}
+
+export interface StartValues {
+  blend: number;
+  duration: number;
+  law: number;
+  corner: number;
+  row: number;
+}
+
+export interface BranchTask {
+  wanted: number;
+  holds: string;
+  open: string;
+}
+
+export interface PageExplorer {
+  kind: string;
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm?: ArmData;
+  units?: PageUnit[];
+  dashes?: number[][];
+  q?: number[];
+  rows?: FactRow[];
+  target?: PagePose;
+  turns?: number[];
+  branches?: string[];
+  heads?: string[];
+  turning?: number[];
+  start?: PagePose;
+  via?: PagePose;
+  goal?: PagePose;
+  start_values?: StartValues;
+  laws?: string[];
+  corners?: string[];
+  panels?: string[];
+  samples?: number;
+  task?: BranchTask;
+  kinds?: string[];
+  tours?: string[];
+  most?: number;
+  spare?: number[][];
+}
+
+export interface PageAnswer {
+  text: string;
+  reason: string;
+  confusion: string | null;
+  second: string;
+  value?: number;
+}
+
+export interface PageQuestion {
+  name: string;
+  title: string;
+  question: string;
+  options: PageAnswer[];
+  right: number;
+  unit: string | null;
+  within: number;
+  choice: string | null;
+  view: string;
+}
+
+export interface ElbowData {
+  carried: string;
+  sign1: number;
+  sign2: number;
+  sign3: number;
+  shoulder_x: number;
+  shoulder_z: number;
+  lateral: number;
+  upper: number;
+  fore: number;
+  upper_angle: number;
+  fore_angle: number;
+  reach: number;
+}
+
+export interface WristData {
+  sign5: number;
+  sign6: number;
+  axis4: number;
+  from_flange: number[];
+  centre_from_flange: number[];
+}
+
+export interface ElbowTurns {
+  upper: [number, number];
+  fore: [number, number];
+}
+
+export interface WristTurns {
+  upper: [number, number];
+  fore: [number, number];
+  axis4: [number, number];
+}
+
+export interface ElbowInverse {
+  kind: "elbow";
+  elbow: ElbowData;
+  reach: number;
+  turns: ElbowTurns;
+}
+
+export interface WristInverse {
+  kind: "wrist";
+  elbow: ElbowData;
+  wrist: WristData;
+  reach: number;
+  turns: WristTurns;
+}
+
+export interface ScaraInverse {
+  kind: "scara";
+  height: number;
+  upper: number;
+  fore: number;
+  reach: number;
+}
+
+export interface TwoLinkInverse {
+  kind: "two_link";
+  l1: number;
+  l2: number;
+  base: [number, number];
+  reach: number;
+}
+
+export interface ThreeLeverInverse {
+  kind: "three_lever";
+  levers: [number, number, number];
+  lever: number;
+  inner: number;
+  reach: number;
+}
+
+export interface NoInverse {
+  kind: null;
+}
+
+export interface Tolerances {
+  ROUNDING: number;
+  STRAIGHT: number;
+  FREE: number;
+  SINGULAR: number;
+  STUCK: number;
+  NOISY: number;
+  SLACK: number;
+}
+
+export interface JointUnit {
+  name: string;
+  size: number;
+}
+
+export interface PagePole {
+  at: number;
+  winding: number;
+  sign: number;
+  name: string;
+}
+
+export interface PageMotor {
+  windings: number;
+  turn: number;
+  periods: number;
+  sharp: number;
+  poles: PagePole[];
+  teeth: number;
+  space: number;
+  heads: string[];
+  currents: Record<string, number[][]>;
+  printed: Record<string, string[][]>;
+}

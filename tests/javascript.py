@@ -1,0 +1,143 @@
+"""The tools of the page's scripts, Prettier and TypeScript, in the versions of js/package-lock.json
+and with PyPI's Node:
+
+    python tests/javascript.py prettier --write robokin/show/js
+    python tests/javascript.py tsc
+    python tests/javascript.py types    # writes robokin/show/js/page.d.ts
+
+npm lays them, once for each lock file, into the user's cache, so that nothing of them stands in
+the tree.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from types import UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints, is_typeddict
+
+from conftest import NODE, ROOT
+
+from robokin.show import motors, numbers, page, twin
+
+HERE = ROOT / "tests" / "js"
+PROGRAMS = {
+    "prettier": ("prettier/bin/prettier.cjs", "--config", HERE / "prettier.config.json"),
+    "tsc": ("typescript/bin/tsc", "--project", HERE / "tsconfig.json"),
+}
+UNREACHABLE = ("ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ENETUNREACH", "TIMEDOUT")
+
+
+class NoNetwork(Exception):
+    """The tools are not there, and the registry cannot be reached."""
+
+
+def tools():
+    """The folder of the installed packages. Another process may install them at the same time:
+    each works in a folder of its own, and the first one to end names it.
+    """
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "robokin-js"
+    home = cache / hashlib.sha256((HERE / "package-lock.json").read_bytes()).hexdigest()[:16]
+    if not home.is_dir():
+        cache.mkdir(parents=True, exist_ok=True)
+        beside = Path(tempfile.mkdtemp(dir=cache))
+        try:
+            _install(beside)
+            beside.rename(home)
+        except OSError:
+            if not home.is_dir():
+                raise
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
+    return home / "node_modules"
+
+
+def tool(name, *arguments):
+    """A run of "prettier" or "tsc" at the top of the repository."""
+    program, *settings = PROGRAMS[name]
+    command = [NODE, tools() / program, *settings, *arguments]
+    return subprocess.run(command, cwd=ROOT, text=True, capture_output=True)
+
+
+def page_types():
+    """js/page.d.ts: the TypedDicts of what pages are given, as TypeScript has them."""
+    tables = {
+        name: table
+        for module in (numbers, page, twin, motors)
+        for name, table in vars(module).items()
+        if is_typeddict(table)
+    }
+    parts = [
+        "// Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,",
+        "// numbers.py and motors.py, which say what everything is. Change those.",
+        "",
+        "/** T with these of its optional keys there. */",
+        "export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;",
+    ]
+    for name, kind in ALIASES.items():
+        line = f"export type {name} = {_typed(kind, alias=False)};"
+        parts += ["", line if len(line) <= 100 else line.replace(" = ", " =\n  ")]
+    for name, table in tables.items():
+        parts += ["", f"export interface {name} {{"]
+        for key, kind in get_type_hints(table).items():
+            mark = "" if key in table.__required_keys__ else "?"
+            parts.append(f"  {key}{mark}: {_typed(kind)};")
+        parts.append("}")
+    return "\n".join(parts) + "\n"
+
+
+def _install(folder):
+    for name in ("package.json", "package-lock.json"):
+        shutil.copy(HERE / name, folder)
+    package = NODE.parent if os.name == "nt" else NODE.parent.parent
+    npm = next(package.glob("**/node_modules/npm/bin/npm-cli.js"))
+    quick = ("--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1")
+    command = [NODE, npm, "ci", *quick, "--fetch-retry-mintimeout=1000"]
+    done = subprocess.run(command, cwd=folder, text=True, capture_output=True, timeout=300)
+    if done.returncode:
+        kind = NoNetwork if any(word in done.stderr for word in UNREACHABLE) else RuntimeError
+        raise kind(f"npm ci:\n{done.stderr[-1000:]}")
+
+
+PLAIN = {str: "string", float: "number", int: "number", bool: "boolean", Any: "unknown"}
+ALIASES = {"Scale": numbers.Scale, "Inverse": twin.Inverse}
+PLAIN |= {type(None): "null"}
+
+
+def _typed(kind, alias=True):
+    """A Python type in TypeScript's words."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if alias and kind in ALIASES.values():
+        return next(name for name, known in ALIASES.items() if known == kind)
+    if is_typeddict(kind):
+        return kind.__name__
+    if kind in PLAIN:
+        return PLAIN[kind]
+    if origin in (Union, UnionType):
+        return " | ".join(dict.fromkeys(map(_typed, inner)))
+    if origin is Literal:
+        return " | ".join(json.dumps(each) for each in inner)
+    if origin is list:
+        one = _typed(inner[0])
+        return f"({one})[]" if " | " in one and one[0] != "(" else f"{one}[]"
+    if origin is tuple and inner[-1] is ...:
+        return f"{_typed(inner[0])}[]"
+    if origin is tuple:
+        return f"[{', '.join(map(_typed, inner))}]"
+    if origin is dict and inner[0] is str:
+        return f"Record<string, {_typed(inner[1])}>"
+    raise TypeError(f"no words for {kind}")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["types"]:
+        (ROOT / "robokin/show/js/page.d.ts").write_text(page_types(), encoding="utf-8")
+        sys.exit()
+    run = tool(*sys.argv[1:])
+    sys.stdout.write(run.stdout)
+    sys.stderr.write(run.stderr)
+    sys.exit(run.returncode)
