@@ -129,8 +129,7 @@ class JupyterLab:
     def __enter__(self):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
-        self.url = f"http://127.0.0.1:{port}"
+            port = free.getsockname()[1]  # where it begins to look: it may be taken again
         command = [
             sys.executable,
             "-m",
@@ -138,7 +137,6 @@ class JupyterLab:
             "--no-browser",
             "--ServerApp.ip=127.0.0.1",
             f"--ServerApp.port={port}",
-            "--ServerApp.port_retries=0",
             f"--IdentityProvider.token={self.token}",
             f"--ServerApp.root_dir={self.labs}",
         ]
@@ -152,7 +150,10 @@ class JupyterLab:
             stdout=self.log,
             stderr=subprocess.STDOUT,
         )
-        until(lambda: self.api("status") is not None, 60, "JupyterLab did not answer")
+        told = self.home / "runtime" / f"jpserver-{self.process.pid}.json"
+        until(lambda: self._ended() or told.exists(), 120, "JupyterLab did not say its address")
+        self.url = json.loads(told.read_text())["url"].rstrip("/")
+        until(lambda: self.api("status") is not None, 120, "JupyterLab did not answer")
         return self
 
     def __exit__(self, *_):
@@ -174,9 +175,12 @@ class JupyterLab:
             with urllib.request.urlopen(request, timeout=5) as answer:
                 return json.loads(answer.read() or b"{}")
         except OSError:
-            if self.process.poll() is not None:
-                pytest.fail(f"JupyterLab ended:\n{(self.home / 'server.log').read_text()[-3000:]}")
+            self._ended()
             return None
+
+    def _ended(self):
+        if self.process.poll() is not None:
+            pytest.fail(f"JupyterLab ended:\n{(self.home / 'server.log').read_text()[-3000:]}")
 
     def trust(self, name):
         """Sign the stored outputs of a notebook, as `jupyter trust` does for a student."""
@@ -243,6 +247,36 @@ def until(true, seconds, complaint, page=None):
         if time.monotonic() > end:
             pytest.fail(f"{complaint} within {seconds} s")
         page.wait_for_timeout(100) if page else time.sleep(0.1)
+
+
+# The files that take longest come first: one that begins late would end alone.
+LONGEST = (
+    "test_explorers.py",
+    "test_rerun.py",
+    "test_browser.py",
+    "test_site.py",
+    "test_predictions.py",
+    "test_course_labs.py",
+    "test_live.py",
+    "test_wrong_calls.py",
+    "test_report.py",
+)
+
+
+def pytest_xdist_auto_num_workers(config):
+    """One worker more than cores, since browser and kernels keep a test waiting; none where all
+    tests are of one file, which one worker would run.
+    """
+    files = {argument.split("::")[0] for argument in config.args}
+    if len(files) == 1 and Path(*files).is_file():
+        return 0
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return (cores or 1) + 1
+
+
+def pytest_collection_modifyitems(items):
+    names = [*LONGEST, None]
+    items.sort(key=lambda item: names.index(item.path.name if item.path.name in LONGEST else None))
 
 
 def pytest_terminal_summary(terminalreporter):
