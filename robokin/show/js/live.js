@@ -10,6 +10,7 @@ import {element} from "./elements.js";
  */
 /** @typedef {(n: number, question: unknown) => void} Port  to the kernel */
 /** @typedef {{n: number, answer: {error?: string}, buffers: DataView<ArrayBuffer>[]}} Arrived */
+
 const PATIENCE = 4000; // ms without an answer; then the view says so
 // Two questions under way: the second carries the receipt without which the first answer is held
 // back for 40 ms on its way (Nagle's algorithm meets the delayed receipt).
