@@ -52,7 +52,8 @@ import {camera, movedTo} from "./camera.js";
 /** @typedef {[from: Point, to: Point, rod: boolean]} Limb  `rod`: of a prismatic joint */
 /** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
 
-const AXES = /** @type {const} */ (["x", "y", "z"]);
+/** The axes of a frame; their colours have the same names. */
+export const AXES = /** @type {const} */ (["x", "y", "z"]);
 
 /**
  * Draws arms in space.
