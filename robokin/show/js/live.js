@@ -8,6 +8,10 @@ import {element} from "./elements.js";
  * base64.
  * @typedef {{array: number | string, type: keyof typeof TYPES, shape: number[]}} StoredArray
  */
+/**
+ * The same as it is read.
+ * @typedef {{values: InstanceType<typeof TYPES[keyof typeof TYPES]>, shape: number[]}} Values
+ */
 /** @typedef {(n: number, question: unknown) => void} Port  to the kernel */
 /** @typedef {{n: number, answer: {error?: string}, buffers: DataView<ArrayBuffer>[]}} Arrived */
 
@@ -116,7 +120,7 @@ const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float3
  * their place.
  * @param {unknown} answer
  * @param {DataView<ArrayBuffer>[]} [buffers]
- * @returns {unknown}  {values, shape} in the place of each array
+ * @returns {unknown}  Values in the place of each array
  */
 export function unpacked(answer, buffers = []) {
   if (Array.isArray(answer)) return answer.map(each => unpacked(each, buffers));
