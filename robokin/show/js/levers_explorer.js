@@ -18,9 +18,13 @@ import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 
 /** @typedef {With<PageExplorer, "arm" | "q" | "target"> & {arm: ThreeLeverArm}} LeversExplorer */
 /**
- * What the free angle alpha costs: its range, where it is, the best one, and the cost at any.
- * @typedef {{low: number, high: number, alpha: number, best: number, at: (alpha: number) => number}}
- *   Costs
+ * What the free angle alpha costs: its range, where it is, the best one, and the cost `at` any.
+ * @typedef {object} Costs
+ * @property {number} low
+ * @property {number} high
+ * @property {number} alpha
+ * @property {number} best
+ * @property {(alpha: number) => number} at
  */
 
 /**
@@ -141,10 +145,10 @@ function leversExplorer(stage, data) {
       /** @type {(x: number) => number} */
       const inUnit = x => x / unit.size;
       const values = [
-          ...state.place.slice(0, 2).map(inUnit),
-          degrees(state.alpha),
-          ...arm.geometry.levers.map(inUnit),
-        ];
+        ...state.place.slice(0, 2).map(inUnit),
+        degrees(state.alpha),
+        ...arm.geometry.levers.map(inUnit),
+      ];
       sliders.forEach((each, k) => each.set(values[k]));
       const best = exists ? least(arm, state, state.before) : null;
       costs = best

@@ -8,7 +8,7 @@ import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 
 /** @import {Control, PageExplorer} from "./page.js" */
-/** @import {Context, Pixel} from "./canvas.js" */
+/** @import {Context} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Shown} from "./scene.js" */
 
