@@ -249,9 +249,11 @@ class PageExplorer(TypedDict):
             table, the unit of travel in radians; `task`, an exercise: how many different
             postures have to reach the target (`wanted`), what it says then (`holds`) and before
             (`open`)
-    plan    names of the ways as `branches`; and what `live.Live` adds
+    plan    names of the ways as `branches`
     motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
     tour    names of kinds of tasks and of tours, the most points, places for those that are added
+
+    To plan and tour `live.Live` adds the question with which they open, and its `first` answer.
     """
 
     kind: str
@@ -287,6 +289,8 @@ class PageExplorer(TypedDict):
     tours: NotRequired[list[str]]
     most: NotRequired[int]
     spare: NotRequired[list[list[float]]]
+    question: NotRequired[dict[str, Any]]
+    first: NotRequired[dict[str, Any]]
 
 
 class PageAnswer(TypedDict):

@@ -138,7 +138,7 @@ export const upright = (g, x, top, bottom, ...look) =>
  * Fills and outlines what `draw` traces.
  * @param {Context} g
  * @param {() => void} draw
- * @param {string} fill
+ * @param {string | CanvasGradient} fill
  * @param {string} [edge]
  * @param {number} [width]
  */
@@ -165,7 +165,7 @@ export const polygon = (g, points, ...look) =>
  * @param {Context} g
  * @param {Pixel} place
  * @param {number} radius
- * @param {string} fill
+ * @param {string | CanvasGradient} fill
  * @param {string} [edge]
  * @param {number} [width]
  */

@@ -4,42 +4,51 @@
 import {cross, dot, frames, origin, plus, turned} from "./kinematics.js";
 import {element, control} from "./elements.js";
 
+/** @import {PageLink} from "./page.js" */
+/** @import {Color, Pixel, Point} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+
 const NEAR = 12; // px: no handle is drawn nearer to the edge of the scene
 
 /**
  * How far arrows and arcs stand off what they move, in metres for a camera: the same on every
  * screen.
+ * @param {Camera} camera
  */
 export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
 
+/** @typedef {(dx: number, dy: number) => void} Drag  told how far a pointer has gone, in px */
 /**
- * @typedef {Object} Handle
+ * @typedef {object} Handle
  * @property {string} id
  * @property {string} name  what a screen reader says: "target along x"
  * @property {string} look  the class of the button: rk-free, rk-arrow, rk-arc or rk-joint
  * @property {string} [mark]  a letter on it
- * @property {string} [color]  a name of palette.py
- * @property {(camera: Object) => number[]} at  where it is, in metres
+ * @property {Color} [color]  a name of palette.py
+ * @property {(camera: Camera) => Point} at  where it is
  * @property {() => string} value  what it stands at, in words
- * @property {(camera: Object) => (dx: number, dy: number) => void} grab  called when it is taken;
- *   what it returns is told how far the pointer is from where it was taken, in px
+ * @property {(camera: Camera) => Drag} grab  called when it is taken; what it returns is told how
+ *   far the pointer is from where it was taken
  * @property {(right: number, up: number, big: boolean) => void} step  an arrow key
  * @property {() => void} home  where it began
  */
+/** @typedef {ReturnType<typeof handleLayer>} HandleLayer */
 
 /**
  * A layer of handles over a canvas.
  * @param {HTMLElement} canvas
- * @param {() => Object} camera  the camera of the last picture
+ * @param {() => Camera} camera  the camera of the last picture
  * @param {(held: boolean) => void} hold  told when a handle is taken, and when it is let go
  * @param {() => void} changed  something has moved
- * @returns {{layer: HTMLElement, set: Function, place: Function}}
  */
 export function handleLayer(canvas, camera, hold, changed) {
   const layer = element("div", {class: "rk-handles"});
-  let handles = [],
-    held = null;
+  /** @type {(Handle & {node: HTMLElement, shift: Pixel})[]} */
+  let handles = [];
+  /** @type {?string} */
+  let held = null;
 
+  /** @param {Handle} handle */
   function button(handle) {
     const node = control(
       "button",
@@ -47,8 +56,9 @@ export function handleLayer(canvas, camera, hold, changed) {
       handle.mark || "",
     );
     if (handle.color) node.style.setProperty("--own", `var(--rk-${handle.color})`);
-    let from = null,
-      move = null;
+    let from = [0, 0];
+    /** @type {?Drag} */
+    let move = null;
     node.addEventListener("pointerdown", event => {
       event.preventDefault(); // no text is selected, no scrolling begins
       node.focus();
@@ -71,9 +81,9 @@ export function handleLayer(canvas, camera, hold, changed) {
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
       node.addEventListener(end, drop);
     node.addEventListener("keydown", event => {
-      const [right, up] = STEPS[event.key] || [];
+      const way = STEPS[event.key];
       if (event.key === "Home") handle.home();
-      else if (right !== undefined) handle.step(right, up, event.shiftKey);
+      else if (way) handle.step(...way, event.shiftKey);
       else return;
       event.preventDefault();
       event.stopPropagation();
@@ -86,7 +96,7 @@ export function handleLayer(canvas, camera, hold, changed) {
     layer,
     /** @param {Handle[]} next */
     set(next) {
-      handles = next.map(handle => ({...handle, node: button(handle)}));
+      handles = next.map(handle => ({...handle, node: button(handle), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
     /** To be called behind every picture. */
@@ -94,18 +104,23 @@ export function handleLayer(canvas, camera, hold, changed) {
       const seen = camera(),
         {to} = seen,
         w = canvas.clientWidth,
-        h = canvas.clientHeight,
-        taken = [];
+        h = canvas.clientHeight;
+      /** @type {Pixel[]} */
+      const taken = [];
       const room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
       // The one that is held keeps its way to its place, so that it stays under the pointer; the
       // others make room.
-      for (const handle of [...handles].sort((a, b) => (b.id === held) - (a.id === held))) {
-        const {node, name, at, value} = handle,
+      for (const handle of [...handles].sort(
+        (a, b) => Number(b.id === held) - Number(a.id === held),
+      )) {
+        const {node, name, at, value, shift} = handle,
           p = at(seen),
           place = to(p);
         node.hidden = !p.every(Number.isFinite);
         const [x, y] =
-          handle.id === held ? place.map((c, k) => c + handle.shift[k]) : apart(place, taken, room);
+          handle.id === held
+            ? [place[0] + shift[0], place[1] + shift[1]]
+            : apart(place, taken, room);
         handle.shift = [x - place[0], y - place[1]];
         taken.push([x, y]);
         // One that has left the scene waits at its edge, and can still be taken.
@@ -122,9 +137,16 @@ export function handleLayer(canvas, camera, hold, changed) {
   };
 }
 
+/** @type {Object<string, [number, number]>} */
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
-// A place that is `room` pixels away from those that are taken.
+/**
+ * A place that is `room` pixels away from those that are taken.
+ * @param {Pixel} place
+ * @param {Pixel[]} taken
+ * @param {number} room
+ * @returns {Pixel}
+ */
 function apart([x, y], taken, room) {
   for (let i = 0; i < 8; i++) {
     const near = taken.find(([a, b]) => (x - a) ** 2 + (y - b) ** 2 < 0.98 * room * room);
@@ -139,8 +161,8 @@ function apart([x, y], taken, room) {
 /**
  * How a drag changes one number whose handle moves along a curve: the way of the pointer along the
  * curve's direction on the screen, taken anew as the handle moves on.
- * @param {Object} camera
- * @param {(value: number) => number[]} place  where the handle is at a value, in metres
+ * @param {Camera} camera
+ * @param {(value: number) => Point} place  where the handle is at a value
  * @param {number} value  at the start
  * @param {number} step  a small change of the value
  * @returns {(dx: number, dy: number) => number}  the value for a pointer that far away
@@ -171,9 +193,9 @@ const MOVES = 0.02; // m of screen per unit of the value: less is no movement th
 
 /**
  * How a drag moves a point freely in the plane of the screen.
- * @param {Object} camera
- * @param {number[]} place  at the start, in metres
- * @returns {(dx: number, dy: number) => number[]}
+ * @param {Camera} camera
+ * @param {Point} place  at the start
+ * @returns {(dx: number, dy: number) => Point}
  */
 export const inScreen = (camera, place) => (dx, dy) => plus(place, camera.across(dx, dy));
 
@@ -194,15 +216,15 @@ export function squareTo(axis) {
 /**
  * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob
  * beside it.
- * @param {Object[]} chain
+ * @param {PageLink[]} chain
  * @param {number[]} q
  * @param {number} i
- * @param {Object} camera
- * @returns {number[]}
+ * @param {Camera} camera
+ * @returns {Point}
  */
 export function gripOf(chain, q, i, camera) {
-  const joints = [],
-    moved = [],
+  /** @type {[number[][], number[][]]} */
+  const [joints, moved] = [[], []],
     all = frames(chain, q, joints, moved),
     here = origin(moved[i]),
     reach = reachOf(camera);

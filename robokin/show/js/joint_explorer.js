@@ -10,19 +10,32 @@ import {alongCurve, gripOf} from "./handles.js";
 import {copyButton, slider, stageOf, table, tick} from "./stage.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
+/** @import {PageExplorer, With} from "./page.js" */
+/** @import {Color, Point} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+/** @import {Handle} from "./handles.js" */
+/** @import {Stage} from "./stage.js" */
+
+/** @typedef {With<PageExplorer, "arm" | "units" | "q" | "rows">} JointExplorer */
+
 /**
  * Fills every waiting place with this id.
  * @param {string} id
- * @param {object} data  page.py: PageExplorer
+ * @param {JointExplorer} data
  */
 export const explore = (id, data) =>
   waiting(id).forEach(root => jointExplorer(stageOf(root, data), data));
 
-// A slider for each joint and a handle on it.
+/**
+ * A slider for each joint and a handle on it.
+ * @param {Stage} stage
+ * @param {JointExplorer} data
+ */
 function jointExplorer(stage, data) {
   const {arm, words, units} = data,
     state = {q: [...data.q]},
     sizes = units.map(unit => unit.size);
+  /** @type {(j: number, value: number) => number} */
   const limited = (j, value) => Math.min(Math.max(value, arm.limits[j][0]), arm.limits[j][1]);
   const sliders = data.controls.map((spec, j) =>
     slider(spec, value => {
@@ -51,42 +64,45 @@ function jointExplorer(stage, data) {
   stage.below.append(numbers.node);
 
   stage.handles.set(
-    arm.chain.map((link, j) => {
-      const step = data.controls[j].step * sizes[j];
-      const place = (camera, value) =>
-        gripOf(
-          arm.chain,
-          state.q.map((x, k) => (k === j ? value : x)),
-          j,
-          camera,
-        );
-      return {
-        id: `q${j + 1}`,
-        name: fill(words.takeJoint, {joint: j + 1}),
-        look: "rk-joint",
-        mark: String(j + 1),
-        color: `joint${(j % 6) + 1}`,
-        at: camera => place(camera, state.q[j]),
-        value: () => `${number(state.q[j] / sizes[j], 1)} ${units[j].name}`,
-        grab(camera) {
-          const to = alongCurve(
+    arm.chain.map(
+      /** @returns {Handle} */ (link, j) => {
+        const step = data.controls[j].step * sizes[j];
+        /** @type {(camera: Camera, value: number) => Point} */
+        const place = (camera, value) =>
+          gripOf(
+            arm.chain,
+            state.q.map((x, k) => (k === j ? value : x)),
+            j,
             camera,
-            value => place(camera, value),
-            state.q[j],
-            link.prismatic ? 1e-3 : 0.01,
           );
-          return (dx, dy) => {
-            state.q[j] = limited(j, to(dx, dy));
-          };
-        },
-        step(right, up, big) {
-          state.q[j] = limited(j, state.q[j] + (right + up) * step * (big ? 10 : 1));
-        },
-        home() {
-          state.q[j] = data.q[j];
-        },
-      };
-    }),
+        return {
+          id: `q${j + 1}`,
+          name: fill(words.takeJoint, {joint: j + 1}),
+          look: "rk-joint",
+          mark: String(j + 1),
+          color: /** @type {Color} */ (`joint${(j % 6) + 1}`),
+          at: camera => place(camera, state.q[j]),
+          value: () => `${number(state.q[j] / sizes[j], 1)} ${units[j].name}`,
+          grab(camera) {
+            const to = alongCurve(
+              camera,
+              value => place(camera, value),
+              state.q[j],
+              link.prismatic ? 1e-3 : 0.01,
+            );
+            return (dx, dy) => {
+              state.q[j] = limited(j, to(dx, dy));
+            };
+          },
+          step(right, up, big) {
+            state.q[j] = limited(j, state.q[j] + (right + up) * step * (big ? 10 : 1));
+          },
+          home() {
+            state.q[j] = data.q[j];
+          },
+        };
+      },
+    ),
   );
 
   stage.run(() => {
@@ -95,6 +111,7 @@ function jointExplorer(stage, data) {
       place = origin(flange),
       rotation = quaternion(flange);
     sliders.forEach((s, j) => s.set(q[j] / sizes[j]));
+    /** @type {Record<string, number[]>} */
     const facts = {
       place: place.map(x => x / data.unit.size),
       turns: rollPitchYaw(flange).map(degrees),

@@ -11,18 +11,39 @@ import {inScreen} from "./handles.js";
 import {copyButton, slider, stageOf} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 
+/** @import {PageExplorer, With} from "./page.js" */
+/** @import {Pixel} from "./canvas.js" */
+/** @import {ThreeLeverArm} from "./levers.js" */
+/** @import {Stage} from "./stage.js" */
+
+/** @typedef {With<PageExplorer, "arm" | "q" | "target"> & {arm: ThreeLeverArm}} LeversExplorer */
+/**
+ * What the free angle alpha costs: its range, where it is, the best one, and the cost `at` any.
+ * @typedef {object} Costs
+ * @property {number} low
+ * @property {number} high
+ * @property {number} alpha
+ * @property {number} best
+ * @property {(alpha: number) => number} at
+ */
+
 /**
  * Fills every waiting place with this id.
  * @param {string} id
- * @param {object} data  page.py: PageExplorer
+ * @param {LeversExplorer} data
  */
 export const explore = (id, data) =>
   waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
+/**
+ * @param {Stage} stage
+ * @param {LeversExplorer} data
+ */
 function leversExplorer(stage, data) {
   const {words: says, unit} = data,
     home = [...data.target.place];
-  let {arm} = data;
+  /** @type {ThreeLeverArm} */
+  let arm = data.arm;
   const state = {place: [...home], before: [...data.q], alpha: data.q[2]};
   const sliders = data.controls.map((spec, k) =>
     slider(spec, value => {
@@ -36,7 +57,9 @@ function leversExplorer(stage, data) {
       stage.changed();
     }),
   );
+  /** @type {(q: number[]) => number} */
   const cost = q => q.reduce((sum, x, j) => sum + Math.abs(x - state.before[j]), 0);
+  /** @type {(text: string, act: () => void) => HTMLElement} */
   const button = (text, act) => {
     const node = control("button", {type: "button", class: "rk-word"}, text);
     node.addEventListener("click", () => {
@@ -46,7 +69,8 @@ function leversExplorer(stage, data) {
     return node;
   };
   const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": says.costs});
-  let shown = null; // what the curve shows: its range, its values
+  /** @type {ReturnType<typeof drawCosts>} */
+  let shown = null;
   stage.side.append(
     ...sliders.map(s => s.row),
     element(
@@ -69,6 +93,7 @@ function leversExplorer(stage, data) {
     canvas,
     stage.says,
   );
+  /** @type {(event: PointerEvent) => void} */
   const pick = event => {
     if (shown) state.alpha = shown.alphaAt(event.offsetX);
     stage.changed();
@@ -109,6 +134,7 @@ function leversExplorer(stage, data) {
     },
   ]);
 
+  /** @type {?Costs} */
   let costs = null;
   stage.run(
     () => {
@@ -116,15 +142,16 @@ function leversExplorer(stage, data) {
         exists = !Number.isNaN(low);
       if (exists) state.alpha = Math.min(Math.max(state.alpha, low), high);
       const q = exists ? family(arm, state, state.alpha) : state.before;
-      const inUnit = x => x / unit.size,
-        values = [
-          ...state.place.slice(0, 2).map(inUnit),
-          degrees(state.alpha),
-          ...arm.geometry.levers.map(inUnit),
-        ];
+      /** @type {(x: number) => number} */
+      const inUnit = x => x / unit.size;
+      const values = [
+        ...state.place.slice(0, 2).map(inUnit),
+        degrees(state.alpha),
+        ...arm.geometry.levers.map(inUnit),
+      ];
       sliders.forEach((each, k) => each.set(values[k]));
       const best = exists ? least(arm, state, state.before) : null;
-      costs = exists
+      costs = best
         ? {
             low,
             high,
@@ -134,7 +161,7 @@ function leversExplorer(stage, data) {
           }
         : null;
       stage.say(
-        exists
+        best
           ? fill(says.costSays, {
               gamma: number(degrees(q[0]), 1),
               beta: number(degrees(q[1]), 1),
@@ -169,7 +196,13 @@ function leversExplorer(stage, data) {
   );
 }
 
-// The sum S of the angles' changes over the free angle; returns which angle a place stands for.
+/**
+ * The sum S of the angles' changes over the free angle.
+ * @param {HTMLCanvasElement} canvas
+ * @param {Record<string, string>} says
+ * @param {?Costs} costs
+ * @returns {?{alphaAt: (px: number) => number}}  which angle a place stands for
+ */
 function drawCosts(canvas, says, costs) {
   const ready = prepared(canvas);
   if (!ready) return null;
@@ -187,7 +220,9 @@ function drawCosts(canvas, says, costs) {
   const most = Math.max(...S, 1e-9),
     least = Math.min(...S),
     room = Math.max(most - least, 1e-9);
+  /** @type {(value: number) => number} */
   const x = value => left + (right - left) * (high > low ? (value - low) / (high - low) : 0.5);
+  /** @type {(value: number) => number} */
   const y = value => bottom - ((bottom - top) * (value - least + 0.05 * room)) / (1.1 * room);
   for (const value of [least, most]) {
     stroke(
@@ -211,7 +246,7 @@ function drawCosts(canvas, says, costs) {
   }
   stroke(
     g,
-    alphas.map((value, i) => [x(value), y(S[i])]),
+    alphas.map(/** @returns {Pixel} */ (value, i) => [x(value), y(S[i])]),
     colors.accent,
     2,
   );

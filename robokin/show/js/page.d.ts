@@ -226,6 +226,8 @@ export interface PageExplorer {
   tours?: string[];
   most?: number;
   spare?: number[][];
+  question?: Record<string, unknown>;
+  first?: Record<string, unknown>;
 }
 
 export interface PageAnswer {

@@ -2,7 +2,7 @@
 // (live.js), and what it answers is drawn in the plane and in the cube of postures. What is said
 // comes from Python (plan_explorer.py).
 
-import {frames, origin, polyline} from "./kinematics.js";
+import {fk, origin, polyline} from "./kinematics.js";
 import {least} from "./levers.js";
 import {fill} from "./blanks.js";
 import {clear, colors, number, polygon, prepared, spot, stroke, words} from "./canvas.js";
@@ -13,6 +13,45 @@ import {inScreen} from "./handles.js";
 import {kernelOf, unpacked} from "./live.js";
 import {copyButton, menu, slider, stageOf, tick} from "./stage.js";
 
+/** @import {PageExplorer, With} from "./page.js" */
+/** @import {Color, Context, Pixel, Point} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+/** @import {Handle} from "./handles.js" */
+/** @import {ThreeLeverArm} from "./levers.js" */
+/** @import {Values} from "./live.js" */
+/** @import {Stage} from "./stage.js" */
+
+/**
+ * @typedef {With<PageExplorer, "arm" | "branches" | "question" | "first"> & {arm: ThreeLeverArm}}
+ *   PlanExplorer
+ */
+/**
+ * What is asked; `way`: the number of one of `branches`, `sides`: whether quadrilaterals, too.
+ * @typedef {object} Question
+ * @property {number[]} posture
+ * @property {number[]} target  x, y
+ * @property {number[]} obstacle  x, y
+ * @property {number} distance
+ * @property {number} way
+ * @property {boolean} sides
+ */
+/**
+ * What Python answers: `_answer` of plan_explorer.py says it.
+ * @typedef {object} Answer
+ * @property {string} verdict
+ * @property {string} words
+ * @property {boolean} kept
+ * @property {Values} moments
+ * @property {number[][]} via
+ * @property {[place: number[], text: string]} nearest
+ * @property {?{quadrilaterals: number[][][], says: string}} direct
+ * @property {Values} cube
+ * @property {number} most
+ * @property {Values} curve
+ */
+/** @typedef {ReturnType<typeof read>} Shown  an answer as it is drawn */
+/** @typedef {{q: number[], target: Point, obstacle: Point, distance: number, way: number}} State */
+
 const FORBIDDEN = 255; // plan_explorer.py
 const CUBE = {flat: null, view: [-1.05, 0.38]}; // from where it is seen
 const STEPS = 9,
@@ -21,13 +60,23 @@ const STEPS = 9,
 /**
  * Fills every waiting place with this id.
  * @param {string} id
- * @param {object} data  page.py: PageExplorer
+ * @param {PlanExplorer} data
  */
 export const explore = (id, data) =>
   waiting(id).forEach(root => planExplorer(stageOf(root, data), root, id, data));
 
+/**
+ * @param {Stage} stage
+ * @param {HTMLElement} root
+ * @param {string} id
+ * @param {PlanExplorer} data
+ */
 function planExplorer(stage, root, id, data) {
-  const {arm, words: says, unit, question: first} = data;
+  const {words: says, unit} = data,
+    first = /** @type {Question} */ (data.question);
+  /** @type {ThreeLeverArm} */
+  const arm = data.arm;
+  /** @type {State} */
   const state = {
     q: [...first.posture],
     target: [...first.target, 0],
@@ -35,12 +84,14 @@ function planExplorer(stage, root, id, data) {
     distance: first.distance,
     way: first.way,
   };
-  const time = {wave: 0, moment: 0, playing: false, before: 0},
+  let shown = read(/** @type {Answer} */ (unpacked(data.first)), first),
+    asked = JSON.stringify(first);
+  /** @type {{about?: Shown, looks?: string}} */
+  let drawn = {}; // in the cube: drawing it takes longest
+  const time = {wave: shown.most, moment: 0, playing: false, before: 0},
     seen = {view: [...CUBE.view]};
-  let shown = null,
-    asked = JSON.stringify(first),
-    drawn = {}; // in the cube: drawing it takes longest
 
+  /** @type {() => Question} */
   const question = () => ({
     posture: state.q,
     target: state.target.slice(0, 2),
@@ -49,7 +100,9 @@ function planExplorer(stage, root, id, data) {
     way: state.way,
     sides: sides.on(),
   });
-  const grip = q => origin(frames(arm.chain, q).at(-1));
+  /** @type {(q: number[]) => Point} */
+  const grip = q => origin(fk(arm.chain, q));
+  /** @type {(p: Point) => string} */
   const place = p =>
     p
       .slice(0, 2)
@@ -75,6 +128,7 @@ function planExplorer(stage, root, id, data) {
   const wave = range(says.search, 1),
     moment = range(says.motion, 1),
     verdict = element("p", {class: "rk-verdict"});
+  /** @type {(name: string, input: HTMLElement) => HTMLElement} */
   const own = (name, input) =>
     element("label", {class: "rk-slide"}, element("span", {}, name), input);
   stage.side.append(
@@ -108,10 +162,10 @@ function planExplorer(stage, root, id, data) {
       ),
     ),
   );
-  root.querySelector(".rk-title").after(verdict);
+  stage.title.after(verdict);
   stage.below.append(stage.says);
-  root.firstElementChild.classList.add("rk-plan");
-  root.firstElementChild.append(element("style", {}, LOOK));
+  stage.frame.classList.add("rk-plan");
+  stage.frame.append(element("style", {}, LOOK));
 
   const stop = () => {
     time.playing = false;
@@ -143,6 +197,7 @@ function planExplorer(stage, root, id, data) {
     if (time.wave >= shown.most && time.moment >= last()) stop();
   }
 
+  /** @type {(name: string, color: Color, at: () => Point, take: (p: Point) => void) => Handle} */
   const handle = (name, color, at, take) => {
     const home = [...at()];
     return {
@@ -196,24 +251,22 @@ function planExplorer(stage, root, id, data) {
     ),
   ]);
 
+  /** @type {(answer: Answer, about: Question) => void} */
   function hear(answer, about) {
-    const whole = !shown || time.wave >= shown.most;
-    shown = {
-      ...answer,
-      about,
-      moments: rows(answer.moments),
-      curve: rows(answer.curve),
-      faces: facesOf(answer.cube),
-    };
+    const whole = time.wave >= shown.most;
+    shown = read(answer, about);
     time.wave = whole ? shown.most : Math.min(time.wave, shown.most);
     time.moment = Math.min(time.moment, last());
-    wave.max = shown.most;
-    moment.max = last();
+    tell();
+  }
+  function tell() {
+    wave.max = String(shown.most);
+    moment.max = String(last());
     verdict.textContent = shown.verdict;
     verdict.classList.toggle("rk-past", !shown.kept);
     stage.changed();
   }
-  hear(unpacked(data.first), first);
+  tell();
   root.addEventListener("robokin-wake", () => {
     asked = JSON.stringify(shown.about);
     stage.changed();
@@ -229,12 +282,12 @@ function planExplorer(stage, root, id, data) {
       if (time.playing) pass();
       way.set(state.way);
       distance.set(state.distance * 1000);
-      wave.value = time.wave;
+      wave.value = String(time.wave);
       wave.setAttribute(
         "aria-valuetext",
         fill(says.steps, {n: Math.floor(time.wave), most: shown.most}),
       );
-      moment.value = time.moment;
+      moment.value = String(time.moment);
       moment.setAttribute(
         "aria-valuetext",
         fill(says.share, {share: Math.round((100 * time.moment) / last())}),
@@ -245,7 +298,7 @@ function planExplorer(stage, root, id, data) {
       const k = Math.round(time.moment),
         begun = k > 0;
       const ghosts = [
-        {q: shown.moments.at(-1), past: true},
+        {q: shown.moments[last()], past: true},
         ...(begun ? [{q: state.q, past: false}] : []),
       ];
       return [
@@ -268,17 +321,11 @@ function planExplorer(stage, root, id, data) {
     },
     [cube],
     () => {
-      const looks = [
-        Math.floor(time.wave),
-        Math.round(time.moment),
-        state.q,
-        seen.view,
-        cube.clientWidth,
-        cube.clientHeight,
-        colors.ink,
-      ];
+      const steps = Math.floor(time.wave),
+        k = Math.round(time.moment);
+      const looks = [steps, k, state.q, seen.view, cube.clientWidth, cube.clientHeight, colors.ink];
       if (drawn.about !== shown || drawn.looks !== looks.join())
-        drawCube(cube, seen.view, shown, looks[0], looks[1], state.q);
+        drawCube(cube, seen.view, shown, steps, k, state.q);
       drawn = {about: shown, looks: looks.join()};
       if (time.playing) stage.changed();
     },
@@ -286,26 +333,50 @@ function planExplorer(stage, root, id, data) {
   orbit(cube, CUBE, seen, stage.changed);
 }
 
-// The rows of an array, as arrays.
+/**
+ * An answer with all that is drawn of it.
+ * @param {Answer} answer
+ * @param {Question} about
+ */
+const read = (answer, about) => ({
+  ...answer,
+  about,
+  moments: rows(answer.moments),
+  curve: rows(answer.curve),
+  faces: facesOf(answer.cube),
+});
+
+/**
+ * The rows of an array, as arrays.
+ * @param {Values} array
+ */
 const rows = ({values, shape: [count, width]}) =>
   Array.from({length: count}, (_, k) => Array.from(values.subarray(k * width, (k + 1) * width)));
 
-// The room about H, the quadrilaterals, what the levers sweep, the gripper's path.
+/**
+ * The room about H, the quadrilaterals, what the levers sweep, the gripper's path.
+ * @param {Context} g
+ * @param {Camera} camera
+ * @param {Shown} shown
+ * @param {State} state
+ * @param {Point[][]} postures  the ends of the levers
+ */
 function drawBelow(g, {to, scale}, {kept, direct}, state, postures) {
-  const room = [...to(state.obstacle), state.distance * scale];
+  const [x, y] = to(state.obstacle);
   g.beginPath();
-  g.arc(...room, 0, 2 * Math.PI);
+  g.arc(x, y, state.distance * scale, 0, 2 * Math.PI);
   g.fillStyle = clear(colors.ghost, 0.25);
   g.fill();
   g.strokeStyle = colors.ghost;
   g.lineWidth = 1;
   g.stroke();
+  /** @type {(points: number[][]) => Pixel[]} */
   const flat = points => points.map(([x, y]) => to([x, y, 0]));
   direct?.quadrilaterals.forEach((corners, k) => {
     const color = [colors.joint3, colors.joint2][k],
       points = flat(corners);
     polygon(g, points, clear(color, 0.12), color, 1.2);
-    words(g, ["AK", "BA"][k], ...middle(points), color, 12, "center", "600");
+    words(g, ["AK", "BA"][k], mean(points, 0), mean(points, 1), color, 12, "center", "600");
   });
   const color = kept ? colors.accent : colors.alarm;
   stroke(
@@ -316,15 +387,22 @@ function drawBelow(g, {to, scale}, {kept, direct}, state, postures) {
   );
   stroke(
     g,
-    postures.map(points => to(points.at(-1))),
+    postures.map(points => to(points[points.length - 1])),
     color,
     2,
   );
 }
 
-const middle = points => [0, 1].map(k => points.reduce((sum, p) => sum + p[k], 0) / points.length);
+/** @type {(points: Pixel[], k: number) => number} */
+const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
-// The obstacle, via points, and how near the levers come.
+/**
+ * The obstacle, via points, and how near the levers come.
+ * @param {Context} g
+ * @param {Camera} camera
+ * @param {Shown} shown
+ * @param {State} state
+ */
 function drawAbove(g, {to}, {via, nearest: [at, text], kept}, state) {
   const [x, y] = to(state.obstacle),
     p = to([...at, 0]),
@@ -360,18 +438,23 @@ function drawAbove(g, {to}, {via, nearest: [at, text], kept}, state) {
   });
 }
 
-// The faces of the forbidden body by direction (axis and side): cells [i, j, k] that have one
-// there.
+/**
+ * The faces of the forbidden body by direction (axis and side): cells [i, j, k] that have one
+ * there.
+ * @param {Values} cube
+ */
 function facesOf({values, shape: [n]}) {
+  /** @type {(i: number, j: number, k: number) => boolean} */
   const forbidden = (i, j, k) =>
     Math.min(i, j, k) >= 0 && Math.max(i, j, k) < n && values[(i * n + j) * n + k] === FORBIDDEN;
-  const faces = [0, 1, 2].map(() => [[], []]);
+  const faces = [0, 1, 2].map(() => /** @type {number[][][]} */ ([[], []]));
   for (let i = 0; i < n; i++)
     for (let j = 0; j < n; j++)
       for (let k = 0; k < n; k++) {
         if (!forbidden(i, j, k)) continue;
         for (let axis = 0; axis < 3; axis++)
           for (const side of [0, 1]) {
+            /** @type {[number, number, number]} */
             const next = [i, j, k];
             next[axis] += side ? 1 : -1;
             if (!forbidden(...next)) faces[axis][side].push([i, j, k]);
@@ -388,8 +471,16 @@ const RING = [
   [-0.5, 0.5],
 ];
 
-// The cube of postures, its side being 1: the body, the wave after so many steps, target, path and
-// posture.
+/**
+ * The cube of postures, its side being 1: the body, the wave after so many steps, target, path and
+ * posture.
+ * @param {HTMLCanvasElement} canvas
+ * @param {number[]} view
+ * @param {Shown} shown
+ * @param {number} steps
+ * @param {number} moment
+ * @param {number[]} q
+ */
 function drawCube(
   canvas,
   view,
@@ -411,10 +502,14 @@ function drawCube(
   if (!ready) return;
   const [g, w, h] = ready,
     {to, toward, scale} = camera(view, CORNERS, [20, 10, w - 40, h - 34]);
+  /** @type {(p: Point) => number} */
   const depth = ([x, y, z]) => x * toward[0] + y * toward[1] + z * toward[2];
-  const unit = q => q.map(x => x / Math.PI),
-    things = [],
-    put = (at, draw) => things.push({depth: depth(at), draw});
+  /** @type {(q: number[]) => Point} */
+  const unit = q => q.map(x => x / Math.PI);
+  /** @type {{depth: number, draw: () => void}[]} */
+  const things = [];
+  /** @type {(at: Point, draw: () => void) => number} */
+  const put = (at, draw) => things.push({depth: depth(at), draw});
   for (const [i, a] of CORNERS.entries())
     for (const b of CORNERS.slice(i + 1))
       if (a.reduce((sum, x, k) => sum + Math.abs(x - b[k]), 0) === 1)
@@ -478,11 +573,13 @@ function drawCube(
   things.sort((a, b) => a.depth - b.depth).forEach(thing => thing.draw());
   stroke(g, way.map(to), clear(color, 0.5), 1, [3, 3]); // what lies behind the body, too
   spot(g, to(unit(moment ? moments[moment] : q)), 5, colors.path);
-  [
+  /** @type {[string, Point][]} */
+  const angles = [
     ["\u03B3", [0.5, 0, 0]],
     ["\u03B2", [1, 0.5, 0]],
     ["\u03B1", [0, 0, 0.5]],
-  ].forEach(([name, at]) => {
+  ];
+  for (const [name, at] of angles) {
     const [x, y] = to(at),
       [mx, my] = to([0.5, 0.5, 0.5]),
       far = Math.hypot(x - mx, y - my) || 1;
@@ -495,7 +592,7 @@ function drawCube(
       12,
       x < mx - 40 ? "right" : x > mx + 40 ? "left" : "center",
     );
-  });
+  }
 }
 
 // A page has the looks of all its outputs: these are for this one.

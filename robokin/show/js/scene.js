@@ -17,23 +17,43 @@ import {
 } from "./canvas.js";
 import {camera, movedTo} from "./camera.js";
 
+/** @import {PageLink, PageMark, PageScene, PageTarget, Unit, With} from "./page.js" */
+/** @import {Box, Context, Pixel, Point} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+
+/** @typedef {PageScene & {unit: Unit}} SceneData  a scene, and the unit of the page */
+/**
+ * The same at the moment of a picture: all that moves has its place.
+ * @typedef {Omit<SceneData, "targets" | "marks"> & {
+ *   targets: With<PageTarget, "pose">[],
+ *   marks: With<PageMark, "at">[],
+ * }} Scene
+ */
+/** @typedef {(g: Context, cam: Camera) => void} Draw */
 /**
  * @typedef {object} Shown  an arm as a picture shows it
  * @property {string} name
- * @property {object[]} chain  page.py: PageLink
+ * @property {PageLink[]} chain
  * @property {number[]} q  radians and metres
  * @property {(?Point)[]} [trace]  places of the tool, null where they break; `tail`: those behind
  *   it
  * @property {(?Point)[]} [tail]
  * @property {boolean} [faded]  there is no solution here
- * @property {{place: Point, text: string}} [near]  where the path passes "via"
+ * @property {?{place: Point, text: string}} [near]  where the path passes "via"
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where
  *   `past` a limit
  * @property {boolean} [framed]  show the frame of every link
- * @property {(g: CanvasRenderingContext2D, cam: object) => void} [under]  draws what else there is,
- *   below the arm
- * @property {(g: CanvasRenderingContext2D, cam: object) => void} [over]  the same above it
+ * @property {Draw} [under]  draws what else there is, below the arm
+ * @property {Draw} [over]  the same above it
  */
+/** @typedef {ReturnType<typeof surroundings>} Space  what stands still */
+/** @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen  on what, how seen, what */
+/** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
+/** @typedef {[from: Point, to: Point, rod: boolean]} Limb  `rod`: of a prismatic joint */
+/** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
+
+/** The axes of a frame; their colours have the same names. */
+export const AXES = /** @type {const} */ (["x", "y", "z"]);
 
 /**
  * Draws arms in space.
@@ -48,14 +68,16 @@ import {camera, movedTo} from "./camera.js";
  * height(count, width)      how high a canvas of this width is well filled by so many arms
  *
  * @param {HTMLCanvasElement} canvas
- * @param {object} scene  page.py: PageScene, and the page's `unit`. `targets` ({name, pose}) and
- *   `marks` ({name, at, radius}) may be exchanged between two pictures
+ * @param {SceneData} scene  `targets` and `marks` may be exchanged between two pictures; in each
+ *   all have a `pose` or `at`
  */
 export function sceneView(canvas, scene) {
   const space = surroundings(scene);
+  /** @type {Camera[]} */
   let cameras = [],
     held = false;
 
+  /** @type {(view: number[], arms: Shown[], clock: string) => boolean} */
   function draw(view, arms, clock) {
     const ready = prepared(canvas);
     if (!ready) return false;
@@ -65,14 +87,16 @@ export function sceneView(canvas, scene) {
       cw = w / columns,
       ch = h / rows;
     cameras = pictures.map((shown, i) => {
+      /** @type {Box} */
       const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
-      const corners = scene.grows ? [...space.corners, ...reached(scene, shown[0])] : space.corners;
+      const now = /** @type {Scene} */ (scene);
+      const corners = scene.grows ? [...space.corners, ...reached(now, shown[0])] : space.corners;
       const cam = (held && cameras[i]) || camera(view, corners, inside(cell));
       g.save();
       g.beginPath();
       g.rect(...cell);
       g.clip();
-      drawSpace({g, cam, scene, space}, shown, cell, pictures.length > 1);
+      drawSpace({g, cam, scene: now, space}, shown, cell, pictures.length > 1);
       g.restore();
       if (i % columns)
         stroke(
@@ -98,6 +122,7 @@ export function sceneView(canvas, scene) {
     return true;
   }
 
+  /** @type {(count: number, width: number) => number} */
   function height(count, width) {
     const [columns, rows] = tiled(count, width),
       [, , w] = inside([0, 0, width / columns, 1000]);
@@ -110,20 +135,29 @@ export function sceneView(canvas, scene) {
     draw,
     height,
     cameras: () => cameras,
+    /** @type {(on: boolean) => void} */
     hold: on => {
       held = on;
     },
   };
 }
 
-// Room at the rims for words: names above, the scale below.
+/**
+ * Room at the rims for words: names above, the scale below.
+ * @param {Box} cell
+ * @returns {Box}
+ */
 const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
 
-// What stands still: the axes of the grid, a point of the floor, what the camera has to see:
-// everything and its shadow. The rest of the floor may leave the picture.
+/**
+ * What stands still: the axes of the grid, a point of the floor, what the camera has to see:
+ * everything and its shadow. The rest of the floor may leave the picture.
+ * @param {PageScene} scene
+ */
 function surroundings({flat, floor: [low], seen}) {
   const normal = flat ?? 2,
     [a, b] = [0, 1, 2].filter(i => i !== normal);
+  /** @type {(x: number, y: number) => Point} */
   const at = (x, y) => {
     const p = [0, 0, 0];
     p[a] = x;
@@ -135,9 +169,14 @@ function surroundings({flat, floor: [low], seen}) {
   return {a, b, at, corners, spatial: flat === null};
 }
 
-// What a scene that grows has to hold besides.
+/**
+ * What a scene that grows has to hold besides.
+ * @param {Scene} scene
+ * @param {Shown} arm
+ */
 function reached(scene, arm) {
   const all = [arm.q, ...(arm.ghosts || []).map(({q}) => q)].flatMap(q => {
+    /** @type {number[][]} */
     const joints = [];
     return [...frames(arm.chain, q, joints), ...joints];
   });
@@ -147,8 +186,13 @@ function reached(scene, arm) {
   ].filter(p => p.every(Number.isFinite));
 }
 
-// Arms in one picture and all that is around them. A pen is {g, cam, scene, space}: on what, how
-// seen, what is there.
+/**
+ * Arms in one picture and all that is around them.
+ * @param {Pen} pen
+ * @param {Shown[]} arms
+ * @param {Box} cell
+ * @param {boolean} named
+ */
 function drawSpace(pen, arms, [x, y, w, h], named) {
   const {g, cam, scene} = pen,
     {to} = cam,
@@ -168,7 +212,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   place(
     g,
     labels,
-    [...all.flatMap(one => one.trace.filter(p => p).map(one.cam.to)), ...taken],
+    [...all.flatMap(one => one.trace.filter(p => p !== null).map(one.cam.to)), ...taken],
     [x + 4, y + 24, w - 8, h - 46],
   );
   compass(g, cam, [x + w - 34, y + h - 34]);
@@ -186,11 +230,16 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     );
 }
 
-// An arm in its place: a pen of its own coordinates, what Shown has, its frames and limbs.
+/**
+ * An arm in its place: a pen of its own coordinates, what Shown has, its frames and limbs.
+ * @param {Pen} pen
+ * @param {Shown} arm
+ * @param {Point} [base]
+ */
 function stood(pen, arm, base = [0, 0, 0]) {
-  const {size, solid} = pen.scene,
-    joints = [],
-    moved = [],
+  /** @type {[number[][], number[][]]} */
+  const [joints, moved] = [[], []],
+    {size, solid} = pen.scene,
     all = frames(arm.chain, arm.q, joints, moved);
   const exists = arm.q.every(Number.isFinite),
     rods = exists ? limbs(all, joints, moved, size) : [];
@@ -211,10 +260,17 @@ function stood(pen, arm, base = [0, 0, 0]) {
   };
 }
 
+/**
+ * @param {Stood} one
+ * @param {number} [from]  a height
+ */
 const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) =>
   drawArm(g, cam, chain, rods, joints, thick, scene.size, from);
 
-// The arm, its path before and behind it.
+/**
+ * The arm, its path before and behind it.
+ * @param {Stood} one
+ */
 function drawStood(one) {
   const {g, cam, scene, trace, tail, ghosts, rods, thick} = one,
     {to} = cam;
@@ -257,6 +313,7 @@ function drawStood(one) {
   one.over?.(g, cam);
 }
 
+/** @param {Stood} one */
 function drawFlange({g, cam, scene, faded, all, exists}) {
   if (!exists) return;
   g.globalAlpha = faded ? 0.4 : 1;
@@ -266,19 +323,29 @@ function drawFlange({g, cam, scene, faded, all, exists}) {
   g.globalAlpha = 1;
 }
 
-// Polygons, the farther ones first.
+/**
+ * Polygons, the farther ones first.
+ * @param {Pen} pen
+ */
 function drawFaces({g, cam, scene: {faces = []}}) {
+  /** @type {(corners: Point[]) => number} */
   const depth = corners => corners.reduce((sum, p) => sum + dot(p, cam.toward), 0) / corners.length;
   for (const corners of [...faces].sort((p, q) => depth(p) - depth(q)))
     polygon(g, corners.map(cam.to), colors.foot, colors.footEdge, 1);
 }
 
-// Targets, points, and how near the path passes: their labels, and the places on the canvas that
-// labels keep off.
+/**
+ * Targets, points, and how near the path passes: their labels, and the places on the canvas that
+ * labels keep off.
+ * @param {Pen} pen
+ * @param {Shown["near"]} near
+ */
 function drawPlaces({g, cam, scene}, near) {
-  const {to} = cam,
-    labels = [],
-    taken = [];
+  const {to} = cam;
+  /** @type {Label[]} */
+  const labels = [];
+  /** @type {Pixel[]} */
+  const taken = [];
   for (const {name, at, radius} of scene.marks) {
     if (!radius) spot(g, to(at), 3.5, colors.path);
     if (name) labels.push({text: name, at: to(at), color: colors.soft});
@@ -304,7 +371,11 @@ function drawPlaces({g, cam, scene}, near) {
   return {labels, taken};
 }
 
-// The floor's grid; `over`: what is drawn already lies below it.
+/**
+ * The floor's grid; `over`: what is drawn already lies below it.
+ * @param {Pen} pen
+ * @param {boolean} [over]
+ */
 function drawFloor(
   {
     g,
@@ -325,14 +396,19 @@ function drawFloor(
       colors.line,
       1,
     );
+  /** @type {(p: Point, q: Point, value: number) => void} */
   const line = (p, q, value) =>
     stroke(g, [to(p), to(q)], Math.abs(value) < grid / 9 ? colors.line : colors.grid, 1);
   for (let x = low[a]; x < high[a] + grid / 9; x += grid) line(at(x, low[b]), at(x, high[b]), x);
   for (let y = low[b]; y < high[b] + grid / 9; y += grid) line(at(low[a], y), at(high[a], y), y);
 }
 
-// The path and the arm on the floor.
+/**
+ * The path and the arm on the floor.
+ * @param {Stood} one
+ */
 function drawShadow({g, cam: {to}, scene, trace, rods, thick}) {
+  /** @type {(p: Point) => Pixel} */
   const sunk = ([x, y]) => to([x, y, scene.floor[0][2]]);
   stroke(
     g,
@@ -343,11 +419,14 @@ function drawShadow({g, cam: {to}, scene, trace, rods, thick}) {
   for (const [p, q] of rods) stroke(g, [sunk(p), sunk(q)], clear(colors.soft, 0.13), thick);
 }
 
-// The straight way from target to target, where they are stations of one path.
+/**
+ * The straight way from target to target, where they are stations of one path.
+ * @param {Pen} pen
+ */
 function drawRoute({g, cam: {to}, scene}) {
   const stations = ["start", "via", "goal"]
     .map(name => scene.targets.find(target => target.name === name))
-    .filter(t => t);
+    .filter(t => t !== undefined);
   if (stations.length > 1)
     stroke(
       g,
@@ -358,6 +437,10 @@ function drawRoute({g, cam: {to}, scene}) {
     );
 }
 
+/**
+ * @param {Pen} pen
+ * @param {number} alpha
+ */
 function drawFoot({g, cam: {to}, scene, space: {a, b, spatial}}, alpha) {
   const ring = Array.from({length: 40}, (_, i) => {
     const p = [0, 0, 0],
@@ -373,17 +456,29 @@ function drawFoot({g, cam: {to}, scene, space: {a, b, spatial}}, alpha) {
   g.globalAlpha = 1;
 }
 
-// The straight pieces of a posture: [from, to, is the rod of a prismatic joint].
+/**
+ * The straight pieces of a posture.
+ * @param {number[][]} all
+ * @param {number[][]} joints
+ * @param {number[][]} moved
+ * @param {number} size
+ */
 function limbs(all, joints, moved, size) {
-  const pieces = joints.flatMap((joint, i) => [
-    [origin(all[i]), origin(joint), false],
-    [origin(joint), origin(moved[i]), true],
-    [origin(moved[i]), origin(all[i + 1]), false],
-  ]);
+  const pieces = joints.flatMap(
+    /** @returns {Limb[]} */ (joint, i) => [
+      [origin(all[i]), origin(joint), false],
+      [origin(joint), origin(moved[i]), true],
+      [origin(moved[i]), origin(all[i + 1]), false],
+    ],
+  );
   return pieces.filter(([p, q]) => distance(p, q) > 1e-6 * size);
 }
 
-// What of a limb is above the floor.
+/**
+ * What of a limb is above the floor.
+ * @param {Limb} limb
+ * @returns {Limb[]}
+ */
 function raised([p, q, rod]) {
   const [low, high] = p[2] < q[2] ? [p, q] : [q, p];
   if (low[2] >= 0) return [[p, q, rod]];
@@ -392,7 +487,17 @@ function raised([p, q, rod]) {
     : [[plus(high, plus(low, high, -1), high[2] / (high[2] - low[2])), high, rod]];
 }
 
-// Links and joints, the farther ones first; joints from a height on.
+/**
+ * Links and joints, the farther ones first; joints from a height on.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {PageLink[]} chain
+ * @param {Limb[]} rods
+ * @param {number[][]} joints
+ * @param {number} thick
+ * @param {number} size
+ * @param {number} [from]
+ */
 function drawArm(g, cam, chain, rods, joints, thick, size, from = -Infinity) {
   const things = rods.map(([p, q, rod]) => ({
     depth: dot(plus(p, q), cam.toward) / 2,
@@ -415,19 +520,34 @@ function drawArm(g, cam, chain, rods, joints, thick, size, from = -Infinity) {
   things.sort((p, q) => p.depth - q.depth).forEach(thing => thing.draw());
 }
 
+/**
+ * @param {Context} g
+ * @param {Pixel} p
+ * @param {Pixel} q
+ * @param {number} width
+ * @param {boolean} rod
+ */
 function limb(g, p, q, width, rod) {
   const [edge, body, light] = rod
     ? [colors.rodEdge, colors.rod, colors.rodShine]
     : [colors.edge, colors.link, colors.shine];
-  const lift = [-0.16 * width, -0.2 * width],
-    up = ([x, y]) => [x + lift[0], y + lift[1]];
+  /** @type {(p: Pixel) => Pixel} */
+  const up = ([x, y]) => [x - 0.16 * width, y - 0.2 * width];
   stroke(g, [p, q], clear(colors.paper, 0.9), width + 3);
   stroke(g, [p, q], edge, width);
   stroke(g, [p, q], body, width - 2);
   stroke(g, [up(p), up(q)], light, 0.22 * width);
 }
 
-// A joint that turns, as a drum around its axis, with a band of the joint's colour.
+/**
+ * A joint that turns, as a drum around its axis, with a band of the joint's colour.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {Point} p
+ * @param {number[]} axis
+ * @param {number} radius
+ * @param {string} color
+ */
 function drum(g, cam, p, axis, radius, color) {
   const [cx, cy] = cam.to(p),
     [dx, dy] = cam.along(axis),
@@ -439,12 +559,14 @@ function drum(g, cam, p, axis, radius, color) {
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);
+  /** @type {(place: number, r: number, from: number, to: number) => void} */
   const arc = (place, r, from, to) =>
     g.ellipse(side * place, 0, r * facing + 1e-6, r, 0, from, to, side < 0);
   const body = () => {
     arc(half, radius, -Math.PI / 2, Math.PI / 2);
     arc(-half, radius, Math.PI / 2, -Math.PI / 2);
   };
+  /** @type {(r: number) => () => void} */
   const face = r => () => g.ellipse(side * half, 0, r * facing + 1e-6, r, 0, 0, 2 * Math.PI);
   shape(g, body, color, colors.paper, 3);
   shape(g, body, color, colors.edge, 1.2);
@@ -453,7 +575,15 @@ function drum(g, cam, p, axis, radius, color) {
   g.restore();
 }
 
-// A joint that shifts, as a square guide.
+/**
+ * A joint that shifts, as a square guide.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {Point} p
+ * @param {number[]} axis
+ * @param {number} radius
+ * @param {string} color
+ */
 function box(g, cam, p, axis, radius, color) {
   const [x, y] = cam.to(p),
     [dx, dy] = cam.along(axis),
@@ -461,10 +591,15 @@ function box(g, cam, p, axis, radius, color) {
     r = Math.SQRT2 * radius;
   const corners = [0, 1, 2, 3]
     .map(k => angle + (k * Math.PI) / 2)
-    .map(t => [x + r * Math.cos(t), y + r * Math.sin(t)]);
+    .map(/** @returns {Pixel} */ t => [x + r * Math.cos(t), y + r * Math.sin(t)]);
   polygon(g, corners, color, colors.edge, 1.2);
 }
 
+/**
+ * @param {Context} g
+ * @param {Pixel} centre
+ * @param {number} radius
+ */
 function ball(g, [x, y], radius) {
   const shade = g.createRadialGradient(x - radius / 3, y - radius / 3, radius / 8, x, y, radius);
   shade.addColorStop(0, clear(colors.ballShine, 0.75));
@@ -472,41 +607,56 @@ function ball(g, [x, y], radius) {
   spot(g, [x, y], radius, shade, colors.ballEdge, 1.2);
 }
 
-// The axes of a frame; returns their tips on the screen.
+/**
+ * The axes of a frame.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {number[]} pose  12 numbers
+ * @param {number} length
+ * @param {number} width
+ * @param {number} alpha
+ * @param {boolean} [letters]
+ * @returns {Pixel[]}  their tips on the screen
+ */
 function triad(g, cam, pose, length, width, alpha, letters = false) {
   const p = origin(pose),
     from = cam.to(p),
     before = g.globalAlpha;
-  const axes = [0, 1, 2].map(k => [k, [pose[k], pose[4 + k], pose[8 + k]]]);
-  axes.sort((m, n) => dot(m[1], cam.toward) - dot(n[1], cam.toward));
+  const axes = AXES.map((name, k) => ({name, way: [pose[k], pose[4 + k], pose[8 + k]]}));
+  axes.sort((m, n) => dot(m.way, cam.toward) - dot(n.way, cam.toward));
   g.globalAlpha = before * alpha;
-  const tips = axes.map(([k, axis]) => {
-    const tip = cam.to(plus(p, axis, length));
+  const tips = axes.map(({name, way}) => {
+    const tip = cam.to(plus(p, way, length));
     stroke(g, [from, tip], colors.paper, width + 2);
-    stroke(g, [from, tip], colors["xyz"[k]], width);
-    return [k, tip];
+    stroke(g, [from, tip], colors[name], width);
+    return {name, tip};
   });
   if (letters)
-    for (const [k, tip] of tips) {
+    for (const {name, tip} of tips) {
       const d = [tip[0] - from[0], tip[1] - from[1]],
         l = Math.hypot(...d);
       if (l > 0.35 * length * cam.scale)
         words(
           g,
-          "xyz"[k],
+          name,
           tip[0] + (8 * d[0]) / l,
           tip[1] + (8 * d[1]) / l + 4,
-          colors["xyz"[k]],
+          colors[name],
           12,
           "center",
           "600",
         );
     }
   g.globalAlpha = before;
-  return tips.map(([, tip]) => tip);
+  return tips.map(({tip}) => tip);
 }
 
-// Where x, y and z of the base point, in a corner.
+/**
+ * Where x, y and z of the base point, in a corner.
+ * @param {Context} g
+ * @param {Camera} cam
+ * @param {Pixel} corner
+ */
 function compass(g, cam, [x, y]) {
   [
     [1, 0, 0],
@@ -516,29 +666,37 @@ function compass(g, cam, [x, y]) {
     const [dx, dy] = cam.along(axis),
       l = Math.hypot(dx, dy) / cam.scale;
     if (l < 0.1) return;
+    /** @type {Pixel} */
     const tip = [x + (18 * dx) / cam.scale, y + (18 * dy) / cam.scale];
-    stroke(g, [[x, y], tip], colors["xyz"[k]], 1.4);
+    stroke(g, [[x, y], tip], colors[AXES[k]], 1.4);
     words(
       g,
-      "xyz"[k],
+      AXES[k],
       tip[0] + (7 * dx) / cam.scale / l,
       tip[1] + (7 * dy) / cam.scale / l + 3.5,
-      colors["xyz"[k]],
+      colors[AXES[k]],
       10,
       "center",
     );
   });
 }
 
-// Writes each label beside its point where it covers least: other labels, lines, the rim.
+/**
+ * Writes each label beside its point where it covers least: other labels, lines, the rim.
+ * @param {Context} g
+ * @param {Label[]} labels
+ * @param {Pixel[]} taken
+ * @param {Box} room
+ */
 function place(g, labels, taken, [left, top, width, height]) {
+  /** @type {Box[]} */
   const done = [];
   for (const label of labels) {
     g.font = `${label.weight || ""} 12px ${FONT}`;
     const w = g.measureText(label.text).width + 4,
       h = 16,
       [px, py] = label.at;
-    let best = null;
+    let best = [NaN, NaN, NaN]; // cost, left, top
     for (const gap of [5, 14, 26, 40])
       for (let k = 0; k < 12; k++) {
         const c = Math.cos((k * Math.PI) / 6),
@@ -555,7 +713,7 @@ function place(g, labels, taken, [left, top, width, height]) {
             Math.max(0, x + w - left - width) +
             Math.max(0, top - y) +
             Math.max(0, y + h - top - height));
-        if (!best || cost < best[0]) best = [cost, x, y];
+        if (!(cost >= best[0])) best = [cost, x, y];
       }
     const [, x, y] = best;
     done.push([x, y, w, h]);

@@ -7,6 +7,19 @@ import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 
+/** @import {Control, PageExplorer} from "./page.js" */
+/** @import {Context} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+/** @import {Shown} from "./scene.js" */
+
+/**
+ * An arm of an explorer; the first one shows the axes of its joints and the semi-axes of the
+ * ellipsoid of tool velocities, where it has them.
+ * @typedef {Shown & {axes?: boolean, ellipsoid?: false | number[][]}} Explored
+ */
+/** @typedef {ReturnType<typeof stageOf>} Stage */
+/** @typedef {string | {text: string, past: boolean}} Cell  of a table; `past` a limit */
+
 /**
  * The frame of an explorer: a scene with handles over it, a column of controls beside it, room
  * below.
@@ -16,7 +29,7 @@ import {handleLayer} from "./handles.js";
  * changed()    something has changed
  *
  * @param {HTMLElement} root
- * @param {object} data  page.py: PageExplorer
+ * @param {PageExplorer} data
  */
 export function stageOf(root, data) {
   const scene = {...data.scene, unit: data.unit},
@@ -28,31 +41,36 @@ export function stageOf(root, data) {
   const side = element("div", {class: "rk-side"}),
     below = element("div", {class: "rk-below"});
   const says = element("p", {class: "rk-says", role: "status"});
-  let arms = null,
+  /** @type {Explored[]} */
+  let arms = [],
     stale = true,
     ask = () => {};
   function changed() {
     stale = true;
     ask();
   }
-  root.replaceChildren(
+  const title = element("div", {class: "rk-title"}, data.title),
+    space = element("div", {class: "rk-space"}, canvas, handles.layer);
+  const frame = element(
+    "div",
+    {class: "rk", role: "group", "aria-label": data.title},
+    element("style", {}, STYLE + LOOK),
+    title,
     element(
       "div",
-      {class: "rk", role: "group", "aria-label": data.title},
-      element("style", {}, STYLE + LOOK),
-      element("div", {class: "rk-title"}, data.title),
-      element(
-        "div",
-        {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`},
-        element("div", {class: "rk-space"}, canvas, handles.layer),
-        side,
-      ),
-      below,
-      element("p", {class: "rk-meant"}, data.meant),
+      {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`},
+      space,
+      side,
     ),
+    below,
+    element("p", {class: "rk-meant"}, data.meant),
   );
+  root.replaceChildren(frame);
 
   return {
+    frame,
+    title,
+    space,
     scene,
     side,
     below,
@@ -60,9 +78,15 @@ export function stageOf(root, data) {
     handles,
     camera,
     changed,
+    /** @param {string} text */
     say(text) {
       if (says.textContent !== text) says.textContent = text;
     },
+    /**
+     * @param {() => Explored[]} answer
+     * @param {HTMLCanvasElement[]} [canvases]  others, drawn at the same time
+     * @param {() => void} [beside]  draws them
+     */
     run(answer, canvases = [], beside = () => {}) {
       ask = pictures(root, [canvas, ...canvases], () => {
         if (stale) {
@@ -72,7 +96,7 @@ export function stageOf(root, data) {
         beside();
         const room = view.draw(state.view, arms, "");
         if (room) {
-          drawAids(canvas.getContext("2d"), camera(), arms[0], scene.size);
+          drawAids(/** @type {Context} */ (canvas.getContext("2d")), camera(), arms[0], scene.size);
           handles.place();
         }
         return room;
@@ -82,12 +106,20 @@ export function stageOf(root, data) {
   };
 }
 
-// What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose
-// outline is that of the ellipse that its semi-axes make on the screen.
+/**
+ * What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose
+ * outline is that of the ellipse that its semi-axes make on the screen.
+ * @param {Context} g
+ * @param {Camera} camera
+ * @param {Explored} arm
+ * @param {number} size
+ */
 function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   if (!q.every(Number.isFinite)) return;
+  /** @type {number[][]} */
   const joints = [],
-    tip = origin(frames(chain, q, joints).at(-1));
+    all = frames(chain, q, joints),
+    tip = origin(all[all.length - 1]);
   if (axes)
     joints.forEach((joint, j) => {
       const way = turned(joint, chain[j].axis),
@@ -186,10 +218,8 @@ export const LOOK = `
 
 /**
  * A slider with its value to read and to type.
- * @param {{name: string, unit: string, low: number, high: number, step: number, decimals: number}}
- *   spec
+ * @param {Control} spec
  * @param {(value: number) => void} take
- * @returns {{row: HTMLElement, set: (value: number) => void}}
  */
 export function slider({name, unit, low, high, step, decimals}, take) {
   const label = [name, unit].filter(Boolean).join(", ");
@@ -218,13 +248,15 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   }); // JupyterLab keeps it from the field
   return {
     row,
+    /** @param {number} most */
     reach(most) {
-      range.max = most;
-      range.step = most / 1000;
+      range.max = String(most);
+      range.step = String(most / 1000);
     },
+    /** @param {number} value */
     set(value) {
       const text = String(+value.toFixed(decimals));
-      range.value = value;
+      range.value = String(value);
       range.setAttribute("aria-valuetext", `${number(value, decimals)} ${unit}`.trim());
       if (!typing && exact.value !== text) exact.value = text;
     },
@@ -246,8 +278,9 @@ export function menu(name, texts, take) {
   select.addEventListener("change", () => take(+select.value));
   return {
     row: element("label", {class: "rk-slide"}, element("span", {}, name), select),
+    /** @param {number} k */
     set(k) {
-      select.value = k;
+      select.value = String(k);
     },
   };
 }
@@ -273,10 +306,11 @@ export function tick(name, take, on = false) {
  * @param {(row: number) => void} [take]  told which row was chosen: its name is a button then
  */
 export function table(names, heads, widths, take) {
+  /** @type {(k: number) => number} */
   const count = k => (heads.length ? widths.length : widths[k]);
   const lines = names.map((name, k) => {
     const button = take ? control("button", {type: "button", class: "rk-choose"}, name) : null;
-    button?.addEventListener("click", () => take(k));
+    button?.addEventListener("click", () => take?.(k));
     const cells = Array.from({length: count(k)}, () => element("td"));
     const row = element("tr", {}, element("th", {scope: "row"}, button || name), ...cells);
     if (take) row.addEventListener("click", () => take(k));
@@ -298,6 +332,11 @@ export function table(names, heads, widths, take) {
   );
   return {
     node,
+    /**
+     * @param {Cell[][]} rows
+     * @param {number} [chosen]
+     * @param {?boolean[]} [exists]  whether there is what a row tells of; none: all of it
+     */
     set(rows, chosen = -1, exists = null) {
       rows.forEach((texts, k) => {
         const {row, cells, button} = lines[k];
@@ -305,7 +344,7 @@ export function table(names, heads, widths, take) {
         if (take) {
           if (k === chosen) row.setAttribute("aria-current", "true");
           else row.removeAttribute("aria-current");
-          button.setAttribute("aria-pressed", String(k === chosen));
+          button?.setAttribute("aria-pressed", String(k === chosen));
         }
         texts.forEach((cell, j) => {
           const {text, past} = typeof cell === "string" ? {text: cell, past: false} : cell;
@@ -319,7 +358,7 @@ export function table(names, heads, widths, take) {
 
 /**
  * "Copy as Python": puts lines of code where they can be pasted from.
- * @param {object} words  copy, copied
+ * @param {Record<string, string>} words  copy, copied
  * @param {() => string} code
  */
 export function copyButton(words, code) {

@@ -8,6 +8,7 @@ import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
+import {AXES} from "./scene.js";
 import {copyButton, menu, slider, stageOf, table, tick} from "./stage.js";
 import {
   aboutAxis,
@@ -20,20 +21,47 @@ import {
   rotationOf,
 } from "./turns.js";
 
+/** @import {ArmData, BranchTask, PageExplorer, With} from "./page.js" */
+/** @import {Point} from "./canvas.js" */
+/** @import {Camera} from "./camera.js" */
+/** @import {Handle} from "./handles.js" */
+/** @import {ClosedFormArm} from "./kinematics.js" */
+/** @import {Stage} from "./stage.js" */
+
+/**
+ * @typedef {With<PageExplorer, "arm" | "units" | "q" | "target" | "turns" | "branches" | "heads" |
+ *   "turning"> & {arm: ClosedFormArm}} TargetExplorer
+ */
+/**
+ * A target: `rotation` and its `turns` (roll, pitch, yaw) of a transform, `angle` of a ScaraPose.
+ * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
+ */
+/**
+ * The target now; the posture that the arm has, the branch that the reader wants (-1: the nearest
+ * one) and the one that is shown.
+ * @typedef {Target & {q: number[], wanted: number, chosen: number}} State
+ */
+
 /**
  * Fills every waiting place with this id.
  * @param {string} id
- * @param {object} data  page.py: PageExplorer
+ * @param {TargetExplorer} data
  */
 export const explore = (id, data) =>
   waiting(id).forEach(root => targetExplorer(stageOf(root, data), data));
 
-// Handles on the target, and a row of a table for every branch that reaches it.
+/**
+ * Handles on the target, and a row of a table for every branch that reaches it.
+ * @param {Stage} stage
+ * @param {TargetExplorer} data
+ */
 function targetExplorer(stage, data) {
   const {arm, words, unit} = data,
     oriented = arm.target === "Transform",
     sizes = data.units.map(u => u.size);
+  /** @type {Target} */
   const home = {...data.target, turns: data.turns};
+  /** @type {State} */
   const state = {...home, place: [...home.place], q: [...data.q], wanted: -1, chosen: 0};
   if (oriented) state.rotation = rotationOf(state.turns);
 
@@ -76,8 +104,10 @@ function targetExplorer(stage, data) {
   );
   stage.below.append(rows.node);
 
+  /** @type {(axis: number[], angle: number) => void} */
   const turnBy = (axis, angle) => {
-    state.rotation = normal(product(aboutAxis(axis, angle), state.rotation));
+    const {rotation} = /** @type {With<State, "rotation">} */ (state);
+    state.rotation = normal(product(aboutAxis(axis, angle), rotation));
     state.turns = rollPitchYaw(matrix(state.rotation));
   };
   stage.handles.set(targetHandles(stage, state, home, data, turnBy));
@@ -104,9 +134,7 @@ function targetExplorer(stage, data) {
     if (exists[chosen]) state.q = found[chosen];
 
     sliders.forEach((s, k) =>
-      s.set(
-        k < 3 ? state.place[k] / unit.size : degrees(oriented ? state.turns[k - 3] : state.angle),
-      ),
+      s.set(k < 3 ? state.place[k] / unit.size : degrees(state.angle ?? state.turns[k - 3])),
     );
     choice.set(state.wanted + 1);
     rows.set(
@@ -123,7 +151,7 @@ function targetExplorer(stage, data) {
     );
     stage.say(told(data.task, found, exists) + summary(arm, words, state, usable, chosen));
 
-    const asked = oriented ? matrix(state.rotation, state.place) : null;
+    const asked = state.rotation ? matrix(state.rotation, state.place) : null;
     stage.scene.targets = asked ? [{name: words.target, pose: asked}] : [];
     stage.scene.marks = asked ? [] : [{name: words.target, at: state.place, radius: 0}];
     return [
@@ -140,19 +168,32 @@ function targetExplorer(stage, data) {
   });
 }
 
-// What can be taken of a target: its place, freely or along its axes; its turns about them.
+/**
+ * What can be taken of a target: its place, freely or along its axes; its turns about them.
+ * @param {Stage} stage
+ * @param {State} state
+ * @param {Target} home
+ * @param {TargetExplorer} data
+ * @param {(axis: number[], angle: number) => void} turnBy
+ */
 function targetHandles(stage, state, home, data, turnBy) {
   const {arm, words, unit} = data,
     size = data.scene.size,
     oriented = arm.target === "Transform";
   const fine = 5e-3 * (unit.size < 1 ? 1 : size / 2);
-  const axes = () => (state.rotation ? matrix(state.rotation) : null);
-  const axis = k => [0, 1, 2].map(i => (axes() ? axes()[4 * i + k] : Number(i === k)));
+  /** @type {(k: number) => number[]} */
+  const axis = k => {
+    const axes = state.rotation ? matrix(state.rotation) : null;
+    return [0, 1, 2].map(i => (axes ? axes[4 * i + k] : Number(i === k)));
+  };
   const value = () => `${state.place.map(x => number(x / unit.size, 1)).join(", ")} ${unit.name}`;
   const flat = data.scene.flat;
+  /** @type {(camera: Camera, x: number, a: number[], b: number[]) => Point} */
   const rim = (camera, x, a, b) =>
     plus(plus(state.place, a, reachOf(camera) * Math.cos(x)), b, reachOf(camera) * Math.sin(x));
+  /** @type {(place: Point) => Point} */
   const kept = place => place.map((x, k) => (k === flat ? state.place[k] : x));
+  /** @type {Handle[]} */
   const handles = [
     {
       id: "free",
@@ -178,11 +219,11 @@ function targetHandles(stage, state, home, data, turnBy) {
   ];
   for (const k of [0, 1, 2].filter(k => k !== flat))
     handles.push({
-      id: "xyz"[k],
-      name: fill(words.takeAlong, {axis: "xyz"[k]}),
+      id: AXES[k],
+      name: fill(words.takeAlong, {axis: AXES[k]}),
       look: "rk-arrow",
-      mark: "xyz"[k],
-      color: "xyz"[k],
+      mark: AXES[k],
+      color: AXES[k],
       at: camera => plus(state.place, axis(k), reachOf(camera)),
       value,
       grab(camera) {
@@ -204,11 +245,11 @@ function targetHandles(stage, state, home, data, turnBy) {
   if (oriented)
     for (const k of [0, 1, 2])
       handles.push({
-        id: `turn ${"xyz"[k]}`,
-        name: fill(words.takeTurn, {axis: "xyz"[k]}),
+        id: `turn ${AXES[k]}`,
+        name: fill(words.takeTurn, {axis: AXES[k]}),
         look: "rk-arc",
         mark: "\u21BB",
-        color: "xyz"[k],
+        color: AXES[k],
         at: camera => rim(camera, Math.PI / 4, axis((k + 1) % 3), axis((k + 2) % 3)),
         value: () => `${state.turns.map(x => number(degrees(x), 1)).join(", ")} \u00B0`,
         grab(camera) {
@@ -227,31 +268,45 @@ function targetHandles(stage, state, home, data, turnBy) {
           [state.turns, state.rotation] = [[...home.turns], rotationOf(home.turns)];
         },
       });
-  if (arm.target === "ScaraPose")
+  if (arm.target === "ScaraPose") {
+    const turned = /** @type {With<State, "angle">} */ (state);
     handles.push({
       id: "angle",
       name: words.takeAngle,
       look: "rk-arc",
       mark: "\u21BB",
       color: "z",
-      at: camera => rim(camera, state.angle, [1, 0, 0], [0, 1, 0]),
-      value: () => `${number(degrees(state.angle), 1)} \u00B0`,
+      at: camera => rim(camera, turned.angle, [1, 0, 0], [0, 1, 0]),
+      value: () => `${number(degrees(turned.angle), 1)} \u00B0`,
       grab(camera) {
-        const to = alongCurve(camera, x => rim(camera, x, [1, 0, 0], [0, 1, 0]), state.angle, 0.02);
+        const to = alongCurve(
+          camera,
+          x => rim(camera, x, [1, 0, 0], [0, 1, 0]),
+          turned.angle,
+          0.02,
+        );
         return (dx, dy) => {
-          state.angle = to(dx, dy);
+          turned.angle = to(dx, dy);
         };
       },
       step(right, up, big) {
-        state.angle += (right + up) * radians(big ? 10 : 1);
+        turned.angle += (right + up) * radians(big ? 10 : 1);
       },
       home() {
         state.angle = home.angle;
       },
     });
+  }
   return handles;
 }
 
+/**
+ * @param {ArmData} arm
+ * @param {Record<string, string>} words
+ * @param {number[]} q
+ * @param {boolean[]} inside  for each joint its limits
+ * @param {boolean} exists
+ */
 function verdict(arm, words, q, inside, exists) {
   if (!exists) return words.missingRow;
   const past = inside.flatMap((good, j) => (good ? [] : [`q${j + 1}`]));
@@ -259,10 +314,16 @@ function verdict(arm, words, q, inside, exists) {
   return Object.values(singularities(arm, q)).some(Boolean) ? words.usableSingular : words.usable;
 }
 
-// Whether an exercise's task is fulfilled, in words.
+/**
+ * Whether an exercise's task is fulfilled, in words.
+ * @param {BranchTask | undefined} task
+ * @param {number[][]} rows
+ * @param {boolean[]} exists
+ */
 function told(task, rows, exists) {
   if (!task) return "";
   // at a singularity two rows may be one posture
+  /** @type {(a: number[], b: number[]) => boolean} */
   const same = (a, b) => a.every((x, j) => Math.abs(wrapped(x - b[j])) < 1e-6);
   const count = rows.filter(
     (q, k) => exists[k] && !rows.some((other, i) => i < k && exists[i] && same(q, other)),
@@ -270,6 +331,13 @@ function told(task, rows, exists) {
   return `${fill(count === task.wanted ? task.holds : task.open, {count, wanted: task.wanted})} `;
 }
 
+/**
+ * @param {ClosedFormArm} arm
+ * @param {Record<string, string>} words
+ * @param {State} state
+ * @param {boolean[]} usable
+ * @param {number} chosen
+ */
 function summary(arm, words, state, usable, chosen) {
   const count = usable.filter(Boolean).length,
     why = explain(arm, state, chosen);
