@@ -16,6 +16,10 @@
  *   {currents: number[][], load: number, rules: MotorRules}} Motor
  */
 /** @typedef {{theta: number, omega: number, currents: number[]}} State */
+/**
+ * What a run was like: rad, and pulses sent, at times in s; steps lost in the end.
+ * @typedef {{t: number[], angle: number[], sent: number[], lost: number}} Run
+ */
 /** @typedef {[x: number, y: number]} Pull  direction and strength */
 
 /**
@@ -176,7 +180,7 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
  * @param {Motor} motor
  * @param {number[]} times
  * @param {number} sign
- * @returns {{t: number[], angle: number[], sent: number[], lost: number}}
+ * @returns {Run}
  */
 export function run(motor, times, sign) {
   const found = {t: [0], angle: [resting(motor, 0)], sent: [0]};
