@@ -37,6 +37,7 @@ import {
 /** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
 /** @typedef {ArrayLike<number>} Times  in s, rising */
 /** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
+/** @typedef {ReturnType<typeof curvesView>} CurvesView */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 
 /**
