@@ -217,8 +217,8 @@ export interface PageExplorer {
   via?: PagePose;
   goal?: PagePose;
   start_values?: StartValues;
-  laws?: string[];
-  corners?: string[];
+  laws?: ("quintic" | "trapezoidal" | "linear")[];
+  corners?: ("parabola" | "quintic")[];
   panels?: string[];
   samples?: number;
   task?: BranchTask;
