@@ -92,7 +92,10 @@ export function resting(motor, sent) {
   return (Math.atan2(y, x) + ((2 * Math.PI) / n) * sent - bent) / motor.periods;
 }
 
-/** The longest step of the integration, and how long the rotor takes to rest. @param {Motor} motor */
+/**
+ * The longest step of the integration, and how long the rotor takes to rest.
+ * @param {Motor} motor
+ */
 function rhythm(motor) {
   const most = Math.max(...pulls(motor).map(strength));
   const swing = Math.sqrt(motor.inertia / (motor.periods * motor.torque * most)),
