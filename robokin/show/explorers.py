@@ -31,7 +31,7 @@ from . import plots
 from .arguments import named_targets
 from .camera import VIEW, arm_points, common_plane, extent, scene_data
 from .numbers import tidy
-from .page import Control, FactRow, PageExplorer, PagePose, PageScene, PageUnit
+from .page import Control, Corner, FactRow, Law, PageExplorer, PagePose, PageScene, PageUnit
 from .palette import DASHES
 from .player import Output, still_picture
 from .scene import Scene
@@ -40,8 +40,8 @@ from .twin import KINDS, arm_data
 Pose: TypeAlias = Transform | ScaraPose
 
 SAMPLES = 241  # of a motion: enough for its speeds, few enough to follow a hand
-LAWS = ("quintic", "trapezoidal", "linear")
-CORNERS = ("parabola", "quintic")
+LAWS: Sequence[Law] = ("quintic", "trapezoidal", "linear")
+CORNERS: Sequence[Corner] = ("parabola", "quintic")
 NEAREST = "nearest"
 MEANT = (
     "Distance from singularity: the smallest singular value of the Jacobian, lengths divided by "

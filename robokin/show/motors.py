@@ -4,8 +4,9 @@ The page computes by `js/rotor.js`, which has the law of `jobs.steppers.Stepper`
 the places of the poles and every word come from here.
 """
 
-from dataclasses import asdict, fields
-from typing import TypedDict
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Literal, TypeAlias, TypedDict
 
 import numpy as np
 
@@ -75,18 +76,16 @@ MEANT = (
     "Take hold of the ring on the rotor: turn it away, and let it go. A line of the table switches "
     "the windings as it says. The load is a weight on a drum: it pulls backwards all the time."
 )
-CONTROLS: dict[str, Control] = {
-    key: {"name": name, "unit": unit, "low": low, "high": high, "step": step, "decimals": decimals}
-    for key, name, unit, low, high, step, decimals in (
-        ("end", "frequency", "/s", SLOWEST, LIMIT, 5, 0),
-        ("load", "load torque", "mN m", 0, 40, 0.5, 1),
-        ("inertia", "load inertia", "g cm²", 0, 50, 1, 0),
-        ("start", "ramp from", "/s", SLOWEST, 200, 5, 0),
-        ("ramp", "ramp time", "ms", 0, 500, 10, 0),
-    )
-}
-SIZES = {"end": 1.0, "load": 1e-3, "inertia": 1e-7, "start": 1.0, "ramp": 1e-3}
-OPENING = {"end": 160, "load": 0, "inertia": 0, "start": 40, "ramp": 0}
+Quantity: TypeAlias = Literal["end", "load", "inertia", "start", "ramp"]
+CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] = (
+    # key, size of the unit in SI units, name, unit, low, high, step, decimals
+    ("end", 1.0, "frequency", "/s", SLOWEST, LIMIT, 5, 0),
+    ("load", 1e-3, "load torque", "mN m", 0, 40, 0.5, 1),
+    ("inertia", 1e-7, "load inertia", "g cm²", 0, 50, 1, 0),
+    ("start", 1.0, "ramp from", "/s", SLOWEST, 200, 5, 0),
+    ("ramp", 1e-3, "ramp time", "ms", 0, 500, 10, 0),
+)
+FREQUENCY = 160  # pulses per second, at first
 
 
 class PagePole(TypedDict):
@@ -119,6 +118,85 @@ class PageMotor(TypedDict):
     printed: dict[str, list[list[str]]]
 
 
+class MotorKind(TypedDict):
+    """A rotor and a feed, what they are called, and their motors by the number of windings."""
+
+    rotor: str
+    motor: str
+    name: str
+    motors: list[PageMotor]
+
+
+class MotorDrive(TypedDict):
+    """A drive: its key in `PageMotor`, and what it is called."""
+
+    key: str
+    name: str
+
+
+class MotorNumbers(TypedDict):
+    """The numbers of a `Stepper`, which all motors of a page share."""
+
+    torque: float
+    inertia: float
+    damping: float
+    rise: float
+
+
+class MotorRules(TypedDict):
+    """The constants of jobs/steppers.py by which a run is computed and judged."""
+
+    fine: list[float]
+    settled: float
+    slowest: float
+    limit: int
+    nearly: float
+
+
+class MotorControl(Control):
+    """A slider: which of `MotorValues` it sets, and the size of its unit in SI units."""
+
+    key: Quantity
+    size: float
+
+
+class MotorValues(TypedDict):
+    """What is chosen: the numbers of a kind, of a motor in it and of a drive; frequencies, load,
+    and time of the ramp in the units of their sliders.
+    """
+
+    kind: int
+    motor: int
+    drive: int
+    end: float
+    load: float
+    inertia: float
+    start: float
+    ramp: float
+
+
+class PageMotors(TypedDict):
+    """Everything that the motor explorer is given. `pulses`: of a run; `opening`: what is chosen
+    at first; `words`: every sentence it says; `code`: the lines of Python behind it, with blanks;
+    `meant`: what stands below.
+    """
+
+    kind: str
+    title: str
+    summary: str
+    alt: str
+    meant: str
+    words: dict[str, str]
+    pulses: int
+    rules: MotorRules
+    own: MotorNumbers
+    kinds: list[MotorKind]
+    drives: list[MotorDrive]
+    opening: MotorValues
+    controls: list[MotorControl]
+    code: str
+
+
 def motor_explorer(motor: Stepper | None = None) -> Explorer:
     """A stepper motor seen along its shaft: windings coloured by their currents, the field, the
     rotor to be turned by hand; beside it the phase table with the row that is on. Pulses come one
@@ -129,7 +207,12 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
     `rise` it keeps. TypeError: not a Stepper. ValueError: one whose runs are too long to compute.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
-    own = {f.name: getattr(opened, f.name) for f in fields(Stepper) if f.type is float}
+    own: MotorNumbers = {
+        "torque": opened.torque,
+        "inertia": opened.inertia,
+        "damping": opened.damping,
+        "rise": opened.rise,
+    }
     changed = [
         f"{name}={value!r}" for name, value in own.items() if value != asdict(Stepper())[name]
     ]
@@ -139,14 +222,14 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
     }
     kind = opened.rotor, opened.motor
     counts = [one["windings"] for one in motors[kind]]
-    lost = opened.run(np.arange(1, PULSES + 1) / OPENING["end"], np.ones(PULSES)).lost
+    lost = opened.run(np.arange(1, PULSES + 1) / FREQUENCY, np.ones(PULSES)).lost
     summary = (
         f"A stepper motor, {KINDS[kind]}, {opened.windings} windings, "
         f"{DRIVES[opened.drive]} drive, {opened.step * 180 / np.pi:.3g}° per step. "
-        f"{PULSES} pulses at {OPENING['end']} per second: "
+        f"{PULSES} pulses at {FREQUENCY} per second: "
         + (f"{lost} steps lost." if lost else "no step lost.")
     )
-    data = {
+    data: PageMotors = {
         "kind": "motor",
         "title": "A stepper motor, seen along its shaft",
         "summary": summary,
@@ -171,9 +254,25 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
             "kind": [*KINDS].index(kind),
             "motor": counts.index(opened.windings),
             "drive": [*DRIVES].index(opened.drive),
-            **OPENING,
+            "end": FREQUENCY,
+            "load": 0,
+            "inertia": 0,
+            "start": 40,
+            "ramp": 0,
         },
-        "controls": [{"key": key, "size": SIZES[key], **c} for key, c in CONTROLS.items()],
+        "controls": [
+            {
+                "key": key,
+                "size": size,
+                "name": name,
+                "unit": unit,
+                "low": low,
+                "high": high,
+                "step": step,
+                "decimals": decimals,
+            }
+            for key, size, name, unit, low, high, step, decimals in CONTROLS
+        ],
         "code": "import numpy as np\nfrom robokin.jobs.steppers import Stepper, ramp\n\n"
         f'motor = Stepper("{{rotor}}", "{{motor}}", {{windings}}, "{{drive}}"'
         f"{''.join(f', {text}' for text in changed)})\n"

@@ -7,7 +7,7 @@ import contextlib
 import html
 import json
 import os
-from typing import Any, NotRequired, TypedDict
+from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 from .._validate import short
 from .joiner import script
@@ -217,6 +217,10 @@ class FactRow(TypedDict):
     decimals: int
 
 
+Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # as motion.js has them
+Corner: TypeAlias = Literal["parabola", "quintic"]
+
+
 class StartValues(TypedDict):
     """How a blended motion opens: the numbers of its law, its corner and its branch, too."""
 
@@ -280,8 +284,8 @@ class PageExplorer(TypedDict):
     via: NotRequired[PagePose]
     goal: NotRequired[PagePose]
     start_values: NotRequired[StartValues]
-    laws: NotRequired[list[str]]
-    corners: NotRequired[list[str]]
+    laws: NotRequired[list[Law]]
+    corners: NotRequired[list[Corner]]
     panels: NotRequired[list[str]]
     samples: NotRequired[int]
     task: NotRequired[BranchTask]

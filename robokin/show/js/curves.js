@@ -16,23 +16,34 @@ import {
   words,
 } from "./canvas.js";
 
+/** @import {Box, Context, Pixel} from "./canvas.js" */
+/** @import {Scale} from "./page.js" */
+
 /**
  * @typedef {object} Panel
  * @property {string} label
- * @property {{unit: string, scale: number[], joints: number[]}[]} axes  scale: lowest tick, step,
- *   count, decimals
+ * @property {{unit: string, scale: Scale, joints: number[]}[]} axes
  * @property {Float64Array[]} curves  of each joint, over the times
  * @property {Set<number>} gaps  samples after which the lines break
  * @property {?number[][]} limits  [low, high], of each joint
  * @property {number[][]} near  [joint, 0 low or 1 high]: the limits to show
- * @property {{time: number, text: string}[]} marks
+ * @property {Mark[]} marks
  * @property {number[]} now  of each joint
+ * @property {string} [where]  in what size and theme it was when places for its words were found
+ * @property {Note[]} [words]
  */
+/** @typedef {{title: string, panels: Panel[]}} Column  of panels over one time axis */
+/** @typedef {{time: number, text: string}} Mark  a broken line; a text is written beside it */
+/** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
+/** @typedef {ArrayLike<number>} Times  in s, rising */
+/** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
+/** @typedef {ReturnType<typeof curvesView>} CurvesView */
+/** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 
 /**
  * Draws columns of panels.
  *
- * draw(columns, times, ticks, now)  one picture; a column is {title, panels: Panel[]}
+ * draw(columns, times, ticks, now)  one picture
  * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or,
  *                                   with `held`, in that column whatever the place; and the number
  *                                   of the column
@@ -41,8 +52,15 @@ import {
  * @param {number[][]} patterns  the dashes of the joints' lines
  */
 export function curvesView(canvas, patterns) {
+  /** @type {[left: number, width: number, t0: number, t1: number, x: number, y: number][]} */
   let spans = [];
 
+  /**
+   * @param {Column[]} columns
+   * @param {Times} times
+   * @param {Scale} ticks
+   * @param {number} now
+   */
   function draw(columns, times, ticks, now) {
     const ready = prepared(canvas);
     if (!ready) return;
@@ -58,8 +76,9 @@ export function curvesView(canvas, patterns) {
       const left = (c % across) * width,
         above = Math.floor(c / across) * height;
       const right = column.panels.some(p => p.axes.length > 1) ? 46 : 16;
-      const room = Math.max(48, 14 + widest(g, column)),
-        area = [left + room, width - room - right];
+      const room = Math.max(48, 14 + widest(g, column));
+      /** @type {[number, number]} */
+      const area = [left + room, width - room - right];
       const below = legend(
         g,
         patterns,
@@ -72,6 +91,7 @@ export function curvesView(canvas, patterns) {
       const bottom = above + height - 24,
         count = column.panels.length,
         tall = (bottom - below) / count;
+      /** @type {Place} */
       const x = t => area[0] + (area[1] * (t - t0)) / (t1 - t0);
       spans.push([area[0], area[1], t0, t1, left, above]);
       column.panels.forEach((panel, k) => {
@@ -107,6 +127,12 @@ export function curvesView(canvas, patterns) {
     });
   }
 
+  /**
+   * @param {number} px
+   * @param {number} py
+   * @param {number} [held]
+   * @returns {[time: number, column: number]}
+   */
   function timeAt(
     px,
     py,
@@ -119,11 +145,16 @@ export function curvesView(canvas, patterns) {
   return {draw, timeAt};
 }
 
-// Joint colours fit for words.
+/** Joint colours fit for words. @type {(color: string) => string} */
 const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
+/** @type {(patterns: number[][], j: number, width: number) => number[]} */
 const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
 
-// How wide the numbers beside the panels are.
+/**
+ * How wide the numbers beside the panels are.
+ * @param {Context} g
+ * @param {Column} column
+ */
 function widest(g, {panels}) {
   g.font = `11px ${FONT}`;
   return Math.max(
@@ -140,8 +171,16 @@ function widest(g, {panels}) {
   );
 }
 
-// Names with their lines, above the panels, evenly in as many rows as it takes; returns where the
-// panels may begin.
+/**
+ * Names with their lines, above the panels, evenly in as many rows as it takes.
+ * @param {Context} g
+ * @param {number[][]} patterns
+ * @param {Column} column
+ * @param {number} left
+ * @param {number} width
+ * @param {number} y
+ * @returns {number}  where the panels may begin
+ */
 function legend(g, patterns, column, left, width, y) {
   const joints = column.panels[0].curves.length,
     rows = Math.ceil((joints * 38) / width),
@@ -166,12 +205,28 @@ function legend(g, patterns, column, left, width, y) {
   return y + 16 * (rows - 1) + 2;
 }
 
+/**
+ * @param {Context} g
+ * @param {number[][]} patterns
+ * @param {Panel} panel
+ * @param {Place} x
+ * @param {[left: number, width: number]} area
+ * @param {number} top
+ * @param {number} height
+ * @param {Times} times
+ * @param {Scale} ticks
+ * @param {number} now
+ */
 function drawPanel(g, patterns, panel, x, [left, width], top, height, times, ticks, now) {
   const right = left + width,
     bottom = top + height,
-    ys = [],
-    units = [];
+    limits = panel.limits ?? [];
+  /** @type {Place[]} */
+  const ys = [];
+  /** @type {string[]} */
+  const units = [];
   const scales = panel.axes.map(({scale: [low, step, count], unit, joints}) => {
+    /** @type {Place} */
     const y = v => bottom - (height * (v - low)) / (step * (count - 1));
     for (const j of joints) {
       ys[j] = y;
@@ -200,7 +255,7 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
   for (let i = 0; i < ticks[2]; i++)
     upright(g, x(ticks[0] + i * ticks[1]), top, bottom, colors.grid, 1);
   for (const [j, side] of panel.near)
-    band(g, ys[j](panel.limits[side][j]), side ? 1 : -1, left, right, jointColor(j));
+    band(g, ys[j](limits[side][j]), side ? 1 : -1, left, right, jointColor(j));
   for (const {time} of panel.marks) upright(g, x(time), top, bottom, colors.alarm, 1.2, [3, 3]);
   ys.forEach((y, j) => curve(g, patterns, panel, j, times, x, y));
   g.restore();
@@ -236,14 +291,13 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
   // The places of words are looked for once in a size and a theme, not in every picture.
   const where = [left, top, width, height, colors.ink].join();
   if (panel.where !== where) {
-    const rect = [left, right, top, bottom],
-      notes = noted(g, panel.marks, x, rect);
-    Object.assign(panel, {
-      where,
-      words: [...notes, ...limitWords(g, panel, ys, units, times, x, rect, notes)],
-    });
+    /** @type {Sides} */
+    const rect = [left, right, top, bottom];
+    const notes = noted(g, panel.marks, x, rect);
+    panel.where = where;
+    panel.words = [...notes, ...limitWords(g, panel, ys, units, times, x, rect, notes)];
   }
-  for (const [text, [px, py, , h], color, size, weight] of panel.words)
+  for (const [text, [px, py, , h], color, size, weight] of panel.words ?? [])
     words(g, text, px, py + h - 2, color, size, "left", weight);
   upright(g, x(now), top, bottom, colors.ink, 1.4);
   ys.forEach((y, j) => {
@@ -267,9 +321,15 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
         );
 }
 
-// The words of the marks, in at most three lines: [text, [left, top, width, height], color, size,
-// weight].
+/**
+ * The words of the marks, in at most three lines.
+ * @param {Context} g
+ * @param {Mark[]} marks
+ * @param {Place} x
+ * @param {Sides} sides
+ */
 function noted(g, marks, x, [left, right, top]) {
+  /** @type {Note[]} */
   const notes = [];
   g.font = `600 11px ${FONT}`;
   for (const {time, text} of marks) {
@@ -277,7 +337,7 @@ function noted(g, marks, x, [left, right, top]) {
     const w = g.measureText(text).width;
     const px = x(time) + w + 12 > right ? Math.max(left + 3, x(time) - 6 - w) : x(time) + 6;
     const place = [0, 1, 2]
-      .map(k => [px, top + 14 * k + 4, w, 12])
+      .map(k => /** @type {Box} */ ([px, top + 14 * k + 4, w, 12]))
       .find(
         place =>
           !hit(
@@ -290,15 +350,27 @@ function noted(g, marks, x, [left, right, top]) {
   return notes;
 }
 
-// The words of the limits, as above: beside their lines, off other words and, nearly, off the
-// curves. At most three; where there is no such place, the band alone has to do.
+/**
+ * The words of the limits, as above: beside their lines, off other words and, nearly, off the
+ * curves. At most three; where there is no such place, the band alone has to do.
+ * @param {Context} g
+ * @param {Panel} panel
+ * @param {Place[]} ys  of each joint
+ * @param {string[]} units  of each joint
+ * @param {Times} times
+ * @param {Place} x
+ * @param {Sides} sides
+ * @param {Note[]} notes
+ */
 function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], notes) {
+  /** @type {Note[]} */
   const found = [];
-  const each = (right - left) / times.length,
-    lines = panel.near.map(([j, side]) => ys[j](panel.limits[side][j]));
+  const limits = panel.limits ?? [],
+    each = (right - left) / times.length,
+    lines = panel.near.map(([j, side]) => ys[j](limits[side][j]));
   g.font = `10px ${FONT}`;
   panel.near.forEach(([j, side], k) => {
-    const limit = panel.limits[side][j],
+    const limit = limits[side][j],
       at = lines[k],
       unit = units[j];
     const value = number(limit, +!Number.isInteger(limit)),
@@ -306,12 +378,14 @@ function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], n
     const text = `q${j + 1} limit ${value}${gap}${unit}`;
     const w = g.measureText(text).width,
       taken = [...notes, ...found].map(([, place]) => place);
-    let best = null,
-      least = 16; // pixels of curves that the words may cover
+    /** @type {?Box} */
+    let best = null;
+    let least = 16; // pixels of curves that the words may cover
     for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
       if (y < top + 1 || y + 11 > bottom - 1) continue;
-      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length,
-        beside = [];
+      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length;
+      /** @type {number[]} */
+      const beside = [];
       panel.curves.forEach((curve, i) => {
         const on = ys[i];
         curve.forEach((v, k) => {
@@ -329,7 +403,15 @@ function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], n
   return found;
 }
 
-// The near side of what lies beyond a limit, a strip above (side 1) or below it.
+/**
+ * The near side of what lies beyond a limit, a strip above (side 1) or below it.
+ * @param {Context} g
+ * @param {number} at
+ * @param {number} side  1 or -1
+ * @param {number} left
+ * @param {number} right
+ * @param {string} color
+ */
 function band(g, at, side, left, right, color) {
   const fade = g.createLinearGradient(0, at, 0, at - 12 * side);
   fade.addColorStop(0, clear(color, 0.35));
@@ -347,11 +429,23 @@ function band(g, at, side, left, right, color) {
   );
 }
 
+/**
+ * @param {Context} g
+ * @param {number[][]} patterns
+ * @param {Panel} panel
+ * @param {number} j
+ * @param {Times} times
+ * @param {Place} x
+ * @param {Place} y
+ */
 function curve(g, patterns, panel, j, times, x, y) {
-  const color = jointColor(j),
-    points = [],
-    beyond = [];
+  const color = jointColor(j);
+  /** @type {(?Pixel)[]} */
+  const points = [];
+  /** @type {(?Pixel)[]} */
+  const beyond = [];
   panel.curves[j].forEach((value, i) => {
+    /** @type {?Pixel} */
     const p = Number.isNaN(value) ? null : [x(times[i]), y(value)];
     const over =
       p && panel.limits && (value < panel.limits[0][j] - 1e-3 || value > panel.limits[1][j] + 1e-3);

@@ -13,24 +13,47 @@ import {alongCurve, inScreen, reachOf} from "./handles.js";
 import {copyButton, menu, slider, stageOf, table} from "./stage.js";
 import {lengths, plain} from "./turns.js";
 
+/** @import {PageExplorer, PagePose, Scale, StartValues, With} from "./page.js" */
+/** @import {CurvesView, Panel} from "./curves.js" */
+/** @import {Point} from "./canvas.js" */
+/** @import {Handle} from "./handles.js" */
+/** @import {Stage} from "./stage.js" */
+
+/**
+ * @typedef {With<PageExplorer, "arm" | "units" | "dashes" | "start" | "via" | "goal" |
+ *   "start_values" | "laws" | "corners" | "branches" | "panels" | "samples">} MotionData
+ */
+/** @typedef {Record<(typeof STATIONS)[number], PagePose>} Stations */
+/** @typedef {Stations & StartValues & {time: number}} Asked  `time`: as a share of the duration */
+/** @typedef {ReturnType<typeof motionOf>} Motion */
+
 /**
  * Fills every waiting place with this id.
  * @param {string} id
- * @param {object} data  page.py: PageExplorer
+ * @param {MotionData} data
  */
 export const explore = (id, data) =>
   waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
 
 const LAWS = {quintic, trapezoidal, linear};
 const LEAP = 0.1; // rad or m, as in motion/recording.py
-const STATIONS = ["start", "via", "goal"];
+const STATIONS = /** @type {const} */ (["start", "via", "goal"]);
+const NUMBERS = /** @type {const} */ (["blend", "duration"]);
+const CHOICES = /** @type {const} */ (["law", "corner", "row"]);
+const AXES = /** @type {const} */ (["x", "y", "z"]);
 
+/**
+ * @param {Stage} stage
+ * @param {MotionData} data
+ */
 function motionExplorer(stage, data) {
   const {arm, words, unit, units, samples} = data,
     n = arm.chain.length;
-  const copied = () =>
-    Object.fromEntries(STATIONS.map(name => [name, {...data[name], place: [...data[name].place]}]));
+  /** @type {() => Stations} */
+  const copied = () => structuredClone({start: data.start, via: data.via, goal: data.goal});
+  /** @type {Asked} */
   const state = {...copied(), ...data.start_values, time: 0};
+  /** @type {(name: (typeof CHOICES)[number], value: number) => void} */
   const set = (name, value) => {
     state[name] = value;
     stage.changed();
@@ -39,7 +62,7 @@ function motionExplorer(stage, data) {
   const sliders = data.controls.map((spec, k) =>
     slider(spec, value => {
       if (k < 3) state.via.place[k] = value * unit.size;
-      else state[["blend", "duration"][k - 3]] = Math.min(Math.max(value, spec.low), spec.high);
+      else state[NUMBERS[k - 3]] = Math.min(Math.max(value, spec.low), spec.high);
       stage.changed();
     }),
   );
@@ -80,29 +103,33 @@ function motionExplorer(stage, data) {
   canvas.addEventListener("pointermove", event => {
     if (canvas.hasPointerCapture(event.pointerId)) clock(event);
   });
+  /** @param {PointerEvent} event */
   const clock = event => {
     [state.time] = curves.timeAt(event.offsetX, event.offsetY, 0).map(t => t / state.duration);
     stage.changed();
   };
   stage.handles.set(stationHandles(stage, state, copied, data));
 
-  let known = "",
-    found = null,
-    drawn = [];
+  let known = "";
+  /** @type {?Motion} */
+  let found = null;
+  /** @type {?Parameters<CurvesView["draw"]>} */
+  let drawn = null;
   stage.run(
     () => {
       const {time, ...asked} = state,
         key = JSON.stringify(asked);
       // the clock alone changes nothing
-      if (key !== known) [known, found] = [key, motionOf(data, state)];
-      const {t, q, v, a, tool, missing} = found;
+      if (!found || key !== known) [known, found] = [key, motionOf(data, state)];
+      const now = found,
+        {t, q, v, a, tool, missing} = now;
       sliders.forEach((s, k) =>
-        s.set(k < 3 ? state.via.place[k] / unit.size : state[["blend", "duration"][k - 3]]),
+        s.set(k < 3 ? state.via.place[k] / unit.size : state[NUMBERS[k - 3]]),
       );
-      menus.forEach((m, k) => m.set(state[["law", "corner", "row"][k]]));
+      menus.forEach((m, k) => m.set(state[CHOICES[k]]));
       scrub.reach(state.duration);
       scrub.set(time * state.duration);
-      const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order));
+      const panels = [q, v, a].map((rows, order) => panelOf(data, now, rows, order));
       const i = Math.round(time * (samples - 1));
       for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
       drawn = [
@@ -123,7 +150,7 @@ function motionExplorer(stage, data) {
           ),
         ),
       );
-      stage.say([nearWords(data, state, tool), ...notes(data, found)].join(" "));
+      stage.say([nearWords(data, state, tool), ...notes(data, now)].join(" "));
       stage.scene.targets = STATIONS.map(name => ({
         name,
         pose: matrix(
@@ -151,11 +178,17 @@ function motionExplorer(stage, data) {
       ];
     },
     [canvas],
-    () => curves.draw(...drawn),
+    () => drawn && curves.draw(...drawn),
   );
 }
 
-// The motion for what is asked: times, joint values, speeds, accelerations, the tool's places.
+/**
+ * The motion for what is asked: times, joint values, speeds, accelerations, the tool's places;
+ * where there is no posture, after which samples its curves break, where its speed jumps (-1:
+ * nowhere).
+ * @param {MotionData} data
+ * @param {Asked} state
+ */
 function motionOf({arm, laws, corners, samples}, state) {
   const law = LAWS[laws[state.law]](state.duration);
   const t = Float64Array.from({length: samples}, (_, i) => (state.duration * i) / (samples - 1));
@@ -166,8 +199,11 @@ function motionOf({arm, laws, corners, samples}, state) {
     missing = q.map(row => row.some(Number.isNaN));
   // No difference is taken across a jump: where the branch ends, where a joint leaps (as `record`
   // says: by more than half a turn, or ten times as far as beside), at a corner without a blend.
-  const breaks = new Set(),
-    step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
+  /** @type {Set<number>} */
+  const breaks = new Set();
+  /** @type {(i: number, j: number) => number} */
+  const step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
+  /** @type {(i: number, j: number) => boolean} */
   const leaps = (i, j) =>
     (step(i, j) > Math.PI && !arm.prismatic[j]) ||
     (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
@@ -199,7 +235,14 @@ function motionOf({arm, laws, corners, samples}, state) {
   return {t, q, v, a, tool, missing, gaps, jump};
 }
 
-// A panel of curves: joint values (order 0), speeds or accelerations.
+/**
+ * A panel of curves: joint values (order 0), speeds or accelerations.
+ * @param {MotionData} data
+ * @param {Motion} motion
+ * @param {number[][]} rows
+ * @param {number} order
+ * @returns {Panel}
+ */
 function panelOf({arm, panels, units}, {t, gaps, jump}, rows, order) {
   const curves = units.map((u, j) => Float64Array.from(rows, row => row[j] / u.size));
   const axes = [false, true]
@@ -232,10 +275,25 @@ function panelOf({arm, panels, units}, {t, gaps, jump}, rows, order) {
       )
     : [];
   const marks = jump > 0 && order > 0 ? [{time: t[jump], text: ""}] : [];
-  return {label: `${panels[order]}, ${axes[0].unit}`, axes, curves, gaps, limits, near, marks};
+  return {
+    label: `${panels[order]}, ${axes[0].unit}`,
+    axes,
+    curves,
+    gaps,
+    limits,
+    near,
+    marks,
+    now: [],
+  };
 }
 
-// A scale of some ticks round the values: lowest tick, step, count, decimals.
+/**
+ * A scale of some ticks round the values.
+ * @param {number} low
+ * @param {number} high
+ * @param {number} wanted  how many ticks
+ * @returns {Scale}
+ */
 function scaleOf(low, high, wanted) {
   if (!(high - low > 1e-6 * Math.max(Math.abs(low), Math.abs(high), 1e-3))) {
     const middle = Number.isFinite(low) ? low : 0,
@@ -244,7 +302,7 @@ function scaleOf(low, high, wanted) {
   }
   const power = 10 ** Math.floor(Math.log10((high - low) / wanted));
   const step =
-    power * [1, 2, 2.5, 5, 10].find(k => power * k * wanted >= (high - low) * (1 - 1e-9));
+    power * ([1, 2, 2.5, 5].find(k => power * k * wanted >= (high - low) * (1 - 1e-9)) ?? 10);
   const first = Math.floor(low / step + 1e-9),
     last = Math.ceil(high / step - 1e-9);
   const decimals =
@@ -253,20 +311,27 @@ function scaleOf(low, high, wanted) {
   return [first * step, step, last - first + 1, power >= 10 ? 0 : decimals];
 }
 
-// NaN where there is nothing.
+/** The greatest value, NaN where there is none. @type {(rows: number[][], j: number) => number} */
 const most = (rows, j) =>
   rows.reduce(
     (best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])),
     NaN,
   );
 
-// How near the tool passes the via station.
+/**
+ * How near the tool passes the via station.
+ * @param {MotionData} data
+ * @param {Stations} stations
+ * @param {(?Point)[]} tool
+ */
 function nearWords({words, unit}, {via}, tool) {
   let least = Infinity;
   for (let i = 1; i < tool.length; i++) {
-    if (!tool[i] || !tool[i - 1]) continue;
-    const way = plus(tool[i], tool[i - 1], -1),
-      from = plus(via.place, tool[i - 1], -1);
+    const before = tool[i - 1],
+      here = tool[i];
+    if (!here || !before) continue;
+    const way = plus(here, before, -1),
+      from = plus(via.place, before, -1);
     const length = way.reduce((sum, x) => sum + x * x, 0);
     const share = length
       ? Math.min(1, Math.max(0, way.reduce((sum, x, k) => sum + x * from[k], 0) / length))
@@ -279,36 +344,50 @@ function nearWords({words, unit}, {via}, tool) {
     : "";
 }
 
-// What is wrong with the motion.
+/**
+ * What is wrong with the motion.
+ * @param {MotionData} data
+ * @param {Motion} motion
+ */
 function notes({arm, words, units}, {q, v, t, missing, jump}) {
-  const said = [],
-    none = missing.filter(Boolean).length;
+  /** @type {string[]} */
+  const said = [];
+  const none = missing.filter(Boolean).length,
+    fastest = arm.speed_limits;
   if (none) said.push(fill(words.missingSamples, {none, all: q.length}));
   units.forEach((_, j) => {
     const [low, high] = arm.limits[j],
       slack = arm.tolerances.SLACK;
     const past = q.filter(row => row[j] < low - slack || row[j] > high + slack).length;
     if (past) said.push(fill(words.pastSamples, {joint: j + 1, past, all: q.length}));
-    const fast = arm.speed_limits
-      ? v.filter(row => Math.abs(row[j]) > arm.speed_limits[j] * (1 + 1e-9)).length
-      : 0;
+    const fast = fastest ? v.filter(row => Math.abs(row[j]) > fastest[j] * (1 + 1e-9)).length : 0;
     if (fast) said.push(fill(words.fastSamples, {joint: j + 1, past: fast, all: q.length}));
   });
   if (jump > 0) said.push(fill(words.jump, {time: number(t[jump], 2)}));
   return said;
 }
 
-// Start and goal freely in the plane of the screen, the via station along the base's axes, too.
+/**
+ * Start and goal freely in the plane of the screen, the via station along the base's axes, too.
+ * @param {Stage} stage
+ * @param {Asked} state
+ * @param {() => Stations} copied
+ * @param {MotionData} data
+ */
 function stationHandles(stage, state, copied, data) {
   const {unit, words, scene} = data,
     size = scene.size,
     fine = 5e-3 * (unit.size < 1 ? 1 : size / 2);
+  /** @type {(place: Point, from: Point) => Point} */
   const kept = (place, from) => place.map((x, k) => (k === scene.flat ? from[k] : x));
+  /** @type {(name: keyof Stations) => () => string} */
   const value = name => () =>
     `${state[name].place.map(x => number(x / unit.size, 1)).join(", ")} ${unit.name}`;
+  /** @type {(name: keyof Stations) => () => void} */
   const home = name => () => {
     state[name].place = copied()[name].place;
   };
+  /** @type {Handle[]} */
   const free = STATIONS.map(name => ({
     id: name,
     name: fill(words.takeStation, {name}),
@@ -330,16 +409,17 @@ function stationHandles(stage, state, copied, data) {
       state[name].place = kept(plus(from, camera.across(right * by, -up * by)), from);
     },
   }));
+  /** @type {Handle[]} */
   const arrows = [0, 1, 2]
     .filter(k => k !== scene.flat)
     .map(k => {
       const way = [0, 1, 2].map(i => Number(i === k));
       return {
-        id: `via ${"xyz"[k]}`,
-        name: fill(words.takeVia, {axis: "xyz"[k]}),
+        id: `via ${AXES[k]}`,
+        name: fill(words.takeVia, {axis: AXES[k]}),
         look: "rk-arrow",
-        mark: "xyz"[k],
-        color: "xyz"[k],
+        mark: AXES[k],
+        color: AXES[k],
         at: camera => plus(state.via.place, way, reachOf(camera)),
         value: value("via"),
         home: home("via"),
@@ -359,9 +439,14 @@ function stationHandles(stage, state, copied, data) {
   return [...free, ...arrows];
 }
 
-// The lines of Python that make the same motion.
+/**
+ * The lines of Python that make the same motion.
+ * @param {MotionData} data
+ * @param {Asked} state
+ */
 function inCode(data, state) {
   const {unit, code, laws, corners} = data;
+  /** @type {(place: Point) => string} */
   const numbers = place =>
     lengths(place, unit)
       .map(x => `${x} * ${unit.code}`)

@@ -22,10 +22,16 @@ import {
 import {copyButton, LOOK, menu, slider, table, tick} from "./stage.js";
 import {degrees, plain, radians} from "./turns.js";
 
+/** @import {MotorControl, PageMotor, PageMotors} from "./page.js" */
+/** @import {Context, Pixel} from "./canvas.js" */
+/** @import {Motor, Run} from "./rotor.js" */
+
+/** @typedef {(angle: number, r: number) => Pixel} Round  a place around the shaft */
+
 /**
  * Fills every waiting place with this id.
  * @param {string} id
- * @param {object} data  motors.py: motor_explorer
+ * @param {PageMotors} data
  */
 export const explore = (id, data) => waiting(id).forEach(root => motorExplorer(root, data));
 
@@ -54,6 +60,13 @@ const MORE = `
   @media print { & .rk-lines { max-height: none; } }
 }`;
 
+/** @type {(list: number[]) => number} */
+const lastOf = list => list[list.length - 1];
+
+/**
+ * @param {HTMLElement} root
+ * @param {PageMotors} data
+ */
 function motorExplorer(root, data) {
   const {words: says, pulses} = data,
     state = {...data.opening, sign: 1};
@@ -80,6 +93,7 @@ function motorExplorer(root, data) {
   const kind = () => data.kinds[state.kind],
     page = () => kind().motors[state.motor],
     drive = () => data.drives[state.drive].key;
+  /** @type {() => Motor} */
   const motorNow = () => ({
     ...page(),
     ...data.own,
@@ -88,24 +102,30 @@ function motorExplorer(root, data) {
     load: value("load"),
     inertia: data.own.inertia + value("inertia"),
   });
-  const value = key => state[key] * data.controls.find(c => c.key === key).size;
+  const sizes = Object.fromEntries(data.controls.map(({key, size}) => [key, size]));
+  /** In SI units. @type {(key: MotorControl["key"]) => number} */
+  const value = key => state[key] * sizes[key];
   let motor = motorNow(),
-    found = null,
     live = atRest(motor, 0),
     sent = 0,
-    playing = null,
     held = false,
     last = 0,
-    since = 0,
-    lineTable = null;
+    since = 0;
+  /** @type {Run} */
+  let found = {t: [0], angle: [0], sent: [0], lost: 0};
+  /** @type {?{begun: ?number, slow: number}} */
+  let playing = null;
+  /** @type {?ReturnType<typeof table>} */
+  let lineTable = null;
   const times = () =>
     ramp(pulses, Math.min(value("start"), value("end")), value("end"), value("ramp"));
   function begin() {
     [live, sent, playing, since] = [atRest(motor, 0), 0, null, LONG];
     ask();
   }
-  let stale = false,
-    starts = {};
+  let stale = false;
+  /** @type {Object<string, number>} */
+  let starts = {};
   function changed(other = false) {
     // `other`: another motor, another table
     motor = motorNow();
@@ -135,6 +155,7 @@ function motorExplorer(root, data) {
     );
     lines.replaceChildren(lineTable.node);
   }
+  /** @param {number} row */
   function take(row) {
     // the nearest way round to this row
     const n = motor.currents.length,
@@ -149,18 +170,19 @@ function motorExplorer(root, data) {
   }
   function play() {
     computed();
-    const total = found.t.at(-1);
-    playing = {begun: null, slow: Math.max(1, Math.round(SHOWN / total))};
+    playing = {begun: null, slow: Math.max(1, Math.round(SHOWN / lastOf(found.t)))};
     ask();
   }
 
   // --- What can be taken hold of
 
+  /** @type {(text: string, act: () => void) => HTMLButtonElement} */
   const button = (text, act) => {
     const node = control("button", {type: "button", class: "rk-word"}, text);
     node.addEventListener("click", act);
     return node;
   };
+  /** @type {(sign: number) => () => void} */
   const pulse = sign => () => {
     playing = null;
     sent += sign;
@@ -226,6 +248,7 @@ function motorExplorer(root, data) {
   });
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
     grip.addEventListener(end, () => hold(false));
+  /** @type {Object<string, number>} */
   const KEYS = {ArrowLeft: 1, ArrowUp: 1, ArrowRight: -1, ArrowDown: -1};
   grip.addEventListener("keydown", event => {
     const way = KEYS[event.key];
@@ -242,6 +265,7 @@ function motorExplorer(root, data) {
     if (event.key in KEYS) hold(false);
   });
   grip.addEventListener("blur", () => hold(false));
+  /** @param {boolean} on */
   function hold(on) {
     if (on === held) return;
     if (on) playing = null;
@@ -319,11 +343,12 @@ function motorExplorer(root, data) {
           : lost > 0
             ? says.someLost
             : says.tooMany;
-    const slow = Math.max(1, Math.round(SHOWN / found.t.at(-1)));
+    const slow = Math.max(1, Math.round(SHOWN / lastOf(found.t)));
     const text = `${fill(which, {pulses, how, lost: Math.abs(lost)})} ${fill(says.slow, {slow})}`;
     if (told.textContent !== text) told.textContent = text;
     const {slowest, limit, nearly} = data.rules,
       first = (starts[`${motor.load} ${motor.inertia}`] ??= startFrequency(motor, pulses));
+    /** @type {(x: number) => string} */
     const torque = x => fill(says.torques, {value: number(1000 * x, 1)});
     facts.set([
       [fill(says.degrees, {value: plain(degrees(stepOf(motor)), 2)})],
@@ -337,12 +362,13 @@ function motorExplorer(root, data) {
       [fill(says.perSecond, {value: motor.rise ? number(1 / (nearly * motor.rise), 0) : "\u221E"})],
     ]);
   }
+  /** @type {(theta: number, sentNow: number) => void} */
   function tellNow(theta, sentNow) {
-    lineTable.set(
+    lineTable?.set(
       page().printed[drive()],
       ((sentNow % motor.currents.length) + motor.currents.length) % motor.currents.length,
     );
-    const mark = lines.querySelector("[aria-current]"),
+    const mark = /** @type {?HTMLElement} */ (lines.querySelector("[aria-current]")),
       room = lines.clientHeight;
     if (
       mark &&
@@ -371,6 +397,7 @@ function motorExplorer(root, data) {
     return motor.load > motor.torque * Math.sqrt(x * x + y * y);
   };
   function inCode() {
+    /** @type {(key: MotorControl["key"]) => string} */
     const text = key => String(+value(key).toPrecision(6));
     return fill(data.code, {
       rotor: kind().rotor,
@@ -389,8 +416,11 @@ function motorExplorer(root, data) {
 
   // --- The pictures
 
+  /**
+   * Where the rotor is now: how far its run is, if it makes one; whether it goes on.
+   * @param {number} time
+   */
   function moment(time) {
-    // where the rotor is now; whether it goes on
     if (playing) {
       playing.begun ??= time;
       const t = (time - playing.begun) / 1000 / playing.slow,
@@ -438,8 +468,21 @@ function motorExplorer(root, data) {
   changed(true);
 }
 
+/**
+ * @param {Context} g
+ * @param {number} w
+ * @param {number} h
+ * @param {number} size
+ * @param {PageMotor} page
+ * @param {Motor} motor
+ * @param {number} theta
+ * @param {number} sent
+ * @param {PageMotors["words"]} says
+ */
 function drawMotor(g, w, h, size, {poles, teeth, space}, motor, theta, sent, says) {
+  /** @type {Round} */
   const at = (angle, r) => [w / 2 + size * r * Math.cos(angle), h / 2 - size * r * Math.sin(angle)];
+  /** @type {(from: number, to: number, r: number) => Pixel[]} */
   const arc = (from, to, r) =>
     Array.from({length: 25}, (_, i) => at(from + ((to - from) * i) / 24, r));
   const n = motor.currents.length,
@@ -478,7 +521,7 @@ function drawMotor(g, w, h, size, {poles, teeth, space}, motor, theta, sent, say
     );
     const [x, y] = at(place, 0.78),
       mark = now > 0 ? "+" : now < 0 ? "\u2212" : "";
-    plainWords(g, `${name}${mark}`, x, y + 5, now ? colors.edge : colors.soft, now);
+    plainWords(g, `${name}${mark}`, x, y + 5, now ? colors.edge : colors.soft, !!now);
   }
   if (teeth) {
     const pitch = (2 * Math.PI) / teeth;
@@ -497,9 +540,9 @@ function drawMotor(g, w, h, size, {poles, teeth, space}, motor, theta, sent, say
       1.2,
     );
   } else {
-    for (const [turn, color, name] of [
-      [0, colors.joint2, "N"],
-      [Math.PI, colors.rod, "S"],
+    for (const {turn, color, name} of [
+      {turn: 0, color: colors.joint2, name: "N"},
+      {turn: Math.PI, color: colors.rod, name: "S"},
     ]) {
       polygon(
         g,
@@ -556,16 +599,19 @@ function drawMotor(g, w, h, size, {poles, teeth, space}, motor, theta, sent, say
   );
 }
 
+/**
+ * @param {Context} g
+ * @param {Round} at
+ * @param {number} angle
+ * @param {number} long
+ */
 function arrow(g, at, angle, long) {
   const tip = at(angle, long),
     neck = at(angle, long - 0.07),
     [sx, sy] = at(angle + Math.PI / 2, 0.05),
     [cx, cy] = at(0, 0);
-  for (const [color, width] of [
-    [colors.paper, 8],
-    [colors.accent, 4],
-  ])
-    stroke(g, [[cx, cy], neck], color, width);
+  stroke(g, [[cx, cy], neck], colors.paper, 8);
+  stroke(g, [[cx, cy], neck], colors.accent, 4);
   polygon(
     g,
     [tip, [neck[0] + sx - cx, neck[1] + sy - cy], [neck[0] - sx + cx, neck[1] - sy + cy]],
@@ -575,7 +621,15 @@ function arrow(g, at, angle, long) {
   );
 }
 
-// Words on a coloured ground that is the same, light, in both themes.
+/**
+ * Words on a coloured ground that is the same, light, in both themes.
+ * @param {Context} g
+ * @param {string} text
+ * @param {number} x
+ * @param {number} y
+ * @param {string} color
+ * @param {boolean} strong
+ */
 function plainWords(g, text, x, y, color, strong) {
   g.font = `${strong ? "700" : "400"} 12px system-ui, sans-serif`;
   g.textAlign = "center";
@@ -583,8 +637,15 @@ function plainWords(g, text, x, y, color, strong) {
   g.fillText(text, x, y);
 }
 
-// Steps over time: what was sent as a staircase, what the rotor made as a line, and where the clock
-// is.
+/**
+ * Steps over time: what was sent as a staircase, what the rotor made as a line, and where the clock
+ * is.
+ * @param {HTMLCanvasElement} canvas
+ * @param {PageMotors["words"]} says
+ * @param {Run} run
+ * @param {Motor} motor
+ * @param {?number} clock
+ */
 function drawCurve(canvas, says, {t, angle, sent}, motor, clock) {
   const ready = prepared(canvas);
   if (!ready) return;
@@ -597,10 +658,12 @@ function drawCurve(canvas, says, {t, angle, sent}, motor, clock) {
   const made = angle.map(a => (a - angle[0]) / step),
     low = Math.min(0, ...sent, ...made),
     high = Math.max(1, ...sent, ...made);
-  const x = time => left + ((right - left) * time) / t.at(-1),
-    y = value => bottom - ((bottom - top) * (value - low)) / (high - low);
+  /** @type {(time: number) => number} */
+  const x = time => left + ((right - left) * time) / lastOf(t);
+  /** @type {(value: number) => number} */
+  const y = value => bottom - ((bottom - top) * (value - low)) / (high - low);
   words(g, says.curveTitle, 6, 14, colors.ink, 12, "left", "600");
-  const marked = [sent.at(-1), 0, low, high].map(Math.round);
+  const marked = [lastOf(sent), 0, low, high].map(Math.round);
   for (const value of marked.filter((v, i) =>
     marked.slice(0, i).every(other => Math.abs(y(v) - y(other)) > 12),
   )) {
@@ -637,11 +700,12 @@ function drawCurve(canvas, says, {t, angle, sent}, motor, clock) {
     colors.accent,
     2,
   );
-  const ends = [y(sent.at(-1)), y(made.at(-1))],
-    apart = Math.abs(ends[0] - ends[1]) < 13;
+  /** @type {[number, number]} */
+  const ends = [y(lastOf(sent)), y(lastOf(made))];
+  const apart = Math.abs(ends[0] - ends[1]) < 13;
   words(g, says.sent, right + 4, ends[0] + (apart ? -2 : 4), colors.soft, 11);
   words(g, says.made, right + 4, ends[1] + (apart ? 11 : 4), colors.accent, 11);
-  const lost = Math.round(Math.abs(sent.at(-1) - made.at(-1)));
+  const lost = Math.round(Math.abs(lastOf(sent) - lastOf(made)));
   if (lost) {
     upright(g, right - 6, ...ends, colors.alarm, 1.6);
     words(
@@ -656,7 +720,7 @@ function drawCurve(canvas, says, {t, angle, sent}, motor, clock) {
     );
   }
   words(g, "0", left, bottom + 14, colors.soft, 11, "center");
-  words(g, number(1000 * t.at(-1), 0), right, bottom + 14, colors.soft, 11, "center");
+  words(g, number(1000 * lastOf(t), 0), right, bottom + 14, colors.soft, 11, "center");
   words(g, says.curveTime, (left + right) / 2, bottom + 26, colors.soft, 11, "center");
   if (clock !== null) upright(g, x(clock), top, bottom, colors.ink, 1.2);
 }

@@ -217,8 +217,8 @@ export interface PageExplorer {
   via?: PagePose;
   goal?: PagePose;
   start_values?: StartValues;
-  laws?: string[];
-  corners?: string[];
+  laws?: ("quintic" | "trapezoidal" | "linear")[];
+  corners?: ("parabola" | "quintic")[];
   panels?: string[];
   samples?: number;
   task?: BranchTask;
@@ -360,4 +360,70 @@ export interface PageMotor {
   heads: string[];
   currents: Record<string, number[][]>;
   printed: Record<string, string[][]>;
+}
+
+export interface MotorKind {
+  rotor: string;
+  motor: string;
+  name: string;
+  motors: PageMotor[];
+}
+
+export interface MotorDrive {
+  key: string;
+  name: string;
+}
+
+export interface MotorNumbers {
+  torque: number;
+  inertia: number;
+  damping: number;
+  rise: number;
+}
+
+export interface MotorRules {
+  fine: number[];
+  settled: number;
+  slowest: number;
+  limit: number;
+  nearly: number;
+}
+
+export interface MotorControl {
+  name: string;
+  unit: string;
+  low: number;
+  high: number;
+  step: number;
+  decimals: number;
+  key: "end" | "load" | "inertia" | "start" | "ramp";
+  size: number;
+}
+
+export interface MotorValues {
+  kind: number;
+  motor: number;
+  drive: number;
+  end: number;
+  load: number;
+  inertia: number;
+  start: number;
+  ramp: number;
+}
+
+export interface PageMotors {
+  kind: string;
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  words: Record<string, string>;
+  pulses: number;
+  rules: MotorRules;
+  own: MotorNumbers;
+  kinds: MotorKind[];
+  drives: MotorDrive[];
+  opening: MotorValues;
+  controls: MotorControl[];
+  code: string;
 }

@@ -1,6 +1,6 @@
 // The player: recorded motions of arms in space beside their curves. page.py says what it gets.
 
-import {frames, origin} from "./kinematics.js";
+import {fk, origin} from "./kinematics.js";
 import {number, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
@@ -9,13 +9,27 @@ import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
 import {clockRow, runningClock} from "./clock.js";
 import {choice, element, range, waiting} from "./elements.js";
 
-/** Fills every waiting place with this id. */
+/** @import {Page, PageArm, PageScene, Unit} from "./page.js" */
+/** @import {Clock} from "./clock.js" */
+/** @import {Point} from "./canvas.js" */
+/** @import {Column, CurvesView, Panel} from "./curves.js" */
+/** @import {Recording} from "./recordings.js" */
+
+/** @typedef {ReturnType<typeof furniture>} Parts */
+/** @typedef {ReturnType<typeof armIn>} Track  an arm in one motion */
+/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the way to the next */
+
+/**
+ * Fills every waiting place with this id.
+ * @param {string} id
+ * @param {Page} data
+ */
 export const play = (id, data) => waiting(id).forEach(root => start(root, data));
 
 /**
  * A player in `root`.
  * @param {HTMLElement} root
- * @param {object} data  page.py: Page
+ * @param {Page} data
  */
 function start(root, data) {
   const scene = {...data.scene, unit: data.unit},
@@ -24,7 +38,7 @@ function start(root, data) {
     overTime = curvesView(parts.curves, data.dashes);
   const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
   const motions = motionsOf(data);
-  let shown;
+  let shown = motions.choose(0);
 
   function choose() {
     shown = motions.choose(
@@ -32,6 +46,7 @@ function start(root, data) {
     );
     tell(parts, data, shown, state.value);
   }
+  /** @param {number} now */
   function draw(now) {
     clock.pass(now);
     sized(parts, inSpace, data.arms.length, scene.bases ? 1 : data.arms.length);
@@ -51,27 +66,33 @@ function start(root, data) {
     parts,
     parts.frame,
     state,
-    () => [data.times[0], data.times.at(-1)],
+    () => [data.times[0], data.times[data.times.length - 1]],
     ask,
   );
-  parts.slider?.addEventListener("input", () => {
-    state.value = +parts.slider.value;
+  const {slider, menu} = parts;
+  slider?.addEventListener("input", () => {
+    state.value = +slider.value;
     choose();
     ask();
   });
-  parts.menu?.addEventListener("change", () => {
-    state.choice = +parts.menu.value;
+  menu?.addEventListener("change", () => {
+    state.choice = +menu.value;
     choose();
     ask();
   });
   orbit(parts.scene, scene, state, ask);
   scrubbing(parts.curves, overTime, clock);
-  choose();
+  tell(parts, data, shown, state.value);
 }
 
 // --- What is on the page -------------------------------------------------------------------------
 
+/**
+ * @param {Page} data
+ * @param {PageScene} scene
+ */
 function furniture(data, scene) {
+  const {slider, switch: menu} = data;
   const parts = {
     scene: sceneCanvas(scene, data.alt),
     curves: element("canvas", {
@@ -84,21 +105,17 @@ function furniture(data, scene) {
     ...clockRow(),
     table: element("div", {class: "rk-table"}),
     notes: element("ul", {class: "rk-notes"}),
+    slider: slider && range(slider.label, slider.values.length - 1),
+    value: element("span", {class: "rk-value"}),
+    menu: menu && choice(menu.label, menu.values),
   };
   // above the pictures: on a small screen the hand and what it moves are seen together
   const rows = [parts.row];
-  const {slider, switch: menu} = data;
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
-  if (slider) {
-    parts.slider = range(slider.label, slider.values.length - 1);
-    parts.value = element("span", {class: "rk-value"});
+  if (slider && parts.slider)
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
-  }
-  if (menu)
-    rows[0].append(
-      element("label", {}, menu.label, (parts.menu = choice(menu.label, menu.values))),
-    );
-  parts.frame = element(
+  if (menu && parts.menu) rows[0].append(element("label", {}, menu.label, parts.menu));
+  const frame = element(
     "div",
     {class: "rk", role: "group", "aria-label": data.title},
     element("style", {}, STYLE),
@@ -113,11 +130,16 @@ function furniture(data, scene) {
     parts.table,
     parts.notes,
   );
-  return parts;
+  return {...parts, frame};
 }
 
-// A canvas that has the whole width takes the height that its arms fill: so many have curves, so
-// many pictures are there.
+/**
+ * A canvas that has the whole width takes the height that its arms fill.
+ * @param {Pick<Parts, "scene" | "curves">} parts
+ * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
+ * @param {number} arms  so many have curves
+ * @param {number} count  so many pictures are there
+ */
 function sized({scene, curves}, inSpace, arms, count) {
   const [, rows] = tiled(arms, curves.clientWidth),
     whole = scene.offsetTop !== curves.offsetTop;
@@ -132,13 +154,19 @@ function sized({scene, curves}, inSpace, arms, count) {
   scene.style.height = `${Math.round(Math.min(most, filled))}px`;
 }
 
-// The numbers of a motion, as a table and in words.
+/**
+ * The numbers of a motion, as a table and in words.
+ * @param {Parts} parts
+ * @param {Page} data
+ * @param {{arms: Track[], motion: number}} shown
+ * @param {number} value  of the slider
+ */
 function tell(parts, data, {arms, motion}, value) {
-  const {slider, unit} = data,
-    whose = arm => (data.arms.length > 1 ? `${arm.name}: ` : "");
+  const {slider, unit} = data;
+  /** @type {(arm: {name: string}) => string} */
+  const whose = arm => (data.arms.length > 1 ? `${arm.name}: ` : "");
   const near = arms
-    .filter(arm => arm.near)
-    .map(arm => `${whose(arm)}path passes via at ${arm.near.text}`)
+    .flatMap(arm => (arm.near ? [`${whose(arm)}path passes via at ${arm.near.text}`] : []))
     .join("; ");
   const most = Math.max(...data.arms.map(arm => arm.chain.length));
   const head = element(
@@ -149,7 +177,14 @@ function tell(parts, data, {arms, motion}, value) {
   );
   const body = data.arms.flatMap(arm => {
     const units = [...new Set(arm.chain.map(link => (link.prismatic ? unit.name : "\u00B0")))];
+    /** @type {(time: string) => string} */
     const per = time => units.map(u => `${u}/${time}`).join(" or ");
+    /**
+     * @param {string} name
+     * @param {string} time
+     * @param {boolean} limited
+     * @param {(j: number) => HTMLElement} cell
+     */
     const line = (name, time, limited, cell) =>
       element(
         "tr",
@@ -162,7 +197,7 @@ function tell(parts, data, {arms, motion}, value) {
         ...arm.chain.map((_, j) => cell(j)),
       );
     return [
-      line("greatest speed", "s", arm.share, j =>
+      line("greatest speed", "s", !!arm.share, j =>
         element(
           "td",
           {},
@@ -170,11 +205,12 @@ function tell(parts, data, {arms, motion}, value) {
             (arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : ""),
         ),
       ),
-      line("greatest acceleration", "s\u00B2", false, j =>
-        typeof arm.acceleration[motion][j] === "string"
-          ? element("td", {class: "rk-jump"}, arm.acceleration[motion][j])
-          : element("td", {}, number(arm.acceleration[motion][j], data.decimals[1])),
-      ),
+      line("greatest acceleration", "s\u00B2", false, j => {
+        const most = arm.acceleration[motion][j];
+        return typeof most === "string"
+          ? element("td", {class: "rk-jump"}, most)
+          : element("td", {}, number(most, data.decimals[1]));
+      }),
     ];
   });
   parts.table.replaceChildren(
@@ -187,13 +223,16 @@ function tell(parts, data, {arms, motion}, value) {
   );
   if (!slider) return;
   parts.value.textContent = number(slider.values[value], slider.decimals);
-  parts.slider.setAttribute("aria-valuetext", parts.value.textContent);
+  parts.slider?.setAttribute("aria-valuetext", parts.value.textContent);
 }
 
 // --- Motions -------------------------------------------------------------------------------------
 
-// choose(motion): everything that changes with slider and switch; around(motion, moment): targets
-// and marks then.
+/**
+ * choose(motion): everything that changes with slider and switch; around(motion, moment): targets
+ * and marks then.
+ * @param {Page} data
+ */
 function motionsOf(data) {
   const {unit, slider, times} = data;
   const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
@@ -201,6 +240,7 @@ function motionsOf(data) {
   const targets = places(data.scene.targets, "pose"),
     marks = places(data.scene.marks, "at");
   return {
+    /** @param {number} motion */
     choose(motion) {
       const arms = data.arms.map((arm, k) => armIn(motion, arm, recordings[k], times.length, unit));
       const columns = data.arms.map((arm, k) => ({
@@ -211,6 +251,7 @@ function motionsOf(data) {
       }));
       return {motion, arms, columns};
     },
+    /** @type {(motion: number, moment: Moment) => Pick<PageScene, "targets" | "marks">} */
     around: (motion, {i, share}) => ({
       targets: targets(motion, i, share),
       marks: marks(motion, i, share),
@@ -218,6 +259,13 @@ function motionsOf(data) {
   };
 }
 
+/**
+ * @param {number} motion
+ * @param {PageArm} arm
+ * @param {Recording} recorded
+ * @param {number} samples
+ * @param {Unit} unit
+ */
 function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
   const breaks = new Set(gaps[motion]),
     near = via && via[motion];
@@ -228,6 +276,7 @@ function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
     gaps: breaks,
     places: trace,
     trace: broken(trace, breaks),
+    /** @type {(i: number, share: number) => number[]} */
     q: (i, share) => recorded.q(motion, i, share),
     near: near && {
       place: near.slice(1),
@@ -236,9 +285,20 @@ function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
   };
 }
 
-const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(frames(chain, q).at(-1)) : null);
+/** Where the tool is. @type {(chain: PageArm["chain"], q: number[]) => ?Point} */
+const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(fk(chain, q)) : null);
+/** @type {(places: (?Point)[], gaps: Set<number>) => (?Point)[]} */
 const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? [p, null] : [p]));
 
+/**
+ * @param {Page} data
+ * @param {number} k  which arm
+ * @param {number} order  0: joint values, 1: speeds, 2: accelerations
+ * @param {number} motion
+ * @param {Recording} recorded
+ * @param {Set<number>} gaps
+ * @returns {Panel}
+ */
 function panelOf(data, k, order, motion, recorded, gaps) {
   const {label, own, axes, near} = data.panels[order],
     arm = data.arms[k];
@@ -262,12 +322,13 @@ function panelOf(data, k, order, motion, recorded, gaps) {
       ...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
       ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""})),
     ],
+    now: [],
   };
 }
 
 // --- A moment ------------------------------------------------------------------------------------
 
-// The sample before a time, and the share of the way to the next.
+/** @type {(times: number[], time: number) => Moment} */
 function momentAt(times, time) {
   const last = times.length - 1;
   let i = 0;
@@ -276,7 +337,11 @@ function momentAt(times, time) {
   return {i, share: i < last ? (time - times[i]) / (times[i + 1] - times[i]) : 0};
 }
 
-// The arm as the scene draws it; where there is no posture, the last one before, faded.
+/**
+ * The arm as the scene draws it; where there is no posture, the last one before, faded.
+ * @param {Track} arm
+ * @param {Moment} moment
+ */
 function armAt(arm, {i, share}) {
   const gap = arm.gaps.has(i);
   let q = arm.q(i, gap ? 0 : share);
@@ -290,6 +355,11 @@ function armAt(arm, {i, share}) {
   };
 }
 
+/**
+ * @param {Column} column
+ * @param {Moment} moment
+ * @param {Set<number>} gaps
+ */
 function shownAt(column, {i, share}, gaps) {
   for (const panel of column.panels)
     panel.now = panel.curves.map(curve =>
@@ -299,17 +369,24 @@ function shownAt(column, {i, share}, gaps) {
 
 // --- Time ----------------------------------------------------------------------------------------
 
-// Pressing and dragging on the curves sets the time.
+/**
+ * Pressing and dragging on the curves sets the time.
+ * @param {HTMLCanvasElement} canvas
+ * @param {CurvesView} overTime
+ * @param {Clock} clock
+ */
 function scrubbing(canvas, overTime, clock) {
-  let held = null;
+  /** @type {number | undefined} */
+  let held;
+  /** @param {PointerEvent} event */
   const scrub = event => {
-    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, held ?? undefined);
+    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, held);
     held = column;
     clock.set(time);
   };
   canvas.addEventListener("pointerdown", event => {
     canvas.setPointerCapture(event.pointerId);
-    held = null;
+    held = undefined;
     scrub(event);
   });
   canvas.addEventListener("pointermove", event => {

@@ -2,6 +2,8 @@
 
 import {control, element, waiting} from "./elements.js";
 
+/** @import {PageAnswer, PageQuestion} from "./page.js" */
+
 const LETTERS = "abcdef";
 const STYLE = `
 .rk.rk.rk.rk-ask { box-sizing: border-box; max-width: 860px; padding: 10px 14px;
@@ -43,14 +45,18 @@ const STYLE = `
   @media print { & > .rk-asking > button { display: none; } }
 }`;
 
-/** Fills every waiting place with this id. */
+/**
+ * Fills every waiting place with this id.
+ * @param {string} id
+ * @param {PageQuestion} data
+ */
 export const ask = (id, data) =>
   waiting(id).forEach((root, copy) => start(root, data, `${id}-${copy}`));
 
 /**
  * A question in `root`.
  * @param {HTMLElement} root
- * @param {object} data  page.py: PageQuestion
+ * @param {PageQuestion} data
  * @param {string} group  a name for the answers that belong together
  */
 function start(root, data, group) {
@@ -77,6 +83,7 @@ function start(root, data, group) {
   const chosen = () =>
     (data.unit === null ? inputs.find(input => input.checked)?.value : inputs[0].value) ?? "";
 
+  /** @param {string} choice */
   function open(choice) {
     const at = judged(data, choice),
       right = data.options[data.right];
@@ -120,6 +127,7 @@ function start(root, data, group) {
     [guess.hidden, guess.disabled, again.hidden] = [false, true, true];
   }
 
+  /** @param {string} choice */
   const settle = choice => {
     open(choice);
     keep(data.name, choice);
@@ -135,7 +143,7 @@ function start(root, data, group) {
   root.addEventListener("keydown", event => {
     if (
       event.key !== "Enter" ||
-      event.target.tagName !== "INPUT" ||
+      /** @type {Element} */ (event.target).tagName !== "INPUT" ||
       !valid(data, chosen()) ||
       inputs[0].disabled
     )
@@ -163,19 +171,30 @@ function start(root, data, group) {
   if (before !== null && valid(data, before)) open(before);
 }
 
+/** @type {(data: PageQuestion, choice: string) => boolean} */
 const valid = (data, choice) =>
   data.unit === null
     ? choice !== "" && LETTERS.indexOf(choice) < data.options.length && LETTERS.includes(choice)
     : choice !== "" && Number.isFinite(+choice);
 
-// Which answer is meant: its number; of a typed number the answer that it is near to, the right one
-// first; -1: none.
+/**
+ * Which answer is meant: its number; of a typed number the answer that it is near to, the right one
+ * first; -1: none.
+ * @param {PageQuestion} data
+ * @param {string} choice
+ */
 function judged(data, choice) {
   if (data.unit === null) return LETTERS.indexOf(choice);
-  const near = ({value}) => Math.abs(+choice - value) <= data.within * Math.abs(value) + 1e-9;
+  /** @type {(answer: PageAnswer) => boolean} */
+  const near = ({value = NaN}) => Math.abs(+choice - value) <= data.within * Math.abs(value) + 1e-9;
   return near(data.options[data.right]) ? data.right : data.options.findIndex(near);
 }
 
+/**
+ * @param {PageQuestion} data
+ * @param {number} at  which answer was meant
+ * @param {PageAnswer} right
+ */
 function told(data, at, right) {
   const letter = data.unit === null ? `${LETTERS[data.right]}) ` : "";
   const text =
@@ -196,16 +215,23 @@ function told(data, at, right) {
   ].filter(text => text);
 }
 
-// Words between back-ticks are code.
+/** Words between back-ticks are code. @type {(text: string) => (string | HTMLElement)[]} */
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
+/** @type {(data: PageQuestion, choice: string) => string} */
 const line = (data, choice) =>
   `predict("${data.name}", ${data.unit === null ? `"${choice}"` : +choice})`;
 
-// Scripts of a player or an explorer run as soon as they are in the page.
+/**
+ * Scripts of a player or an explorer run as soon as they are in the page.
+ * @param {string} html
+ */
 const view = html => element("div", {}, document.createRange().createContextualFragment(html));
 
-// The browser may forbid it, or forget: then nothing is remembered.
+/**
+ * The browser may forbid it, or forget: then nothing is remembered.
+ * @type {(name: string, choice: string) => void}
+ */
 const keep = (name, choice) => {
   try {
     localStorage.setItem(`robokin ${name}`, choice);
@@ -213,6 +239,7 @@ const keep = (name, choice) => {
     /* forbidden */
   }
 };
+/** @type {(name: string) => ?string} */
 const kept = name => {
   try {
     return localStorage.getItem(`robokin ${name}`) || null;

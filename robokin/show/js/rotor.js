@@ -1,28 +1,45 @@
 // The rotor of a stepper motor, as jobs/steppers.py has it: the same law, the same steps of the
 // integration. test_motor_explorer.py holds the two together.
 
-/**
- * @typedef {object} Motor  motors.py: PageMotor, one of `kinds` with one of its drives
- * @property {number} turn  rad, from winding to winding in the ring
- * @property {number} periods  how often a pull comes round in one turn of the rotor
- * @property {number} sharp  1: a current pulls by its value, 2: by its square
- * @property {number[][]} currents  the rows of the phase table
- * @property {number} torque
- * @property {number} inertia
- * @property {number} damping
- * @property {number} rise
- * @property {number} load  N m, always backwards
- * @property {{fine: number[], settled: number, slowest: number, limit: number, nearly: number}}
- *   rules
- * @typedef {{theta: number, omega: number, currents: number[]}} State
- */
+/** @import {MotorNumbers, MotorRules, PageMotor} from "./page.js" */
 
-/** Direction and strength of what currents pull with, as x and y. */
+/**
+ * One of `kinds` of PageMotors with one of its drives.
+ *
+ * turn      rad, from winding to winding in the ring
+ * periods   how often a pull comes round in one turn of the rotor
+ * sharp     1: a current pulls by its value, 2: by its square
+ * currents  the rows of the phase table
+ * load      N m, always backwards
+ *
+ * @typedef {Pick<PageMotor, "turn" | "periods" | "sharp"> & MotorNumbers &
+ *   {currents: number[][], load: number, rules: MotorRules}} Motor
+ */
+/** @typedef {{theta: number, omega: number, currents: number[]}} State */
+/**
+ * What a run was like: rad, and pulses sent, at times in s; steps lost in the end.
+ * @typedef {{t: number[], angle: number[], sent: number[], lost: number}} Run
+ */
+/** @typedef {[x: number, y: number]} Pull  direction and strength */
+
+/**
+ * What currents pull with.
+ * @param {Motor} motor
+ * @param {number[]} currents
+ */
 export const pull = (motor, currents) => summed(currents, ...waysOf(motor), motor.sharp);
+/** @type {(motor: Motor) => [across: number[], along: number[]]} */
 const waysOf = ({turn, currents: [row]}) => [
   row.map((_, k) => Math.cos(turn * k)),
   row.map((_, k) => Math.sin(turn * k)),
 ];
+/**
+ * @param {number[]} currents
+ * @param {number[]} across
+ * @param {number[]} along
+ * @param {number} sharp
+ * @returns {Pull}
+ */
 function summed(currents, across, along, sharp) {
   let x = 0,
     y = 0;
@@ -34,14 +51,16 @@ function summed(currents, across, along, sharp) {
   return [x, y];
 }
 
+/** One step of the rotor, rad. @param {Motor} motor */
 export const stepOf = motor => (2 * Math.PI) / (motor.currents.length * motor.periods);
+/** @type {(pull: Pull) => number} */
 const strength = ([x, y]) => Math.sqrt(x * x + y * y);
+/** @type {(motor: Motor) => Pull[]} */
 const pulls = motor => motor.currents.map(row => pull(motor, row));
 
-/**
- * The greatest load that every row holds; the greatest that still goes from every row to the next.
- */
+/** The greatest load that every row holds. @param {Motor} motor */
 export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
+/** The greatest load that still goes from every row to the next. @param {Motor} motor */
 export function startingTorque(motor) {
   const all = pulls(motor);
   return (
@@ -57,7 +76,11 @@ export function startingTorque(motor) {
   );
 }
 
-/** Where the rotor rests in the row that `sent` pulses lead to, counted on from row 0; rad. */
+/**
+ * Where the rotor rests in the row that `sent` pulses lead to, counted on from row 0; rad.
+ * @param {Motor} motor
+ * @param {number} sent
+ */
 export function resting(motor, sent) {
   const all = pulls(motor),
     n = all.length,
@@ -69,6 +92,10 @@ export function resting(motor, sent) {
   return (Math.atan2(y, x) + ((2 * Math.PI) / n) * sent - bent) / motor.periods;
 }
 
+/**
+ * The longest step of the integration, and how long the rotor takes to rest.
+ * @param {Motor} motor
+ */
 function rhythm(motor) {
   const most = Math.max(...pulls(motor).map(strength));
   const swing = Math.sqrt(motor.inertia / (motor.periods * motor.torque * most)),
@@ -87,12 +114,18 @@ function rhythm(motor) {
   };
 }
 
-/** A rotor at rest in the row that `sent` pulses lead to. @returns {State} */
+/**
+ * A rotor at rest in the row that `sent` pulses lead to.
+ * @param {Motor} motor
+ * @param {number} sent
+ * @returns {State}
+ */
 export const atRest = (motor, sent) => ({
   theta: resting(motor, sent),
   omega: 0,
   currents: [...rowOf(motor, sent)],
 });
+/** @type {(motor: Motor, sent: number) => number[]} */
 const rowOf = ({currents}, sent) =>
   currents[((sent % currents.length) + currents.length) % currents.length];
 
@@ -113,11 +146,13 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
   const {periods, sharp, torque, inertia, damping, load, rise} = motor,
     h = seconds / count,
     {currents} = state;
-  const left = rise ? Math.exp(-h / 2 / rise) : 0,
-    now = i => summed(i, across, along, sharp);
+  const left = rise ? Math.exp(-h / 2 / rise) : 0;
+  /** @type {(i: number[]) => Pull} */
+  const now = i => summed(i, across, along, sharp);
   const nearer = () => {
     for (let k = 0; k < goal.length; k++) currents[k] = goal[k] + (currents[k] - goal[k]) * left;
   };
+  /** @type {(pull: Pull, theta: number, omega: number) => number} */
   const faster = ([x, y], theta, omega) => {
     const a = periods * theta;
     return (torque * (y * Math.cos(a) - x * Math.sin(a)) - (damping * omega + load)) / inertia;
@@ -145,7 +180,10 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
 
 /**
  * A run from rest in row 0: pulses of one sign at these times, and then to rest.
- * @returns {{t: number[], angle: number[], sent: number[], lost: number}}
+ * @param {Motor} motor
+ * @param {number[]} times
+ * @param {number} sign
+ * @returns {Run}
  */
 export function run(motor, times, sign) {
   const found = {t: [0], angle: [resting(motor, 0)], sent: [0]};
@@ -157,6 +195,12 @@ export function run(motor, times, sign) {
   return {...found, lost};
 }
 
+/**
+ * @param {Motor} motor
+ * @param {number[]} times
+ * @param {number} [sign]
+ * @param {?(time: number, state: State, sent: number) => void} [each]  told after each step
+ */
 function lostOf(motor, times, sign = 1, each = null) {
   const state = atRest(motor, 0),
     {longest, settle} = rhythm(motor),
@@ -175,11 +219,22 @@ function lostOf(motor, times, sign = 1, each = null) {
   return behind(motor, state, sign * times.length);
 }
 
-/** How many steps the rotor is behind what was sent. */
+/**
+ * How many steps the rotor is behind what was sent.
+ * @param {Motor} motor
+ * @param {Pick<State, "theta">} state
+ * @param {number} sent
+ */
 export const behind = (motor, state, sent) =>
   rounded((resting(motor, sent) - state.theta) / stepOf(motor));
 
-/** The times of pulses, as `ramp`. */
+/**
+ * The times of pulses, as `ramp`.
+ * @param {number} count
+ * @param {number} start  pulses per second
+ * @param {number} end  pulses per second
+ * @param {number} seconds  of the way from one to the other
+ */
 export function ramp(count, start, end, seconds) {
   const more = seconds > 0 ? (end - start) / seconds : 0,
     low = more ? start : end;
@@ -198,7 +253,11 @@ export function ramp(count, start, end, seconds) {
   });
 }
 
-/** As `Stepper.start_frequency`. */
+/**
+ * As `Stepper.start_frequency`.
+ * @param {Motor} motor
+ * @param {number} count
+ */
 export function startFrequency(motor, count) {
   const {slowest, limit} = motor.rules;
   let low = slowest - 1,
@@ -211,4 +270,5 @@ export function startFrequency(motor, count) {
   return low < slowest ? 0 : low;
 }
 
-const rounded = x => Math.round(x) || 0; // no minus zero
+/** Without a minus zero. @type {(x: number) => number} */
+const rounded = x => Math.round(x) || 0;
