@@ -69,8 +69,10 @@ def modules(tmp_path, monkeypatch):
     def write(**texts):
         for name, text in texts.items():
             (tmp_path / "js" / f"{name}.js").write_text(text)
+        joiner.script.cache_clear()
 
-    return write
+    yield write
+    joiner.script.cache_clear()
 
 
 def run(script, ending):

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib.resources import files
 
 from .._validate import short
@@ -18,6 +19,7 @@ NO_VALUES = {"return", "typeof", "case", "in", "delete", "void", "throw", "else"
 NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # else two tokens would become another one
 
 
+@cache  # a lab has twenty outputs
 def script(name: str) -> str:
     """The module `name` of the folder js and all that it imports, each once and in its own scope,
     as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
@@ -45,11 +47,12 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
     for token, at in _tokens(text, name):
         if at < end:  # a part of an import
             continue
-        begins, place = before in (";", "}"), _place(text, at, name)
+        begins = before in (";", "}")
         if begins and token == "export":
             found = EXPORT.match(text, at)
             if not found:
                 wrong = short(text[at:].splitlines()[0])
+                place = _place(text, at, name)
                 raise ValueError(f"{place}: wanted an export of one name, got {wrong}")
             exports.append(found[2])
             continue
@@ -60,10 +63,10 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
                 wrong, ends, _ = text[at:].partition(";")
                 if not ends:
                     raise ValueError(f"{_place(text, len(text), name)}: an import does not end")
-                wrong = short(" ".join(wrong.split()))
+                wrong, place = short(" ".join(wrong.split())), _place(text, at, name)
                 raise ValueError(f"{place}: wanted an import of names, got {wrong}")
             if found[2] not in modules:
-                _add(modules, found[2], (*importers, name), place)
+                _add(modules, found[2], (*importers, name), _place(text, at, name))
             token, end = f"const{{{''.join(found[1].split())}}}=${found[2]};", found.end()
         pieces.append((token, gap))
         before = token[-1]
