@@ -275,8 +275,9 @@ def pytest_xdist_auto_num_workers(config):
     return (cores or 1) + 1
 
 
-CORE = """arm branches derivatives dexterity elbow errata_s1 geometry laws oracle_irb140 paths planar
-quaternion read_only recording scara spherical_wrist transform turning two_link wrong_input""".split()
+CORE = """arm branches derivatives dexterity elbow errata_s1 geometry laws oracle_irb140 paths
+planar quaternion read_only recording scara spherical_wrist transform turning two_link
+wrong_input""".split()
 
 
 def pytest_collection_modifyitems(items):
