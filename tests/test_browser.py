@@ -398,8 +398,14 @@ def _answers(page, player):
         before, words = _seen(player), player.inner_text()
         for _ in range(5):
             held.press("Shift+ArrowRight")
-        page.evaluate(NEXT_FRAME)
-        assert _seen(player).pixels != before.pixels and player.inner_text() != words
+        until(
+            lambda before=before, words=words: (
+                _seen(player).pixels != before.pixels and player.inner_text() != words
+            ),
+            10,
+            "an explorer does not answer",
+            page,
+        )
 
 
 def _plays(page, player):

@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 import pytest
 from conftest import NOTEBOOKS, ROOT
 
+from robokin.course.__main__ import main
 from robokin.course.export import export, mathml
 
 PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
@@ -111,18 +112,18 @@ def test_the_command_names_a_bad_file_and_writes_the_others(tmp_path):
     assert "00_start_here.html" in run.stdout and " kB" in run.stdout
 
 
-def test_nothing_of_yours_is_overwritten(tmp_path):
+def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
     mine = tmp_path / "00_start_here.html"
     mine.write_text("mine")
-    run = command(START, cwd=tmp_path)
-    assert run.returncode == 1 and "nothing is overwritten" in run.stderr
-    inside = command(START, "--to", mine, cwd=tmp_path)
-    assert inside.returncode == 1 and mine.name in inside.stderr, "a file is no folder"
-    assert "Traceback" not in inside.stderr and mine.read_text() == "mine"
+    assert main(["export", str(START)]) == 1
+    assert "nothing is overwritten" in capsys.readouterr().err
+    assert main(["export", str(START), "--to", str(mine)]) == 1, "a file is no folder"
+    assert mine.name in capsys.readouterr().err and mine.read_text() == "mine"
     mine.unlink()
-    assert command(START, cwd=tmp_path).returncode == 0
+    assert main(["export", str(START)]) == 0
     first = mine.read_bytes()
-    assert command(START, cwd=tmp_path).returncode == 0, "a page of ours is made anew"
+    assert main(["export", str(START)]) == 0, "a page of ours is made anew"
     assert mine.read_bytes() == first
 
 
