@@ -12,7 +12,8 @@ from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
 from robokin.show import twin
 
 FOLDER = ROOT / "robokin" / "show" / "js"
-SCRIPTS = sorted(FOLDER.glob("*.js"))
+SITE = ROOT / "robokin" / "course" / "site" / "static"
+SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
 
 
 def run(name, *arguments):
@@ -26,7 +27,7 @@ def run(name, *arguments):
 
 
 def test_prettier_changes_nothing():
-    said = run("prettier", "--check", FOLDER)
+    said = run("prettier", "--check", FOLDER, SITE / "site.js")
     assert not said, f"{said}\nRun: python tests/javascript.py prettier --write robokin/show/js"
 
 
