@@ -270,6 +270,16 @@ def test_a_point_off_the_plane_is_not_reached():
     ).all() and "beside the plane" in ARM.out_of_reach((1.5, 1, 0.1))
 
 
+def test_the_words_and_the_postures_end_at_the_same_height():
+    """The highest z that is taken for z = 0, found by halving: at it and at the next number."""
+    low, high = 0.0, 0.1
+    while low < (middle := (low + high) / 2) < high:
+        taken = not np.isnan(ARM.family((1.5, 1, middle), 2.0)).any()
+        low, high = (middle, high) if taken else (low, middle)
+    assert 0 < low < 1e-9 and high == np.nextafter(low, 1)
+    assert ARM.out_of_reach((1.5, 1, low)) == "" != ARM.out_of_reach((1.5, 1, high))
+
+
 def _pairs(points):
     return np.stack([points.real, points.imag], axis=-1)
 

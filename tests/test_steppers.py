@@ -651,6 +651,7 @@ def test_four_times_the_inertia_is_half_the_tempo():
         assert two.t == pytest.approx(2 * one.t) and two.lost == one.lost
         assert two.angle == pytest.approx(one.angle, abs=1e-6)
     assert one.lost
+    assert one in [one] and one != replace(one)  # arrays in a `==` would have two answers
 
 
 def test_the_other_way_is_the_mirror_image():

@@ -6,7 +6,6 @@ A report is a file that its author can edit, like any other. Who has to be sure 
 """
 
 import html
-import json
 import re
 import unicodedata
 from dataclasses import asdict
@@ -23,10 +22,9 @@ from .book import lab
 from .export import page
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Judged, Limits, judge
+from .reported import DATA, report_data
 from .variants import normalised, variant
 
-DATA = '<script type="application/json" id="robokin-report">'
-STATES = ("holds", "does not hold", "unanswered", "failed", "not judged")
 # a page that fetches nothing, whatever a notebook would like to fetch
 ALONE = (
     '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
@@ -124,30 +122,6 @@ def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
         return _page(title, data, notebook, folder)
 
 
-def report_data(text: str) -> dict[str, Any] | None:
-    """What the page of a report says; None: it is no report. ValueError: it is a broken one."""
-    start = text.find(DATA)
-    if start < 0:
-        return None
-    try:
-        data, _ = json.JSONDecoder().raw_decode(text, start + len(DATA))
-        good = (
-            data["report"] == 1
-            and all(isinstance(data[n], str) for n in ("who", "title", "file", "numbers"))
-            and datetime.fromisoformat(data["made"]).tzinfo is not None
-            and (data["lab"] is None or lab(data["lab"]))
-            and all(map(_is_exercise, data["exercises"]))
-            and all(map(_is_prediction, data["predictions"]))
-            and all(isinstance(remark, str) for remark in data["remarks"])
-        )
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise ValueError(f"a report that cannot be read: {type(error).__name__}: {error}") from None
-    if not good:
-        raise ValueError("a report that cannot be read: its data are not what a report has")
-    found: dict[str, Any] = data
-    return found
-
-
 def safe(text: str) -> str:
     """Words as a part of a file's name on any system: letters of all scripts, digits and - stay."""
     text = unicodedata.normalize("NFC", text)
@@ -168,26 +142,6 @@ def _refuse_to_overwrite(to: Path, given: HandedIn, who: str) -> None:
         data = None
     if data is None or normalised(data["who"]) != normalised(who) or data["lab"] != given.lab:
         raise ValueError(f"{to} exists and is not this report; nothing is overwritten")
-
-
-def _is_exercise(each: dict[str, Any]) -> bool:
-    return (
-        all(isinstance(each[n], str) for n in ("id", "task"))
-        and each["state"] in STATES
-        and isinstance(each["objective"], int)
-        and isinstance(each["points"], (int, float))
-        and 0 <= each["points"] <= 1
-        and all(each[n] is None or isinstance(each[n], str) for n in ("mistake", "case"))
-        and all(isinstance(line, str) for line in each["says"])
-    )
-
-
-def _is_prediction(each: dict[str, Any]) -> bool:
-    return (
-        isinstance(each["id"], str)
-        and each["right"] in (None, True, False)
-        and all(each[n] is None or isinstance(each[n], str) for n in ("choice", "confusion"))
-    )
 
 
 # --- The page -------------------------------------------------------------------------------------

@@ -26,7 +26,8 @@ from ..show.palette import ALARM
 from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
-from .report import GREEN, INK, LINE, SOFT, objectives, report_data, told
+from .report import GREEN, INK, LINE, SOFT, objectives, told
+from .reported import report_data
 from .variants import normalised
 
 FIRST = ["who", "lab", "file", "date"]  # the columns by which a table of ours is known
