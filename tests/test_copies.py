@@ -826,6 +826,39 @@ def test_a_full_disk_is_said_and_mended_later(school, capsys):
     assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
 
 
+def test_a_disk_that_fills_up_tells_what_was_laid(school, monkeypatch):
+    """Whichever file is the last that it takes: what is told lies there, and nothing else does."""
+    write, names = copies._write, ("new.ipynb", "one.ipynb", "two.ipynb")
+    for name in names:
+        school.newer(name, "second")
+    told = []
+    for room in range(6):
+        left = iter(range(room))
+
+        def full(path, content, left=left):
+            if next(left, None) is None:
+                raise OSError(28, "No space left on device")
+            write(path, content)
+
+        folder = school.folder.with_name(f"student{room}")
+        with monkeypatch.context() as patched:
+            patched.setattr(copies, "_write", full)
+            try:
+                done = {each.path: each.what for each in copies.copy(folder, school.labs)}
+            except OSError as error:
+                assert room == 0 and error.errno == 28
+                done = {}
+        laid = {path for path, what in done.items() if what == "new"}
+        there = {p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()}
+        assert {path for path in there if not path.startswith(".robokin/")} == laid
+        assert ("failed" in done.values()) == (0 < room) and not list(folder.rglob("new"))
+        told.append(len(laid))
+        again = {each.path: each.what for each in copies.copy(folder, school.labs)}
+        assert {path for path, what in again.items() if what == "new"} >= set(names) - laid
+        assert "failed" not in again.values()
+    assert told == sorted(told) and told[-1] > told[1]
+
+
 def test_a_broken_lab_is_named_and_the_others_are_laid(school, capsys):
     before = (school.folder / "one.ipynb").read_bytes()
     (school.labs / "one.ipynb").write_text("{}")

@@ -28,7 +28,7 @@ from robokin import (
     record,
     spbu_arm,
 )
-from robokin.show import animate, plot_joints
+from robokin.show import animate, joint_explorer, motor_explorer, plot_joints
 from robokin.show.camera import arm_points, project
 from robokin.show.joiner import script
 from robokin.show.page import STILL
@@ -1253,6 +1253,16 @@ def test_the_still_picture_says_how_to_set_it_moving(page, browser, blended, tmp
     still.goto((tmp_path / "player.html").as_uri())
     assert still.get_by_text(STILL).is_visible()
     context.close()
+
+
+def test_a_page_that_cannot_draw_keeps_the_still_picture(page, blended, tmp_path):
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    for output in (blended, joint_explorer(IRB140), motor_explorer()):
+        output.save(tmp_path / "still.html")
+        page.goto((tmp_path / "still.html").as_uri())
+        page.wait_for_timeout(100)
+        assert page.get_by_text(STILL).is_visible() and page.locator("img").is_visible()
+        assert page.locator("canvas").count() == 0
 
 
 def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):

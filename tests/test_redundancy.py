@@ -209,5 +209,8 @@ def test_wrong_races_are_named():
             race(all_of_them, ARMS["equal"], *wrong)
     with pytest.raises(ValueError, match=r"methods: wanted names and functions, got 3"):
         race(3, ARMS["equal"], K, before[0])
+    dice = random_choice(5)
+    with pytest.raises(ValueError, match="methods: wanted each function once, got {'one'"):
+        race({"one": dice, "two": dice}, ARMS["equal"], K, before[0])
     with pytest.warns(UserWarning, match="were degrees meant"):
         pseudo_inverse(ARMS["equal"], K[0], before[0] / deg)

@@ -20,6 +20,7 @@ from test_browser import NEXT_FRAME, PLAYER, _opens, _seen
 from test_export import FETCHED, formulas
 
 from robokin.course import site as making
+from robokin.course.__main__ import main
 
 PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
 NAMES = [path.relative_to(NOTEBOOKS).with_suffix("").as_posix() for path in PATHS]
@@ -318,6 +319,33 @@ def test_who_cannot_see_it_can_use_it(page, address, name):
 
 
 # --- The command ----------------------------------------------------------------------------------
+
+
+def test_the_notes_for_teachers_can_be_left_out(tmp_path, monkeypatch):
+    notebooks = [path for path in PATHS if path.name != "teaching.ipynb"]
+    assert len(notebooks) == len(PATHS) - 1
+    source = tmp_path / "source"
+    making._gather(NOTEBOOKS, notebooks, source)
+    words = (source / "index.md").read_text()
+    assert "documents/glossary" in words and "You teach" in words
+    for file in source.rglob("*.ipynb"):
+        words += file.read_text(encoding="utf-8")
+    assert "teaching.ipynb" not in words and "documents/teaching" not in words
+    asked = []
+    monkeypatch.setattr(making, "build", lambda *given: asked.append(given) or "")
+    for more in ([], ["--no-teaching"]):
+        assert main(["site", str(tmp_path), *more]) == 0
+    assert asked == [(tmp_path, True), (tmp_path, False)]
+
+
+def test_the_answers_of_the_oral_questions_are_folded(page, address):
+    page.goto(f"{address}/documents/teaching.html")
+    answers = page.locator("details", has=page.get_by_text("Answer", exact=True))
+    assert answers.count() == len(LABS) - 1  # lab 00 has no oral question
+    first = answers.first.locator("p").first
+    assert not first.is_visible()
+    answers.first.locator("summary").click()
+    assert first.is_visible()
 
 
 def test_what_is_yours_stays(tmp_path):

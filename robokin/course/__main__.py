@@ -85,6 +85,12 @@ def _parser() -> argparse.ArgumentParser:
         extra="site",
     )
     site.add_argument("folder", metavar="FOLDER", type=Path, help="a new one, or a site's")
+    site.add_argument(
+        "--no-teaching",
+        dest="teaching",
+        action="store_false",
+        help="without the notes for teachers, which have the answers of the oral questions",
+    )
     return parser
 
 
@@ -160,7 +166,7 @@ def _site(given: Any) -> int:
 
     print("The site is being made; this takes half a minute.", flush=True)
     try:
-        complaints = build(given.folder)
+        complaints = build(given.folder, given.teaching)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1

@@ -60,8 +60,8 @@ def copy(
     """Hand out the labs of `source` (None: of the clone that robokin is installed from) into
     `folder`, which is made if it is not there.
 
-    ValueError: no labs, no folder, one inside the other, another copy at work. OSError: no rights.
-    What fails for one file is an `Outcome`.
+    ValueError: no labs, no folder, one inside the other, another copy at work. OSError: no rights,
+    a full disk; then nothing is laid. What fails for one file is an `Outcome`.
     """
     labs = Path(source) if source is not None else Path(__file__).parents[2] / "notebooks"
     given = {
@@ -155,7 +155,10 @@ class _Folder:
             for job in jobs:
                 self._do(job)
         finally:
-            self._remember()
+            try:
+                self._remember()
+            except OSError as error:  # the next copy finds out what lies there
+                self._say(".robokin/manifest.json", "failed", _reason(error))
         return self.outcomes
 
     def _plan(self, path: str, content: bytes, labs: Iterable[str]) -> _Job:

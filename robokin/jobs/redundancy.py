@@ -60,6 +60,8 @@ def race(
         raise ValueError(f"targets and start: wanted shapes (n, 2) and (3,), got {got}")
     if not isinstance(methods, Mapping) or not all(map(callable, methods.values())):
         raise ValueError(f"methods: wanted names and functions, got {short(methods)}")
+    if len(set(map(id, methods.values()))) < len(methods):  # its dice would go on, not begin anew
+        raise ValueError(f"methods: wanted each function once, got {short(methods)}")
     runs = {}
     for name, method in methods.items():
         stand, seconds = start, 0.0

@@ -20,11 +20,14 @@ from tempfile import TemporaryDirectory
 import robokin
 
 HERE = Path(__file__).parent
+TEACHING = "teaching.ipynb"
+NOTES = "documents/teaching"  # in a line of index.md that goes with them
 MARK = ".robokin-site"  # a file in the site's folder: the names of all that were written there
 
 
-def build(folder: Path) -> str:
-    """Write the site into `folder`; what Sphinx had to complain of, if anything.
+def build(folder: Path, teaching: bool = True) -> str:
+    """Write the site into `folder`, with the notes for teachers or without; what Sphinx had to
+    complain of, if anything.
 
     ValueError: a robokin without labs or without Sphinx, labs of which Sphinx makes no site,
     something of yours in the way; then nothing is written.
@@ -39,9 +42,10 @@ def build(folder: Path) -> str:
     with TemporaryDirectory() as scratch:
         source = Path(scratch).resolve() / "source"
         made = source.with_name("made")
-        _gather(labs, source)
+        notebooks = [path for path in _notebooks(labs) if teaching or path.name != TEACHING]
+        _gather(labs, notebooks, source)
         complaints = _run(source, made)
-        for notebook in _notebooks(labs):  # to download, beside its page
+        for notebook in notebooks:  # to download, beside its page
             shutil.copyfile(notebook, made / notebook.relative_to(labs))
         _put(made, folder)
     return complaints
@@ -59,18 +63,22 @@ def _notebooks(labs: Path) -> list[Path]:
     return [*labs.glob("*.ipynb"), *labs.glob("documents/*.ipynb")]
 
 
-def _gather(labs: Path, source: Path) -> None:
+def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
     """The files beside this one; the notebooks, and a list of the labs; an arm for the first page;
-    a page for each module.
+    a page for each module. Where the notes for teachers are left out, the first page does not name
+    them.
     """
     from ...show import target_explorer
 
     shutil.copytree(HERE, source, ignore=shutil.ignore_patterns("__*"))
-    for notebook in _notebooks(labs):
+    for notebook in notebooks:
         copy = source / notebook.relative_to(labs)
         copy.parent.mkdir(exist_ok=True)
         shutil.copyfile(notebook, copy)
     _write(source / "labs.txt", "\n".join(map(_entry, sorted(labs.glob("*.ipynb")))))
+    if not any(path.name == TEACHING for path in notebooks):
+        first = (HERE / "index.md").read_text(encoding="utf-8")
+        _write(source / "index.md", "".join(re.split(rf".*{NOTES}.*\n", first)))
     _write(source / "arm.html", target_explorer(robokin.IRB140).html)
     names = _modules()
     for name in names:

@@ -96,6 +96,16 @@ export function prepared(canvas) {
 }
 
 /**
+ * Puts a frame into the place of the still picture, unless one of its canvases cannot be drawn on.
+ * @param {HTMLElement} root
+ * @param {HTMLElement} frame
+ * @param {...HTMLCanvasElement} canvases
+ */
+export function replaceStill(root, frame, ...canvases) {
+  if (canvases.every(canvas => canvas.getContext("2d"))) root.replaceChildren(frame);
+}
+
+/**
  * A line through points; null or NaN interrupts it.
  * @param {Context} g
  * @param {(?Pixel)[]} points

@@ -3,7 +3,18 @@
 // is rotor.js.
 
 import {fill} from "./blanks.js";
-import {colors, number, polygon, prepared, shape, spot, stroke, upright, words} from "./canvas.js";
+import {
+  colors,
+  number,
+  polygon,
+  prepared,
+  replaceStill,
+  shape,
+  spot,
+  stroke,
+  upright,
+  words,
+} from "./canvas.js";
 import {pictures, STYLE} from "./controls.js";
 import {control, element, waiting} from "./elements.js";
 import {
@@ -274,48 +285,47 @@ function motorExplorer(root, data) {
     wake();
   }
 
-  root.replaceChildren(
+  const frame = element(
+    "div",
+    {class: "rk rk-motor", role: "group", "aria-label": data.title},
+    element("style", {}, STYLE + LOOK + MORE),
+    element("div", {class: "rk-title"}, data.title),
     element(
       "div",
-      {class: "rk rk-motor", role: "group", "aria-label": data.title},
-      element("style", {}, STYLE + LOOK + MORE),
-      element("div", {class: "rk-title"}, data.title),
+      {class: "rk-views rk-asked"},
       element(
         "div",
-        {class: "rk-views rk-asked"},
+        {},
+        element("div", {class: "rk-space"}, canvas, layer),
         element(
           "div",
-          {},
-          element("div", {class: "rk-space"}, canvas, layer),
-          element(
-            "div",
-            {class: "rk-row"},
-            button(says.back, pulse(-1)),
-            button(says.on, pulse(1)),
-            runs,
-            button(says.begin, begin),
-          ),
-          now,
+          {class: "rk-row"},
+          button(says.back, pulse(-1)),
+          button(says.on, pulse(1)),
+          runs,
+          button(says.begin, begin),
         ),
-        element(
-          "div",
-          {class: "rk-side"},
-          kinds.row,
-          ...counts.map(c => c.row),
-          drives.row,
-          ...sliders.map(s => s.row),
-          element("div", {class: "rk-row"}, back.row, copyButton(says, inCode)),
-          told,
-        ),
+        now,
       ),
       element(
         "div",
-        {class: "rk-below"},
-        element("div", {class: "rk-beside"}, lines, element("div", {}, curve, facts.node)),
+        {class: "rk-side"},
+        kinds.row,
+        ...counts.map(c => c.row),
+        drives.row,
+        ...sliders.map(s => s.row),
+        element("div", {class: "rk-row"}, back.row, copyButton(says, inCode)),
+        told,
       ),
-      element("p", {class: "rk-meant"}, data.meant),
     ),
+    element(
+      "div",
+      {class: "rk-below"},
+      element("div", {class: "rk-beside"}, lines, element("div", {}, curve, facts.node)),
+    ),
+    element("p", {class: "rk-meant"}, data.meant),
   );
+  replaceStill(root, frame, canvas, curve);
 
   // --- What is said
 

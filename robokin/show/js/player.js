@@ -1,7 +1,7 @@
 // The player: recorded motions of arms in space beside their curves. page.py says what it gets.
 
 import {fk, origin} from "./kinematics.js";
-import {number, tiled} from "./canvas.js";
+import {number, replaceStill, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {places, recording} from "./recordings.js";
@@ -60,7 +60,7 @@ function start(root, data) {
     return room;
   }
 
-  root.replaceChildren(parts.frame);
+  replaceStill(root, parts.frame, parts.scene, parts.curves);
   const ask = pictures(root, [parts.scene, parts.curves], draw); // also draws the first picture
   const clock = runningClock(
     parts,

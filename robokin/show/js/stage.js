@@ -1,7 +1,7 @@
 // What all explorers share: the frame in the page, the picture and its redrawing, sliders, tables.
 
 import {frames, origin, plus, turned} from "./kinematics.js";
-import {clear, colors, jointColor, number, stroke} from "./canvas.js";
+import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
 import {control, element} from "./elements.js";
@@ -65,7 +65,7 @@ export function stageOf(root, data) {
     below,
     element("p", {class: "rk-meant"}, data.meant),
   );
-  root.replaceChildren(frame);
+  replaceStill(root, frame, canvas);
 
   return {
     frame,
