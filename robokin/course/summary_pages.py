@@ -35,13 +35,15 @@ PAGES = "summary_pages"
 INK, SOFT, RULE = (PAGE[name][0] for name in ("ink", "soft", "line"))
 STYLE = f"""\
 body {{ font: 15px/1.5 system-ui, sans-serif; margin: 16px; color: {INK}; background: #fff; }}
-table {{ border-collapse: collapse; }}
+table {{ border-collapse: collapse; margin-bottom: 20px; }}
 td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0; contain: paint;
-  border-bottom: 1px solid {RULE}; overflow-wrap: anywhere; }}
+  border-bottom: 1px solid {RULE}; overflow-wrap: anywhere; min-width: 6em; }}
+th {{ overflow-wrap: normal; }}
 th small {{ font-weight: 400; }}
 pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
 .wide {{ overflow-x: auto; }}
-.students td, .students th {{ min-width: 7em; }}
+.counted td:first-child {{ width: 45%; }}
+.counted td:last-child {{ width: 30%; }}
 .objective td {{ font-weight: 600; }}
 .holds {{ color: {AXIS_COLORS[1]}; }}
 .not {{ color: {ALARM}; }}
@@ -171,7 +173,7 @@ def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
 
 def _page(template: str, **more: Any) -> str:
     pages = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        loader=jinja2.PackageLoader("robokin.course", "templates"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
