@@ -1,7 +1,12 @@
-"""What students hand in, made by hand: reports as pages with data, of whatever is put there."""
+"""What students hand in, made by hand: reports as pages with data, of whatever is put there; and
+how a test reads what `summary` made of it.
+"""
 
+import csv
 import json
 import os
+import re
+from html import unescape
 
 from robokin.course import book
 from robokin.course.reported import DATA
@@ -41,3 +46,22 @@ def put(path, content):
     with open(os.fsencode(path), "wb") as file:
         file.write(text if isinstance(text, bytes) else text.encode(errors="surrogatepass"))
     return path
+
+
+def table_in(folder):
+    with open(folder / "summary.csv", encoding="utf-8-sig", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def page_in(folder):
+    return (folder / "summary.html").read_text(encoding="utf-8")
+
+
+def rows_of(page, table):
+    """The cells of the tables of that class, as text."""
+    found = []
+    for text in re.findall(rf'<table class="{table}">(.*?)</table>', page, re.S):
+        for row in re.findall("<tr>(.*?)</tr>", text, re.S):
+            cells = re.findall("<td>(.*?)</td>", row, re.S)
+            found.append([unescape(re.sub("<[^>]*>", "", cell)).strip() for cell in cells])
+    return [row for row in found if row]

@@ -2,7 +2,6 @@
 students put into it on purpose: test_summary_attacked.py.
 """
 
-import csv
 import functools
 import os
 import random
@@ -16,7 +15,7 @@ from urllib.parse import unquote
 
 import nbformat
 import pytest
-from handed import SLUG, put, report_of
+from handed import SLUG, page_in, put, report_of, rows_of, table_in
 from nbformat.v4 import new_code_cell, new_notebook
 
 from robokin import course
@@ -75,25 +74,6 @@ def handed(tmp_path_factory):
 @functools.cache
 def question(name):
     return course.predict(name).question.replace("`", "")
-
-
-def table_in(folder):
-    with open(folder / "summary.csv", encoding="utf-8-sig", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def page_in(folder):
-    return (folder / "summary.html").read_text(encoding="utf-8")
-
-
-def rows_of(page, table):
-    """The cells of the tables of that class, as text."""
-    found = []
-    for text in re.findall(rf'<table class="{table}">(.*?)</table>', page, re.S):
-        for row in re.findall("<tr>(.*?)</tr>", text, re.S):
-            cells = re.findall("<td>(.*?)</td>", row, re.S)
-            found.append([unescape(re.sub("<[^>]*>", "", cell)).strip() for cell in cells])
-    return [row for row in found if row]
 
 
 def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):

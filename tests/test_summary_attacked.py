@@ -13,7 +13,7 @@ import time
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import pytest
-from handed import SLUG, page, put, report_of
+from handed import SLUG, page, page_in, put, report_of, rows_of, table_in
 
 from robokin.course import summary, summary_pages
 from robokin.course.__main__ import main
@@ -101,7 +101,8 @@ def attacked(folder, values):
             each |= {"mistake": value, "says": [value], "case": value}
         for each in data["predictions"]:
             each |= {"choice": value, "right": False, "confusion": value, "later": [value]}
-        name = value.replace("/", "\u2215").replace("\0", "").encode(errors="ignore")[:200]
+        name = value if os.name != "nt" else ""  # Windows allows few of them
+        name = name.replace("/", "\u2215").replace("\0", "").encode(errors="ignore")[:200]
         put(folder / str(k) / f"_{name.decode(errors='ignore')}.html", data)
 
 
@@ -273,8 +274,7 @@ def test_whatever_is_wrong_with_a_file_the_others_are_done(tmp_path, monkeypatch
     put(place / "\udcff.ipynb", "{}")
     assert main(["summary", str(folder), "--to", str(tmp_path)]) == 1
     said = capsys.readouterr()
-    with open(tmp_path / "summary.csv", encoding="utf-8-sig", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = table_in(tmp_path)
     table, left = rows[: len(names)], rows[len(names) :]
     wanted = [*names[:27], r"half \ud83d", r"a\nb", "Юрий"]
     assert sorted(row["who"] for row in table) == sorted(wanted)
@@ -290,8 +290,8 @@ def test_whatever_is_wrong_with_a_file_the_others_are_done(tmp_path, monkeypatch
     for file, reason in more.items():
         assert reasons[f"Eve/{file}"][0] == "Eve" and reason in reasons[f"Eve/{file}"][1]
     assert reasons[r"Eve/\xff.ipynb"][1].startswith("not a notebook")
-    shown = (tmp_path / "summary.html").read_text(encoding="utf-8")
-    assert all(f"<td>{problem}" for problem in shown.split("<tr>"))
+    shown = [tuple(row) for row in rows_of(page_in(tmp_path), "left")]
+    assert shown == [(row["file"], row["who"], row["problem"]) for row in left]
     told = said.out + said.err
     for file, (_, problem) in reasons.items():
         assert f"{file}: {problem}" in told

@@ -247,4 +247,4 @@ def _shown(name: Path | str) -> str:
 
 def _reason(error: Exception) -> str:
     known = isinstance(error, (OSError, ValueError)) and not isinstance(error, UnicodeError)
-    return plain(f"{error}" if known and str(error) else f"{type(error).__name__}: {error}", 500)
+    return plain(str(error) if known else f"{type(error).__name__}: {error}", 500).rstrip(": ")

@@ -13,6 +13,7 @@ import io
 import os
 import re
 from collections import Counter, defaultdict
+from collections.abc import Collection
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -172,6 +173,11 @@ def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
 
 
 def _page(template: str, **more: Any) -> str:
+    return _templates().get_template(template).render(more, style=Markup(STYLE), policy=POLICY)
+
+
+@functools.cache
+def _templates() -> jinja2.Environment:
     pages = jinja2.Environment(
         loader=jinja2.PackageLoader("robokin.course", "templates"),
         autoescape=True,
@@ -179,7 +185,7 @@ def _page(template: str, **more: Any) -> str:
         trim_blocks=True,
     )
     pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
-    return pages.get_template(template).render(more, style=Markup(STYLE), policy=POLICY)
+    return pages
 
 
 def _words(text: str) -> Markup:
@@ -234,15 +240,16 @@ def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]
     table, page, pages = places(folder)
     if made.entries:
         pages.mkdir(exist_ok=True)
-    links: list[str] = []
+    names: dict[str, str] = {}  # in small letters: two names may be one to a file system
     for entry in made.entries:
-        path = _free(pages, f"{entry.lab}_{safe(entry.who)}", links)
+        path = _free(pages, f"{entry.lab}_{safe(entry.who)}", names)
         write_page(path, sheet(entry, points))
-        links.append(path.name)
-    write_page(page, page_of(made, [f"{PAGES}/{name}" for name in links], points))
+        names[path.name.casefold()] = path.name
+    write_page(page, page_of(made, [f"{PAGES}/{name}" for name in names.values()], points))
     _write(table, csv_of(made, points).encode("utf-8-sig"))
     for path in pages.iterdir() if pages.is_dir() else ():
-        if path.name not in links and _begins(path, SHEET):
+        name = names.get(path.name.casefold())
+        if _begins(path, SHEET) and not (name and path.samefile(pages / name)):
             path.unlink()
     return table, page
 
@@ -255,13 +262,10 @@ def is_ours(path: Path, folder: Path) -> bool:
     return place.parent == top / PAGES and _begins(path, SHEET)
 
 
-def _free(pages: Path, name: str, taken: list[str]) -> Path:
-    """A page's place where nothing of others lies; names differ in more than upper and lower
-    case.
-    """
-    used, k = {each.casefold() for each in taken}, 1
-    path = pages / f"{name}.html"
-    while path.name.casefold() in used or (os.path.lexists(path) and not _begins(path, SHEET)):
+def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
+    """A page's place where nothing of others lies, and no other student's page."""
+    path, k = pages / f"{name}.html", 1
+    while path.name.casefold() in taken or (os.path.lexists(path) and not _begins(path, SHEET)):
         k += 1
         path = pages / f"{name}_{k}.html"
     return path
