@@ -66,6 +66,21 @@ HOSTILE = {
 }
 
 
+SEEN = """() => {
+  const texts = query => [...document.querySelectorAll(query)].map(each => each.textContent);
+  const odd = "body :is(script, img, svg, iframe, object, embed, form, math, base)";
+  const wrong = [...document.querySelectorAll(".sheet .not")];
+  return {
+    tasks: texts(".sheet tr:not(.objective) td:nth-child(3)"),
+    guesses: texts(".guesses td:not(:first-child)"),
+    remarks: texts("li"),
+    colours: [...new Set(wrong.map(each => getComputedStyle(each).color))],
+    odd: document.querySelectorAll(odd).length,
+    ran: window.ran,
+  };
+}"""
+
+
 @pytest.fixture
 def server():
     """Its address, and what it was asked for."""
@@ -138,15 +153,12 @@ def test_no_words_of_a_student_run(browser, server, tmp_path):
     for link, shown in zip(links, values.values(), strict=True):
         assert link.startswith((tmp_path / "summary_pages").as_uri())
         view.goto(link)
-        found = cells(view, "sheet")
-        assert all(shown in row[2] for row in found if row[0].startswith("exercise"))
-        assert [row[1:] for row in cells(view, "guesses")] == [
-            [shown, f"not so: {shown}", shown]
-        ] * len(cells(view, "guesses"))
-        assert [t.strip("`") for t in view.locator("li").all_text_contents()] == [shown] * 2
-        assert view.locator(".sheet .not").evaluate_all(colours) == [red]
-        odd = view.locator("body :is(script, img, svg, iframe, object, embed, form, math, base)")
-        assert odd.count() == 0 and view.evaluate("window.ran") is None
+        found = view.evaluate(SEEN)
+        verdicts, guesses = [[t.replace("`", "") for t in found[n]] for n in ("tasks", "guesses")]
+        assert len(verdicts) == 3 and all(shown in text for text in verdicts)
+        assert len(guesses) > 20 and set(guesses) == {shown, f"not so: {shown}"}
+        assert [text.replace("`", "") for text in found["remarks"]] == [shown] * 2
+        assert found["colours"] == [red] and not found["odd"] and not found["ran"]
     assert all(url.startswith("file:") for url in requests) and asked == [] == said
     # the second wall: what is in the page in spite of all that asks nobody and runs nothing
     view.goto((tmp_path / "summary.html").as_uri())
@@ -309,17 +321,17 @@ def test_a_folder_that_cannot_be_read_is_named(tmp_path):
 
 
 def test_a_long_text_is_cut_and_a_long_page_is_read_quickly():
-    long = "x" * 100_000
+    long = "x" * 30_000
     data = report_of("Ada", title=long, numbers=long, remarks=[long])
     for each in data["exercises"]:
         each |= {"state": "does not hold", "mistake": long, "says": [long], "case": long}
     for each in data["predictions"]:
-        each |= {"choice": long, "right": False, "confusion": long, "later": [long] * 200}
+        each |= {"choice": long, "right": False, "confusion": long, "later": [long]}
     read = report_data(page(data))
     assert "shortened" in read["remarks"][0] and "shortened" in read["exercises"][0]["case"]
-    assert len(json.dumps(read)) < 6_000_000
+    assert len(json.dumps(read)) < len(json.dumps(data)) / 5
     for sign in "<", " ", "-", "[", '"', "\\", "1", "1.", "<script ", "é\u202e":
-        text = sign * (2_000_000 // len(sign))
+        text = sign * (1_000_000 // len(sign))
         for whole in (text + page(GOOD), page(text), page(TEXT.replace("A lab", text))):
             begin = time.process_time()
             try:
