@@ -78,6 +78,8 @@ OUTSIDE = {
     "robokin.course.kernel": {"ipykernel"},
     "robokin.course.report": {"nbformat"},
     "robokin.course.site.conf": {"docutils", "sphinx"},
+    "robokin.course.summary": {"psutil"},
+    "robokin.course.summary_pages": {"jinja2", "markupsafe"},
 }
 
 MODULES = {

@@ -1,23 +1,27 @@
-"""`python -m robokin.course summary`: the teacher's table, against one that is counted here."""
+"""`python -m robokin.course summary`: the teacher's table, against one that is counted here. What
+students put into it on purpose: test_summary_attacked.py.
+"""
 
-import csv
-import html
+import functools
 import os
 import random
 import re
+import sys
+import threading
 from collections import Counter, defaultdict
-from dataclasses import asdict, replace
+from html import unescape
+from pathlib import Path
+from urllib.parse import unquote
 
 import nbformat
 import pytest
+from handed import SLUG, page_in, put, report_of, rows_of, table_in
 from nbformat.v4 import new_code_cell, new_notebook
 
 from robokin import course
-from robokin.course import book, summary
+from robokin.course import book, summary, summary_pages
 from robokin.course.__main__ import main
-from robokin.course.handed_in import handed_in
-from robokin.course.judge import Guess, Judged, Limits, Result
-from robokin.course.report import page_of, told
+from robokin.course.judge import Judged, Limits, Result
 from robokin.course.variants import normalised
 
 NAMES = """Ada Grace Mary Юрий Łukasz José Zoë Ng O'Neil कमला =SUM(A1) +49 -1 @home Li Wei Max Eva
@@ -27,57 +31,49 @@ MISTAKES = ("takes degrees", "the sign", None)
 
 
 def notebook(path, *cells):
+    path.parent.mkdir(parents=True, exist_ok=True)
     nbformat.write(new_notebook(cells=[new_code_cell(cell) for cell in cells]), path)
     return path
 
 
-def results(slug, dice):
-    """Verdicts and guesses of a student, drawn."""
-    exercises = []
-    for n, exercise in book.lab(slug).EXERCISES.items():
+def drawn_report(name, slug, dice):
+    """A report with verdicts and guesses that are drawn."""
+    data = report_of(name, slug)
+    for each in data["exercises"]:
         state = dice.choice(("holds", "does not hold", "does not hold", "unanswered", "failed"))
-        made = Result(f"{slug}.{n}", exercise.task, exercise.objective, state)
-        if state == "holds":
-            made = replace(made, points=1.0)
-        if state == "does not hold":
-            made = replace(made, points=dice.choice((0.1, 0.5)), mistake=dice.choice(MISTAKES))
-        exercises.append(made)
-    guesses = [Guess(f"{slug}.{n}") for n in book.lab(slug).PREDICTIONS]
-    for k in dice.sample(range(len(guesses)), 4):
+        each["state"] = state
+        each["points"] = {"holds": 1.0, "does not hold": dice.choice((0.1, 0.5))}.get(state, 0.0)
+        each["mistake"] = dice.choice(MISTAKES) if state == "does not hold" else None
+    for each in dice.sample(data["predictions"], 4):
         wrong = dice.random() < 0.6
         confusion = dice.choice(("the elbow", "the path", None)) if wrong else None
-        guesses[k] = replace(guesses[k], choice="b", right=not wrong, confusion=confusion)
-    return Judged(None, tuple(exercises), tuple(guesses), ())
+        each |= {"choice": "b", "right": not wrong, "confusion": confusion, "later": ["c", "a"]}
+    return data
 
 
 @pytest.fixture(scope="module")
 def handed(tmp_path_factory):
-    """A folder of thirty students' reports, one of them cut off, and a notebook that is none; and
+    """A folder of thirty students' reports, one of them cut off, among files that are none; and
     what was drawn for each.
     """
     folder, dice = tmp_path_factory.mktemp("handed"), random.Random(14)
-    drawn = {}
-    for k, name in enumerate(NAMES):
-        slug = SLUGS[k % 3]
-        place = folder / f"student {k}"
-        place.mkdir()
-        lab = notebook(folder / ".lab.ipynb", f'check("{slug}.1", ...)')
-        judged = results(slug, dice)
-        data = told(handed_in(lab), name, judged)
-        page = page_of(data, new_notebook(), folder)
-        (place / "report.html").write_text(page, encoding="utf-8")
-        drawn[name] = slug, judged
-    # the last one's is cut off, and a notebook that is none lies among them
-    page = place / "report.html"
-    text = page.read_text(encoding="utf-8")
-    page.write_text(text[: text.index('"predictions"')], encoding="utf-8")
-    drawn.pop(name)
-    (folder / "student 3" / "03_irb140_motion.ipynb").write_text("{}")
-    (folder / "student 4" / ".ipynb_checkpoints").mkdir()
-    (folder / "student 4" / ".ipynb_checkpoints" / "x.ipynb").write_text("{}")
-    (folder / "student 5" / "other.html").write_text("<p>no report</p>")
-    notebook(folder / "student 6" / "00_start_here.ipynb", "1")
+    drawn = {name: drawn_report(name, SLUGS[k % 3], dice) for k, name in enumerate(NAMES)}
+    for k, data in enumerate(drawn.values()):
+        put(folder / f"student {k}" / "report.html", data)
+    last = folder / f"student {k}" / "report.html"
+    last.write_text(last.read_text().partition('"predictions"')[0])
+    del drawn[NAMES[-1]]
+    put(folder / "student 3" / "03_irb140_motion.ipynb", "{}")
+    put(folder / "student 4" / ".ipynb_checkpoints" / "x.ipynb", "{}")
+    put(folder / "student 5" / "other.HTML", "<p>no report</p>")
+    put(folder / "student 5" / "notes.txt", "")
+    notebook(folder / "student 6" / "notes.ipynb", "1")
     return folder, drawn
+
+
+@functools.cache
+def question(name):
+    return course.predict(name).question.replace("`", "")
 
 
 def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):
@@ -87,47 +83,57 @@ def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):
     assert len(said.err.splitlines()) == 2
     assert re.search(r"student 3/03_irb140_motion.ipynb: not a notebook", said.err)
     assert re.search(r"student 29/report.html: a report that cannot be read", said.err)
-    with open(tmp_path / "summary.csv", encoding="utf-8-sig", newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert len(drawn) == 29 and len(rows) == 31
-    assert [row["problem"][:8] for row in rows[29:]] == ["a report", "not a no"]
+    left_out = {
+        "student 29/report.html": ("student 29", "a report that cannot be read"),
+        "student 3/03_irb140_motion.ipynb": ("student 3", "not a notebook"),
+        "student 5/other.HTML": ("student 5", "a page that is no report"),
+        "student 6/notes.ipynb": ("student 6", "a notebook without exercises of robokin's"),
+    }
+    rows = table_in(tmp_path)
+    assert len(drawn) == 29 and len(rows) == 29 + len(left_out)
     assert not any(row["problem"] for row in rows[:29])
+    listed = rows_of(page_in(tmp_path), "left")
+    for row, (file, who, reason) in zip(rows[29:], listed, strict=True):
+        assert (row["file"], row["who"], row["problem"]) == (file, who, reason)
+        assert who == left_out[file][0] and reason.startswith(left_out[file][1])
+    assert [file for file, _, _ in listed] == sorted(left_out)
     seen = set()
     for row in rows[:29]:
-        name = row["who"].removeprefix("'") if row["who"][0] == "'" else row["who"]
-        slug, judged = drawn[name]
+        name = row["who"].removeprefix("'")
+        data = drawn[name]
         seen.add(name)
-        assert row["lab"] == slug and row["file"].startswith("student ")
-        for each in judged.exercises:
-            n = each.id[-1]
-            assert row[f"exercise {n}"] == each.state
-            assert float(row[f"points {n}"]) == each.points
-            assert row[f"mistake {n}"] == (each.mistake or "")
-        assert float(row["points"]) == pytest.approx(sum(e.points for e in judged.exercises))
+        assert row["lab"] == data["lab"] and row["file"].startswith("student ")
+        for each in data["exercises"]:
+            n = each["id"][-1]
+            assert row[f"exercise {n}"] == each["state"]
+            assert float(row[f"points {n}"]) == each["points"]
+            assert row[f"mistake {n}"] == (each["mistake"] or "")
+        assert float(row["points"]) == pytest.approx(sum(e["points"] for e in data["exercises"]))
         for k in (1, 2, 3):
-            states = {e.state for e in judged.exercises if e.objective == k}
+            states = {e["state"] for e in data["exercises"] if e["objective"] == k}
             wanted = "holds" if states == {"holds"} else "begun"
             assert row[f"objective {k}"] == ("not yet" if states == {"unanswered"} else wanted)
-        right = [g.right for g in judged.predictions if g.choice]
+        right = [each["right"] for each in data["predictions"] if each["choice"]]
         assert (row["predictions made"], row["predictions right"]) == ("4", str(sum(right)))
         assert row["predictions wrong"].count("; ") + 1 == max(1, right.count(False))
     assert seen == set(drawn)
-    for row in rows:
-        assert not any(cell.startswith(("=", "+", "-", "@")) for cell in row.values())
 
 
-def test_mistakes_and_confusions_are_counted(handed, tmp_path):
+def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
     folder, drawn = handed
     made = summary.summary(folder)
-    wrong, guessed = defaultdict(list), defaultdict(list)
-    for name, (_, judged) in drawn.items():
-        for each in judged.exercises:
-            if each.state == "does not hold":
-                wrong[each.id, each.mistake or "not recognised"].append(name)
-        for each in judged.predictions:
-            if each.right is False:
-                guessed[each.id, each.confusion or "another number"].append(name)
-    for rows, wanted in ((summary.mistakes(made), wrong), (summary.confusions(made), guessed)):
+    wrong, guessed, held = defaultdict(list), defaultdict(list), Counter()
+    for name, data in drawn.items():
+        for each in data["exercises"]:
+            held[each["id"]] += each["state"] == "holds"
+            held[f"{data['lab']} objective {each['objective']}"] += each["state"] == "holds"
+            if each["state"] == "does not hold":
+                wrong[each["id"], each["mistake"] or "not recognised"].append(name)
+        for each in data["predictions"]:
+            if each["right"] is False:
+                guessed[each["id"], each["confusion"] or "another number"].append(name)
+    counted = (summary_pages.mistakes(made), wrong), (summary_pages.confusions(made), guessed)
+    for rows, wanted in counted:
         assert {(a, b): sorted(who) for a, b, who in rows} == {
             key: sorted(who) for key, who in wanted.items()
         }
@@ -138,39 +144,123 @@ def test_mistakes_and_confusions_are_counted(handed, tmp_path):
         assert max(map(max, counts.values())) > 1
         labs = [book.LABS.index(name.partition(".")[0]) for name, _, _ in rows]
         assert labs == sorted(labs)
-    page = summary.page_of(made)
-    for (name, what), who in [*wrong.items(), *guessed.items()]:
-        assert f"<td>{name}</td><td>{what}</td><td>{len(who)}</td>" in page
-    assert "03_irb140_motion.ipynb" in page and "left out: 1" in page
-    assert Counter(re.findall(r"<td>(\w+)</td>", page))["irb140_motion"] == 10
+    summary_pages.write(made, tmp_path)
+    page = page_in(tmp_path)
+    rows = rows_of(page, "counted")
+    for (name, what), who in wrong.items():
+        task = book.find(name, "EXERCISES").task.replace("`", "")
+        assert [f"{name.partition('.')[0]}: {task}", what, str(len(who))] in [r[:3] for r in rows]
+    for name, what in guessed:
+        assert [f"{name.partition('.')[0]}: {question(name)}", what] in [row[:2] for row in rows]
+    figures = iter(rows_of(page, "class"))
+    for slug in SLUGS:  # each exercise has an objective of its own
+        students = sum(data["lab"] == slug for data in drawn.values())
+        for n, exercise in book.lab(slug).EXERCISES.items():
+            head, holds, *_, task = next(figures)
+            assert (head, task) == (f"exercise {n}", exercise.task.replace("`", ""))
+            assert holds == f"{held[f'{slug}.{n}']} of {students}"
+        for k, text in enumerate(book.lab(slug).OBJECTIVES, 1):
+            head, holds, *_, words = next(figures)
+            assert (head, words) == (f"objective {k}", text.replace("`", ""))
+            assert holds == f"{held[f'{slug} objective {k}']} of {students}"
+    assert not re.search(rf"({'|'.join(SLUGS)})\.p?\d", page), "an id instead of a title"
+
+
+def test_each_row_leads_to_a_page_of_its_own(handed, tmp_path):
+    folder, drawn = handed
+    made = summary.summary(folder)
+    for points in (True, False):
+        summary_pages.write(made, tmp_path, points)
+        links = re.findall('<a href="(summary_pages/[^"]*)">(.*?)</a>', page_in(tmp_path))
+        assert sorted(unescape(who) for _, who in links) == sorted(drawn)
+        for link, who in links:
+            data = drawn[unescape(who)]
+            page = (tmp_path / unquote(link)).read_text(encoding="utf-8")
+            told = [row for row in rows_of(page, "sheet") if row[0].startswith("exercise")]
+            for row, each in zip(
+                told, sorted(data["exercises"], key=lambda e: e["objective"]), strict=True
+            ):
+                assert row[1] == each["state"] and (each["mistake"] or "") in row[2]
+                assert row[3:] == ([f"{each['points']:g}"] if points else [])
+            guesses = rows_of(page, "guesses")
+            for row, each in zip(guesses, data["predictions"], strict=True):
+                assert row[0] == question(each["id"])
+                assert row[1] == (each["choice"] or "") and row[3] == ", ".join(each["later"])
+        assert len(links) == 29 == len(os.listdir(tmp_path / "summary_pages"))
+        said = page_in(tmp_path)
+        assert ("not marks" in said) == points == ("<th>Points</th>" in said)
+        assert any("points" in head for head in table_in(tmp_path)[0]) == points
+
+
+def test_points_can_be_left_out_and_guesses_that_did_not_come_are_told(tmp_path):
+    put(tmp_path / "a.html", report_of("Ada", guesses_came=False))
+    old = report_of("Grace") | {"report": 1}
+    del old["guesses_came"]
+    for each in old["predictions"]:
+        del each["when"], each["later"]
+    old["predictions"][0] |= {"choice": "a", "right": True}
+    put(tmp_path / "g.html", old)
+    assert main(["summary", str(tmp_path), "--to", str(tmp_path), "--no-points"]) == 0
+    ada, grace = table_in(tmp_path)
+    assert not any("points" in head for head in ada)
+    assert (ada["predictions made"], grace["predictions made"]) == ("", "1")
+    cells = rows_of(page_in(tmp_path), "students")
+    assert cells[0][-2] == "guesses: none came with the notebook"
+    assert cells[1][-2].startswith("1 right of 1 made")
 
 
 def test_nothing_of_yours_is_overwritten(handed, tmp_path):
     folder, _ = handed
     made = summary.Summary()
-    table, page = summary.write(made, tmp_path)
+    table, page = summary_pages.write(made, tmp_path)
     first = table.read_bytes()
     assert first.startswith(b"\xef\xbb\xbfwho,lab,file,date,")
-    summary.write(made, tmp_path)
+    summary_pages.write(made, tmp_path)
     assert table.read_bytes() == first and sorted(os.listdir(tmp_path)) == [table.name, page.name]
     for path, words in ((table, "mine;mine"), (page, "<!DOCTYPE html><!-- robokin player -->")):
         before = path.read_bytes()
         path.write_text(words)
         with pytest.raises(ValueError, match="nothing is overwritten"):
-            summary.write(made, tmp_path)
+            summary_pages.write(made, tmp_path)
         assert main(["summary", str(folder), "--to", str(tmp_path)]) == 1
         assert path.read_text() == words
         path.write_bytes(before)
     with pytest.raises(ValueError, match="folder: wanted"):
         summary.summary(tmp_path / "none")
     with pytest.raises(ValueError, match="to: wanted"):
-        summary.write(made, tmp_path / "none")
+        summary_pages.write(made, tmp_path / "none")
+
+
+def test_students_pages_leave_what_is_not_theirs(tmp_path, capsys):
+    """The folder with what was handed in is the one that is written into, as in README."""
+    for who in ("Ada B", "ada_b", "Zoë"):
+        put(tmp_path / f"{who}.html", report_of(who))
+    put(tmp_path / "summary_pages" / f"{SLUG}_Zoë.html", "mine")
+    put(tmp_path / "summary_pages" / "notes.html", "mine, too")
+    for run in range(2):
+        assert main(["summary", str(tmp_path), "--to", str(tmp_path)]) == 0
+        names = sorted(os.listdir(tmp_path / "summary_pages"))
+        wanted = [f"{SLUG}_{name}.html" for name in ("Ada_B", "Zoë", "Zoë_2", "ada_b_2")]
+        assert names == sorted([*wanted, "notes.html"]), run
+        rows = table_in(tmp_path)
+        assert [row["who"] for row in rows[:3]] == ["Ada B", "ada_b", "Zoë"]
+        assert [Path(row["file"]).name for row in rows[3:]] == ["notes.html", f"{SLUG}_Zoë.html"]
+    assert (tmp_path / "summary_pages" / f"{SLUG}_Zoë.html").read_text() == "mine"
+    (tmp_path / "Ada B.html").unlink()
+    assert main(["summary", str(tmp_path), "--to", str(tmp_path)]) == 0
+    names = [f"{SLUG}_Zoë.html", f"{SLUG}_Zoë_2.html", f"{SLUG}_ada_b.html", "notes.html"]
+    assert sorted(os.listdir(tmp_path / "summary_pages")) == sorted(names)
+    elsewhere = tmp_path / "to"
+    elsewhere.mkdir()
+    (elsewhere / "summary_pages").write_text("mine")
+    capsys.readouterr()
+    assert main(["summary", str(tmp_path), "--to", str(elsewhere)]) == 1
+    assert "nothing is overwritten" in capsys.readouterr().err
+    assert os.listdir(elsewhere) == ["summary_pages"]
 
 
 def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
     ada, bob = tmp_path / "Ada", tmp_path / "bob_17"
-    ada.mkdir()
-    bob.mkdir()
     old = notebook(ada / "03_irb140_motion Ada.ipynb", 'check("irb140_motion.1", ...)')
     new = notebook(ada / "irb140_motion.ipynb", 'check("irb140_motion.2", ...)')
     design = course.solution("scara_motion.3").replace("your name", "Bob")
@@ -181,27 +271,109 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
         'check("scara_motion.3", design, who=who)',
         'predict("scara_motion.p1", "b")',
     )
-    given = handed_in(new)
-    data = told(given, "ada", Judged(None, (), (), ("from the report",)))
-    data["exercises"] = [asdict(Result("irb140_motion.1", "task", 1))]
-    (tmp_path / "ada.html").write_text(page_of(data, new_notebook(), tmp_path), encoding="utf-8")
+    put(tmp_path / "ada.html", report_of("ada", "irb140_motion", remarks=["from the report"]))
     os.utime(old, (1e9, 1e9))
     os.utime(new, (1.1e9, 1.1e9))
     heard = []
-    made = summary.summary(tmp_path, Limits(cell=20), heard.append)
-    assert made.broken == [] and len(heard) == 2
+    made = summary.summary(tmp_path, Limits(cell=20), lambda *told: heard.append(told))
+    assert sorted(told[:2] for told in heard) == [(0, 2), (1, 2), (2, 2)]
     first, second = made.entries
-    assert (first.who, first.file) == ("ada", "ada.html")
+    assert (first.who, first.file, first.judged) == ("ada", "ada.html", False)
     assert first.data["remarks"] == ["from the report"]
-    assert any("the newest counts: ada.html" in remark for remark in made.remarks)
-    assert (second.who, second.lab) == ("bob_17", "scara_motion")
+    for left, path in zip(made.left_out, (old, new), strict=True):
+        assert (left.file, left.who) == (f"Ada/{path.name}", "Ada") and not left.wrong
+        assert left.reason.startswith("ada.html")
+    assert (second.who, second.lab, second.judged) == ("bob_17", "scara_motion", True)
     assert [e["state"] for e in second.data["exercises"]] == ["unanswered"] * 2 + ["holds"]
     assert second.data["remarks"] == ["scara_motion.3: judged with the numbers of 'Bob'."]
-    page = summary.page_of(made)
-    listed = re.findall(r"<li>(.*?)</li>", page[page.index("<h2>Remarks</h2>") :])
-    assert [html.unescape(each) for each in listed] == made.remarks
-    assert "<h2>Remarks" not in summary.page_of(summary.Summary())
     assert second.data["predictions"][0]["choice"] == "b"
+
+
+def stub(wait=lambda name: None):
+    """A judge that runs nothing."""
+
+    def judge(given, who, limits):
+        wait(given.path.parent.name)
+        exercises = [
+            Result(f"{given.lab}.{n}", e.task, e.objective)
+            for n, e in book.lab(given.lab).EXERCISES.items()
+        ]
+        return Judged(given.notebook, tuple(exercises), (), (given.path.parent.name,))
+
+    return judge
+
+
+def test_notebooks_are_judged_side_by_side_and_in_any_order(tmp_path, monkeypatch):
+    for who in "abcdef":
+        notebook(tmp_path / who / f"{SLUG}.ipynb", f'check("{SLUG}.1", ...)')
+    monkeypatch.setattr(summary, "side_by_side", lambda memory: 2)
+    lock, now, most, outcomes = threading.Lock(), set(), [], []
+    for first, second in ("ab", "ba"):
+        both, ended = threading.Barrier(2), threading.Event()
+
+        def wait(name, first=first, second=second, both=both, ended=ended):
+            with lock:
+                now.add(name)
+                most.append(len(now))
+            if name in "ab":
+                both.wait(60)  # they run at the same time, and end in this order
+            if name == second:
+                assert ended.wait(60)
+            with lock:
+                now.remove(name)
+            if name == first:
+                ended.set()
+
+        monkeypatch.setattr(summary, "judge", stub(wait))
+        made = summary.summary(tmp_path)
+        outcomes.append([(each.who, each.data["remarks"]) for each in made.entries])
+    assert max(most) == 2
+    assert outcomes[0] == outcomes[1] == [(who, [who]) for who in "abcdef"]
+
+
+@pytest.mark.parametrize(
+    ("cores", "free", "wanted"), [(8, 33, 8), (8, 9, 2), (2, 33, 2), (8, 1, 1), (1, 33, 1)]
+)
+def test_how_many_side_by_side(cores, free, wanted, monkeypatch):
+    memory = type("Memory", (), {"available": free * 2**30})
+    monkeypatch.setattr(summary.psutil, "virtual_memory", lambda: memory)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda of: range(cores), raising=False)
+    assert summary.side_by_side(4 * 2**30) == wanted
+
+
+def test_where_the_newest_cannot_be_judged_the_older_one_counts(tmp_path, monkeypatch):
+    def wait(name):
+        if name != "old":
+            raise {"dies": MemoryError, "turns": RecursionError}.get(name, KeyError)(name)
+
+    for k, name in enumerate(("old", "dies", "turns", "odd")):
+        path = notebook(tmp_path / name / f"{SLUG} Ada.ipynb", f'check("{SLUG}.1", ...)')
+        os.utime(path, (1e9 + k, 1e9 + k))
+    monkeypatch.setattr(summary, "judge", stub(wait))
+    made = summary.summary(tmp_path)
+    assert [each.file for each in made.entries] == [f"old/{SLUG} Ada.ipynb"]
+    assert [left.reason.partition(":")[0] for left in made.left_out] == [
+        "MemoryError",
+        "KeyError",
+        "RecursionError",
+    ]
+    assert all(left.wrong and left.who == "Ada" for left in made.left_out)
+
+
+def test_a_terminal_counts_on_one_line(tmp_path, monkeypatch, capsys):
+    for who in ("a", "b\x1b[2J", "c"):
+        notebook(tmp_path / "in" / who / f"{SLUG}.ipynb", f'check("{SLUG}.1", ...)')
+    monkeypatch.setattr(summary, "judge", stub())
+    assert main(["summary", str(tmp_path / "in"), "--to", str(tmp_path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 1 + 3 + 2 and "0 of 3 hold" in lines[1]
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True, raising=False)
+    monkeypatch.setenv("COLUMNS", "80")
+    assert main(["summary", str(tmp_path / "in"), "--to", str(tmp_path)]) == 0
+    first, *files, end = capsys.readouterr().out.split("\n")
+    assert re.findall(r"\d of \d", first)[:1] == ["0 of 3"] and "3 of 3: " in first
+    assert len(files) == 2 and "\x1b" not in first and end == ""
+    assert {len(each) for each in first.split("\r")[1:]} == {79}
 
 
 @pytest.mark.parametrize(
@@ -210,14 +382,20 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
         ("03_irb140_motion Ada.ipynb", "Ada"),
         ("x/03_irb140_motion_Ada_Lovelace.ipynb", "Ada Lovelace"),
         ("lovelaceada_123_03_irb140_motion.ipynb", "lovelaceada 123"),
+        ("1234567_03_IRB140_Motion.ipynb", "1234567"),
         ("Юрий/03_irb140_motion.ipynb", "Юрий"),
         ("Ada/irb140_motion-Copy1.ipynb", "Ada"),
         ("Ada/03_irb140_motion (2).ipynb", "Ada"),
+        ("Ada/03_irb140_motion/03_irb140_motion.ipynb", "Ada"),
+        ("Ada/ /03_irb140_motion.ipynb", "Ada"),
         ("Ada/homework.ipynb", "Ada"),
         ("ada.ipynb", "ada"),
         ("03_irb140_motion.ipynb", "03_irb140_motion"),
+        ("J\udcfcrgen/x.ipynb", "J\\xfcrgen"),
+        ("a\nb\u202e/x.ipynb", "a\\nb\\u202e"),
+        (f"{'x' * 250}/x.ipynb", "x" * 200),
     ],
 )
-def test_whose_a_notebook_is(path, who, tmp_path):
-    made = summary.who_of(tmp_path.joinpath(path).relative_to(tmp_path), "irb140_motion")
+def test_whose_a_notebook_is(path, who):
+    made = summary.who_of(Path(path))
     assert made == who and normalised(made)

@@ -1,6 +1,7 @@
 """python -m robokin.course COMMAND: what a course does with its labs as files."""
 
 import argparse
+import shutil
 import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -67,13 +68,16 @@ def _parser() -> argparse.ArgumentParser:
         _summary,
         "the teacher's table of what was handed in",
         "Write summary.csv and summary.html over the reports and notebooks below FOLDER: who, "
-        "what holds, which mistakes are frequent, which predictions went wrong. Notebooks are "
-        "judged anew, which takes 5 to 60 seconds each.",
+        "what holds, which mistakes are frequent, which predictions went wrong; and in "
+        "summary_pages a page for each row. Notebooks are judged anew, side by side, which takes "
+        "5 to 60 seconds each. Judging runs the students' code as you, without a sandbox, and "
+        "that code can forge a verdict; marks that matter belong to nbgrader.",
     )
     for each in (export, report):
         each.add_argument("labs", help="a notebook (.ipynb)", **labs)
     report.add_argument("--name", required=True, help="who hands it in")
     summary.add_argument("folder", metavar="FOLDER", type=Path, help="what was handed in")
+    summary.add_argument("--no-points", action="store_true", help="leave the points out")
     for each in (export, report, summary):
         each.add_argument("--to", help="where (default: here)", **to)
 
@@ -146,19 +150,31 @@ def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
 
 
 def _summary(given: Any) -> int:
-    from .summary import places, summary, write
+    from .summary import summary
+    from .summary_pages import is_ours, places, write
+
+    live = sys.stdout.isatty()
+    width = shutil.get_terminal_size().columns - 1
+
+    def tell(done: int, of: int, line: str) -> None:
+        if live:
+            line = f"\r{f'{done} of {of}: {line}'[:width]:{width}}"
+        print(line, end="" if live else "\n", flush=True)
 
     try:
         places(given.to)  # before notebooks run for minutes
-        made = summary(given.folder, tell=lambda line: print(line, flush=True))
-        for file, reason in made.broken:
-            print(f"{given.folder / file}: {reason}", file=sys.stderr)
-        for path in write(made, given.to):
+        made = summary(given.folder, tell=tell, ours=lambda path: is_ours(path, given.to))
+        if live:
+            print()
+        for each in made.left_out:
+            line = f"{given.folder}/{each.file}: {each.reason}"
+            print(line, file=sys.stderr if each.wrong else sys.stdout)
+        for path in write(made, given.to, not given.no_points):
             print(path)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
-    return 1 if made.broken else 0
+    return 1 if any(each.wrong for each in made.left_out) else 0
 
 
 def _site(given: Any) -> int:

@@ -1,13 +1,28 @@
-"""What a report says, read from its page and validated: anybody can edit a report."""
+"""What a report says, read from its page and validated: anybody can edit a report, and what a
+student's code gave stands in it.
+
+Validated data hold ids of the lab's own exercises and predictions only; an exercise's task and
+objective come from robokin. Every text is bounded and shows what it is: characters that nobody sees
+are written as escapes. So nothing in it can hide, break a line of a table or turn its direction;
+it is still a stranger's text, and a page escapes it.
+"""
 
 import json
+import unicodedata
+from collections.abc import Callable
 from datetime import datetime
 from typing import Any
 
-from .book import lab
+from .._validate import short
+from .book import LABS, find, lab
+from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
 STATES = ("holds", "does not hold", "unanswered", "failed", "not judged")
+NAME, LINE, TEXT = 200, 2_000, 20_000  # characters of a name, of a line, of a text of many lines
+MANY = 200  # entries of a list
+YEAR_3000 = 32_503_680_000  # seconds; what comes later is beyond the calendar of some systems
+JOINERS = "\u200c\u200d"  # nobody sees them, and names in Persian or Hindi need them
 
 
 def report_data(text: str) -> dict[str, Any] | None:
@@ -17,38 +32,150 @@ def report_data(text: str) -> dict[str, Any] | None:
         return None
     try:
         data, _ = json.JSONDecoder().raw_decode(text, start + len(DATA))
-        good = (
-            data["report"] == 1
-            and all(isinstance(data[n], str) for n in ("who", "title", "file", "numbers"))
-            and datetime.fromisoformat(data["made"]).tzinfo is not None
-            and (data["lab"] is None or lab(data["lab"]))
-            and all(map(_is_exercise, data["exercises"]))
-            and all(map(_is_prediction, data["predictions"]))
-            and all(isinstance(remark, str) for remark in data["remarks"])
-        )
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise ValueError(f"a report that cannot be read: {type(error).__name__}: {error}") from None
+        return validated(data)
+    except RecursionError:
+        reason = "its data are nested too deeply"
+    except ValueError as error:
+        reason = str(error)
+    raise ValueError(f"a report that cannot be read: {reason}")
+
+
+def validated(data: Any) -> dict[str, Any]:
+    """A report's data as version 2 has them; version 1 knows no time of a guess and no later ones.
+    ValueError: they are not what a report has.
+    """
+    if not isinstance(data, dict) or data.get("report") not in (1, 2):
+        raise ValueError("its data are not those of a report that this robokin knows")
+    old, slug = data["report"] == 1, data.get("lab")
+    if slug is not None and not (isinstance(slug, str) and slug in LABS):
+        raise ValueError(f"lab: wanted one of robokin's, got {short(slug)}")
+    who = _text(data, "who", TEXT)
+    if len(who) > NAME:
+        raise ValueError(f"who: wanted at most {NAME} characters, got {len(who)}")
+    normalised(who.strip(JOINERS))  # ValueError: nothing that anybody sees
+    guesses = _known(data, slug, "predictions", lambda each: _prediction(each, old))
+    return {
+        "report": 2,
+        "who": who,
+        "lab": slug,
+        "title": _text(data, "title", NAME),
+        "file": _text(data, "file", 2 * NAME),
+        "made": _time(data, "made"),
+        "robokin": _text(data, "robokin", NAME),
+        "numbers": _text(data, "numbers", TEXT, "\n"),
+        "exercises": _known(data, slug, "exercises", _exercise),
+        "predictions": guesses,
+        "remarks": _texts(data, "remarks"),
+        "guesses_came": any(each["choice"] for each in guesses)
+        if old
+        else _one_of(data, "guesses_came", (True, False)),
+    }
+
+
+def plain(text: str, most: int = LINE, ends: str = "") -> str:
+    r"""A text that shows what it is, without those characters that control, that turn the direction
+    of writing, that end a line (but those of `ends`) or that are none: they become \x1b or \u202e.
+    What is longer than `most` characters is cut.
+    """
+    kept = text if len(text) <= most else f"{text[:most]} ... shortened"
+    if kept.isprintable():
+        return kept
+    return "".join(c if _shows(c) or c in ends else ascii(c)[1:-1] for c in kept)
+
+
+def _shows(c: str) -> bool:
+    return c.isprintable() or c in JOINERS or unicodedata.category(c) == "Zs"
+
+
+def _exercise(each: dict[str, Any]) -> dict[str, Any]:
+    exercise = find(each["id"], "EXERCISES")
+    points: Any = each.get("points")
+    if type(points) not in (int, float) or not 0 <= points <= 1:  # NaN is not
+        raise ValueError(f"points: wanted a number from 0 to 1, got {short(points)}")
+    return {
+        "id": each["id"],
+        "task": exercise.task,
+        "objective": exercise.objective,
+        "state": _one_of(each, "state", STATES),
+        "mistake": _text_or_none(each, "mistake"),
+        "says": _texts(each, "says", "\n"),
+        "case": _text_or_none(each, "case", TEXT, "\n"),
+        "points": float(points),
+    }
+
+
+def _prediction(each: dict[str, Any], old: bool) -> dict[str, Any]:
+    choice, right = _text_or_none(each, "choice"), _one_of(each, "right", (None, True, False))
+    if (choice is None) != (right is None):
+        raise ValueError(f"right: got {right} for the choice {short(choice)}")
+    return {
+        "id": each["id"],
+        "choice": choice,
+        "right": right,
+        "confusion": _text_or_none(each, "confusion"),
+        "when": None if old or each.get("when") is None else _time(each, "when"),
+        "later": [] if old else _texts(each, "later"),
+    }
+
+
+def _known(
+    data: dict[str, Any],
+    slug: str | None,
+    what: str,
+    checked: Callable[[dict[str, Any]], dict[str, Any]],
+) -> list[dict[str, Any]]:
+    """The entries for the lab's exercises or predictions, in the lab's order."""
+    known = [f"{slug}.{number}" for number in getattr(lab(slug), what.upper())] if slug else []
+    found: dict[str, dict[str, Any]] = {}
+    for each in _list(data, what):
+        name = each.get("id") if isinstance(each, dict) else None
+        if not isinstance(name, str) or name not in known or name in found:
+            raise ValueError(f"{what}: wanted each id of the lab {slug} once, got {short(name)}")
+        try:
+            found[name] = checked(each)
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}") from None
+    return [found[name] for name in known if name in found]
+
+
+def _one_of(data: dict[str, Any], name: str, known: tuple[Any, ...]) -> Any:
+    value = data.get(name)
+    if not any(value is each or (isinstance(value, str) and value == each) for each in known):
+        raise ValueError(f"{name}: wanted one of {', '.join(map(str, known))}, got {short(value)}")
+    return value
+
+
+def _list(data: dict[str, Any], name: str) -> list[Any]:
+    value = data.get(name)
+    if not isinstance(value, (list, tuple)):
+        raise ValueError(f"{name}: wanted a list, got {short(value)}")
+    if len(value) > MANY:
+        raise ValueError(f"{name}: wanted at most {MANY} entries, got {len(value)}")
+    return list(value)
+
+
+def _texts(data: dict[str, Any], name: str, ends: str = "") -> list[str]:
+    return [_text({name: each}, name, LINE, ends) for each in _list(data, name)]
+
+
+def _text_or_none(data: dict[str, Any], name: str, most: int = LINE, ends: str = "") -> str | None:
+    return None if data.get(name) is None else _text(data, name, most, ends)
+
+
+def _text(data: dict[str, Any], name: str, most: int, ends: str = "") -> str:
+    value = data.get(name)
+    if not isinstance(value, str):
+        raise ValueError(f"{name}: wanted a text, got {short(value)}")
+    return plain(value, most, ends)
+
+
+def _time(data: dict[str, Any], name: str) -> str:
+    """A date and time with its offset, in the one form that `datetime` writes."""
+    try:
+        when = datetime.fromisoformat(data.get(name, ""))
+        good = when.tzinfo is not None and 0 <= when.timestamp() < YEAR_3000
+    except (TypeError, ValueError, OverflowError):
+        good = False
     if not good:
-        raise ValueError("a report that cannot be read: its data are not what a report has")
-    found: dict[str, Any] = data
-    return found
-
-
-def _is_exercise(each: dict[str, Any]) -> bool:
-    return (
-        all(isinstance(each[n], str) for n in ("id", "task"))
-        and each["state"] in STATES
-        and isinstance(each["objective"], int)
-        and isinstance(each["points"], (int, float))
-        and 0 <= each["points"] <= 1
-        and all(each[n] is None or isinstance(each[n], str) for n in ("mistake", "case"))
-        and all(isinstance(line, str) for line in each["says"])
-    )
-
-
-def _is_prediction(each: dict[str, Any]) -> bool:
-    return (
-        isinstance(each["id"], str)
-        and each["right"] in (None, True, False)
-        and all(each[n] is None or isinstance(each[n], str) for n in ("choice", "confusion"))
-    )
+        raise ValueError(f"{name}: wanted a date with an offset, got {short(data.get(name))}")
+    return when.isoformat()

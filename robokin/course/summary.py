@@ -1,53 +1,42 @@
-"""The teacher's table of what was handed in: who, which exercises and objectives hold, which
-mistakes are the most frequent, which predictions went wrong.
+"""What was handed in, collected for the teacher's table: reports are taken as they are, notebooks
+are judged anew (`judge`), side by side.
 
-It takes reports as they are, and judges notebooks anew (`judge`). Who it is from: a report says it;
-of a notebook it is what its file's name has beside the lab's ("03_irb140_motion Ada.ipynb"), else
-the folder that it lies in. Its own numbers are those of the name that stands in it, since folders
-are seldom called what students call themselves; where that is another name, a remark says so. Of
-two files of one student for one lab the newer counts: by the report's date, by the notebook's time.
+Who it is from: a report says it; of a notebook it is what its file's name has beside the lab's
+("03_irb140_motion Ada.ipynb"), else the folder that it lies in. Its own numbers are those of the
+name that stands in it, since folders are seldom called what students call themselves; where that is
+another name, a remark says so. Of two files of one student for one lab the newer counts: by the
+report's date, by the notebook's time.
+
+What is handed in is hostile until it is validated (`reported`), and escaped where it is written
+(`summary_pages`). Whatever is wrong with one file, the others are done.
 """
 
-import contextlib
-import csv
-import html
-import io
 import os
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from ..show.page import write_page
-from ..show.palette import ALARM
+import psutil
+
 from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
-from .report import GREEN, INK, LINE, SOFT, objectives, told
-from .reported import report_data
+from .report import objectives, told
+from .reported import NAME, TEXT, plain, report_data, validated
 from .variants import normalised
 
-FIRST = ["who", "lab", "file", "date"]  # the columns by which a table of ours is known
-BEGIN = "<title>What was handed in</title>"  # ... and a page
-STYLE = f"""\
-body {{ font: 15px/1.5 system-ui, sans-serif; margin: 16px; color: {INK}; background: #fff; }}
-table {{ border-collapse: collapse; }}
-td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0;
-  border-bottom: 1px solid {LINE}; }}
-.wide {{ overflow-x: auto; }}
-.holds {{ color: {GREEN}; }}
-.not {{ color: {ALARM}; }}
-.open, small {{ color: {SOFT}; }}
-"""
+LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
 
 
 @dataclass(frozen=True)
 class Entry:
-    """What one student handed in for one lab. `file`: below the folder; `data`: as in a report;
-    `given`: a notebook, whose data come from judging it.
+    """What one student handed in for one lab. `file`: below the folder; `data`: validated, as in a
+    report; `given`: a notebook that is still to be judged; `judged`: one that was.
     """
 
     who: str
@@ -56,281 +45,206 @@ class Entry:
     when: datetime
     data: dict[str, Any]
     given: HandedIn | None = None
+    judged: bool = False
+
+    @property
+    def date(self) -> str:
+        """Its date and time, where this runs."""
+        return f"{self.when.astimezone():%Y-%m-%d %H:%M}"
+
+    @property
+    def objectives(self) -> list[tuple[str, str]]:
+        """(objective, "holds", "begun" or "not yet")."""
+        return objectives(self.data)
+
+    @property
+    def points(self) -> str:
+        """Those of all exercises together."""
+        return f"{sum(each['points'] for each in self.data['exercises']):g}"
+
+    @property
+    def held(self) -> str:
+        """How many exercises hold."""
+        states = [each["state"] for each in self.data["exercises"]]
+        return f"{states.count('holds')} of {len(states)} hold"
+
+    @property
+    def guessed(self) -> str:
+        """How many first guesses are right."""
+        if not self.data["guesses_came"]:
+            return "guesses: none came with the notebook"
+        asked = self.data["predictions"]
+        rights = [each["right"] for each in asked if each["right"] is not None]
+        return f"{sum(rights)} right of {len(rights)} made ({len(asked)} asked)"
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A file that is not in the table; whose it is, and why. `wrong`: it cannot be used; else it is
+    none for the table.
+    """
+
+    file: str
+    who: str
+    reason: str
+    wrong: bool
 
 
 @dataclass
 class Summary:
-    """The entries, by lab and name; (file, reason) of what could not be used; remarks."""
+    """The entries, by lab and name, and what was left out, by file."""
 
     entries: list[Entry] = field(default_factory=list)
-    broken: list[tuple[str, str]] = field(default_factory=list)
-    remarks: list[str] = field(default_factory=list)
+    left_out: list[LeftOut] = field(default_factory=list)
 
 
 def summary(
-    folder: Path, limits: Limits = LIMITS, tell: Callable[[str], None] = lambda line: None
+    folder: Path,
+    limits: Limits = LIMITS,
+    tell: Callable[[int, int, str], None] = lambda done, of, line: None,
+    ours: Callable[[Path], bool] = lambda path: False,
 ) -> Summary:
-    """Collect what lies below `folder`, hidden files and folders left out. `tell` is called with a
-    line for each file. ValueError: no folder.
+    """Collect what lies below `folder`, hidden files and folders left out, and what is `ours`: the
+    pages of a summary. Symbolic links are not followed. `tell` is called with how many are done, of
+    how many, and a line: first of all with 0 where there are notebooks, then after each student's
+    lab. ValueError: no folder.
     """
     if not folder.is_dir():
         raise ValueError(f"folder: wanted one that exists, got {str(folder)!r}")
-    made, others = Summary(), 0
+    made = Summary()
     found: dict[tuple[str, str], list[Entry]] = defaultdict(list)
-    for path in sorted(folder.rglob("*")):
-        inside = path.relative_to(folder)
-        if any(part.startswith(".") for part in inside.parts) or not path.is_file():
-            continue
+    for inside, problem in _files(folder):
         try:
-            entry = _read(path, inside)
-            if entry:
-                found[normalised(entry.who), entry.lab].append(entry)
-            others += entry is None and path.suffix == ".ipynb"
-        except (OSError, ValueError) as error:
-            made.broken.append((inside.as_posix(), str(error)))
-    for several in found.values():
-        several.sort(key=lambda each: (each.when, each.file))
-        entry = several[-1]
-        if len(several) > 1:
-            names = ", ".join(each.file for each in several)
-            made.remarks.append(
-                f"{entry.who}, {entry.lab}: {names}; the newest counts: {entry.file}."
-            )
-        if entry.given:
-            try:
-                judged = judge(entry.given, None, limits)
-                entry.data.update(told(entry.given, entry.who, judged))
-            except (OSError, ValueError) as error:
-                made.broken.append((entry.file, str(error)))
+            if problem is None and ours(folder / inside):
                 continue
-        made.entries.append(entry)
-        tell(f"{entry.file}: {entry.who}, {entry.lab}, {_held(entry)}")
+            entry = problem or _read(folder / inside, inside)
+            if isinstance(entry, Entry):
+                found[normalised(entry.who), entry.lab].append(entry)
+            else:
+                made.left_out.append(_left(inside, entry, problem is not None))
+        except Exception as error:  # a file may have anything in it
+            made.left_out.append(_left(inside, _reason(error), True))
+    kernels = side_by_side(limits.memory)
+    if notebooks := sum(any(each.given for each in several) for several in found.values()):
+        tell(0, len(found), f"notebooks to judge: {notebooks}, {kernels} side by side")
+    pool = ThreadPoolExecutor(kernels)
+    try:
+        jobs = [pool.submit(_newest, several, limits) for several in found.values()]
+        for done, job in enumerate(as_completed(jobs), 1):
+            newest, left_out = job.result()
+            made.left_out += left_out
+            if newest:
+                made.entries.append(newest)
+                tell(done, len(jobs), f"{newest.file}: {newest.who}, {newest.lab}, {newest.held}")
+    finally:
+        pool.shutdown(cancel_futures=True)  # Ctrl+C: what has not begun does not begin
     made.entries.sort(key=lambda each: (LABS.index(each.lab), normalised(each.who)))
-    if others:
-        made.remarks.append(f"Notebooks without exercises, left out: {others}.")
+    made.left_out.sort(key=lambda each: (each.file, each.reason))
     return made
 
 
-def places(folder: Path) -> tuple[Path, Path]:
-    """Where the table and the page come. ValueError: no folder, or something else is there."""
-    if not folder.is_dir():
-        raise ValueError(f"to: wanted a folder that exists, got {str(folder)!r}")
-    table, page = folder / "summary.csv", folder / "summary.html"
-    for path, begin in ((table, ",".join(FIRST) + ","), (page, BEGIN)):
-        if os.path.lexists(path) and not _begins(path, begin):
-            raise ValueError(f"{path} exists and is not a summary; nothing is overwritten")
-    return table, page
-
-
-def write(made: Summary, folder: Path) -> tuple[Path, Path]:
-    """Write summary.csv and summary.html into `folder`. ValueError as `places`."""
-    table, page = places(folder)
-    write_page(page, page_of(made))
-    _write(table, csv_of(made).encode("utf-8-sig"))
-    return table, page
-
-
-def csv_of(made: Summary) -> str:
-    """The table for a spreadsheet: a row for each entry, and at the end one for each file that
-    could not be used.
+def side_by_side(memory: int) -> int:
+    """How many notebooks are judged at once, at least one: one a core, and one for each `memory`
+    bytes that are free.
     """
-    numbers = sorted({_number(e) for entry in made.entries for e in entry.data["exercises"]})
-    goals = range(1, 1 + max((len(objectives(e.data)) for e in made.entries), default=0))
-    heads = [*FIRST, "points"]
-    heads += [f"objective {k}" for k in goals]
-    heads += [f"{what} {n}" for n in numbers for what in ("exercise", "points", "mistake")]
-    heads += ["predictions made", "predictions right", "predictions wrong", "remarks", "problem"]
-    text = io.StringIO()
-    rows = csv.DictWriter(text, heads, restval="")
-    rows.writeheader()
-    for entry in made.entries:
-        row: dict[str, Any] = {"who": entry.who, "lab": entry.lab, "file": entry.file}
-        row["date"] = f"{entry.when.astimezone():%Y-%m-%d %H:%M}"
-        row["points"] = f"{sum(e['points'] for e in entry.data['exercises']):g}"
-        row |= {f"objective {k}": s for k, (_, s) in enumerate(objectives(entry.data), 1)}
-        for each in entry.data["exercises"]:
-            n = _number(each)
-            row[f"exercise {n}"], row[f"points {n}"] = each["state"], f"{each['points']:g}"
-            row[f"mistake {n}"] = each["mistake"] or ""
-        guesses = entry.data["predictions"]
-        row["predictions made"] = sum(p["right"] is not None for p in guesses)
-        row["predictions right"] = sum(p["right"] is True for p in guesses)
-        row["predictions wrong"] = "; ".join(
-            f"{p['id']}: {p['confusion'] or p['choice']}" for p in guesses if p["right"] is False
-        )
-        row["remarks"] = " ".join(entry.data["remarks"])
-        rows.writerow({name: harmless(value) for name, value in row.items()})
-    for file, reason in made.broken:
-        rows.writerow({"file": harmless(file), "problem": harmless(reason)})
-    return text.getvalue()
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return max(1, min(cores or 1, int(psutil.virtual_memory().available // max(memory, 1))))
 
 
-def harmless(value: Any) -> Any:
-    """A cell that no spreadsheet takes for a formula."""
-    text = str(value)
-    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else value
+def who_of(inside: Path) -> str:
+    """Whose file it is, from its path below the folder: what its name has beside a lab's, else
+    the nearest folder, one that is called as a lab left out, else its name.
+    """
+    for k, part in enumerate((inside.stem, *reversed(inside.parent.parts))):
+        slug = re.search("|".join(LABS), part, re.I)
+        if slug:
+            before = re.sub(r"(^|[\s_-])\d{1,2}[\s_-]*$", " ", part[: slug.start()])  # its number
+            after = re.sub(r"-Copy\d+|\(\d+\)|_checkpoint", " ", part[slug.end() :])
+            part = " ".join(re.sub("[_ ]+", " ", f"{before} {after}").strip(" -.()").split())
+            if re.search(r"[^\W\d_]|\d{3}", part):
+                return _shown(part)[:NAME]
+        elif k and part.strip():
+            return _shown(part)[:NAME]
+    return _shown(inside.stem)[:NAME]
 
 
-def mistakes(made: Summary) -> list[tuple[str, str, list[str]]]:
-    """(exercise, mistake, who made it), in each exercise the most frequent first."""
-    found: dict[tuple[str, str], list[str]] = defaultdict(list)
-    for entry in made.entries:
-        for each in entry.data["exercises"]:
-            if each["state"] == "does not hold":
-                found[each["id"], each["mistake"] or "not recognised"].append(entry.who)
-    return _most(found)
+def _files(folder: Path) -> Iterator[tuple[Path, str | None]]:
+    """(path below the folder, why it cannot be read or None) of all pages and notebooks, and of
+    what may hide some: a link to a folder, a folder that cannot be read.
+    """
+    todo = [Path()]
+    while todo:
+        inside = todo.pop()
+        try:
+            entries = sorted(os.scandir(folder / inside), key=lambda each: each.name)
+        except OSError as error:
+            yield inside, f"a folder that cannot be read: {error.strerror}"
+            continue
+        for each in entries:
+            path, here = folder / inside / each.name, inside / each.name
+            wanted = path.suffix.lower() in (".html", ".ipynb")
+            if each.name.startswith("."):
+                continue
+            if each.is_symlink():
+                if wanted or os.path.isdir(path):
+                    yield here, "a symbolic link: what it leads to is not read"
+            elif each.is_dir():
+                todo.append(here)
+            elif wanted:
+                yield here, None if each.is_file() else "no ordinary file"
 
 
-def confusions(made: Summary) -> list[tuple[str, str, list[str]]]:
-    """(prediction, the confusion behind a wrong choice, who made it), the most frequent first."""
-    found: dict[tuple[str, str], list[str]] = defaultdict(list)
-    for entry in made.entries:
-        for each in entry.data["predictions"]:
-            if each["right"] is False:
-                found[each["id"], each["confusion"] or "another number"].append(entry.who)
-    return _most(found)
-
-
-def _most(found: dict[tuple[str, str], list[str]]) -> list[tuple[str, str, list[str]]]:
-    rows = [(name, what, who) for (name, what), who in found.items()]
-
-    def place(row: tuple[str, str, list[str]]) -> Any:
-        lab, _, number = row[0].partition(".")
-        digits = int(re.sub(r"\D", "", number) or 0)  # p9 before p10
-        return LABS.index(lab), digits, -len(row[2]), row[1]
-
-    return sorted(rows, key=place)
-
-
-def _read(path: Path, inside: Path) -> Entry | None:
-    """An entry, of a notebook still without data; None: nothing for the table."""
-    if path.suffix == ".html":
+def _read(path: Path, inside: Path) -> Entry | str:
+    """An entry, of a notebook still without data; or why it is none for the table."""
+    size = path.stat().st_size
+    if size > LARGE:
+        raise ValueError(f"too large: {size / 1e6:.0f} MB, and at most {LARGE / 1e6:.0f} are read")
+    if path.suffix.lower() == ".html":
         data = report_data(path.read_text(encoding="utf-8", errors="replace"))
-        if data is None or data["lab"] is None:
-            return None
+        if data is None:
+            return "a page that is no report"
+        if data["lab"] is None:
+            return "a report of a notebook without exercises of robokin's"
         when = datetime.fromisoformat(data["made"])
-        return Entry(data["who"], data["lab"], inside.as_posix(), when, data)
-    if path.suffix != ".ipynb":
-        return None
+        return Entry(data["who"], data["lab"], _shown(inside), when, data)
     given = handed_in(path)
     if given.lab is None:
-        return None
+        return "a notebook without exercises of robokin's"
     when = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
-    who = who_of(inside, given.lab)
-    return Entry(who, given.lab, inside.as_posix(), when, {}, given)
+    return Entry(who_of(inside), given.lab, _shown(inside), when, {}, given)
 
 
-def who_of(inside: Path, lab: str) -> str:
-    """Whose notebook it is, from its path below the folder."""
-    before, slug, after = inside.stem.partition(lab)
-    if slug:
-        before = re.sub(r"(^|[\s_-])\d+[\s_-]*$", " ", before)  # the lab's number
-        after = re.sub(r"-Copy\d+|\(\d+\)|_checkpoint", " ", after)
-        rest = " ".join(re.sub(r"[_\s]+", " ", f"{before} {after}").strip(" -.()").split())
-        if re.search(r"[^\W\d_]", rest):
-            return rest
-    return inside.parent.name or inside.stem
+def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[LeftOut]]:
+    """Of one student's files for one lab the newest that can be used, judged if it is a notebook;
+    and what is left out.
+    """
+    several = sorted(several, key=lambda each: (each.when, each.file))
+    left_out: list[LeftOut] = []
+    while several:
+        entry = several.pop()
+        try:
+            if entry.given:
+                data = validated(told(entry.given, entry.who, judge(entry.given, None, limits)))
+                entry = replace(entry, data=data, given=None, judged=True)
+        except Exception as error:  # what a student's code gave may be anything
+            left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
+            continue
+        reason = f"{entry.file} of {entry.who} for {entry.lab} is newer and counts"
+        left_out += [LeftOut(each.file, each.who, reason, False) for each in several]
+        return entry, left_out
+    return None, left_out
 
 
-def _number(exercise: dict[str, Any]) -> str:
-    return str(exercise["id"]).partition(".")[2]
+def _left(inside: Path, reason: str, wrong: bool) -> LeftOut:
+    return LeftOut(_shown(inside), who_of(inside), reason, wrong)
 
 
-def _held(entry: Entry) -> str:
-    states = [e["state"] for e in entry.data["exercises"]]
-    return f"{states.count('holds')} of {len(states)} hold"
+def _shown(name: Path | str) -> str:
+    r"""A file's name as a text; what is not UTF-8 in it becomes \xff."""
+    text = name.as_posix() if isinstance(name, Path) else name
+    return plain(os.fsencode(text).decode(errors="backslashreplace"), TEXT)
 
 
-# --- The page -------------------------------------------------------------------------------------
-
-
-def page_of(made: Summary) -> str:
-    """The page: the table, below it mistakes and predictions, then what could not be used."""
-    return "\n".join(_lines(made))
-
-
-def _lines(made: Summary) -> Iterator[str]:
-    yield '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">'
-    yield '<meta name="viewport" content="width=device-width">'
-    yield f"{BEGIN}\n<style>{STYLE}</style>\n<body>"
-    yield f"<h1>What was handed in</h1>\n<p>{datetime.now():%Y-%m-%d %H:%M}: "
-    yield f"labs: {len(made.entries)}, students: {len({normalised(e.who) for e in made.entries})}, "
-    yield f"files that could not be used: {len(made.broken)}.</p>"
-    heads = ["Who", "Lab", "Objectives", "Exercises", "Points", "Predictions", "Remarks"]
-    yield from _table(heads, map(_row, made.entries))
-    yield "<h2>The most frequent mistakes</h2>"
-    yield from _table(["Exercise", "Mistake", "How many", "Who"], map(_count, mistakes(made)))
-    yield "<h2>Predictions that went wrong</h2>"
-    yield from _table(["Prediction", "Confusion", "How many", "Who"], map(_count, confusions(made)))
-    if made.broken:
-        yield "<h2>Files that could not be used</h2>"
-        yield from _table(["File", "Reason"], ((_said(a), _said(b)) for a, b in made.broken))
-    if made.remarks:
-        yield "<h2>Remarks</h2>\n<ul>"
-        yield from (f"<li>{_said(remark)}</li>" for remark in made.remarks)
-        yield "</ul>"
-    yield "<p><small>A report says who it is from, and can be edited by who made it; a notebook is "
-    yield "judged anew, and is from whom its file's name or its folder says.</small></p>"
-    yield "</body>\n</html>\n"
-
-
-def _table(heads: list[str], rows: Any) -> Iterator[str]:
-    rows = list(rows)
-    if not rows:
-        yield "<p>None.</p>"
-        return
-    yield '<div class="wide"><table><tr>' + "".join(f"<th>{h}</th>" for h in heads) + "</tr>"
-    for row in rows:
-        yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>"
-    yield "</table></div>"
-
-
-def _row(entry: Entry) -> tuple[str, ...]:
-    exercises = []
-    for each in entry.data["exercises"]:
-        state = each["state"]
-        kind = {"holds": "holds", "unanswered": "open"}.get(state, "not")
-        mistake = f" ({_said(each['mistake'])})" if each["mistake"] else ""
-        exercises.append(f'{_number(each)} <span class="{kind}">{state}</span>{mistake}')
-    goals = [f"{k} {state}" for k, (_, state) in enumerate(objectives(entry.data), 1)]
-    guesses = entry.data["predictions"]
-    made = [p for p in guesses if p["right"] is not None]
-    right = sum(p["right"] for p in made)
-    remarks = [f"<small>{_said(remark)}</small>" for remark in entry.data["remarks"]]
-    return (
-        f"{_said(entry.who)}<br><small>{_said(entry.file)}, {entry.when:%Y-%m-%d}</small>",
-        entry.lab,
-        "<br>".join(goals),
-        "<br>".join(exercises),
-        f"{sum(e['points'] for e in entry.data['exercises']):g}",
-        f"{right} right of {len(made)} made ({len(guesses)} asked)",
-        "<br>".join(remarks),
-    )
-
-
-def _count(row: tuple[str, str, list[str]]) -> tuple[str, ...]:
-    name, what, who = row
-    return name, _said(what), str(len(who)), _said(", ".join(who))
-
-
-def _said(text: str) -> str:
-    return html.escape(text)
-
-
-def _begins(path: Path, begin: str) -> bool:
-    """Whether a file, and no link to one, has these words in its first line or two."""
-    if path.is_symlink() or not path.is_file():
-        return False
-    with path.open("rb") as file:
-        return begin in file.read(400).decode("utf-8-sig", "replace")
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Wholly or not at all."""
-    beside = path.with_name(f".{os.urandom(8).hex()}.csv.part")
-    try:
-        beside.write_bytes(content)
-        os.replace(beside, path)
-    finally:
-        with contextlib.suppress(FileNotFoundError):
-            beside.unlink()
+def _reason(error: Exception) -> str:
+    known = isinstance(error, (OSError, ValueError)) and not isinstance(error, UnicodeError)
+    return plain(str(error) if known else f"{type(error).__name__}: {error}", 500).rstrip(": ")

@@ -1,13 +1,19 @@
-"""Reports of the real labs 01 to 12, solved: how long each takes, and how large it is.
+"""Reports of the real labs 01 to 12, solved: how long each takes, and how large it is; and a
+summary of 30 notebooks.
 
     python tests/benchmarks/bench_reports.py [SLUG ...]
 
 Every exercise is answered by its solution, every prediction by its first answer, under a name of
 one's own; then `report` judges the lab anew, and `summary` reads all reports. Wanted: every
 exercise holds, no remark, a report at most 500 kB larger than the lab with its new outputs.
+
+Then `summary` judges 30 solved notebooks: one after another, side by side, and side by side beside
+two busy loops. Wanted: the same verdicts, and on two idle cores side by side at most 0.6 of the
+time.
 """
 
 import re
+import subprocess
 import sys
 import tempfile
 import time
@@ -15,9 +21,10 @@ from pathlib import Path
 
 import nbformat
 
-from robokin.course import book, solution
-from robokin.course.report import report, report_data
-from robokin.course.summary import summary, write
+from robokin.course import book, solution, summary
+from robokin.course.report import report
+from robokin.course.reported import report_data
+from robokin.course.summary_pages import write
 
 NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
 WHO = "Ada Lovelace"
@@ -53,6 +60,45 @@ def solved(slug, folder):
     return folder / path.name
 
 
+def judged(folder):
+    """Seconds, and all that a summary says of the folder's notebooks but when it was made."""
+    begin = time.perf_counter()
+    made = summary.summary(folder)
+    seconds = time.perf_counter() - begin
+    rows = [(e.who, e.lab, e.file, {**e.data, "made": None}) for e in made.entries]
+    return seconds, (rows, made.left_out)
+
+
+def thirty(slugs, folder, count=30):
+    """How many times the verdicts of the same notebooks differ."""
+    for k in range(count):
+        place = folder / f"student {k}"
+        place.mkdir(parents=True)
+        solved(slugs[k % len(slugs)], place)
+    kernels = summary.side_by_side(summary.LIMITS.memory)
+    summary.side_by_side, rule = (lambda memory: 1), summary.side_by_side
+    alone, wanted = judged(folder)
+    summary.side_by_side = rule
+    seconds, beside = judged(folder)
+    loops = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
+    try:
+        busy, loaded = judged(folder)
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
+    print(
+        f"summary of {len(wanted[0])} notebooks: {alone:.0f} s one after another, {seconds:.0f} s "
+        f"with {kernels} side by side ({seconds / alone:.2f} of it), {busy:.0f} s beside two busy "
+        f"loops; the same verdicts: {beside == wanted}, {loaded == wanted}"
+    )
+    for other in (beside, loaded):
+        for mine, its in zip(wanted[0], other[0], strict=False):
+            if mine != its:
+                print(f"    {mine}\n    {its}")
+    return (beside != wanted) + (loaded != wanted) + (len(wanted[0]) != count)
+
+
 def main(slugs):
     failed = 0
     with tempfile.TemporaryDirectory() as made:
@@ -79,8 +125,9 @@ def main(slugs):
             for remark in data["remarks"]:
                 print(f"    {remark}")
         begin = time.perf_counter()
-        write(summary(reports), folder)
+        write(summary.summary(reports), folder)
         print(f"summary of {len(slugs)} reports: {time.perf_counter() - begin:.1f} s")
+        failed += thirty(slugs, folder / "handed in")
     return 1 if failed else 0
 
 

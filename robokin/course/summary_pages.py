@@ -1,0 +1,290 @@
+"""The teacher's table as files: summary.csv, summary.html and a page for each row.
+
+The pages come from templates that escape all words, and have no script: their policy lets a browser
+run none, fetch nothing, and take one style only.
+"""
+
+import base64
+import contextlib
+import csv
+import functools
+import hashlib
+import io
+import os
+import re
+from collections import Counter, defaultdict
+from collections.abc import Collection
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup, escape
+
+from ..show.page import write_page
+from ..show.palette import ALARM, AXIS_COLORS, PAGE
+from .book import LABS, find, lab
+from .predictions import filled
+from .report import safe
+from .summary import Entry, Summary
+from .variants import normalised
+
+FIRST = ["who", "lab", "file", "date"]  # the columns by which a table of ours is known
+BEGIN = "<title>What was handed in</title>"  # ... a page
+SHEET = '<meta name="generator" content="robokin summary: one student">'  # ... a student's page
+PAGES = "summary_pages"
+INK, SOFT, RULE = (PAGE[name][0] for name in ("ink", "soft", "line"))
+STYLE = f"""\
+body {{ font: 15px/1.5 system-ui, sans-serif; margin: 16px; color: {INK}; background: #fff; }}
+table {{ border-collapse: collapse; margin-bottom: 20px; }}
+td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0; contain: paint;
+  border-bottom: 1px solid {RULE}; overflow-wrap: anywhere; min-width: 6em; }}
+th {{ overflow-wrap: normal; }}
+th small {{ font-weight: 400; }}
+pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
+.wide {{ overflow-x: auto; }}
+.counted td:first-child {{ width: 45%; }}
+.counted td:last-child {{ width: 30%; }}
+.objective td {{ font-weight: 600; }}
+.holds {{ color: {AXIS_COLORS[1]}; }}
+.not {{ color: {ALARM}; }}
+.open, small {{ color: {SOFT}; }}
+@media print {{ tr {{ break-inside: avoid; }} }}
+"""
+HASH = base64.b64encode(hashlib.sha256(STYLE.encode()).digest()).decode()
+POLICY = f"default-src 'none'; style-src 'sha256-{HASH}'; base-uri 'none'; form-action 'none'"
+FORMULA = re.compile("(^|[;,|\"'] ?)(?=[=+@\uff1d\uff0b\uff0d\uff20-])")
+
+
+def mistakes(made: Summary) -> list[tuple[str, str, list[str]]]:
+    """(exercise, mistake, who made it), in each exercise the most frequent first."""
+    found: dict[tuple[str, str], list[str]] = defaultdict(list)
+    for entry in made.entries:
+        for each in entry.data["exercises"]:
+            if each["state"] == "does not hold":
+                found[each["id"], each["mistake"] or "not recognised"].append(entry.who)
+    return _most(found)
+
+
+def confusions(made: Summary) -> list[tuple[str, str, list[str]]]:
+    """(prediction, the confusion behind a wrong first guess, who made it), the most frequent
+    first.
+    """
+    found: dict[tuple[str, str], list[str]] = defaultdict(list)
+    for entry in made.entries:
+        for each in entry.data["predictions"]:
+            if each["right"] is False:
+                found[each["id"], each["confusion"] or "another number"].append(entry.who)
+    return _most(found)
+
+
+def _most(found: dict[tuple[str, str], list[str]]) -> list[tuple[str, str, list[str]]]:
+    rows = [(name, what, who) for (name, what), who in found.items()]
+
+    def place(row: tuple[str, str, list[str]]) -> Any:
+        slug, _, number = row[0].partition(".")
+        return LABS.index(slug), int(number.lstrip("p")), -len(row[2]), row[1]  # p9 before p10
+
+    return sorted(rows, key=place)
+
+
+def csv_of(made: Summary, points: bool = True) -> str:
+    """The table for a spreadsheet: a row for each entry, and at the end one for each file that was
+    left out.
+    """
+    numbers = sorted({_number(e) for entry in made.entries for e in entry.data["exercises"]})
+    goals = range(1, 1 + max((len(each.objectives) for each in made.entries), default=0))
+    heads = [*FIRST, "points", *(f"objective {k}" for k in goals)]
+    heads += [f"{what} {n}" for n in numbers for what in ("exercise", "points", "mistake")]
+    heads += ["predictions made", "predictions right", "predictions wrong", "remarks", "problem"]
+    if not points:
+        heads = [head for head in heads if not head.startswith("points")]
+    text = io.StringIO()
+    rows = csv.DictWriter(text, heads, restval="", extrasaction="ignore")
+    rows.writeheader()
+    for entry in made.entries:
+        row = {"who": entry.who, "lab": entry.lab, "file": entry.file, "date": entry.date}
+        row["points"] = entry.points
+        row |= {f"objective {k}": state for k, (_, state) in enumerate(entry.objectives, 1)}
+        for each in entry.data["exercises"]:
+            n = _number(each)
+            row[f"exercise {n}"], row[f"points {n}"] = each["state"], f"{each['points']:g}"
+            row[f"mistake {n}"] = each["mistake"] or ""
+        if entry.data["guesses_came"]:
+            guesses = entry.data["predictions"]
+            row["predictions made"] = str(sum(p["right"] is not None for p in guesses))
+            row["predictions right"] = str(sum(p["right"] is True for p in guesses))
+            row["predictions wrong"] = "; ".join(
+                f"{_number(p)}: {p['confusion'] or p['choice']}"
+                for p in guesses
+                if p["right"] is False
+            )
+        row["remarks"] = " ".join(entry.data["remarks"])
+        rows.writerow({name: harmless(value) for name, value in row.items()})
+    for left in made.left_out:
+        row = {"who": left.who, "file": left.file, "problem": left.reason}
+        rows.writerow({name: harmless(value) for name, value in row.items()})
+    return text.getvalue()
+
+
+def harmless(text: str) -> str:
+    """A cell on one line that no spreadsheet takes for a formula, also one that splits cells at
+    another sign than the comma.
+    """
+    return FORMULA.sub(r"\1'", " ".join(text.split()))
+
+
+def page_of(made: Summary, links: list[str], points: bool = True) -> str:
+    """The page: for each lab how many hold each exercise, and a row for each student; mistakes and
+    predictions; what was left out. `links`: where the entries' own pages are.
+    """
+    rows = list(zip(made.entries, links, strict=True))
+    labs = [(slug, [row for row in rows if row[0].lab == slug]) for slug in LABS]
+    return _page(
+        "summary.html.j2",
+        points=points,
+        made=made,
+        labs=[{"name": slug, "rows": here, **_figures(slug, here)} for slug, here in labs if here],
+        now=f"{datetime.now():%Y-%m-%d %H:%M}",
+        students=len({normalised(each.who) for each in made.entries}),
+        counted=(
+            ("The most frequent mistakes", "Exercise", "Mistake", mistakes(made)),
+            ("Predictions that went wrong", "Prediction", "Confusion", confusions(made)),
+        ),
+    )
+
+
+def sheet(entry: Entry, points: bool = True) -> str:
+    """One student's page, written from validated data."""
+    return _page("sheet.html.j2", points=points, entry=entry, mark=Markup(SHEET))
+
+
+def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
+    """How many hold each exercise and each objective of a lab."""
+    states: dict[str, Counter[str]] = defaultdict(Counter)
+    for entry, _ in rows:
+        for each in entry.data["exercises"]:
+            states[each["id"]][each["state"]] += 1
+    held = Counter(text for entry, _ in rows for text, s in entry.objectives if s == "holds")
+    return {
+        "exercises": [(n, f"{slug}.{n}", states[f"{slug}.{n}"]) for n in lab(slug).EXERCISES],
+        "objectives": [(text, held[text]) for text in lab(slug).OBJECTIVES],
+    }
+
+
+def _page(template: str, **more: Any) -> str:
+    return _templates().get_template(template).render(more, style=Markup(STYLE), policy=POLICY)
+
+
+@functools.cache
+def _templates() -> jinja2.Environment:
+    pages = jinja2.Environment(
+        loader=jinja2.PackageLoader("robokin.course", "templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+    )
+    pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
+    return pages
+
+
+def _words(text: str) -> Markup:
+    """What stands between back-ticks is code."""
+    return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+
+
+@functools.cache
+def _asked(name: str) -> str:
+    """An exercise's task, a prediction's question, as robokin has it."""
+    slug, _, number = name.partition(".")
+    if number in lab(slug).EXERCISES:
+        return str(find(name, "EXERCISES").task)
+    return filled(find(name, "PREDICTIONS"))[0]
+
+
+def _time(text: str) -> str:
+    return f"{datetime.fromisoformat(text):%Y-%m-%d %H:%M}"
+
+
+def _kind(state: str) -> str:
+    wrong = state in ("does not hold", "failed", "not judged")
+    return "holds" if state == "holds" else "not" if wrong else "open"
+
+
+def _number(each: dict[str, Any]) -> str:
+    return str(each["id"]).partition(".")[2]
+
+
+# --- Files ----------------------------------------------------------------------------------------
+
+
+def places(folder: Path) -> tuple[Path, Path, Path]:
+    """Where the table, the page and the students' pages come. ValueError: no folder, or something
+    else is there.
+    """
+    if not folder.is_dir():
+        raise ValueError(f"to: wanted a folder that exists, got {str(folder)!r}")
+    table, page, pages = folder / "summary.csv", folder / "summary.html", folder / PAGES
+    for path, begin in ((table, ",".join(FIRST) + ","), (page, BEGIN)):
+        if os.path.lexists(path) and not _begins(path, begin):
+            raise ValueError(f"{path} exists and is not a summary; nothing is overwritten")
+    if os.path.lexists(pages) and (pages.is_symlink() or not pages.is_dir()):
+        raise ValueError(f"{pages} exists and is no folder; nothing is overwritten")
+    return table, page, pages
+
+
+def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]:
+    """Write summary.csv and summary.html into `folder`, and beside them the students' pages, which
+    take the place of those of an earlier summary. ValueError as `places`.
+    """
+    table, page, pages = places(folder)
+    if made.entries:
+        pages.mkdir(exist_ok=True)
+    names: dict[str, str] = {}  # in small letters: two names may be one to a file system
+    for entry in made.entries:
+        path = _free(pages, f"{entry.lab}_{safe(entry.who)}", names)
+        write_page(path, sheet(entry, points))
+        names[path.name.casefold()] = path.name
+    write_page(page, page_of(made, [f"{PAGES}/{name}" for name in names.values()], points))
+    _write(table, csv_of(made, points).encode("utf-8-sig"))
+    for path in pages.iterdir() if pages.is_dir() else ():
+        name = names.get(path.name.casefold())
+        if _begins(path, SHEET) and not (name and path.samefile(pages / name)):
+            path.unlink()
+    return table, page
+
+
+def is_ours(path: Path, folder: Path) -> bool:
+    """Whether a page was written into `folder` by `write`."""
+    place, top = path.resolve(), folder.resolve()
+    if place == top / "summary.html":
+        return _begins(path, BEGIN)
+    return place.parent == top / PAGES and _begins(path, SHEET)
+
+
+def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
+    """A page's place where nothing of others lies, and no other student's page."""
+    path, k = pages / f"{name}.html", 1
+    while path.name.casefold() in taken or (os.path.lexists(path) and not _begins(path, SHEET)):
+        k += 1
+        path = pages / f"{name}_{k}.html"
+    return path
+
+
+def _begins(path: Path, begin: str) -> bool:
+    """Whether a file, and no link to one, has these words in its first lines."""
+    if path.is_symlink() or not path.is_file():
+        return False
+    with path.open("rb") as file:
+        return begin in file.read(1000).decode("utf-8-sig", "replace")
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Wholly or not at all."""
+    beside = path.with_name(f".{os.urandom(8).hex()}.csv.part")
+    try:
+        beside.write_bytes(content)
+        os.replace(beside, path)
+    finally:
+        with contextlib.suppress(FileNotFoundError):
+            beside.unlink()

@@ -1,0 +1,67 @@
+"""What students hand in, made by hand: reports as pages with data, of whatever is put there; and
+how a test reads what `summary` made of it.
+"""
+
+import csv
+import json
+import os
+import re
+from html import unescape
+
+from robokin.course import book
+from robokin.course.reported import DATA
+
+SLUG = "scara_motion"
+MADE = "2026-11-02T09:30:00+01:00"
+
+
+def report_of(who, slug=SLUG, made=MADE, **changes):
+    """The data of a report in which nothing is answered."""
+    lab = book.lab(slug)
+    exercises = [
+        {"id": f"{slug}.{n}", "task": each.task, "objective": each.objective}
+        | {"state": "unanswered", "mistake": None, "says": [], "case": None, "points": 0.0}
+        for n, each in lab.EXERCISES.items()
+    ]
+    predictions = [
+        {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
+        | {"when": None, "later": []}
+        for n in lab.PREDICTIONS
+    ]
+    data = {"report": 2, "who": who, "lab": slug, "title": "A lab", "file": f"{slug}.ipynb"}
+    data |= {"made": made, "robokin": "2.0.0", "numbers": "", "remarks": [], "guesses_came": True}
+    return data | {"exercises": exercises, "predictions": predictions} | changes
+
+
+def page(data):
+    """A page with data as a report has them; a text stands there as it is."""
+    text = data if isinstance(data, str) else json.dumps(data)
+    return f"<!DOCTYPE html>\n<head>{DATA}{text.replace('<', chr(92) + 'u003c')}</script></head>"
+
+
+def put(path, content):
+    """Write bytes, a text or a report's data into a file; its folders are made."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    text = page(content) if isinstance(content, dict) else content
+    with open(os.fsencode(path), "wb") as file:
+        file.write(text if isinstance(text, bytes) else text.encode(errors="surrogatepass"))
+    return path
+
+
+def table_in(folder):
+    with open(folder / "summary.csv", encoding="utf-8-sig", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def page_in(folder):
+    return (folder / "summary.html").read_text(encoding="utf-8")
+
+
+def rows_of(page, table):
+    """The cells of the tables of that class, as text."""
+    found = []
+    for text in re.findall(rf'<table class="{table}">(.*?)</table>', page, re.S):
+        for row in re.findall("<tr>(.*?)</tr>", text, re.S):
+            cells = re.findall("<td>(.*?)</td>", row, re.S)
+            found.append([unescape(re.sub("<[^>]*>", "", cell)).strip() for cell in cells])
+    return [row for row in found if row]
