@@ -270,14 +270,19 @@ def test_a_point_off_the_plane_is_not_reached():
     ).all() and "beside the plane" in ARM.out_of_reach((1.5, 1, 0.1))
 
 
-def test_the_words_and_the_postures_end_at_the_same_height():
-    """The highest z that is taken for z = 0, found by halving: at it and at the next number."""
-    low, high = 0.0, 0.1
+@pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])
+def test_the_words_end_where_the_postures_end(way):
+    """The last point that is reached on the way up, or out, is found by halving."""
+
+    def at(far):
+        return np.array([1.5, 0, 0]) + far * np.array(way)
+
+    low, high = 0.0, 4.0
     while low < (middle := (low + high) / 2) < high:
-        taken = not np.isnan(ARM.family((1.5, 1, middle), 2.0)).any()
-        low, high = (middle, high) if taken else (low, middle)
-    assert 0 < low < 1e-9 and high == np.nextafter(low, 1)
-    assert ARM.out_of_reach((1.5, 1, low)) == "" != ARM.out_of_reach((1.5, 1, high))
+        reached = not np.isnan(ARM.least(at(middle), np.ones(3))[0]).any()
+        low, high = (middle, high) if reached else (low, middle)
+    assert 0 < low and high == np.nextafter(low, 5)
+    assert ARM.out_of_reach(at(low)) == "" != ARM.out_of_reach(at(high))
 
 
 def _pairs(points):

@@ -35,7 +35,7 @@ def command(folder, **more):
         [sys.executable, "-m", "robokin.course", "site", str(folder)],
         text=True,
         capture_output=True,
-        timeout=300,
+        timeout=900,
         **more,
     )
 

@@ -885,11 +885,11 @@ def many(n, seed=0, **changes):
 
 
 def test_a_large_task_is_collected_in_seconds():
-    began = time.perf_counter()
+    began = time.process_time()
     task = many(200_000)
     result = collect(task)
     text = report(task, result)
-    assert time.perf_counter() - began < 20  # about 1.5 s
+    assert time.process_time() - began < 20  # about 1.5 s of CPU
     assert len(result.order) == 200_000 and result.left == ()
     costs = 2 * travel_time(task.q[0], task.q[1:], task.speeds)
     assert (np.diff(costs[list(result.order)]) >= -1e-9).all()
@@ -924,12 +924,12 @@ def test_what_grows_with_the_square_has_a_limit():
 
 def test_a_task_of_too_many_points():
     for given in ([[1, 1, 1]] * (TASK_LIMIT + 1), np.ones((TASK_LIMIT + 1, 3))):
-        began = time.perf_counter()
+        began = time.process_time()
         with pytest.raises(
             TaskError, match="pi: wanted a non-empty array of points, at most 300000, got"
         ):
             make(points=given)
-        assert time.perf_counter() - began < 5
+        assert time.process_time() - began < 5
     assert len(make(points=np.ones((TASK_LIMIT, 3))).points) == TASK_LIMIT
     found = faults(GOOD | {"pi": [[1, 1, 1]] * (TASK_LIMIT + 1)})
     assert len(found) == 1 and found[0].endswith(
@@ -939,7 +939,7 @@ def test_a_task_of_too_many_points():
 
 def test_many_faults_are_counted():
     """Ten of one kind in words, the others as a number."""
-    began = time.perf_counter()
+    began = time.process_time()
     bad = (
         [[9, 9, 9]] * 40_000
         + [[1, 1]] * 30_000
@@ -948,7 +948,7 @@ def test_many_faults_are_counted():
         + [[9, 9, -9]]
     )
     found = faults(GOOD | {"pi": bad, "p0": [0, 0, -1]})
-    assert time.perf_counter() - began < 5
+    assert time.process_time() - began < 5
     kinds = ("wanted an array of 3", "is too far", "is under floor", "is too close to origin")
     assert [sum(kind in text for text in found) for kind in kinds] == [10, 10, 10, 10]
     assert (
@@ -988,9 +988,9 @@ def test_the_exact_optimum_of_sixteen_points():
     rng = np.random.default_rng(9)
     for axis in (0, 6):
         task = drawn_on_the_axis(rng, EXACT_LIMIT, axis=axis, T=30)
-        began = time.perf_counter()
+        began = time.process_time()
         best = best_visit(task)
-        assert time.perf_counter() - began < 20
+        assert time.process_time() - began < 20
         assert len(best.order) >= len(visit(task).order)
         assert best.times == pytest.approx(walked(task, best.order), rel=1e-9)
 
