@@ -18,6 +18,7 @@ from conftest import NOTEBOOKS, ROOT, until
 from jupyter_client.manager import KernelManager
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from robokin import course
 from robokin.course import hand_in, report, solution
 from robokin.course.hand_in import ASLEEP, UNSAVED, Ran
 from robokin.course.note import Note
@@ -87,6 +88,12 @@ def test_a_name_may_be_anything_a_student_writes(desk):
     stored(desk.lab, REPORT)
     for who in (7, "Zoë -x", "李 小龙"):
         assert report(who) == "written" and desk.judged[-1] == ("lab.ipynb", str(who))
+
+
+def test_no_module_takes_a_name_that_the_course_exports():
+    """Or importing the module would put it in the place of the function."""
+    modules = {path.stem for path in Path(course.__file__).parent.iterdir()}
+    assert not modules & set(course.__all__)
 
 
 # --- Is the file as new as what the student sees? -------------------------------------------------

@@ -17,7 +17,7 @@ from robokin.course import book, summary
 from robokin.course.__main__ import main
 from robokin.course.handed_in import handed_in
 from robokin.course.judge import Guess, Judged, Limits, Result
-from robokin.course.report import page_of, told
+from robokin.course.report_page import page_of, told
 from robokin.course.variants import normalised
 
 NAMES = """Ada Grace Mary Юрий Łukasz José Zoë Ng O'Neil कमला =SUM(A1) +49 -1 @home Li Wei Max Eva

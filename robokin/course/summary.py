@@ -26,7 +26,7 @@ from ..show.palette import ALARM
 from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
-from .report import GREEN, INK, LINE, SOFT, objectives, told
+from .report_page import GREEN, INK, LINE, SOFT, objectives, told
 from .reported import report_data
 from .variants import normalised
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import nbformat
 
 from robokin.course import book, solution
-from robokin.course.report import report, report_data
+from robokin.course.report_page import report, report_data
 from robokin.course.summary import summary, write
 
 NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
