@@ -152,6 +152,7 @@ def test_a_line_of_guesses_that_is_none_is_told(desk, monkeypatch):
     parse = SimpleNamespace(parse_line=parse_line)
     monkeypatch.setitem(sys.modules, "robokin.course.guesses", parse)
     stored(desk.lab, IMPORTS)
+    assert report("Ada", guesses=3).startswith("No report: guesses: wanted the line")
     said = report("Ada", guesses="first b")
     assert said == "No report: guesses: wanted a line like \"p1 b, p3 a\", got 'first b'"
     assert desk.judged == []

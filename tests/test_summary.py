@@ -76,7 +76,7 @@ def handed(tmp_path_factory):
     (folder / "student 4" / ".ipynb_checkpoints").mkdir()
     (folder / "student 4" / ".ipynb_checkpoints" / "x.ipynb").write_text("{}")
     (folder / "student 5" / "other.html").write_text("<p>no report</p>")
-    notebook(folder / "student 6" / "00_start_here.ipynb", "1")
+    notebook(folder / "student 6" / "notes.ipynb", "1")
     return folder, drawn
 
 

@@ -16,6 +16,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from .._validate import short
 from .book import LABS
 from .note import Note
 from .reported import report_data
@@ -104,8 +105,10 @@ def _seen_in() -> Path | None:
     return Path(told) if told else None
 
 
-def _parse(guesses: str) -> None:
-    """ValueError: not the line that a page copies."""
+def _parse(guesses: Any) -> None:
+    """ValueError: not the line that a page copies. TypeError: no line."""
+    if not isinstance(guesses, str):
+        raise TypeError(f"guesses: wanted the line that a page copies, got {short(guesses)}")
     try:
         module = importlib.import_module(".guesses", __package__)
     except ModuleNotFoundError:
