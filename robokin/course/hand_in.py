@@ -197,7 +197,7 @@ def _written(path: Path, who: str) -> Note:
         raise ValueError(lines[-1] if lines else f"it ended with status {child.returncode}.")
     page = path.parent / Path(said.strip().rpartition(":")[0]).name
     data = report_data(page.read_text(encoding="utf-8")) or {"exercises": [], "predictions": []}
-    lines = [f"{page.name} is your report. Open it, and hand it in."]
+    lines = [f"{page.name} is your report, beside this notebook. Look at it, and hand it in."]
     for each in data["exercises"]:
         lines.append(f"{each['id']}: {each['state']}")
         if each["state"] in ("failed", "not judged"):

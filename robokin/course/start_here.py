@@ -130,28 +130,28 @@ PREDICTIONS = {
     "p1": Prediction(
         question="Joint 1 stands at {angle}°, and the tool is at x = {x} mm, y = {y} mm, z = {z} "
         "mm: x counts to the front, y to the left, z upwards. Now joint 1 turns to −{angle}°, and "
-        "the other joints stay. Where is the tool?",
+        "the other joints stay. So does z. What are x and y?",
         options=(
             Option(
-                "{option0}, at the same height",
+                "{option0}",
                 "The tool would be behind the arm: there joint 1 stands at {at0}.",
                 "the sign of the angle taken for the sign of x",
                 "At 0° the tool is straight ahead: a little to the left or to the right of that, "
                 "x stays positive.",
             ),
             Option(
-                "{option1}, at the same height",
+                "{option1}",
                 "Left becomes right, so y changes its sign. How far ahead the tool is, and how "
                 "high, is the same on both sides.",
             ),
             Option(
-                "{option2}, at the same height",
+                "{option2}",
                 "Both signs change after half a turn: there joint 1 stands at {at2}.",
                 "turning to the other side taken for half a turn",
                 "A door that opens to the left or to the right is in front of you both times.",
             ),
             Option(
-                "{option3}, at the same height",
+                "{option3}",
                 "Exchanged numbers belong to joint 1 at {at3}: they mirror the place in the line "
                 "halfway between x and y.",
                 "mirrored in the wrong line",
