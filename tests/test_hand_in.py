@@ -355,6 +355,7 @@ def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
     link = last.get_by_role("link", name="00_start_here_Zoë.html")
     link.wait_for(timeout=120_000)
     assert "start_here.1: holds" in last.inner_text()
+    assert "0 of 1 predictions made. Is a guess missing?" in last.inner_text()
     made = lab.parent / "00_start_here_Zoë.html"
     data = report_data(made.read_text(encoding="utf-8"))
     assert data["who"] == "Zoë" and data["exercises"][0]["state"] == "holds"

@@ -204,6 +204,8 @@ def _written(path: Path, who: str) -> Note:
             lines[-1] += f". {each['says'][0]}"
     made = sum(each["choice"] is not None for each in data["predictions"])
     lines.append(f"{made} of {len(data['predictions'])} predictions made")
+    if made < len(data["predictions"]):  # a page's guess waits while the kernel runs all cells
+        lines[-1] += ". Is a guess missing? Run this cell once more."
     note = Note("\n".join(lines))
     note.file = page.name
     return note
