@@ -38,7 +38,7 @@ class Size(NamedTuple):
 
 MOST = Size(words=1800, cells=18, lines=200, sections=8, predictions=10, exercises=3)
 MINUTES, READING = 90, 60
-START = "00_start_here"  # five minutes, without exercises
+START = "00_start_here"  # read in ten minutes
 
 
 def measure(path: Path) -> Size:
@@ -92,9 +92,9 @@ def too_long(name: str, size: Size) -> list[str]:
     """What is above its limit, in words."""
     over = [f"{field} above {most}" for field, most in MOST._asdict().items()
             if getattr(size, field) > most]  # fmt: skip
-    minutes = 5 if name == START else MINUTES
-    over += [f"minutes above {minutes}"] * (round(size.minutes, 6) > minutes)
-    return over + [f"reading above {READING}"] * (round(size.reading, 6) > READING)
+    over += [f"minutes above {MINUTES}"] * (round(size.minutes, 6) > MINUTES)
+    reading = 10 if name == START else READING
+    return over + [f"reading above {reading}"] * (round(size.reading, 6) > reading)
 
 
 if __name__ == "__main__":

@@ -76,7 +76,7 @@ OUTSIDE = {
     "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
     "robokin.course.judge": {"jupyter_client", "nbclient", "nbformat"},
     "robokin.course.kernel": {"ipykernel"},
-    "robokin.course.report": {"nbformat"},
+    "robokin.course.report_page": {"nbformat"},
     "robokin.course.site.conf": {"docutils", "sphinx"},
     "robokin.course.summary": {"psutil"},
     "robokin.course.summary_pages": {"jinja2", "markupsafe"},

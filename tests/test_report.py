@@ -22,7 +22,7 @@ from robokin.course import book, kernel, solution
 from robokin.course.__main__ import main
 from robokin.course.handed_in import Call, handed_in
 from robokin.course.judge import Judged, Limits, Result, Run, guesses, judge
-from robokin.course.report import objectives, page_of, report, safe, told
+from robokin.course.report_page import objectives, page_of, report, safe, told
 from robokin.course.reported import STATES, report_data
 
 QUICK = Limits(cell=12, all=100)

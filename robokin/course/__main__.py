@@ -130,7 +130,7 @@ def _export(given: Any) -> int:
 
 
 def _report(given: Any) -> int:
-    from .report import report
+    from .report_page import report
 
     return _each(given.labs, lambda path: report(path, given.name, given.to))
 

@@ -7,6 +7,7 @@ from types import ModuleType
 from typing import Any
 
 LABS = (
+    "start_here",
     "frames_and_quaternions",
     "irb140_kinematics",
     "irb140_motion",

@@ -26,7 +26,7 @@ import psutil
 from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
-from .report import objectives, told
+from .report_page import objectives, told
 from .reported import NAME, TEXT, plain, report_data, validated
 from .variants import normalised
 

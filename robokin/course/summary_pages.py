@@ -25,7 +25,7 @@ from ..show.page import write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from .book import LABS, find, lab
 from .predictions import filled
-from .report import safe
+from .report_page import safe
 from .summary import Entry, Summary
 from .variants import normalised
 

@@ -22,7 +22,7 @@ from pathlib import Path
 import nbformat
 
 from robokin.course import book, solution, summary
-from robokin.course.report import report
+from robokin.course.report_page import report
 from robokin.course.reported import report_data
 from robokin.course.summary_pages import write
 

@@ -1,0 +1,22 @@
+"""Words that a call leaves below its cell."""
+
+import html
+from urllib.parse import quote
+
+
+class Note(str):
+    """Words that show themselves as they are. `file`: one beside the notebook; its name in the
+    words is a link to it.
+    """
+
+    file = ""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str | None:
+        if not self.file:
+            return None
+        name = html.escape(self.file)
+        link = f'<a href="{html.escape(quote(self.file))}" target="_blank">{name}</a>'
+        return "<br>".join(html.escape(self).replace(name, link, 1).split("\n"))

@@ -1,0 +1,96 @@
+"""The exercise and the prediction of lab 00: right answers hold in every style, wrong ones are
+named, and the prediction's key is computed a second time.
+"""
+
+import numpy as np
+import pytest
+
+from robokin import IRB140, deg, mm
+from robokin.course import check, solution
+from robokin.course.predictions import filled
+from robokin.course.start_here import PREDICTIONS
+
+ANSWER = [45, -17, -10, 0, 30, 0]  # degrees
+
+
+def place(q):
+    return IRB140.fk(q).translation / mm
+
+
+def searched(seed):
+    """A posture of random joints 2 to 6, whose tool is mirrored and lifted by a search."""
+    dice = np.random.default_rng(seed)
+    low, high = IRB140.limits.T
+    while True:
+        q = dice.uniform(low, high)
+        x, y, z = place(q)
+        q[0] += np.pi / 4 - np.arctan2(y, x)  # turns the place to the diagonal
+        q[0] = (q[0] + np.pi) % (2 * np.pi) - np.pi
+        if abs(z - 600) < 4.5 and np.hypot(x, y) > 100:
+            return q
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        np.array(ANSWER) * deg,
+        [x * deg for x in ANSWER],
+        tuple(np.radians(ANSWER)),
+        *(searched(seed) for seed in range(3)),
+    ],
+)
+def test_every_posture_that_does_it_holds(answer):
+    x, y, z = place(answer)
+    assert abs(x - y) <= 5 and x > 0 and abs(z - 600) <= 5, "as the task says it"
+    verdict = check("start_here.1", answer)
+    assert verdict.holds and verdict.points == 1, verdict
+
+
+@pytest.mark.parametrize(
+    ("answer", "name"),
+    [
+        (ANSWER, "degrees for radians"),
+        (np.array(ANSWER) * deg * deg, "`deg` twice"),
+        (np.array([40, -17, -10, 0, 30, 0]) * deg, "x and y differ"),
+        (np.array([45, -20, -10, 0, 30, 0]) * deg, "too low"),
+        (np.array([45, -10, -10, 0, 30, 0]) * deg, "too high"),
+        (np.array([-45, -17, -10, 0, 30, 0]) * deg, "right for left"),
+        (np.array([-135, -17, -10, 0, 30, 0]) * deg, "behind the arm"),
+        (np.array([45, -17, -10, 0, 390, 0]) * deg, "past a limit"),
+        (np.array(ANSWER[:5]) * deg, "another kind or shape"),
+        ([[x * deg for x in ANSWER]], "another kind or shape"),
+        (45 * deg, "another kind or shape"),
+        ([np.nan] * 6, "another kind or shape"),
+        (["45", "-17", "a", "0", "30", "0"], "another kind or shape"),
+    ],
+)
+def test_a_wrong_posture_gets_its_name(answer, name):
+    verdict = check("start_here.1", answer)
+    assert verdict.answered and not verdict.holds and verdict.mistake == name, verdict
+    assert verdict.says and verdict.points < 1
+
+
+def test_one_miss_of_three_costs_a_third():
+    assert check("start_here.1", np.array([45, -20, -10, 0, 30, 0]) * deg).points == 0.67
+    assert check("start_here.1", np.array([40, -20, -10, 0, 30, 0]) * deg).points == 0.33
+
+
+def test_a_posture_that_is_missing_is_not_answered():
+    for answer in (..., None):
+        assert not check("start_here.1", answer).answered
+    assert "45" in solution("start_here.1")
+
+
+def test_p1_left_becomes_right():
+    """The key by a turn about z, without forward kinematics of the second posture."""
+    question, options, right = filled(PREDICTIONS["p1"])
+    x, y, z = place(np.array([40, -20, -10, 0, 30, 0]) * deg)
+    for number in (x, y, z):
+        assert f"{number:.0f}" in question
+    turn = -80 * deg
+    there = np.cos(turn) * x - np.sin(turn) * y, np.sin(turn) * x + np.cos(turn) * y
+    wanted = "x = {:.0f} mm, y = {:.0f} mm".format(*there).replace("-", "\N{MINUS SIGN}")
+    assert options[right].text.startswith(wanted)
+    reasons = " ".join(option.reason for option in options)
+    for angle in ("140°", "\N{MINUS SIGN}140°", "50°"):  # where the other answers belong
+        assert f"at {angle}" in reasons

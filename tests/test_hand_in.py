@@ -1,0 +1,364 @@
+"""`report(who)` in a lab: it finds its notebook, sees whether the file is as new as what the
+student sees, and writes the report or says in one sentence what is in the way.
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from queue import Empty
+from types import SimpleNamespace
+
+import nbformat
+import psutil
+import pytest
+from conftest import NOTEBOOKS, ROOT, until
+from jupyter_client.manager import KernelManager
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+from robokin import course
+from robokin.course import hand_in, report, solution
+from robokin.course.hand_in import ASLEEP, UNSAVED, Ran
+from robokin.course.note import Note
+from robokin.course.reported import report_data
+
+IMPORTS = "from robokin.course import check, predict, report"
+CHECK = 'check("start_here.1", my_posture)'
+REPORT = 'report("Ada")'
+
+
+def stored(path, *sources, saved=None):
+    """Write a notebook with these code cells; `saved`: when."""
+    cells = [new_markdown_cell("# A lab"), *map(new_code_cell, sources)]
+    nbformat.write(new_notebook(cells=cells), path)
+    if saved is not None:
+        os.utime(path, (saved, saved))
+    return path
+
+
+@pytest.fixture
+def desk(tmp_path, monkeypatch):
+    """A kernel's folder with `lab.ipynb`, opened in JupyterLab. `run(source, when)` a cell;
+    `desk.judged` is what would have been judged: (file, name).
+    """
+    here = SimpleNamespace(folder=tmp_path, lab=tmp_path / "lab.ipynb", judged=[])
+
+    def run(*sources, when):
+        hand_in._ran.extend(Ran(source, when) for source in sources)
+
+    def written(path, who):
+        here.judged.append((path.name, who))
+        return Note("written")
+
+    here.run = run
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(hand_in, "_ran", [])
+    monkeypatch.setattr(hand_in, "_written", written)
+    monkeypatch.delenv("ROBOKIN_JUDGE", raising=False)
+    monkeypatch.setenv("JPY_SESSION_NAME", str(here.lab))
+    return here
+
+
+# --- Where it does nothing ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("who", ["your name", " Your  NAME ", "", "  ", None, ...])
+def test_without_a_name_it_says_one_line(desk, who):
+    stored(desk.lab, REPORT)
+    assert repr(report(who)) == ASLEEP and desk.judged == []
+
+
+@pytest.mark.parametrize("where", ["judged", "in a page", "only executed"])
+def test_where_nobody_hands_in_it_says_the_same_line(desk, monkeypatch, where):
+    stored(desk.lab, REPORT)
+    if where == "judged":
+        monkeypatch.setenv("ROBOKIN_JUDGE", "1")
+        assert repr(report("Ada", notebook="lab.ipynb")) == ASLEEP
+    elif where == "in a page":
+        monkeypatch.setattr(sys, "platform", "emscripten")
+    else:  # nbval, nbclient, tests/rerun.py
+        monkeypatch.delenv("JPY_SESSION_NAME")
+    assert repr(report("Ada")) == ASLEEP and desk.judged == []
+    assert "\n" not in ASLEEP
+
+
+def test_a_name_may_be_anything_a_student_writes(desk):
+    stored(desk.lab, REPORT)
+    for who in (7, "Zoë -x", "李 小龙"):
+        assert report(who) == "written" and desk.judged[-1] == ("lab.ipynb", str(who))
+
+
+def test_no_module_takes_a_name_that_the_course_exports():
+    """Or importing the module would put it in the place of the function."""
+    modules = {path.stem for path in Path(course.__file__).parent.iterdir()}
+    assert not modules & set(course.__all__)
+
+
+# --- Is the file as new as what the student sees? -------------------------------------------------
+
+
+def test_an_answer_that_is_not_saved_is_not_judged(desk):
+    stored(desk.lab, IMPORTS, "my_posture = ...", CHECK, saved=100)
+    desk.run(IMPORTS, "my_posture = 1", CHECK, REPORT, when=200)
+    assert report("Ada") == UNSAVED and desk.judged == []
+    stored(desk.lab, IMPORTS, "my_posture = 1", CHECK, saved=300)
+    assert report("Ada") == "written"
+
+
+def test_the_last_version_of_a_cell_counts(desk):
+    versions = [f"def answer(q):\n    return {k}" for k in range(3)]
+    desk.run(IMPORTS, *versions, CHECK, when=200)
+    stored(desk.lab, IMPORTS, versions[1], CHECK, saved=150)
+    assert report("Ada") == UNSAVED
+    stored(desk.lab, IMPORTS, versions[2], CHECK, saved=300)
+    assert report("Ada") == "written"
+    desk.run(versions[0], when=400)  # back to the first one
+    assert report("Ada") == UNSAVED
+
+
+def test_a_cell_that_was_deleted_after_it_ran_is_not_missed(desk):
+    desk.run(IMPORTS, "def helper(): ...", 'predict("start_here.p1", "b")', when=200)
+    stored(desk.lab, IMPORTS, CHECK, saved=300)
+    assert report("Ada") == "written"
+
+
+def test_what_ran_as_it_stands_in_the_file_needs_no_other_save(desk):
+    stored(desk.lab, IMPORTS, CHECK + "\n", saved=100)
+    desk.run(IMPORTS, CHECK, when=200)
+    assert report("Ada") == "written"
+
+
+def test_the_cell_of_the_report_need_not_be_saved_unless_it_has_guesses(desk, monkeypatch):
+    parse = SimpleNamespace(parse_line=lambda text: None)
+    monkeypatch.setitem(sys.modules, "robokin.course.guesses", parse)
+    stored(desk.lab, IMPORTS, "report(who)", saved=100)
+    cell = 'report("Ada", guesses="p1 b")'
+    desk.run(IMPORTS, REPORT, when=200)
+    assert report("Ada") == "written"
+    desk.run(cell, when=300)
+    assert report("Ada", guesses="p1 b") == UNSAVED
+    stored(desk.lab, IMPORTS, cell, saved=400)
+    assert report("Ada", guesses="p1 b") == "written"
+    desk.run("def answer(): ...\nreport('Ada')", when=500)
+    assert report("Ada") == UNSAVED, "an answer beside it counts"
+
+
+def test_a_line_of_guesses_that_is_none_is_told(desk, monkeypatch):
+    def parse_line(text):
+        raise ValueError(f'guesses: wanted a line like "p1 b, p3 a", got {text!r}')
+
+    parse = SimpleNamespace(parse_line=parse_line)
+    monkeypatch.setitem(sys.modules, "robokin.course.guesses", parse)
+    stored(desk.lab, IMPORTS)
+    assert report("Ada", guesses=3).startswith("No report: guesses: wanted the line")
+    said = report("Ada", guesses="first b")
+    assert said == "No report: guesses: wanted a line like \"p1 b, p3 a\", got 'first b'"
+    assert desk.judged == []
+
+
+# --- Which file is it? ----------------------------------------------------------------------------
+
+
+def test_a_notebook_with_a_new_name_is_found_by_its_exercises(desk):
+    stored(desk.folder / "Ada's lab.ipynb", IMPORTS, CHECK)
+    stored(desk.folder / "other.ipynb", IMPORTS, 'check("scara_motion.1", f)')
+    (desk.folder / "broken.ipynb").write_text("{")
+    (desk.folder / "none.ipynb").write_text('{"cells": 3}')
+    desk.run(IMPORTS, 'predict("start_here.p1")', when=100)
+    assert report("Ada") == "written" and desk.judged == [("Ada's lab.ipynb", "Ada")]
+
+
+def test_among_two_copies_it_asks_which(desk):
+    for name in ("one.ipynb", "two.ipynb"):
+        stored(desk.folder / name, IMPORTS, CHECK)
+    desk.run(IMPORTS, CHECK, when=100)
+    said = report("Ada")
+    assert "one.ipynb, two.ipynb" in said and 'report(who, notebook="NAME.ipynb")' in said
+    assert desk.judged == []
+    assert report("Ada", notebook="two.ipynb") == "written"
+    assert report("Ada", notebook=Path("one.ipynb")) == "written"
+    assert desk.judged == [("two.ipynb", "Ada"), ("one.ipynb", "Ada")]
+
+
+@pytest.mark.parametrize("given", ["lost.ipynb", "", 3, ["lab.ipynb"], "a\0b"])
+def test_a_file_that_is_not_there_is_told(desk, given):
+    assert report("Ada", notebook=given).startswith("No report: ") and desk.judged == []
+
+
+def test_a_file_that_is_no_notebook_is_told(desk):
+    desk.lab.write_text("{}")
+    assert report("Ada") == "No report: lab.ipynb is not a notebook."
+
+
+def test_without_any_notebook_it_asks(desk):
+    desk.run(IMPORTS, CHECK, when=100)
+    assert "no notebook with this lab's exercises" in report("Ada")
+
+
+def test_vs_code_tells_the_file(desk, monkeypatch):
+    monkeypatch.delenv("JPY_SESSION_NAME")
+    stored(desk.lab, IMPORTS, CHECK)
+    space = {"__vsc_ipynb_file__": str(desk.lab)}
+    monkeypatch.setattr(hand_in, "_shell", lambda: SimpleNamespace(user_ns=space))
+    assert report("Ada") == "written"
+
+
+def test_a_link_is_safe_in_the_page():
+    note = Note('a<b>&_Ada.html is "your" report.\nx: holds')
+    assert note._repr_html_() is None
+    note.file = "a<b>&_Ada.html"
+    assert note._repr_html_() == (
+        '<a href="a%3Cb%3E%26_Ada.html" target="_blank">a&lt;b&gt;&amp;_Ada.html</a>'
+        " is &quot;your&quot; report.<br>x: holds"
+    )
+
+
+# --- In a kernel ----------------------------------------------------------------------------------
+
+
+class Kernel:
+    """A real one, started as JupyterLab starts it for the notebook at `lab`."""
+
+    def __init__(self, lab):
+        self.manager = KernelManager(kernel_name="python3")
+        environment = {k: v for k, v in os.environ.items() if k != "ROBOKIN_JUDGE"}
+        environment["JPY_SESSION_NAME"] = str(lab)
+        self.manager.start_kernel(cwd=str(lab.parent), env=environment)
+        self.client = self.manager.client()
+        self.client.start_channels()
+        self.client.wait_for_ready(timeout=60)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.client.stop_channels()
+        self.manager.shutdown_kernel(now=True)
+
+    def run(self, source, seen=lambda text: None):
+        """What a cell says. `seen` is called with what it has said so far."""
+        asked, said = self.client.execute(source), ""
+        while True:
+            try:
+                message = self.client.get_iopub_msg(timeout=120)
+            except Empty:
+                pytest.fail(f"the kernel is silent after: {said}")
+            content, kind = message["content"], message["msg_type"]
+            if message["parent_header"].get("msg_id") != asked:
+                continue
+            if kind == "status" and content["execution_state"] == "idle":
+                return said
+            said += content.get("text", "") or content.get("data", {}).get("text/plain", "")
+            said += "\n".join(content.get("traceback", ()))
+            seen(said)
+
+    def others(self):
+        """The processes that it has started."""
+        started = psutil.Process(self.manager.provisioner.pid).children(recursive=True)
+        return [each for each in started if each.status() != psutil.STATUS_ZOMBIE]
+
+
+def test_a_session(tmp_path):
+    """An answer that raises, a right one, a save that is missing, an interrupt."""
+    raising = "import robokin\nmy_posture = 1 / 0"
+    cells = [IMPORTS, raising, CHECK, 'predict("start_here.p1", "b")']
+    lab = stored(tmp_path / "00_start_here.ipynb", *cells)
+    with Kernel(lab) as kernel:
+        for source in cells:
+            kernel.run(source)
+        page = tmp_path / "00_start_here_Ada.html"
+        said = kernel.run(REPORT)
+        assert said.startswith("Running your lab anew.") and page.name in said
+        assert "start_here.1: failed" in said and "1 of 1 predictions made" in said
+        data = report_data(page.read_text(encoding="utf-8"))
+        assert data["who"] == "Ada" and data["exercises"][0]["state"] == "failed"
+        before = page.read_bytes()
+        right = solution("start_here.1")
+        assert "holds" in kernel.run(f"{right}\n{CHECK}")
+        assert kernel.run(REPORT) == repr(UNSAVED).strip("'") and page.read_bytes() == before
+        stored(lab, IMPORTS, right, CHECK, "import time\ntime.sleep(600)")
+        stopped = []
+
+        def interrupt(text):
+            if "Running" in text and not stopped:
+                until(lambda: len(kernel.others()) > 1, 60, "no kernel judges")
+                stopped.append(kernel.manager.interrupt_kernel())
+
+        assert "Stopped: no report was written." in kernel.run(REPORT, interrupt)
+        until(lambda: not kernel.others(), 20, "something still judges")
+        assert page.read_bytes() == before and kernel.run("print(6 * 7)") == "42\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a login shell")
+def test_the_commands_of_lab_00_work_where_it_says(tmp_path):
+    """In a login shell, where no Python of ours is on the path, in the folder of the clone."""
+    [told] = [cell for cell in _prose("00_start_here.ipynb") if "-m robokin.course report" in cell]
+    assert "in the folder from which you started JupyterLab" in " ".join(told.split())
+    [commands] = re.findall(r"^```sh\n(.*?)^```", told, re.M | re.S)
+    python = tmp_path / ".venv" / "bin" / "python"
+    python.parent.mkdir(parents=True)
+    python.write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
+    python.chmod(0o755)
+    labs = tmp_path / "my-labs"
+    labs.mkdir()
+    stored(labs / "00_start_here.ipynb", IMPORTS, solution("start_here.1"), CHECK)
+    environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "PYTHONPATH": str(ROOT)}
+    run = subprocess.run(
+        ["bash", "-lec", commands],
+        cwd=tmp_path,
+        env=environment,
+        text=True,
+        capture_output=True,
+        timeout=120,
+    )
+    assert run.returncode == 0, run.stderr
+    data = report_data((labs / "00_start_here_Your_Name.html").read_text(encoding="utf-8"))
+    assert data["who"] == "Your Name" and data["exercises"][0]["state"] == "holds"
+    assert (labs / "00_start_here.html").is_file()
+
+
+def _prose(name):
+    cells = json.loads((NOTEBOOKS / name).read_text(encoding="utf-8"))["cells"]
+    return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"]
+
+
+# --- In JupyterLab --------------------------------------------------------------------------------
+
+
+def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
+    """A student's way: change the answer and the name, run all, be told to save, save, hand in."""
+    name = "handing in/00_start_here.ipynb"
+    lab = jupyter.labs / name
+    lab.parent.mkdir()
+    lab.write_bytes((NOTEBOOKS / lab.name).read_bytes())
+    page = browser.new_page(viewport={"width": 1280, "height": 1000})
+    jupyter.open(page, name)
+    cells = page.locator(".jp-CodeCell")
+    for now, new in (
+        ("my_posture = ...", solution("start_here.1")),
+        ('who = "your name"', 'who = "Zoë"\n\nreport(who)'),
+    ):
+        cells.filter(has_text=now).locator(".cm-content").click()
+        page.keyboard.press("Control+a")
+        page.keyboard.insert_text(new)
+    jupyter.run_all(page, name)
+    last = cells.filter(has_text="report(who)")
+    assert last.locator(".jp-OutputArea-output").inner_text().strip() == UNSAVED
+    assert not list(lab.parent.glob("*.html"))
+    page.keyboard.press("Control+s")
+    tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
+    until(lambda: "jp-mod-dirty" not in tab.get_attribute("class"), 30, "it is not saved", page)
+    last.locator(".cm-content").click()
+    page.keyboard.press("Shift+Enter")
+    link = last.get_by_role("link", name="00_start_here_Zoë.html")
+    link.wait_for(timeout=120_000)
+    assert "start_here.1: holds" in last.inner_text()
+    assert "0 of 1 predictions made. Is a guess missing?" in last.inner_text()
+    made = lab.parent / "00_start_here_Zoë.html"
+    data = report_data(made.read_text(encoding="utf-8"))
+    assert data["who"] == "Zoë" and data["exercises"][0]["state"] == "holds"
+    link.click()  # JupyterLab opens the page beside the notebook
+    page.locator(".lm-TabBar-tab", has_text=made.name).first.wait_for(timeout=30_000)
+    page.close()
