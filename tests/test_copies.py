@@ -921,14 +921,14 @@ def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsy
 
 def test_two_at_once_do_no_harm(school):
     with copies._alone(school.folder / ".robokin" / "lock"):
-        with pytest.raises(ValueError, match="another copy is at work"):
+        with pytest.raises(ValueError, match="another process is at work"):
             school.copy()
     for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
         school.newer(name, "second")
     with ThreadPoolExecutor(2) as pool:
         both = [pool.submit(school.copy) for _ in range(2)]
         errors = [each.exception() for each in both]
-        assert all(e is None or "another copy is at work" in str(e) for e in errors), errors
+        assert all(e is None or "another process is at work" in str(e) for e in errors), errors
         assert None in errors
     assert all(school.says(f"{n}.ipynb").endswith("second") for n in ("one", "two", "three"))
     assert school.copy() == {}
