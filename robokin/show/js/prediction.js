@@ -29,7 +29,9 @@ const STYLE = `
   & > fieldset input[type=number] { font: inherit; width: 9em; padding: 5px 8px;
     color: var(--rk-ink); background: var(--rk-paper);
     border: 1px solid var(--rk-rest); border-radius: 6px; }
-  & > .rk-asking { display: flex; flex-wrap: wrap; gap: 12px; margin-top: 8px; }
+  & > .rk-asking { display: flex; flex-wrap: wrap; align-items: center; gap: 8px 12px;
+    margin-top: 8px; }
+  & > .rk-asking > p { margin: 0; }
   & > .rk-asking > button { font: inherit; color: var(--rk-ink); background: var(--rk-button);
     border: 1px solid var(--rk-rest);
     border-radius: 6px; width: auto; height: auto; min-height: 36px; padding: 0 14px; margin: 0;
@@ -64,14 +66,14 @@ export const ask = (id, data) => waiting(id).forEach(root => start(root, data));
 function start(root, data) {
   const memory = memoryOf(root);
   const group = `rk${Math.random()}`; // a question may stand in a page twice
-  const kept = element("p", {});
+  const kept = element("p", {role: "status"});
   const answer = element("div", {class: "rk-answer", "aria-live": "polite"});
   const guess = control("button", {type: "button", disabled: ""}, "This is my guess");
   const again = control("button", {type: "button", hidden: ""}, "Ask me again");
   const clear = control("button", {type: "button", hidden: ""}, "Clear");
   const copy = copyButton(COPY, () => line(memory.read(), data.name));
   copy.classList.add("rk-copy");
-  const asking = element("div", {class: "rk-asking"}, guess, again, clear);
+  const asking = element("div", {class: "rk-asking"}, guess, again, clear, kept);
   const inputs =
     data.unit === null
       ? data.options.map((_, i) =>
@@ -111,7 +113,6 @@ function start(root, data) {
     answer.replaceChildren(
       ...told(data, at, right).map(text => element("p", {}, ...coded(text))),
       ...(data.view ? [view(data.view)] : []),
-      kept,
     );
     guess.hidden = true;
     again.hidden = data.choice !== null;
@@ -124,6 +125,7 @@ function start(root, data) {
       row.querySelector("b")?.remove();
     }
     answer.replaceChildren();
+    kept.textContent = "";
     [guess.hidden, guess.disabled, again.hidden, clear.hidden] = [false, true, true, true];
   }
 
@@ -281,7 +283,13 @@ function line(made, own) {
 const view = html => element("div", {}, document.createRange().createContextualFragment(html));
 
 /** @type {Record<string, string>} */
-const page = (Object(globalThis).robokinGuesses ??= {}); // where the browser forbids its memory
+const page = (Object(globalThis).robokinGuesses ??= {}); // what is kept where no storage is
+
+/** The browser's, if it allows it and if notebooks have addresses: in VS Code all have the same. */
+function storage() {
+  if (!/^(http|file)/.test(location.protocol)) throw new Error("no storage");
+  return localStorage;
+}
 
 /**
  * The guesses that the page of `root` remembers: of this notebook in JupyterLab, whose page has
@@ -308,7 +316,7 @@ function memoryOf(root) {
     /** @returns {Made[]} */
     read() {
       try {
-        return JSON.parse(page[key()] ?? localStorage.getItem(key())).filter(Array.isArray);
+        return JSON.parse(page[key()] ?? storage().getItem(key())).filter(Array.isArray);
       } catch {
         return [];
       }
@@ -317,7 +325,7 @@ function memoryOf(root) {
     write(made) {
       delete page[key()];
       try {
-        localStorage.setItem(key(), JSON.stringify(made));
+        storage().setItem(key(), JSON.stringify(made));
       } catch {
         page[key()] = JSON.stringify(made);
       }
