@@ -801,7 +801,7 @@ def test_half_a_file_of_a_killed_copy_is_swept(school):
 
 
 def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
-    write, place = copies._write, school.folder / "one.ipynb"
+    write, place = copies.write, school.folder / "one.ipynb"
 
     def meanwhile(path, content):
         write(path, content)
@@ -809,7 +809,7 @@ def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
             place.unlink()
             place.symlink_to(tmp_path)
 
-    monkeypatch.setattr(copies, "_write", meanwhile)
+    monkeypatch.setattr(copies, "write", meanwhile)
     school.newer("one.ipynb", "second")
     assert school.copy() == {"one.ipynb": "failed"} and place.readlink() == tmp_path
 
@@ -920,7 +920,7 @@ def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsy
 
 
 def test_two_at_once_do_no_harm(school):
-    with copies._alone(school.folder / ".robokin" / "lock"):
+    with copies.alone(school.folder / ".robokin" / "lock"):
         with pytest.raises(ValueError, match="another process is at work"):
             school.copy()
     for name in ("one.ipynb", "two.ipynb", "three.ipynb"):

@@ -261,7 +261,7 @@ def test_the_kernels_word_comes_first_then_the_line_then_the_cell(tmp_path):
     assert (first.choice, first.right, first.later) == (right, True, (wrong, right))
     assert datetime.fromisoformat(first.when) == datetime.fromisoformat(at(1))
     assert (made(TYPED).right, made(TYPED).later) == (True, ("99", "1e999"))
-    assert made(f"{LAB}.p3") == Guess(f"{LAB}.p3")
+    assert made(f"{LAB}.p4") == Guess(f"{LAB}.p4") and TYPED != f"{LAB}.p4"
 
 
 def test_a_line_that_cannot_be_read_is_told(tmp_path):

@@ -292,12 +292,11 @@ def listen() -> None:
     if _hub is not None or own is None:
         return
     with contextlib.suppress(Exception):  # a question is shown without it, too
-        from anywidget import AnyWidget  # here: it loads ipywidgets
-
         from ..show.joiner import script
+        from ..show.live import unseen
 
-        _hub = AnyWidget(_esm=f"{script('guesses')}\nexport default $guesses;")
-        _hub.on_msg(lambda model, message, _: model.send(_told(message, own)))
+        page = f"{script('guesses')}\nexport default $guesses;"
+        _hub = unseen(page, lambda model, message, _: model.send(_told(message, own)))
 
 
 def _notebook() -> Path | None:

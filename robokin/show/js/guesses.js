@@ -1,4 +1,4 @@
-// What keeps guesses, on the page's side (guesses.py): the model of a widget without a view, one for
+// The page's side of what keeps guesses (guesses.py): the model of a widget without a view, one for
 // each kernel. A page may show several notebooks; each guess goes to the kernel of its own.
 
 /** @typedef {[string, string, string]} Made  a prediction, a choice, when it was made */
