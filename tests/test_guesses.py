@@ -427,8 +427,23 @@ def test_where_the_clipboard_is_forbidden_the_line_is_there_to_be_selected(page,
 PANEL = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 
 
+def says(question, text):
+    expect(told(question)).to_have_text(text, timeout=30_000)
+
+
+def current(page, name):
+    """Wait until the notebook with this name is the one in front."""
+    tab = ".lm-TabBar-tab.lm-mod-current[data-type=document-title]"
+    page.locator(f"{tab}[title*='Path: guessing/{name}']").wait_for(timeout=30_000)
+    page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for(timeout=30_000)
+
+
 def run_all(jupyter, page, count):
-    until(jupyter._kernels_idle, 60, "the kernels did not become idle", page)
+    def ready():
+        opened = page.locator(".jp-NotebookPanel").count()
+        return len(jupyter.api("sessions") or ()) == opened and jupyter._kernels_idle()
+
+    until(ready, 60, "the kernels did not become idle", page)
     page.locator(".jp-StatusBar-Widget").get_by_text("| Idle").first.wait_for(timeout=30_000)
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
@@ -447,37 +462,35 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
 
     def to(name):
         page.locator(".lm-TabBar-tab[data-type=document-title]", has_text=name).click()
-        expect(page.locator(f"{PANEL} .jp-NotebookPanel-notebook")).to_be_visible()
+        current(page, name)
 
     jupyter.open(page, "guessing/lab.ipynb")
     run_all(jupyter, page, 3)
     answer(asks.nth(0), "b")
-    expect(told(asks.nth(0))).to_have_text(KEPT, timeout=30_000)
+    says(asks.nth(0), KEPT)
     for path, count, choice in ((twin, 3, "c"), (other, 1, "d")):
         page.locator(".jp-DirListing-item", has_text=path.name).dblclick()
-        page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for()
+        current(page, path.name)
         run_all(jupyter, page, count)
         answer(asks.nth(0), choice)
-        expect(told(asks.nth(0))).to_have_text(KEPT, timeout=30_000)
+        says(asks.nth(0), KEPT)
     to("lab.ipynb")
     answer(asks.nth(0), "a", again=True)
     answer(asks.nth(2), "-290")
-    expect(told(asks.nth(2))).to_have_text(KEPT)
+    says(asks.nth(2), KEPT)
     assert chosen(lab) == {P1: ["b", "a"], TYPED: ["-290"]}
     assert chosen(twin) == {P1: ["c"]} and chosen(other) == {OTHER: ["d"]}
 
     to("twin.ipynb")
-    page.keyboard.press("Control+s")
     page.locator(".jp-DirListing-item", has_text="twin.ipynb").click()
     page.keyboard.press("F2")
     page.keyboard.press("Control+a")
     page.keyboard.type("my twin.ipynb")
     page.keyboard.press("Enter")
     until((folder / "my twin.ipynb").is_file, 20, "the notebook is not renamed", page)
-    tab = page.locator(".lm-TabBar-tab.lm-mod-current[title*='Path: guessing/my twin.ipynb']")
-    tab.wait_for(timeout=20_000)
+    current(page, "my twin.ipynb")
     answer(asks.nth(1), "b")
-    expect(told(asks.nth(1))).to_have_text(KEPT)
+    says(asks.nth(1), KEPT)
     assert chosen(folder / "my twin.ipynb") == {P1: ["c"], P2: ["b"]}
 
     to("lab.ipynb")
@@ -486,17 +499,17 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     page.locator(".jp-Dialog .jp-mod-accept").click()
     until(lambda: page.evaluate("robokinHubs.size") == 2, 20, "the old kernel's hub stays", page)
     answer(asks.nth(1), "c")
-    expect(told(asks.nth(1))).to_have_text(RUN)
+    says(asks.nth(1), RUN)
     assert P2 not in chosen(lab)
     run_all(jupyter, page, 3)
     for question in asks.all():
-        expect(told(question)).to_have_text(f"You guessed here before. {KEPT}", timeout=30_000)
+        says(question, f"You guessed here before. {KEPT}")
     page.keyboard.press("Control+s")
     saved = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     until(lambda: "jp-mod-dirty" not in saved.get_attribute("class"), 20, "not saved", page)
 
     jupyter.open(page, "guessing/lab.ipynb")
-    expect(told(asks.nth(0))).to_have_text(f"You guessed here before. {RUN}", timeout=30_000)
+    says(asks.nth(0), f"You guessed here before. {RUN}")
     kept = read_guesses(lab)
     assert chosen(lab) == {P1: ["b", "a"], P2: ["c"], TYPED: ["-290"]}
     times = [datetime.fromisoformat(t) for made in kept.values() for _, t in made]
