@@ -5,6 +5,7 @@ the first one first; whatever else lies there.
 import json
 import os
 import threading
+import time
 from datetime import datetime
 from types import SimpleNamespace
 
@@ -185,6 +186,15 @@ def test_what_no_lab_has_and_names_of_nowhere_are_left_out(tmp_path):
     assert chosen(lab) == {P1: ["b", "e", "c"]}
 
 
+def test_a_full_file_is_read_in_little_time(tmp_path):
+    names = {f"{k}.ipynb": {f"{LAB}.p{k % 900}": []} for k in range(20_000)}
+    written(tmp_path, json.dumps({"guesses": 1, "notebooks": names}))
+    lab = notebook(tmp_path / "lab.ipynb", "predict('" + "x" * 3_000_000, ids=[P1])
+    begun = time.process_time()
+    assert read_guesses(lab) is None
+    assert time.process_time() - begun < 2
+
+
 def test_neither_copy_nor_a_shell_without_a_page_has_to_do_with_it(tmp_path, monkeypatch):
     keep(notebook(tmp_path / "labs" / "01_lab.ipynb", ids=[P1]), [(P1, "b", at(1))])
     copy(tmp_path / "mine", tmp_path / "labs")
@@ -338,7 +348,8 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     expect(told(two)).to_have_text(KEPT)
     expect(told(one)).to_have_text("Kept on this page only: the disk is full.")
     expect(told(other)).to_have_text(RUN.replace("in this browser", "on this page"))
-    assert page.get_by_role("button", name="Copy my guesses").count() == 0
+    copies = [each.get_by_role("button", name="Copy my").count() for each in (one, two, other)]
+    assert copies == [1, 0, 1], "where nobody keeps them"
     answer(two, "d", again=True)
     assert made_in(page)[0] == [["b"], ["b", "d"]]
     assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"

@@ -32,6 +32,7 @@ FOLDER, FILE = ".robokin", "guesses.json"
 LARGE = 1_000_000  # bytes of a file of guesses; a student's has a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f]|[-+.eE0-9]{1,30}")
+ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook's file
 PATIENCE = 10  # seconds that another kernel may take to write
 
 Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
@@ -266,7 +267,8 @@ def _name(notebooks: dict[str, Kept], path: Path) -> str:
         return path.name
     gone = [name for name in notebooks if not os.path.lexists(os.path.join(path.parent, name))]
     content = path.read_bytes() if gone and path.is_file() else b""
-    own = [name for name in gone if any(p.encode() in content for p in notebooks[name])]
+    asked = {found.decode() for found in ASKED.findall(content)}
+    own = [name for name in gone if not asked.isdisjoint(notebooks[name])]
     return own[0] if len(own) == 1 else path.name
 
 

@@ -132,25 +132,32 @@ function start(root, data) {
   /** Offers what this page remembers to the kernel of its notebook, and says what came of it. */
   function offer() {
     const before = clear.hidden ? "" : "You guessed here before. ";
-    const only = `${before}Kept ${memory.lasts() ? "in this browser" : "on this page"} only`;
+    /** @type {(why: string) => void} */
+    const alone = why => {
+      const where = memory.lasts() ? "in this browser" : "on this page";
+      kept.textContent = `${before}Kept ${where} only${why}`;
+      const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
+      for (const each of others) each.remove(); // one in a page
+      asking.append(copy);
+    };
     /** @type {Offer} */
     const offered = {
       path: memory.path(),
       guesses: memory.read(),
       tell(error) {
-        kept.textContent = error ? `${only}: ${error}.` : `${before}Kept for your report.`;
+        if (error) return alone(`: ${error}.`);
+        kept.textContent = `${before}Kept for your report.`;
+        copy.remove();
       },
     };
     kept.textContent = `${before}Python keeps it for your report as soon as it answers.`;
     const event = new CustomEvent("robokin-guess", {cancelable: true, detail: offered});
     if (!document.dispatchEvent(event)) return;
-    if (memory.panel) {
-      kept.textContent = `${only}. Run this cell, and it is kept for your report.`;
-      return;
-    }
-    kept.textContent = `${only}. For your report, copy your guesses into the lab's last cell.`;
-    for (const each of document.querySelectorAll(".rk-copy")) each.remove();
-    asking.append(copy);
+    alone(
+      memory.panel
+        ? ". Run this cell, and it is kept for your report."
+        : ". For your report, copy your guesses into the lab's last cell.",
+    );
   }
 
   /** @param {string} choice */
@@ -220,7 +227,7 @@ function start(root, data) {
 const valid = (data, choice) =>
   data.unit === null
     ? choice !== "" && LETTERS.indexOf(choice) < data.options.length && LETTERS.includes(choice)
-    : choice !== "" && Number.isFinite(+choice);
+    : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
  * Which answer is meant: its number; of a typed number the answer that it is near to, the right one
