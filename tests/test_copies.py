@@ -801,7 +801,7 @@ def test_half_a_file_of_a_killed_copy_is_swept(school):
 
 
 def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
-    write, place = copies._write, school.folder / "one.ipynb"
+    write, place = copies.write, school.folder / "one.ipynb"
 
     def meanwhile(path, content):
         write(path, content)
@@ -809,7 +809,7 @@ def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
             place.unlink()
             place.symlink_to(tmp_path)
 
-    monkeypatch.setattr(copies, "_write", meanwhile)
+    monkeypatch.setattr(copies, "write", meanwhile)
     school.newer("one.ipynb", "second")
     assert school.copy() == {"one.ipynb": "failed"} and place.readlink() == tmp_path
 
@@ -953,15 +953,15 @@ def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsy
 
 
 def test_two_at_once_do_no_harm(school):
-    with copies._alone(school.folder / ".robokin" / "lock"):
-        with pytest.raises(ValueError, match="another copy is at work"):
+    with copies.alone(school.folder / ".robokin" / "lock"):
+        with pytest.raises(ValueError, match="another process is at work"):
             school.copy()
     for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
         school.newer(name, "second")
     with ThreadPoolExecutor(2) as pool:
         both = [pool.submit(school.copy) for _ in range(2)]
         errors = [each.exception() for each in both]
-        assert all(e is None or "another copy is at work" in str(e) for e in errors), errors
+        assert all(e is None or "another process is at work" in str(e) for e in errors), errors
         assert None in errors
     assert all(school.says(f"{n}.ipynb").endswith("second") for n in ("one", "two", "three"))
     assert school.copy() == {}

@@ -28,10 +28,11 @@ import platform
 import re
 import stat
 import sys
+import time
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, BinaryIO
 
 from .._validate import short
 
@@ -74,7 +75,7 @@ def copy(
         more = "" if source else ": robokin is not installed from a clone; give --from FOLDER"
         raise ValueError(f"no labs in {labs}{more}")
     student = _Folder(_target(Path(folder), labs))
-    with _alone(student.own / "lock"):
+    with alone(student.own / "lock"):
         return student.hand_out({p: given[p] for p in given if p not in FOR_TEACHERS})
 
 
@@ -212,7 +213,7 @@ class _Folder:
         os.makedirs(place.parent, exist_ok=True)
         os.makedirs(old.parent, exist_ok=True)
         try:
-            _write(self.new, content)
+            write(self.new, content)
             if os.path.lexists(place):
                 if _held(place) not in ours:
                     raise ValueError(BUSY)
@@ -270,7 +271,7 @@ class _Folder:
         told = {path: asdict(entry) for path, entry in self.entries.items()}
         text = json.dumps(told, indent=1, sort_keys=True) + "\n"
         if text != self.stored:
-            _write(self.new, text.encode())
+            write(self.new, text.encode())
             os.replace(self.new, self.manifest)
             self.stored = text
 
@@ -308,23 +309,34 @@ def _target(folder: Path, labs: Path) -> Path:
 
 
 @contextlib.contextmanager
-def _alone(path: Path) -> Iterator[None]:
-    """Hold the lock at `path`, which ends with the process. ValueError: another holds it."""
+def alone(path: Path, seconds: float = 0) -> Iterator[None]:
+    """Hold the lock at `path`, which ends with the process. ValueError: another holds it for so
+    many seconds.
+    """
+    end = time.monotonic() + seconds
     with open(path, "ab") as file:
-        try:
-            if sys.platform == "win32":
-                import msvcrt
-
-                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-            else:
-                import fcntl
-
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
-            raise ValueError("another copy is at work there; run this again") from None
-        except OSError:
-            pass  # a file system without locks: two at once get in each other's way, no worse
+        while not _locked(file):
+            if time.monotonic() >= end:
+                raise ValueError("another process is at work there; run this again")
+            time.sleep(0.01)
         yield
+
+
+def _locked(file: BinaryIO) -> bool:
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError:
+        pass  # a file system without locks: two at once get in each other's way, no worse
+    return True
 
 
 def _prepared(content: bytes) -> tuple[bytes, Any]:
@@ -381,7 +393,7 @@ def _barred(folder: Path) -> bool:
     return folder.is_symlink() or (folder.exists() and not folder.is_dir())
 
 
-def _write(path: Path, content: bytes) -> None:
+def write(path: Path, content: bytes) -> None:
     """A new file, on the disk when this returns. Never into one that is there: it may have got
     another name by now.
     """

@@ -38,6 +38,7 @@ class HandedIn:
     checks   the last call for each exercise that it checks: that one counts
     choices  the last call of each prediction with a choice
     broken   the exercises that are checked in cells that are no Python
+    guesses  the line of guesses that a page copies, as the last call of `report` has it
     """
 
     path: Path
@@ -46,6 +47,7 @@ class HandedIn:
     checks: dict[str, Call]
     choices: dict[str, Call]
     broken: dict[str, str]
+    guesses: str = ""
 
     @property
     def title(self) -> str:
@@ -66,6 +68,7 @@ def handed_in(path: Path) -> HandedIn:
     choices: dict[str, Call] = {}
     broken: dict[str, str] = {}
     labs: Counter[str] = Counter()
+    guesses = ""
     for k, cell in enumerate(notebook.cells):
         if cell.cell_type != "code":
             continue
@@ -76,6 +79,9 @@ def handed_in(path: Path) -> HandedIn:
             for name in re.findall(r"""check\(\s*["'](\w+\.\w+)["']""", cell.source):
                 broken[name] = f"{type(error).__name__}: {error}"
         for what, call in calls:
+            if what == "report":
+                guesses = call.answer or guesses
+                continue
             try:
                 find(call.name, "EXERCISES" if what == "check" else "PREDICTIONS")
             except ValueError:
@@ -89,7 +95,7 @@ def handed_in(path: Path) -> HandedIn:
     labs.update(name.partition(".")[0] for name in broken)
     most = [lab for lab, _ in labs.most_common() if lab in LABS]
     most = most or [lab for lab in LABS if lab in path.stem.lower()]
-    return HandedIn(path, notebook, most[0] if most else None, checks, choices, broken)
+    return HandedIn(path, notebook, most[0] if most else None, checks, choices, broken, guesses)
 
 
 def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
@@ -114,13 +120,19 @@ def _said(cell: Any) -> Iterator[tuple[str, str]]:
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:
-    """("check" or "predict", Call) for each call with an id that stands there, from the top."""
+    """("check" or "predict", Call) for each call with an id that stands there, from the top; and
+    ("report", Call), whose answer is the line of guesses.
+    """
     found = []
     for node in ast.walk(_tree(source)):
         if not isinstance(node, ast.Call):
             continue
         f = node.func
         what = f.id if isinstance(f, ast.Name) else f.attr if isinstance(f, ast.Attribute) else ""
+        if what == "report":
+            line = next((each.value for each in node.keywords if each.arg == "guesses"), None)
+            if isinstance(line, ast.Constant) and isinstance(line.value, str):
+                found.append((node.lineno, node.col_offset, what, Call(cell, "", line.value, "")))
         if what not in ("check", "predict"):
             continue
         names = ("name", "answer", "who") if what == "check" else ("name", "choice")

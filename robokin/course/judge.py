@@ -7,7 +7,6 @@ protects from accidents. It is no sandbox: cells may read files and use a networ
 judges, and `kernel.py` says how far a verdict can be trusted.
 """
 
-import ast
 import asyncio
 import functools
 import json
@@ -30,8 +29,9 @@ from nbclient.exceptions import DeadKernelError
 from nbclient.util import run_sync
 
 from .book import find, lab
+from .guesses import Guess as Guess
+from .guesses import guesses as guesses
 from .handed_in import NONE, Call, HandedIn, claims
-from .predictions import filled, judged
 from .variants import normalised
 
 TEXT = 5_000  # characters of text that a cell may leave in the page
@@ -76,16 +76,6 @@ class Result:
 
 
 @dataclass(frozen=True)
-class Guess:
-    """What came of a prediction. right: None where none was made."""
-
-    id: str
-    choice: str | None = None
-    right: bool | None = None
-    confusion: str | None = None
-
-
-@dataclass(frozen=True)
 class Judged:
     """What came of a notebook: the notebook with new outputs, verdicts and remarks."""
 
@@ -113,12 +103,8 @@ def judge(given: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     others = [name for name in given.checks if name not in names]
     if others:
         remarks.append(f"Of other labs, and left out here: {', '.join(others)}.")
-    return Judged(notebook, exercises, guesses(given), tuple(remarks))
-
-
-def guesses(given: HandedIn) -> tuple[Guess, ...]:
-    """What came of the predictions. Nothing is run."""
-    return tuple(_guess(name, given.choices.get(name)) for name in _ids(given.lab, "PREDICTIONS"))
+    made = guesses(given, remarks)
+    return Judged(notebook, exercises, made, tuple(remarks))
 
 
 class Client(NotebookClient):
@@ -410,25 +396,6 @@ def _furnish(place: Path, given: HandedIn) -> None:
 
 def _ids(slug: str | None, what: str) -> list[str]:
     return [f"{slug}.{n}" for n in getattr(lab(slug), what)] if slug else []
-
-
-@functools.cache
-def _filled(name: str) -> Any:
-    return filled(find(name, "PREDICTIONS"))  # its facts are worked out once
-
-
-def _guess(name: str, call: Call | None) -> Guess:
-    if call is None:
-        return Guess(name)
-    try:
-        choice = ast.literal_eval(call.answer)
-        _, options, right = _filled(name)
-        at = judged(find(name, "PREDICTIONS"), options, right, choice)
-    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-        return Guess(name, call.answer[:40], False, "no choice that can be read")
-    if at == right:
-        return Guess(name, str(choice), True)
-    return Guess(name, str(choice), False, options[at].confusion if at >= 0 else None)
 
 
 def _differences(

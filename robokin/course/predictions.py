@@ -162,6 +162,9 @@ class Asked:
         save(path, self.data["title"], self.html)
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        from .guesses import listen
+
+        listen()
         return {"text/html": self.html, "text/plain": repr(self)}
 
     def __repr__(self) -> str:

@@ -127,7 +127,6 @@ _awake: dict[str, Any] = {}  # by the place that they wake: one that runs again 
 
 def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
     """Answer the view in this place of the page from now on."""
-    from anywidget import AnyWidget  # here: it loads ipywidgets
 
     def reply(model: Any, message: Any, _: Any) -> None:
         try:
@@ -139,5 +138,15 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
     if place in _awake:
         _awake.pop(place).close()
-    _awake[place] = model = AnyWidget(_esm=MODEL.replace("PLACE", place))
-    model.on_msg(reply)
+    _awake[place] = unseen(MODEL.replace("PLACE", place), reply)
+
+
+def unseen(page: str, hear: Callable[[Any, Any, Any], None]) -> Any:
+    """A widget without a view. `page`: a module whose default export has `initialize({model})`;
+    `hear` is called with the widget, a message of that model and its buffers.
+    """
+    from anywidget import AnyWidget  # here: it loads ipywidgets
+
+    made = AnyWidget(_esm=page)
+    made.on_msg(hear)
+    return made

@@ -5,9 +5,10 @@ import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js
 import {singularities} from "./geometries.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
+import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, gripOf} from "./handles.js";
-import {copyButton, slider, stageOf, table, tick} from "./stage.js";
+import {slider, stageOf, table, tick} from "./stage.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
 /** @import {PageExplorer, With} from "./page.js" */

@@ -6,9 +6,10 @@ import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
 import {fill} from "./blanks.js";
 import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
+import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
-import {copyButton, slider, stageOf} from "./stage.js";
+import {slider, stageOf} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 
 /** @import {PageExplorer, With} from "./page.js" */

@@ -8,9 +8,10 @@ import {fill} from "./blanks.js";
 import {blend, differentiate, linear, quintic, trapezoidal} from "./motion.js";
 import {number} from "./canvas.js";
 import {curvesView} from "./curves.js";
+import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {copyButton, menu, slider, stageOf, table} from "./stage.js";
+import {menu, slider, stageOf, table} from "./stage.js";
 import {lengths, plain} from "./turns.js";
 
 /** @import {PageExplorer, PagePose, Scale, StartValues, With} from "./page.js" */

@@ -16,6 +16,7 @@ import {
   words,
 } from "./canvas.js";
 import {pictures, STYLE} from "./controls.js";
+import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
 import {
   advance,
@@ -30,7 +31,7 @@ import {
   startingTorque,
   stepOf,
 } from "./rotor.js";
-import {copyButton, LOOK, menu, slider, table, tick} from "./stage.js";
+import {LOOK, menu, slider, table, tick} from "./stage.js";
 import {degrees, plain, radians} from "./turns.js";
 
 /** @import {MotorControl, PageMotor, PageMotors} from "./page.js" */

@@ -8,10 +8,11 @@ import {fill} from "./blanks.js";
 import {clear, colors, number, polygon, prepared, spot, stroke, words} from "./canvas.js";
 import {camera} from "./camera.js";
 import {orbit} from "./controls.js";
+import {copyButton} from "./copy.js";
 import {control, element, range, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
 import {kernelOf, unpacked} from "./live.js";
-import {copyButton, menu, slider, stageOf, tick} from "./stage.js";
+import {menu, slider, stageOf, tick} from "./stage.js";
 
 /** @import {PageExplorer, With} from "./page.js" */
 /** @import {Color, Context, Pixel, Point} from "./canvas.js" */

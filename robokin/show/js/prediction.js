@@ -1,9 +1,12 @@
 // A question that is answered before what answers it is seen. predictions.py says what it gets.
 
+import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
 
+/** @import {Made, Offer} from "./guesses.js" */
 /** @import {PageAnswer, PageQuestion} from "./page.js" */
 
+const COPY = {copy: "Copy my guesses for the report", copied: "Copied"};
 const LETTERS = "abcdef";
 const STYLE = `
 .rk.rk.rk.rk-ask { box-sizing: border-box; max-width: 860px; padding: 10px 14px;
@@ -26,7 +29,9 @@ const STYLE = `
   & > fieldset input[type=number] { font: inherit; width: 9em; padding: 5px 8px;
     color: var(--rk-ink); background: var(--rk-paper);
     border: 1px solid var(--rk-rest); border-radius: 6px; }
-  & > .rk-asking { display: flex; gap: 12px; margin-top: 8px; }
+  & > .rk-asking { display: flex; flex-wrap: wrap; align-items: center; gap: 8px 12px;
+    margin-top: 8px; }
+  & > .rk-asking > p { margin: 0; }
   & > .rk-asking > button { font: inherit; color: var(--rk-ink); background: var(--rk-button);
     border: 1px solid var(--rk-rest);
     border-radius: 6px; width: auto; height: auto; min-height: 36px; padding: 0 14px; margin: 0;
@@ -36,13 +41,14 @@ const STYLE = `
   & > .rk-asking > button:disabled { opacity: 0.5; cursor: default; }
   & :focus-visible { outline: 3px solid var(--rk-accent); outline-offset: 2px; }
   & .rk-answer > p { margin: 8px 0; max-width: 68ch; }
+  & > .rk-asking > textarea { flex: 1 1 20em; color: var(--rk-ink); background: var(--rk-paper); }
   & .rk-answer > div { margin: 10px 0; overflow-x: auto; }
   & .rk-answer > div > p { margin: 3px 0; }
   & .rk-answer > div > img { max-width: 100%; height: auto; }
   & code { font: 12.5px ui-monospace, Menlo, Consolas, monospace; background: var(--rk-button);
     color: var(--rk-ink);
     padding: 2px 5px; border-radius: 4px; }
-  @media print { & > .rk-asking > button { display: none; } }
+  @media print { & > .rk-asking { display: none; } }
 }`;
 
 /**
@@ -50,19 +56,24 @@ const STYLE = `
  * @param {string} id
  * @param {PageQuestion} data
  */
-export const ask = (id, data) =>
-  waiting(id).forEach((root, copy) => start(root, data, `${id}-${copy}`));
+export const ask = (id, data) => waiting(id).forEach(root => start(root, data));
 
 /**
  * A question in `root`.
  * @param {HTMLElement} root
  * @param {PageQuestion} data
- * @param {string} group  a name for the answers that belong together
  */
-function start(root, data, group) {
+function start(root, data) {
+  const memory = memoryOf(root);
+  const group = `rk${Math.random()}`; // a question may stand in a page twice
+  const kept = element("p", {role: "status"});
   const answer = element("div", {class: "rk-answer", "aria-live": "polite"});
   const guess = control("button", {type: "button", disabled: ""}, "This is my guess");
   const again = control("button", {type: "button", hidden: ""}, "Ask me again");
+  const clear = control("button", {type: "button", hidden: ""}, "Clear");
+  const copy = copyButton(COPY, () => line(memory.read(), data.name));
+  copy.classList.add("rk-copy");
+  const asking = element("div", {class: "rk-asking"}, guess, again, clear, kept);
   const inputs =
     data.unit === null
       ? data.options.map((_, i) =>
@@ -102,16 +113,6 @@ function start(root, data, group) {
     answer.replaceChildren(
       ...told(data, at, right).map(text => element("p", {}, ...coded(text))),
       ...(data.view ? [view(data.view)] : []),
-      ...(data.choice === null
-        ? [
-            element(
-              "p",
-              {},
-              "For your report, make it the cell's line: ",
-              element("code", {}, line(data, choice)),
-            ),
-          ]
-        : []),
     );
     guess.hidden = true;
     again.hidden = data.choice !== null;
@@ -124,14 +125,58 @@ function start(root, data, group) {
       row.querySelector("b")?.remove();
     }
     answer.replaceChildren();
-    [guess.hidden, guess.disabled, again.hidden] = [false, true, true];
+    kept.textContent = "";
+    [guess.hidden, guess.disabled, again.hidden, clear.hidden] = [false, true, true, true];
+  }
+
+  /** Offers what this page remembers to the kernel of its notebook, and says what came of it. */
+  function offer() {
+    const before = clear.hidden ? "" : "You guessed here before. ";
+    /** @type {(why: string) => void} */
+    const alone = why => {
+      const where = memory.lasts() ? "in this browser" : "on this page";
+      kept.textContent = `${before}Kept ${where} only${why}`;
+      const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
+      for (const each of others) each.remove(); // one in a page
+      asking.append(copy);
+    };
+    /** @type {Offer} */
+    const offered = {
+      path: memory.path(),
+      guesses: memory.read(),
+      tell(error) {
+        if (error) return alone(`: ${error}.`);
+        kept.textContent = `${before}Kept for your report.`;
+        copy.remove();
+      },
+    };
+    kept.textContent = `${before}Python keeps it for your report as soon as it answers.`;
+    const event = new CustomEvent("robokin-guess", {cancelable: true, detail: offered});
+    if (!document.dispatchEvent(event)) return;
+    alone(
+      memory.panel
+        ? ". Run this cell, and it is kept for your report."
+        : ". For your report, copy your guesses into the lab's last cell.",
+    );
   }
 
   /** @param {string} choice */
   const settle = choice => {
     open(choice);
-    keep(data.name, choice);
+    memory.write([...memory.read(), [data.name, choice, new Date().toISOString()]]);
+    offer();
   };
+  function recall(times = 50) {
+    if (memory.path() === "" && times) {
+      setTimeout(recall, 100, times - 1); // JupyterLab names the notebook a moment later
+      return;
+    }
+    const [, before] = memory.read().findLast(([name]) => name === data.name) ?? [];
+    if (guess.hidden || before === undefined || !valid(data, before)) return;
+    open(before);
+    clear.hidden = false;
+    offer();
+  }
   for (const input of inputs)
     input.addEventListener("input", () => {
       guess.disabled = !valid(data, chosen());
@@ -154,8 +199,15 @@ function start(root, data, group) {
   });
   again.addEventListener("click", () => {
     close();
-    keep(data.name, "");
     inputs[0].focus();
+  });
+  clear.addEventListener("click", () => {
+    memory.write(memory.read().filter(([name]) => name !== data.name));
+    close();
+    inputs[0].focus();
+  });
+  root.addEventListener("robokin-keeps", () => {
+    if (!again.hidden) offer();
   });
   root.replaceChildren(
     element(
@@ -163,19 +215,19 @@ function start(root, data, group) {
       {class: "rk rk-ask", role: "group", "aria-label": data.title},
       element("style", {}, STYLE),
       element("fieldset", {}, element("legend", {}, ...coded(data.question)), ...rows),
-      element("div", {class: "rk-asking"}, guess, again),
+      asking,
       answer,
     ),
   );
-  const before = data.choice ?? kept(data.name);
-  if (before !== null && valid(data, before)) open(before);
+  if (data.choice === null) recall();
+  else open(data.choice);
 }
 
 /** @type {(data: PageQuestion, choice: string) => boolean} */
 const valid = (data, choice) =>
   data.unit === null
     ? choice !== "" && LETTERS.indexOf(choice) < data.options.length && LETTERS.includes(choice)
-    : choice !== "" && Number.isFinite(+choice);
+    : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
  * Which answer is meant: its number; of a typed number the answer that it is near to, the right one
@@ -218,9 +270,18 @@ function told(data, at, right) {
 /** Words between back-ticks are code. @type {(text: string) => (string | HTMLElement)[]} */
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
-/** @type {(data: PageQuestion, choice: string) => string} */
-const line = (data, choice) =>
-  `predict("${data.name}", ${data.unit === null ? `"${choice}"` : +choice})`;
+/**
+ * The line for a report: the first guess of each prediction of the lab that `own` is of.
+ * @param {Made[]} made
+ * @param {string} own
+ */
+function line(made, own) {
+  const lab = own.slice(0, own.indexOf(".") + 1);
+  const said = made
+    .filter(([name], k) => name.startsWith(lab) && made.findIndex(each => each[0] === name) === k)
+    .map(([name, choice]) => `${name.slice(lab.length)} ${choice}`);
+  return `report(who, guesses="${said.join(", ")}")`;
+}
 
 /**
  * Scripts of a player or an explorer run as soon as they are in the page.
@@ -228,22 +289,54 @@ const line = (data, choice) =>
  */
 const view = html => element("div", {}, document.createRange().createContextualFragment(html));
 
+/** @type {Record<string, string>} */
+const page = (Object(globalThis).robokinGuesses ??= {}); // what is kept where no storage is
+
+/** The browser's, if it allows it and if notebooks have addresses: in VS Code all have the same. */
+function storage() {
+  if (!/^(http|file)/.test(location.protocol)) throw new Error("no storage");
+  return localStorage;
+}
+
 /**
- * The browser may forbid it, or forget: then nothing is remembered.
- * @type {(name: string, choice: string) => void}
+ * The guesses that the page of `root` remembers: of this notebook in JupyterLab, whose page has
+ * several; elsewhere of this address.
+ * @param {HTMLElement} root
  */
-const keep = (name, choice) => {
-  try {
-    localStorage.setItem(`robokin ${name}`, choice);
-  } catch {
-    /* forbidden */
-  }
-};
-/** @type {(name: string) => ?string} */
-const kept = name => {
-  try {
-    return localStorage.getItem(`robokin ${name}`) || null;
-  } catch {
-    return null;
-  }
-};
+function memoryOf(root) {
+  const panel = root.closest(".jp-NotebookPanel");
+  const {baseUrl = "", serverRoot = ""} = JSON.parse(
+    document.getElementById("jupyter-config-data")?.textContent || "{}",
+  );
+  /** Of the notebook, as its tab says it; null: there is no tab; "": it does not say it yet. */
+  const path = () => {
+    /** @type {?HTMLElement} */
+    const tab = panel && document.querySelector(`.lm-TabBar-tab[data-id="${panel.id}"]`);
+    // "Name: x.ipynb", "Path: labs/x.ipynb", in the reader's language
+    const lines = tab && [...tab.title.matchAll(/^[^:\uff1a]*[:\uff1a]\s*(.+\.ipynb)$/gm)];
+    return lines && (lines.at(-1)?.[1] ?? "");
+  };
+  const key = () => `robokin ${baseUrl} ${serverRoot} ${path() || location.pathname}`;
+  return {
+    panel,
+    path,
+    /** @returns {Made[]} */
+    read() {
+      try {
+        return JSON.parse(page[key()] ?? storage().getItem(key())).filter(Array.isArray);
+      } catch {
+        return [];
+      }
+    },
+    /** @param {Made[]} made */
+    write(made) {
+      delete page[key()];
+      try {
+        storage().setItem(key(), JSON.stringify(made));
+      } catch {
+        page[key()] = JSON.stringify(made);
+      }
+    },
+    lasts: () => page[key()] === undefined,
+  };
+}

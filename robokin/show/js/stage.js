@@ -355,32 +355,3 @@ export function table(names, heads, widths, take) {
     },
   };
 }
-
-/**
- * "Copy as Python": puts lines of code where they can be pasted from.
- * @param {Record<string, string>} words  copy, copied
- * @param {() => string} code
- */
-export function copyButton(words, code) {
-  const button = control("button", {type: "button", class: "rk-word"}, words.copy);
-  button.addEventListener("click", async () => {
-    const text = code();
-    try {
-      await navigator.clipboard.writeText(text);
-    } catch {
-      // a page from a file may not: the old way
-      const area = element("textarea", {});
-      area.value = text;
-      button.after(area);
-      area.select();
-      document.execCommand("copy");
-      area.remove();
-      button.focus();
-    }
-    button.textContent = words.copied;
-    setTimeout(() => {
-      button.textContent = words.copy;
-    }, 1500);
-  });
-  return button;
-}

@@ -6,10 +6,11 @@ import {ik, singularities} from "./geometries.js";
 import {explain, nearest, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
+import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
 import {AXES} from "./scene.js";
-import {copyButton, menu, slider, stageOf, table, tick} from "./stage.js";
+import {menu, slider, stageOf, table, tick} from "./stage.js";
 import {
   aboutAxis,
   ellipsoidOf,

@@ -5,11 +5,12 @@
 import {fk, origin, plus} from "./kinematics.js";
 import {clear, colors, number, spot, stroke} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
+import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
 import {fill} from "./blanks.js";
 import {inScreen} from "./handles.js";
 import {kernelOf, unpacked} from "./live.js";
-import {copyButton, menu, slider, stageOf, table} from "./stage.js";
+import {menu, slider, stageOf, table} from "./stage.js";
 import {plain} from "./turns.js";
 
 /** @import {PageExplorer, PageLink, With} from "./page.js" */

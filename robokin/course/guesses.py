@@ -1,0 +1,338 @@
+"""Guesses that arrive: what a student guesses in a page while a kernel lives is kept beside the
+notebook, in `.robokin/guesses.json`, and a report finds it there.
+
+    {"guesses": 1, "notebooks": {"03_irb140_motion.ipynb": {"irb140_motion.p1": [["b", time]]}}}
+
+A widget without a view, one for each kernel, hears the page (js/guesses.js) and tells it what came
+of a guess. Nothing of it is stored in the notebook.
+"""
+
+import ast
+import contextlib
+import functools
+import json
+import os
+import re
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from .._validate import short
+from .book import find, lab
+from .copies import alone, write
+from .predictions import Option, filled, judged
+
+if TYPE_CHECKING:
+    from .handed_in import HandedIn
+
+FOLDER, FILE = ".robokin", "guesses.json"
+LARGE = 1_000_000  # bytes of a file of guesses; a student's has a few thousand
+NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
+CHOICE = re.compile(r"[a-f]|[-+.eE0-9]{1,30}")
+ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook's file
+PATIENCE = 10  # seconds that another kernel may take to write
+
+Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
+
+
+def read_guesses(path: Path) -> Kept | None:
+    """The guesses kept for the notebook at `path`: {prediction: [(choice, time), ...]}, in order of
+    time; None: none came with it. Those of a notebook that has been renamed are found, too.
+
+    ValueError: the file cannot be used.
+    """
+    try:
+        notebooks = _stored(path.parent / FOLDER / FILE)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ValueError(f"{FOLDER}/{FILE} cannot be used: {reason}") from None
+    kept = notebooks.get(_name(notebooks, path), {})
+    return {name: made for name, made in kept.items() if _known(name)} or None
+
+
+def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
+    """Add guesses (prediction, choice, time) to those kept for the notebook at `path`; one that is
+    there already is not added again. A file that cannot be read is set aside.
+
+    ValueError: the file is full, another kernel does not end writing. OSError: no rights, ...
+    """
+    own = path.parent / FOLDER
+    own.mkdir(exist_ok=True)
+    file = own / FILE
+    with alone(own / "guesses.lock", PATIENCE):
+        try:
+            notebooks = _stored(file)
+        except ValueError:
+            os.rename(file, _free(own))
+            notebooks = {}
+        before = json.dumps(notebooks, sort_keys=True)
+        kept = notebooks.setdefault(path.name, notebooks.pop(_name(notebooks, path), {}))
+        for name, choice, time in made:
+            guesses = kept.setdefault(name, [])
+            when = _moment(time)
+            if all((choice, when) != (c, _moment(t)) for c, t in guesses):
+                guesses.append((choice, _written(when.astimezone())))
+            guesses.sort(key=lambda guess: _moment(guess[1]))
+        if json.dumps(notebooks, sort_keys=True) == before:
+            return
+        text = json.dumps({"guesses": 1, "notebooks": notebooks}, indent=1, sort_keys=True) + "\n"
+        if len(text) > LARGE:
+            raise ValueError(f"{FOLDER}/{FILE} is full")
+        write(own / "guesses.new", text.encode())
+        os.replace(own / "guesses.new", file)
+
+
+def parse_line(text: str) -> dict[str, str]:
+    """The guesses in the line that a page copies, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in their
+    order. ValueError: another form.
+    """
+    found: dict[str, str] = {}
+    for part in text.split(",") if text.strip() else ():
+        number, _, choice = part.strip().partition(" ")
+        choice = choice.strip()
+        if not re.fullmatch("p[0-9]{1,3}", number) or not CHOICE.fullmatch(choice):
+            raise ValueError(
+                f'guesses: wanted predictions and choices, "p1 b, p5 -290", got {short(part)}'
+            )
+        if number in found:
+            raise ValueError(f"guesses: wanted one choice for each prediction, got {number} twice")
+        found[number] = choice
+    return found
+
+
+# --- What came of them ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What came of a prediction.
+
+    choice  the first guess, which counts; None: none was made, and right is None
+    when    its time, where it is known
+    later   the other guesses, in order
+    """
+
+    id: str
+    choice: str | None = None
+    right: bool | None = None
+    confusion: str | None = None
+    when: str | None = None
+    later: tuple[str, ...] = ()
+
+
+def guesses(given: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
+    """What came of the predictions; nothing is run. Guesses kept by a kernel come first, then those
+    in the line that a page copies, then the choice in the cell. `remarks` is told what could not be
+    used.
+    """
+    kept: Kept = {}
+    pasted: dict[str, str] = {}
+    remarks = [] if remarks is None else remarks
+    try:
+        kept = read_guesses(given.path) or {}
+    except ValueError as error:
+        remarks.append(f"{error}.")
+    try:
+        pasted = parse_line(given.guesses)
+    except ValueError as error:
+        remarks.append(f"{error}.")
+    made = []
+    for number in lab(given.lab).PREDICTIONS if given.lab else ():
+        name = f"{given.lab}.{number}"
+        line, call = pasted.get(number), given.choices.get(name)
+        others = [line, _literal(call.answer) if call else None]
+        timeless = [(choice, None) for choice in others if choice is not None]
+        made.append(_guess(name, [*kept.get(name, ()), *timeless]))
+    return tuple(made)
+
+
+def _literal(text: str) -> str:
+    """A choice as it stands in a cell, without its quotes."""
+    try:
+        return str(ast.literal_eval(text))[:40]
+    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+        return text[:40]
+
+
+def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
+    """What came of a prediction for which these guesses were made, with their times. One without a
+    time is listed only where no other says the same.
+    """
+    if not made:
+        return Guess(name)
+    choice, when = made[0]
+    seen, later = {_value(choice)}, []
+    for other, known in made[1:]:
+        if known or _value(other) not in seen:
+            later.append(other)
+        seen.add(_value(other))
+    guess = Guess(name, choice, False, "no choice that can be read", when, tuple(later))
+    prediction = find(name, "PREDICTIONS")
+    _, options, right = _filled(name)
+    try:
+        at = judged(prediction, options, right, float(choice) if prediction.unit else choice)
+    except (ValueError, TypeError):
+        return guess
+    if at == right:
+        return replace(guess, right=True, confusion=None)
+    return replace(guess, confusion=options[at].confusion if at >= 0 else None)
+
+
+@functools.cache
+def _filled(name: str) -> tuple[str, list[Option], int]:
+    return filled(find(name, "PREDICTIONS"))  # its facts are worked out once
+
+
+def _value(choice: str) -> str | float:
+    try:
+        return float(choice)  # 90 and 90.0 are the same guess
+    except ValueError:
+        return choice
+
+
+# --- The file -------------------------------------------------------------------------------------
+
+
+def _stored(file: Path) -> dict[str, Kept]:
+    """What a file of guesses holds, by notebook; {} where there is none. ValueError: it holds
+    something else.
+    """
+    if not os.path.lexists(file):
+        return {}
+    if not file.is_file():
+        raise ValueError("it is no plain file")
+    with open(file, "rb") as opened:
+        content = opened.read(LARGE + 1)
+    if len(content) > LARGE:
+        raise ValueError(f"it has more than {LARGE} bytes")
+    try:
+        data = json.loads(content)
+        if data["guesses"] != 1:
+            raise ValueError(f"version {short(data['guesses'])}")
+        return {
+            str(notebook): {_id(name): _sorted(made) for name, made in kept.items()}
+            for notebook, kept in data["notebooks"].items()
+        }
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
+        raise ValueError(f"{type(error).__name__}: {short(str(error))}") from None
+
+
+def _sorted(made: list[list[str]]) -> list[tuple[str, str | None]]:
+    guesses = sorted((_moment(time), _choice(choice)) for choice, time in made)
+    return [(choice, _written(moment)) for moment, choice in guesses]
+
+
+def _written(moment: datetime) -> str:
+    return moment.isoformat(timespec="milliseconds")
+
+
+def _id(name: Any) -> str:
+    if not isinstance(name, str) or not NAME.fullmatch(name):
+        raise ValueError(f"wanted a prediction, got {short(name)}")
+    return name
+
+
+def _choice(choice: Any) -> str:
+    if not isinstance(choice, str) or not CHOICE.fullmatch(choice):
+        raise ValueError(f"wanted a choice, got {short(choice)}")
+    return choice
+
+
+def _moment(time: Any) -> datetime:
+    """A time with its offset. ValueError: it is none."""
+    try:
+        moment = datetime.fromisoformat(time)
+        moment.astimezone(UTC)
+        if moment.tzinfo is not None:
+            return moment
+    except (ValueError, TypeError, OverflowError):
+        pass
+    raise ValueError(f"wanted a time with its offset, got {short(time)}")
+
+
+def _known(name: str) -> bool:
+    with contextlib.suppress(ValueError):
+        return bool(find(name, "PREDICTIONS"))
+    return False
+
+
+def _name(notebooks: dict[str, Kept], path: Path) -> str:
+    """Under which name the guesses for a notebook are kept: its own; the one that it had before,
+    where a single notebook with its predictions is no longer there.
+    """
+    if path.name in notebooks:
+        return path.name
+    gone = [name for name in notebooks if not os.path.lexists(os.path.join(path.parent, name))]
+    content = path.read_bytes() if gone and path.is_file() else b""
+    asked = {found.decode() for found in ASKED.findall(content)}
+    own = [name for name in gone if not asked.isdisjoint(notebooks[name])]
+    return own[0] if len(own) == 1 else path.name
+
+
+def _free(folder: Path) -> Path:
+    """A name for a file that is set aside."""
+    n = 1
+    while os.path.lexists(folder / f"guesses.broken{n}.json"):
+        n += 1
+    return folder / f"guesses.broken{n}.json"
+
+
+# --- The widget -----------------------------------------------------------------------------------
+
+_hub: Any = None  # of this kernel
+
+
+def listen() -> None:
+    """Hear guesses in the page from now on, where this is the kernel of a notebook that somebody
+    has opened.
+    """
+    global _hub
+    own = _notebook()
+    if _hub is not None or own is None:
+        return
+    with contextlib.suppress(Exception):  # a question is shown without it, too
+        from ..show.joiner import script
+        from ..show.live import unseen
+
+        page = f"{script('guesses')}\nexport default $guesses;"
+        _hub = unseen(page, lambda model, message, _: model.send(_told(message, own)))
+
+
+def _notebook() -> Path | None:
+    """The notebook of this kernel as it was called when the kernel began: Jupyter's server and VS
+    Code tell it; nobody who runs a notebook without a page does.
+    """
+    shell: Any = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    if not hasattr(shell, "kernel") or "ROBOKIN_JUDGE" in os.environ:
+        return None
+    name = shell.user_ns.get("__vsc_ipynb_file__") or os.environ.get("JPY_SESSION_NAME")
+    return Path(name) if name and str(name).endswith(".ipynb") else None
+
+
+def _told(message: Any, own: Path) -> dict[str, Any]:
+    """What came of a message of the page, {"n": its number, "path": the notebook's, as the page
+    knows it, or None, "guesses": [[prediction, choice, time], ...]}.
+    """
+    try:
+        made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
+        keep(_called(message["path"], own), made)
+    except Exception as error:  # said in the page; here nobody would read it
+        reason = getattr(error, "strerror", None) or error
+        return {"n": message["n"], "error": str(reason)}
+    return {"n": message["n"]}
+
+
+def _called(path: str | None, own: Path) -> Path:
+    """The notebook as it is called now. The page knows its path from the server's folder on.
+    ValueError: it cannot be found.
+    """
+    if path is not None:
+        for folder in own.parents:
+            if (folder / path.lstrip("/")).is_file():
+                return folder / path.lstrip("/")
+    elif own.is_file():
+        return own
+    raise ValueError(f"Python does not find {short(path or own.name)}")

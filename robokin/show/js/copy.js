@@ -1,0 +1,30 @@
+// A button that copies words.
+
+import {control} from "./elements.js";
+
+/**
+ * @param {Record<string, string>} words  what the button says: `copy`, and once it has: `copied`
+ * @param {() => string} text
+ */
+export function copyButton(words, text) {
+  const button = control("button", {type: "button", class: "rk-word"}, words.copy);
+  const area = control("textarea", {readonly: "", "aria-label": words.copy});
+  button.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(text());
+    } catch {
+      // a page from a file may not: the old way, and if that is forbidden, too, by hand
+      area.value = text();
+      button.after(area);
+      area.select();
+      if (!document.execCommand("copy")) return;
+      button.focus();
+    }
+    area.remove();
+    button.textContent = words.copied;
+    setTimeout(() => {
+      button.textContent = words.copy;
+    }, 1500);
+  });
+  return button;
+}

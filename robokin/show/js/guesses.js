@@ -1,0 +1,75 @@
+// The page's side of what keeps guesses (guesses.py): the model of a widget without a view, one for
+// each kernel. A page may show several notebooks; each guess goes to the kernel of its own.
+
+/** @typedef {[string, string, string]} Made  a prediction, a choice, when it was made */
+/**
+ * What a question sends as the event "robokin-guess", canceled by the hub that takes it. `path`: of
+ * its notebook, "" or null where the page does not say it. `tell` is called once: with nothing, or
+ * with what stood in the way.
+ * @typedef {{path: ?string, guesses: Made[], tell: (error?: string) => void}} Offer
+ */
+/**
+ * JupyterLab's, of a notebook. Elsewhere there is none.
+ * @typedef {{path: string, localPath: string, isDisposed: boolean}} Context
+ */
+/** @typedef {{n: number, error?: string}} Told */
+/**
+ * @typedef {object} Model
+ * @property {{context?: Context}} [widget_manager]
+ * @property {(content: {n: number, path: ?string, guesses: Made[]}) => void} send
+ * @property {(name: string, call: (content: Told) => void) => void} on
+ */
+/** @typedef {{context?: Context}} Hub */
+
+/** @type {Set<Hub>} */
+const hubs = (Object(globalThis).robokinHubs ??= new Set());
+
+/**
+ * The hub of the notebook at `path`; where the page or the hub does not know a path, the only one.
+ * @param {?string} path
+ */
+function hubOf(path) {
+  for (const hub of hubs) if (hub.context?.isDisposed) hubs.delete(hub);
+  const all = [...hubs];
+  const own = all.findLast(
+    ({context}) => path && (context?.localPath === path || context?.path === path),
+  );
+  return own ?? (all.length === 1 && !(path && all[0].context) ? all[0] : undefined);
+}
+
+/** @param {{model: Model}} given */
+export function initialize({model}) {
+  const {context} = model.widget_manager ?? {};
+  const hub = {context};
+  /** @type {Map<number, Offer["tell"]>} */
+  const asked = new Map();
+  let sent = 0;
+  /** @param {Event} event */
+  function hear(event) {
+    const {path, guesses, tell} = /** @type {CustomEvent<Offer>} */ (event).detail;
+    if (hubOf(path) !== hub) return;
+    try {
+      model.send({n: sent + 1, path: context?.localPath ?? null, guesses});
+    } catch {
+      return; // its kernel is gone
+    }
+    asked.set(++sent, tell);
+    event.preventDefault();
+  }
+  function end() {
+    hubs.delete(hub);
+    document.removeEventListener("robokin-guess", hear);
+    for (const tell of asked.values()) tell("Python ended before it answered");
+    asked.clear();
+  }
+  hubs.add(hub);
+  document.addEventListener("robokin-guess", hear);
+  model.on("msg:custom", ({n, error}) => {
+    asked.get(n)?.(error);
+    asked.delete(n);
+  });
+  model.on("comm_live_update", end);
+  for (const root of document.querySelectorAll(".robokin-player"))
+    root.dispatchEvent(new CustomEvent("robokin-keeps"));
+  return end;
+}

@@ -1,0 +1,534 @@
+"""Guesses: what is made in a page is kept beside the notebook it belongs to, and a report has it,
+the first one first; whatever else lies there.
+"""
+
+import json
+import os
+import threading
+import time
+from datetime import datetime
+from types import SimpleNamespace
+
+import nbformat
+import pytest
+import test_browser
+from conftest import until
+from playwright.sync_api import expect
+
+from robokin.course import guesses as hub
+from robokin.course import predict
+from robokin.course.copies import copy
+from robokin.course.guesses import Guess, guesses, keep, parse_line, read_guesses
+from robokin.course.handed_in import handed_in
+from robokin.show.joiner import script
+
+page = test_browser.page  # keeps account of errors and of requests to elsewhere
+LAB = "irb140_motion"
+P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
+OTHER = "scara_motion.p1"
+TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).PREDICTIONS.items() if p.unit)
+KEPT = "Kept for your report."
+RUN = "Kept in this browser only. Run this cell, and it is kept for your report."
+
+
+def at(second):
+    return f"2026-11-23T12:00:{second:02}.000+01:00"
+
+
+def notebook(path, *cells, ids=()):
+    """A notebook with these code cells, and one for each prediction; handed out, not run."""
+    sources = [
+        *(["from robokin.course import predict"] if ids else []),
+        *(f'predict("{name}")' for name in ids),
+        *cells,
+    ]
+    v4 = nbformat.v4
+    made = [v4.new_markdown_cell("# Guesses"), *map(v4.new_code_cell, sources)]
+    kernel = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
+    path.parent.mkdir(exist_ok=True)
+    nbformat.write(v4.new_notebook(cells=made, metadata={"kernelspec": kernel}), path)
+    return path
+
+
+def written(folder, text):
+    (folder / ".robokin").mkdir(exist_ok=True)
+    (folder / ".robokin" / "guesses.json").write_text(text)
+
+
+def chosen(path):
+    return {name: [c for c, _ in made] for name, made in (read_guesses(path) or {}).items()}
+
+
+# --- The file -------------------------------------------------------------------------------------
+
+
+def test_guesses_are_kept_by_notebook_in_order_of_time_and_only_once(tmp_path):
+    one, two = notebook(tmp_path / "1.ipynb", ids=[P1]), notebook(tmp_path / "2.ipynb", ids=[P1])
+    assert read_guesses(one) is None
+    keep(one, [(P1, "b", at(5)), (TYPED, "-290", at(6))])
+    keep(two, [(P1, "d", at(1))])
+    keep(one, [(P1, "a", "2026-11-23T11:00:03Z"), (P1, "b", at(5)), (P1, "b", at(7))])
+    assert chosen(one) == {P1: ["a", "b", "b"], TYPED: ["-290"]}
+    assert chosen(two) == {P1: ["d"]}
+    times = [datetime.fromisoformat(time) for _, time in read_guesses(one)[P1]]
+    assert times == [datetime.fromisoformat(at(s)) for s in (3, 5, 7)]
+    before = os.stat(tmp_path / ".robokin" / "guesses.json")
+    keep(one, [(P1, "b", at(5))])
+    assert os.stat(tmp_path / ".robokin" / "guesses.json").st_mtime_ns == before.st_mtime_ns
+
+
+def test_kernels_that_write_at_the_same_moment_lose_nothing(tmp_path):
+    paths = [notebook(tmp_path / f"{k}.ipynb", ids=[P1]) for k in range(6)]
+    wait = threading.Barrier(len(paths))
+
+    def write(path):
+        wait.wait()
+        for second in range(10):
+            keep(path, [(P1, "abcd"[second % 4], at(second))])
+
+    threads = [threading.Thread(target=write, args=(path,)) for path in paths]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(chosen(path) == {P1: list("abcdabcdab")} for path in paths)
+    assert set(os.listdir(tmp_path / ".robokin")) == {"guesses.json", "guesses.lock"}
+
+
+def test_a_renamed_notebook_keeps_its_guesses(tmp_path):
+    lab, other = (
+        notebook(tmp_path / "lab.ipynb", ids=[P1]),
+        notebook(tmp_path / "x.ipynb", ids=[P2]),
+    )
+    keep(lab, [(P1, "b", at(1))])
+    keep(other, [(P2, "a", at(1))])
+    fresh = notebook(tmp_path / "fresh.ipynb", ids=[P1])
+    assert read_guesses(fresh) is None, "those of a notebook that is there are its own"
+    fresh.unlink()
+    mine = lab.rename(tmp_path / "lab of Ada.ipynb")
+    assert chosen(mine) == {P1: ["b"]}
+    keep(mine, [(P1, "c", at(2))])
+    assert chosen(mine) == {P1: ["b", "c"]} and chosen(other) == {P2: ["a"]}
+    assert read_guesses(notebook(tmp_path / "lab.ipynb", ids=[P1])) is None, (
+        "a new one, in its place"
+    )
+
+
+HOSTILE = [
+    "",
+    "{",
+    "[]",
+    "null",
+    "[" * 100_000,
+    '{"guesses": 2, "notebooks": {}}',
+    '{"guesses": 1, "notebooks": []}',
+    '{"guesses": 1, "notebooks": {"lab.ipynb": [1]}}',
+    *(
+        json.dumps({"guesses": 1, "notebooks": {"lab.ipynb": kept}})
+        for kept in (
+            {P1: "b"},
+            {P1: [["b"]]},
+            {P1: [["b", None]]},
+            {P1: [["b", "yesterday"]]},
+            {P1: [["b", "2026-11-23T12:00:00"]]},
+            {P1: [["b", "0001-01-01T00:00:00+14:00"]]},
+            {P1: [["b", 1e99]]},
+            {P1: [[2, at(1)]]},
+            {P1: [["<b>", at(1)]]},
+            {P1: [["\ud800", at(1)]]},
+            {P1: [["1" * 31, at(1)]]},
+            {"<script>": [["b", at(1)]]},
+            {"../../x.p1": [["b", at(1)]]},
+            {P1: [["b", at(1)]] * 30_000},
+        )
+    ),
+]
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=lambda text: text[:70])
+def test_a_file_that_holds_something_else_is_refused_and_never_overwritten(tmp_path, text):
+    lab = notebook(tmp_path / "lab.ipynb", f'predict("{P1}", "c")')
+    written(tmp_path, text)
+    with pytest.raises(ValueError, match=r"guesses\.json cannot be used: "):
+        read_guesses(lab)
+    remarks = []
+    made = guesses(handed_in(lab), remarks)
+    assert made[0].choice == "c" and "guesses.json cannot be used" in remarks[0]
+    for choice in "ab":  # a second time there is nothing to set aside
+        keep(lab, [(P1, choice, at(ord(choice) - 90))])
+    assert chosen(lab) == {P1: ["a", "b"]}
+    assert (tmp_path / ".robokin" / "guesses.broken1.json").read_text() == text
+
+
+def test_what_is_no_plain_file_is_refused(tmp_path):
+    lab = notebook(tmp_path / "lab.ipynb", ids=[P1])
+    (tmp_path / ".robokin").mkdir()
+    file = tmp_path / ".robokin" / "guesses.json"
+    kinds = [file.mkdir, lambda: file.symlink_to("/dev/zero"), lambda: file.symlink_to("nowhere")]
+    for make in [*kinds, *([lambda: os.mkfifo(file)] if hasattr(os, "mkfifo") else [])]:
+        make()
+        with pytest.raises(ValueError, match="no plain file"):
+            read_guesses(lab)
+        file.rmdir() if file.is_dir() else file.unlink()
+
+
+def test_what_no_lab_has_and_names_of_nowhere_are_left_out(tmp_path):
+    lab = notebook(tmp_path / "lab.ipynb", ids=[P1])
+    mine = {P1: [["e", at(2)], ["b", "2026-11-23<12:00:01+01:00"]], "os.p1": [["a", at(1)]]}
+    names = {name: {P1: []} for name in ("a\0b", "x" * 5000, "../..", "", "\ud800.ipynb")}
+    written(
+        tmp_path,
+        json.dumps({"guesses": 1, "notebooks": {"lab.ipynb": {**mine, f"{LAB}.p99": []}, **names}}),
+    )
+    assert chosen(lab) == {P1: ["b", "e"]}
+    assert "<" not in str(read_guesses(lab))
+    keep(lab, [(P1, "c", at(3))])
+    assert chosen(lab) == {P1: ["b", "e", "c"]}
+
+
+def test_a_full_file_is_read_in_little_time(tmp_path):
+    names = {f"{k}.ipynb": {f"{LAB}.p{k % 900}": []} for k in range(20_000)}
+    written(tmp_path, json.dumps({"guesses": 1, "notebooks": names}))
+    lab = notebook(tmp_path / "lab.ipynb", "predict('" + "x" * 3_000_000, ids=[P1])
+    begun = time.process_time()
+    assert read_guesses(lab) is None
+    assert time.process_time() - begun < 2
+
+
+def test_neither_copy_nor_a_shell_without_a_page_has_to_do_with_it(tmp_path, monkeypatch):
+    keep(notebook(tmp_path / "labs" / "01_lab.ipynb", ids=[P1]), [(P1, "b", at(1))])
+    copy(tmp_path / "mine", tmp_path / "labs")
+    assert [path.name for path in (tmp_path / "mine").rglob("guesses*")] == []
+
+    assert hub._notebook() is None, "these tests are no kernel"
+    shell = SimpleNamespace(kernel=1, user_ns={})
+    monkeypatch.setitem(hub.sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
+    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
+    assert hub._notebook() is None, "nbval, nbclient: nobody looks at a page"
+    monkeypatch.setenv("JPY_SESSION_NAME", "/labs/lab.ipynb")
+    assert hub._notebook().name == "lab.ipynb"
+    monkeypatch.setenv("ROBOKIN_JUDGE", "1")
+    assert hub._notebook() is None
+
+
+def test_what_the_page_says_is_kept_where_its_notebook_is_now(tmp_path):
+    one = notebook(tmp_path / "labs" / "one.ipynb", ids=[P1])
+    said = {"n": 3, "path": "labs/one.ipynb", "guesses": [[P1, "b", at(1)]]}
+    assert hub._told(said, one) == {"n": 3} and chosen(one) == {P1: ["b"]}
+    moved = one.rename(tmp_path / "labs" / "two.ipynb")
+    assert hub._told(said | {"path": "labs/two.ipynb"}, one) == {"n": 3}
+    assert chosen(moved) == {P1: ["b"]}
+    for wrong in (
+        {"path": "labs/none.ipynb"},
+        {"path": None},
+        {"path": 3},
+        {"path": "labs/two.ipynb", "guesses": [[P1, "b", "now"]]},
+        {"path": "labs/two.ipynb", "guesses": [[P1, "<b>", at(1)]]},
+        {"path": "labs/two.ipynb", "guesses": None},
+    ):
+        assert hub._told(said | wrong, one)["error"]
+    assert chosen(moved) == {P1: ["b"]}
+
+
+# --- What came of them ----------------------------------------------------------------------------
+
+
+def test_the_line_is_read_and_another_form_is_refused():
+    assert parse_line("") == parse_line("  ") == {}
+    made = {"p1": "b", "p10": "a", "p5": "-290", "p6": "1e-3"}
+    assert list(parse_line(" p1 b,p10  a , p5 -290,p6 1e-3").items()) == list(made.items())
+    for wrong in ("p1", "p1 b p2 c", "p1 b,", "1 b", "p1 <b>", "p1 b, p1 c", "b", "p1: b", "p1 g"):
+        with pytest.raises(ValueError, match="guesses: wanted"):
+            parse_line(wrong)
+
+
+def test_the_kernels_word_comes_first_then_the_line_then_the_cell(tmp_path):
+    asked, typed = predict(P1), predict(TYPED)
+    right = "abcd"[asked.right]
+    wrong = "abcd"[(asked.right + 1) % 4]
+    number = TYPED.partition(".")[2]
+    value = typed.options[typed.right].text
+    lab = notebook(
+        tmp_path / "lab.ipynb",
+        f'predict("{P1}", "{right}")\npredict("{P2}", "b")',
+        f'predict("{TYPED}", {float(value)})',
+        'report("Ada", guesses="p9 a")',
+        f'report(who, guesses="p1 {wrong}, p2 c, {number} 1e999")',
+    )
+
+    def made(name):
+        return next(each for each in guesses(handed_in(lab)) if each.id == name)
+
+    line = asked.options["abcd".index(wrong)].confusion
+    assert made(P1) == Guess(P1, wrong, False, line, None, (right,))
+    assert (made(P2).choice, made(P2).later) == ("c", ("b",))
+    assert made(TYPED).choice == "1e999" and made(TYPED).confusion == "no choice that can be read"
+    assert float(made(TYPED).later[0]) == float(value)
+    times = [at(1), at(2), at(3)]
+    keep(lab, zip([P1] * 3, [right, wrong, right], times, strict=True))
+    keep(lab, [(TYPED, value, at(1)), (TYPED, "99", at(2))])
+    first = made(P1)
+    assert (first.choice, first.right, first.later) == (right, True, (wrong, right))
+    assert datetime.fromisoformat(first.when) == datetime.fromisoformat(at(1))
+    assert (made(TYPED).right, made(TYPED).later) == (True, ("99", "1e999"))
+    assert made(f"{LAB}.p4") == Guess(f"{LAB}.p4") and TYPED != f"{LAB}.p4"
+
+
+def test_a_line_that_cannot_be_read_is_told(tmp_path):
+    lab = notebook(tmp_path / "l.ipynb", f'predict("{P1}", "c")', 'report(who, guesses="all b")')
+    remarks = []
+    assert guesses(handed_in(lab), remarks)[0].choice == "c"
+    assert len(remarks) == 1 and "guesses: wanted" in remarks[0] and "all b" in remarks[0]
+
+
+# --- In a page ------------------------------------------------------------------------------------
+
+
+def answer(question, choice, again=False):
+    """Guess by hand."""
+    if again:
+        question.get_by_role("button", name="Ask me again").click()
+    if choice in "abcdef":
+        question.locator(f"input[value={choice}]").check()
+    else:
+        question.locator("fieldset input").fill(choice)
+    question.get_by_role("button", name="This is my guess").click()
+
+
+def told(question):
+    return question.locator(".rk-asking > p")
+
+
+# hubs with a page of their own: what they are sent, and how they answer
+HUBS = """contexts => {
+  window.sent = contexts.map(() => []);
+  window.hear = [];
+  contexts.forEach((context, k) => $guesses.initialize({model: {
+    widget_manager: context && {context},
+    send: message => sent[k].push(message),
+    on: (name, call) => { if (name === "msg:custom") hear[k] = call; },
+  }}));
+}"""
+
+
+def shown(page, *titles):
+    """JupyterLab's page with a panel for each tab's title; None: a panel without a tab."""
+    panels = "".join(
+        (f'<li class="lm-TabBar-tab" data-id="n{k}" title="{title}"></li>' if title else "")
+        + f'<div class="jp-NotebookPanel" id="n{k}">{predict(P1).html}</div>'
+        for k, title in enumerate(titles)
+    )
+    page.set_content(panels)
+    page.evaluate(f"() => {{ {script('guesses')}; window.$guesses = $guesses; }}")
+    return page.locator(".rk-ask").all()
+
+
+def made_in(page):
+    return page.evaluate("sent.map(all => all.map(each => each.guesses.map(made => made[1])))")
+
+
+def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
+    one, two, other = shown(
+        page,
+        "Name: a: b.ipynb&#10;Path: labs/a: b.ipynb&#10;Last Saved: 11/23/26",
+        "名称：b.ipynb&#10;路径：labs/b.ipynb&#10;最后保存：11/23/26",
+        "Nom : c.ipynb&#10;Chemin d'accès : c.ipynb&#10;",
+    )
+    paths = ("labs/b.ipynb", "labs/a: b.ipynb")
+    contexts = [{"path": f"RTC:{path}", "localPath": path} for path in paths]
+    page.evaluate(
+        HUBS, [*contexts, {"path": "c.ipynb", "localPath": "c.ipynb", "isDisposed": True}]
+    )
+    answer(one, "a")
+    answer(two, "b")
+    answer(other, "c")
+    assert made_in(page) == [[["b"]], [["a"]], []]
+    expect(told(two)).to_have_text("Python keeps it for your report as soon as it answers.")
+    page.evaluate("() => { hear[0]({n: 1}); hear[1]({n: 1, error: 'the disk is full'}); }")
+    expect(told(two)).to_have_text(KEPT)
+    expect(told(one)).to_have_text("Kept on this page only: the disk is full.")
+    expect(told(other)).to_have_text(RUN.replace("in this browser", "on this page"))
+    copies = [each.get_by_role("button", name="Copy my").count() for each in (one, two, other)]
+    assert copies == [1, 0, 1], "where nobody keeps them"
+    answer(two, "d", again=True)
+    assert made_in(page)[0] == [["b"], ["b", "d"]]
+    assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"
+
+
+def test_where_nobody_knows_a_path_the_only_kernel_is_meant(page):
+    (one,) = shown(page, None)  # Notebook 7 has no tabs; VS Code's model no context
+    page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
+    answer(one, "b")
+    assert made_in(page) == [[["b"]]]
+    (one,) = shown(page, "Path: a.ipynb")
+    page.evaluate("() => { delete window.robokinGuesses; robokinHubs.clear(); }")
+    page.evaluate(HUBS, [None])
+    answer(one, "c")
+    assert made_in(page) == [[["c"]]]
+    page.evaluate(HUBS, [None])  # a second one
+    answer(one, "d", again=True)
+    assert made_in(page) == [[]] and "Run this cell" in told(one).inner_text()
+
+
+def test_a_kernel_that_comes_late_is_told_what_the_page_remembers(page):
+    (one,) = shown(page, "Path: a.ipynb")
+    answer(one, "b")
+    answer(one, "c", again=True)
+    assert "Run this cell" in told(one).inner_text()
+    page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
+    [[message]] = page.evaluate("sent")
+    assert [(name, choice) for name, choice, _ in message["guesses"]] == [(P1, "b"), (P1, "c")]
+    times = [datetime.fromisoformat(time) for _, _, time in message["guesses"]]
+    assert times == sorted(times) and all(time.tzinfo for time in times)
+
+
+def exported(folder, *ids):
+    """Pages of questions, as an export has them."""
+    for name in ("ada.html", "bob.html"):
+        html = "".join(predict(each).html for each in ids)
+        (folder / name).write_text(f"<!DOCTYPE html><meta charset=utf-8><body>{html}")
+    return folder / "ada.html", folder / "bob.html"
+
+
+def test_one_button_copies_all_guesses_of_a_page_and_pages_do_not_mix(page, tmp_path):
+    ada, bob = exported(tmp_path, P1, P2, TYPED, OTHER)
+    page.add_init_script(
+        'Object.defineProperty(navigator, "clipboard", '
+        "{value: {writeText: async text => { window.copied = text; }}});"
+    )
+    page.goto(ada.as_uri())
+    one, two, typed, other = page.locator(".rk-ask").all()
+    for question, choice in ((typed, "-290"), (one, "b"), (other, "d"), (two, "c")):
+        answer(question, choice)
+    answer(one, "a", again=True)
+    button = page.get_by_role("button", name="Copy my guesses for the report")
+    assert button.count() == 1 and one.get_by_role("button").last.inner_text().startswith("Copy my")
+    button.click()
+    line = f"{TYPED.partition('.')[2]} -290, p1 b, p2 c"
+    assert page.evaluate("copied") == f'report(who, guesses="{line}")'
+    assert parse_line(line)
+    page.goto(bob.as_uri())
+    assert page.locator(".rk-answer p").count() == 0, "another page's guesses"
+    page.goto(ada.as_uri())
+    assert page.get_by_text("You guessed here before.").count() == 4 and button.count() == 1
+    one.get_by_role("button", name="Clear").click()
+    two.get_by_role("button", name="Ask me again").click()
+    page.goto(ada.as_uri())
+    assert page.get_by_text("You guessed here before.").count() == 3
+    assert "You guessed here before." in told(two).inner_text()
+
+
+def test_where_the_clipboard_is_forbidden_the_line_is_there_to_be_selected(page, tmp_path):
+    path, _ = exported(tmp_path, P1)
+    page.add_init_script(
+        'Object.defineProperty(navigator, "clipboard", {value: undefined});'
+        "document.execCommand = () => false;"
+    )
+    page.goto(path.as_uri())
+    answer(page.locator(".rk-ask"), "b")
+    for _ in range(2):
+        page.get_by_role("button", name="Copy my guesses").click()
+    [area] = page.locator("textarea").all()
+    line = 'report(who, guesses="p1 b")'
+    assert area.input_value() == line and page.evaluate("`${getSelection()}`") == line
+
+
+# --- In JupyterLab --------------------------------------------------------------------------------
+
+PANEL = ".jp-NotebookPanel:not(.lm-mod-hidden)"
+
+
+def says(question, text):
+    expect(told(question)).to_have_text(text, timeout=30_000)
+
+
+def current(page, name):
+    """Wait until the notebook with this name is the one in front."""
+    tab = ".lm-TabBar-tab.lm-mod-current[data-type=document-title]"
+    page.locator(f"{tab}[title*='Path: guessing/{name}']").wait_for(timeout=30_000)
+    page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for(timeout=30_000)
+
+
+def run_all(jupyter, page, count):
+    def ready():
+        opened = page.locator(".jp-NotebookPanel").count()
+        return len(jupyter.api("sessions") or ()) == opened and jupyter._kernels_idle()
+
+    until(ready, 60, "the kernels did not become idle", page)
+    page.locator(".jp-StatusBar-Widget").get_by_text("| Idle").first.wait_for(timeout=30_000)
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+    expect(page.locator(f"{PANEL} .rk-ask")).to_have_count(count, timeout=60_000)
+
+
+def test_guesses_arrive_from_jupyterlab(jupyter, page):
+    """Two labs, two copies of one lab, one of them renamed; a kernel that begins anew; Run All
+    after guessing; saved, closed, opened again.
+    """
+    folder = jupyter.labs / "guessing"
+    lab = notebook(folder / "lab.ipynb", ids=[P1, P2, TYPED])
+    twin = notebook(folder / "twin.ipynb", ids=[P1, P2, TYPED])
+    other = notebook(folder / "other.ipynb", "import os; os.chdir('/')", ids=[OTHER])
+    asks = page.locator(f"{PANEL} .rk-ask")
+
+    def to(name):
+        page.locator(".lm-TabBar-tab[data-type=document-title]", has_text=name).click()
+        current(page, name)
+
+    jupyter.open(page, "guessing/lab.ipynb")
+    run_all(jupyter, page, 3)
+    answer(asks.nth(0), "b")
+    says(asks.nth(0), KEPT)
+    for path, count, choice in ((twin, 3, "c"), (other, 1, "d")):
+        page.locator(".jp-DirListing-item", has_text=path.name).dblclick()
+        current(page, path.name)
+        run_all(jupyter, page, count)
+        answer(asks.nth(0), choice)
+        says(asks.nth(0), KEPT)
+    to("lab.ipynb")
+    answer(asks.nth(0), "a", again=True)
+    answer(asks.nth(2), "-290")
+    says(asks.nth(2), KEPT)
+    assert chosen(lab) == {P1: ["b", "a"], TYPED: ["-290"]}
+    assert chosen(twin) == {P1: ["c"]} and chosen(other) == {OTHER: ["d"]}
+
+    to("twin.ipynb")
+    page.locator(".jp-DirListing-item", has_text="twin.ipynb").click()
+    page.keyboard.press("F2")
+    page.keyboard.press("Control+a")
+    page.keyboard.type("my twin.ipynb")
+    page.keyboard.press("Enter")
+    until((folder / "my twin.ipynb").is_file, 20, "the notebook is not renamed", page)
+    current(page, "my twin.ipynb")
+    answer(asks.nth(1), "b")
+    says(asks.nth(1), KEPT)
+    assert chosen(folder / "my twin.ipynb") == {P1: ["c"], P2: ["b"]}
+
+    to("lab.ipynb")
+    page.get_by_role("menuitem", name="Kernel", exact=True).click()
+    page.get_by_role("menuitem", name="Restart Kernel").first.click()
+    page.locator(".jp-Dialog .jp-mod-accept").click()
+    until(lambda: page.evaluate("robokinHubs.size") == 2, 20, "the old kernel's hub stays", page)
+    answer(asks.nth(1), "c")
+    says(asks.nth(1), RUN)
+    assert P2 not in chosen(lab)
+    run_all(jupyter, page, 3)
+    for question in asks.all():
+        says(question, f"You guessed here before. {KEPT}")
+    page.keyboard.press("Control+s")
+    saved = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
+    until(lambda: "jp-mod-dirty" not in saved.get_attribute("class"), 20, "not saved", page)
+
+    jupyter.open(page, "guessing/lab.ipynb")
+    says(asks.nth(0), f"You guessed here before. {RUN}")
+    kept = read_guesses(lab)
+    assert chosen(lab) == {P1: ["b", "a"], P2: ["c"], TYPED: ["-290"]}
+    times = [datetime.fromisoformat(t) for made in kept.values() for _, t in made]
+    first = [datetime.fromisoformat(kept[name][0][1]) for name in (P1, TYPED, P2)]
+    assert all(time.tzinfo for time in times) and first == sorted(first)
+    cells = nbformat.read(lab, as_version=4).cells
+    outputs = [o.data["text/html"] for cell in cells for o in cell.get("outputs", ())]
+    assert outputs == [predict(name).html for name in (P1, P2, TYPED)], "an output knows a guess"
+    assert "widget" not in lab.read_text()
+    errors = [each for each in page.errors if "debugger state" not in each]  # JupyterLab's own
+    assert errors == [] and page.outside == []
