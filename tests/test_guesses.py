@@ -200,15 +200,17 @@ def test_neither_copy_nor_a_shell_without_a_page_has_to_do_with_it(tmp_path, mon
     copy(tmp_path / "mine", tmp_path / "labs")
     assert [path.name for path in (tmp_path / "mine").rglob("guesses*")] == []
 
-    assert hub._notebook() is None, "these tests are no kernel"
+    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
+    assert hub.own_notebook() is None, "these tests are no kernel"
     shell = SimpleNamespace(kernel=1, user_ns={})
     monkeypatch.setitem(hub.sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
-    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
-    assert hub._notebook() is None, "nbval, nbclient: nobody looks at a page"
+    assert hub.own_notebook() is None, "nbval, nbclient: nobody looks at a page"
     monkeypatch.setenv("JPY_SESSION_NAME", "/labs/lab.ipynb")
-    assert hub._notebook().name == "lab.ipynb"
+    assert hub.own_notebook().name == "lab.ipynb"
     monkeypatch.setenv("ROBOKIN_JUDGE", "1")
-    assert hub._notebook() is None
+    monkeypatch.setattr(hub, "_hub", None)
+    hub.listen()
+    assert hub._hub is None, "a judging kernel opens nothing"
 
 
 def test_what_the_page_says_is_kept_where_its_notebook_is_now(tmp_path):

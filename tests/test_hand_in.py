@@ -145,16 +145,11 @@ def test_the_cell_of_the_report_need_not_be_saved_unless_it_has_guesses(desk, mo
     assert report("Ada") == UNSAVED, "an answer beside it counts"
 
 
-def test_a_line_of_guesses_that_is_none_is_told(desk, monkeypatch):
-    def parse_line(text):
-        raise ValueError(f'guesses: wanted a line like "p1 b, p3 a", got {text!r}')
-
-    parse = SimpleNamespace(parse_line=parse_line)
-    monkeypatch.setitem(sys.modules, "robokin.course.guesses", parse)
+def test_a_line_of_guesses_that_is_none_is_told(desk):
     stored(desk.lab, IMPORTS)
     assert report("Ada", guesses=3).startswith("No report: guesses: wanted the line")
     said = report("Ada", guesses="first b")
-    assert said == "No report: guesses: wanted a line like \"p1 b, p3 a\", got 'first b'"
+    assert said.startswith("No report: guesses: wanted") and said.endswith("got 'first b'")
     assert desk.judged == []
 
 
@@ -201,7 +196,8 @@ def test_vs_code_tells_the_file(desk, monkeypatch):
     monkeypatch.delenv("JPY_SESSION_NAME")
     stored(desk.lab, IMPORTS, CHECK)
     space = {"__vsc_ipynb_file__": str(desk.lab)}
-    monkeypatch.setattr(hand_in, "_shell", lambda: SimpleNamespace(user_ns=space))
+    ipython = SimpleNamespace(get_ipython=lambda: SimpleNamespace(user_ns=space))
+    monkeypatch.setitem(sys.modules, "IPython", ipython)
     assert report("Ada") == "written"
 
 

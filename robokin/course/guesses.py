@@ -87,8 +87,10 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
 
 def parse_line(text: str) -> dict[str, str]:
     """The guesses in the line that a page copies, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in their
-    order. ValueError: another form.
+    order. ValueError: another form. TypeError: no text.
     """
+    if not isinstance(text, str):
+        raise TypeError(f"guesses: wanted the line that a page copies, got {short(text)}")
     found: dict[str, str] = {}
     for part in text.split(",") if text.strip() else ():
         number, _, choice = part.strip().partition(" ")
@@ -290,8 +292,8 @@ def listen() -> None:
     has opened.
     """
     global _hub
-    own = _notebook()
-    if _hub is not None or own is None:
+    own = own_notebook()
+    if _hub is not None or own is None or "ROBOKIN_JUDGE" in os.environ:
         return
     with contextlib.suppress(Exception):  # a question is shown without it, too
         from ..show.joiner import script
@@ -301,14 +303,13 @@ def listen() -> None:
         _hub = unseen(page, lambda model, message, _: model.send(_told(message, own)))
 
 
-def _notebook() -> Path | None:
-    """The notebook of this kernel as it was called when the kernel began: Jupyter's server and VS
-    Code tell it; nobody who runs a notebook without a page does.
+def own_notebook() -> Path | None:
+    """The notebook in which this runs, as it was called when its kernel began: Jupyter's server and
+    VS Code tell it; nobody who runs a notebook without a page does.
     """
-    shell: Any = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
-    if not hasattr(shell, "kernel") or "ROBOKIN_JUDGE" in os.environ:
-        return None
-    name = shell.user_ns.get("__vsc_ipynb_file__") or os.environ.get("JPY_SESSION_NAME")
+    ipython = sys.modules.get("IPython")
+    space = getattr(ipython.get_ipython() if ipython else None, "user_ns", {})
+    name = space.get("__vsc_ipynb_file__") or os.environ.get("JPY_SESSION_NAME")
     return Path(name) if name and str(name).endswith(".ipynb") else None
 
 

@@ -4,7 +4,6 @@ A notebook's file is as old as its last save, so it may lack what the student se
 kernel, and when, is noted here and compared with the file.
 """
 
-import importlib
 import json
 import os
 import re
@@ -16,8 +15,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .._validate import short
 from .book import LABS
+from .guesses import own_notebook, parse_line
 from .note import Note
 from .reported import report_data
 from .variants import normalised
@@ -69,7 +68,7 @@ def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
     VS Code, where a notebook is only executed.
     """
     name = str(who).strip()
-    seen = _seen_in()
+    seen = own_notebook()
     if (
         "ROBOKIN_JUDGE" in os.environ
         or sys.platform == "emscripten"
@@ -81,7 +80,7 @@ def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
         return Note(ASLEEP)
     try:
         if guesses is not None:
-            _parse(guesses)
+            parse_line(guesses)
         path = _notebook(seen, notebook)
         return Note(UNSAVED) if _unsaved(path, guesses) else _written(path, name)
     except (ValueError, TypeError, OSError) as error:
@@ -94,26 +93,6 @@ def _shell() -> Any:
     """IPython's shell in which this runs, or None."""
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None
-
-
-def _seen_in() -> Path | None:
-    """The notebook in which a kernel was started, as VS Code or JupyterLab tells it; None: neither
-    has. The second is not told when the notebook gets another name.
-    """
-    space = getattr(_shell(), "user_ns", {})
-    told = space.get("__vsc_ipynb_file__") or os.environ.get("JPY_SESSION_NAME")
-    return Path(told) if told else None
-
-
-def _parse(guesses: Any) -> None:
-    """ValueError: not the line that a page copies. TypeError: no line."""
-    if not isinstance(guesses, str):
-        raise TypeError(f"guesses: wanted the line that a page copies, got {short(guesses)}")
-    try:
-        module = importlib.import_module(".guesses", __package__)
-    except ModuleNotFoundError:
-        return
-    module.parse_line(guesses)
 
 
 def _notebook(seen: Path | None, given: Any) -> Path:
