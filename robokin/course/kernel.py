@@ -85,6 +85,7 @@ class Stream(OutStream):
         if cell != self.cell:
             self.cell, self.said = cell, 0
         if self.said <= SAID:
-            super().write(string[:SAID])
+            text = string[:SAID].encode(errors="replace").decode()  # a lone surrogate is lost, and
+            super().write(text)  # with it the message that the cell has ended
         self.said += len(string)
         return len(string)

@@ -32,6 +32,7 @@ SLOWER = 10
 GRACE = 5.0  # seconds that a kernel has after an interrupt, before it is ended
 LOOK = 0.1  # seconds between two looks at the time that it has used, at least
 START = 600  # seconds by the clock for a kernel to start
+LAST = 20  # seconds by the clock for what a cell has shown to arrive, after the cell has ended
 TEXT = 5_000  # characters of text that a cell may leave in the page
 ROOM = 2_000_000  # characters of pictures, players and the like
 MARK = "ROBOKIN_JUDGE"  # an environment variable, the same for all processes of a kernel
@@ -142,7 +143,7 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
         km=manager,
         timeout=None,
         startup_timeout=START,
-        iopub_timeout=START,  # it may be long on its way; `Kernel` has the limit
+        iopub_timeout=LAST,
         allow_errors=True,
         coalesce_streams=False,  # `Client` does it: nbclient can take hours for a long line
         record_timing=False,
