@@ -44,20 +44,12 @@ def stored(path, *cells):
     return path
 
 
-def told(judged):
-    """All that judging says, but no number that the operating system chose."""
-    shown = [[dict(output) for output in c.get("outputs", ())] for c in judged.notebook.cells]
-    return judged.exercises, judged.predictions, judged.remarks, shown
-
-
 # --- What answers are worth -----------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def homework(tmp_path_factory):
-    """A lab with answers of all sorts, and what came of it."""
+def test_missing_raising_and_endless_answers(tmp_path):
     lab = stored(
-        tmp_path_factory.mktemp("homework") / "03_irb140_motion Ada.ipynb",
+        tmp_path / "03_irb140_motion Ada.ipynb",
         IMPORTS,
         "def fraction_for(distance, corner):\n    while True:\n        pass",
         cell('check("irb140_motion.1", fraction_for)', "irb140_motion.1: does not hold."),
@@ -69,11 +61,7 @@ def homework(tmp_path_factory):
         "import asyncio\nawait asyncio.sleep(0)\nprint('awaited')",
         "input('?')",
     )
-    return lab, judge(handed_in(lab), "Ada", QUICK)
-
-
-def test_missing_raising_and_endless_answers(homework):
-    _, judged = homework
+    judged = judge(handed_in(lab), "Ada", QUICK)
     one, two, three = judged.exercises
     assert (one.state, one.mistake) == ("does not hold", "never ends")
     assert (two.state, two.points) == ("unanswered", 0)
@@ -196,23 +184,36 @@ def test_what_cells_show_is_kept_as_far_as_it_can_be(tricks):
     nbformat.validate(tricks.judged.notebook)
 
 
-def test_notebooks_judged_at_the_same_time_are_judged_the_same(homework, tmp_path):
-    path, alone = homework
-    other = stored(
-        tmp_path / "scara.ipynb",
-        "from robokin.course import check, predict",
-        solution("scara_motion.3").replace("your name", "Bob"),
-        'check("scara_motion.3", design, who=who)',
-        'predict("scara_motion.p1", "b")',
-    )
+def test_notebooks_judged_at_the_same_time_are_judged_the_same(tmp_path):
+    labs = [
+        stored(
+            tmp_path / "scara.ipynb",
+            "from robokin.course import check, predict",
+            solution("scara_motion.3").replace("your name", "Bob"),
+            'check("scara_motion.3", design, who=who)',
+            'predict("scara_motion.p1", "b")',
+        ),
+        stored(
+            tmp_path / "irb140.ipynb",
+            f"{IMPORTS}\n1 / 0",
+            "print('shown')",
+            'check("irb140_motion.1", lambda distance, corner: distance)',
+            'check("irb140_motion.2", nothing)',
+        ),
+    ]
+
+    def all_of(lab):
+        made = judge(handed_in(lab), None, QUICK)
+        printed = [[o.get("text") for o in c.outputs] for c in made.notebook.cells]
+        return made.exercises, made.predictions, made.remarks, printed
+
+    alone = [all_of(lab) for lab in labs]
     with ThreadPoolExecutor(2) as pool:
-        first, second = pool.map(
-            lambda path: judge(handed_in(path), None, QUICK), (path, other), timeout=900
-        )
-    assert told(first) == told(alone)
-    assert [each.state for each in second.exercises] == ["unanswered"] * 2 + ["holds"]
-    assert second.remarks == ("scara_motion.3: judged with the numbers of 'Bob'.",)
-    assert second.predictions[0].choice == "b"
+        assert list(pool.map(all_of, labs)) == alone
+    states = [[each.state for each in exercises] for exercises, *_ in alone]
+    assert states == [["unanswered"] * 2 + ["holds"], ["does not hold", "failed", "unanswered"]]
+    assert alone[0][2] == ("scara_motion.3: judged with the numbers of 'Bob'.",)
+    assert alone[0][1][0].choice == "b" and alone[1][3][1] == ["shown\n"]
 
 
 # --- Limits ---------------------------------------------------------------------------------------

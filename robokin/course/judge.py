@@ -162,7 +162,7 @@ class Run:
                 continue
             left = self.limits.all - self.used - kernel.seconds()
             if left < 0:
-                self.notes[k] = f"Not run: the {self.limits.all:.0f} s for all cells were over."
+                self.notes[k] = f"Not run: the {self.limits.all:g} s for all cells were over."
             elif time.monotonic() > self.end:
                 self.notes[k] = "Not run: the machine was too slow."
                 self.slow.add(k)
@@ -195,7 +195,7 @@ class Run:
         ended, answer = await kernel.ask(json.dumps(asked), self.limits.answer)
         found = _read(answer)
         if ended.how == "stopped":
-            found = {"error": f"judging it was stopped after {self.limits.answer:.0f} s"}
+            found = {"error": f"judging it was stopped after {self.limits.answer:g} s"}
         if ended.how in ("killed", "dead"):
             found = {"died": True, "error": "judging it ends the kernel"}
         self.found[call.name] = {"slow": True} | found if ended.slow else found
@@ -289,9 +289,9 @@ def _stopped(ended: Ended, limit: float) -> str:
         return "The kernel died in this cell. The other cells ran without it."
     if ended.how == "unread":
         return "Not all that it shows could be read."
-    says = f"Stopped after {limit:.0f} s"
+    says = f"Stopped after {limit:g} s"
     if ended.slow:
-        says = f"Stopped after {SLOWER * limit:.0f} s by the clock"
+        says = f"Stopped after {SLOWER * limit:g} s by the clock"
     if ended.how == "killed":
         says += ": nothing less than ending the kernel stopped it. The other cells ran without it"
     return f"{says}. The machine was too slow, or it waits." if ended.slow else f"{says}."
