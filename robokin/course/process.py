@@ -94,6 +94,7 @@ class Kernel:
 
     async def _within(self, limit: float, work: Awaitable[Any]) -> Ended:
         task = asyncio.ensure_future(work)
+        task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())  # no complaint
         how, slow = "in time", False
         try:
             for then in ("stopped", "killed"):
