@@ -74,7 +74,9 @@ HEAVY = DRAWING | {
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
-    "robokin.course.judge": {"jupyter_client", "nbclient", "nbformat"},
+    "robokin.course.handed_in": {"nbformat"},
+    "robokin.course.judge": {"nbformat"},
+    "robokin.course.process": {"jupyter_client", "nbclient", "nbformat", "psutil"},
     "robokin.course.kernel": {"ipykernel"},
     "robokin.course.report_page": {"nbformat"},
     "robokin.course.site.conf": {"docutils", "sphinx"},

@@ -1,10 +1,17 @@
 """A handed-in notebook as a text: which exercises and predictions it answers and how, and which
 verdicts stand in its outputs. Nothing of it is run.
+
+Its author may have written anything. What is wrong with it is told by a ValueError with the reason,
+and reading it takes time in proportion to its size. So the file is not read by nbformat, which can
+take minutes for a megabyte; what comes of it here is a valid notebook with the parts that we use.
 """
 
 import ast
 import html
+import json
+import os
 import re
+import threading
 import warnings
 from collections import Counter
 from collections.abc import Iterator
@@ -12,11 +19,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .book import LABS, find
-from .export import read
+import nbformat
+
+from .._validate import short
+from .book import LABS, lab
 
 NONE = "your name"  # what the labs have where the student's name should stand
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet)\.")
+CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")  # in what is no Python
+SIZE = 20_000_000  # bytes of a notebook
+CODE = 100_000  # characters of a cell that is read as Python
+ALL_CODE = 5 * CODE  # of all such cells
+DEEP = 100  # lists in lists
+
+
+CALLS = ("check", "predict", "report")
 
 
 class Call(NamedTuple):
@@ -37,7 +54,7 @@ class HandedIn:
     lab      the lab whose exercises and predictions it has, None: none
     checks   the last call for each exercise that it checks: that one counts
     choices  the last call of each prediction with a choice
-    broken   the exercises that are checked in cells that are no Python
+    broken   the exercises that are checked in cells that cannot be read as Python: id -> reason
     guesses  the line of guesses that a page copies, as the last call of `report` has it
     """
 
@@ -53,38 +70,42 @@ class HandedIn:
     def title(self) -> str:
         """Its first heading, or the file's name."""
         for cell in self.notebook.cells:
-            found = re.search(r"^# +(.+)$", cell.source, re.M)
+            found = re.search(r"^# +(\S.*)$", cell.source, re.M)
             if cell.cell_type == "markdown" and found:
-                return found[1].strip()
-        return self.path.stem
+                return found[1].strip()[:200]
+        return os.fsencode(self.path.stem).decode(errors="replace")
 
 
 def handed_in(path: Path) -> HandedIn:
     """Read a notebook. Which lab it is, the ids in it tell, since a file may be called anything;
-    where there are none, the file's name. ValueError: no notebook.
+    where there are none, the file's name. ValueError: no notebook, or one that cannot be read.
     """
-    notebook = read(path)
+    notebook = _notebook(path)
     checks: dict[str, Call] = {}
     choices: dict[str, Call] = {}
     broken: dict[str, str] = {}
     labs: Counter[str] = Counter()
-    guesses = ""
+    guesses, room = "", ALL_CODE
     for k, cell in enumerate(notebook.cells):
-        if cell.cell_type != "code":
+        if cell.cell_type != "code" or not any(word in cell.source for word in CALLS):
             continue
+        size = len(cell.source)
         try:
+            if size > min(CODE, room):
+                raise ValueError(f"{size} characters are more than we read")
+            room -= size
             calls = list(_calls(cell.source, k))
-        except (SyntaxError, ValueError, RecursionError) as error:
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             calls = []
-            for name in re.findall(r"""check\(\s*["'](\w+\.\w+)["']""", cell.source):
-                broken[name] = f"{type(error).__name__}: {error}"
+            reason = str(error)[:300] or "nested too deep"
+            for name in set(CHECKED.findall(cell.source)):
+                if _known(name, "EXERCISES"):
+                    broken[name] = f"{type(error).__name__}: {reason}"
         for what, call in calls:
             if what == "report":
                 guesses = call.answer or guesses
                 continue
-            try:
-                find(call.name, "EXERCISES" if what == "check" else "PREDICTIONS")
-            except ValueError:
+            if not _known(call.name, "EXERCISES" if what == "check" else "PREDICTIONS"):
                 continue
             labs[call.name.partition(".")[0]] += 1
             if what == "check":
@@ -93,8 +114,8 @@ def handed_in(path: Path) -> HandedIn:
             elif call.answer not in ("", "None"):
                 choices[call.name] = call
     labs.update(name.partition(".")[0] for name in broken)
-    most = [lab for lab, _ in labs.most_common() if lab in LABS]
-    most = most or [lab for lab in LABS if lab in path.stem.lower()]
+    most = [slug for slug, _ in labs.most_common()]
+    most = most or [slug for slug in LABS if slug in path.stem.lower()]
     return HandedIn(path, notebook, most[0] if most else None, checks, choices, broken, guesses)
 
 
@@ -112,56 +133,176 @@ def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
     return found
 
 
+def plain(value: Any, depth: int = 0) -> Any:
+    """A copy of a value that came as JSON, without lone surrogates, which no file can hold.
+    ValueError: nested too deep.
+    """
+    if isinstance(value, str):
+        return value if value.isascii() else value.encode(errors="replace").decode()
+    if not isinstance(value, (dict, list)):
+        return value
+    if depth == DEEP:
+        raise ValueError(f"nested deeper than {DEEP} levels")
+    if isinstance(value, list):
+        return [plain(each, depth + 1) for each in value]
+    return {plain(name): plain(each, depth + 1) for name, each in value.items()}
+
+
+# --- The file -------------------------------------------------------------------------------------
+
+
+def _notebook(path: Path) -> Any:
+    try:
+        size = path.stat().st_size
+        if size > SIZE:
+            raise ValueError(f"{size / 1e6:.0f} MB are more than {SIZE / 1e6:.0f} MB")
+        raw = plain(json.loads(path.read_text(encoding="utf-8-sig")))
+        if not isinstance(raw, dict) or raw.get("nbformat") != 4:
+            version = short(raw.get("nbformat")) if isinstance(raw, dict) else "none"
+            raise ValueError(f"nbformat: wanted 4, got {version}")
+        if not isinstance(raw.get("cells"), list):
+            raise ValueError("it has no cells")
+        cells = [_cell(each, k) for k, each in enumerate(raw["cells"], 1)]
+    except OSError as error:
+        raise ValueError(str(error.strerror)) from None
+    except RecursionError:
+        raise ValueError("not a notebook: nested too deep") from None
+    except MemoryError:
+        raise ValueError("not a notebook: too large for the memory") from None
+    except ValueError as error:
+        raise ValueError(f"not a notebook: {str(error)[:300]}") from None
+    return nbformat.from_dict(
+        {"nbformat": 4, "nbformat_minor": 5, "metadata": {}, "cells": cells},
+    )
+
+
+def _cell(raw: Any, k: int) -> dict[str, Any]:
+    """A cell with what we use of it, as nbformat 4.5 wants it. ValueError: it is none."""
+    kind = raw.get("cell_type") if isinstance(raw, dict) else None
+    if kind not in ("code", "markdown", "raw"):
+        raise ValueError(f"cell {k}: wanted code, markdown or raw text, got {short(kind)}")
+    source = _text(raw.get("source"))
+    if source is None:
+        raise ValueError(f"cell {k}: wanted its text, got {short(raw.get('source'))}")
+    folded = _get(_get(raw.get("metadata"), "jupyter"), "source_hidden") is True
+    made = {"id": f"cell-{k}", "cell_type": kind, "source": source}
+    made["metadata"] = {"jupyter": {"source_hidden": True}} if folded else {}
+    if kind == "code":
+        return made | {"execution_count": None, "outputs": list(_outputs(raw.get("outputs")))}
+    given = raw.get("attachments")
+    files = given.items() if isinstance(given, dict) else ()
+    return made | {"attachments": {name: _texts(file) for name, file in files}}
+
+
+def _outputs(raw: Any) -> Iterator[dict[str, Any]]:
+    """The stored outputs that are text or have a text."""
+    for each in raw if isinstance(raw, list) else ():
+        kind = _get(each, "output_type")
+        if kind == "stream":
+            name = "stderr" if each.get("name") == "stderr" else "stdout"
+            yield {"output_type": kind, "name": name, "text": _text(each.get("text")) or ""}
+        elif kind in ("display_data", "execute_result"):
+            count = {"execution_count": None} if kind == "execute_result" else {}
+            yield {"output_type": kind, "metadata": {}, "data": _texts(each.get("data")), **count}
+
+
+def _get(value: Any, name: str) -> Any:
+    return value.get(name) if isinstance(value, dict) else None
+
+
+def _text(value: Any) -> str | None:
+    if isinstance(value, list) and all(isinstance(line, str) for line in value):
+        return "".join(value)
+    return value if isinstance(value, str) else None
+
+
+def _texts(value: Any) -> dict[str, str]:
+    """The texts among the forms of an output or of a file, by MIME type."""
+    forms = value.items() if isinstance(value, dict) else ()
+    return {kind: text for kind, form in forms if (text := _text(form)) is not None}
+
+
+# --- Its cells ------------------------------------------------------------------------------------
+
+
 def _said(cell: Any) -> Iterator[tuple[str, str]]:
     for output in cell.get("outputs", ()):
         data = output.get("data", {})
-        shown = html.unescape(re.sub("<[^>]*>", "\n", str(data.get("text/html", ""))))
+        shown = re.sub("<[^<>]*>", "\n", str(data.get("text/html", "")))
+        try:
+            shown = html.unescape(shown)
+        except ValueError:  # the number of a character with thousands of digits
+            shown = ""
         yield from CLAIM.findall(f"{output.get('text', '')}\n{data.get('text/plain', '')}\n{shown}")
 
 
+def _known(name: str, what: str) -> bool:
+    """Whether there is an exercise (`what`: EXERCISES) or a prediction with that id."""
+    slug, _, number = name.partition(".")
+    return slug in LABS and number in getattr(lab(slug), what)
+
+
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:
-    """("check" or "predict", Call) for each call with an id that stands there, from the top; and
-    ("report", Call), whose answer is the line of guesses.
+    """("check" or "predict", Call) for each call with an id that stands there, from the top, and
+    ("report", Call), whose answer is the line of guesses; not for those inside another one's
+    arguments.
     """
     found = []
-    for node in ast.walk(_tree(source)):
-        if not isinstance(node, ast.Call):
-            continue
-        f = node.func
-        what = f.id if isinstance(f, ast.Name) else f.attr if isinstance(f, ast.Attribute) else ""
-        if what == "report":
-            line = next((each.value for each in node.keywords if each.arg == "guesses"), None)
-            if isinstance(line, ast.Constant) and isinstance(line.value, str):
-                found.append((node.lineno, node.col_offset, what, Call(cell, "", line.value, "")))
-        if what not in ("check", "predict"):
-            continue
-        names = ("name", "answer", "who") if what == "check" else ("name", "choice")
-        given = dict(zip(names, node.args, strict=False))
-        given |= {str(each.arg): each.value for each in node.keywords if each.arg in names}
-        name = given.get("name")
-        if isinstance(name, ast.Constant) and isinstance(name.value, str):
-            answer, own = given.get(names[1]), given.get("who")
-            call = Call(
-                cell,
-                name.value,
-                ast.unparse(answer) if answer else "",
-                ast.unparse(own) if own else "",
-            )
-            found.append((node.lineno, node.col_offset, what, call))
-    for _, _, what, call in sorted(found, key=lambda each: each[:2]):
-        yield what, call
+    todo: list[ast.AST] = [_tree(source)]
+    while todo:
+        node = todo.pop()
+        call = _call(node, cell) if isinstance(node, ast.Call) else None
+        if call:
+            found.append((node.lineno, node.col_offset, *call))  # type: ignore[attr-defined]
+        else:
+            todo += ast.iter_child_nodes(node)
+    for _, _, what, call_ in sorted(found, key=lambda each: each[:2]):
+        yield what, call_
+
+
+def _call(node: ast.Call, cell: int) -> tuple[str, Call] | None:
+    f = node.func
+    what = f.id if isinstance(f, ast.Name) else f.attr if isinstance(f, ast.Attribute) else ""
+    if what == "report":
+        line = next((each.value for each in node.keywords if each.arg == "guesses"), None)
+        if isinstance(line, ast.Constant) and isinstance(line.value, str):
+            return what, Call(cell, "", line.value, "")
+    if what not in ("check", "predict"):
+        return None
+    names = ("name", "answer", "who") if what == "check" else ("name", "choice")
+    given = dict(zip(names, node.args, strict=False))
+    given |= {str(each.arg): each.value for each in node.keywords if each.arg in names}
+    name = given.get("name")
+    if not (isinstance(name, ast.Constant) and isinstance(name.value, str)):
+        return None
+    answer, own = given.get(names[1]), given.get("who")
+    return what, Call(
+        cell,
+        name.value,
+        ast.unparse(answer) if answer else "",
+        ast.unparse(own) if own else "",
+    )
+
+
+_parsing = threading.Lock()  # Python's filters of warnings are those of all threads
 
 
 def _tree(source: str) -> ast.AST:
     """A cell as Python's tree. Only where it is none, its lines of Jupyter's (`%time`) are left
-    out. SyntaxError, ValueError, RecursionError: still none.
+    out. SyntaxError, ValueError, RecursionError, MemoryError: still none.
     """
     flags = ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
-    with warnings.catch_warnings():
+    with _parsing, warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
             tree: ast.AST = compile(source, "cell", "exec", flags)
         except SyntaxError:
-            rest = re.sub(r"^([ \t]*)(?:[%!].*|[^#'\"\n]*\?)$", r"\1pass", source, flags=re.M)
+            rest = "\n".join(map(_without_magic, source.split("\n")))
             tree = compile(rest, "cell", "exec", flags)
     return tree
+
+
+def _without_magic(line: str) -> str:
+    words = line.lstrip(" \t")
+    asks = words.endswith("?") and not any(mark in words for mark in "#'\"")
+    return f"{line[: len(line) - len(words)]}pass" if asks or words[:1] in ("%", "!") else line

@@ -1,0 +1,284 @@
+"""A judging kernel from outside: it starts, does some work within a limit of time, and ends with
+every process that it has started. `kernel.py` is what runs in it.
+
+A limit is one of CPU time, of the kernel and its child processes, so that no verdict depends on
+what else the machine does. Sleeping takes no CPU time, so there is a limit by the clock as well,
+`SLOWER` times as long.
+"""
+
+import asyncio
+import contextlib
+import functools
+import logging
+import os
+import secrets
+import sys
+import threading
+import time
+from collections.abc import AsyncIterator, Awaitable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import nbformat
+import psutil
+from jupyter_client.kernelspec import KernelSpec, KernelSpecManager
+from jupyter_client.manager import AsyncKernelManager
+from nbclient import NotebookClient
+from nbclient.exceptions import DeadKernelError
+
+from .handed_in import plain
+
+SLOWER = 10
+GRACE = 5.0  # seconds that a kernel has after an interrupt, before it is ended
+LOOK = 0.1  # seconds between two looks at the time that it has used, at least
+START = 600  # seconds by the clock for a kernel to start
+LAST = 20  # seconds by the clock for what a cell has shown to arrive, after the cell has ended
+TEXT = 5_000  # characters of text that a cell may leave in the page
+ROOM = 2_000_000  # characters of pictures, players and the like
+MARK = "ROBOKIN_JUDGE"  # an environment variable, the same for all processes of a kernel
+TOP = str(Path(__file__).resolve().parents[2])
+CODE = (  # this robokin, whichever one is installed, and none from the folder of the notebook
+    f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.kernel import main; "
+    "sys.path.append(sys.path.pop(0)); main({memory})"
+)
+_starting = threading.Lock()  # jupyter_client's list of free ports is not made for threads
+
+
+class Ended(NamedTuple):
+    """How some work ended.
+
+    how   "in time", "stopped" by an interrupt, "killed" with the kernel, "dead": it killed the
+          kernel, or "unread": nbclient does not understand what comes
+    slow  whether the limit by the clock stopped it, and not the limit of CPU time
+    """
+
+    how: str
+    slow: bool = False
+
+
+class Kernel:
+    """A kernel that runs; `running` makes one."""
+
+    def __init__(self, manager: AsyncKernelManager, client: "Client") -> None:
+        self.manager, self.client = manager, client
+        self.process = psutil.Process(manager.provisioner.pid)  # type: ignore[union-attr]
+        self.used = 0.0
+
+    def seconds(self) -> float:
+        """CPU time so far, with that of the child processes."""
+        used = 0.0
+        with contextlib.suppress(psutil.Error):
+            for each in (self.process, *self.process.children(recursive=True)):
+                with contextlib.suppress(psutil.Error):
+                    used += sum(each.cpu_times()[:4])  # its own and of its children that ended
+        self.used = max(self.used, used)  # what was, after its end
+        return self.used
+
+    async def run(self, cell: Any, k: int, limit: float) -> Ended:
+        """Run a cell: its outputs come into it. limit: seconds of CPU time."""
+        return await self._within(limit, self.client.async_execute_cell(cell, k))
+
+    async def ask(self, request: str, limit: float) -> tuple[Ended, Any]:
+        """What the kernel's `judging` answers, None: nothing. limit: seconds of CPU time."""
+        message = self.client.kc.execute(  # type: ignore[union-attr]
+            "", silent=True, store_history=False, user_expressions={"judge": request}
+        )
+        replies: list[Any] = []
+
+        async def wait() -> None:
+            replies.append(await self.client.async_wait_for_reply(message))
+
+        ended = await self._within(limit, wait())
+        content = replies[0]["content"] if replies and replies[0] else {}
+        return ended, (content.get("user_expressions") or {}).get("judge")
+
+    async def _within(self, limit: float, work: Awaitable[Any]) -> Ended:
+        task = asyncio.ensure_future(work)
+        task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())  # no complaint
+        how, slow = "in time", False
+        try:
+            for then in ("stopped", "killed"):
+                late = await self._late(task, limit)
+                if not late:
+                    break
+                how, slow, limit = then, slow or late == "by the clock", min(limit, GRACE)
+                if how == "stopped":
+                    await self.manager.interrupt_kernel()
+                else:
+                    await self.manager.shutdown_kernel(now=True)
+                    await asyncio.wait({task}, timeout=GRACE)
+            if task.done():
+                task.result()
+        except DeadKernelError:
+            how = "killed" if how == "killed" else "dead"
+        except Exception:  # a cell may send anything
+            how = "unread"
+        finally:
+            task.cancel()
+        return Ended(how, slow)
+
+    async def _late(self, task: asyncio.Future[Any], limit: float) -> str:
+        """Wait until the task is done (""), or its time is over: "CPU" or "by the clock"."""
+        computed, clock = self.seconds() + limit, time.monotonic() + SLOWER * limit
+        while True:
+            cpu, wall = computed - self.seconds(), clock - time.monotonic()
+            if cpu < 0 or wall < 0:
+                return "CPU" if cpu < 0 else "by the clock"
+            pause = max(LOOK, min(cpu / (os.cpu_count() or 1), wall))
+            done, _ = await asyncio.wait({task}, timeout=pause)
+            if done:
+                return ""
+
+
+@contextlib.asynccontextmanager
+async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> AsyncIterator[Kernel]:
+    """A new kernel for a notebook, in the folder `place`. memory: bytes, 0: no limit; `cut`: gets
+    the cells that show too much. OSError: it does not start.
+    """
+    specs = Specs()
+    specs.memory = memory
+    manager = AsyncKernelManager(kernel_name="robokin", kernel_spec_manager=specs)
+    client = Client(
+        notebook,
+        cut=cut,
+        km=manager,
+        timeout=None,
+        startup_timeout=START,
+        iopub_timeout=LAST,
+        allow_errors=True,
+        coalesce_streams=False,  # `Client` does it: nbclient can take hours for a long line
+        record_timing=False,
+        log=_silent(),
+    )
+    mark = secrets.token_hex(16)
+    more = {MARK: mark, "IPYTHONDIR": str(place.parent / "ipython")}
+    # many threads reserve more memory than they use, and the limit counts what is reserved
+    more |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+    quiet = {"stdout": asyncio.subprocess.DEVNULL, "stderr": asyncio.subprocess.DEVNULL}
+    children: list[psutil.Process] = []
+    try:
+        try:
+            with _starting:
+                await client.async_start_new_kernel(cwd=str(place), env=os.environ | more, **quiet)
+            kernel = Kernel(manager, client)
+            await client.async_start_new_kernel_client()
+        except RuntimeError as error:
+            raise OSError(f"no kernel: {error}") from None
+        yield kernel
+        with contextlib.suppress(psutil.Error):
+            children = kernel.process.children(recursive=True)
+    finally:
+        if client.kc is not None:
+            client.kc.stop_channels()
+        if manager.has_kernel:
+            await manager.shutdown_kernel(now=True)
+        for child in children:
+            with contextlib.suppress(psutil.Error):
+                child.kill()
+        await _end_marked(mark)
+
+
+async def _end_marked(mark: str) -> None:
+    """End the processes with that mark, also those in sessions of their own. One that starts itself
+    anew can be missed, so it looks until twice there is none.
+    """
+    none, last = 0, time.monotonic() + 2 * GRACE
+    while none < 2 and time.monotonic() < last:
+        none += 1
+        for pid in psutil.pids():
+            with contextlib.suppress(psutil.Error, OSError):
+                process = psutil.Process(pid)
+                if process.environ().get(MARK) == mark:
+                    process.kill()
+                    none = 0
+        await asyncio.sleep(0)
+
+
+class Client(NotebookClient):
+    """nbclient's, which joins what a cell prints, and stops listening where it shows too much.
+    `cut`: those cells.
+    """
+
+    def __init__(self, *given: Any, cut: set[int], **more: Any) -> None:
+        super().__init__(*given, **more)
+        self.cut = cut
+
+    def output(self, outs: Any, msg: Any, display_id: Any, cell_index: int) -> Any:
+        kind, content = msg["msg_type"], msg["content"]
+        most = 110 if kind == "error" else 100
+        if len(outs) > most or (kind != "error" and sum(map(_size, outs)) > ROOM):
+            self.cut.add(cell_index)
+            return None
+        if kind == "stream":
+            content["text"] = content["text"][: 4 * TEXT]
+            same = [o for o in outs if o.output_type == kind and o.name == content["name"]]
+            caught = self.output_hook_stack[msg["parent_header"].get("msg_id")]
+            if same and not caught and not self.clear_before_next_output:
+                same[0].text += content["text"][: max(0, 4 * TEXT - len(same[0].text))]
+                return same[0]
+        return super().output(outs, msg, display_id, cell_index)
+
+
+class Specs(KernelSpecManager):
+    """Knows one kernel: ours, run by the Python that runs this."""
+
+    memory = 0
+
+    def get_kernel_spec(self, kernel_name: str) -> KernelSpec:
+        code = CODE.replace("{memory}", str(self.memory))
+        argv = [sys.executable, "-P", "-c", code, "-f", "{connection_file}"]
+        return KernelSpec(argv=argv, display_name="robokin", language="python")
+
+
+def shortened(cell: Any) -> bool:
+    """Shorten what a cell shows; whether it was too much."""
+    room, cut = TEXT, False
+    kept: list[Any] = []
+    for output in cell.outputs:
+        try:
+            output = nbformat.from_dict(plain(output))
+        except ValueError:  # nested too deep
+            cut = True
+            continue
+        if output.output_type == "stream":
+            text = "\n".join(map(_overwritten, output.text.split("\n")))
+            output.text = text
+            if len(text) > room:
+                output.text, cut = text[:room] + "\n... shortened\n", True
+            room = max(0, room - len(text))
+        elif output.output_type == "error":
+            lines = "\n".join(output.traceback)
+            if len(lines) > 4 * TEXT or cut:  # colours are characters, too
+                output.traceback = [f"{output.ename[:100]}: {output.evalue[:500]}"]
+                output.evalue, cut = output.evalue[:500], True
+        elif _size(output) > ROOM or len(kept) >= 100:
+            cut = True
+            continue
+        kept.append(output)
+    for k in range(1, len(kept)):  # the two streams arrive in any order
+        if [each.get("name") for each in kept[k - 1 : k + 1]] == ["stderr", "stdout"]:
+            kept[k - 1 : k + 1] = kept[k], kept[k - 1]
+    cell.outputs = kept
+    return cut
+
+
+def _overwritten(line: str) -> str:
+    """A line as a terminal shows it that obeys carriage returns."""
+    return line.rstrip("\r").rpartition("\r")[2]
+
+
+def _size(output: Any) -> int:
+    """How many characters an output has, about."""
+    if output.output_type == "stream":
+        return len(output.text)
+    if output.output_type == "error":
+        return sum(map(len, output.traceback))
+    return sum(len(str(value)) for value in output.data.values())
+
+
+@functools.cache
+def _silent() -> logging.Logger:
+    log = logging.getLogger("robokin.judge")
+    log.propagate = False
+    log.setLevel(logging.CRITICAL + 1)
+    return log

@@ -1,0 +1,550 @@
+"""A handed-in notebook judged anew: what its answers are worth, whatever its author has written.
+
+The labs are written here, so that what every answer is worth is known beforehand.
+"""
+
+import copy
+import json
+import os
+import random
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
+
+import nbformat
+import psutil
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+
+from robokin import course
+from robokin.course import judge as judging
+from robokin.course import kernel, process, solution
+from robokin.course.handed_in import Call, claims, handed_in
+from robokin.course.judge import Limits, Run, guesses, judge
+from robokin.course.process import _end_marked
+
+QUICK = Limits(cell=12, answer=60, all=100)
+IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as np"
+
+
+def cell(source, said=None):
+    """A code cell; `said` is stored as its output."""
+    made = new_code_cell(source)
+    if said:
+        data = {"text/plain": said, "text/html": f"<div><b>{said}</b></div>"}
+        made.outputs = [new_output("execute_result", data=data, execution_count=1)]
+    return made
+
+
+def stored(path, *cells):
+    made = [c if not isinstance(c, str) else cell(c) for c in cells]
+    nbformat.write(new_notebook(cells=made), path)
+    return path
+
+
+# --- What answers are worth -----------------------------------------------------------------------
+
+
+def test_missing_raising_and_endless_answers(tmp_path):
+    lab = stored(
+        tmp_path / "03_irb140_motion Ada.ipynb",
+        IMPORTS,
+        "def fraction_for(distance, corner):\n    while True:\n        pass",
+        cell('check("irb140_motion.1", fraction_for)', "irb140_motion.1: does not hold."),
+        cell("'a check that was deleted'", "irb140_motion.2: holds."),
+        "raise RuntimeError('no')\ndef speeds_are_right(speeds):\n    return True",
+        'check("irb140_motion.3", speeds_are_right)',
+        'check("scara_motion.1", None)',
+        "from ipywidgets import interact\n@interact(x=(0, 3))\ndef f(x=1):\n    print('x is', x)",
+        "import asyncio\nawait asyncio.sleep(0)\nprint('awaited')",
+        "input('?')",
+    )
+    judged = judge(handed_in(lab), "Ada", QUICK)
+    one, two, three = judged.exercises
+    assert (one.state, one.mistake) == ("does not hold", "never ends")
+    assert (two.state, two.points) == ("unanswered", 0)
+    assert three.state == "failed" and "NameError" in three.says[0] and three.points == 0
+    remarks = "\n".join(judged.remarks)
+    assert 'irb140_motion.2: the stored output says "holds"' in remarks
+    assert "irb140_motion.1" not in remarks and "RuntimeError" in remarks
+    assert "Of other labs, and left out here: scara_motion.1." in remarks
+    assert "StdinNotImplementedError" in remarks and "could be read" not in remarks
+    assert judged.notebook.cells[-2].outputs[0].text == "awaited\n"
+    assert all(guess.right is None for guess in judged.predictions)
+
+
+@pytest.fixture(scope="module")
+def tricks(tmp_path_factory):
+    """A lab that does what a lab need not do, with things beside it, and what came of it."""
+    folder = tmp_path_factory.mktemp("tricks")
+    (folder / "robokin.py").write_text("raise SystemExit")  # is not taken
+    for name in ("tasks", "tasks/.robokin", ".robokin"):
+        (folder / name).mkdir()
+        (folder / name / "one.json").write_text("{}")
+    (folder / "data.csv").write_text("1")
+    os.mkfifo(folder / "tasks" / "pipe") if hasattr(os, "mkfifo") else None
+    (folder / "tasks" / "nowhere").symlink_to(folder / "none")
+    (folder / "images").symlink_to("/")
+    odd = [os.fsencode(folder) + b"/odd \xff.txt", os.fsencode(folder) + b"/tasks/odd \xff.txt"]
+    for name in odd if sys.platform == "linux" else ():
+        with open(name, "w"):
+            pass
+    sleeper = "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(1000)']"
+    anew = (  # starts itself anew, again and again, in a new session
+        "import os, time\nlast = time.time() + 60\nwhile time.time() < last:\n    if os.fork():\n"
+        "        os._exit(0)\n    os.setsid()\n    time.sleep(0.1)"
+    )
+    lab = stored(
+        folder / "lab.ipynb",
+        IMPORTS,
+        "import os, subprocess, sys\nfrom pathlib import Path\nfrom robokin import course\n"
+        "assert Path('tasks/one.json').is_file() and not [*Path().glob('robokin*')]\n"
+        "assert Path('data.csv').is_file() and not Path('tasks/pipe').exists()\n"
+        "assert not [*Path().rglob('.robokin')] and not Path('images').exists()\n"
+        "assert 'ROBOKIN_JUDGE' in os.environ",
+        "fraction_for = lambda distance, corner: 0.25\n"
+        "course._verdicts['irb140_motion.1'] = course.Verdict('irb140_motion.1', holds=True)\n"
+        "_check, check = check, lambda *a: print('irb140_motion.1: holds.')",
+        'course.check("irb140_motion.1", lambda distance, corner: distance)',  # tried, not the last
+        'check("irb140_motion.1", fraction_for)',
+        f"started = {sleeper}), {sleeper}, start_new_session=True), {sleeper}, env={{}})\n"
+        f"anew = subprocess.Popen([sys.executable, '-c', {anew!r}])\n"
+        "print(*(each.pid for each in started))",
+        "for k in range(60):\n    print('x' * 100, end=f' {k}\\r', flush=k % 10 == 0)",
+        "print('a line of 15000', 'x' * 15000)",
+        "import sys\nprint('first', file=sys.stderr)\nprint('second')",
+        "deep = 1\nfor _ in range(200):\n    deep = [deep]\n"
+        "display({'application/json': deep}, raw=True)",
+        "print('\\ud800')",
+        "get_ipython().kernel.session.send(get_ipython().kernel.iopub_socket, 'stream', "
+        "{'name': 'stdout', 'text': '\\udc80 raw'}, get_ipython().kernel.get_parent())",
+        "def speeds_are_right(speeds):\n    raise ValueError('\\ud800' * 9)",
+        'course.check("irb140_motion.3", speeds_are_right)',
+        "get_ipython().user_expressions = lambda e: {'judge': '{\"verdict\": [1]}'}",
+        'course.check("irb140_motion.2", np.sin)',
+    )
+    before = sorted(os.listdir(folder))
+    judged = judge(handed_in(lab), "Ada", QUICK)
+    assert sorted(os.listdir(folder)) == before, "something was left beside the notebook"
+    return SimpleNamespace(judged=judged, cells=judged.notebook.cells)
+
+
+def test_the_package_judges_and_not_what_the_notebook_made_of_it(tricks):
+    one, two, three = tricks.judged.exercises
+    assert one.state == "does not hold"
+    said = 'irb140_motion.1: the notebook\'s own output says "holds"; the check says'
+    assert any(remark.startswith(said) for remark in tricks.judged.remarks)
+    assert two.state == "failed" and "no verdict" in two.says[0]
+    assert three.state == "does not hold" and "ValueError" in str(three)
+    assert not any("AssertionError" in remark for remark in tricks.judged.remarks)
+    for text in (str(tricks.judged.exercises), str(tricks.judged.remarks)):
+        text.encode()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process may live on")
+def test_what_a_notebook_starts_ends_with_it(tricks):
+    [printed] = [c.outputs[0].text for c in tricks.cells if c.source.startswith("started")]
+    for pid in map(int, printed.split()):
+        assert not psutil.pid_exists(pid) or psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
+    assert not [p for p in psutil.process_iter() if "last = time.time() + 60" in _command(p)]
+
+
+def _command(process_):
+    try:
+        return " ".join(process_.cmdline())
+    except psutil.Error:
+        return ""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process may live on")
+def test_and_nothing_else_does():
+    marks = ("one", "two")
+    both = [
+        subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE, env=env)
+        for env in (os.environ | {process.MARK: mark} for mark in marks)
+    ]
+    try:
+        judging._complete(lambda: _end_marked("one"))
+        both[0].wait(60)
+        assert both[1].poll() is None
+    finally:
+        for each in both:
+            each.kill()
+            each.communicate()
+
+
+def test_what_cells_show_is_kept_as_far_as_it_can_be(tricks):
+    shown = {c.source.split("\n")[0][:20]: c.outputs for c in tricks.cells}
+    assert shown["for k in range(60):"][0].text == "x" * 100 + " 59"
+    assert len(shown["print('a line of 150"][0].text) < 6000
+    assert [each.text for each in shown["import sys"]] == ["second\n", "first\n"]
+    json.dumps(tricks.judged.notebook, ensure_ascii=False).encode()
+    nbformat.validate(tricks.judged.notebook)
+
+
+def test_notebooks_judged_at_the_same_time_are_judged_the_same(tmp_path):
+    labs = [
+        stored(
+            tmp_path / "scara.ipynb",
+            "from robokin.course import check, predict",
+            solution("scara_motion.3").replace("your name", "Bob"),
+            'check("scara_motion.3", design, who=who)',
+            'predict("scara_motion.p1", "b")',
+        ),
+        stored(
+            tmp_path / "irb140.ipynb",
+            f"{IMPORTS}\n1 / 0",
+            "print('shown')",
+            'check("irb140_motion.1", lambda distance, corner: distance)',
+            'check("irb140_motion.2", nothing)',
+        ),
+    ]
+
+    def all_of(lab):
+        made = judge(handed_in(lab), None, QUICK)
+        printed = [[o.get("text") for o in c.outputs] for c in made.notebook.cells]
+        return made.exercises, made.predictions, made.remarks, printed
+
+    alone = [all_of(lab) for lab in labs]
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(all_of, labs)) == alone
+    states = [[each.state for each in exercises] for exercises, *_ in alone]
+    assert states == [["unanswered"] * 2 + ["holds"], ["does not hold", "failed", "unanswered"]]
+    assert alone[0][2] == ("scara_motion.3: judged with the numbers of 'Bob'.",)
+    assert alone[0][1][0].choice == "b" and alone[1][3][1] == ["shown\n"]
+
+
+# --- Limits ---------------------------------------------------------------------------------------
+
+
+def slower(monkeypatch, factor):
+    monkeypatch.setattr(process, "SLOWER", factor)
+    monkeypatch.setattr(judging, "SLOWER", factor)
+
+
+def test_a_limit_counts_cpu_time_with_that_of_child_processes(tmp_path, monkeypatch):
+    slower(monkeypatch, 10_000)  # no machine is as slow
+    lab = stored(
+        tmp_path / "lab.ipynb",
+        IMPORTS,
+        "import subprocess, sys, time\ntime.sleep(1.5)",
+        "subprocess.run([sys.executable, '-c', 'while True: pass'])",
+        "def slow():\n    end = time.process_time() + slow.time\n"
+        "    while time.process_time() < end:\n        pass\n    slow.time = 9\nslow.time = 0",
+        'check("irb140_motion.1", slow())',
+        'check("irb140_motion.2", 1)',
+    )
+    judged = judge(handed_in(lab), "Ada", Limits(cell=1, answer=0.5, all=30))
+    one, two, three = judged.exercises
+    assert [remark for remark in judged.remarks if "topped" in remark] == [
+        "cell [3]: Stopped after 1 s."
+    ]
+    assert (one.state, one.says) == (
+        "failed",
+        ("No answer to judge: judging it was stopped after 0.5 s.",),
+    )
+    assert (two.state, three.state) == ("does not hold", "unanswered")
+
+
+def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch):
+    slower(monkeypatch, 2)
+    lab = stored(
+        tmp_path / "lab.ipynb",
+        f"{IMPORTS}\nimport signal, time\nfrom unittest.mock import Mock",
+        "nap = Mock()\nnap.side_effect = lambda: time.sleep(1000) if nap.call_count > 1 else None",
+        'check("irb140_motion.1", nap())',
+        "time.sleep(1000)",
+        'check("irb140_motion.2", 1)',
+        "signal.signal(signal.SIGINT, signal.SIG_IGN)\ntime.sleep(1000)",
+        'check("irb140_motion.3", 1)',
+    )
+    begun = time.monotonic()
+    judged = judge(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=40))
+    assert time.monotonic() - begun < 500
+    # the machine may be too slow for other cells as well: nothing else is sure
+    assert {each.state for each in judged.exercises} == {"not judged"}
+    assert {each.points for each in judged.exercises} == {0}
+    assert all("too slow" in each.says[0] for each in judged.exercises)
+    assert any("Stopped after 2 s by the clock" in remark for remark in judged.remarks)
+
+
+def test_what_is_not_judged_contradicts_nothing(tmp_path):
+    run = Run(
+        new_notebook(), {"irb140_motion.1": Call(3, "irb140_motion.1", "x", "")}, "Ada", QUICK
+    )
+    run.found["irb140_motion.1"] = {"error": "KeyboardInterrupt", "slow": True}
+    result = run.result("irb140_motion.1", {})
+    assert (result.state, result.points) == ("not judged", 0)
+    assert judging._differences((result,), {result.id: "holds"}, {result.id: "holds"}) == []
+
+
+# --- In the kernel --------------------------------------------------------------------------------
+
+
+def asked(answers, name, answer, own="", who=None):
+    request = json.dumps({"name": name, "answer": answer, "own": own, "who": who})
+    return json.loads(answers({"judge": request})["judge"])
+
+
+def test_judging_in_the_kernel_leaves_no_trace():
+    space = {"right": None, "who": "Bob"}
+    exec(solution("scara_motion.3").replace("your name", "Bob"), space)
+    answers = kernel.judging(course.check, space)
+    assert answers({}) == {}
+    before = dict(course._verdicts)
+    names = set(space)
+    assert asked(answers, "scara_motion.3", "design", "who")["verdict"]["holds"]
+    other = asked(answers, "scara_motion.3", "design", "who", "Ada")
+    assert not other["verdict"]["holds"] and other["own"] == "Bob"
+    assert "NameError" in asked(answers, "scara_motion.3", "nothing_there")["error"]
+    assert not asked(answers, "scara_motion.3", "")["verdict"]["answered"]
+    assert course._verdicts == before and set(space) == names
+
+
+RIGHT = {"answered": True, "holds": True, "mistake": None, "says": [], "case": None, "points": 1}
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [{"verdict": 1}, {"verdict": {"holds": True}}, {}, {"x": 1}, {"verdict": []}]
+    + [
+        {"verdict": RIGHT | change}
+        for change in (
+            {"says": [1]},
+            {"says": "text"},
+            {"says": None},
+            {"mistake": 1},
+            {"case": ["x"]},
+            {"points": 7},
+            {"points": "x"},
+            {"points": float("nan")},
+            {"points": -1},
+        )
+    ],
+)
+def test_an_answer_that_is_no_verdict_is_none(odd):
+    call = Call(0, "irb140_motion.1", "x", "")
+    run = Run(new_notebook(), {call.name: call}, "Ada", QUICK)
+    run.found[call.name] = odd
+    result = run.result(call.name, {})
+    assert result.state == "failed" and result.points == 0
+    run.found[call.name] = {"verdict": RIGHT}
+    assert run.result(call.name, {}).state == "holds"
+
+
+@pytest.mark.parametrize("odd", [None, 1, "", "x", "[]", '{"a":', "[" * 10_000, "9" * 5000])
+def test_nor_is_one_that_is_no_json(odd):
+    assert judging._read(odd) == {"error": "the kernel gave no answer"}
+
+
+# --- Reading --------------------------------------------------------------------------------------
+
+
+def test_the_last_call_counts_and_files_may_be_called_anything(tmp_path):
+    lab = stored(
+        tmp_path / "homework.ipynb",
+        'check("irb140_motion.1", first)\ncourse.check(name="irb140_motion.2", answer=a + 1)',
+        '%time check("irb140_motion.3", x)',  # in words of Jupyter's
+        "x = [i\n  % 2 for i in y]; await z",
+        'robokin.course.check("irb140_motion.1", f(1), who="Ada")',
+        'predict("irb140_motion.p2", "a"); predict("irb140_motion.p2", "b")',
+        'predict("irb140_motion.p3", None)\npredict("irb140_motion.p99", "a")',
+        'check("irb140_motion.3" x)',
+        'check(f"irb140_{1}", 2); check("nonsense.1", 3)',
+    )
+    given = handed_in(lab)
+    assert given.lab == "irb140_motion" and given.title == "homework"
+    assert given.checks["irb140_motion.1"] == (3, "irb140_motion.1", "f(1)", "'Ada'")
+    assert given.checks["irb140_motion.2"].answer == "a + 1"
+    assert set(given.checks) == {"irb140_motion.1", "irb140_motion.2"}
+    assert given.choices["irb140_motion.p2"].answer == "'b'"
+    assert set(given.choices) == {"irb140_motion.p2"}
+    assert "SyntaxError" in given.broken["irb140_motion.3"]
+    [made] = [guess for guess in guesses(given) if guess.right is not None]
+    assert made.choice == "b"
+    empty = stored(tmp_path / "02_irb140_kinematics (2).ipynb", "1")
+    assert handed_in(empty).lab == "irb140_kinematics"
+    assert handed_in(stored(tmp_path / "notes.ipynb", "1")).lab is None
+
+
+HOSTILE = ("<", " ", "-", "(", '"', "check(", "\\", "\n ", "?\n", "&#9", "1;", "irb140_motion.")
+
+
+@pytest.mark.parametrize(
+    ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE), (4_000_000, HOSTILE[:4])]
+)
+def test_reading_takes_time_in_proportion_to_size(size, pieces, tmp_path):
+    """At most 2 s of CPU time for a megabyte."""
+    call, lab = 'check("irb140_motion.1", x)\n', tmp_path / "lab.ipynb"
+    for piece in pieces:
+        text = (piece * size)[:size]
+        cells = [cell(call + text), new_markdown_cell("# " + text)]
+        cells += [cell(call + text[:90_000]) for _ in range(0, size // 2, 90_000)]
+        html = new_output("display_data", data={"text/html": text})
+        cells[0].outputs = [html, new_output("stream", text=text)]
+        lab.write_text(json.dumps(new_notebook(cells=cells)))
+        begun = time.process_time()
+        given = handed_in(lab)
+        claims(given.notebook, given.checks)
+        assert len(given.title) <= 200 and guesses(given)
+        used = time.process_time() - begun
+        assert used < 0.2 + 2e-6 * lab.stat().st_size, (piece, used)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"nbformat": 4, "cells": [' + "{}," * 300_000 + "{}]}",
+        '{"nbformat": 4, "cells": [{"cell_type": "code", "source": "", "outputs": ['
+        + "{}," * 300_000
+        + "{}]}]}",
+        "[" * 1_000_000,
+        '{"nbformat": ' + "9" * 1_000_000 + "}",
+        '{"nbformat": 4, "cells": [], "x": ' + "[" * 500 + "]" * 500 + "}",
+        '"' + "\\u0041" * 200_000,
+    ],
+    ids=range(6),
+)
+def test_so_does_what_is_no_notebook(text, tmp_path):
+    lab = tmp_path / "lab.ipynb"
+    lab.write_text(text)
+    begun = time.process_time()
+    tried(lab)
+    assert time.process_time() - begun < 2
+
+
+def tried(path):
+    """Read a notebook; if it can be read, all that is done with it outside a kernel must work.
+    Whether it can be.
+    """
+    try:
+        given = handed_in(path)
+    except (ValueError, OSError) as error:
+        reason = str(error).removeprefix("not a notebook: ").strip()
+        assert reason and len(str(error)) < 400, repr(error)
+        return False
+    nbformat.validate(given.notebook)
+    claims(given.notebook, given.checks)
+    guesses(given)
+    json.dumps([given.title, given.broken, given.checks], ensure_ascii=False).encode()
+    json.dumps(given.notebook, ensure_ascii=False).encode()
+    return True
+
+
+@pytest.mark.parametrize(
+    ("change", "readable"),
+    [
+        ({"nbformat": 4.0}, True),
+        ({"nbformat": "4"}, False),
+        ({"nbformat": 3}, False),
+        ({"nbformat": None}, False),
+        ({"nbformat": 10**4000}, False),
+        ({"nbformat_minor": 10**4000}, True),
+        ({"nbformat_minor": "5"}, True),
+        ({"metadata": []}, True),
+        ({"cells": {}}, False),
+        ({"cells": [1]}, False),
+        ({"cells": [{"cell_type": "code", "metadata": {}}]}, False),
+        ({"cells": [{"cell_type": "spell", "source": ""}]}, False),
+        ({"cells": [{"cell_type": "code", "source": ["a", 1]}]}, False),
+        ({"cells": [{"cell_type": ["code"], "source": ""}]}, False),
+    ],
+)
+def test_what_a_notebook_must_have(change, readable, tmp_path):
+    lab = tmp_path / "lab.ipynb"
+    lab.write_text(json.dumps(new_notebook(cells=[new_code_cell("1")]) | change))
+    assert tried(lab) == readable
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        'check("irb140_motion.1", ' + "-" * 10_000 + "1)",
+        'check("irb140_motion.1", ' + "1+" * 30_000 + "1)",
+        'check("irb140_motion.1", ' + "(" * 500 + ")" * 500 + ")",
+        'check("irb140_motion.1", "\ud800")',
+        'check("irb140_motion.1", "\0")',
+        'check("irb140_motion.1", 0x' + "f" * 5000 + ")",
+        'check("irb140_motion.1", ' + "9" * 5000 + ")",
+        'check("irb140_motion.' + "9" * 5000 + '", 1)\ncheck("irb140_motion.1" 1)',
+        'check("irb140_motion.1", 1' + " " * 200_000 + ")",
+    ],
+)
+def test_an_exercise_in_a_cell_that_cannot_be_read_is_broken(source, tmp_path):
+    lab = tmp_path / "irb140_motion.ipynb"
+    lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
+    assert tried(lab)
+    given = handed_in(lab)
+    if "\ud800" in source:  # is no character, and is read as "?"
+        assert given.checks["irb140_motion.1"].answer == "'?'"
+        return
+    assert set(given.broken) == {"irb140_motion.1"} and given.broken["irb140_motion.1"]
+
+
+def test_a_file_that_is_none(tmp_path):
+    for name, content in (("bytes", b"\xff\xfe"), ("empty", b""), ("large", b" " * 20_000_001)):
+        path = tmp_path / name
+        path.write_bytes(content)
+        assert not tried(path)
+    assert not tried(tmp_path) and not tried(tmp_path / "none") and not tried(tmp_path / "\0")
+    with pytest.raises(ValueError, match="20 MB are more than"):
+        handed_in(tmp_path / "large")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are Unicode elsewhere")
+def test_a_name_that_is_not_utf_8_is_an_ordinary_name(tmp_path):
+    path = stored(tmp_path / "lab.ipynb", "1").rename(os.fsdecode(os.fsencode(tmp_path) + b"/\xe9"))
+    assert tried(path) and handed_in(path).title == "\N{REPLACEMENT CHARACTER}"
+
+
+def test_any_change_of_a_notebook_is_read_or_refused_with_a_reason(tmp_path):
+    dice = random.Random(24)
+    values = [None, True, -1, 10**400, 1e308, "", "\ud800", "\0", "x" * 300, [], {}, [[]], {"": 0}]
+    values += [
+        "code",
+        "stream",
+        ["a"],
+        {"text/plain": "irb140_motion.1: holds."},
+        "check(",
+        "-" * 9999,
+    ]
+    good = new_notebook(
+        metadata={"kernelspec": {"name": "python3", "display_name": "x"}},
+        cells=[
+            new_markdown_cell("# Title", attachments={"a.png": {"image/png": "AA=="}}),
+            cell('check("irb140_motion.1", 1)', "irb140_motion.1: holds."),
+            cell('predict("irb140_motion.p1", "a")'),
+        ],
+    )
+    good.cells[2].outputs = [new_output("stream", text="x"), new_output("error", ename="E")]
+    text, lab, read = json.dumps(good), tmp_path / "irb140_motion.ipynb", 0
+    for _ in range(600):
+        changed = json.loads(text)
+        for _ in range(dice.choice((1, 1, 2, 5))):
+            places = [(changed, key) for key in changed]
+            for holder, key in places:  # grows meanwhile
+                inner = holder[key]
+                keys = (
+                    inner
+                    if isinstance(inner, dict)
+                    else range(len(inner) if isinstance(inner, list) else 0)
+                )
+                places += [(inner, k) for k in keys]
+            holder, key = dice.choice(places)
+            what = dice.random()
+            if what < 0.2:
+                del holder[key]
+            elif what < 0.3 and isinstance(holder, dict):
+                holder[dice.choice(("cells", "source", "data", "\ud800"))] = holder.pop(key)
+            else:
+                holder[key] = copy.deepcopy(dice.choice(values))
+        lab.write_text(json.dumps(changed))
+        read += tried(lab)
+    assert 100 < read < 590
+    for _ in range(300):  # and bytes
+        raw = bytearray(text.encode())
+        raw[dice.randrange(len(raw))] = dice.randrange(256)
+        lab.write_bytes(raw[: dice.choice((len(raw), dice.randrange(len(raw))))])
+        tried(lab)
