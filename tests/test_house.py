@@ -73,10 +73,12 @@ HEAVY = DRAWING | {
 # Libraries of the extras "labs" and "site", where they do what is not ours to write.
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
-    "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.export": {"jinja2", "markupsafe", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.harmless": {"bleach", "markupsafe"},
+    "robokin.course.ours": {"markupsafe"},
     "robokin.course.judge": {"jupyter_client", "nbclient", "nbformat"},
     "robokin.course.kernel": {"ipykernel"},
-    "robokin.course.report": {"nbformat"},
+    "robokin.course.report": {"jinja2", "markupsafe"},
     "robokin.course.site.conf": {"docutils", "sphinx"},
 }
 

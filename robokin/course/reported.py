@@ -18,13 +18,14 @@ def report_data(text: str) -> dict[str, Any] | None:
     try:
         data, _ = json.JSONDecoder().raw_decode(text, start + len(DATA))
         good = (
-            data["report"] == 1
+            data["report"] == 2
             and all(isinstance(data[n], str) for n in ("who", "title", "file", "numbers"))
             and datetime.fromisoformat(data["made"]).tzinfo is not None
             and (data["lab"] is None or lab(data["lab"]))
             and all(map(_is_exercise, data["exercises"]))
             and all(map(_is_prediction, data["predictions"]))
             and all(isinstance(remark, str) for remark in data["remarks"])
+            and isinstance(data["guesses_came"], bool)
         )
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise ValueError(f"a report that cannot be read: {type(error).__name__}: {error}") from None
@@ -51,4 +52,6 @@ def _is_prediction(each: dict[str, Any]) -> bool:
         isinstance(each["id"], str)
         and each["right"] in (None, True, False)
         and all(each[n] is None or isinstance(each[n], str) for n in ("choice", "confusion"))
+        and (each["when"] is None or datetime.fromisoformat(each["when"]).tzinfo is not None)
+        and all(isinstance(guess, str) for guess in each["later"])
     )
