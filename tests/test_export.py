@@ -10,7 +10,7 @@ import pytest
 from conftest import NOTEBOOKS, ROOT
 
 from robokin.course.__main__ import main
-from robokin.course.export import export, mathml
+from robokin.course.export import export, mathml, read
 
 PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
 START = NOTEBOOKS / "00_start_here.ipynb"
@@ -122,9 +122,12 @@ def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
     assert mine.name in capsys.readouterr().err and mine.read_text() == "mine"
     mine.unlink()
     assert main(["export", str(START)]) == 0
-    first = mine.read_bytes()
+    first = mine.read_text(encoding="utf-8")
     assert main(["export", str(START)]) == 0, "a page of ours is made anew"
-    assert mine.read_bytes() == first
+    again = mine.read_text(encoding="utf-8")
+    nonce = re.compile("[0-9a-f]{32}")
+    assert nonce.sub("", again) == nonce.sub("", first)
+    assert nonce.search(again)[0] != nonce.search(first)[0], "each page has its own"
 
 
 def test_links_lead_to_the_pages_beside(tmp_path):
@@ -155,3 +158,23 @@ def test_a_page_is_as_dark_as_its_reader_wants(browser, tmp_path):
         assert shown.evaluate(LIGHT, "body") > 0.9, "paper is white"
         context.close()
     assert min(seen[:2]) > 0.9 and max(seen[2:]) < 0.2
+
+
+def test_a_bad_notebook_is_told_with_its_reason(tmp_path):
+    path = tmp_path / "a.ipynb"
+    cell = {"cell_type": "code", "source": "1", "metadata": {}, "outputs": [], "id": "a"}
+    good = {"metadata": {}, "nbformat": 4, "nbformat_minor": 0}
+    good["cells"] = [cell | {"execution_count": None}]
+    path.write_text(json.dumps(good))
+    assert read(path).cells[0].source == "1", "an old notebook with ids"
+    for bad, reason in (
+        ([], "no table of names and values"),
+        (good | {"nbformat": 5}, "version 5"),
+        (good | {"cells": [{"cell_type": "code", "source": "1"}]}, "metadata"),
+        (good | {"cells": [cell | {"outputs": [{"output_type": "x" * 5000}]}]}, "x"),
+        ("[" * 100_000, "."),
+    ):
+        path.write_text(bad if isinstance(bad, str) else json.dumps(bad))
+        with pytest.raises(ValueError, match=f"not a notebook: .*{reason}") as error:
+            read(path)
+        assert len(str(error.value)) < 400

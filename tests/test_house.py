@@ -73,12 +73,14 @@ HEAVY = DRAWING | {
 # Libraries of the extras "labs" and "site", where they do what is not ours to write.
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
-    "robokin.course.export": {"jinja2", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.export": {"jinja2", "markupsafe", "math_core", "nbconvert", "nbformat"},
+    "robokin.course.harmless": {"bleach", "markupsafe"},
+    "robokin.course.ours": {"markupsafe"},
     "robokin.course.handed_in": {"nbformat"},
     "robokin.course.judge": {"nbformat"},
     "robokin.course.process": {"jupyter_client", "nbclient", "nbformat", "psutil"},
     "robokin.course.kernel": {"ipykernel"},
-    "robokin.course.report_page": {"nbformat"},
+    "robokin.course.report_page": {"jinja2", "markupsafe"},
     "robokin.course.site.conf": {"docutils", "sphinx"},
     "robokin.course.summary": {"psutil"},
     "robokin.course.summary_pages": {"jinja2", "markupsafe"},

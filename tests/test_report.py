@@ -220,7 +220,7 @@ def test_data_that_no_report_has_are_refused(hostile):
     for this, that in (
         ('"state":"holds"', '"state":"perfect"'),
         ('"points":1.0', '"points":7'),
-        ('"report":1', '"report":2'),
+        ('"report":2', '"report":3'),
         ('"lab":"scara_motion"', '"lab":"os"'),
         ('"who":"Ada Lovelace"', '"who":["Ada"]'),
         ('"made":"20', '"made":"x20'),

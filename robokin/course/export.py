@@ -1,120 +1,317 @@
 """A notebook as one page that needs no network and no Python: its formulas are MathML, its code is
 coloured, what is folded stays folded, players, explorers and predictions are alive.
 
-nbconvert does the work; here stands what it does not do: formulas without a script from a network,
-folded cells, links from page to page.
+Whoever wrote the notebook, its page does no harm. Of a cell only its text, its number and whether
+it is folded are taken; an output is ours and written again (`ours.py`), or cleaned
+(`harmless.py`), or it is text. Only scripts with the page's nonce run. nbconvert brings the styles
+and reads Markdown.
 """
 
 import html
 import re
+import secrets
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import jinja2
 import nbformat
+from markupsafe import Markup
 from math_core import LatexError, LatexToMathML
-from nbconvert.exporters import HTMLExporter
+from nbconvert.exporters import HTMLExporter, TemplateExporter
+from nbconvert.filters import Highlight2HTML, ansi2html
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 
 from .._validate import short
 from ..show.page import write_page
-
-TEMPLATE = """\
-{% extends 'lab/index.html.j2' %}
-{% block html_head_js_requirejs %}{% endblock %}
-{% block html_head_js_mathjax %}{% endblock %}
-{% block html_head_js_mermaidjs %}{% endblock %}
-{% block jupyter_widgets %}{% endblock %}
-{% block body_header %}
-{{ super() }}
-<script>
-{ const dark = matchMedia("(prefers-color-scheme: dark)"), body = document.body;
-  const tell = () => { body.dataset.jpThemeLight = String(!dark.matches); };
-  dark.addEventListener("change", tell);
-  tell(); }
-</script>
-{% endblock %}
-{% block html_head_css %}
-<style>
-@media screen and (prefers-color-scheme: dark) {
-{% include 'static/theme-dark.css' %}
-}
-main { max-width: 1000px; margin: auto; }
-details.rk-folded > summary { cursor: pointer; color: #5F6B76; font-size: 13px; margin: 4px 0; }
-math { font-family: "Cambria Math", "STIX Two Math", "Latin Modern Math",
-  "DejaVu Math TeX Gyre", math; }
-math[display=block], p:has(> math) { overflow-x: auto; overflow-y: hidden; }
-math[display=block] { padding: 2px 0; }
-.jp-RenderedHTMLCommon table { display: block; overflow-x: auto; }
-.jp-OutputArea-output { overflow-x: auto; }
-@media (max-width: 700px) {
-  .jp-InputPrompt, .jp-OutputPrompt { display: none; }
-  body.jp-Notebook { padding: 4px; }
-}
-</style>
-{% endblock %}
-{% block input_group %}
-{% if cell.metadata.get('jupyter', {}).get('source_hidden') %}
-<details class="rk-folded"><summary>code</summary>{{ super() }}</details>
-{% else %}{{ super() }}{% endif %}
-{% endblock %}
-"""
-
+from .harmless import (
+    INLINE,
+    clean,
+    file_as_picture,
+    image,
+    is_deep,
+    odd_in_math,
+    shortened,
+    visible,
+)
+from .ours import again
 
 FORMULAS = LatexToMathML(fancy_error=False)
+TEX = 2_000  # characters of a formula; the parser's stack grows with its braces
+# Characters to read as Markdown, HTML or Python, in one piece and in a page: the libraries take up
+# to 10 s a megabyte. What is beyond stands there as it was typed.
+PIECE, ROOM = 50_000, 150_000
+MOST = 200  # outputs of robokin in a page
+OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # for each the reader of Markdown looks for an end
+TEXTS = ("text/latex", "text/plain")
+IMAGES = ("image/svg+xml", "image/png", "image/jpeg", "image/gif", "image/webp")
+FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:], "text/plain")
 
 
 def mathml(tex: str, block: bool = False) -> str:
     """A formula in TeX as MathML. ValueError: a formula that cannot be read."""
+    tex = visible(tex.strip())
+    if len(tex) > TEX:
+        raise ValueError(f"formula {short(tex)}: wanted at most {TEX} characters, got {len(tex)}")
     try:
-        return str(FORMULAS.convert_with_local_state(tex.strip(), displaystyle=block))
+        made = str(FORMULAS.convert_with_local_state(tex, displaystyle=block))
     except LatexError as error:
         raise ValueError(f"formula {short(tex)}: {error}") from None
+    if odd := odd_in_math(made):
+        raise ValueError(f"formula {short(tex)}: {', '.join(odd)} is not used in a page")
+    return made
+
+
+class View:
+    """The cells of a notebook as a page shows them.
+
+    folder   where pictures are looked for
+    choices  prediction -> the choice with which it opens; None: those in the notebook
+    lenient  show a formula that cannot be read as it was typed, and tell it in `remarks`; else it
+             is a ValueError
+    """
+
+    def __init__(
+        self, folder: Path, choices: Mapping[str, str] | None = None, lenient: bool = False
+    ) -> None:
+        self.folder, self.choices, self.lenient = folder, choices, lenient
+        self.nonce = secrets.token_hex(16)
+        self.remarks: list[str] = []
+        self._room = ROOM
+        self._ours = 0  # outputs of robokin
+        self._highlight = Highlight2HTML(pygments_lexer="python")
+
+    def cells(self, notebook: Any) -> list[dict[str, Any]]:
+        """What the template is given of each cell."""
+        return [self._cell(cell, k) for k, cell in enumerate(notebook.cells, 1)]
+
+    def _cell(self, cell: Any, k: int) -> dict[str, Any]:
+        if cell.cell_type == "code":
+            return self._code(cell)
+        if cell.cell_type == "markdown":
+            return self._markdown_cell(cell, k)
+        return {"kind": "markdown", "source": _as_typed(str(cell.source))}
+
+    def _markdown_cell(self, cell: Any, k: int) -> dict[str, Any]:
+        name = f"cell {k} of the file"
+        source = self._markdown(cell.source, name, cell.get("attachments", {}))
+        return {"kind": "markdown", "source": source}
+
+    def _code(self, cell: Any) -> dict[str, Any]:
+        count = cell.get("execution_count")
+        folded = cell.metadata.get("jupyter", {})
+        return {
+            "kind": "code",
+            "count": count if isinstance(count, int) else None,
+            "folded": isinstance(folded, dict) and folded.get("source_hidden") is True,
+            "source": self._python(cell.source),
+            "outputs": [self._output(output) for output in cell.outputs],
+        }
+
+    def _affords(self, text: str) -> bool:
+        """Whether a piece of text is read; it is counted then."""
+        if len(text) > min(PIECE, self._room):
+            return False
+        self._room -= len(text)
+        return True
+
+    # --- Sources ----------------------------------------------------------------------------------
+
+    def _python(self, source: str) -> Markup:
+        text = visible(shortened(source))
+        # the lexer takes the square of the time for lines in a row that are empty
+        if self._affords(text) and not re.search(r"\n(?:[ \t\f]{0,200}\n){50}", text):
+            return Markup(self._highlight(text))
+        return Markup('<div class="highlight"><pre>{}</pre></div>').format(text)
+
+    def _markdown(self, source: str, name: str, attachments: Any = None) -> Markup:
+        renderer = Renderer(self, name)
+        pictures: dict[str, str] = {}
+
+        def kept(found: re.Match[str]) -> str:
+            pictures[f"{len(pictures)}"] = found[0]
+            return f"attachment:{renderer.mark}{len(pictures) - 1}"
+
+        text = visible(shortened(INLINE.sub(kept, source)))
+        if self._affords(text) and sum(map(text.count, OPENERS)) <= 100:
+            made = str(MarkdownWithMath(renderer=renderer).render(text))
+            if self._affords(made) and not is_deep(made):
+                pictures |= _attached(attachments)
+                return self._cleaned(made, renderer, pictures)
+        return _as_typed(source)
+
+    def _cleaned(self, made: str, renderer: "Renderer", pictures: Mapping[str, str]) -> Markup:
+        def picture(address: str) -> str | None:
+            scheme, _, name = address.partition(":")
+            if scheme == "attachment":
+                return pictures.get(name.removeprefix(renderer.mark))
+            if INLINE.fullmatch(address):
+                return address
+            return file_as_picture(address, self.folder)
+
+        return Markup(renderer.filled(clean(made, picture, renderer.plain)))
+
+    # --- Outputs ----------------------------------------------------------------------------------
+
+    def _output(self, output: Any) -> dict[str, Any]:
+        kind = output.output_type
+        if kind == "stream":
+            mime = "text/plain" if output.name == "stdout" else "application/vnd.jupyter.stderr"
+            return _shown("RenderedText", mime, _coloured(output.text))
+        if kind == "error":
+            text = "\n".join(output.traceback) or f"{output.ename}: {output.evalue}"
+            return _shown("RenderedText", "application/vnd.jupyter.stderr", _coloured(text))
+        return self._data(output.data) | {"result": kind == "execute_result"}
+
+    def _data(self, data: Mapping[str, Any]) -> dict[str, Any]:
+        """The best of what an output has."""
+        for mime in FIRST:
+            text = data.get(mime)
+            if not isinstance(text, str):
+                continue
+            if mime == "text/html":
+                return _shown("RenderedHTMLCommon jp-RenderedHTML", mime, self._html(text))
+            if mime == "text/markdown":
+                made = self._markdown(text, "an output")
+                return _shown("RenderedHTMLCommon jp-RenderedMarkdown", mime, made)
+            if mime == "text/latex":
+                return _shown("RenderedLatex", mime, Markup.escape(visible(shortened(text))))
+            if mime == "text/plain":
+                return _shown("RenderedText", mime, _coloured(text))
+            try:
+                kind = "RenderedSVG" if "svg" in mime else "RenderedImage"
+                return _shown(kind, mime, image(mime, text, "a picture without a description"))
+            except ValueError:
+                continue
+        names = ", ".join(shortened(visible(str(name)), 80) for name in list(data)[:5])
+        return _shown("RenderedText", "text/plain", f"An output is left out here: {names}.")
+
+    def _html(self, text: str) -> Markup:
+        made = again(text, self.nonce, self.choices) if self._ours <= MOST else None
+        if made is not None:
+            self._ours += 1
+            return made
+        if not self._affords(text) or is_deep(text):
+            return _as_typed(text)
+        return self._cleaned(text, Renderer(self, "an output"), {})
 
 
 class Renderer(IPythonRenderer):
-    """Markdown to HTML, formulas to MathML."""
+    """Markdown to HTML. Formulas and coloured code are kept apart, since what comes of Markdown is
+    cleaned: in their place stands a mark that nobody can guess.
+    """
+
+    def __init__(self, view: View, name: str) -> None:
+        super().__init__(escape=False, exclude_anchor_links=True)
+        self.view, self.name = view, name
+        self.mark = f"rk{secrets.token_hex(12)}x"
+        self.kept: list[tuple[str, str]] = []  # (as it was typed, HTML)
 
     def inline_math(self, body: str) -> str:
-        return mathml(html.unescape(body))
+        return self._formula(body, "$")
 
     def block_math(self, body: str) -> str:
-        return mathml(html.unescape(body), block=True)
+        return self._formula(body, "$$")
 
-    def link(self, text: str, url: str, title: str | None = None) -> str:
-        """Other notebooks are pages beside this one."""
-        here = not re.match(r"[a-z]+:|#", url)
-        url = re.sub(r"\.ipynb(?=#|$)", ".html", url) if here else url
-        return str(super().link(text, url, title))
+    def block_code(self, code: str, info: str | None = None) -> str:
+        made = super().block_code(code, info) if info and not info.startswith("mermaid") else ""
+        if not made.startswith('<div class="highlight">'):  # no language that is known
+            made = str(Markup("<pre><code>{}</code></pre>").format(code))
+        return f"<div>{self._keep(code, made)}</div>\n"
+
+    def heading(self, text: str, level: int, **attrs: Any) -> str:
+        """With the anchor that JupyterLab gives it."""
+        words = re.sub("<[^>]*>", "", html.unescape(self.plain(text))).strip()
+        return f'<h{level} id="{html.escape(words.replace(" ", "-"))}">{text}</h{level}>\n'
+
+    def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
+        tag = "th" if head else "td"
+        style = f' style="text-align: {align}"' if align else ""
+        return f"<{tag}{style}>{text}</{tag}>\n"
+
+    def block_html(self, html: str) -> str:
+        return f"{html}\n"
+
+    def inline_html(self, html: str) -> str:
+        return html
+
+    def image(self, text: str, url: str, title: str | None = None) -> str:
+        return str(Markup('<img alt="{}" src="{}">').format(text, url))
+
+    def plain(self, text: str) -> str:
+        """What was kept apart as it was typed."""
+        return re.sub(f"{self.mark}(\\d+)x", lambda place: self.kept[int(place[1])][0], text)
+
+    def filled(self, text: str) -> str:
+        """What was kept apart as HTML."""
+        return re.sub(f"{self.mark}(\\d+)x", lambda place: self.kept[int(place[1])][1], text)
+
+    def _formula(self, body: str, dollars: str) -> str:
+        tex = html.unescape(body)
+        typed = f"{dollars}{tex}{dollars}"
+        try:
+            return self._keep(typed, mathml(tex, block=dollars == "$$"))
+        except ValueError as error:
+            if not self.view.lenient:
+                raise
+            if len(self.view.remarks) < 20:
+                self.view.remarks.append(
+                    f"{self.name}: a formula is shown as it was typed: {error}."
+                )
+            return self._keep(typed, str(Markup("<code>{}</code>").format(typed)))
+
+    def _keep(self, typed: str, made: str) -> str:
+        self.kept.append((typed, made))
+        return f"{self.mark}{len(self.kept) - 1}x"
+
+
+def _shown(kind: str, mime: str, made: str) -> dict[str, Any]:
+    return {"kind": kind, "mime": mime, "html": made, "result": False}
+
+
+def _as_typed(text: str) -> Markup:
+    return Markup("<pre>{}</pre>").format(visible(shortened(text)))
+
+
+def _coloured(text: str) -> Markup:
+    """A text of a terminal: colours are kept."""
+    made = ansi2html(visible(shortened(text), kept="\x1b"))
+    return Markup(made.replace("\x1b", "\\x1b"))
+
+
+def _attached(attachments: Any) -> Iterator[tuple[str, str]]:
+    """(name, `data:` address) of the pictures that a cell brings."""
+    for name, kinds in attachments.items() if isinstance(attachments, dict) else ():
+        for kind, data in kinds.items() if isinstance(kinds, dict) else ():
+            address = f"data:{kind};base64,{''.join(str(data).split())}"
+            if INLINE.fullmatch(address):
+                yield name, address
 
 
 class Exporter(HTMLExporter):
-    """nbconvert's page, without anything that it would fetch."""
+    """nbconvert's page around our cells."""
 
-    def default_filters(self) -> Any:
-        yield from super().default_filters()
-        yield ("markdown2html", _rendered)
-
-
-@jinja2.pass_context
-def _rendered(context: Any, source: str) -> str:
-    cell = context.get("cell", {})
-    renderer = Renderer(
-        escape=False,
-        attachments=cell.get("attachments", {}),
-        embed_images=True,
-        path=context.get("resources", {}).get("metadata", {}).get("path", ""),
-        anchor_link_text="¶",
-    )
-    return str(MarkdownWithMath(renderer=renderer).render(source))
+    def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> Any:
+        """HTMLExporter's without its parsing of what is made."""
+        for name in (
+            "highlight_code",
+            "filter_data_type",
+        ):  # those that it would set for a notebook
+            self.register_filter(name, lambda value: value)
+        return TemplateExporter.from_notebook_node(self, nb, resources, **kw)
 
 
-def page(notebook: Any, title: str, folder: Path) -> str:
-    """The page of a notebook (nbformat's), as text. Pictures are looked for in `folder`."""
-    resources = {"metadata": {"name": title, "path": str(folder)}}
-    loader = jinja2.DictLoader({"robokin.html.j2": TEMPLATE})
-    exporter = Exporter(template_file="robokin.html.j2", extra_loaders=[loader])
-    made, _ = exporter.from_notebook_node(notebook, resources)
+def page(cells: list[dict[str, Any]], title: str, nonce: str, header: str = "") -> str:
+    """The page of a notebook's cells as text; `header`: HTML above them."""
+    resources = {
+        "metadata": {"name": visible(title)},
+        "nonce": nonce,
+        "cells": cells,
+        "header": header,
+    }
+    loader = jinja2.PackageLoader("robokin.course", "templates")
+    exporter = Exporter(template_file="notebook.html.j2", extra_loaders=[loader])
+    made, _ = exporter.from_notebook_node(nbformat.v4.new_notebook(), resources)
     return str(made)
 
 
@@ -122,11 +319,14 @@ def read(path: Path) -> Any:
     """The notebook at `path`, as nbformat has it. ValueError: it is none, or cannot be read."""
     try:
         notebook = nbformat.read(path, as_version=4)
-        nbformat.validate(notebook)
+        nbformat.validate(notebook, relax_add_props=True)  # older ones have ids of cells, too
     except OSError as error:
         raise ValueError(f"{error.strerror}") from None
+    except AttributeError:  # nbformat's, where the whole is a list or a number
+        raise ValueError("not a notebook: its JSON is no table of names and values") from None
     except Exception as error:  # JSON, Unicode and schema errors of several libraries
-        reason = str(error).partition("\n")[0]
+        lines = [line for line in visible(str(error)[:2000]).splitlines() if line.strip()]
+        reason = lines[0][:300] if lines else type(error).__name__
         raise ValueError(f"not a notebook: {reason}") from None
     return notebook
 
@@ -135,4 +335,5 @@ def export(path: Path, to: Path) -> None:
     """Write the notebook at `path` as the page `to`, wholly or not at all. ValueError: no notebook,
     a formula that cannot be read, a file in the way that is no page of ours.
     """
-    write_page(to, page(read(path), path.stem, path.parent))
+    view = View(path.parent)
+    write_page(to, page(view.cells(read(path)), path.stem, view.nonce))

@@ -147,11 +147,15 @@ class Asked:
     @property
     def html(self) -> str:
         """The question as a piece of HTML: in words, and the script that replaces them."""
+        return self.in_page()
+
+    def in_page(self, nonce: str = "") -> str:
+        """The same for a page whose policy lets only scripts with this nonce run."""
         from ..show.page import inert, output
 
-        data = self.data | {"view": shown(self.view())}
+        data = self.data | {"view": shown(self.view(), nonce)}
         words = "".join(map(paragraph, repr(self).split("\n")[1:]))
-        return output("prediction.ask", self.id, inert(data), f"{words}<p>{ASLEEP}</p>")
+        return output("prediction.ask", self.id, inert(data), f"{words}<p>{ASLEEP}</p>", nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
@@ -201,8 +205,10 @@ def paragraph(line: str) -> str:
     return "<p>" + re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(line)) + "</p>"
 
 
-def shown(view: Any) -> str:
+def shown(view: Any, nonce: str = "") -> str:
     """What a view shows in a page, as HTML."""
     if isinstance(view, str):
         return "".join(paragraph(line) for line in view.split("\n") if line)
+    if nonce and hasattr(view, "in_page"):
+        return str(view.in_page(nonce))
     return str(view._repr_mimebundle_()["text/html"])

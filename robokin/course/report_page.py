@@ -5,7 +5,7 @@ A report is a file that its author can edit, like any other. Who has to be sure 
 (`summary` does), and reads in `kernel.py` how sure that is.
 """
 
-import html
+import os
 import re
 import unicodedata
 from dataclasses import asdict
@@ -13,24 +13,25 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-import nbformat
+import jinja2
+from markupsafe import Markup
 
 from .. import __version__
 from ..show.page import inert, write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from .book import lab
-from .export import page
+from .export import View, page
 from .handed_in import HandedIn, handed_in
+from .harmless import all_visible, shortened, visible
 from .judge import LIMITS, Judged, Limits, judge
 from .reported import DATA, report_data
 from .variants import normalised, variant
 
-# a page that fetches nothing, whatever a notebook would like to fetch
-ALONE = (
-    '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
-    "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
-    'font-src data:; media-src data:">'
-)
+WORDS = 2_000  # characters of one text in the header
+KINDS = {  # of words, for their colour
+    **dict.fromkeys(("holds", "right"), "holds"),
+    **dict.fromkeys(("does not hold", "failed", "not judged", "not so"), "not"),
+}
 INK, SOFT, LINE = (PAGE[name][0] for name in ("ink", "soft", "line"))
 GREEN = AXIS_COLORS[1]  # dark enough for words
 STYLE = f"""\
@@ -41,7 +42,9 @@ STYLE = f"""\
 .rk-report table {{ border-collapse: collapse; width: 100%; }}
 .rk-report td, .rk-report th {{ text-align: left; vertical-align: top; padding: 4px 10px 4px 0;
   border-bottom: 1px solid {LINE}; }}
-.rk-report td:nth-child(3) {{ overflow-wrap: anywhere; }}
+.rk-report td:nth-child(n+2), .rk-report h1, .rk-report p, .rk-report li {{
+  overflow-wrap: anywhere; }}
+.rk-report :is(h1, p, li, pre, div) {{ overflow: clip; }}  /* marks that pile up on a letter */
 .rk-report th {{ font-weight: 600; white-space: nowrap; }}
 .rk-report tr.rk-objective td {{ font-weight: 600; padding-top: 10px; }}
 .rk-report td:first-child {{ white-space: nowrap; }}
@@ -79,17 +82,18 @@ def told(given: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
     """What a report says, as data."""
     numbers = str(variant(given.lab, who)) if given.lab and hasattr(lab(given.lab), "given") else ""
     return {
-        "report": 1,
+        "report": 2,
         "who": who,
         "lab": given.lab,
         "title": given.title,
-        "file": given.path.name,
+        "file": os.fsencode(given.path.name).decode(errors="replace"),
         "made": datetime.now().astimezone().isoformat(timespec="seconds"),
         "robokin": __version__,
         "numbers": numbers,
         "exercises": [asdict(each) for each in judged.exercises],
         "predictions": [asdict(each) for each in judged.predictions],
         "remarks": list(judged.remarks),
+        "guesses_came": any(each.choice is not None for each in judged.predictions),
     }
 
 
@@ -106,20 +110,16 @@ def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
-    """The page: what a report says, and the notebook with its outputs."""
-    title = f"{data['who']}: {data['title']}"
-    try:
-        return _page(title, data, notebook, folder)
-    except ValueError:  # a formula of the student's that is none
-        for k, cell in enumerate(notebook.cells, 1):
-            if cell.cell_type != "markdown":
-                continue
-            try:
-                page(nbformat.v4.new_notebook(cells=[cell]), title, folder)
-            except ValueError as error:
-                data["remarks"].append(f"cell {k} of the file is shown as it was typed: {error}.")
-                cell.source = f"````text\n{cell.source}\n````"
-        return _page(title, data, notebook, folder)
+    """The page: what a report says, and the notebook with its outputs. Pictures are looked for in
+    `folder`. What could not be shown is added to the data's remarks.
+    """
+    choices = {each["id"]: each["choice"] for each in data["predictions"] if each["choice"]}
+    view = View(folder, choices, lenient=True)
+    cells = view.cells(notebook)
+    data["remarks"] += view.remarks
+    # read again by `report_data`; a script only in name
+    header = f"<style>{STYLE}</style>\n{DATA}{inert(all_visible(data))}</script>\n{_header(data)}"
+    return page(cells, _title(data), view.nonce, header)
 
 
 def safe(text: str) -> str:
@@ -144,101 +144,34 @@ def _refuse_to_overwrite(to: Path, given: HandedIn, who: str) -> None:
         raise ValueError(f"{to} exists and is not this report; nothing is overwritten")
 
 
-# --- The page -------------------------------------------------------------------------------------
+# --- The header -----------------------------------------------------------------------------------
 
 
-def _page(title: str, data: dict[str, Any], notebook: Any, folder: Path) -> str:
-    whole = nbformat.from_dict(notebook)
-    whole.metadata = nbformat.from_dict({"language_info": {"name": "python"}})
-    text = page(whole, title, folder)
-    for mark, more in (("<head>", ALONE), ("<main>", _head(data))):
-        before, _, after = text.partition(mark)
-        text = f"{before}{mark}\n{more}\n{after}"
-    return text
+def _header(data: dict[str, Any]) -> str:
+    template = PAGES.get_template("header.html.j2")
+    made = _day(data["made"])
+    return template.render(data=data, made=made, objectives=objectives(data), kinds=KINDS)
 
 
-def _head(data: dict[str, Any]) -> str:
-    made = datetime.fromisoformat(data["made"])
-    lines = [
-        f"<style>{STYLE}</style>",
-        f"{DATA}{inert(data)}</script>",
-        '<header class="rk-report">',
-        f"<h1>Report: {_said(data['title'])}</h1>",
-        f"<p><b>{_said(data['who'])}</b> · {made.day} {made:%B %Y} · {_said(data['file'])}"
-        f" · {data['lab'] or 'no lab'}</p>",
-    ]
-    if data["numbers"]:
-        lines += ["<h2>Own numbers</h2>", f"<pre>{_said(data['numbers'])}</pre>"]
-    if data["lab"]:
-        lines += ["<h2>Objectives and exercises</h2>", *_exercises(data)]
-        lines += ["<h2>Predictions</h2>", *_predictions(data["predictions"])]
-    else:
-        lines.append("<p>This notebook has no exercises of robokin's.</p>")
-    if data["remarks"]:
-        lines.append("<h2>Remarks</h2><ul>")
-        lines += [f"<li>{_said(remark)}</li>" for remark in data["remarks"]]
-        lines.append("</ul>")
-    lines.append(
-        f"<p>All cells ran anew for this report, in a fresh kernel, and the verdicts were worked "
-        f"out there (robokin {_said(data['robokin'])}); below is the lab with what its cells "
-        "gave.</p></header>"
-    )
-    return "\n".join(lines)
+def _title(data: dict[str, Any]) -> str:
+    return f"{data['who']}: {data['title']}"
 
 
-def _exercises(data: dict[str, Any]) -> list[str]:
-    points = sum(each["points"] for each in data["exercises"])
-    lines = ["<table><tr><th></th><th>Verdict</th><th>What was found</th><th>Points</th></tr>"]
-    for k, (text, state) in enumerate(objectives(data), 1):
-        lines.append(
-            f'<tr class="rk-objective"><td>objective {k}</td><td>{_word(state)}</td>'
-            f'<td colspan="2">{_said(text)}</td></tr>'
-        )
-        for each in data["exercises"]:
-            if each["objective"] != k:
-                continue
-            found = []
-            if each["mistake"]:
-                found.append(f"<div>The mistake: {_said(each['mistake'])}.</div>")
-            found += [f"<div>{_said(line)}</div>" for line in each["says"]]
-            if each["case"]:
-                found.append(f"<pre>{_said(each['case'])}</pre>")
-            lines.append(
-                f"<tr><td>exercise {_number(each)}</td><td>{_word(each['state'])}</td>"
-                f"<td><div><i>{_said(each['task'])}</i></div>{''.join(found)}</td>"
-                f"<td>{each['points']:g}</td></tr>"
-            )
-    lines.append(
-        f"<tr><td colspan='3'>Together, of {len(data['exercises'])}</td><td>{points:g}</td></tr>"
-    )
-    return [*lines, "</table>"]
+def _day(time: str) -> str:
+    made = datetime.fromisoformat(time)
+    return f"{made.day} {made:%B %Y}"
 
 
-def _predictions(predictions: list[dict[str, Any]]) -> list[str]:
-    lines = ["<table>"]
-    for each in predictions:
-        if each["right"] is None:
-            continue
-        confusion = f": {_said(each['confusion'])}" if each["confusion"] else ""
-        word = _word("right") if each["right"] else _word("not so") + confusion
-        choice = f"choice {_said(each['choice'])}"
-        lines.append(f"<tr><td>{_number(each)}</td><td>{choice}</td><td>{word}</td></tr>")
-    left = ", ".join(_number(each) for each in predictions if each["right"] is None)
-    if left:
-        lines.append(f"<tr><td colspan='2'>{left}</td><td>{_word('not made')}</td></tr>")
-    return [*lines, "</table>"]
+def _said(text: str) -> Markup:
+    """Words as HTML; what stands between back-ticks is code."""
+    words = str(Markup.escape(shortened(visible(text), WORDS)))
+    return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", words))
 
 
-def _number(each: dict[str, Any]) -> str:
-    return _said(str(each["id"]).partition(".")[2])
-
-
-def _word(state: str) -> str:
-    kind = "holds" if state in ("holds", "right") else "open"
-    if state in ("does not hold", "failed", "not judged", "not so"):
-        kind = "not"
-    return f'<span class="rk-{kind}">{state}</span>'
-
-
-def _said(text: str) -> str:
-    return re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(text))
+PAGES = jinja2.Environment(
+    loader=jinja2.PackageLoader("robokin.course", "templates"),
+    autoescape=True,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+PAGES.filters |= {"said": _said, "day": _day}

@@ -348,16 +348,17 @@ def still_image(png: bytes, alt: str) -> str:
     )
 
 
-def output(call: str, name: str, text: str, still: str) -> str:
+def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
     """A piece of HTML: `still`, and the script that replaces it by what `text`, a `Page`,
     `PageExplorer` or `PageQuestion` as JSON, describes. `call`: the module and its function,
-    "player.play".
+    "player.play". `nonce`: of a page whose policy lets no other script run.
     """
     module, _ = call.split(".")
+    tag = f"script nonce={nonce}" if nonce else "script"
     return (
         f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
         f"<style>{css()}</style>\n"
-        f'<script>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
+        f'<{tag}>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
     )
 
 

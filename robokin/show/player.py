@@ -144,8 +144,12 @@ class Output:
     @property
     def html(self) -> str:
         """The player as a piece of HTML: the still picture, and the script that replaces it."""
+        return self.in_page()
+
+    def in_page(self, nonce: str = "") -> str:
+        """The same for a page whose policy lets only scripts with this nonce run."""
         still = still_image(plots.palette_png(self.still), self.data["alt"])
-        return output(self.call, self.id, self.text, still)
+        return output(self.call, self.id, self.text, still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one

@@ -1,0 +1,195 @@
+"""Outputs of robokin in a notebook, written again: each is read as a kind and its data, the data
+are validated, and its script comes from this robokin. A script that stands in a notebook is never
+copied.
+"""
+
+import base64
+import hashlib
+import html
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache, lru_cache
+from types import NoneType, UnionType
+from typing import (
+    Any,
+    Literal,
+    NamedTuple,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+    is_typeddict,
+)
+
+from markupsafe import Markup
+
+from ..show.motors import PageMotors
+from ..show.page import Page, PageExplorer, inert, output, still_image
+from .book import find
+from .exercises import Verdict
+from .harmless import all_visible, png, visible
+from .predictions import Asked, Prediction, shown
+
+MARK = 'class="robokin-player"'
+LEFT_OUT = Markup("<p>An output of robokin that cannot be read is left out here.</p>")
+ASK = "prediction.ask"
+EXPLORERS = ("joint", "target", "motion", "levers", "plan", "tour")
+KINDS: dict[str, Any] = {
+    "player.play": Page,
+    "motor_explorer.explore": PageMotors,
+    **{f"{kind}_explorer.explore": PageExplorer for kind in EXPLORERS},
+}
+CALL = re.compile(r'^\$(\w+\.\w+)\("[0-9a-f]{12}", (.*)\);$', re.M)
+STILL = re.compile(r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})"')
+FIGURE = re.compile(
+    r'<img alt="([^"<>]*)" width="(\d{1,5})" height="(\d{1,5})" '
+    r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})">\s*'
+)
+VERDICT = re.compile(
+    r'<div role="status" style="[^"]*"><b>(\w+\.\w+): (holds|does not hold|not answered yet)\.</b>'
+    r'((?:<div style="padding-left:[02]em">[^<>]*</div>)*)</div>'
+)
+LINE = re.compile(r'<div style="padding-left:([02])em">([^<>]*)</div>')
+
+
+def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Markup | None:
+    """An output of robokin's as this robokin writes it; None: it is none of them.
+
+    nonce    of the page's scripts
+    choices  prediction -> the choice with which it opens; None: the one that it has
+    """
+    figure = FIGURE.fullmatch(text)
+    if figure:
+        return _figure(*figure.groups())
+    verdict = VERDICT.fullmatch(text)
+    if verdict:
+        return _verdict(*verdict.groups())
+    if MARK not in text:
+        return None
+    try:
+        call = CALL.search(text)
+        if call is None:
+            return LEFT_OUT
+        data = json.loads(call[2], parse_constant=_refused, object_hook=_ordinary)
+        if call[1] == ASK:
+            return Markup(_question(data, nonce, choices))
+        if not fits(data, KINDS.get(call[1], NoneType)) or _kind(data, call[1]) != call[1]:
+            return LEFT_OUT
+        found = STILL.search(text)
+        data = all_visible(data)
+        still = still_image(png(found[1] if found else ""), data["alt"])
+        data = inert(data)
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return LEFT_OUT
+    # of the data: two outputs that differ never share a place in the page
+    name = hashlib.sha256(data.encode()).hexdigest()[:12]
+    return Markup(output(call[1], name, data, still, nonce))
+
+
+def fits(value: Any, kind: Any) -> bool:
+    """Whether a value that JSON gave is of a type as the tables of page.py have them."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if kind is Any:
+        return True
+    if is_typeddict(kind):
+        hints = _hints(kind)
+        return (
+            isinstance(value, dict)
+            and kind.__required_keys__ <= value.keys() <= hints.keys()
+            and all(fits(each, hints[key]) for key, each in value.items())
+        )
+    if origin in (Union, UnionType):
+        return any(fits(value, each) for each in inner)
+    if origin is Literal:
+        return isinstance(value, str) and value in inner
+    if origin is list:
+        return isinstance(value, list) and all(fits(each, inner[0]) for each in value)
+    if origin is tuple:
+        inner = inner[:1] * len(value) if inner[-1] is ... else inner
+        return isinstance(value, list) and len(value) == len(inner) and all(map(fits, value, inner))
+    if origin is dict:
+        return isinstance(value, dict) and all(fits(each, inner[1]) for each in value.values())
+    if kind is float:
+        return isinstance(value, (int, float)) and not isinstance(value, bool)
+    if kind is int:
+        return isinstance(value, int) and not isinstance(value, bool)
+    return isinstance(value, kind)
+
+
+@cache
+def _hints(table: Any) -> dict[str, Any]:
+    return get_type_hints(table)
+
+
+def _kind(data: dict[str, Any], call: str) -> str:
+    """The call that belongs to the data."""
+    return f"{data['kind']}_explorer.explore" if "kind" in data else call
+
+
+def _refused(word: str) -> None:
+    raise ValueError(f"{word} is no number of JSON")
+
+
+def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
+    if "__proto__" in table:  # in a script it is no key, but changes what the table is
+        raise ValueError("__proto__ is no key")
+    return table
+
+
+def _figure(alt: str, width: str, height: str, data: str) -> Markup:
+    try:
+        image = base64.b64encode(png(data)).decode()
+    except ValueError:
+        return LEFT_OUT
+    return Markup('<img alt="{}" width="{}" height="{}" src="data:image/png;base64,{}">').format(
+        visible(html.unescape(alt)), width, height, image
+    )
+
+
+def _verdict(name: str, word: str, lines: str) -> Markup:
+    """What a notebook shows of a verdict, in the colour that belongs to its word."""
+    says = [
+        ("  " if indent == "2" else "") + visible(html.unescape(line))
+        for indent, line in LINE.findall(lines)
+    ]
+    made = Verdict(name, word != "not answered yet", word == "holds", says=tuple(says))
+    return Markup(made._repr_html_())
+
+
+def _question(data: Any, nonce: str, choices: Mapping[str, str] | None) -> str:
+    """A prediction by its id. ValueError, KeyError, TypeError: there is none."""
+    name = data["name"]
+    prediction = _prepared(str(name), nonce)
+    choice = data.get("choice") if choices is None else choices.get(name)
+    try:
+        return Asked(name, prediction, _choice(prediction, choice)).in_page(nonce)
+    except ValueError:  # a choice that is none
+        return Asked(name, prediction, None).in_page(nonce)
+
+
+class Ready(NamedTuple):
+    """A view whose HTML is there."""
+
+    html: str
+
+    def in_page(self, nonce: str) -> str:
+        """It."""
+        return self.html
+
+
+@lru_cache(256)
+def _prepared(name: str, nonce: str) -> Prediction:
+    """A prediction whose facts and view are worked out, once for a page."""
+    prediction: Prediction = find(name, "PREDICTIONS")
+    facts, view = prediction.facts(), Ready(shown(prediction.view(), nonce))
+    return replace(prediction, facts=lambda: facts, view=lambda: view)
+
+
+def _choice(prediction: Prediction, choice: Any) -> Any:
+    """A choice that is kept as text: a letter, or the number that it says. ValueError: none."""
+    if choice is None or prediction.unit is None:
+        return choice
+    number = float(choice)
+    return int(number) if number.is_integer() else number
