@@ -149,7 +149,7 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
     rows = rows_of(page, "counted")
     for (name, what), who in wrong.items():
         task = book.find(name, "EXERCISES").task.replace("`", "")
-        assert [f"{name.partition('.')[0]}: {task}", what, str(len(who))] in [r[:3] for r in rows]
+        assert [f"{lab}: {task}", what, str(len(who))] in [r[:3] for r in rows]
     for name, what in guessed:
         assert [f"{name.partition('.')[0]}: {question(name)}", what] in [row[:2] for row in rows]
     figures = iter(rows_of(page, "class"))

@@ -30,6 +30,11 @@ def lab(name: Any) -> ModuleType:
     return importlib.import_module(f".{name}", __package__)
 
 
+def titled(name: str) -> str:
+    """A lab as people call it: "lab 03, irb140 motion"."""
+    return f"lab {LABS.index(name):02}, {name.replace('_', ' ')}"
+
+
 def find(name: Any, what: str) -> Any:
     """The exercise or prediction with an id. `what`: EXERCISES or PREDICTIONS. ValueError: none
     such.

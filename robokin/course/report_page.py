@@ -49,6 +49,7 @@ STYLE = f"""\
 .rk-report tr.rk-objective td {{ font-weight: 600; padding-top: 10px; }}
 .rk-report td:first-child {{ white-space: nowrap; }}
 .rk-report pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
+.rk-report :is(.rk-holds, .rk-not, .rk-open) {{ overflow-wrap: normal; }}
 .rk-report .rk-holds {{ color: {GREEN}; font-weight: 600; }}
 .rk-report .rk-not {{ color: {ALARM}; font-weight: 600; }}
 .rk-report .rk-open {{ color: {SOFT}; font-weight: 600; }}

@@ -23,7 +23,7 @@ from markupsafe import Markup, escape
 
 from ..show.page import write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
-from .book import LABS, find, lab
+from .book import LABS, find, lab, titled
 from .predictions import filled
 from .report_page import safe
 from .summary import Entry, Summary
@@ -185,6 +185,7 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
     )
     pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
+    pages.filters["titled"] = titled
     return pages
 
 
