@@ -195,7 +195,7 @@ def test_a_stranger_is_refused_without_a_name(number):
         ("2", lambda q0, q1, s: _by_nearest(q0, q1, s).T, "transposed"),
         ("2", lambda q0, q1, s: _by_nearest(q0, q1, s) / deg, "degrees for radians"),
         ("2", lambda q0, q1, s: s[:, None] * q1, "q0 is not used"),
-        ("1", lambda d, corner: 0.123, "distance is not used or corner is not used"),
+        ("1", lambda d, corner: 0.123, "one answer to everything"),
     ],
 )
 def test_another_kind_of_answer(number, answer, name):

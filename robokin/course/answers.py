@@ -20,8 +20,9 @@ import numpy as np
 from ..arms.scara import ScaraPose
 from ..transform import Transform
 
-SECONDS = 4.0  # of CPU time, for all cases of a check together; of a test, for each program
-WALL = 90.0  # by the clock on the wall, the same way: sleeping and C's own threads take no CPU here
+SECONDS = 4.0  # of CPU time for one case; of a test, for one program
+TOTAL = 30.0  # of CPU time for all of them together
+WALL = 90.0  # by the clock on the wall for one: sleeping and C's own threads take no CPU here
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
@@ -45,11 +46,16 @@ TROUBLE = {
     "returns None",
     "prints instead of returning",
     "never ends",
+    "too slow",
 }
-NEVER = Outcome(
-    name="never ends",
-    says=f"It does not come to an end, or is far too slow (stopped after {SECONDS:.0f} s).",
-)
+
+
+def _never(seconds: float) -> Outcome:
+    says = f"It does not come to an end, or is far too slow (stopped after {seconds:.0f} s)."
+    return Outcome(name="never ends", says=says)
+
+
+NEVER = _never(SECONDS)
 
 
 def is_stub(answer: Any) -> bool:
@@ -70,27 +76,42 @@ def is_stub(answer: Any) -> bool:
     return kinds <= QUIET and given[-1] in (None, ...)
 
 
-def run(
-    answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]], each: bool = False
-) -> list[Outcome]:
-    """What `answer` makes of every case, up to the first one that does not end in time: `SECONDS`
-    of CPU for all of them, or for `each`, and `WALL` seconds where it waits or computes elsewhere.
+def unended(outcome: Outcome) -> bool:
+    """Whether this call was stopped."""
+    return outcome.name in ("never ends", "too slow")
+
+
+host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
+
+
+def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
+    """What `answer` makes of every case, up to the first one that does not end in time: a case has
+    `SECONDS` of CPU, and `WALL` seconds where it waits or computes elsewhere; all have `TOTAL`.
 
     The answer runs in a thread of its own. So `TimeUp`, which arrives between any two steps of
-    Python, cannot reach the thread that asks.
+    Python, cannot reach the thread that asks. In a page Python has no threads: there the page sets
+    `host`, is told by it that answers begin (True) and have ended (False), and ends all if it has
+    to.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            worker.start()
-            worker.watch(each)
+            try:
+                worker.start()
+            except RuntimeError:  # no threads
+                worker.run_here()
+            else:
+                worker.watch()
     finally:
         worker.end()
         sys.stdout, sys.stderr = streams
     outcomes = worker.outcomes[: len(cases)]
-    ended = len(outcomes) == len(cases) or any(outcome is NEVER for outcome in outcomes)
-    return outcomes if ended else [*outcomes, NEVER]
+    if len(outcomes) < len(cases) and not (outcomes and outcomes[-1] is NEVER):
+        outcomes.append(NEVER)
+    if outcomes and outcomes[-1] is NEVER:
+        outcomes[-1] = worker.stopped(len(outcomes))
+    return outcomes
 
 
 def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
@@ -144,6 +165,7 @@ class _Worker(threading.Thread):
         super().__init__(daemon=True)
         self.answer, self.cases = answer, cases
         self.outcomes: list[Outcome] = []
+        self.over = "case"  # which of the three times was up
         self.done, self.leave = threading.Lock(), threading.Lock()
         self.done.acquire()
         self.leave.acquire()
@@ -161,6 +183,20 @@ class _Worker(threading.Thread):
         except TimeUp:
             pass
 
+    def run_here(self) -> None:
+        host(True)
+        try:
+            self._answer()
+        finally:
+            host(False)
+
+    def stopped(self, cases: int) -> Outcome:
+        """What is said of the last of so many cases, which was stopped."""
+        if self.over == "all":
+            says = f"{cases} cases took more than {TOTAL:.0f} s together."
+            return Outcome(name="too slow", says=says)
+        return NEVER if self.over == "case" else _never(WALL)
+
     def _answer(self) -> None:
         with np.errstate(all="ignore"):
             for case in self.cases:
@@ -168,16 +204,24 @@ class _Worker(threading.Thread):
                 if self.outcomes[-1] is NEVER:
                     break
 
-    def watch(self, each: bool) -> None:
+    def watch(self) -> None:
         """Wait until it is done, or until its time is up."""
         cpu = time.process_time
         if hasattr(time, "pthread_getcpuclockid") and self.ident:
             cpu = partial(time.clock_gettime, time.pthread_getcpuclockid(self.ident))
-        seen, begin, wall = 0, cpu(), time.monotonic()
+        seen, first, wall = 0, cpu(), time.monotonic()
+        begin = first
         while not self.done.acquire(timeout=0.01):
-            if each and len(self.outcomes) > seen:
-                seen, begin, wall = len(self.outcomes), cpu(), time.monotonic()
-            if cpu() - begin > SECONDS or time.monotonic() - wall > WALL:
+            now = cpu()
+            if len(self.outcomes) > seen:
+                seen, begin, wall = len(self.outcomes), now, time.monotonic()
+            late = {
+                "case": now - begin > SECONDS,
+                "all": now - first > TOTAL,
+                "wall": time.monotonic() - wall > WALL,
+            }
+            if any(late.values()):
+                self.over = next(which for which in late if late[which])
                 return
         self.done.release()
 

@@ -14,7 +14,8 @@ from .._arrays import Floats
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice

@@ -16,7 +16,8 @@ from ..motion import blend, differentiate, lin, linear, ptp, quintic, trapezoida
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Function, words
+from .catch import Catch
+from .exercises import Function, words
 from .mistakes import METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 
@@ -413,12 +414,6 @@ def _fraction_mistakes() -> list[Mistake]:
                 ),
             )
             for step in (0.025, 0.05)
-        ),
-        Mistake(
-            "NaN always",
-            "NaN also where a blend will do: what you compare with 0.5 is far too large. Is the "
-            "formula upside down?",
-            lambda d, c: np.nan,
         ),
     ]
     for name, says, f in FORMULAS:

@@ -27,7 +27,8 @@ from ..jobs.steppers import (
     unsynchronised,
 )
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Function, Value, words
+from .catch import Catch
+from .exercises import Function, Value, words
 from .mistakes import Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice

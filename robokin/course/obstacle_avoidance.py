@@ -21,7 +21,8 @@ from ..jobs.obstacles import (
     way_round,
 )
 from ..units import deg, mm
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice, normalised

@@ -14,7 +14,8 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import SCARA, ScaraPose, explain, follow, within
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice

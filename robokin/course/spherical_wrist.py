@@ -16,7 +16,8 @@ from ..motion import differentiate, lin, quintic
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice

@@ -16,7 +16,8 @@ from ..arms import three_lever
 from ..arms.branches import within
 from ..jobs.redundancy import methods, race
 from ..units import deg, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice

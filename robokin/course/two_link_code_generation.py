@@ -18,7 +18,8 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import two_link
 from ..units import deg
-from .exercises import Catch, Function, Value, words
+from .catch import Catch
+from .exercises import Function, Value, words
 from .mistakes import Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice

@@ -4,7 +4,7 @@ The answers to each exercise come first, right and wrong, then the predictions' 
 the tables stand at the end.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -31,7 +31,8 @@ from ..jobs.visit_collect import (
 from ..motion import ptp
 from ..units import deg, mm
 from .answers import run
-from .exercises import Catch, Exercise, Fault, Function, Value, Verdict, words
+from .catch import Catch
+from .exercises import Exercise, Fault, Function, Value, Verdict, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
 from .variants import Numbers, dice
@@ -300,29 +301,23 @@ INVERSE_MISTAKES = (
 class InverseTest(Catch):
     """Says about which point a right program was asked last, and what it answered."""
 
-    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
-        verdict = super().judge(name, answer, who)
-        refused = "a right program that it refuses: "
-        if not verdict.case or refused not in verdict.case:
-            return verdict
-        program = dict(self.rights)[verdict.case.partition(refused)[2]]
+    def refusal(self, answer: Program, program: Program) -> Sequence[str]:
         calls: list[tuple[Any, Any]] = []
 
         def recorded(p: Any) -> Any:
             calls.append((np.array(p, dtype=float), program(p)))
             return calls[-1][1]
 
-        run(answer, [(recorded,)], each=True)
+        run(answer, [(recorded,)])
         if not calls:
-            return replace(verdict, says=(*verdict.says, "It never calls the program."))
+            return ["It never calls the program."]
         p, q = calls[-1][0].reshape(3), np.asarray(calls[-1][1], dtype=float)
         if not workspace(L1, L2, p).all():
             why = f"this point is not in the workspace: it {out_of_workspace(L1, L2, p)[0]}."
         else:
             off = float(np.linalg.norm(ARM.fk(q).translation - p))
             why = f"inside the limits, with the tool {off:.1g} m from the point."
-        asked = f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"
-        return replace(verdict, says=(*verdict.says, asked))
+        return [f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"]
 
 
 # --- 2: when the arm is where ---------------------------------------------------------------------
