@@ -425,6 +425,17 @@ def test_a_yes_to_nearly_everything_uses_its_inputs(lab, monkeypatch):
     assert check("made.4", lambda x, low: not low <= x <= 3).mistake == "True and False exchanged"
 
 
+def test_two_mistakes_at_once_are_a_guess_where_the_answer_is_yes_or_no(lab, monkeypatch):
+    cases = [(float(x), float(low)) for x in range(-4, 5) for low in (-2, 1)]
+    yes_or_no(lab, monkeypatch, lambda x, low: low <= x <= 3, cases)
+    both = Mistake("no low, and no high", "Neither end counts.", lambda x, low: x != 0)
+    made = dataclasses.replace(lab.EXERCISES["4"], mistakes=(both,))
+    monkeypatch.setitem(lab.EXERCISES, "4", made)
+    verdict = check("made.4", both.program)
+    assert verdict.mistake == both.name
+    assert verdict.says == ("It behaves like a program with two mistakes. Neither end counts.",)
+
+
 def test_a_nearly_right_answer_is_told_by_how_much(lab, monkeypatch):
     """And no mistake is named that leaves the right program as it is, however loose `same` is."""
     loose = dataclasses.replace(

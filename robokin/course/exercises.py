@@ -156,6 +156,9 @@ class Function(Exercise):
         if found:
             names = list(dict.fromkeys(name for name, _ in found))[:2]
             sentences = [says for _, says in found if says][: len(names)]
+            if ", and " in names[0] and isinstance(trouble.result, (bool, np.bool_)):
+                sentences.insert(0, "It behaves like a program with two mistakes.")  # few answers
+                return names[0], (" ".join(sentences[:2]),)
             return " or ".join(names), tuple([" Or: ".join(sentences)] if sentences else [])
         if trouble.name:
             return trouble.name, ()
