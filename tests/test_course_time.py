@@ -1,5 +1,5 @@
-"""Right answers that take their time hold: what an answer takes is CPU time of its own, a case apart
-from the others.
+"""Right answers that take their time hold: what counts is CPU time of their own, a case apart from
+the others.
 """
 
 import numpy as np
