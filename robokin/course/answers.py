@@ -2,6 +2,7 @@
 loop, no change of its input.
 """
 
+import _thread
 import contextlib
 import copy
 import ctypes
@@ -155,22 +156,36 @@ def _told(error: BaseException) -> str:
     return type(error).__name__
 
 
-class _Worker(threading.Thread):
+class _Worker:
     """The thread in which an answer runs. Python keeps an exception that another thread sends
     until the next step, so three things happen in this order: the worker says `done`, the watching
     thread takes back what it sent, and only then may the worker `leave`.
+
+    No `threading.Thread`: an interrupt while its `start` waits comes out as another error.
     """
 
     def __init__(self, answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> None:
-        super().__init__(daemon=True)
         self.answer, self.cases = answer, cases
+        self.started, self.ident = False, 0
         self.outcomes: list[Outcome] = []
         self.over = "case"  # which of the three times was up
-        self.done, self.leave = threading.Lock(), threading.Lock()
-        self.done.acquire()
-        self.leave.acquire()
+        locks = [threading.Lock() for _ in range(4)]  # each is released when it is so far
+        self.begun, self.done, self.leave, self.gone = locks
+        for lock in locks:
+            lock.acquire()
+
+    def start(self) -> None:
+        """RuntimeError: no threads here."""
+        self.started = True  # before it is: an interrupt may come between any two steps
+        try:
+            _thread.start_new_thread(self.run, ())
+        except RuntimeError:
+            self.started = False
+            raise
 
     def run(self) -> None:
+        self.ident = threading.get_ident()
+        self.begun.release()
         # A `finally` calls its first function before Python looks for an exception that was sent.
         try:
             try:
@@ -182,6 +197,7 @@ class _Worker(threading.Thread):
                 self.leave.acquire()
         except TimeUp:
             pass
+        self.gone.release()
 
     def run_here(self) -> None:
         host(True)
@@ -206,8 +222,9 @@ class _Worker(threading.Thread):
 
     def watch(self) -> None:
         """Wait until it is done, or until its time is up."""
-        cpu = time.process_time
-        if hasattr(time, "pthread_getcpuclockid") and self.ident:
+        with self.begun:
+            cpu = time.process_time
+        if hasattr(time, "pthread_getcpuclockid"):
             cpu = partial(time.clock_gettime, time.pthread_getcpuclockid(self.ident))
         seen, first, wall = 0, cpu(), time.monotonic()
         begin = first
@@ -229,14 +246,16 @@ class _Worker(threading.Thread):
         """Stop it, however often it catches `TimeUp`. A call into C that does not come back within
         `WALL` seconds is left behind.
         """
-        last = time.monotonic() + WALL
-        while self.ident and not self.done.acquire(timeout=0.01) and time.monotonic() < last:
+        if not self.started:
+            return
+        with self.begun:
+            last = time.monotonic() + WALL
+        while not self.done.acquire(timeout=0.01) and time.monotonic() < last:
             _raise_in(self.ident, TimeUp)
-        if self.ident:
-            _raise_in(self.ident, None)
-            self.leave.release()
-            if time.monotonic() < last:
-                self.join()
+        _raise_in(self.ident, None)
+        self.leave.release()
+        if time.monotonic() < last:
+            self.gone.acquire()
 
 
 def _raise_in(thread: int, error: type[BaseException] | None) -> None:
