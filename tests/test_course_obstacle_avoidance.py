@@ -2,6 +2,7 @@
 one's own task can be met.
 """
 
+import re
 from functools import cache
 
 import numpy as np
@@ -153,6 +154,18 @@ def test_a_bar_is_passed_by_folding_and_by_points_near_enough(who):
         fine = first + np.linspace(0, 1, 400)[:, None] * (last - first)
         assert clearance(arm, path, fine).min() >= task["distance"] - 1e-6
         assert check("obstacle_avoidance.2", path, who=who).holds
+
+
+def test_a_path_of_text_is_no_path_and_numbers_that_differ_are_printed_so():
+    task = variant("obstacle_avoidance", "Ada")
+    start = np.array(task["start"]) * deg
+    path = np.array([start, arm.least(task["target"], start)[0]])
+    text = check("obstacle_avoidance.2", path.astype(str), who="Ada")
+    assert text.mistake == "another kind or shape"
+    path[0, 0] += 0.01 * deg
+    says = " ".join(check("obstacle_avoidance.2", path, who="Ada").says)
+    begins, stands = re.search(r"begins at \((.*?)\)°, the arm stands at \((.*?)\)°", says).groups()
+    assert begins != stands
 
 
 @cache

@@ -350,6 +350,17 @@ def test_a_wrong_limit_test_is_named(answer, word):
     assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
 
 
+@pytest.mark.parametrize("joint", [1, 2, 3])
+def test_a_joint_left_out_is_told_and_not_called_wrapped(joint):
+    def one_left_out(q):
+        q = q.copy()
+        q[~np.isnan(q).any(axis=1), joint - 1] = 0.1
+        return _loops(q)
+
+    verdict = check("scara_motion.2", one_left_out)
+    assert verdict.mistake == f"joint {joint} is never tested", verdict
+
+
 def test_a_case_of_the_limit_test_prints_the_excess():
     law = book.EXERCISES["2"].law
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
@@ -457,6 +468,8 @@ def test_a_corner_is_an_enlargement_from_via():
         (lambda t: t * 1000**0.5, "mm for m"),
         (lambda t: 1.3 * t, "slower than needed"),
         (lambda t: 0.9 * t, "too fast"),
+        (lambda t: 0.508 * t, "too fast"),  # no half: nobody knows why
+        (lambda t: 1.97 * t, "slower than needed"),
     ],
 )
 def test_a_slip_in_the_duration_is_named(spoil, name):

@@ -20,6 +20,7 @@ from .catch import Catch
 from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice
 
 OBJECTIVES = (
@@ -149,7 +150,7 @@ def _levers_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 def _posture_form(result: Any, case: tuple[Any, ...]) -> Floats:
     wanted = "wanted three angles (gamma, beta, alpha) in radians, or NaN"
     try:
-        q = np.asarray(result, dtype=float)
+        q = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if q.size == 1 and np.isnan(q).all():
@@ -179,24 +180,24 @@ def _levers_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     gripper = _chain(yours, lengths)[3]
     miss = float(np.hypot(*(gripper - point)))
     if miss > 1e-6:
-        x, y = gripper + 0.0
+        is_at, off = apart(gripper, point, 3)[0], apart(miss, 0, 3)[0]
         return (
-            f"should be gamma, beta, alpha = {told}; yours puts the gripper at ({x:.3f}, {y:.3f}) "
-            f"m, {miss:.3f} m from K"
+            f"should be gamma, beta, alpha = {told}; yours puts the gripper at ({is_at}) m, {off} "
+            "m from K"
         )
     if abs(wrapped(yours - wanted)).max() <= 1e-5:
         return None
+    told, yours_told = apart(wanted / deg, yours / deg, 2)
     return (
-        f"should be gamma, beta, alpha = {told}; yours reaches K, too, with another alpha or with "
-        "B on the other side of OK"
+        f"should be gamma, beta, alpha = ({told})°; yours, ({yours_told})°, reaches K, too, in "
+        "another posture"
     )
 
 
 def _same_posture(a: Floats, b: Floats) -> bool:
     if a.shape != b.shape or (np.isnan(a) != np.isnan(b)).any():
         return False
-    apart = wrapped(a - b)
-    return bool(np.isnan(a).all() or np.nanmax(abs(apart)) <= 1e-6)
+    return bool(np.isnan(a).all() or np.nanmax(abs(wrapped(a - b))) <= 1e-7)
 
 
 def _sine_beta(a: Any, b: Any, c: Any) -> Any:
@@ -913,6 +914,12 @@ LEAST_MISTAKES = (
         _kept(2, 0),
     ),
     Mistake(
+        "beta is not moved",
+        "Its gamma and alpha are right, its beta is that of before. Look at all three angles, or "
+        "at where the gripper is.",
+        lambda point, previous: np.where([0, 1, 0], previous, _exact(point, previous)),
+    ),
+    Mistake(
         "beta stays where it can",
         "It keeps beta. Often another angle should stay as it was.",
         _kept(1, -1),
@@ -1042,7 +1049,7 @@ def plan_form(answer: Any, given: Any) -> Floats:
             raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
         answer = [answer["first"], answer["second"]]
     try:
-        alphas = np.asarray(answer, dtype=float).ravel()
+        alphas = floats(answer).ravel()
     except (TypeError, ValueError):
         raise ValueError(f"Wanted {wanted}, got {words(answer)}.") from None
     if alphas.shape != (2,):
@@ -1058,9 +1065,8 @@ def plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
     if (alphas > 2 * np.pi).any():
         return [("degrees for radians", DEGREES)] * 4
     if (alphas < 2 * np.pi * deg).all() and (alphas > 0).all():
-        return [
-            ("deg twice", "Your alphas are a few degrees: are they multiplied by deg twice?")
-        ] * 4
+        told = " and ".join(f"{alpha / deg:.2g}°" for alpha in alphas)
+        return [("deg twice", f"Your alphas are {told}; an alpha of 120° is 120 * deg.")] * 4
     found = _plan_faults(alphas, given)
     if found and not _plan_faults(alphas[::-1], given):
         says = "Exchanged, your two alphas keep everything: the first belongs to the first target."
@@ -1084,7 +1090,7 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
             [ARM.family(p, a) for p, a in zip(targets, alphas[::-1], strict=True)]
         ).all()
         if swapped:
-            gone.append("Exchanged, your two alphas would exist: are they in the wrong order?")
+            gone.append("Exchanged, your two alphas would exist.")
         return [("alpha outside its range", " ".join(gone))] * 4
     found: list[Fault] = []
     for name, q in zip(("first", "second"), postures, strict=True):
@@ -1098,9 +1104,10 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
     S, most = float(one.sum() + two.sum()), given["most"]
     if S > most + EASE:
         greed = [q[2] for q in greedy(given)]
+        turned, allowed = apart(S / deg, most / deg)
         says = (
             f"Together the joints turn by {one.sum() / deg:.1f}° and {two.sum() / deg:.1f}°, "
-            f"{S / deg:.1f}° in all; allowed are {most / deg:.0f}°."
+            f"{turned}° in all; allowed are {allowed}°."
         )
         again = float(abs(postures[1] - start(given)).sum())
         if one.sum() + again <= most + EASE:
@@ -1114,9 +1121,10 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
             found.append(("too much movement", says))
     time, longest = float(one.max() + two.max()), given["longest"]
     if time > longest + EASE:
+        turned, allowed = apart(time / deg, longest / deg)
         says = (
             f"The longest motors turn by {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
-            f"{time / deg:.1f}° in all; allowed are {longest / deg:.0f}°."
+            f"{turned}° in all; allowed are {allowed}°."
         )
         busiest = float((one + two).max())
         if busiest <= longest + EASE:
