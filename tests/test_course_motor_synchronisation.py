@@ -59,6 +59,15 @@ def by_package(point, before):
     return [[alpha, q[1] % TURN, abs(q[2])]]
 
 
+def test_two_turns_are_not_enough():
+    def few(x, y, before):
+        ends = [math.atan2(y, x) + k * TURN for k in range(-2, 3)]
+        return before if x == y == 0 else min(ends, key=lambda a: abs(a - before))
+
+    verdict = check("motor_synchronisation.1", posture(few))
+    assert not verdict.holds and verdict.mistake == "two turns at most are taken off"
+
+
 @pytest.mark.parametrize("answer", [posture(right), posture(by_loops), by_package])
 def test_a_right_posture_holds_however_it_is_written(answer):
     assert check("motor_synchronisation.1", answer).holds

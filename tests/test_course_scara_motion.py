@@ -361,6 +361,22 @@ def test_a_joint_left_out_is_told_and_not_called_wrapped(joint):
     assert verdict.mistake == f"joint {joint} is never tested", verdict
 
 
+def _limited(low=LOW, high=HIGH):
+    return lambda q: bool(((q >= low) & (q <= high)).all())
+
+
+@pytest.mark.parametrize(
+    ("answer", "name"),
+    [
+        (_limited(low=np.array([*LOW[:3], -9.0])), "the stroke's lower limit is never tested"),
+        (_limited(high=np.array([*HIGH[:3], 9e9])), "the stroke's upper limit is never tested"),
+        (lambda q: _limited()(np.round(q / [deg, deg, deg, 1e-9]) * [deg, deg, deg, 1e-9]), None),
+    ],
+)
+def test_no_near_variant_gets_the_name_of_another_program(answer, name):
+    assert check("scara_motion.2", answer).mistake == name
+
+
 def test_a_case_of_the_limit_test_prints_the_excess():
     law = book.EXERCISES["2"].law
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))

@@ -276,3 +276,18 @@ def first_and_last_angle(program):
 
 def test_a_test_has_to_look_at_every_angle():
     assert "beta" in check("three_levers.2", first_and_last_angle).mistake
+
+
+@pytest.mark.parametrize("share", [0.95, 0.99])
+def test_a_margin_inside_the_border_of_a_triangle_is_no_border(share):
+    def far(K, alpha, lengths):
+        a, b, c = lengths
+        KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+        return levers(K, alpha, lengths) if np.hypot(*K) < share * (a + KB) else np.nan
+
+    def near(K, alpha, lengths):
+        a, b, c = lengths
+        KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+        return levers(K, alpha, lengths) if share * np.hypot(*K) > abs(a - KB) else np.nan
+
+    assert not check("three_levers.1", far).holds and not check("three_levers.1", near).holds

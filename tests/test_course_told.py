@@ -5,6 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from robokin import Transform
+from robokin.course import book, check
+from robokin.course.exercises import Function
 from robokin.course.told import apart, floats, one_number
 
 numbers = st.floats(-1e4, 1e4)
@@ -44,3 +47,46 @@ def test_numbers_of_any_kind_are_floats():
     assert one_number([[3]]) == 3
     with pytest.raises(ValueError, match="one number"):
         one_number([1, 2])
+
+
+FUNCTIONS = [
+    f"{lab}.{n}"
+    for lab in book.LABS
+    for n, exercise in book.lab(lab).EXERCISES.items()
+    if isinstance(exercise, Function)
+]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_text_for_numbers_is_another_kind_of_answer(name):
+    exercise = book.find(name, "EXERCISES")
+
+    def in_text(*case):
+        result = exercise.right_result(case)
+        numbers = result.as_matrix() if isinstance(result, Transform) else np.asarray(result)
+        return np.asarray(numbers, dtype=float).astype(str).tolist()
+
+    if not isinstance(exercise.right_result(exercise.seeded()[0]), (str, bool)):
+        assert check(name, in_text).mistake == "another kind or shape"
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("irb140_kinematics.3", {"height": "0.3", "flags": (1, 1, 1), "duration": 3}),
+        ("scara_kinematics.2", {"distance": 0.3, "elbow": 1, "angle": "0.1"}),
+        ("scara_motion.3", {"blend": "0.2", "duration": 3}),
+        ("spherical_wrist.3", {"up": 0.01, "side": "0.01", "duration": 2}),
+        ("puma560_branches.3", {"row": 1, "duration": "3"}),
+        (
+            "visit_and_collect.3",
+            dict.fromkeys(("visit", "collect", "worth"), [["1", "2", "3"]] * 4),
+        ),
+        ("three_levers.3", {"first": "2", "second": 2}),
+        ("obstacle_avoidance.2", [["1", "2", "2"], ["1", "1", "1"]]),
+        ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
+    ],
+)
+def test_text_for_a_number_of_a_design_is_another_kind(name, answer):
+    verdict = check(name, answer, who="Ada")
+    assert verdict.mistake == "another kind or shape" and verdict.answered

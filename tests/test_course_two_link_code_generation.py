@@ -3,6 +3,7 @@
 import re
 
 import numpy as np
+import pytest
 
 from robokin.course import check, solution, variant
 from robokin.course.two_link_code_generation import EXERCISES
@@ -102,6 +103,34 @@ def test_known_programs_and_nearly_right_ones_keep_their_names():
     assert judged(a=f"5 + {K} / d2").mistake == "NaN"
     other = judged(h=f"sqrt({L} / d2 - a*a) + dx*0.1")
     assert other.mistake == "another right elbow"
+
+
+@pytest.mark.parametrize(
+    ("reach", "name"),
+    [
+        (lambda d, a, b: abs(a - b) - 1e-6 <= d <= a + b + 1e-6, "a margin outside the rim"),
+        (lambda d, a, b: abs(a - b) - 1e-5 <= d <= a + b + 1e-5, "a margin outside the rim"),
+        (
+            lambda d, a, b: a - b - 1e-9 <= d <= a + b + 1e-9,
+            "the inner edge for a longer first link only",
+        ),
+        (
+            lambda d, a, b: b - a - 1e-9 <= d <= a + b + 1e-9,
+            "the inner edge for a longer second link only",
+        ),
+    ],
+)
+def test_a_rim_a_little_beside_is_seen(reach, name):
+    def elbow(base, tip, l1, l2, side):
+        dx, dy = np.subtract(tip, base)
+        d2 = dx * dx + dy * dy
+        if not reach(np.sqrt(d2), l1, l2):
+            return [np.nan, np.nan]
+        a = (d2 + l1**2 - l2**2) / (2 * d2)
+        h = side * np.sqrt(max(l1**2 / d2 - a**2, 0))
+        return base + a * np.array([dx, dy]) + h * np.array([dy, -dx])
+
+    assert check("two_link_code_generation.1", elbow).mistake == name
 
 
 def test_an_elbow_past_the_rim_is_told_in_numbers_that_differ():

@@ -299,18 +299,20 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the chain from the wrong end",
-        "Each new row is multiplied from the left (wanted is flange = flange @ row), "
-        "or each row is inverted in the old order: (A B)⁻¹ = B⁻¹ A⁻¹.",
+        "The rows are multiplied in the wrong order. Wanted is flange = flange @ row for each new "
+        "row; of inverses the last row's comes first: (A B)⁻¹ = B⁻¹ A⁻¹.",
         _with(chain=lambda links: _product(links[::-1])),
     ),
     Mistake(
         "only the last row",
-        "Only the last row of the table counts: is `flange = ...` overwritten in the loop?",
+        "Only the last row of the table counts. Each row is multiplied to what is there: flange = "
+        "flange @ row.",
         _with(chain=lambda links: links[-1]),
     ),
     Mistake(
         "only the first row",
-        "Only the first row of the table counts: is the return inside the loop?",
+        "Only the first row of the table counts. The loop has to come to its end before the "
+        "return.",
         _with(chain=lambda links: links[0]),
     ),
     Mistake(
@@ -365,7 +367,7 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the steps on x before those on z",
-        f"{ORDER} (x first: the modified convention, or written from the right.)",
+        ORDER,
         _with(
             link=lambda q, d, a, alpha: (
                 _rot(X, alpha) @ _trans(a, 0, 0) @ _rot(Z, q) @ _trans(0, 0, d)
@@ -481,7 +483,7 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the turn of a row the other way",
-        "Each joint turns clockwise: is a sign of the sines turned round?",
+        "Each joint turns clockwise. A positive angle turns from x to y.",
         _with(joint=lambda offset, q: -(offset + q)),
     ),
     Mistake(

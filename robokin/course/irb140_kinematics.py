@@ -329,7 +329,7 @@ TIP_MISTAKES = (
     ),
     Mistake(
         "joint 6 left out",
-        "Joint 6 is not used, or the turn has taken its place. The turn comes on top of it.",
+        "Joint 6 makes no difference here. The turn of the gripper comes on top of it.",
         fed(lambda q: q * np.array([1, 1, 1, 1, 1, 0])),
     ),
     Mistake(
@@ -374,8 +374,8 @@ TIP_MISTAKES = (
     ),
     Mistake(
         "twice the turn",
-        "The turn is twice what it should be: made twice, or the whole angle in a quaternion, "
-        "which holds cosine and sine of half of it.",
+        "The turn is twice what it should be. In a quaternion stand cosine and sine of half the "
+        "angle; from_angle_axis takes the whole one.",
         lambda q, length, turn: IRB140.fk(q) @ gripper(length, 2 * turn),
     ),
     Mistake(

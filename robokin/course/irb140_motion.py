@@ -238,7 +238,7 @@ FORMULAS: tuple[tuple[str, str, Program], ...] = (
     ),
     (
         "D squared",
-        "|D| is a length: the root is missing (or D is squared).",
+        "|D| is a length, the root of the sum of squares: yours is its square.",
         _instead(D**2),
     ),
     (

@@ -120,6 +120,8 @@ def _posture_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         ([0, 752, 0], 0),
         ([-151, 0, 0], 150),
         ([0, 749, 0], 100),
+        ([450, 150, 100], 1400),  # four turns on
+        ([-400, -250, 80], -1700),
     ]
     cases = [(np.array(place) * mm, float(before * deg)) for place, before in places]
     for _ in range(8):
@@ -335,6 +337,11 @@ ALPHAS: tuple[tuple[str, str, Alpha], ...] = (
         "Joint 1 keeps counting: `before` may be 700°. Take off as many whole turns as there are: "
         "round(d / turn), not one `if`.",
         _turned(_once),
+    ),
+    (
+        "two turns at most are taken off",
+        "Joint 1 keeps counting: `before` may be many turns. Take off as many as there are.",
+        _turned(lambda d: min((d + k * TURN for k in range(-2, 3)), key=abs)),
     ),
     ("floor for round", f"{ROUND}With floor the turn is never clockwise.", _whole(np.floor)),
     ("ceil for round", f"{ROUND}With ceil the turn is never counter-clockwise.", _whole(np.ceil)),

@@ -698,7 +698,7 @@ def _path_form(answer: Any, given: Mapping[str, Any]) -> Floats:
     if path.ndim != 2 or path.shape[1:] != (3,) or len(path) < 2:
         raise ValueError(f"{wanted}, got shape {path.shape}")
     if not np.isfinite(path).all():
-        raise ValueError(f"{wanted}, got NaN in it: a target out of reach?")
+        raise ValueError(f"{wanted}, got NaN in it")
     if len(path) > 100:
         raise ValueError(f"{wanted}, at most 100 of them, got {len(path)}")
     return path

@@ -776,10 +776,24 @@ LIMIT_MISTAKES = (
     *(
         Mistake(
             f"joint {joint} is never tested",
-            f"It does not look at joint {joint}. All four joints have limits.",
+            f"Joint {joint} passes wherever it is. All four joints have limits." + more,
             _limits(joint, -np.inf, np.inf),
         )
-        for joint in (1, 2, 3)
+        for joint, more in (
+            (1, ""),
+            (2, ""),
+            (3, " Wrapped into -180° to 180° it would never pass 400°: compare it as it is."),
+        )
+    ),
+    Mistake(
+        "the stroke's lower limit is never tested",
+        "A stroke below 0 passes. Each joint has two limits.",
+        _limits(4, -np.inf, STROKE),
+    ),
+    Mistake(
+        "the stroke's upper limit is never tested",
+        "Any stroke above 0 passes. Each joint has two limits, the stroke's is 0.18 m.",
+        _limits(4, 0.0, np.inf),
     ),
     Mistake(
         "the stroke's limit in mm",
@@ -860,8 +874,8 @@ LIMIT_MISTAKES = (
     ),
     Mistake(
         "single NaN samples are left out",
-        "It takes the least and the greatest of the values that are numbers. A "
-        "sample out of reach is not inside.",
+        "A row of NaN passes if other rows are numbers. A sample out of reach is not inside, be it "
+        "a single one.",
         lambda q: bool(
             np.isfinite(q).any()
             and (np.fmin.reduce(q) >= LOW).all()
@@ -962,6 +976,8 @@ def _limit_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     for sample in (10, 12):  # every fifth or tenth sample shows the one, every third the other
         cases += [one(sample, 3, 0.2), one(sample, 0, 145 * deg)]
     cases += [one(1, 3, 5.0, 3), one(1, 3, 100.0, 3)]  # a stroke in mm
+    cases += [one(1, 3, 200.0, 3), one(1, 3, -0.25, 3)]  # past every limit that may stand for it
+    cases += [one(1, 2, float(HIGH[2]) + 0.8 * deg, 3)]  # rounded to a degree, or one too far
     for row in (0, 13, 24):
         q = np.tile(still, (25, 1))
         q[row] = np.nan

@@ -132,7 +132,11 @@ def _levers_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case(-0.7, 0.5, 30, [0.7, 0.5, 0.9]),
         case(0.2, -0.3, 130, [1.2, 0.3, 0.4]),  # K is nearer than any alpha reaches
     ]
-    while len(cases) < 35:
+    for KO in (2.72, 2.745, 0.738, 0.726):  # some mm inside the border or outside, far and near
+        cases.append(case(KO, 0.0, 120, [1, 1, 1]))
+    for KO in (0.705, 0.695):  # near, OB being longer than KB
+        cases.append(case(0.0, KO, 60, [1.2, 0.5, 0.5]))
+    while len(cases) < 41:
         lengths = rng.uniform(0.3, 1.2, 3).round(2)
         alpha = rng.uniform(15, 175)
         r, phi = rng.uniform(0.2, 2.8), rng.uniform(-180, 180) * deg

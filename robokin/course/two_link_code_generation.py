@@ -136,9 +136,24 @@ def _margin(h2: float, d: float, l1: float, l2: float) -> float:
     return math.nan if h2 < 1e-3 else math.sqrt(h2)
 
 
-def _wide(h2: float, d: float, l1: float, l2: float) -> float:
-    inside = abs(l1 - l2) - 0.01 <= d <= l1 + l2 + 0.01
-    return _clipped(h2, d, l1, l2) if inside else math.nan
+def _wide(slack: float) -> Rim:
+    def root(h2: float, d: float, l1: float, l2: float) -> float:
+        inside = abs(l1 - l2) - slack <= d <= l1 + l2 + slack
+        return _clipped(h2, d, l1, l2) if inside else math.nan
+
+    return root
+
+
+def _inner_of(first: int) -> Rim:
+    """The inner edge is looked at only where the first link is the longer one (+1), or the second
+    one (-1).
+    """
+
+    def root(h2: float, d: float, l1: float, l2: float) -> float:
+        near = d < first * (l1 - l2) - ROUNDING * (l1 + l2)
+        return math.nan if near else _outer(h2, d, l1, l2)
+
+    return root
 
 
 def _about(h2: float, d: float, l1: float, l2: float) -> float:
@@ -202,8 +217,10 @@ def _elbow_cases(rng: np.random.Generator) -> list[Case]:
     cases.append(case([0, 0], [0.298, 0.0], 1.0, 0.7, +1))
     cases.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))  # 3 micrometres outside, inside
     cases.append(case([0, 0], [0, 1.7 * (1 - 2e-6)], 1.0, 0.7, +1))
+    cases.append(case([0, 0], [1.7 * (1 + 1e-7), 0], 1.0, 0.7, +1))  # less than one outside
+    cases.append(case([0, 0], [0.1, 0.1], 0.7, 1.0, +1))  # too near, the second link longer
     cases.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
-    while len(cases) < 41:
+    while len(cases) < 43:
         base, l1, l2 = rng.uniform(-1, 1, 2), *rng.uniform(0.4, 1.2, 2)
         turn, share = rng.uniform(-np.pi, np.pi), rng.uniform(0.1, 0.9)
         d = abs(l1 - l2) + share * (l1 + l2 - abs(l1 - l2))
@@ -676,10 +693,24 @@ MORE_RIMS: tuple[tuple[str, str, Rim], ...] = (
         "elbows, millimetres apart, and outside none. Allow for 1e-9 of the reach.",
         _about,
     ),
+    *(
+        (
+            "a margin outside the rim",
+            f"Tips that are {far} out of reach are accepted: room for rounding is 1e-9 of the "
+            "reach.",
+            _wide(slack),
+        )
+        for far, slack in (("2 mm", 0.01), ("3 micrometres", 1e-4), ("0.1 micrometres", 1e-6))
+    ),
     (
-        "a margin outside the rim",
-        "Tips that are 2 mm out of reach are accepted: room for rounding is 1e-9 of the reach.",
-        _wide,
+        "the inner edge for a longer first link only",
+        "The inner edge is |l1 − l2|, also where the second link is the longer one.",
+        _inner_of(+1),
+    ),
+    (
+        "the inner edge for a longer second link only",
+        "The inner edge is |l1 − l2|, also where the first link is the longer one.",
+        _inner_of(-1),
     ),
 )
 WHOLE = (

@@ -1090,7 +1090,7 @@ def _plain(points: Any) -> Any:
     """Lists of numbers as an array, which is told in few digits."""
     if isinstance(points, (list, tuple)):
         with suppress(TypeError, ValueError):
-            return np.asarray(points, dtype=float)
+            return floats(points)
     return points
 
 
