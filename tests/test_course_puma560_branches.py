@@ -175,3 +175,20 @@ def test_distances_and_speeds_are_told_in_sensible_numbers():
     assert "1.5 · 10³¹ m/s is far too fast" in told
     should, is_at = re.findall(r"(\d\.\d+) m/s", lab.EXERCISES["2"].law(case, 1.003 * right))
     assert should != is_at
+
+
+def test_an_offset_left_out_and_a_bend_a_little_off_are_seen():
+    def of(q, ahead, bend):
+        front = ahead(q) > 0
+        return said(front, front != (np.sin(bend(q)) > 0), q[4] > 0)
+
+    def without_a3(q):
+        return np.cos(q[1]) - np.sin(q[1] + q[2])
+
+    def right(q):
+        return 431.8 * np.cos(q[1]) + FORE * np.cos(q[1] + q[2] + OFFSET)
+
+    left_out = check("puma560_branches.1", lambda q: of(q, without_a3, lambda q: q[2] + OFFSET))
+    assert left_out.mistake == "a3 is left out"
+    off = check("puma560_branches.1", lambda q: of(q, right, lambda q: q[2] + 85 * deg))
+    assert not off.holds

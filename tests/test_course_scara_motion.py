@@ -227,6 +227,18 @@ def _stroke_in_both_angles(q0, position, angle):
     return [*q[:2], min(turns, key=lambda x: abs(q[0] + q[1] + x + q[3] - q0.sum())), q[3]]
 
 
+@pytest.mark.parametrize(("most", "name"), [(2, "only two turns"), (3, "only three turns")])
+def test_too_few_turns_are_told(most, name):
+    def few(q0, position, angle):
+        q = _posture(q0, position, angle)
+        ends = [angle + k * TURN - q[0] - q[1] for k in sorted(range(-most, most + 1), key=abs)]
+        inside = [e for e in ends if LOW[2] <= e <= HIGH[2]] or ends
+        q[2] = min(inside, key=lambda e: abs(e + q[0] + q[1] - q0[:3].sum()))
+        return q
+
+    assert check("scara_motion.1", few).mistake == name
+
+
 def test_the_case_tells_degrees_and_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
     assert "joint 2 stands at 0.0° in q0, which counts as positive" in case

@@ -28,6 +28,7 @@ def test_a_row_takes_the_digits_that_its_first_difference_needs():
         "0.7660000, 0.6430004, 0.0000000",
     )
     assert apart(0.24, 0.2404, 2) == ("0.2400", "0.2404")
+    assert apart(0.5, 0.5, 2) == ("0.50", "0.50")
     assert apart(2, 3, 0) == ("2", "3") and apart(-0.0001, 3, 1) == ("0.0", "3.0")
 
 

@@ -174,7 +174,10 @@ def _posture_law(case: tuple[Any, ...], yours: Floats) -> str | None:
             f"{says}: a turn of {(wanted[0] - before) / deg:.1f}° from {before / deg:.1f}°; yours "
             f"is one of {(yours[0] - before) / deg:.1f}°"
         )
-    got, asked = apart(LOADER.fk(wrapped(yours)).translation / mm, point / mm)
+    there = LOADER.fk(wrapped(yours)).translation
+    if np.linalg.norm(there - point) <= 1e-9:
+        return f"{says}; your angles reach the point in another posture"
+    got, asked = apart(there / mm, point / mm)
     return f"{says}; your angles put the gripper at ({got}) mm, asked is ({asked}) mm"
 
 

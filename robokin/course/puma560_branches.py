@@ -123,6 +123,9 @@ def _name_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         [0, 45, -224, 0, 40, 0],
         [0, 100, -75.5, 30, 20, 0],  # the wrist centre a few mm from the axis
         [0, 135, -180.5, 30, 20, 0],
+        [0, 81.08, -71.08, 0, 40, 0],  # 12 mm ahead of the axis, and without a3 behind it
+        [0, 60, -86, 0, 40, 0],  # between the stretched arm and -85
+        [0, 150, -86, 0, -40, 0],
     ]
     cases = [(np.array(q) * deg,) for q in simple]
     while len(cases) < 40:

@@ -110,12 +110,14 @@ def _turn_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([100, -60, -230, 90], [-214, 81, 100.2], -20),  # joints 1 and 2 turn by -290
         case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns on
         case([60, 90, -300, 90], [300, -150, 100.2], -1000),
+        case([30, 60, 80, 50], [300, 200, 170.2], -1250),  # four turns on
+        case([30, -60, -130, 50], [300, -200, 100.2], 1250),
         case([0, 90, -90, 20], [200, 250, 50.2], 176),  # joint 4 moves by 150 mm: no angle, either
         case([0, 90, -90, 170], [200, 250, 200.2], -176),
         case([0, 0, 90, 100], [200, 250, 120.2], 110),  # the arm is stretched: 0 is positive
         case([120, 0, -30, 50], [200, 250, 120.2], -110),  # the other elbow would be nearer
     ]
-    while len(cases) < 44:
+    while len(cases) < 46:
         q0 = np.array([*rng.uniform([-139, 20, -399], [139, 140, 399]).round(1), 30.0])
         q0[1] *= rng.choice([-1, 1])
         q0 = q0 * [deg, deg, deg, mm]
@@ -482,6 +484,15 @@ TURN_MISTAKES = (
         "Only one whole turn up and down is tried. The tool's angle and joint 3 go farther: take "
         "more of them.",
         _third(_tried((0, 1, -1), True)),
+    ),
+    *(
+        Mistake(
+            f"only {name} turns",
+            f"Only {name} whole turns up and down are tried. The angle given may be more turns "
+            "away from where the tool stands.",
+            _third(_tried(sorted(range(-most, most + 1), key=abs), True)),
+        )
+        for name, most in (("two", 2), ("three", 3))
     ),
     Mistake(
         "only one turn up or down, else the angle as it is given",

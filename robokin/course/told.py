@@ -35,10 +35,10 @@ def one_number(value: Any) -> float:
 
 def apart(a: Any, b: Any, digits: int = 1) -> tuple[str, str]:
     """Two numbers, or two rows of numbers, in as many digits after the point as they need to differ
-    in what is printed; `digits` at least.
+    in what is printed; `digits` at least, and no more where the two are the same.
     """
     rows = [np.atleast_1d(np.asarray(x, dtype=float)) for x in (a, b)]
-    for n in range(digits, MOST + 1):
+    for n in [*range(digits, MOST + 1), digits]:
         one, two = (", ".join(_in_digits(x, n) for x in row) for row in rows)
         if one != two:
             break
