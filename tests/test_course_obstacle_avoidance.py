@@ -197,6 +197,24 @@ def test_a_test_that_asks_more_than_is_promised(turn, gap, mistake):
     assert check("obstacle_avoidance.3", strict).mistake == mistake
 
 
+def test_a_test_of_first_and_last_postures_is_not_enough():
+    rng, tasks = np.random.default_rng(4), []
+    while len(tasks) < 80:  # the arm is nearest to H where it begins or ends
+        path = rng.uniform(0.7, 2.2, (2, 3))
+        points = arm.points(path[rng.integers(2)])
+        i = rng.integers(3)
+        H = points[i] + rng.random() * (points[i + 1] - points[i]) + rng.normal(0, 0.2, 2)
+        least, ends = clearance(arm, path, H).min(), book._distances(path, H).min()
+        if least > 0.06 and ends - least < 1e-6:
+            tasks += [(path, H, least - 0.025, True), (path, H, least + 0.025, False)]
+
+    def ends_only(safe):
+        return all(bool(safe(path, H, d)) == truth for path, H, d, truth in tasks)
+
+    verdict = check("obstacle_avoidance.3", ends_only)
+    assert verdict.mistake == "accepts: the postures only", verdict
+
+
 def test_the_distances_of_the_checks_are_those_of_the_package():
     from robokin.jobs.obstacles import distances
 

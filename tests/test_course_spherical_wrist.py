@@ -342,6 +342,24 @@ def test_keys_of_the_second_half():
     assert right("p8").startswith("About 6000°/s") and 5900 < fast[2] < 6200
 
 
+def test_a_test_has_to_look_at_the_middle_angle_too():
+    whole = _judges([0, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10)
+
+    def first_and_last(program):
+        """Takes the theta that fits, whatever the program says of it."""
+
+        def mended(h, wrist):
+            phi, _, psi = program(h, wrist)
+            return phi, np.arctan2(wrist * np.hypot(h[0, 2], h[1, 2]), h[2, 2]), psi
+
+        return whole(mended)
+
+    verdict = check("spherical_wrist.2", first_and_last)
+    assert not verdict.holds and verdict.mistake.startswith("accepts: "), verdict
+    arcsin = {m.name: m.program for m in book.WRIST_MISTAKES}["arcsin for theta"]
+    assert first_and_last(arcsin) and not whole(arcsin)
+
+
 def test_text_is_no_number_and_numbers_that_differ_are_printed_so():
     good = {"up": 0.01, "side": 0.0, "duration": 2.0}
     for key in good:

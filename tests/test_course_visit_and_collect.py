@@ -96,6 +96,10 @@ def test_a_right_test_holds(answer):
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (gap <= 1e-6).all()),
             "accepts: every coordinate too small",
         ),
+        (
+            judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (abs(gap[[0, 2]]) < 1e-6).all()),
+            "accepts: arccos for atan2",
+        ),
         (judge_on([[2, 3, 2]]), "accepts: the answer of one example"),
         (judge_on(abs(POINTS)), "accepts: arctan for atan2"),
         (judge_on(BOX), "refuses every program"),
