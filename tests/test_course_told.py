@@ -37,7 +37,7 @@ def test_absurd_numbers_read_well():
     assert apart(np.nan, np.inf) == ("nan", "inf")
 
 
-@pytest.mark.parametrize("value", ["0.3", ["0.3", 1], True, [None], {}, b"1", [object()], "x"])
+@pytest.mark.parametrize("value", ["0.3", ["0.3", 1], True, [None], {}, b"1", [object()], "x", 1j])
 def test_text_is_no_number(value):
     with pytest.raises((TypeError, ValueError)):
         floats(value)
@@ -45,7 +45,7 @@ def test_text_is_no_number(value):
 
 def test_numbers_of_any_kind_are_floats():
     assert floats([1, 2.5]).tolist() == [1, 2.5] and floats(np.float32(0.5)) == 0.5
-    assert one_number([[3]]) == 3
+    assert one_number([[3]]) == 3 and floats([1 + 0j, np.nan]).dtype == float
     with pytest.raises(ValueError, match="one number"):
         one_number([1, 2])
 

@@ -13,13 +13,16 @@ RAISED = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶�
 
 def floats(value: Any) -> Floats:
     """A number, or an array or lists of numbers, as an array. Raises TypeError for text, as "0.3",
-    True and False, and what else is no number; ValueError for rows of unlike length.
+    True and False, a complex number that is not real, and what else is no number; ValueError for
+    rows of unlike length.
     """
     made = np.asarray(value)
     if made.dtype == object and any(
         x is None or isinstance(x, (str, bytes, bool)) for x in made.flat
     ):
         raise TypeError("wanted numbers, got text")
+    if made.dtype.kind == "c" and not (abs(made.imag) > 1e-12).any():
+        made = made.real
     if made.dtype.kind not in "fiuO":
         raise TypeError(f"wanted numbers, got {made.dtype.name}")
     return made.astype(float)
