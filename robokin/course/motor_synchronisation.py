@@ -170,10 +170,8 @@ def _posture_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     if np.isnan(yours).any():
         return f"{says}: h = {h / mm:.1f} mm is in reach"
     if off[0] > 1e-6 and abs(wrapped(yours[0] - wanted[0])) <= 1e-6:
-        return (
-            f"{says}: a turn of {(wanted[0] - before) / deg:.1f}° from {before / deg:.1f}°; yours "
-            f"is one of {(yours[0] - before) / deg:.1f}°"
-        )
+        turn, yours_turn = apart((wanted[0] - before) / deg, (yours[0] - before) / deg)
+        return f"{says}: a turn of {turn}° from {before / deg:.1f}°; yours is one of {yours_turn}°"
     there = LOADER.fk(wrapped(yours)).translation
     if np.linalg.norm(there - point) <= 1e-9:
         return f"{says}; your angles reach the point in another posture"

@@ -1085,9 +1085,10 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
         postures.append(q)
         if np.isnan(q).any():
             low, high = (float(x) / deg for x in ARM.alpha_range(place, limited=False))
+            is_at, edge = apart(alpha / deg, low if alpha / deg < low else high, 2)
+            ends = f"{edge}° to {high:.2f}°" if alpha / deg < low else f"{low:.2f}° to {edge}°"
             gone.append(
-                f"No posture reaches the {name} target with alpha = {alpha / deg:.2f}°: it goes "
-                f"from {low:.2f}° to {high:.2f}°."
+                f"No posture reaches the {name} target with alpha = {is_at}°: it goes from {ends}."
             )
     if gone:
         swapped = np.isfinite(
