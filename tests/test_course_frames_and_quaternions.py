@@ -3,6 +3,7 @@ their names.
 """
 
 import functools
+import re
 
 import numpy as np
 import pytest
@@ -168,3 +169,56 @@ def test_a_test_by_properties_holds_and_a_naive_one_is_told_what_slips_through()
 
     verdict = check("frames_and_quaternions.3", half_way)
     assert verdict.mistake.startswith("accepts: ") and verdict.points > 0.4
+
+
+def compared(turns, shares=(0, 0.1, 0.25, 0.5, 0.9, 1), given=np.array):
+    """A test that compares with robokin's slerp, for turns of these angles."""
+    rng = np.random.default_rng(5)
+    pairs = []
+    for turn in turns:
+        a = unit(rng.normal(size=4))
+        b = (Quaternion(a) @ Quaternion.from_angle_axis(turn * deg, unit(rng.normal(size=3)))).wxyz
+        pairs += [(a, b), (a, -b)]
+
+    def leads_well(lead):
+        for a, b in pairs:
+            for s in shares:
+                right = Quaternion(a).slerp(Quaternion(b), s).wxyz
+                found = np.asarray(lead(given(a), given(b), s))
+                error = min(abs(found - right).max(), abs(found + right).max())
+                if not error < 1e-6:
+                    return False
+        return True
+
+    return leads_well
+
+
+def test_a_test_may_pass_lists_and_has_to_try_large_turns_and_the_way():
+    large = (0, 1e-3, 30, 80, 120, 176)
+    assert check("frames_and_quaternions.3", compared(large)).holds
+    assert check("frames_and_quaternions.3", compared(large, given=list)).holds
+    small = check("frames_and_quaternions.3", compared((0, 1e-3, 30, 60, 90)))
+    assert small.mistake == "accepts: the long way beyond 90°"
+    less = check("frames_and_quaternions.3", compared((0, 1e-3, 30, 60, 120, 160)))
+    assert less.mistake == "accepts: no way beyond 170°"
+    assert check("frames_and_quaternions.3", compared(large, (0, 1))).mistake == "accepts: lerp"
+
+
+def test_axes_that_differ_are_told_so_that_they_differ():
+    def little_off(table, q, part):
+        return solved(table, q, part) @ np.diag([1, 1 + 1e-5, 1, 1])
+
+    told = check("frames_and_quaternions.1", little_off).case
+    axis, is_axis = re.search(r"axis should be \((.*)\), and is \((.*)\)", told).groups()
+    assert axis != is_axis
+
+
+def test_a_camera_that_looks_straight_up_is_not_called_upside_down():
+    eye, _ = places("Ada")
+    verdict = check("frames_and_quaternions.2", Transform(Quaternion.identity(), eye), who="Ada")
+    assert "level" in " ".join(verdict.says) and "points up" not in " ".join(verdict.says)
+
+
+def test_text_is_no_matrix():
+    text = check("frames_and_quaternions.1", lambda t, q, p: solved(t, q, p).astype(str))
+    assert text.mistake == "another kind or shape"

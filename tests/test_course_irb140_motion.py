@@ -122,7 +122,7 @@ def _by_recursion(q0, q1, s):
 
 
 def _by_masks(q0, q1, s):
-    values = q1 + 2 * np.pi * np.arange(-2, 3)[:, None]
+    values = q1 + 2 * np.pi * np.arange(-3, 4)[:, None]
     low, high = IRB140.limits.T
     travel = np.ma.masked_array(abs(values - q0), (values < low) | (values > high))
     end = values[travel.argmin(axis=0), range(6)]
@@ -140,6 +140,37 @@ def _by_rounding(q0, q1, s):
 def test_a_short_way_found_in_another_way_holds(answer):
     verdict = check("irb140_motion.2", answer)
     assert verdict.holds, verdict
+
+
+@pytest.mark.parametrize(
+    ("most", "limited", "name"),
+    [
+        (1, True, "only one turn"),
+        (2, True, "only two turns"),
+        (2, False, "only two turns, without"),
+    ],
+)
+def test_too_few_turns_are_told(most, limited, name):
+    def few(q0, q1, s):
+        low, high = IRB140.limits.T
+        values = q1 + 2 * np.pi * np.array(sorted(range(-most, most + 1), key=abs))[:, None]
+        fits = (values >= low) & (values <= high) | (not limited)
+        end = values[np.where(fits, abs(values - q0), np.inf).argmin(axis=0), range(6)]
+        return q0 + s[:, None] * (end - q0)
+
+    verdict = check("irb140_motion.2", few)
+    assert not verdict.holds and verdict.mistake.startswith(name), verdict
+
+
+def test_a_value_a_little_off_is_told_so():
+    D = 1503 * mm  # typed, with too few digits
+
+    def typed(distance, corner):
+        fraction = distance / ({"parabola": 1 / 2, "quintic": 3 / 8}[corner] * D * 1.001)
+        return fraction if fraction <= 0.5 else NAN
+
+    verdict = check("irb140_motion.1", typed)
+    assert verdict.mistake == "nearly right", verdict
 
 
 def test_the_right_motion_has_its_laws():
@@ -195,7 +226,7 @@ def test_a_stranger_is_refused_without_a_name(number):
         ("2", lambda q0, q1, s: _by_nearest(q0, q1, s).T, "transposed"),
         ("2", lambda q0, q1, s: _by_nearest(q0, q1, s) / deg, "degrees for radians"),
         ("2", lambda q0, q1, s: s[:, None] * q1, "q0 is not used"),
-        ("1", lambda d, corner: 0.123, "distance is not used or corner is not used"),
+        ("1", lambda d, corner: 0.123, "one answer to everything"),
     ],
 )
 def test_another_kind_of_answer(number, answer, name):
@@ -298,10 +329,12 @@ def test_right_programs_keep_their_promise_and_wrong_ones_do_not():
         (dict(begin=0.0), "times that begin at 0"),
         (dict(within=0.2), "off by half a sample (forward)"),
         (dict(ends=False), "the ends are zero"),
+        (dict(ends=1.2), "the ends are off by 1 rad/s"),
+        (dict(rows=[0, -1]), "no unwrap"),
     ],
 )
 def test_what_a_weak_test_accepts_is_named(test, slips):
-    def weak(speeds, turns=np.pi, even=False, begin=2.0, within=1e-3, ends=True):
+    def weak(speeds, turns=np.pi, even=False, begin=2.0, within=1e-3, ends=0.1, rows=None):
         step = np.full(600, 0.008) if even else np.tile([0.005, 0.01], 300)
         t = begin + np.cumsum(step) - step[0]
         phase = np.arange(6)
@@ -310,7 +343,9 @@ def test_what_a_weak_test_accepts_is_named(test, slips):
         error = abs(np.resize(speeds(_wrapped(q), t), q.shape) - size * np.cos(t[:, None] + phase))
         if np.shape(speeds(_wrapped(q), t)) != q.shape:
             return False
-        return bool((error[1:-1] < within).all() and (not ends or (error < 0.1 + within).all()))
+        if rows is not None:
+            return bool((error[rows] < ends).all())
+        return bool((error[1:-1] < within).all() and (not ends or (error < ends + within).all()))
 
     verdict = check("irb140_motion.3", lambda speeds: weak(speeds, **test))
     assert not verdict.holds and verdict.mistake == f"accepts: {slips}", verdict

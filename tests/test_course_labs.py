@@ -3,6 +3,7 @@ about a lab's own stands in test_course_<lab>.py.
 """
 
 import json
+import random
 import re
 
 import nbformat
@@ -12,15 +13,17 @@ from conftest import NOTEBOOKS
 from nbclient import NotebookClient
 
 from robokin import course
-from robokin.course import book, check, hint, progress, solution
+from robokin.course import book, catch, check, hint, progress, solution
 from robokin.course.answers import run
-from robokin.course.exercises import Catch, Function
+from robokin.course.catch import Catch
+from robokin.course.exercises import Function
 from robokin.course.predictions import filled, judged, shown
 
 LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.LABS}
 EXERCISES = [f"{lab}.{n}" for lab in book.LABS for n in book.lab(lab).EXERCISES]
 PREDICTIONS = [f"{lab}.{n}" for lab in book.LABS for n in book.lab(lab).PREDICTIONS]
 FUNCTIONS = [e for e in EXERCISES if isinstance(book.find(e, "EXERCISES"), Function)]
+CATCHES = [e for e in EXERCISES if isinstance(book.find(e, "EXERCISES"), Catch)]
 every_lab = pytest.mark.parametrize("lab", book.LABS)
 SMALL = "start_here"  # ten minutes: one exercise and one prediction
 
@@ -131,6 +134,52 @@ def test_no_value_and_no_test_is_right_by_chance(name):
             assert verdict.answered and not verdict.holds and verdict.says
 
 
+def of_the_solution(name):
+    """(the test that the solution writes, its call of `check` with `yours` in its place)"""
+    lab = name.partition(".")[0]
+    [call] = re.findall(rf'^check\("{re.escape(name)}", ?(?:answer=)?(\w+)\)$', code(lab), re.M)
+    space = {"check": check}
+    exec(compile(solution(name), name, "exec"), space)
+    return space[call]
+
+
+@pytest.mark.parametrize("name", CATCHES)
+def test_no_test_holds_by_a_trick(name, monkeypatch):
+    """One that counts its calls, passes over errors, says nothing, or says it only now and then."""
+    right = of_the_solution(name)
+    exercise = book.find(name, "EXERCISES")
+    many = len(exercise.rights) + len(exercise.mistakes) + 1
+    dice = random.Random(1)
+    monkeypatch.setattr(catch.random, "SystemRandom", lambda: dice)
+    calls = []
+
+    def counts(program):
+        calls.append(program)
+        return (len(calls) - 1) % many < len(exercise.rights)
+
+    def passes_over(program):
+        try:
+            return right(program)
+        except AssertionError:
+            return False
+        except Exception:
+            return True
+
+    def silent(program):
+        right(program)
+
+    def only_yes(program):
+        if right(program) is not False:
+            return True
+
+    for answer in (counts, passes_over, silent, only_yes):
+        verdict = check(name, answer)
+        assert not verdict.holds and verdict.says, (name, answer)
+    assert check(name, silent).mistake == "returns None"
+    assert check(name, lambda program: not right(program)).mistake == "True and False exchanged"
+    assert check(name, right).holds
+
+
 def remembered(program):
     """The program, which works out each case once. The cases have to stay alive: ids name them."""
     results = {}
@@ -159,10 +208,10 @@ def test_every_two_mistakes_differ_on_a_case(name):
         outcomes = [
             exercise._formed(o, c) for o, c in zip(run(mistake.program, cases), cases, strict=True)
         ]
-        assert any(exercise._wrong(o, c) for o, c in zip(outcomes, cases, strict=True)), (
-            f"{mistake.name} is right"
-        )
-        agreeing = [m for m, program in programs if exercise.agrees(program, outcomes, cases)]
+        wrong = [exercise._wrong(o, c) for o, c in zip(outcomes, cases, strict=True)]
+        assert any(wrong), f"{mistake.name} is right"
+        tried = list(zip(outcomes, wrong, cases, strict=True))
+        agreeing = [m for m, program in programs if exercise.agrees(program, tried)]
         assert agreeing == [mistake]
     assert len({mistake.name for mistake in exercise.mistakes}) >= 6
 

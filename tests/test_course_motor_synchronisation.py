@@ -1,6 +1,7 @@
 """The exercises of lab 11: right answers in unlike styles hold, wrong ones are told by name."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from robokin import deg, loader_arm
 from robokin.course import check, solution, variant
-from robokin.course.motor_synchronisation import PREDICTIONS
+from robokin.course.motor_synchronisation import EXERCISES, PREDICTIONS
 from robokin.course.predictions import filled
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
@@ -56,6 +57,15 @@ def by_package(point, before):
     on_axis = not (point[0] or point[1])
     alpha = before if on_axis else before + shortest_turn(before, q[0])
     return [[alpha, q[1] % TURN, abs(q[2])]]
+
+
+def test_two_turns_are_not_enough():
+    def few(x, y, before):
+        ends = [math.atan2(y, x) + k * TURN for k in range(-2, 3)]
+        return before if x == y == 0 else min(ends, key=lambda a: abs(a - before))
+
+    verdict = check("motor_synchronisation.1", posture(few))
+    assert not verdict.holds and verdict.mistake == "two turns at most are taken off"
 
 
 @pytest.mark.parametrize("answer", [posture(right), posture(by_loops), by_package])
@@ -132,6 +142,69 @@ def test_a_test_of_one_direction_or_one_table_is_told_what_it_misses():
         "motor_synchronisation.3", lambda w: len(np.asarray(w("wave", [1, 1, -1]))) == 4
     )
     assert only_wave.mistake.startswith("accepts: ")
+
+
+def looking(rows):
+    """A test by fields that looks at these of the rows; `rows` gives the numbers of two or more."""
+    signs = np.array([1] * 11 + [-1] * 21 + [1] * 3 + [-1, 1])
+
+    def test(windings):
+        for drive, step, on in (
+            ("wave", 90, {1}),
+            ("two-phase", 90, {2}),
+            ("half-step", 45, {1, 2}),
+        ):
+            told = np.asarray(windings(drive, signs), dtype=float)
+            if told.ndim != 2 or told.shape[1] != 4 or not np.isin(told, (0, 1)).all():
+                return False
+            seen = np.array(rows(np.arange(len(told))))
+            if not {*told[seen].sum(axis=1)} <= on:
+                return False
+            field = told[seen] @ np.array([1, 1j, -1, -1j])
+            if (abs(field) < 0.5).any():
+                return False
+            at = np.concatenate([[0], np.cumsum(signs)])[seen]
+            if abs(field[1:] / field[:-1] * np.exp(-1j * deg * step * np.diff(at))).min() < 0.5:
+                return False
+            off = np.angle(field[1:] / field[:-1] * np.exp(-1j * deg * step * np.diff(at)))
+            if abs(off).max() > 1e-6:
+                return False
+        return True
+
+    return test
+
+
+@pytest.mark.parametrize(
+    ("rows", "name"),
+    [
+        (lambda k: [k[0], k[-1]], "right in the first and the last row"),
+        (lambda k: k[:-1], "the last pulse is lost"),
+        (lambda k: k[:15], "it stops half way"),
+    ],
+)
+def test_a_test_has_to_look_at_every_row(rows, name):
+    verdict = check("motor_synchronisation.3", looking(rows))
+    test = looking(rows)
+    named = {m.name: m.program for m in EXERCISES["3"].mistakes}
+    assert test(named[name]) and all(test(program) for _, program in EXERCISES["3"].rights)
+    assert not verdict.holds and verdict.mistake.startswith("accepts: ")
+
+
+def test_faults_of_a_drive_tell_numbers_that_differ_and_not_the_answer():
+    own, q, gear = move("Ada")
+    n = pulses(q, [gear] * 3)
+    high = {"gears": [9 * gear] * 3, "frequencies": frequencies(n, own["most"])}
+    told = " ".join(check("motor_synchronisation.2", high, who="Ada").says)
+    assert f"{gear} " not in told.replace(f"{9 * gear} ", "")
+    slow = {"gears": [gear] * 3, "frequencies": frequencies(n, 0.5 * own["most"])}
+    told = " ".join(check("motor_synchronisation.2", slow, who="Ada").says)
+    assert f"{n.max() / own['most']:.2f}" not in told
+    fast = {"gears": [gear] * 3, "frequencies": frequencies(n, 1.0001 * own["most"])}
+    told = " ".join(check("motor_synchronisation.2", fast, who="Ada").says)
+    runs, allowed = re.search(r"runs at (.*) pulses/s; allowed are (.*)\.$", told).groups()
+    assert runs != allowed
+    text = {"gears": ["50", "50", "50"], "frequencies": [1, 2, 3]}
+    assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
 
 
 def test_lost_steps_come_in_fours_by_another_integration_too():

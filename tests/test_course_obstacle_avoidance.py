@@ -2,6 +2,7 @@
 one's own task can be met.
 """
 
+import re
 from functools import cache
 
 import numpy as np
@@ -155,6 +156,18 @@ def test_a_bar_is_passed_by_folding_and_by_points_near_enough(who):
         assert check("obstacle_avoidance.2", path, who=who).holds
 
 
+def test_a_path_of_text_is_no_path_and_numbers_that_differ_are_printed_so():
+    task = variant("obstacle_avoidance", "Ada")
+    start = np.array(task["start"]) * deg
+    path = np.array([start, arm.least(task["target"], start)[0]])
+    text = check("obstacle_avoidance.2", path.astype(str), who="Ada")
+    assert text.mistake == "another kind or shape"
+    path[0, 0] += 0.01 * deg
+    says = " ".join(check("obstacle_avoidance.2", path, who="Ada").says)
+    begins, stands = re.search(r"begins at \((.*?)\)°, the arm stands at \((.*?)\)°", says).groups()
+    assert begins != stands
+
+
 @cache
 def _tasks(count, turn, gap):
     """Paths, H, a distance, whether it is kept: `gap` from the least distance."""
@@ -182,6 +195,24 @@ def test_a_test_that_asks_more_than_is_promised(turn, gap, mistake):
         return all(bool(safe(path, H, d)) == truth for path, H, d, truth in _tasks(60, turn, gap))
 
     assert check("obstacle_avoidance.3", strict).mistake == mistake
+
+
+def test_a_test_of_first_and_last_postures_is_not_enough():
+    rng, tasks = np.random.default_rng(4), []
+    while len(tasks) < 80:  # the arm is nearest to H where it begins or ends
+        path = rng.uniform(0.7, 2.2, (2, 3))
+        points = arm.points(path[rng.integers(2)])
+        i = rng.integers(3)
+        H = points[i] + rng.random() * (points[i + 1] - points[i]) + rng.normal(0, 0.2, 2)
+        least, ends = clearance(arm, path, H).min(), book._distances(path, H).min()
+        if least > 0.06 and ends - least < 1e-6:
+            tasks += [(path, H, least - 0.025, True), (path, H, least + 0.025, False)]
+
+    def ends_only(safe):
+        return all(bool(safe(path, H, d)) == truth for path, H, d, truth in tasks)
+
+    verdict = check("obstacle_avoidance.3", ends_only)
+    assert verdict.mistake == "accepts: the postures only", verdict
 
 
 def test_the_distances_of_the_checks_are_those_of_the_package():

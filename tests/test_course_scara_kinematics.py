@@ -2,6 +2,8 @@
 every student's task can be solved, and every prediction's key is computed a second time.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -171,6 +173,64 @@ def test_a_weak_test_is_told_what_it_lets_through():
         return not inside(SCARA.limits.T, SCARA.limits)
 
     assert check("scara_kinematics.3", strict).mistake == "refuses a right program"
+
+
+def spoiled(past, tables, at=(7,), said=bool):
+    """A test that spoils one value at a time, by so much."""
+
+    def inside_is_right(inside):
+        for limits in tables:
+            limits = np.array(limits)
+            good = np.tile(limits.mean(axis=1), (25, 1))
+            values = [(limits[:, 0], True), (limits[:, 1], True), (limits[:, 1] * np.nan, False)]
+            values += [(limits[:, 0] - past, False), (limits[:, 1] + past, False)]
+            for joint in range(len(limits)):
+                for sample in at:
+                    for value, right in values:
+                        q = good.copy()
+                        q[sample, joint] = value[joint]
+                        if said(inside(q, limits)) != right:
+                            return False
+            if said(inside(good, limits)) is not True:
+                return False
+        return True
+
+    return inside_is_right
+
+
+FOUR = [(-2, 2), (-3, 1), (-7, 7), (0, 0.2)]
+SIX = [(-0.5, 4), (-9, 9), (0.1, 2), (-3, 3), (-7, 1), (-2, 5)]
+
+
+def test_a_limit_test_has_to_try_small_excesses_and_six_joints():
+    def close(answer):
+        return bool(np.isclose(answer, True))
+
+    name = "scara_kinematics.3"
+    assert check(name, spoiled(1e-6, (FOUR, SIX))).holds
+    assert check(name, spoiled(1e-6, (FOUR, SIX), said=close)).holds
+    slack = check(name, spoiled(0.01, (FOUR, SIX)))
+    assert slack.mistake == "accepts: a slack of a thousandth for every joint"
+    tolerant = check(name, spoiled(5e-4, (FOUR, SIX)))
+    assert tolerant.mistake == "accepts: np.isclose with its own tolerances"
+    four = check(name, spoiled(1e-6, (FOUR, SIX[:4])))
+    assert four.mistake == "accepts: only the first four joints"
+    ends = check(name, spoiled(1e-6, (FOUR, SIX), at=(0, -1)))
+    assert ends.mistake == "accepts: start and end only"
+
+
+def test_a_posture_far_turned_or_a_little_off_is_judged_as_it_is():
+    def turned(q):
+        return np.array(_by_direction(q)) + [12 * np.pi, 0, -12 * np.pi, 0]
+
+    def little_off(q):
+        return _by_cosines(q)[0] + [5e-7, 0, -5e-7, 0]
+
+    assert check("scara_kinematics.1", turned).holds
+    verdict = check("scara_kinematics.1", little_off)
+    assert verdict.mistake == "nearly right"
+    place, is_at = re.search(r"stay at \((.*)\) mm; .* at \((.*)\) mm", verdict.case).groups()
+    assert place != is_at
 
 
 # --- Predictions, a second way --------------------------------------------------------------------

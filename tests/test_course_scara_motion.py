@@ -227,6 +227,18 @@ def _stroke_in_both_angles(q0, position, angle):
     return [*q[:2], min(turns, key=lambda x: abs(q[0] + q[1] + x + q[3] - q0.sum())), q[3]]
 
 
+@pytest.mark.parametrize(("most", "name"), [(2, "only two turns"), (3, "only three turns")])
+def test_too_few_turns_are_told(most, name):
+    def few(q0, position, angle):
+        q = _posture(q0, position, angle)
+        ends = [angle + k * TURN - q[0] - q[1] for k in sorted(range(-most, most + 1), key=abs)]
+        inside = [e for e in ends if LOW[2] <= e <= HIGH[2]] or ends
+        q[2] = min(inside, key=lambda e: abs(e + q[0] + q[1] - q0[:3].sum()))
+        return q
+
+    assert check("scara_motion.1", few).mistake == name
+
+
 def test_the_case_tells_degrees_and_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
     assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
@@ -350,6 +362,33 @@ def test_a_wrong_limit_test_is_named(answer, word):
     assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
 
 
+@pytest.mark.parametrize("joint", [1, 2, 3])
+def test_a_joint_left_out_is_told_and_not_called_wrapped(joint):
+    def one_left_out(q):
+        q = q.copy()
+        q[~np.isnan(q).any(axis=1), joint - 1] = 0.1
+        return _loops(q)
+
+    verdict = check("scara_motion.2", one_left_out)
+    assert verdict.mistake == f"joint {joint} is never tested", verdict
+
+
+def _limited(low=LOW, high=HIGH):
+    return lambda q: bool(((q >= low) & (q <= high)).all())
+
+
+@pytest.mark.parametrize(
+    ("answer", "name"),
+    [
+        (_limited(low=np.array([*LOW[:3], -9.0])), "the stroke's lower limit is never tested"),
+        (_limited(high=np.array([*HIGH[:3], 9e9])), "the stroke's upper limit is never tested"),
+        (lambda q: _limited()(np.round(q / [deg, deg, deg, 1e-9]) * [deg, deg, deg, 1e-9]), None),
+    ],
+)
+def test_no_near_variant_gets_the_name_of_another_program(answer, name):
+    assert check("scara_motion.2", answer).mistake == name
+
+
 def test_a_case_of_the_limit_test_prints_the_excess():
     law = book.EXERCISES["2"].law
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
@@ -457,6 +496,8 @@ def test_a_corner_is_an_enlargement_from_via():
         (lambda t: t * 1000**0.5, "mm for m"),
         (lambda t: 1.3 * t, "slower than needed"),
         (lambda t: 0.9 * t, "too fast"),
+        (lambda t: 0.508 * t, "too fast"),  # no half: nobody knows why
+        (lambda t: 1.97 * t, "slower than needed"),
     ],
 )
 def test_a_slip_in_the_duration_is_named(spoil, name):

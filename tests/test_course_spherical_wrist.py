@@ -3,6 +3,7 @@ and every prediction's key is computed a second time, another way.
 """
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 import robokin.course.spherical_wrist as book
 from robokin import ITMO6R, Transform, deg, dh_links, mm
 from robokin.arms.link import home
-from robokin.course import check
+from robokin.course import check, variant
 from robokin.course.predictions import filled
 
 A, ALPHA, D, OFFSET = book.A, book.ALPHA, book.D, book.OFFSET
@@ -156,6 +157,11 @@ def test_the_programs_are_what_they_are_called():
     assert only_there == {
         "the regular formulas beside the singularity",
         "a coarse threshold",
+        "the regular formulas at theta = 0",
+        "the regular formulas at theta = 180 degrees",
+        "a coarse threshold at theta = 0",
+        "a coarse threshold at theta = 180 degrees",
+        "the difference at theta = 0, too",
         "the sum at theta = 180 degrees, too",
         "NaN in the singularity",
         "NaN for the free angle",
@@ -168,6 +174,18 @@ def test_the_programs_are_what_they_are_called():
     [
         (_judges([0.3, 1.0], 1e-10), "accepts: the regular formulas beside the singularity"),
         (_judges([0.3, 1.0, 3.0], 1e-17), "refuses every program"),
+        (
+            _judges([0, 1e-8, 1e-4, 1, 2, np.pi], 1e-10),
+            "accepts: the regular formulas at theta = 180 degrees",
+        ),
+        (
+            _judges([0, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10),
+            "accepts: the regular formulas at theta = 0",
+        ),
+        (
+            _judges([1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10),
+            "accepts: the difference at theta = 0, too",
+        ),
         (lambda p: True, "accepts every program"),
         (
             lambda p: bool(np.allclose(p(book.zyz(0.3, 1, 0.2), 1), (0.3, 1, 0.2))),
@@ -227,7 +245,7 @@ def test_code_in_hints_can_be_run():
 
 def test_a_test_may_say_no_by_an_assertion():
     def test(program):
-        for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi):
+        for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi):
             for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1)]:
                 for wrist in (1, -1):
                     found = program(book.zyz(phi, theta, psi), wrist)
@@ -322,3 +340,39 @@ def test_keys_of_the_second_half():
     fast = [book._fastest(miss * mm) for miss in (4, 2, 1)]
     assert np.allclose(fast[1:] / np.array(fast[:-1]), 2, rtol=0.01)
     assert right("p8").startswith("About 6000°/s") and 5900 < fast[2] < 6200
+
+
+def test_a_test_has_to_look_at_the_middle_angle_too():
+    whole = _judges([0, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10)
+
+    def first_and_last(program):
+        """Takes the theta that fits, whatever the program says of it."""
+
+        def mended(h, wrist):
+            phi, _, psi = program(h, wrist)
+            return phi, np.arctan2(wrist * np.hypot(h[0, 2], h[1, 2]), h[2, 2]), psi
+
+        return whole(mended)
+
+    verdict = check("spherical_wrist.2", first_and_last)
+    assert not verdict.holds and verdict.mistake.startswith("accepts: "), verdict
+    arcsin = {m.name: m.program for m in book.WRIST_MISTAKES}["arcsin for theta"]
+    assert first_and_last(arcsin) and not whole(arcsin)
+
+
+def test_text_is_no_number_and_numbers_that_differ_are_printed_so():
+    good = {"up": 0.01, "side": 0.0, "duration": 2.0}
+    for key in good:
+        text = check("spherical_wrist.3", good | {key: str(good[key])}, who="Ada")
+        assert text.mistake == "another kind or shape" and key in text.says[0]
+    longest = variant("spherical_wrist", "Ada")["longest"]
+    late = check("spherical_wrist.3", good | {"duration": longest + 0.01}, who="Ada")
+    assert any(f"{longest:.2f} s; yours takes {longest + 0.01:.2f} s" in x for x in late.says)
+
+    def little_off(*case):
+        points, ways = np.array(_by_loops(*case))
+        return points, ways + 5e-5
+
+    told = check("spherical_wrist.1", little_off).case
+    way, got = re.search(r"direction \((.*?)\), not \((.*?)\)", told).groups()
+    assert way != got

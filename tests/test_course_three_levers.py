@@ -4,6 +4,7 @@ says to them; its numbers of one's own.
 
 import cmath
 import math
+import re
 
 import numpy as np
 import pytest
@@ -243,3 +244,50 @@ def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
 def test_a_plan_that_fails_is_told_why(answer, mistake):
     verdict = check("three_levers.3", answer, who="Ada")
     assert not verdict.holds and verdict.mistake == mistake and verdict.says
+
+
+def test_a_plan_of_text_is_no_plan():
+    text = check("three_levers.3", {"first": "2.4", "second": 2.0}, who="Ada")
+    assert text.mistake == "another kind or shape"
+
+
+def test_a_posture_a_little_off_is_told_in_numbers_that_differ():
+    told = check("three_levers.1", lambda *case: levers(*case) + [3e-6, 0, 0]).case
+    place, off = re.search(r"gripper at \((.*)\) m, (.*) m from K", told).groups()
+    assert float(off) > 0 and place.count(",") == 1
+
+    def other_bend(K, alpha, lengths):
+        gamma, beta, _ = levers(K, alpha, lengths)
+        side = np.arctan2(K[1], K[0])
+        return [2 * side - gamma, 2 * np.pi - beta, 2 * np.pi - alpha]
+
+    assert "reaches K, too, in another posture" in check("three_levers.1", other_bend).case
+
+
+def first_and_last_angle(program):
+    """Looks at gamma and alpha, not at beta."""
+    for K, previous, S in tasks(140):
+        q = np.array(program(K, previous))
+        whole = ARM.family(K, np.clip(q[2], *ARM.alpha_range(K)))
+        if not abs(q[0] - whole[0]) < 1e-4 or abs(whole - previous).sum() > S + 0.021 * deg:
+            return False
+    return True
+
+
+def test_a_test_has_to_look_at_every_angle():
+    assert "beta" in check("three_levers.2", first_and_last_angle).mistake
+
+
+@pytest.mark.parametrize("share", [0.95, 0.99])
+def test_a_margin_inside_the_border_of_a_triangle_is_no_border(share):
+    def far(K, alpha, lengths):
+        a, b, c = lengths
+        KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+        return levers(K, alpha, lengths) if np.hypot(*K) < share * (a + KB) else np.nan
+
+    def near(K, alpha, lengths):
+        a, b, c = lengths
+        KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
+        return levers(K, alpha, lengths) if share * np.hypot(*K) > abs(a - KB) else np.nan
+
+    assert not check("three_levers.1", far).holds and not check("three_levers.1", near).holds

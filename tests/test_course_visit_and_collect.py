@@ -15,17 +15,19 @@ from robokin.jobs.visit_collect import best_visit, misfit, visit, workspace
 ARM = spbu_arm(5, 4)
 BOX = np.random.default_rng(5).uniform([-9, -9, 0], [9, 9, 9], size=(200, 3))
 POINTS = BOX[workspace(5, 4, BOX).all(axis=-1)]
-AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0]])
+AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0], [0, -9.0, 0]])  # the last one on the border
 
 
 def inside(q):
     return (abs(q) <= np.array([np.pi, np.pi / 2, np.pi / 2]) + 1e-9).all()
 
 
-def judge_on(points, limits=inside, near=lambda gap: np.linalg.norm(gap) <= 1e-6):
+def judge_on(points, limits=inside, near=lambda gap: np.linalg.norm(gap) <= 1e-6, shape=True):
     def test(inverse):
         for p in points:
             q = np.asarray(inverse(p))
+            if shape and q.shape != (3,):
+                return False
             if not near(ARM.fk(q).translation - p) or not limits(q):
                 return False
         return True
@@ -36,6 +38,7 @@ def judge_on(points, limits=inside, near=lambda gap: np.linalg.norm(gap) <= 1e-6
 def asserting(inverse):
     for p in [*POINTS, *AXIS]:
         q = inverse(list(p))
+        assert np.shape(q) == (3,)
         assert math.dist(ARM.fk(q).translation, p) < 1e-6
         assert inside(np.array(q))
 
@@ -44,10 +47,16 @@ def asserting(inverse):
     "answer",
     [
         judge_on(np.vstack([POINTS, AXIS])),
-        judge_on(np.vstack([AXIS[:1], POINTS[:60]]), near=lambda gap: (abs(gap) < 1e-6).all()),
+        judge_on(np.vstack([AXIS[::2], POINTS[:60]]), near=lambda gap: (abs(gap) < 1e-6).all()),
         lambda inverse: (
-            all(misfit(5, 4, inverse(p), p) < 1e-6 and inside(np.array(inverse(p))) for p in POINTS)
+            all(
+                np.shape(inverse(p)) == (3,)
+                and misfit(5, 4, inverse(p), p) < 1e-6
+                and inside(np.array(inverse(p)))
+                for p in POINTS
+            )
             and math.isfinite(sum(inverse([0, 0, 6])))
+            and ARM.fk(inverse([0.6, -0.8, 0])).translation[0] > 0.5
         ),
         asserting,
     ],
@@ -61,6 +70,8 @@ def test_a_right_test_holds(answer):
     "answer, mistake",
     [
         (judge_on(POINTS), "accepts: not a number on axis 1"),
+        (judge_on(np.vstack([POINTS, AXIS[:2]])), "accepts: not a number on the border"),
+        (judge_on(np.vstack([POINTS, AXIS]), shape=False), "accepts: a matrix of one row"),
         (judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: True), "accepts: the other elbow"),
         (
             judge_on(np.vstack([POINTS, AXIS]), limits=lambda q: within(ARM, q).all()),
@@ -84,6 +95,10 @@ def test_a_right_test_holds(answer):
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (gap <= 1e-6).all()),
             "accepts: every coordinate too small",
+        ),
+        (
+            judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: (abs(gap[[0, 2]]) < 1e-6).all()),
+            "accepts: arccos for atan2",
         ),
         (judge_on([[2, 3, 2]]), "accepts: the answer of one example"),
         (judge_on(abs(POINTS)), "accepts: arctan for atan2"),

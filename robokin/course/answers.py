@@ -2,6 +2,7 @@
 loop, no change of its input.
 """
 
+import _thread
 import contextlib
 import copy
 import ctypes
@@ -20,8 +21,9 @@ import numpy as np
 from ..arms.scara import ScaraPose
 from ..transform import Transform
 
-SECONDS = 4.0  # of CPU time, for all cases of a check together; of a test, for each program
-WALL = 90.0  # by the clock on the wall, the same way: sleeping and C's own threads take no CPU here
+SECONDS = 4.0  # of CPU time for one case; of a test, for one program
+TOTAL = 30.0  # of CPU time for all of them together
+WALL = 90.0  # by the clock on the wall for one: sleeping and C's own threads take no CPU here
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
@@ -45,11 +47,16 @@ TROUBLE = {
     "returns None",
     "prints instead of returning",
     "never ends",
+    "too slow",
 }
-NEVER = Outcome(
-    name="never ends",
-    says=f"It does not come to an end, or is far too slow (stopped after {SECONDS:.0f} s).",
-)
+
+
+def _never(seconds: float) -> Outcome:
+    says = f"It does not come to an end, or is far too slow (stopped after {seconds:.0f} s)."
+    return Outcome(name="never ends", says=says)
+
+
+NEVER = _never(SECONDS)
 
 
 def is_stub(answer: Any) -> bool:
@@ -70,27 +77,42 @@ def is_stub(answer: Any) -> bool:
     return kinds <= QUIET and given[-1] in (None, ...)
 
 
-def run(
-    answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]], each: bool = False
-) -> list[Outcome]:
-    """What `answer` makes of every case, up to the first one that does not end in time: `SECONDS`
-    of CPU for all of them, or for `each`, and `WALL` seconds where it waits or computes elsewhere.
+def unended(outcome: Outcome) -> bool:
+    """Whether this call was stopped."""
+    return outcome.name in ("never ends", "too slow")
+
+
+host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
+
+
+def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
+    """What `answer` makes of every case, up to the first one that does not end in time: a case has
+    `SECONDS` of CPU, and `WALL` seconds where it waits or computes elsewhere; all have `TOTAL`.
 
     The answer runs in a thread of its own. So `TimeUp`, which arrives between any two steps of
-    Python, cannot reach the thread that asks.
+    Python, cannot reach the thread that asks. In a page Python has no threads: there the page sets
+    `host`, is told by it that answers begin (True) and have ended (False), and ends all if it has
+    to.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            worker.start()
-            worker.watch(each)
+            try:
+                worker.start()
+            except RuntimeError:  # no threads
+                worker.run_here()
+            else:
+                worker.watch()
     finally:
         worker.end()
         sys.stdout, sys.stderr = streams
     outcomes = worker.outcomes[: len(cases)]
-    ended = len(outcomes) == len(cases) or any(outcome is NEVER for outcome in outcomes)
-    return outcomes if ended else [*outcomes, NEVER]
+    if len(outcomes) < len(cases) and not (outcomes and outcomes[-1] is NEVER):
+        outcomes.append(NEVER)
+    if outcomes and outcomes[-1] is NEVER:
+        outcomes[-1] = worker.stopped(len(outcomes))
+    return outcomes
 
 
 def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
@@ -134,21 +156,36 @@ def _told(error: BaseException) -> str:
     return type(error).__name__
 
 
-class _Worker(threading.Thread):
+class _Worker:
     """The thread in which an answer runs. Python keeps an exception that another thread sends
     until the next step, so three things happen in this order: the worker says `done`, the watching
     thread takes back what it sent, and only then may the worker `leave`.
+
+    No `threading.Thread`: an interrupt while its `start` waits comes out as another error.
     """
 
     def __init__(self, answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> None:
-        super().__init__(daemon=True)
         self.answer, self.cases = answer, cases
+        self.started, self.ident = False, 0
         self.outcomes: list[Outcome] = []
-        self.done, self.leave = threading.Lock(), threading.Lock()
-        self.done.acquire()
-        self.leave.acquire()
+        self.over = "case"  # which of the three times was up
+        locks = [threading.Lock() for _ in range(4)]  # each is released when it is so far
+        self.begun, self.done, self.leave, self.gone = locks
+        for lock in locks:
+            lock.acquire()
+
+    def start(self) -> None:
+        """RuntimeError: no threads here."""
+        self.started = True  # before it is: an interrupt may come between any two steps
+        try:
+            _thread.start_new_thread(self.run, ())
+        except RuntimeError:
+            self.started = False
+            raise
 
     def run(self) -> None:
+        self.ident = threading.get_ident()
+        self.begun.release()
         # A `finally` calls its first function before Python looks for an exception that was sent.
         try:
             try:
@@ -160,6 +197,21 @@ class _Worker(threading.Thread):
                 self.leave.acquire()
         except TimeUp:
             pass
+        self.gone.release()
+
+    def run_here(self) -> None:
+        host(True)
+        try:
+            self._answer()
+        finally:
+            host(False)
+
+    def stopped(self, cases: int) -> Outcome:
+        """What is said of the last of so many cases, which was stopped."""
+        if self.over == "all":
+            says = f"{cases} cases took more than {TOTAL:.0f} s together."
+            return Outcome(name="too slow", says=says)
+        return NEVER if self.over == "case" else _never(WALL)
 
     def _answer(self) -> None:
         with np.errstate(all="ignore"):
@@ -168,16 +220,25 @@ class _Worker(threading.Thread):
                 if self.outcomes[-1] is NEVER:
                     break
 
-    def watch(self, each: bool) -> None:
+    def watch(self) -> None:
         """Wait until it is done, or until its time is up."""
-        cpu = time.process_time
-        if hasattr(time, "pthread_getcpuclockid") and self.ident:
+        with self.begun:
+            cpu = time.process_time
+        if hasattr(time, "pthread_getcpuclockid"):
             cpu = partial(time.clock_gettime, time.pthread_getcpuclockid(self.ident))
-        seen, begin, wall = 0, cpu(), time.monotonic()
+        seen, first, wall = 0, cpu(), time.monotonic()
+        begin = first
         while not self.done.acquire(timeout=0.01):
-            if each and len(self.outcomes) > seen:
-                seen, begin, wall = len(self.outcomes), cpu(), time.monotonic()
-            if cpu() - begin > SECONDS or time.monotonic() - wall > WALL:
+            now = cpu()
+            if len(self.outcomes) > seen:
+                seen, begin, wall = len(self.outcomes), now, time.monotonic()
+            late = {
+                "case": now - begin > SECONDS,
+                "all": now - first > TOTAL,
+                "wall": time.monotonic() - wall > WALL,
+            }
+            if any(late.values()):
+                self.over = next(which for which in late if late[which])
                 return
         self.done.release()
 
@@ -185,14 +246,16 @@ class _Worker(threading.Thread):
         """Stop it, however often it catches `TimeUp`. A call into C that does not come back within
         `WALL` seconds is left behind.
         """
-        last = time.monotonic() + WALL
-        while self.ident and not self.done.acquire(timeout=0.01) and time.monotonic() < last:
+        if not self.started:
+            return
+        with self.begun:
+            last = time.monotonic() + WALL
+        while not self.done.acquire(timeout=0.01) and time.monotonic() < last:
             _raise_in(self.ident, TimeUp)
-        if self.ident:
-            _raise_in(self.ident, None)
-            self.leave.release()
-            if time.monotonic() < last:
-                self.join()
+        _raise_in(self.ident, None)
+        self.leave.release()
+        if time.monotonic() < last:
+            self.gone.acquire()
 
 
 def _raise_in(thread: int, error: type[BaseException] | None) -> None:

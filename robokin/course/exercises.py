@@ -1,4 +1,4 @@
-"""The machinery of the checks: four kinds of exercise, and the verdict on an answer.
+"""The machinery of the checks: kinds of exercise, and the verdict on an answer.
 
 A check is properties on many cases, the smallest first. A wrong answer is named by the mistake,
 itself a small wrong program, that it agrees with on all cases; by two if two agree; by none if none
@@ -10,7 +10,7 @@ import html
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,10 +18,11 @@ import numpy as np
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .answers import NEVER, TROUBLE, Outcome, equal, is_stub, run
+from .answers import TROUBLE, Outcome, equal, is_stub, run, unended
 from .mistakes import Mistake, Program, Tools, general
 
 Fault = tuple[str, str]  # the name of what is wrong, and a sentence
+NEAR = 0.01  # an answer that is off by no larger share is told to be nearly right
 
 
 @dataclass(frozen=True)
@@ -133,22 +134,48 @@ class Function(Exercise):
             line = f"It holds in all {len(cases)} cases that were tried, edges among them."
             return Verdict(name, holds=True, says=(line,), points=1.0)
         first = next(k for k, sentence in enumerate(wrong) if sentence)
-        trouble = outcomes[first]
-        ended = [o for o in outcomes if o is not NEVER]
-        named = self.named(ended, cases) if trouble is not NEVER else []
-        if not named and trouble.name:
-            named = [(trouble.name, "")]
-        elif not named and len(ended) == len(cases):
-            named = self._unused(answer, cases)
-        says = tuple(sentence for _, sentence in named if sentence)
-        if not named and has_nan(trouble.result):
-            named, says = [("NaN", "")], ("A NaN stands where a number should.",)
-        if not named:
-            says = ("The mistake is not recognised: look at the case.",)
+        mistake, says = self._explained(answer, cases, outcomes, wrong, first)
         good = round(wrong.count(None) / len(cases), 2)
-        case = self._told(cases[first], trouble, wrong[first])
-        mistake = " or ".join(dict.fromkeys(each for each, _ in named)) or None
+        case = self._told(cases[first], outcomes[first], wrong[first])
         return Verdict(name, mistake=mistake, says=says, case=case, points=min(good, 0.9))
+
+    def _explained(
+        self,
+        answer: Program,
+        cases: Sequence[tuple[Any, ...]],
+        outcomes: Sequence[Outcome],
+        wrong: Sequence[str | None],
+        first: int,
+    ) -> tuple[str | None, tuple[str, ...]]:
+        """Name and sentences of what is wrong, `first` in that case."""
+        trouble = outcomes[first]
+        if unended(trouble):
+            return trouble.name, ()
+        ended = [o for o in outcomes if not unended(o)]
+        found = self.named(ended, wrong, cases, first)
+        if found:
+            names = list(dict.fromkeys(name for name, _ in found))[:2]
+            sentences = [says for _, says in found if says][: len(names)]
+            if ", and " in names[0] and isinstance(trouble.result, (bool, np.bool_)):
+                sentences.insert(0, "It behaves like a program with two mistakes.")  # few answers
+                return names[0], (" ".join(sentences[:2]),)
+            return " or ".join(names), tuple([" Or: ".join(sentences)] if sentences else [])
+        if trouble.name:
+            return trouble.name, ()
+        if has_nan(trouble.result) and not has_nan(self.right_result(cases[first])):
+            return "NaN", ("A NaN stands where a number should.",)
+        if len(ended) == len(cases):
+            off = self._nearly(outcomes, cases)
+            if off:
+                return "nearly right", (off,)
+            unused = self._unused(answer, outcomes, cases)
+            if unused:
+                one = len(unused) == 1
+                says = "makes no difference" if one else "make no difference"
+                told = " and ".join(f"`{each}`" for each in unused[:2])
+                names = [f"{each} is not used" for each in unused[:2]]
+                return " and ".join(names), (f"Other values, the same result: {told} {says}.",)
+        return None, ("The mistake is not recognised: look at the case.",)
 
     def _formed(self, outcome: Outcome, case: tuple[Any, ...]) -> Outcome:
         if outcome.name:
@@ -166,55 +193,44 @@ class Function(Exercise):
             return self.law(case, outcome.result)
         return "It cannot be judged."
 
-    def named(self, outcomes: Sequence[Outcome], cases: Sequence[tuple[Any, ...]]) -> list[Fault]:
-        """The mistakes that give these outcomes in all cases; those of the exercise first, and the
-        general ones where none of these does.
+    def named(
+        self,
+        outcomes: Sequence[Outcome],
+        wrong: Sequence[str | None],
+        cases: Sequence[tuple[Any, ...]],
+        first: int,
+    ) -> list[Fault]:
+        """The mistakes that give these outcomes in all cases: those of the exercise, or one answer
+        to everything, or the general ones.
         """
         if len(outcomes) < min(6, len(cases)):
             return []
-        cases = cases[: len(outcomes)]
-        own = [m for m in self.mistakes if self.agrees(m.program, outcomes, cases)]
-        said = [o.result for o in outcomes]
-        if not own and all(isinstance(x, (bool, np.bool_)) for x in said) and len({*said}) == 1:
-            says = f"It answers {said[0]} to every case that was tried."
-            return [("one answer to everything", says)]
-        found = own or [
-            m
-            for m in general(self.right, len(self.inputs))
-            if self.agrees(m.program, outcomes, cases)
-        ]
+        rest = [k for k in range(len(outcomes)) if k != first]
+        tried = [(outcomes[k], wrong[k], cases[k]) for k in (first, *rest)]
+        said = [outcome.result for outcome in outcomes]
+        if all(o.name is None and has_nan(o.result) for o in outcomes):
+            return [("always NaN", "It gives NaN in every case that was tried.")]
+        found = [m for m in self.mistakes if self.agrees(m.program, tried)]
+        if not found and not any(o.name for o in outcomes):
+            if all(equal(x, said[0]) for x in said):
+                says = f"It answers {words(said[0])} to every case that was tried."
+                return [("one answer to everything", says)]
+        if not found:
+            everybodys = general(self.right, self.inputs)
+            found = [m for m in everybodys if self.agrees(m.program, tried)]
         return list(dict.fromkeys((m.name, m.says) for m in found))
 
-    def _unused(self, answer: Program, cases: Sequence[tuple[Any, ...]]) -> list[Fault]:
-        """The inputs that make no difference to the answer where they should."""
-        found = []
-        for k, name in enumerate(self.inputs):
-            tried = [(*cases[0][:k], case[k], *cases[0][k + 1 :]) for case in cases]
-            tried = [case for case in tried if not self._equal_right(case, cases[0])][:20]
-            outcomes = [
-                self._formed(o, c)
-                for o, c in zip(run(answer, [cases[0], *tried]), [cases[0], *tried], strict=False)
-            ]
-            if len(outcomes) < 3 or any(outcome.name for outcome in outcomes):
-                continue
-            if all(equal(outcome.result, outcomes[0].result) for outcome in outcomes[1:]):
-                says = f"Another {name} gives the very same result: `{name}` makes no difference."
-                found.append((f"{name} is not used", says))
-        return found
-
-    def _equal_right(self, case: tuple[Any, ...], other: tuple[Any, ...]) -> bool:
-        with contextlib.suppress(Exception):
-            return self.same(self.right_result(case), self.right_result(other))
-        return True
-
     def agrees(
-        self, program: Program, outcomes: Sequence[Outcome], cases: Sequence[tuple[Any, ...]]
+        self, program: Program, tried: Sequence[tuple[Outcome, str | None, tuple[Any, ...]]]
     ) -> bool:
-        """Whether a program gives these outcomes in all cases, and an outcome at all in one."""
-        common = 0
+        """Whether a program gives these outcomes in all cases, and an outcome at all in one; and
+        whether it keeps the law where they do and breaks it where they do. So what leaves the right
+        program as it is explains nothing.
+        """
+        others = []
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
-            for outcome, case in zip(outcomes, cases, strict=True):
+            for outcome, _, case in tried:
                 try:
                     other = self._formed(Outcome(program(*case)), case)
                 except Exception:
@@ -226,8 +242,76 @@ class Function(Exercise):
                         return False
                 elif outcome.name is None and not self.same(outcome.result, other.result):
                     return False
-                common += outcome.name != "raises an error"
-        return common > 0
+                others.append(other)
+            return any(other.name != "raises an error" for other in others) and all(
+                other.name is not None or (self._wrong(other, case) is None) == (says is None)
+                for other, (_, says, case) in zip(others, tried, strict=True)
+            )
+
+    def _nearly(self, outcomes: Sequence[Outcome], cases: Sequence[tuple[Any, ...]]) -> str:
+        """By how much an answer is off that is nearly right in every case; "": it is not."""
+        worst = 0.0
+        for outcome, case in zip(outcomes, cases, strict=True):
+            mine, right = _numbers(outcome.result), _numbers(self.right_result(case))
+            if outcome.name or mine is None or right is None or mine.shape != right.shape:
+                return ""
+            known = np.isfinite(right)
+            if not np.array_equal(known, np.isfinite(mine)):
+                return ""
+            off = float(abs(mine - right)[known].max(initial=0))
+            if off:
+                worst = max(worst, off / max(float(abs(right[known]).max(initial=0)), 1e-300))
+        if not 0 < worst <= NEAR:
+            return ""
+        much = f"{100 * worst:.2g} %" if worst > 1e-4 else f"{1e6 * worst:.2g} parts in a million"
+        return (
+            f"It is nearly right: off by at most {much}. A number with too few digits does that, "
+            "a tolerance that is too loose, or a step that is too coarse."
+        )
+
+    def _unused(
+        self, answer: Program, outcomes: Sequence[Outcome], cases: Sequence[tuple[Any, ...]]
+    ) -> list[str]:
+        """The inputs that make no difference to the answer, and should in some of the cases that
+        are asked. Asked from several, with unlike results, none of them NaN; where the answers are
+        True and False, from cases of both.
+        """
+        if any(outcome.name for outcome in outcomes):
+            return []
+        order = np.random.default_rng(140).permutation(len(cases)).tolist()
+        unlike: list[list[int]] = []  # cases with the same result
+        for k in order:
+            result = outcomes[k].result
+            if not has_nan(result):
+                group = [g for g in unlike if self.same(result, outcomes[g[0]].result)]
+                group[0].append(k) if group else unlike.append([k])
+        if len(unlike) < 2:
+            return []
+        bases = [g[n] for n in range(3) for g in unlike if n < len(g)][:6]
+        found = []
+        for i, name in enumerate(self.inputs):
+            tried = [
+                (b, (*cases[b][:i], cases[k][i], *cases[b][i + 1 :]))
+                for b in bases
+                for k in order[:6]
+                if not equal(cases[k][i], cases[b][i])
+            ]
+            got = run(answer, [case for _, case in tried])
+            formed = [self._formed(o, c) for o, (_, c) in zip(got, tried, strict=False)]
+            alike = all(
+                o.name is None and equal(o.result, outcomes[b].result)
+                for o, (b, _) in zip(formed, tried, strict=False)
+            )
+            if alike and len(formed) == len(tried):
+                should = [b for b, case in tried if not self._equal_right(case, cases[b])]
+                if len(should) >= 4 and len(set(should)) > 1:
+                    found.append(name)
+        return found
+
+    def _equal_right(self, case: tuple[Any, ...], other: tuple[Any, ...]) -> bool:
+        with contextlib.suppress(Exception):
+            return self.same(self.right_result(case), self.right_result(other))
+        return True
 
     def _told(self, case: tuple[Any, ...], outcome: Outcome, law: str | None) -> str:
         inputs = ", ".join(f"{n} = {words(v)}" for n, v in zip(self.inputs, case, strict=True))
@@ -295,77 +379,6 @@ class Value(Exercise):
         )
 
 
-# --- Catch wrong programs -------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class Catch(Exercise):
-    """A test to write: program -> True if it is right. It has to accept the `rights` and to refuse
-    the `mistakes`.
-
-    rights   (what is special about it, program)
-    promise  what a right program keeps, in a sentence: told to a test that refuses one
-    """
-
-    rights: Sequence[tuple[str, Program]]
-    mistakes: Sequence[Mistake] = field(default=())
-    promise: str = ""
-
-    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
-        if is_stub(answer):
-            return unanswered(name)
-        if not callable(answer):
-            return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
-        programs = [(p,) for _, p in self.rights] + [(m.program,) for m in self.mistakes]
-        outcomes = run(answer, programs, each=True)
-        # a test may say no by an assertion, and yes by its silence
-        said = [
-            False
-            if o.name == "raises an error" and o.says.startswith("It raises AssertionError")
-            else True
-            if o.name == "returns None"
-            else o.result
-            for o in outcomes
-        ]
-        told = [what for what, _ in self.rights] + [m.name for m in self.mistakes]
-        for what, outcome, answered in zip(told, outcomes, said, strict=False):
-            case = f"  for the program: {what}"
-            if outcome.name not in (None, "returns None") and answered is not False:
-                return Verdict(name, mistake=outcome.name, says=(outcome.says,), case=case)
-            if not isinstance(answered, (bool, np.bool_)):
-                line = f"Your test has to return True or False; it returns {words(answered)}."
-                return Verdict(name, mistake="another kind or shape", says=(line,), case=case)
-        accepted = [bool(x) for x in said]
-        refused = [what for (what, _), yes in zip(self.rights, accepted, strict=False) if not yes]
-        slipped = [
-            m for m, yes in zip(self.mistakes, accepted[len(self.rights) :], strict=True) if yes
-        ]
-        count = len(programs)
-        points = round((count - len(refused) - len(slipped)) / count, 2)
-        if not refused and not slipped:
-            line = f"It accepts {len(self.rights)} right programs and catches {len(self.mistakes)}."
-            return Verdict(name, holds=True, says=(line,), points=1.0)
-        if not any(accepted):
-            named = "refuses every program"
-        elif all(accepted):
-            named = "accepts every program"
-        elif refused:
-            named = "refuses a right program"
-        else:
-            named = f"accepts: {slipped[0].name}"
-        case = (
-            f"  a right program that it refuses: {refused[0]}"
-            if refused
-            else f"  a wrong program that it accepts: {slipped[0].name}"
-        )
-        says = [self.promise] if refused else [slipped[0].says]
-        says.append(
-            f"It refuses {len(refused)} of {len(self.rights)} right programs and accepts "
-            f"{len(slipped)} of {len(self.mistakes)} wrong ones."
-        )
-        return Verdict(name, mistake=named, says=tuple(says), case=case, points=points)
-
-
 # --- In words -------------------------------------------------------------------------------------
 
 
@@ -375,6 +388,15 @@ def has_nan(value: Any) -> bool:
         numbers = value.as_matrix() if isinstance(value, (Transform, Quaternion)) else value
         return bool(np.isnan(np.asarray(numbers, dtype=float)).any())
     return False
+
+
+def _numbers(value: Any) -> Any:
+    """A result as an array of numbers; None: it is none."""
+    with contextlib.suppress(Exception):
+        numbers = value.as_matrix() if isinstance(value, (Transform, Quaternion)) else value
+        made = np.asarray(numbers)
+        return made.astype(float) if made.dtype.kind in "fiu" else None
+    return None
 
 
 def words(value: Any) -> str:

@@ -14,9 +14,11 @@ from .._arrays import Floats
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice
 
 LAB = "frames_and_quaternions"
@@ -111,7 +113,7 @@ def _matrix(result: Any, case: tuple[Any, ...]) -> Floats:
         return result.as_matrix()
     wanted = "wanted a homogeneous matrix (4, 4)"
     try:
-        matrix = np.asarray(result, dtype=float)
+        matrix = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if matrix.shape != (4, 4):
@@ -133,16 +135,17 @@ def _seen_law(case: tuple[Any, ...], yours: Floats) -> str | None:
             f"{alpha / deg:.0f}° and q1 = {q[0] / deg:.0f}° "
         )
     if not np.allclose(yours[3], [0, 0, 0, 1], rtol=0, atol=1e-6):
-        return row + f"the last row should be 0, 0, 0, 1, and is {_row(yours[3])}"
+        last, is_last = apart([0, 0, 0, 1], yours[3], 0)
+        return row + f"the last row should be {last}, and is {is_last}"
     if not np.allclose(yours[:3, 3], wanted[:3, 3], rtol=0, atol=1e-6):
+        place, is_at = apart(wanted[:3, 3] / mm, yours[:3, 3] / mm)
         return (
-            f"{row}the part should be at ({_row(wanted[:3, 3] / mm)}) mm, seen from the flange, "
-            f"and is at ({_row(yours[:3, 3] / mm)}) mm"
+            f"{row}the part should be at ({place}) mm, seen from the flange, and is at ({is_at}) mm"
         )
-    return (
-        f"{row}the place is right; the part's x axis should be ({_row(wanted[:3, 0], 3)}), and is "
-        f"({_row(yours[:3, 0], 3)})"
-    )
+    k = int(abs(yours[:3, :3] - wanted[:3, :3]).max(axis=0).argmax())
+    axis, is_axis = apart(wanted[:3, k], yours[:3, k], 3)
+    name = "xyz"[k]
+    return f"{row}the place is right; the part's {name} axis should be ({axis}), and is ({is_axis})"
 
 
 def _row(values: Floats, digits: int = 1) -> str:
@@ -296,18 +299,20 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the chain from the wrong end",
-        "Each new row is multiplied from the left (wanted is flange = flange @ row), "
-        "or each row is inverted in the old order: (A B)⁻¹ = B⁻¹ A⁻¹.",
+        "The rows are multiplied in the wrong order. Wanted is flange = flange @ row for each new "
+        "row; of inverses the last row's comes first: (A B)⁻¹ = B⁻¹ A⁻¹.",
         _with(chain=lambda links: _product(links[::-1])),
     ),
     Mistake(
         "only the last row",
-        "Only the last row of the table counts: is `flange = ...` overwritten in the loop?",
+        "Only the last row of the table counts. Each row is multiplied to what is there: flange = "
+        "flange @ row.",
         _with(chain=lambda links: links[-1]),
     ),
     Mistake(
         "only the first row",
-        "Only the first row of the table counts: is the return inside the loop?",
+        "Only the first row of the table counts. The loop has to come to its end before the "
+        "return.",
         _with(chain=lambda links: links[0]),
     ),
     Mistake(
@@ -362,7 +367,7 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the steps on x before those on z",
-        f"{ORDER} (x first: the modified convention, or written from the right.)",
+        ORDER,
         _with(
             link=lambda q, d, a, alpha: (
                 _rot(X, alpha) @ _trans(a, 0, 0) @ _rot(Z, q) @ _trans(0, 0, d)
@@ -478,7 +483,7 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "the turn of a row the other way",
-        "Each joint turns clockwise: is a sign of the sines turned round?",
+        "Each joint turns clockwise. A positive angle turns from x to y.",
         _with(joint=lambda offset, q: -(offset + q)),
     ),
     Mistake(
@@ -562,7 +567,7 @@ def camera_form(answer: Any, given: Any) -> Transform:
         shape = np.shape(answer)
     if shape == (4, 4):
         try:
-            return Transform.from_matrix(np.asarray(answer, dtype=float))
+            return Transform.from_matrix(floats(answer))
         except (TypeError, ValueError) as error:
             raise ValueError(f"{wanted}. Your matrix is no pose: {error}") from None
     hint = ": a place without a turn" if shape == (3,) else ""
@@ -598,11 +603,12 @@ def _faults(camera: Transform, given: Mapping[str, Any]) -> list[Fault]:
     look = _unit(part - eye)
     if _apart(z, look) > NEAR:
         found += [_looking(rotation, look, eye, part)] * 2
-    tilt = float(np.arcsin(np.clip(x[2], -1, 1)))
+    tilt, rise = (float(np.arcsin(np.clip(axis[2], -1, 1))) for axis in (x, y))
     if abs(tilt) > NEAR:
         short = np.cross(Z, look)
         turn = Quaternion.from_angle_axis(_apart(Z, look), _unit(short))
-        says = f"The x axis should be level; it is {abs(tilt) / deg:.1f}° out of the horizontal."
+        degrees = apart(abs(tilt) / deg, 0)[0]
+        says = f"The x axis should be level; it is {degrees}° out of the horizontal."
         if float(turn.angle_to(camera.rotation)) < NEAR:
             name = "the shortest turn"
             says += (
@@ -612,8 +618,12 @@ def _faults(camera: Transform, given: Mapping[str, Any]) -> list[Fault]:
         else:
             name = "not level"
         found.append((name, says))
-    elif y[2] >= 0:
-        says = "The y axis points up: turn the camera by 180° about its line of sight."
+    elif abs(rise) <= NEAR:
+        found.append(("y is level", "The y axis should point down, and is level."))
+    elif rise > 0:
+        says = f"The y axis should point down, and points {rise / deg:.1f}° up."
+        if not found:
+            says += " Turn the camera by 180° about its line of sight."
         found.append(("upside down", says))
     return found[:4]
 
@@ -622,7 +632,8 @@ def _misplaced(place: Floats, eye: Floats, part: Floats) -> list[Fault]:
     off = float(np.linalg.norm(place - eye))
     if off <= 1 * mm:
         return []
-    told = f"It should stand at ({_row(eye / mm)}) mm and stands at ({_row(place / mm)}) mm."
+    should, stands = apart(eye / mm, place / mm)
+    told = f"It should stand at ({should}) mm and stands at ({stands}) mm."
     if np.linalg.norm(place) > 20:
         return [("mm for m", f"{told} {METRES}")]
     for name, other in (
@@ -679,8 +690,8 @@ def _looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault
             "to the opposite side",
             z,
             look * [-1, -1, 1],
-            "It looks to the opposite side: arctan where arctan2 belongs, or an axis with a wrong "
-            "sign.",
+            "It looks to the opposite side: half a turn about z is missing, as with arctan where "
+            "arctan2 belongs.",
         ),
         *(
             (
@@ -723,7 +734,8 @@ def _looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault
                     look[:2] / max(np.hypot(*look[:2]), 1e-9) * abs(look[2]), -np.hypot(*look[:2])
                 )
             ),
-            "The slope is measured from the other line: from z, or from the horizontal?",
+            "Its slope is the right angle measured from the other line: from z for from the "
+            "horizontal, or the other way round.",
         ),
         (
             "level: the height is left out",
@@ -808,6 +820,11 @@ def _textbook(a: Floats, b: Floats, s: float) -> Floats:
     return found
 
 
+def _of_lists(lead: Program) -> Program:
+    """The program, for a and b given as arrays or as lists."""
+    return lambda a, b, s: lead(floats(a), floats(b), s)
+
+
 RIGHT_LEADS: tuple[tuple[str, Program], ...] = (
     ("the formula, the sign of b flipped where it has to be", _good),
     ("the formula, the sign of a flipped instead", lambda a, b, s: _arc(_near(b, a), b, s)),
@@ -823,6 +840,7 @@ RIGHT_LEADS: tuple[tuple[str, Program], ...] = (
     ("robokin's slerp", lambda a, b, s: Quaternion(a).slerp(Quaternion(b), s).wxyz),
     ("the other sign of the result", lambda a, b, s: -_good(a, b, s)),
     ("rounded to eight digits after the point", lambda a, b, s: _good(a, b, s).round(8)),
+    ("its result is a list", lambda a, b, s: _good(a, b, s).tolist()),
 )
 
 
@@ -842,6 +860,21 @@ def _doubled(a: Floats, b: Floats, s: float) -> Floats:
 def _far(a: Floats, b: Floats, s: float) -> Floats:
     b = -_near(a, b)
     return a.copy() if np.pi - _angle(a, b) < 1e-9 else _arc(a, b, s)
+
+
+def _flipped_beyond(turn: float) -> Program:
+    """b is flipped where the turn is larger than that."""
+
+    def lead(a: Floats, b: Floats, s: float) -> Floats:
+        near = _near(a, b)
+        return _arc(a, near if a @ near >= np.cos(turn / 2) else -near, s)
+
+    return lead
+
+
+def _stays_far(a: Floats, b: Floats, s: float) -> Floats:
+    """Turns beyond 170° are taken for half a turn, without a way."""
+    return a.copy() if abs(a @ b) < np.cos(85 * deg) else _good(a, b, s)
 
 
 def _absolute(a: Floats, b: Floats, s: float) -> Floats:
@@ -899,6 +932,18 @@ LEAD_MISTAKES = (
         "always the long way",
         "It flips the sign where it should not. Look at how far the frame has turned half way.",
         _far,
+    ),
+    Mistake(
+        "the long way beyond 90°",
+        "It flips the sign of b where the turn is larger than 90°, since it takes the angle of the "
+        "arc for that of the turn. Your turns should go up to 179°.",
+        _flipped_beyond(90 * deg),
+    ),
+    Mistake(
+        "no way beyond 170°",
+        "It takes a turn larger than 170° for half a turn, where both ways are equally long, and "
+        "stays at a. Your turns should go up to 179°.",
+        _stays_far,
     ),
     Mistake(
         "the angle for -b, the way to b",
@@ -1319,8 +1364,8 @@ EXERCISES = {
             "(a, -a): for s in (0, 0.1, 0.25, 0.5, 0.9, 1): error = min(abs(found - right).max(), "
             "abs(found + right).max()); if not error < 1e-6: return False. A NaN is not below.",
         ),
-        rights=RIGHT_LEADS,
-        mistakes=LEAD_MISTAKES,
+        rights=tuple((what, _of_lists(lead)) for what, lead in RIGHT_LEADS),
+        mistakes=tuple(m._replace(program=_of_lists(m.program)) for m in LEAD_MISTAKES),
         promise="A right program keeps 1e-6 in each component, for either sign of the result, for "
         "two turns less than 179° apart.",
     ),

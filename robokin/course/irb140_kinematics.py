@@ -16,6 +16,7 @@ from ..units import deg, mm
 from .exercises import Exercise, Fault, Function, Value, words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, one_number
 from .variants import Numbers, dice
 
 LAB = "irb140_kinematics"
@@ -87,15 +88,16 @@ def tip_law(case: tuple[Any, ...], result: Transform) -> str | None:
     seen = IRB140.fk(q).inverse() @ result
     if abs(seen.translation - [0, 0, length]).max() > 1e-7:
         tip_at = in_mm((IRB140.fk(q) @ gripper(length, turn)).translation)
+        wanted, yours = apart(np.array([0, 0, length]) / mm, seen.translation / mm)
         return (
-            f"should be at {tip_at} mm: seen from the flange the tip is at "
-            f"(0, 0, {length / mm:.1f}) mm, yours is at {in_mm(seen.translation)} mm"
+            f"should be at {tip_at} mm: seen from the flange the tip is at ({wanted}) mm, yours is "
+            f"at ({yours}) mm"
         )
-    apart = float(seen.rotation.angle_to(turned(turn, Z)))
-    if apart > 1e-7:
+    off = float(seen.rotation.angle_to(turned(turn, Z)))
+    if off > 1e-7:
         return (
             "stands in the right place, but not turned as it should be: seen from the flange by "
-            f"{turn / deg:.1f}° about z; yours is {apart / deg:.1f}° away from that"
+            f"{turn / deg:.1f}° about z; yours is {apart(off / deg, 0)[0]}° away from that"
         )
     return None
 
@@ -327,7 +329,7 @@ TIP_MISTAKES = (
     ),
     Mistake(
         "joint 6 left out",
-        "Joint 6 is not used, or the turn has taken its place. The turn comes on top of it.",
+        "Joint 6 makes no difference here. The turn of the gripper comes on top of it.",
         fed(lambda q: q * np.array([1, 1, 1, 1, 1, 0])),
     ),
     Mistake(
@@ -372,8 +374,8 @@ TIP_MISTAKES = (
     ),
     Mistake(
         "twice the turn",
-        "The turn is twice what it should be: made twice, or the whole angle in a quaternion, "
-        "which holds cosine and sine of half of it.",
+        "The turn is twice what it should be. In a quaternion stand cosine and sine of half the "
+        "angle; from_angle_axis takes the whole one.",
         lambda q, length, turn: IRB140.fk(q) @ gripper(length, 2 * turn),
     ),
     Mistake(
@@ -565,7 +567,7 @@ def design_form(answer: Any, given: Any) -> dict[str, Any]:
     design: dict[str, Any] = {"flags": tuple(int(x) for x in flags)}
     for key, unit in (("height", "metres"), ("duration", "seconds")):
         try:
-            value = float(answer[key])
+            value = one_number(answer[key])
         except (TypeError, ValueError):
             value = np.nan
         if not np.isfinite(value) or (key == "duration" and value <= 0):
@@ -578,8 +580,8 @@ def design_faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[F
     """It exists everywhere; inside all limits; not too fast; not too slow."""
     height, duration = design["height"], design["duration"]
     if height > 5:
-        name, unit = ("mm for m", "mm") if height >= 200 else ("cm for m", "cm")
-        return [(name, f"A height of {height:g} m: was it meant in {unit}? {METRES}")] * 4
+        name = "mm for m" if height >= 200 else "cm for m"
+        return [(name, f"The height is {height:g} m. {METRES}")] * 4
     row = IRB140.branch(*design["flags"])
     p = np.linspace(0, 1, SAMPLES)
     poses = target(given, p, height)
@@ -611,7 +613,7 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
         names.append(k + 1)
         line = (
             f"Joint {k + 1} is past its limit of {limit / deg:.0f}° by "
-            f"{over[i, best] / deg:.1f}° at t = {t[i]:.2f} s"
+            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s"
         )
         first_past = t[(over[:, best] > 1e-6)]
         line += f" (past it from {first_past[0]:.2f} to {first_past[-1]:.2f} s)"
@@ -647,22 +649,18 @@ def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
     used = steps / dt / IRB140.speed_limits
     i, k = np.unravel_index(int(used.argmax()), used.shape)
     most, share = float(used[i, k]), given["share"]
+    reached, asked = apart(100 * most, 100 * share, 0)
     busiest = (
-        f"Joint {k + 1} is the busiest: it reaches {most:.1%} of its speed limit at "
-        f"t = {i * dt:.2f} s; asked is at most {share:.0%}"
+        f"Joint {k + 1} is the busiest: it reaches {reached} % of its speed limit at "
+        f"t = {i * dt:.2f} s; asked is at most {asked} %"
     )
     if most > EASE * share:
-        why = "More time is needed."
-        if 0.98 / SLACK < most < 1.02:
-            why = "You are near the whole limit: was the share left out?"
-        return [(f"too fast: joint {k + 1}", f"{busiest}. {why}")]
+        return [(f"too fast: joint {k + 1}", f"{busiest}. More time is needed.")]
     if most * SLACK * EASE < share:
         says = (
             f"{busiest}, and the duration may be {SLACK} times the shortest one. Speeds go with 1 "
             "/ duration: less time will do."
         )
-        if 0.98 / SLACK < most / share**2 < 1.02:
-            says += " Was the share counted twice?"
         return [("slower than asked", says)]
     return []
 

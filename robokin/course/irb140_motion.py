@@ -4,7 +4,7 @@ The answers to each exercise come first, right and wrong, then the predictions' 
 the tables stand at the end.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -16,9 +16,11 @@ from ..motion import blend, differentiate, lin, linear, ptp, quintic, trapezoida
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Function, words
+from .catch import Catch
+from .exercises import Function, words
 from .mistakes import METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats, one_number
 
 OBJECTIVES = (
     "compute the joint motion for a straight line in space (LIN) and for a straight line in the "
@@ -81,9 +83,10 @@ def _fraction_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 
 
 def _number(result: Any, case: tuple[Any, ...]) -> float:
-    if isinstance(result, (str, bool, Transform)) or np.size(result) != 1:
-        raise ValueError(f"wanted a number from 0 to 0.5, or NaN, got {words(result)}")
-    return float(np.reshape(result, ()))
+    try:
+        return one_number(result)
+    except (TypeError, ValueError):
+        raise ValueError(f"wanted a number from 0 to 0.5, or NaN, got {words(result)}") from None
 
 
 def _fraction_law(case: tuple[Any, ...], yours: float) -> str | None:
@@ -92,22 +95,20 @@ def _fraction_law(case: tuple[Any, ...], yours: float) -> str | None:
     if np.isnan(wanted):
         if np.isnan(yours):
             return None
-        most = SHARES[corner] * 0.5 * D
+        most, asked = apart(SHARES[corner] * 0.5 * D / mm, distance / mm)
         return (
-            f"should be NaN: the largest blend, 0.5, passes via at {most / mm:.1f} mm, and "
-            f"{distance / mm:.1f} mm are asked for"
+            f"should be NaN: the largest blend, 0.5, passes via at {most} mm, and {asked} mm are "
+            "asked for"
         )
-    says = (
-        f"should be {wanted:.4g}: in the middle of the {corner} the tool is then "
-        f"{distance / mm:.1f} mm from via"
-    )
+    should = f"should be {wanted:.4g}: in the middle of the {corner} the tool is then"
     if not 0 <= yours <= 0.5:
-        return says
+        return f"{should} {distance / mm:.1f} mm from via"
     middle = blend(START, VIA, GOAL, yours, 0.5, corner=corner)
     gap = _length(middle.translation - P1)
     if abs(gap - distance) <= 0.05 * mm:
         return None
-    return f"{says}; with {yours:.4g} it is {gap / mm:.1f} mm"
+    asked, is_at = apart(distance / mm, gap / mm)
+    return f"{should} {asked} mm from via; with {yours:.6g} it is {is_at} mm"
 
 
 def _same_number(a: float, b: float) -> bool:
@@ -189,8 +190,8 @@ FORMULAS: tuple[tuple[str, str, Program], ...] = (
     ),
     (
         "a factor of two too much",
-        "Twice what it should be: the 1/2 counts twice, or |D| is the distance from via to the "
-        "middle between start and goal, which is half of it.",
+        "Twice what it should be: the distance in the middle is b/2 times |D|, with |D| = "
+        "|start - 2 via + goal|.",
         lambda d, corner: 2 * _fraction(d, corner),
     ),
     (
@@ -237,7 +238,7 @@ FORMULAS: tuple[tuple[str, str, Program], ...] = (
     ),
     (
         "D squared",
-        "|D| is a length: the root is missing (or D is squared).",
+        "|D| is a length, the root of the sum of squares: yours is its square.",
         _instead(D**2),
     ),
     (
@@ -414,12 +415,6 @@ def _fraction_mistakes() -> list[Mistake]:
             )
             for step in (0.025, 0.05)
         ),
-        Mistake(
-            "NaN always",
-            "NaN also where a blend will do: what you compare with 0.5 is far too large. Is the "
-            "formula upside down?",
-            lambda d, c: np.nan,
-        ),
     ]
     for name, says, f in FORMULAS:
         for also, more, limit in LIMITS[:3]:
@@ -485,11 +480,13 @@ def _short_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case(home, home, [0, 0.5, 1]),  # stays
         case(home, [400, 380, 320, 365, 390, 375], [0, 0.5, 1]),  # all a turn on
         case([0, 0, 0, 0, 30, 380], [0, 0, 0, 0, 30, -340], [0, 0.3, 1]),  # stays, two turns on
+        case([0, 0, 0, 0, 30, 350], [0, 0, 0, 0, 30, -710], [0, 0.5, 1]),  # three turns
+        case([0, 0, 0, 0, 30, -350], [0, 0, 0, 0, 30, 710], [0, 0.5, 1]),
         case(home, [-60, 50, -90, 170, -40, -100], [0.5]),
         case(home, [-60, 50, -90, -170, -40, 120], [0.2, 0.25, 0.9]),
         case([100, -30, -200, 190, 60, 370], [-160, 40, 170, -179, -60, 30], np.linspace(1, 0, 5)),
     ]
-    while len(cases) < 32:
+    while len(cases) < 34:
         q0 = rng.uniform(LOW, HIGH).round(2)
         q1 = wrapped(rng.uniform(LOW, HIGH).round(2))
         if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # a half turn: two short ways
@@ -500,7 +497,7 @@ def _short_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 def _joint_values(result: Any, case: tuple[Any, ...]) -> Floats:
     wanted = f"wanted joint values of shape ({len(case[2])}, 6)"
     try:
-        values = np.asarray(result, dtype=float)
+        values = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.ndim not in (1, 2) or 6 not in values.shape:
@@ -519,13 +516,11 @@ def _short_law(case: tuple[Any, ...], yours: Floats) -> str | None:
         return None
     i = int(wrong.any(axis=0).argmax())
     k = int(wrong[:, i].argmax())
-    a, b, low, high, at, is_at = (
-        round(float(x) / deg, 1) + 0.0
-        for x in (q0[i], end[i], LOW[i], HIGH[i], wanted[k, i], yours[k, i])
-    )
+    a, b, low, high = (round(float(x) / deg, 1) + 0.0 for x in (q0[i], end[i], LOW[i], HIGH[i]))
+    at, is_at = apart(wanted[k, i] / deg, yours[k, i] / deg)
     return (
         f"joint {i + 1} should turn from {a:g}° to {b:g}° (its limits are {low:g}° and {high:g}°): "
-        f"at s = {s[k]:.3g} it should be at {at:g}°, and is at {is_at:g}°"
+        f"at s = {s[k]:.3g} it should be at {at}°, and is at {is_at}°"
     )
 
 
@@ -604,6 +599,19 @@ def _symmetric(q0: Floats, q1: Floats, s: Floats) -> Floats:
     allowed |= ~allowed.any(axis=0)
     best = np.where(allowed, abs(turns - q0), np.inf).argmin(axis=0)
     return _straight(q0, turns[best, np.arange(6)], s)
+
+
+def _few(name: str, says: str, end: Callable[[Floats, Floats, int], Floats]) -> tuple[Mistake, ...]:
+    """A wrong choice among q1 + 2 pi k, for k up to any number and for k up to two only."""
+    also = f"{says} And q1 may be more than two turns away."
+    return (
+        Mistake(name, says, _ends(lambda q0, q1: end(q0, q1, 9))),
+        Mistake(name, also, _ends(lambda q0, q1: end(q0, q1, 2))),
+    )
+
+
+def _upto(most: int) -> range:
+    return range(-most, most + 1)
 
 
 SHORT_MISTAKES = (
@@ -741,6 +749,18 @@ SHORT_MISTAKES = (
         _ends(lambda q0, q1: _among(q0, q1, (0, -1, 1), lambda q: q == q)),
     ),
     Mistake(
+        "only two turns",
+        "q1 - 720° to q1 + 720° are tried. The values of q1 may be more turns away: the way to a "
+        "value near q0 may need three of them.",
+        _ends(lambda q0, q1: _among(q0, q1, (0, -1, 1, -2, 2), _fits)),
+    ),
+    Mistake(
+        "only two turns, without the limits",
+        "q1 - 720° to q1 + 720° are tried. The values of q1 may be more turns away. And only "
+        "values inside IRB140.limits count.",
+        _ends(lambda q0, q1: _among(q0, q1, (0, -1, 1, -2, 2), lambda q: q == q)),
+    ),
+    Mistake(
         "two turns up are left out",
         "range(-2, 2) ends at 1: two turns up are not tried.",
         _ends(lambda q0, q1: _among(q0, q1, (0, -1, 1, -2), _fits)),
@@ -751,37 +771,36 @@ SHORT_MISTAKES = (
         "itself, and of the values inside another one may be nearer.",
         _ends(lambda q0, q1: np.where(_fits(wrapped(q1, q0)), wrapped(q1, q0), q1)),
     ),
-    Mistake(
+    *_few(
         "the limits of joint 6 for all",
         "Every joint has limits of its own, a row of IRB140.limits: -400° to 400° is joint 6.",
-        _ends(lambda q0, q1: _among(q0, q1, range(-2, 3), lambda q: abs(q) <= HIGH[5] + SLACK)),
+        lambda q0, q1, n: _among(q0, q1, _upto(n), lambda q: abs(q) <= HIGH[5] + SLACK),
     ),
-    Mistake(
+    *_few(
         "the lowest value inside the limits",
-        "Of the values inside the limits the lowest is taken: the first one found, or that with "
-        "the least difference, signs and all. Wanted is the least abs(value - q0).",
-        _ends(lambda q0, q1: _among(LOW, q1, range(-3, 4), _fits)),
+        "Of the values inside the limits the lowest is taken. Wanted is the least abs(value - q0).",
+        lambda q0, q1, n: _among(LOW, q1, _upto(n), _fits),
     ),
-    Mistake(
+    *_few(
         "the highest value inside the limits",
-        "Of the values inside the limits the highest is taken: the last one found. Wanted is the "
-        "one nearest to q0.",
-        _ends(lambda q0, q1: _among(HIGH, q1, range(-3, 4), _fits)),
+        "Of the values inside the limits the highest is taken. Wanted is the least "
+        "abs(value - q0).",
+        lambda q0, q1, n: _among(HIGH, q1, _upto(n), _fits),
     ),
-    Mistake(
+    *_few(
         "half turns",
         "Half turns are tried: q1 + pi k is another posture.",
-        _ends(lambda q0, q1: _among(q0, q1, range(-4, 5), _fits, np.pi)),
+        lambda q0, q1, n: _among(q0, q1, _upto(2 * n), _fits, np.pi),
     ),
-    Mistake(
+    *_few(
         "only the upper limit",
         "The upper limits are looked at, the lower ones are not.",
-        _ends(lambda q0, q1: _among(q0, q1, range(-3, 4), lambda q: q <= HIGH + SLACK)),
+        lambda q0, q1, n: _among(q0, q1, _upto(n), lambda q: q <= HIGH + SLACK),
     ),
-    Mistake(
+    *_few(
         "only the lower limit",
         "The lower limits are looked at, the upper ones are not.",
-        _ends(lambda q0, q1: _among(q0, q1, range(-3, 4), lambda q: q >= LOW - SLACK)),
+        lambda q0, q1, n: _among(q0, q1, _upto(n), lambda q: q >= LOW - SLACK),
     ),
     Mistake(
         "clipped at the limit",
@@ -952,6 +971,24 @@ def _ended(value: float) -> Program:
     return program
 
 
+def _off(rows: Sequence[int]) -> Program:
+    """These rows are 1 rad/s too fast."""
+
+    def program(q: Floats, t: Floats) -> Floats:
+        v = _good(q, t).copy()
+        v[rows] += 1.0
+        return v
+
+    return program
+
+
+def _between_the_ends(q: Floats, t: Floats) -> Floats:
+    """The speeds go evenly from the first to the last one."""
+    v, share = _good(q, t), (t - t[0]) / (t[-1] - t[0])
+    even: Floats = v[0] + share[:, None] * (v[-1] - v[0])
+    return even
+
+
 def _last_unwrapped(q: Floats, t: Floats) -> Floats:
     q = q.copy()
     q[:, 5] = np.unwrap(q[:, 5])
@@ -1060,6 +1097,28 @@ SPEED_MISTAKES = (
         "Its first and last rows are NaN. A comparison with NaN is always False: ask whether the "
         "error is small, not whether it is large.",
         _ended(np.nan),
+    ),
+    Mistake(
+        "the ends are off by 1 rad/s",
+        "Its first and last rows are 1 rad/s too large. Look at the ends, too: they have to be "
+        "right to 0.1 rad/s.",
+        _off([0, -1]),
+    ),
+    Mistake(
+        "the last row is off by 1 rad/s",
+        "Its last row is 1 rad/s too large. Look at both ends: they have to be right to 0.1 rad/s.",
+        _off([-1]),
+    ),
+    Mistake(
+        "right at the ends only",
+        "Its first and last rows are right; in between the speeds go evenly from one to the "
+        "other. Look at every sample.",
+        _between_the_ends,
+    ),
+    Mistake(
+        "it stops half way",
+        "It returns the first half of the rows. Look at the shape first.",
+        lambda q, t: _good(q, t)[: len(t) // 2],
     ),
     Mistake(
         "only the first joint",
@@ -1511,9 +1570,9 @@ EXERCISES = {
         hints=(
             "PTP is two steps: choose the end, then go there straight in the joints. Only the "
             "first step is new: which values of a joint are the same posture?",
-            "For each joint the values q1 + 2 pi k with k from -2 to 2 are the same posture. Keep "
-            "those inside IRB140.limits, and of these take the one nearest to q0. Joint 6 may need "
-            "two turns; joint 1 has to take the long way from 170° to -170°.",
+            "For each joint the values q1 + 2 pi k with k from -9 to 9, say, are the same posture. "
+            "Keep those inside IRB140.limits, and of these take the one nearest to q0. Joint 6 may "
+            "need three turns; joint 1 has to take the long way from 170° to -170°.",
             "`nearest` of section 3 does the first step if you give it one row: "
             "end = nearest(IRB140, q1[None], q0). Then q0 + s[:, None] * (end - q0).",
         ),

@@ -2,7 +2,7 @@
 read wrongly. Every exercise tries them all; the mistakes of one exercise stand in its lab's file.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -152,6 +152,12 @@ def _transposed(value: Any) -> Any:
     return np.swapaxes(value, -1, -2)
 
 
+def _not(value: Any) -> Any:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError("neither True nor False")
+    return not value
+
+
 DEGREES = "Angles are in radians here: `90 * deg`, and `angle / deg` only to print."
 METRES = "Lengths are in metres here: `350 * mm`, and `length / mm` only to print."
 # name, sentence, what is done to a result
@@ -185,6 +191,11 @@ RESULTS = (
     ),
     ("off by one sample", "Every value comes one sample too late.", _sample(+1)),
     ("off by one sample", "Every value comes one sample too early.", _sample(-1)),
+    (
+        "True and False exchanged",
+        "It says True where False is right, and False where True is right.",
+        _not,
+    ),
 )
 # name, sentence, what is done to one of the inputs that are numbers
 INPUTS = (
@@ -192,20 +203,20 @@ INPUTS = (
     ("degrees for radians", DEGREES, lambda x: x * deg),
     ("mm for m", METRES, lambda x: x / mm),
     ("mm for m", METRES, lambda x: x * mm),
-    ("sign", "The sign of an input is turned round.", lambda x: -x),
+    ("sign", "A sign is turned round.", lambda x: -x),
 )
 
 
-def general(right: Program, count: int) -> Iterator[Mistake]:
-    """Every general mistake made in `right(tools, *inputs)` with so many inputs."""
+def general(right: Program, inputs: Sequence[str]) -> Iterator[Mistake]:
+    """Every general mistake made in `right(tools, *inputs)`."""
     for name, says, swapped in TOOLS:
         tools = replace(Tools(), **swapped)
         yield Mistake(name, says, lambda *case, tools=tools: right(tools, *case))
     for name, says, change in RESULTS:
         yield Mistake(name, says, lambda *case, change=change: change(right(Tools(), *case)))
     for name, says, change in INPUTS:
-        for k in range(count):
-            yield Mistake(name, says, _fed(right, k, change))
+        for k, given in enumerate(inputs):
+            yield Mistake(name, f"{says} It is about `{given}`.", _fed(right, k, change))
 
 
 def _fed(right: Program, k: int, change: Program) -> Program:

@@ -27,9 +27,11 @@ from ..jobs.steppers import (
     unsynchronised,
 )
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Function, Value, words
+from .catch import Catch
+from .exercises import Function, Value, words
 from .mistakes import Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice
 
 OBJECTIVES = (
@@ -118,6 +120,8 @@ def _posture_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         ([0, 752, 0], 0),
         ([-151, 0, 0], 150),
         ([0, 749, 0], 100),
+        ([450, 150, 100], 1400),  # four turns on
+        ([-400, -250, 80], -1700),
     ]
     cases = [(np.array(place) * mm, float(before * deg)) for place, before in places]
     for _ in range(8):
@@ -130,10 +134,8 @@ def _posture_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 
 def _posture_form(result: Any, case: tuple[Any, ...]) -> Floats:
     wanted = "wanted three angles alpha, gamma, beta in radians, or three NaN"
-    if isinstance(result, (str, bool, Mapping)):
-        raise ValueError(f"{wanted}, got {words(result)}")
     try:
-        values = np.asarray(result, dtype=float)
+        values = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.size == 1 and np.isnan(values).all():
@@ -168,12 +170,12 @@ def _posture_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     if np.isnan(yours).any():
         return f"{says}: h = {h / mm:.1f} mm is in reach"
     if off[0] > 1e-6 and abs(wrapped(yours[0] - wanted[0])) <= 1e-6:
-        return (
-            f"{says}: a turn of {(wanted[0] - before) / deg:.1f}° from {before / deg:.1f}°; yours "
-            f"is one of {(yours[0] - before) / deg:.1f}°"
-        )
-    tip = LOADER.fk(wrapped(yours)).translation / mm + 0.0
-    got, asked = (", ".join(f"{x:.1f}" for x in place) for place in (tip, point / mm))
+        turn, yours_turn = apart((wanted[0] - before) / deg, (yours[0] - before) / deg)
+        return f"{says}: a turn of {turn}° from {before / deg:.1f}°; yours is one of {yours_turn}°"
+    there = LOADER.fk(wrapped(yours)).translation
+    if np.linalg.norm(there - point) <= 1e-9:
+        return f"{says}; your angles reach the point in another posture"
+    got, asked = apart(there / mm, point / mm)
     return f"{says}; your angles put the gripper at ({got}) mm, asked is ({asked}) mm"
 
 
@@ -336,6 +338,11 @@ ALPHAS: tuple[tuple[str, str, Alpha], ...] = (
         "Joint 1 keeps counting: `before` may be 700°. Take off as many whole turns as there are: "
         "round(d / turn), not one `if`.",
         _turned(_once),
+    ),
+    (
+        "two turns at most are taken off",
+        "Joint 1 keeps counting: `before` may be many turns. Take off as many as there are.",
+        _turned(lambda d: min((d + k * TURN for k in range(-2, 3)), key=abs)),
     ),
     ("floor for round", f"{ROUND}With floor the turn is never clockwise.", _whole(np.floor)),
     ("ceil for round", f"{ROUND}With ceil the turn is never counter-clockwise.", _whole(np.ceil)),
@@ -675,11 +682,6 @@ def _pulses(given: Mapping[str, Any], gears: Floats) -> Floats:
     return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
 
 
-def _least(given: Mapping[str, Any]) -> int:
-    """The smallest gear that is fine enough."""
-    return int(np.ceil(COARSE.max() / float(given["miss"]) - 1e-9))
-
-
 def given(who: Any) -> Numbers:
     """Two points on either side of the direction 180°, a greatest miss, a greatest frequency, and a
     time that leaves some room.
@@ -720,7 +722,7 @@ def _drive_form(answer: Any, given: Any) -> tuple[Floats, Floats]:
     found = []
     for key in KEYS:
         try:
-            values = np.asarray(answer[key], dtype=float)
+            values = floats(answer[key])
         except (TypeError, ValueError):
             values = np.empty(0)
         if values.size == 1 and key == "gears":
@@ -748,23 +750,20 @@ def _drive_faults(answer: tuple[Floats, Floats], given: Any) -> list[tuple[str, 
     coarse = np.flatnonzero(ends > miss * (1 + 1e-9))
     if coarse.size:
         k = int(ends.argmax())
+        moves, allowed = apart(ends[k] / mm, miss / mm, 2)
         faults.append(
             (
                 "too coarse",
-                f"Half a pulse of motor {k + 1} moves the end of the stretched arm by "
-                f"{ends[k] / mm:.3f} mm; allowed are {miss / mm:.2f} mm. Half a pulse turns the "
+                f"Half a pulse of motor {k + 1} moves the end of the stretched arm by {moves} mm; "
+                f"allowed are {allowed} mm. Half a pulse turns the "
                 f"joint by 0.9° / gear, and the end is {LENGTHS[k] / mm:.0f} mm away from it.",
             )
         )
     fast = np.flatnonzero(omega > most * (1 + 1e-9))
     if fast.size:
-        faults.append(
-            (
-                "above the limit",
-                f"Motor {fast[0] + 1} runs at {omega[fast[0]]:.1f} pulses/s; allowed are "
-                f"{most:.0f}.",
-            )
-        )
+        runs, allowed = apart(omega[fast[0]], most)
+        says = f"Motor {fast[0] + 1} runs at {runs} pulses/s; allowed are {allowed}."
+        faults.append(("above the limit", says))
     pulses = _pulses(given, gears)
     times = pulses / omega
     if not _close(times):
@@ -824,18 +823,18 @@ def _slow_fault(
 ) -> tuple[str, str]:
     most, seconds = float(given["most"]), float(given["seconds"])
     best = float(pulses.max()) / most
-    says = f"The move takes {times.max():.3f} s; allowed are {seconds:.1f} s."
+    takes, allowed = apart(times.max(), seconds)
+    says = f"The move takes {takes} s; allowed are {allowed} s."
     if best <= seconds:
         return (
             "slower than the limit asks",
-            f"{says} With these gears {best:.3f} s are possible: the motor with the most pulses "
-            f"may run at {most:.0f} pulses/s.",
+            f"{says} These gears can keep the time, with higher frequencies.",
         )
     k = int(pulses.argmax())
     return (
         "geared too high",
-        f"{says} Even at {most:.0f} pulses/s motor {k + 1} needs {best:.3f} s: its gear of "
-        f"{gears[k]:.0f} is finer than asked. From {_least(given)} on a gear is fine enough.",
+        f"{says} Even at {most:.0f} pulses/s motor {k + 1} takes longer than that: its gear of "
+        f"{gears[k]:.0f} : 1 is finer than asked.",
     )
 
 
@@ -923,6 +922,20 @@ def _lost_at_turn(signs: Any, count: int) -> Any:
             at = (at + sign) % count
         before = sign
         rows.append(at)
+    return rows
+
+
+def _last_lost(drive: str, signs: Any) -> Any:
+    """The last pulse does nothing."""
+    rows = np.array(_good(drive, signs))
+    rows[-1] = rows[-2:][0]
+    return rows
+
+
+def _right_at_the_ends(drive: str, signs: Any) -> Any:
+    """The first row stays until the last one."""
+    rows = np.array(_good(drive, signs))
+    rows[1:-1] = rows[0]
     return rows
 
 
@@ -1023,6 +1036,22 @@ PHASE_MISTAKES = (
         "Where the direction changes one pulse does nothing. Compare the row after every pulse "
         "with the one before it.",
         _walks(_lost_at_turn),
+    ),
+    Mistake(
+        "the last pulse is lost",
+        "Its rows are right up to the last one, which is the same as the row before. Look at every "
+        "row.",
+        _last_lost,
+    ),
+    Mistake(
+        "right in the first and the last row",
+        "Its first and last rows are right; in between the first row stays. Look at every row.",
+        _right_at_the_ends,
+    ),
+    Mistake(
+        "it stops half way",
+        "It returns the first half of the rows. There is one row more than there are pulses.",
+        lambda drive, signs: _good(drive, signs)[: len(signs) // 2 + 1],
     ),
     Mistake(
         "one more winding now and then",

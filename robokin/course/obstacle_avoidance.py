@@ -21,9 +21,11 @@ from ..jobs.obstacles import (
     way_round,
 )
 from ..units import deg, mm
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice, normalised
 
 LAB = "obstacle_avoidance"
@@ -690,13 +692,13 @@ def _path_form(answer: Any, given: Mapping[str, Any]) -> Floats:
     if isinstance(answer, (str, Mapping)):
         raise ValueError(f"{wanted}, got {words(answer)}")
     try:
-        path = np.array([[float(x) for x in row] for row in answer])
+        path = floats([[x for x in row] for row in answer])
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(answer)}") from None
     if path.ndim != 2 or path.shape[1:] != (3,) or len(path) < 2:
         raise ValueError(f"{wanted}, got shape {path.shape}")
     if not np.isfinite(path).all():
-        raise ValueError(f"{wanted}, got NaN in it: a target out of reach?")
+        raise ValueError(f"{wanted}, got NaN in it")
     if len(path) > 100:
         raise ValueError(f"{wanted}, at most 100 of them, got {len(path)}")
     return path
@@ -711,16 +713,16 @@ def _path_faults(path: Floats, given: Mapping[str, Any]) -> list[Fault]:
         return [("degrees for radians", DEGREES)] * 6
     if abs(path).max() <= 2 * np.pi * deg:
         return [
-            ("deg twice", "All angles are a few degrees: are they multiplied by deg twice?")
+            ("deg twice", "All angles are 6° and less; an angle of 120° is 120 * deg, once.")
         ] * 6
     faults: list[Fault] = []
     if abs(path[0] - start).max() > 1e-4:
-        got = ", ".join(f"{x:.1f}" for x in path[0] / deg)
-        says = f"The path begins at ({got})°, the arm stands at {given['start']}°."
+        stands, got = apart(given["start"], path[0] / deg)
+        says = f"The path begins at ({got})°, the arm stands at ({stands})°."
         if abs(path[-1] - start).max() <= 1e-4:
-            says += " It seems to go the other way round."
+            says += " There the path ends."
         elif abs(path[0, ::-1] - start).max() <= 1e-4:
-            says += " Its angles seem to be in the other order: it is gamma, beta, alpha."
+            says += " These are its angles in the order alpha, beta, gamma."
         faults.append(("another start", says))
     end = ARM.points(path[-1])[3]
     miss = float(np.hypot(*(end - given["target"])))
@@ -730,14 +732,17 @@ def _path_faults(path: Floats, given: Mapping[str, Any]) -> list[Fault]:
     if (path < -1e-6).any() or (path > np.pi + 1e-6).any():
         i, j = np.argwhere((path < -1e-6) | (path > np.pi + 1e-6))[0]
         name = ("gamma", "beta", "alpha")[j]
-        says = f"Posture {i + 1}: {name} is {path[i, j] / deg:.1f}°, allowed are 0 to 180°."
+        limit = 0.0 if path[i, j] < 0 else 180.0
+        is_at = apart(path[i, j] / deg, limit)[0]
+        says = f"Posture {i + 1}: {name} is {is_at}°, allowed are 0 to 180°."
         faults.append(("past a limit", says))
     bar = _bar(given["bar"])
     faults += _too_near(path, bar[[0, -1]], "the ends of the bar", given["distance"])
     faults += _too_near(path, bar[1:-1], "the bar between its ends", given["distance"])
     S = float(abs(np.diff(path, axis=0)).sum())
     if S > given["most"] + 1e-9:
-        says = f"S is {S / deg:.1f}°, at most {given['most'] / deg:.0f}° are allowed."
+        moved, most = apart(S / deg, given["most"] / deg)
+        says = f"S is {moved}°, at most {most}° are allowed."
         faults.append(("too much movement", says))
     return faults
 
@@ -750,13 +755,13 @@ def _too_near(path: Floats, places: Floats, name: str, distance: float) -> list[
     if least.min() >= distance - 1e-5:
         return []
     part, lever = np.unravel_index(least.argmin(), least.shape)
-    near = f"{least.min() / mm:.0f} mm"
+    near, wanted = apart(least.min() / mm, distance / mm, 0)
     points = ARM.points(along(path, np.linspace(0, 1, 501)))[:, 3]
     gripper = float(np.hypot(*(points[:, None] - places).T).min())
     corners = min(float(_distances(path, place).min()) for place in places)
     says = (
         f"Between postures {part + 1} and {part + 2} lever {('OB', 'BA', 'AK')[lever]} comes as "
-        f"near as {near} to {name}; wanted are {distance / mm:.0f} mm."
+        f"near as {near} mm to {name}; wanted are {wanted} mm."
     )
     if corners >= distance:
         says += f" Every posture of the path keeps {corners / mm:.0f} mm: look at the way between."

@@ -14,9 +14,11 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import SCARA, ScaraPose, explain, follow, within
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats, one_number
 from .variants import Numbers, dice
 
 LAB = "scara_kinematics"
@@ -80,7 +82,7 @@ def _other_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 def _posture(result: Any, case: tuple[Any, ...]) -> Floats:
     wanted = "wanted four numbers [q1, q2, q3, q4] (rad, rad, rad, m)"
     try:
-        values = np.asarray(result, dtype=float)
+        values = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.size != 4 or sum(n > 1 for n in values.shape) != 1:
@@ -90,30 +92,33 @@ def _posture(result: Any, case: tuple[Any, ...]) -> Floats:
 
 def _other_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     [q] = case
-    if (abs(yours[:3]) > 30).any():
-        return f"joints 1 to 3 should be radians; yours would be up to {abs(yours[:3]).max():.0f}"
     there, wanted = _place(yours) / mm, _place(q) / mm
     if not np.linalg.norm(there - wanted) <= 1e-4:
+        place, is_at = apart(wanted[:2], there[:2])
         return (
-            f"the tool should stay at ({wanted[0]:.1f}, {wanted[1]:.1f}) mm; with your joints it "
-            f"stands at ({there[0]:.1f}, {there[1]:.1f}) mm"
+            f"the tool should stay at ({place}) mm; with your joints it stands at ({is_at}) mm"
         ).translate(MINUS)
     if not abs(wrapped(yours[1] + q[1])) <= 1e-6:
         return f"joint 2 should stand at {_angle(-q[1])}, the elbow on the other side"
     turn, asked = float(yours[:3].sum()), float(q[:3].sum())
     if not abs(turn - asked) <= 1e-6:
-        return f"the tool's angle q1 + q2 + q3 should stay {_angle(asked)}; yours is {_angle(turn)}"
+        stays, is_at = apart(asked / deg, turn / deg)
+        return (f"the tool's angle q1 + q2 + q3 should stay {stays}°; yours is {is_at}°").translate(
+            MINUS
+        )
     if not abs(yours[3] - q[3]) <= 1e-7:
-        return f"the stroke should stay {q[3] / mm:.1f} mm; yours is {yours[3] / mm:.1f} mm"
+        stays, is_at = apart(q[3] / mm, yours[3] / mm)
+        return f"the stroke should stay {stays} mm; yours is {is_at} mm".translate(MINUS)
     return None
 
 
 def _same_posture(a: Floats, b: Floats) -> bool:
     """Whole turns of joints 1 and 2 make no difference, the tool's angle as a number does."""
-    if np.isnan(a).any() or np.isnan(b).any():
-        return bool((np.isnan(a) == np.isnan(b)).all())
-    apart = np.array([*wrapped((a - b)[:2]), (a - b)[:3].sum(), (a - b)[3]])
-    return bool((abs(apart) <= 1e-6).all())
+    off = np.array([*wrapped((a - b)[:2]), (a - b)[:3].sum(), (a - b)[3]])
+    if np.isnan(off).any():  # what is no number there is none in the other, the rest is as near
+        off = np.append(wrapped((a - b)[:3]), (a - b)[3])
+        return bool((np.isnan(a) == np.isnan(b)).all() and np.nanmax(abs(off), initial=0) <= 1e-7)
+    return bool((abs(off) <= 1e-7).all())
 
 
 def _with(change: Program) -> Program:
@@ -404,10 +409,10 @@ def circle_form(answer: Any, given: Any) -> dict[str, Any]:
     design: dict[str, Any] = {}
     for key, unit in (("distance", "metres"), ("elbow", "+1 or -1"), ("angle", "radians")):
         try:
-            value = float(np.reshape(answer[key], ()))
+            value = one_number(answer[key])
         except (TypeError, ValueError):
             value = np.nan
-        if isinstance(answer[key], (bool, str)) or not np.isfinite(value):
+        if not np.isfinite(value):
             wanted = unit if key == "elbow" else f"a number of {unit}"
             raise ValueError(f"{key}: wanted {wanted}, got {words(answer[key])}.")
         design[key] = value
@@ -434,8 +439,8 @@ def circle_faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[F
     """In reach; joints 1, 2 and 3 inside; not nearly stretched."""
     distance, angle = design["distance"], design["angle"]
     if abs(distance) > 5:
-        name, unit = ("mm for m", "mm") if abs(distance) >= 60 else ("cm for m", "cm")
-        return [(name, f"A distance of {distance:g} m: was it meant in {unit}? {METRES}")] * 5
+        name = "mm for m" if abs(distance) >= 60 else "cm for m"
+        return [(name, f"The distance is {distance:g} m. {METRES}")] * 5
     if abs(angle) > 8 * np.pi:
         return [("degrees for radians", f"An angle of {angle / deg:.0f}°. {DEGREES}")] * 5
     if distance < 0:
@@ -452,7 +457,8 @@ def circle_faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[F
     found: list[Fault] = []
     over = _over(q)
     if over[0] > SLACK:
-        says = f"Joint 1 passes its limit of ±{HIGH[0] / deg:.0f}° by {over[0] / deg:.1f}°."
+        says = f"Joint 1 passes its limit of ±{HIGH[0] / deg:.0f}° by "
+        says += f"{apart(over[0] / deg, 0)[0]}°."
         name = "past a limit: joint 1"
         if _over(_circle_joints({**design, "elbow": -design["elbow"]}, given))[0] <= SLACK:
             name = "the wrong elbow"
@@ -461,21 +467,22 @@ def circle_faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[F
     d = np.linalg.norm(targets.position[:, :2], axis=-1)
     if over[1] > SLACK:
         says = (
-            f"Joint 2 passes its limit of ±{HIGH[1] / deg:.0f}° by {over[1] / deg:.1f}°: the "
-            f"circle comes as near as {d.min() / mm:.1f} mm to joint 1, into the hole."
+            f"Joint 2 passes its limit of ±{HIGH[1] / deg:.0f}° by {apart(over[1] / deg, 0)[0]}°: "
+            f"the circle comes as near as {d.min() / mm:.1f} mm to joint 1, into the hole."
         )
         found.append(("past a limit: joint 2", says))
     if abs(q[:, 1]).min() < AWAY - SLACK:
+        near, asked = apart(abs(q[:, 1]).min() / deg, AWAY / deg)
         says = (
-            f"Joint 2 comes as near as {abs(q[:, 1]).min() / deg:.1f}° to the stretched arm, and "
-            f"{AWAY / deg:.0f}° are asked for: the circle goes out to {d.max() / mm:.1f} mm."
+            f"Joint 2 comes as near as {near}° to the stretched arm, and {asked}° are asked for: "
+            f"the circle goes out to {d.max() / mm:.1f} mm."
         )
         found.append(("too near to the stretched arm", says))
     if over[2] > SLACK:
         low, high = q[:, 2].min(), q[:, 2].max()
         says = (
             f"Joint 3 runs from {low / deg:.1f}° to {high / deg:.1f}°; its limits are "
-            f"±{HIGH[2] / deg:.0f}°."
+            f"±{HIGH[2] / deg:.0f}°, and it passes them by {apart(over[2] / deg, 0)[0]}°."
         ).translate(MINUS)
         name = "past a limit: joint 3"
         if any(_over(q + [0, 0, 2 * np.pi * k, 0])[2] <= SLACK for k in (-2, -1, 1, 2)):
@@ -601,6 +608,28 @@ LIMIT_MISTAKES = (
         "a degree of slack for every joint",
         "It allows 0.0175 more everywhere: for the stroke that is 17 mm.",
         _compared(lambda q, low, high: _both(q, low - deg, high + deg).all()),
+    ),
+    Mistake(
+        "a slack of a thousandth for every joint",
+        "It allows 0.001 more everywhere. Up to 1e-9 beyond may pass, no more: put a value a "
+        "millionth past a limit.",
+        _compared(lambda q, low, high: _both(q, low - 1e-3, high + 1e-3).all()),
+    ),
+    Mistake(
+        "np.isclose with its own tolerances",
+        "It lets pass what np.isclose takes for a limit: 1e-5 of the number and 1e-8, so 7.00007 "
+        "rad for 7. Up to 1e-9 beyond may pass: put a value a millionth past a large limit.",
+        _compared(
+            lambda q, low, high: (
+                _both(q, low, high) | np.isclose(q, low) | np.isclose(q, high)
+            ).all()
+        ),
+    ),
+    Mistake(
+        "only the first four joints",
+        "It never looks at a fifth or sixth joint. The limits may be those of any arm: try six "
+        "joints.",
+        _compared(lambda q, low, high: _both(q, low, high)[:, :4].all()),
     ),
     Mistake(
         "this SCARA's limits, whatever it is given",
@@ -1014,11 +1043,12 @@ EXERCISES = {
             "Make a good motion of 25 samples and limits of unlike size, one of them from 0. Then "
             "spoil one number at a time: each joint above, each joint below, in the middle and at "
             "an odd place. Add values that equal a limit (True), a NaN (False), one angle of 7.5 "
-            "rad where 7 is the limit (False), and limits other than the SCARA's.",
+            "rad where 7 is the limit (False), and limits other than the SCARA's, also of six "
+            "joints.",
             "good = np.tile([0.1, -0.2, 0.3, 0.05], (25, 1)); for joint in range(4): "
-            "for value in (high[joint] + 0.005, low[joint] - 0.005, np.nan): bad = good.copy(); "
+            "for value in (high[joint] + 1e-6, low[joint] - 1e-6, np.nan): bad = good.copy(); "
             "bad[7, joint] = value; inside(bad, limits) has to be False. With bad[7, joint] = "
-            "high[joint] or low[joint] it has to be True. Do it for two tables of limits.",
+            "high[joint] or low[joint] it has to be True. Do it for a table of six joints, too.",
         ),
         rights=RIGHT_LIMITS,
         promise="A right program says True if every value of every sample is at least its lower "

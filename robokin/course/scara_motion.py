@@ -17,6 +17,7 @@ from ..units import deg, mm, wrapped
 from .exercises import Fault, Function, Value, words
 from .mistakes import Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats, one_number
 from .variants import Numbers, dice
 
 LAB = "scara_motion"
@@ -109,12 +110,14 @@ def _turn_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([100, -60, -230, 90], [-214, 81, 100.2], -20),  # joints 1 and 2 turn by -290
         case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns on
         case([60, 90, -300, 90], [300, -150, 100.2], -1000),
+        case([30, 60, 80, 50], [300, 200, 170.2], -1250),  # four turns on
+        case([30, -60, -130, 50], [300, -200, 100.2], 1250),
         case([0, 90, -90, 20], [200, 250, 50.2], 176),  # joint 4 moves by 150 mm: no angle, either
         case([0, 90, -90, 170], [200, 250, 200.2], -176),
         case([0, 0, 90, 100], [200, 250, 120.2], 110),  # the arm is stretched: 0 is positive
         case([120, 0, -30, 50], [200, 250, 120.2], -110),  # the other elbow would be nearer
     ]
-    while len(cases) < 44:
+    while len(cases) < 46:
         q0 = np.array([*rng.uniform([-139, 20, -399], [139, 140, 399]).round(1), 30.0])
         q0[1] *= rng.choice([-1, 1])
         q0 = q0 * [deg, deg, deg, mm]
@@ -135,7 +138,7 @@ def _turn_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 def _posture_form(result: Any, case: tuple[Any, ...]) -> Floats:
     wanted = "wanted four joint values, q1 to q3 in radians and q4 in metres"
     try:
-        values = np.squeeze(np.asarray(result, dtype=float))
+        values = np.squeeze(floats(result))
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.shape != (4,):
@@ -180,16 +183,19 @@ def _turn_law(case: tuple[Any, ...], yours: Floats) -> str | None:
                     f"{counts}, and yours ends at {yours[1] / deg:.1f}°; {wanted[1] / deg:.1f}° is "
                     f"right, with joint 1 at {wanted[0] / deg:.1f}°"
                 ).translate(MINUS)
+            at, is_at = apart(wanted[k] / deg, yours[k] / deg)
             return (
-                f"joint {k + 1} should be at {wanted[k] / deg:.1f}° (with the elbow of q0), and is "
-                f"at {yours[k] / deg:.1f}°"
-            )
+                f"joint {k + 1} should be at {at}° (with the elbow of q0), and is at {is_at}°"
+            ).translate(MINUS)
     if not abs(yours[3] - wanted[3]) <= 1e-6:
-        return f"joint 4 should be at {wanted[3] / mm:.1f} mm, and is at {yours[3] / mm:.1f} mm"
+        at, is_at = apart(wanted[3] / mm, yours[3] / mm)
+        return f"joint 4 should be at {at} mm, and is at {is_at} mm".translate(MINUS)
+    turns, yours_turns = apart(end - now, got - now)
+    third, yours_third = apart(wanted[2] / deg, yours[2] / deg)
     return (
-        f"the tool stands at {now:.1f}°; it should turn by {end - now:+.1f}°, and then stands at "
-        f"{end:.1f}°, with joint 3 at {wanted[2] / deg:.1f}°; yours turns it by {got - now:+.1f}°, "
-        f"with joint 3 at {yours[2] / deg:.1f}°"
+        f"the tool stands at {now:.1f}°; it should turn by {turns}°, and then stands at "
+        f"{end:.1f}°, with joint 3 at {third}°; yours turns it by {yours_turns}°, with joint 3 at "
+        f"{yours_third}°"
     ).translate(MINUS)
 
 
@@ -479,6 +485,15 @@ TURN_MISTAKES = (
         "more of them.",
         _third(_tried((0, 1, -1), True)),
     ),
+    *(
+        Mistake(
+            f"only {name} turns",
+            f"Only {name} whole turns up and down are tried. The angle given may be more turns "
+            "away from where the tool stands.",
+            _third(_tried(sorted(range(-most, most + 1), key=abs), True)),
+        )
+        for name, most in (("two", 2), ("three", 3))
+    ),
     Mistake(
         "only one turn up or down, else the angle as it is given",
         "Only one whole turn up and down is tried. The tool's angle and joint 3 go farther: take "
@@ -596,14 +611,12 @@ TURN_MISTAKES = (
     ),
     Mistake(
         "the lowest value inside the limits",
-        "Of the values inside the limits the lowest is taken: the first one found, or that with "
-        "the least turn, signs and all. Wanted is the least abs(turn).",
+        "Of the values inside the limits the lowest is taken. Wanted is the least abs(turn).",
         _third(_among(lambda x, now: x)),
     ),
     Mistake(
         "the highest value inside the limits",
-        "Of the values inside the limits the highest is taken: the last one found. Wanted is the "
-        "least abs(turn).",
+        "Of the values inside the limits the highest is taken. Wanted is the least abs(turn).",
         _third(_among(lambda x, now: -x)),
     ),
     Mistake(
@@ -771,6 +784,28 @@ LIMIT_MISTAKES = (
         "metres.",
         lambda q: _inside(q[:, :3], LOW[:3], HIGH[:3]),
     ),
+    *(
+        Mistake(
+            f"joint {joint} is never tested",
+            f"Joint {joint} passes wherever it is. All four joints have limits." + more,
+            _limits(joint, -np.inf, np.inf),
+        )
+        for joint, more in (
+            (1, ""),
+            (2, ""),
+            (3, " Wrapped into -180° to 180° it would never pass 400°: compare it as it is."),
+        )
+    ),
+    Mistake(
+        "the stroke's lower limit is never tested",
+        "A stroke below 0 passes. Each joint has two limits.",
+        _limits(4, -np.inf, STROKE),
+    ),
+    Mistake(
+        "the stroke's upper limit is never tested",
+        "Any stroke above 0 passes. Each joint has two limits, the stroke's is 0.18 m.",
+        _limits(4, 0.0, np.inf),
+    ),
     Mistake(
         "the stroke's limit in mm",
         "It compares metres with 180. Limits and strokes are both in metres: 0.18.",
@@ -844,15 +879,14 @@ LIMIT_MISTAKES = (
     ),
     Mistake(
         "NaN passes",
-        "It asks whether a value is past a limit, and a comparison with NaN is always False. Ask "
-        "whether all values are inside. (Or the rows of NaN were left out: out of reach is not "
-        "inside.)",
+        "A row of NaN, out of reach, is not inside. A comparison with NaN is always False: ask of "
+        "every row whether all its values are inside.",
         lambda q: not ((q < LOW) | (q > HIGH)).any(),
     ),
     Mistake(
         "single NaN samples are left out",
-        "It takes the least and the greatest of the values that are numbers. A "
-        "sample out of reach is not inside.",
+        "A row of NaN passes if other rows are numbers. A sample out of reach is not inside, be it "
+        "a single one.",
         lambda q: bool(
             np.isfinite(q).any()
             and (np.fmin.reduce(q) >= LOW).all()
@@ -949,9 +983,12 @@ def _limit_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
                 value = float(limit + side * past * unit[joint])
                 cases += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
     cases += [one(1, 1, 145 * deg, 3), one(1, 0, 145 * deg, 3), one(1, 2, 300 * deg, 3)]
+    cases += [one(1, 0, 370 * deg, 3), one(1, 1, -350 * deg, 3)]  # a whole turn on: joint 3 may be
     for sample in (10, 12):  # every fifth or tenth sample shows the one, every third the other
         cases += [one(sample, 3, 0.2), one(sample, 0, 145 * deg)]
     cases += [one(1, 3, 5.0, 3), one(1, 3, 100.0, 3)]  # a stroke in mm
+    cases += [one(1, 3, 200.0, 3), one(1, 3, -0.25, 3)]  # past every limit that may stand for it
+    cases += [one(1, 2, float(HIGH[2]) + 0.8 * deg, 3)]  # rounded to a degree, or one too far
     for row in (0, 13, 24):
         q = np.tile(still, (25, 1))
         q[row] = np.nan
@@ -1084,13 +1121,14 @@ def _design_form(answer: Any, given: Any) -> dict[str, float]:
     found = {}
     for key in ("blend", "duration"):
         value = answer[key]
-        if isinstance(value, (str, bool)) or np.size(value) != 1:
-            raise ValueError(f"{key}: wanted one number, got {words(value)}.")
-        found[key] = float(np.reshape(value, ()))
+        try:
+            found[key] = one_number(value)
+        except (TypeError, ValueError):
+            raise ValueError(f"{key}: wanted one number, got {words(value)}.") from None
         if not np.isfinite(found[key]):
             raise ValueError(f"{key}: wanted a finite number, got {words(value)}.")
     if found["blend"] > 1:
-        raise ValueError(f"blend: wanted a share from 0 to 0.5, got {found['blend']:g}. Percent?")
+        raise ValueError(f"blend: wanted a share from 0 to 0.5, got {found['blend']:g}.")
     return found
 
 
@@ -1104,21 +1142,21 @@ def _design_faults(answer: Mapping[str, float], given: Any) -> list[Fault]:
     deepest = LEVEL - float(given["via_z"]) - b * _lift(given)
     if deepest > STROKE + 1e-9:  # joints 1 to 3 stay inside for every blend, see `given`
         says = (
-            f"The stroke goes to {deepest / mm:.2f} mm, {(deepest - STROKE) / mm:.2f} mm past its "
-            "limit. More blend lifts the tool."
+            f"The stroke goes {apart((deepest - STROKE) / mm, 0, 2)[0]} mm past its limit of "
+            f"{STROKE / mm:.0f} mm. More blend lifts the tool."
         )
         found.append(("past the stroke's limit", says))
     gap = _gap(given, b)
     if gap > given["miss"] * (1 + 1e-6):
-        says = (
-            f"The tool passes via at {gap / mm:.1f} mm, and {given['miss'] / mm:.0f} mm are "
-            "allowed. Less blend comes nearer."
-        )
+        near, allowed = apart(gap / mm, given["miss"] / mm)
+        says = f"The tool passes via at {near} mm, and {allowed} mm are allowed. "
+        says += "Less blend comes nearer."
         found.append(("too far from via", says))
     a = _stroke_acceleration(given, b, duration)
+    needs, allowed = apart(a / mm, given["acceleration"] / mm, 2)
     told = (
-        f"In {duration:g} s the stroke accelerates with {a / mm:.2f} mm/s² in the corner of your "
-        f"blend, and {given['acceleration'] / mm:g} mm/s² are allowed"
+        f"In {duration:g} s the stroke accelerates with {needs} mm/s² in the corner of your blend, "
+        f"and {allowed} mm/s² are allowed"
     )
     fast, slow = a > given["acceleration"] * 1.002, duration > 1.02 * _shortest(given, b)
     slip = _slip(duration / _shortest(given, b), _shortest(given, b)) if fast or slow else None
@@ -1135,12 +1173,12 @@ def _slip(ratio: float, shortest: float) -> tuple[str, str] | None:
     """Where a duration is the shortest one times a number that a slip of the pen gives."""
     slips = (
         (shortest, "the root is forgotten", "The formula has T²: your duration is its square."),
-        (1000**0.5, "mm for m", "The heights or the acceleration are in mm, the other in m."),
-        (1000**-0.5, "mm for m", "The heights or the acceleration are in mm, the other in m."),
-        (0.5, "half of the duration", "The formula's T is the whole duration, not half of it."),
-        (2.0, "twice the duration", "The formula's T is the whole duration already."),
+        (1000**0.5, "mm for m", "Heights and acceleration have to be in one unit of length."),
+        (1000**-0.5, "mm for m", "Heights and acceleration have to be in one unit of length."),
+        (0.5, "half of the duration", "The formula's T is the whole duration."),
+        (2.0, "twice the duration", "The formula's T is the whole duration."),
     )
-    near = (slip for slip in slips if abs(ratio / slip[0] - 1) < 0.02)
+    near = (slip for slip in slips if abs(ratio / slip[0] - 1) < 0.003)
     return next(((name, says) for _, name, says in near), None)
 
 

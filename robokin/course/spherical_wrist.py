@@ -16,9 +16,11 @@ from ..motion import differentiate, lin, quintic
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats, one_number
 from .variants import Numbers, dice
 
 LAB = "spherical_wrist"
@@ -163,7 +165,7 @@ def _axes_form(result: Any, case: tuple[Any, ...]) -> Axes:
     n = len(case[0])
     wanted = f"wanted points and directions, two arrays ({n}, 3)"
     try:
-        values = np.asarray(result, dtype=float)
+        values = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.shape == (n, 6):
@@ -184,7 +186,7 @@ def _axes_law(case: tuple[Any, ...], answer: Axes) -> str | None:
         place = ", ".join(f"{x / mm:.1f}" for x in point + 0.0)
         along = ", ".join(f"{x:.3f}" for x in np.round(way, 9) + 0.0)
         if not np.allclose(answer.ways[i], way, rtol=0, atol=1e-6):
-            got = ", ".join(f"{x:.3f}" for x in np.round(answer.ways[i], 9) + 0.0)
+            along, got = apart(way, answer.ways[i], 3)
             more = "" if _is_unit(answer.ways[i]) else ", which is not a unit vector"
             wanted = f"the axis of joint {i + 1} should have the direction ({along})"
             return f"{wanted}, not ({got}){more}"
@@ -192,7 +194,7 @@ def _axes_law(case: tuple[Any, ...], answer: Axes) -> str | None:
         if not off <= 1e-6:
             return (
                 f"the axis of joint {i + 1} should go through ({place}) mm along ({along}); yours "
-                f"passes {off / mm:.1f} mm beside"
+                f"passes {apart(off / mm, 0)[0]} mm beside"
             )
     return None
 
@@ -566,6 +568,19 @@ def _always_the_sum(h: Floats, wrist: int) -> Floats:
     return np.array([0.0, theta, np.arctan2(h[1, 0], h[0, 0])])
 
 
+def _always_the_difference(h: Floats, wrist: int) -> Floats:
+    if not _singular(h):
+        return mended(h, wrist)
+    theta = 0.0 if h[2, 2] > 0 else wrist * np.pi
+    return np.array([0.0, theta, -np.arctan2(-h[1, 0], -h[0, 0])])
+
+
+def _only_at(theta: float, wrong: Program) -> Program:
+    """Wrong near this theta, 0 or pi, and right elsewhere."""
+    side = np.cos(theta)
+    return lambda h, wrist: wrong(h, wrist) if side * h[2, 2] > 0 else mended(h, wrist)
+
+
 def _nan_there(h: Floats, wrist: int) -> Floats:
     return np.full(3, np.nan) if _singular(h) else mended(h, wrist)
 
@@ -641,6 +656,24 @@ WRIST_MISTAKES = (
         "a coarse threshold",
         "Below theta = 1e-3 rad it takes the wrist for singular, and theta is lost. Try 1e-4.",
         _coarse,
+    ),
+    *(
+        Mistake(
+            f"{name} at theta = {where}",
+            f"Within {near} rad of theta = {where}, and there only, theta is lost: try angles so "
+            "near to 0, and so near to 180 degrees.",
+            _only_at(theta, wrong),
+        )
+        for theta, where in ((0.0, "0"), (np.pi, "180 degrees"))
+        for name, near, wrong in (
+            ("the regular formulas", "1e-8", _guarded),
+            ("a coarse threshold", "1e-3", _coarse),
+        )
+    ),
+    Mistake(
+        "the difference at theta = 0, too",
+        "At theta = 0 the sum of phi and psi counts, not the difference.",
+        _always_the_difference,
     ),
     Mistake(
         "the sum at theta = 180 degrees, too",
@@ -786,7 +819,7 @@ def line_form(answer: Any, given: Any) -> dict[str, float]:
     numbers = {}
     for name in names:
         try:
-            numbers[name] = float(answer[name])
+            numbers[name] = one_number(answer[name])
         except (TypeError, ValueError):
             raise ValueError(f"{name}: wanted a number, got {words(answer[name])}.") from None
         if not np.isfinite(numbers[name]):
@@ -811,15 +844,17 @@ def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Faul
     if max(abs(up), abs(side)) > np.pi / 2:
         return [("degrees for radians", DEGREES)] * 3
     if tilt > given["most_tilt"] + 1e-9:
-        says = f"The tilt is {tilt / deg:.2f}°, and {given['most_tilt'] / deg:.0f}° are allowed."
+        is_at, most = apart(tilt / deg, given["most_tilt"] / deg, 2)
+        says = f"The tilt is {is_at}°, and {most}° are allowed."
         faults.append(("tilted too far", says))
     least, fastest = passage(given, up, side)
     if np.isnan(least):
         says = "Not every pose of the line exists: the wrist centre comes too far out. Tilt less, "
         return [*faults, ("out of reach", says + "or another way.")] + [("out of reach", "")] * 2
     if least < given["least_distance"] - 1e-9:
-        line = f"The smallest distance from a singularity on the line is {least:.4f}, and "
-        line += f"{given['least_distance']:.3f} are wanted."
+        is_at, wanted = apart(least, given["least_distance"], 4)
+        line = f"The smallest distance from a singularity on the line is {is_at}, and {wanted} "
+        line += "are wanted."
         name = "too near the singularity"
         square = across(given["slope"], 1.0)[0]
         across_it = abs(np.dot(square, (up, side)))
@@ -827,7 +862,7 @@ def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Faul
         line += f"{across_it / deg:.2f}° of it are square to the line."
         if _keeps(given, up / deg, side / deg):
             name = "deg twice"
-            line += " Divided by deg it would do: you have multiplied by deg twice."
+            line += " Divided by deg once more, both tilts would do."
         elif tilt > 0.5 * given["most_tilt"] and across_it < 0.5 * tilt:
             name = "tilted along the line"
             line += " A tilt along the line lets the forearm pass the tool's direction a little "
@@ -847,10 +882,12 @@ def line_faults(answer: dict[str, float], given: Mapping[str, Any]) -> list[Faul
         faults.append((name, line))
     speed = fastest / duration
     if speed > given["most_speed"] * (1 + 1e-9):
-        says = f"The fastest joint goes {speed / deg:.1f}°/s; {given['most_speed'] / deg:.0f}°/s "
-        faults.append(("too fast", says + "are allowed."))
+        is_at, most = apart(speed / deg, given["most_speed"] / deg)
+        says = f"The fastest joint goes {is_at}°/s; {most}°/s are allowed."
+        faults.append(("too fast", says))
     if duration > given["longest"] + 1e-9:
-        says = f"The line may take {given['longest']:g} s; yours takes {duration:g} s."
+        longest, takes = apart(given["longest"], duration)
+        says = f"The line may take {longest} s; yours takes {takes} s."
         faults.append(("too slow", says))
     return faults
 

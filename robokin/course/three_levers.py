@@ -16,9 +16,11 @@ from ..arms import three_lever
 from ..arms.branches import within
 from ..jobs.redundancy import methods, race
 from ..units import deg, wrapped
-from .exercises import Catch, Fault, Function, Value, words
+from .catch import Catch
+from .exercises import Fault, Function, Value, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice
 
 OBJECTIVES = (
@@ -130,7 +132,11 @@ def _levers_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case(-0.7, 0.5, 30, [0.7, 0.5, 0.9]),
         case(0.2, -0.3, 130, [1.2, 0.3, 0.4]),  # K is nearer than any alpha reaches
     ]
-    while len(cases) < 35:
+    for KO in (2.72, 2.745, 0.738, 0.726):  # some mm inside the border or outside, far and near
+        cases.append(case(KO, 0.0, 120, [1, 1, 1]))
+    for KO in (0.705, 0.695):  # near, OB being longer than KB
+        cases.append(case(0.0, KO, 60, [1.2, 0.5, 0.5]))
+    while len(cases) < 41:
         lengths = rng.uniform(0.3, 1.2, 3).round(2)
         alpha = rng.uniform(15, 175)
         r, phi = rng.uniform(0.2, 2.8), rng.uniform(-180, 180) * deg
@@ -148,7 +154,7 @@ def _levers_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 def _posture_form(result: Any, case: tuple[Any, ...]) -> Floats:
     wanted = "wanted three angles (gamma, beta, alpha) in radians, or NaN"
     try:
-        q = np.asarray(result, dtype=float)
+        q = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if q.size == 1 and np.isnan(q).all():
@@ -178,24 +184,24 @@ def _levers_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     gripper = _chain(yours, lengths)[3]
     miss = float(np.hypot(*(gripper - point)))
     if miss > 1e-6:
-        x, y = gripper + 0.0
+        is_at, off = apart(gripper, point, 3)[0], apart(miss, 0, 3)[0]
         return (
-            f"should be gamma, beta, alpha = {told}; yours puts the gripper at ({x:.3f}, {y:.3f}) "
-            f"m, {miss:.3f} m from K"
+            f"should be gamma, beta, alpha = {told}; yours puts the gripper at ({is_at}) m, {off} "
+            "m from K"
         )
     if abs(wrapped(yours - wanted)).max() <= 1e-5:
         return None
+    told, yours_told = apart(wanted / deg, yours / deg, 2)
     return (
-        f"should be gamma, beta, alpha = {told}; yours reaches K, too, with another alpha or with "
-        "B on the other side of OK"
+        f"should be gamma, beta, alpha = ({told})°; yours, ({yours_told})°, reaches K, too, in "
+        "another posture"
     )
 
 
 def _same_posture(a: Floats, b: Floats) -> bool:
     if a.shape != b.shape or (np.isnan(a) != np.isnan(b)).any():
         return False
-    apart = wrapped(a - b)
-    return bool(np.isnan(a).all() or np.nanmax(abs(apart)) <= 1e-6)
+    return bool(np.isnan(a).all() or np.nanmax(abs(wrapped(a - b))) <= 1e-7)
 
 
 def _sine_beta(a: Any, b: Any, c: Any) -> Any:
@@ -912,6 +918,12 @@ LEAST_MISTAKES = (
         _kept(2, 0),
     ),
     Mistake(
+        "beta is not moved",
+        "Its gamma and alpha are right, its beta is that of before. Look at all three angles, or "
+        "at where the gripper is.",
+        lambda point, previous: np.where([0, 1, 0], previous, _exact(point, previous)),
+    ),
+    Mistake(
         "beta stays where it can",
         "It keeps beta. Often another angle should stay as it was.",
         _kept(1, -1),
@@ -1041,7 +1053,7 @@ def plan_form(answer: Any, given: Any) -> Floats:
             raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
         answer = [answer["first"], answer["second"]]
     try:
-        alphas = np.asarray(answer, dtype=float).ravel()
+        alphas = floats(answer).ravel()
     except (TypeError, ValueError):
         raise ValueError(f"Wanted {wanted}, got {words(answer)}.") from None
     if alphas.shape != (2,):
@@ -1057,9 +1069,8 @@ def plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
     if (alphas > 2 * np.pi).any():
         return [("degrees for radians", DEGREES)] * 4
     if (alphas < 2 * np.pi * deg).all() and (alphas > 0).all():
-        return [
-            ("deg twice", "Your alphas are a few degrees: are they multiplied by deg twice?")
-        ] * 4
+        told = " and ".join(f"{alpha / deg:.2g}°" for alpha in alphas)
+        return [("deg twice", f"Your alphas are {told}; an alpha of 120° is 120 * deg.")] * 4
     found = _plan_faults(alphas, given)
     if found and not _plan_faults(alphas[::-1], given):
         says = "Exchanged, your two alphas keep everything: the first belongs to the first target."
@@ -1074,16 +1085,17 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
         postures.append(q)
         if np.isnan(q).any():
             low, high = (float(x) / deg for x in ARM.alpha_range(place, limited=False))
+            is_at, edge = apart(alpha / deg, low if alpha / deg < low else high, 2)
+            ends = f"{edge}° to {high:.2f}°" if alpha / deg < low else f"{low:.2f}° to {edge}°"
             gone.append(
-                f"No posture reaches the {name} target with alpha = {alpha / deg:.2f}°: it goes "
-                f"from {low:.2f}° to {high:.2f}°."
+                f"No posture reaches the {name} target with alpha = {is_at}°: it goes from {ends}."
             )
     if gone:
         swapped = np.isfinite(
             [ARM.family(p, a) for p, a in zip(targets, alphas[::-1], strict=True)]
         ).all()
         if swapped:
-            gone.append("Exchanged, your two alphas would exist: are they in the wrong order?")
+            gone.append("Exchanged, your two alphas would exist.")
         return [("alpha outside its range", " ".join(gone))] * 4
     found: list[Fault] = []
     for name, q in zip(("first", "second"), postures, strict=True):
@@ -1097,9 +1109,10 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
     S, most = float(one.sum() + two.sum()), given["most"]
     if S > most + EASE:
         greed = [q[2] for q in greedy(given)]
+        turned, allowed = apart(S / deg, most / deg)
         says = (
             f"Together the joints turn by {one.sum() / deg:.1f}° and {two.sum() / deg:.1f}°, "
-            f"{S / deg:.1f}° in all; allowed are {most / deg:.0f}°."
+            f"{turned}° in all; allowed are {allowed}°."
         )
         again = float(abs(postures[1] - start(given)).sum())
         if one.sum() + again <= most + EASE:
@@ -1113,9 +1126,10 @@ def _plan_faults(alphas: Floats, given: Mapping[str, Any]) -> list[Fault]:
             found.append(("too much movement", says))
     time, longest = float(one.max() + two.max()), given["longest"]
     if time > longest + EASE:
+        turned, allowed = apart(time / deg, longest / deg)
         says = (
             f"The longest motors turn by {one.max() / deg:.1f}° and {two.max() / deg:.1f}°, "
-            f"{time / deg:.1f}° in all; allowed are {longest / deg:.0f}°."
+            f"{turned}° in all; allowed are {allowed}°."
         )
         busiest = float((one + two).max())
         if busiest <= longest + EASE:

@@ -17,10 +17,12 @@ import numpy as np
 
 from .._arrays import Floats
 from ..arms import two_link
-from ..units import deg
-from .exercises import Catch, Function, Value, words
+from ..units import deg, mm
+from .catch import Catch
+from .exercises import Function, Value, words
 from .mistakes import Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice
 
 LAB = "two_link_code_generation"
@@ -134,9 +136,24 @@ def _margin(h2: float, d: float, l1: float, l2: float) -> float:
     return math.nan if h2 < 1e-3 else math.sqrt(h2)
 
 
-def _wide(h2: float, d: float, l1: float, l2: float) -> float:
-    inside = abs(l1 - l2) - 0.01 <= d <= l1 + l2 + 0.01
-    return _clipped(h2, d, l1, l2) if inside else math.nan
+def _wide(slack: float) -> Rim:
+    def root(h2: float, d: float, l1: float, l2: float) -> float:
+        inside = abs(l1 - l2) - slack <= d <= l1 + l2 + slack
+        return _clipped(h2, d, l1, l2) if inside else math.nan
+
+    return root
+
+
+def _inner_of(first: int) -> Rim:
+    """The inner edge is looked at only where the first link is the longer one (+1), or the second
+    one (-1).
+    """
+
+    def root(h2: float, d: float, l1: float, l2: float) -> float:
+        near = d < first * (l1 - l2) - ROUNDING * (l1 + l2)
+        return math.nan if near else _outer(h2, d, l1, l2)
+
+    return root
 
 
 def _about(h2: float, d: float, l1: float, l2: float) -> float:
@@ -200,8 +217,10 @@ def _elbow_cases(rng: np.random.Generator) -> list[Case]:
     cases.append(case([0, 0], [0.298, 0.0], 1.0, 0.7, +1))
     cases.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))  # 3 micrometres outside, inside
     cases.append(case([0, 0], [0, 1.7 * (1 - 2e-6)], 1.0, 0.7, +1))
+    cases.append(case([0, 0], [1.7 * (1 + 1e-7), 0], 1.0, 0.7, +1))  # less than one outside
+    cases.append(case([0, 0], [0.1, 0.1], 0.7, 1.0, +1))  # too near, the second link longer
     cases.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
-    while len(cases) < 41:
+    while len(cases) < 43:
         base, l1, l2 = rng.uniform(-1, 1, 2), *rng.uniform(0.4, 1.2, 2)
         turn, share = rng.uniform(-np.pi, np.pi), rng.uniform(0.1, 0.9)
         d = abs(l1 - l2) + share * (l1 + l2 - abs(l1 - l2))
@@ -220,7 +239,7 @@ def _exists(case: Case) -> bool:
 def _point(result: Any, case: Case) -> Place:
     wanted = "wanted one point [x, y], with NaN twice where there is none"
     try:
-        values = np.squeeze(np.asarray(result, dtype=float))
+        values = np.squeeze(floats(result))
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.shape == () and np.isnan(values):
@@ -240,9 +259,11 @@ def _elbow_law(case: Case, yours: Place) -> str | None:
     if not yours.exists:
         if not yours.found:
             return None
+        far = d > l1 + l2
+        is_at, rim = apart(d, l1 + l2 if far else abs(l1 - l2), 3)
         return (
-            f"should be NaN twice: the tip is {d:.4g} m from the base, and the arm reaches from "
-            f"{abs(l1 - l2):.4g} m to {l1 + l2:.4g} m"
+            f"should be NaN twice: the tip is {is_at} m from the base, and the arm reaches "
+            f"{'out' if far else 'in'} to {rim} m"
         )
     wanted, mine = _elbow(Tools(), *case), np.array(yours)
     if np.linalg.norm(mine - wanted) <= 1e-6:
@@ -257,7 +278,8 @@ def _elbow_law(case: Case, yours: Place) -> str | None:
         )
     if abs(one - l1) < 1e-6 and abs(two - l2) < 1e-6:
         return f"{says}, on the {name} of the way from base to tip; yours is on the other side"
-    return f"{says}; yours is {one:.4g} m and {two:.4g} m from them"
+    (_, from_base), (_, from_tip) = apart(l1, one, 3), apart(l2, two, 3)
+    return f"{says}; yours is {from_base} m and {from_tip} m from them"
 
 
 def _same_point(a: Place, b: Place) -> bool:
@@ -671,10 +693,24 @@ MORE_RIMS: tuple[tuple[str, str, Rim], ...] = (
         "elbows, millimetres apart, and outside none. Allow for 1e-9 of the reach.",
         _about,
     ),
+    *(
+        (
+            "a margin outside the rim",
+            f"Tips that are {far} out of reach are accepted: room for rounding is 1e-9 of the "
+            "reach.",
+            _wide(slack),
+        )
+        for far, slack in (("2 mm", 0.01), ("3 micrometres", 1e-4), ("0.1 micrometres", 1e-6))
+    ),
     (
-        "a margin outside the rim",
-        "Tips that are 2 mm out of reach are accepted: room for rounding is 1e-9 of the reach.",
-        _wide,
+        "the inner edge for a longer first link only",
+        "The inner edge is |l1 − l2|, also where the second link is the longer one.",
+        _inner_of(+1),
+    ),
+    (
+        "the inner edge for a longer second link only",
+        "The inner edge is |l1 − l2|, also where the first link is the longer one.",
+        _inner_of(-1),
     ),
 )
 WHOLE = (
@@ -734,6 +770,7 @@ def _elbow_mistakes() -> list[Mistake]:
 
 OUTPUTS = ("xr", "yr", "xl", "yl")
 BUDGET = 23
+NEARLY = 5 * mm  # a program whose elbows are off by less is told that it is nearly right
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 TIPS = np.array([(0.9, 0.4), (-0.5, 0.8), (0.2, -0.9), (-0.7, -0.6), (0.1, 1.1), (1.1, -0.1)])
 
@@ -833,6 +870,154 @@ def _program_tips(given: Any) -> Floats:
     return tips
 
 
+def _written(
+    base: Sequence[float],
+    tip: Floats,
+    l1: float,
+    l2: float,
+    *,
+    way: Program = lambda bx, by, x, y: (x - bx, y - by),
+    square: Program = lambda dx, dy: dx * dx + dy * dy,
+    K: Program = lambda l1, l2: (l1**2 - l2**2) / 2,
+    share: Program = lambda K, d2: 0.5 + K / d2,
+    L: Program = lambda l1, l2: l1**2,
+    height: Program = lambda L, d2, a: np.sqrt(L / d2 - a * a),
+    foot: Program = lambda bx, by, a, dx, dy: (bx + a * dx, by + a * dy),
+    aside: Program = lambda h, dx, dy: (h * dy, h * dx),
+    elbows: Program = lambda px, py, u, v: (px + u, py - v, px - u, py + v),
+) -> Floats:
+    """The short program, in whose place each step can be exchanged for a wrong one."""
+    (bx, by), (x, y) = np.asarray(base, dtype=float), np.asarray(tip, dtype=float)
+    with np.errstate(all="ignore"):
+        dx, dy = way(bx, by, x, y)
+        d2 = np.float64(square(dx, dy))
+        a = share(K(l1, l2), d2)
+        h = height(L(l1, l2), d2, a)
+        found: Floats = np.array(elbows(*foot(bx, by, a, dx, dy), *aside(h, dx, dy)))
+    return found
+
+
+SHARE = "a = 0.5 + K / d2 with K = (l1² − l2²) / 2."
+HEIGHT = "h = sqrt(l1² / d2 − a²), with d2 = dx² + dy²."
+FOOT = "The foot is the base plus a times the way: px = base_x + a dx, py = base_y + a dy."
+ASIDE = "Across the way is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left all signs change."
+# name, sentence, the step that is exchanged
+SLIPS: tuple[tuple[str, str, dict[str, Program]], ...] = (
+    ("K not halved", SHARE, {"K": lambda l1, l2: l1**2 - l2**2}),
+    ("K halved twice", SHARE, {"K": lambda l1, l2: (l1**2 - l2**2) / 4}),
+    ("the sign of K", SHARE, {"K": lambda l1, l2: (l2**2 - l1**2) / 2}),
+    ("a sum of squares in K", SHARE, {"K": lambda l1, l2: (l1**2 + l2**2) / 2}),
+    ("no squares in K", SHARE, {"K": lambda l1, l2: (l1 - l2) / 2}),
+    ("the square of the difference in K", SHARE, {"K": lambda l1, l2: (l1 - l2) ** 2 / 2}),
+    ("only l2² halved in K", SHARE, {"K": lambda l1, l2: l1**2 - l2**2 / 2}),
+    ("0.5 left out of a", SHARE, {"share": lambda K, d2: K / d2}),
+    ("1 for 0.5 in a", SHARE, {"share": lambda K, d2: 1 + K / d2}),
+    ("0.5 divided by d2, too", SHARE, {"share": lambda K, d2: (0.5 + K) / d2}),
+    ("K not divided by d2", SHARE, {"share": lambda K, d2: 0.5 + K}),
+    ("K times d2", SHARE, {"share": lambda K, d2: 0.5 + K * d2}),
+    ("K divided by d, not by d2", SHARE, {"share": lambda K, d2: 0.5 + K / np.sqrt(d2)}),
+    ("a minus in a", SHARE, {"share": lambda K, d2: K / d2 - 0.5}),
+    ("a not squared", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L / d2 - a)}),
+    ("2 a for a²", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L / d2 - 2 * a)}),
+    ("plus for minus under the root", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L / d2 + a * a)}),
+    ("a² − l1² / d2 under the root", HEIGHT, {"height": lambda L, d2, a: np.sqrt(a * a - L / d2)}),
+    ("the root left out", HEIGHT, {"height": lambda L, d2, a: L / d2 - a * a}),
+    ("l1² not divided by d2", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L - a * a)}),
+    ("a² divided by d2, too", HEIGHT, {"height": lambda L, d2, a: np.sqrt((L - a * a) / d2)}),
+    ("l1² times d2", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L * d2 - a * a)}),
+    ("l1 for l1²", HEIGHT, {"L": lambda l1, l2: l1}),
+    ("l2² for l1²", HEIGHT, {"L": lambda l1, l2: l2**2}),
+    (
+        "h in metres",
+        "With this h the step aside needs a way of length 1: divide h by d. " + HEIGHT,
+        {"height": lambda L, d2, a: np.sqrt(L - a * a * d2)},
+    ),
+    ("h halved", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L / d2 - a * a) / 2}),
+    ("h twice", HEIGHT, {"height": lambda L, d2, a: np.sqrt(L / d2 - a * a) * 2}),
+    ("d for d2", HEIGHT, {"square": lambda dx, dy: np.hypot(dx, dy)}),
+    ("minus for plus in d2", HEIGHT, {"square": lambda dx, dy: dx * dx - dy * dy}),
+    ("the square of the sum for d2", HEIGHT, {"square": lambda dx, dy: (dx + dy) ** 2}),
+    ("dx twice in d2", HEIGHT, {"square": lambda dx, dy: 2 * dx * dx}),
+    ("dy twice in d2", HEIGHT, {"square": lambda dx, dy: 2 * dy * dy}),
+    (
+        "the way from the tip to the base",
+        "dx = x3 − base_x and dy = y3 − base_y: the way goes from the base to the tip.",
+        {"way": lambda bx, by, x, y: (bx - x, by - y)},
+    ),
+    (
+        "the base added to the tip",
+        "dx = x3 − base_x and dy = y3 − base_y. A base below 0 is taken away all the same.",
+        {"way": lambda bx, by, x, y: (x + bx, y + by)},
+    ),
+    (
+        "the base added to x3",
+        "dx = x3 − base_x: a base below 0 is taken away all the same.",
+        {"way": lambda bx, by, x, y: (x + bx, y - by)},
+    ),
+    (
+        "the base added to y3",
+        "dy = y3 − base_y: a base below 0 is taken away all the same.",
+        {"way": lambda bx, by, x, y: (x - bx, y + by)},
+    ),
+    (
+        "the base left out of dx and dy",
+        "dx = x3 − base_x and dy = y3 − base_y.",
+        {"way": lambda bx, by, x, y: (x, y)},
+    ),
+    ("the base left out of dx", "dx = x3 − base_x.", {"way": lambda bx, by, x, y: (x, y - by)}),
+    ("the base left out of dy", "dy = y3 − base_y.", {"way": lambda bx, by, x, y: (x - bx, y)}),
+    (
+        "base_x and base_y exchanged",
+        "dx = x3 − base_x and dy = y3 − base_y.",
+        {"way": lambda bx, by, x, y: (x - by, y - bx)},
+    ),
+    ("1/2 for a in the foot", FOOT, {"foot": lambda bx, by, a, dx, dy: (bx + dx / 2, by + dy / 2)}),
+    ("no a in the foot", FOOT, {"foot": lambda bx, by, a, dx, dy: (bx + dx, by + dy)}),
+    (
+        "the foot counted from the tip",
+        FOOT,
+        {"foot": lambda bx, by, a, dx, dy: (bx + dx + a * dx, by + dy + a * dy)},
+    ),
+    (
+        "the foot on the other side of the base",
+        FOOT,
+        {"foot": lambda bx, by, a, dx, dy: (bx - a * dx, by - a * dy)},
+    ),
+    (
+        "dx and dy exchanged in the foot",
+        FOOT,
+        {"foot": lambda bx, by, a, dx, dy: (bx + a * dy, by + a * dx)},
+    ),
+    ("dx for dy in the foot", FOOT, {"foot": lambda bx, by, a, dx, dy: (bx + a * dx, by + a * dx)}),
+    ("aside along the way", ASIDE, {"aside": lambda h, dx, dy: (h * dx, h * dy)}),
+    ("aside without the way", ASIDE, {"aside": lambda h, dx, dy: (h, h)}),
+    ("both signs alike", ASIDE, {"elbows": lambda px, py, u, v: (px + u, py + v, px - u, py - v)}),
+    ("the sign in xl", ASIDE, {"elbows": lambda px, py, u, v: (px + u, py - v, px + u, py + v)}),
+    ("the sign in yl", ASIDE, {"elbows": lambda px, py, u, v: (px + u, py - v, px - u, py - v)}),
+    ("the sign in xr", ASIDE, {"elbows": lambda px, py, u, v: (px - u, py - v, px - u, py + v)}),
+    ("the sign in yr", ASIDE, {"elbows": lambda px, py, u, v: (px + u, py + v, px - u, py + v)}),
+)
+
+
+def _slip(given: Any, tips: Floats, found: Floats) -> tuple[str, str] | None:
+    """Name and sentence of the slip in one step that gives these elbows; of two, if for these
+    numbers two slips are one.
+    """
+    if not np.isfinite(found).any():
+        return "NaN", "It gives NaN for every tip that was tried. In reach l1² / d2 is above a²."
+    base, l1, l2 = (given["base_x"], given["base_y"]), given["l1"], given["l2"]
+    fitting = [
+        (name, says)
+        for name, says, step in SLIPS
+        for slipped in [np.array([_written(base, tip, l1, l2, **step) for tip in tips])]
+        if np.allclose(found, slipped, rtol=0, atol=1e-6, equal_nan=True)
+    ][:2]
+    if not fitting:
+        return None
+    names, sentences = (list(dict.fromkeys(each)) for each in zip(*fitting, strict=True))
+    return " or ".join(names), " Or: ".join(sentences)
+
+
 def _program_faults(program: str, given: Any) -> list[tuple[str, str]]:
     tips = _program_tips(given)
     found = np.array([[_values(program, tip)[name] for name in OUTPUTS] for tip in tips])
@@ -846,7 +1031,7 @@ def _program_faults(program: str, given: Any) -> list[tuple[str, str]]:
         return bool(np.allclose(found, wanted, rtol=0, atol=1e-6))
 
     right = both(base, l1, l2)
-    faults = []
+    faults: list[tuple[str, str]] = []
     known: tuple[tuple[str, str, Floats], ...] = (
         (
             "the sides exchanged",
@@ -879,18 +1064,22 @@ def _program_faults(program: str, given: Any) -> list[tuple[str, str]]:
         ),
     )
     named = next(((name, says) for name, says, wanted in known if same(wanted)), None)
+    named = named or (None if same(right) else _slip(given, tips, found))
+    most = float(abs(found - right).max())
+    if not named and 1e-6 < most < NEARLY:
+        says = f"Your elbows are off by up to {apart(most / mm, 0)[0]} mm; a micrometre is asked."
+        named = "nearly right", says + " A constant with more digits is nearer."
     for k, name in ((0, "right"), (2, "left")):
         off = abs(found[:, k : k + 2] - right[:, k : k + 2]).max(axis=-1)
         if not (off <= 1e-6).all():
             n = int((~(off <= 1e-6)).argmax())
-            x, y, wx, wy = *found[n, k : k + 2], *right[n, k : k + 2]
+            at, is_at = apart(right[n, k : k + 2], found[n, k : k + 2], 3)
             says = (
-                f"For the tip ({tips[n, 0]:.4g}, {tips[n, 1]:.4g}) the {name} elbow is at "
-                f"({wx:.4g}, {wy:.4g}); your program says ({x:.4g}, {y:.4g})."
+                f"For the tip ({tips[n, 0]:.4g}, {tips[n, 1]:.4g}) the {name} elbow is at ({at}); "
+                f"your program says ({is_at})."
             )
-            faults.append((named[0] if named else f"another {name} elbow", says))
-            if named:
-                faults[-1] = (named[0], f"{named[1]} {says}")
+            why = f"{named[1]} " if named and not faults else ""
+            faults.append((named[0] if named else f"another {name} elbow", why + says))
     count = operations(program)
     if count > given["budget"]:
         raw = count > 60
@@ -996,6 +1185,11 @@ CATCH_MISTAKES = (
         "Both points are elbows: only the side tells. (tip \N{MINUS SIGN} base) x (elbow "
         "\N{MINUS SIGN} base) is negative on the right.",
         _swapped,
+    ),
+    Mistake(
+        "in the order xr, xl, yr, yl",
+        "Its second and third number are exchanged. Look at all four, in the order xr, yr, xl, yl.",
+        lambda *case: tuple(np.array(_both(*case))[[0, 2, 1, 3]].tolist()),
     ),
     Mistake(
         "the links exchanged",

@@ -4,7 +4,7 @@ The answers to each exercise come first, right and wrong, then the predictions' 
 the tables stand at the end.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -31,9 +31,11 @@ from ..jobs.visit_collect import (
 from ..motion import ptp
 from ..units import deg, mm
 from .answers import run
-from .exercises import Catch, Exercise, Fault, Function, Value, Verdict, words
+from .catch import Catch
+from .exercises import Exercise, Fault, Function, Value, Verdict, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .predictions import Option, Prediction
+from .told import apart, floats
 from .variants import Numbers, dice
 
 LAB = "visit_and_collect"
@@ -108,6 +110,14 @@ def _now_and_then(x: float, y: float, z: float) -> Joints:
 def _spoiled_on_axis(x: float, y: float, z: float) -> Joints:
     q1, q2, q3 = _principal(x, y, z)
     return (float("nan") if hypot(x, y) < 1e-12 else q1), q2, q3
+
+
+def _lost_on_border(x: float, y: float, z: float) -> Joints:
+    """No answer where the arm is stretched or folded back, and none on the floor."""
+    d = hypot(x, y, z)
+    if min(L1 + L2 - d, d - (L1 - L2), z) < 1e-6:
+        return float("nan"), float("nan"), float("nan")
+    return _principal(x, y, z)
 
 
 def _too_small(x: float, y: float, z: float) -> Joints:
@@ -294,35 +304,41 @@ INVERSE_MISTAKES = (
         "never lie on the axis: put one there yourself.",
         _of_point(_spoiled_on_axis),
     ),
+    Mistake(
+        "not a number on the border",
+        "It has no answer where the arm is stretched or folded back, nor on the floor, though "
+        "these points belong to the workspace. Random points never lie on the border: put some "
+        "there, as (9, 0, 0).",
+        _of_point(_lost_on_border),
+    ),
+    Mistake(
+        "a matrix of one row",
+        "It returns shape (1, 3) where three numbers (3,) are wanted. Look at the shape, too.",
+        lambda p: _of_point(_principal)(p)[None],
+    ),
 )
 
 
 class InverseTest(Catch):
     """Says about which point a right program was asked last, and what it answered."""
 
-    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
-        verdict = super().judge(name, answer, who)
-        refused = "a right program that it refuses: "
-        if not verdict.case or refused not in verdict.case:
-            return verdict
-        program = dict(self.rights)[verdict.case.partition(refused)[2]]
+    def refusal(self, answer: Program, program: Program) -> Sequence[str]:
         calls: list[tuple[Any, Any]] = []
 
         def recorded(p: Any) -> Any:
             calls.append((np.array(p, dtype=float), program(p)))
             return calls[-1][1]
 
-        run(answer, [(recorded,)], each=True)
+        run(answer, [(recorded,)])
         if not calls:
-            return replace(verdict, says=(*verdict.says, "It never calls the program."))
+            return ["It never calls the program."]
         p, q = calls[-1][0].reshape(3), np.asarray(calls[-1][1], dtype=float)
         if not workspace(L1, L2, p).all():
             why = f"this point is not in the workspace: it {out_of_workspace(L1, L2, p)[0]}."
         else:
             off = float(np.linalg.norm(ARM.fk(q).translation - p))
             why = f"inside the limits, with the tool {off:.1g} m from the point."
-        asked = f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"
-        return replace(verdict, says=(*verdict.says, asked))
+        return [f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"]
 
 
 # --- 2: when the arm is where ---------------------------------------------------------------------
@@ -383,7 +399,7 @@ def _times(result: Any, case: tuple[Any, ...]) -> Floats:
     n = len(case[0]) - 1
     wanted = f"wanted {n} time{'s' * (n > 1)}, one for each stop after the start"
     try:
-        values = np.asarray(result, dtype=float)
+        values = floats(result)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(result)}") from None
     if values.shape in ((n, 1), (1, n)):
@@ -407,9 +423,10 @@ def _arrivals_law(case: tuple[Any, ...], yours: Floats) -> str | None:
     needs = _each(_filled(q), speeds)[k]
     j = int(needs.argmax())
     kept = " (on the axis joint 1 keeps its angle)" if np.isnan(q[: k + 2, 0]).any() else ""
+    at, is_at = apart(wanted[k], yours[k], 3)
     return (
-        f"stop {k + 1} should be reached at {wanted[k]:.4g} s: the move to it takes "
-        f"{needs[j]:.4g} s, set by joint {j + 1}{kept}; you have {yours[k]:.4g} s"
+        f"stop {k + 1} should be reached at {at} s: the move to it takes {needs[j]:.4g} s, set by "
+        f"joint {j + 1}{kept}; you have {is_at} s"
     )
 
 
@@ -951,13 +968,13 @@ def _points_form(task: str, answer: Any) -> Floats | None:
     if isinstance(answer, str) and " ".join(answer.casefold().strip(" .!'\"").split()) == NO_TRAP:
         return None
     try:
-        points = np.asarray(answer, dtype=float)
+        points = floats(answer)
     except (TypeError, ValueError):
         raise ValueError(f"{wanted}, got {words(answer)}.") from None
     if points.shape != (4, 3) or not np.isfinite(points).all():
         raise ValueError(f"{wanted}, got {words(answer)}.")
     if abs(points).max() > 50:
-        raise ValueError(f"{wanted}; yours are {abs(points).max():.4g} m away: mm for m?")
+        raise ValueError(f"{wanted}; yours are up to {abs(points).max():.4g} m away")
     return points
 
 
@@ -1005,7 +1022,8 @@ def _places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
     if gaps.min() < APART - 1e-9:
         a, b = (int(k) for k in np.unravel_index(gaps.argmin(), gaps.shape))
         names = ["p0", *(f"point {k}" for k in range(4))]
-        says = f"{names[a]} and {names[b]} are {gaps.min():.3g} m apart, wanted are {APART:g} m."
+        near, wanted = apart(gaps.min(), APART, 2)
+        says = f"{names[a]} and {names[b]} are {near} m apart, wanted are {wanted} m."
         return "too near to each other", f'"{task}": {says}'
     return None
 
@@ -1072,7 +1090,7 @@ def _plain(points: Any) -> Any:
     """Lists of numbers as an array, which is told in few digits."""
     if isinstance(points, (list, tuple)):
         with suppress(TypeError, ValueError):
-            return np.asarray(points, dtype=float)
+            return floats(points)
     return points
 
 
@@ -1520,12 +1538,13 @@ EXERCISES: dict[str, Exercise] = {
             "Put the answer back: arm.fk(q).translation, or your own my_fk(q, 5, 4), should be p. "
             "Is that all that a right answer promises?",
             "The limits, too: |q1| ≤ 180°, |q2| ≤ 90°, |q3| ≤ 90°. And each wrong program is wrong "
-            "for SOME points: where must they lie so that arctan, a lost sign or a division by "
-            "the distance from the axis shows?",
+            "for SOME points: where must they lie so that arctan, a lost sign, a division by the "
+            "distance from the axis, or a border left out shows?",
             "Draw 300 points in the box from (−9, −9, 0) to (9, 9, 9), keep those where "
-            "workspace(5, 4, points).all(axis=-1) holds, add (0, 0, 6). For each: "
-            "q = np.asarray(inverse(p)); return False unless np.linalg.norm(my_fk(q, 5, 4) - p) <= "
-            "1e-6 and (abs(q) <= [pi, pi/2, pi/2]).all(), with 1e-9 of slack. A NaN fails both.",
+            "workspace(5, 4, points).all(axis=-1) holds, add (0, 0, 6) and (9, 0, 0). For each: "
+            "q = np.asarray(inverse(p)); return False unless q.shape == (3,) and "
+            "np.linalg.norm(my_fk(q, 5, 4) - p) <= 1e-6 and (abs(q) <= [pi, pi/2, pi/2]).all(), "
+            "with 1e-9 of slack. A NaN fails both.",
         ),
         rights=RIGHT_INVERSES,
         promise="A right program may take any posture that is inside the limits and has the tool "

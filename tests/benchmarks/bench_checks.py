@@ -17,7 +17,8 @@ import time
 from pathlib import Path
 
 from robokin.course import book, check, solution
-from robokin.course.exercises import Catch, Function
+from robokin.course.catch import Catch
+from robokin.course.exercises import Function
 
 
 def timed(name, answer, **who):

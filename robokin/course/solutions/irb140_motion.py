@@ -30,7 +30,7 @@ def ptp_short(q0, q1, s):
     low, high = IRB140.limits.T
     end = q1.copy()
     for joint in range(6):
-        values = [q1[joint] + 2 * np.pi * k for k in (-2, -1, 0, 1, 2)]
+        values = [q1[joint] + 2 * np.pi * k for k in range(-9, 10)]
         inside = [value for value in values if low[joint] <= value <= high[joint]]
         end[joint] = min(inside, key=lambda value: abs(value - q0[joint]))
     return q0 + s[:, None] * (end - q0)

@@ -48,14 +48,15 @@ import numpy as np
 
 def inside_is_right(inside):
     """One good motion, then one value spoiled at a time, for two tables of limits."""
-    for limits in ([(-2, 2), (-3, 1), (-7, 7), (0, 0.2)], [(-0.5, 4), (-9, 9), (0.1, 2)]):
+    six = [(-0.5, 4), (-9, 9), (0.1, 2), (-3, 3), (-7, 1), (-2, 5)]
+    for limits in ([(-2, 2), (-3, 1), (-7, 7), (0, 0.2)], six):
         low, high = np.transpose(limits)
         good = np.tile((low + high) / 2, (25, 1))
         good += np.linspace(-0.05, 0.05, 25)[:, None]
         if not inside(good, np.array(limits)):
             return False
         for joint in range(len(limits)):
-            for value in (low[joint] - 0.005, high[joint] + 0.005, np.nan):
+            for value in (low[joint] - 1e-6, high[joint] + 1e-6, np.nan):
                 bad = good.copy()
                 bad[7, joint] = value
                 if inside(bad, np.array(limits)):

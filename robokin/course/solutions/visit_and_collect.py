@@ -14,9 +14,9 @@ def inverse_is_right(inverse):
     points = rng.uniform([-9, -9, 0], [9, 9, 9], size=(300, 3))
     points = points[workspace(5, 4, points).all(axis=-1)]
     most = np.array([np.pi, np.pi / 2, np.pi / 2])
-    for p in [*points, np.array([0, 0, 6.0])]:  # random points are never on the axis
+    for p in [*points, np.array([0, 0, 6.0]), np.array([9.0, 0, 0])]:  # on the axis, on the border
         q = np.asarray(inverse(p), dtype=float)
-        if not (abs(q) <= most + 1e-9).all():  # a NaN is not below
+        if q.shape != (3,) or not (abs(q) <= most + 1e-9).all():  # a NaN is not below
             return False
         if np.linalg.norm(arm.fk(q).translation - p) > 1e-6:
             return False

@@ -1,0 +1,93 @@
+"""Numbers from an answer, and in a sentence."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from robokin import Transform
+from robokin.course import book, check
+from robokin.course.exercises import Function
+from robokin.course.told import apart, floats, one_number
+
+numbers = st.floats(-1e4, 1e4)
+
+
+@given(numbers, numbers)
+def test_numbers_that_differ_are_printed_so_that_they_differ(a, b):
+    one, two = apart(a, b, 1)
+    if abs(a - b) > 1e-11:
+        assert one != two
+    assert len(one.partition(".")[2]) >= 1 and abs(float(one) - a) <= 0.0500001
+    assert abs((float(one) - float(two)) - (a - b)) <= 1.1 * 10.0 ** -len(one.partition(".")[2])
+
+
+def test_a_row_takes_the_digits_that_its_first_difference_needs():
+    assert apart([0.766, 0.643, 0], [0.766, 0.6430004, 0], 3) == (
+        "0.7660000, 0.6430000, 0.0000000",
+        "0.7660000, 0.6430004, 0.0000000",
+    )
+    assert apart(0.24, 0.2404, 2) == ("0.2400", "0.2404")
+    assert apart(0.5, 0.5, 2) == ("0.50", "0.50")
+    assert apart(2, 3, 0) == ("2", "3") and apart(-0.0001, 3, 1) == ("0.0", "3.0")
+
+
+def test_absurd_numbers_read_well():
+    assert apart(0.5, 1.489e31, 3) == ("0.500", "1.5 · 10³¹")
+    assert apart(np.nan, np.inf) == ("nan", "inf")
+
+
+@pytest.mark.parametrize("value", ["0.3", ["0.3", 1], True, [None], {}, b"1", [object()], "x", 1j])
+def test_text_is_no_number(value):
+    with pytest.raises((TypeError, ValueError)):
+        floats(value)
+
+
+def test_numbers_of_any_kind_are_floats():
+    assert floats([1, 2.5]).tolist() == [1, 2.5] and floats(np.float32(0.5)) == 0.5
+    assert one_number([[3]]) == 3 and floats([1 + 0j, np.nan]).dtype == float
+    with pytest.raises(ValueError, match="one number"):
+        one_number([1, 2])
+
+
+FUNCTIONS = [
+    f"{lab}.{n}"
+    for lab in book.LABS
+    for n, exercise in book.lab(lab).EXERCISES.items()
+    if isinstance(exercise, Function)
+]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_text_for_numbers_is_another_kind_of_answer(name):
+    exercise = book.find(name, "EXERCISES")
+
+    def in_text(*case):
+        result = exercise.right_result(case)
+        numbers = result.as_matrix() if isinstance(result, Transform) else np.asarray(result)
+        return np.asarray(numbers, dtype=float).astype(str).tolist()
+
+    if not isinstance(exercise.right_result(exercise.seeded()[0]), (str, bool)):
+        assert check(name, in_text).mistake == "another kind or shape"
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("irb140_kinematics.3", {"height": "0.3", "flags": (1, 1, 1), "duration": 3}),
+        ("scara_kinematics.2", {"distance": 0.3, "elbow": 1, "angle": "0.1"}),
+        ("scara_motion.3", {"blend": "0.2", "duration": 3}),
+        ("spherical_wrist.3", {"up": 0.01, "side": "0.01", "duration": 2}),
+        ("puma560_branches.3", {"row": 1, "duration": "3"}),
+        (
+            "visit_and_collect.3",
+            dict.fromkeys(("visit", "collect", "worth"), [["1", "2", "3"]] * 4),
+        ),
+        ("three_levers.3", {"first": "2", "second": 2}),
+        ("obstacle_avoidance.2", [["1", "2", "2"], ["1", "1", "1"]]),
+        ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
+    ],
+)
+def test_text_for_a_number_of_a_design_is_another_kind(name, answer):
+    verdict = check(name, answer, who="Ada")
+    assert verdict.mistake == "another kind or shape" and verdict.answered

@@ -1,0 +1,166 @@
+"""The exercises of lab 12: slips in a short program are named, and what is told can be read."""
+
+import re
+
+import numpy as np
+import pytest
+
+from robokin.course import check, solution, variant
+from robokin.course.two_link_code_generation import EXERCISES
+
+WHO = next(
+    name
+    for name in map(str, range(99))
+    for own in [variant("two_link_code_generation", name)]
+    if abs(own["base_x"]) != abs(own["base_y"]) and own["l2"] + 0.2 < own["l1"] != 1 - own["l2"]
+)
+OWN = variant("two_link_code_generation", WHO)
+BX, BY, L1, L2 = (OWN[name] for name in ("base_x", "base_y", "l1", "l2"))
+K, L = (L1**2 - L2**2) / 2, L1**2
+RIGHT = {
+    "dx": f"x3 - {BX}",
+    "dy": f"y3 - {BY}",
+    "d2": "dx*dx + dy*dy",
+    "a": f"0.5 + {K} / d2",
+    "h": f"sqrt({L} / d2 - a*a)",
+    "px": f"{BX} + a*dx",
+    "py": f"{BY} + a*dy",
+    "u": "h*dy",
+    "v": "h*dx",
+    "xr": "px + u",
+    "yr": "py - v",
+    "xl": "px - u",
+    "yl": "py + v",
+}
+
+
+def program(**lines):
+    return "\n".join(f"{name} = {line}" for name, line in (RIGHT | lines).items())
+
+
+def judged(**lines):
+    return check("two_link_code_generation.2", program(**lines), who=WHO)
+
+
+SLIPS = {
+    "K not halved": {"a": f"0.5 + {2 * K} / d2"},
+    "the sign of K": {"a": f"0.5 - {K} / d2"},
+    "a sum of squares in K": {"a": f"0.5 + {(L1**2 + L2**2) / 2} / d2"},
+    "no squares in K": {"a": f"0.5 + {(L1 - L2) / 2} / d2"},
+    "0.5 left out of a": {"a": f"{K} / d2"},
+    "1 for 0.5 in a": {"a": f"1 + {K} / d2"},
+    "0.5 divided by d2, too": {"a": f"(0.5 + {K}) / d2"},
+    "K not divided by d2": {"a": f"0.5 + {K}"},
+    "K divided by d, not by d2": {"a": f"0.5 + {K} / sqrt(d2)"},
+    "a not squared": {"h": f"sqrt({L} / d2 - a)"},
+    "2 a for a²": {"h": f"sqrt({L} / d2 - 2*a)"},
+    "plus for minus under the root": {"h": f"sqrt({L} / d2 + a*a)"},
+    "the root left out": {"h": f"{L} / d2 - a*a"},
+    "l1² not divided by d2": {"h": f"sqrt({L} - a*a)"},
+    "a² divided by d2, too": {"h": f"sqrt(({L} - a*a) / d2)"},
+    "l1 for l1²": {"h": f"sqrt({L1} / d2 - a*a)"},
+    "l2² for l1²": {"h": f"sqrt({L2**2} / d2 - a*a)"},
+    "h in metres": {"h": f"sqrt({L} - a*a*d2)"},
+    "d for d2": {"d2": "sqrt(dx*dx + dy*dy)"},
+    "minus for plus in d2": {"d2": "dx*dx - dy*dy"},
+    "the square of the sum for d2": {"d2": "(dx + dy)**2"},
+    "dx twice in d2": {"d2": "dx*dx + dx*dx"},
+    "the way from the tip to the base": {"dx": f"{BX} - x3", "dy": f"{BY} - y3"},
+    "the base added to the tip": {"dx": f"x3 + {BX}", "dy": f"y3 + {BY}"},
+    "the base left out of dx and dy": {"dx": "x3", "dy": "y3"},
+    "base_x and base_y exchanged": {"dx": f"x3 - {BY}", "dy": f"y3 - {BX}"},
+    "1/2 for a in the foot": {"px": f"{BX} + 0.5*dx", "py": f"{BY} + 0.5*dy"},
+    "no a in the foot": {"px": f"{BX} + dx", "py": f"{BY} + dy"},
+    "the foot counted from the tip": {"px": "x3 + a*dx", "py": "y3 + a*dy"},
+    "aside along the way": {"u": "h*dx", "v": "h*dy"},
+    "both signs alike": {"yr": "py + v", "yl": "py - v"},
+    "the sign in xl": {"xl": "px + u"},
+    "the sign in yl": {"yl": "py - v"},
+}
+
+
+def test_slips_of_the_pen_are_named():
+    named = 0
+    for name, lines in SLIPS.items():
+        verdict = judged(**lines)
+        assert not verdict.holds and verdict.mistake in (name, "NaN"), verdict
+        assert len(verdict.says) <= 2
+        named += verdict.mistake == name
+    assert named >= len(SLIPS) - 6  # a root below 0 for every tip gives NaN, and nobody knows why
+
+
+def test_known_programs_and_nearly_right_ones_keep_their_names():
+    assert judged().holds
+    assert judged(xr="px - u", yr="py + v", xl="px + u", yl="py - v").mistake == (
+        "the sides exchanged"
+    )
+    assert judged(px="a*dx", py="a*dy").mistake == "the base not added at the end"
+    near = judged(a=f"0.5 + {K + 1e-4} / d2")
+    assert near.mistake == "nearly right" and "a micrometre is asked" in near.says[0]
+    at = r"elbow is at \((.*?)\); your program says \((.*?)\)"
+    right, yours = re.search(at, near.says[0]).groups()
+    assert right != yours
+    assert judged(a=f"5 + {K} / d2").mistake == "NaN"
+    other = judged(h=f"sqrt({L} / d2 - a*a) + dx*0.1")
+    assert other.mistake == "another right elbow"
+
+
+@pytest.mark.parametrize(
+    ("reach", "name"),
+    [
+        (lambda d, a, b: abs(a - b) - 1e-6 <= d <= a + b + 1e-6, "a margin outside the rim"),
+        (lambda d, a, b: abs(a - b) - 1e-5 <= d <= a + b + 1e-5, "a margin outside the rim"),
+        (
+            lambda d, a, b: a - b - 1e-9 <= d <= a + b + 1e-9,
+            "the inner edge for a longer first link only",
+        ),
+        (
+            lambda d, a, b: b - a - 1e-9 <= d <= a + b + 1e-9,
+            "the inner edge for a longer second link only",
+        ),
+    ],
+)
+def test_a_rim_a_little_beside_is_seen(reach, name):
+    def elbow(base, tip, l1, l2, side):
+        dx, dy = np.subtract(tip, base)
+        d2 = dx * dx + dy * dy
+        if not reach(np.sqrt(d2), l1, l2):
+            return [np.nan, np.nan]
+        a = (d2 + l1**2 - l2**2) / (2 * d2)
+        h = side * np.sqrt(max(l1**2 / d2 - a**2, 0))
+        return base + a * np.array([dx, dy]) + h * np.array([dy, -dx])
+
+    assert check("two_link_code_generation.1", elbow).mistake == name
+
+
+def test_an_elbow_past_the_rim_is_told_in_numbers_that_differ():
+    space = {}
+    exec(solution("two_link_code_generation.1"), space)
+
+    def always(base, tip, l1, l2, side):
+        found = space["elbow_of"](base, tip, l1, l2, side)
+        return np.where(np.isnan(found), base, found)
+
+    verdict = check("two_link_code_generation.1", always)
+    tip, rim = re.search(r"the tip is (.*) m from the base, .* to (.*) m", verdict.case).groups()
+    assert tip != rim and not verdict.holds
+
+
+def test_a_test_of_elbows_has_to_look_at_all_four_numbers():
+    space = {}
+    exec(solution("two_link_code_generation.3"), space)
+    whole = space["elbows_are_right"]
+
+    right = EXERCISES["3"].rights[0][1]
+
+    def first_and_last(elbows):
+        def mended(*case):
+            found = [*right(*case)]
+            found[0], found[3] = (elbows(*case)[k] for k in (0, 3))
+            return found
+
+        return whole(mended)
+
+    assert check("two_link_code_generation.3", whole).holds
+    verdict = check("two_link_code_generation.3", first_and_last)
+    assert verdict.mistake == "accepts: in the order xr, xl, yr, yl"
