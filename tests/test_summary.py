@@ -149,9 +149,11 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
     rows = rows_of(page, "counted")
     for (name, what), who in wrong.items():
         task = book.find(name, "EXERCISES").task.replace("`", "")
+        lab = book.titled(name.partition(".")[0]).capitalize()
         assert [f"{lab}: {task}", what, str(len(who))] in [r[:3] for r in rows]
     for name, what in guessed:
-        assert [f"{name.partition('.')[0]}: {question(name)}", what] in [row[:2] for row in rows]
+        lab = book.titled(name.partition(".")[0]).capitalize()
+        assert [f"{lab}: {question(name)}", what] in [row[:2] for row in rows]
     figures = iter(rows_of(page, "class"))
     for slug in SLUGS:  # each exercise has an objective of its own
         students = sum(data["lab"] == slug for data in drawn.values())
