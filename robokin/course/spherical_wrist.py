@@ -1018,7 +1018,6 @@ def _noise_facts() -> dict[str, Any]:
     return {
         "worst": worst[row, 0],
         "lost": lost[row, 0],
-        "share": 10 * round(10 * lost[row, 0]),
         "power": f"{digit}·10{str(int(power)).translate(POWERS)}",
     }
 
@@ -1444,7 +1443,7 @@ PREDICTIONS = {
             Option(
                 "Some give no number at all; the others come back with errors up to {power}.",
                 "h₃₃ is rounded, now and then to more than 1, and √(1 − h₃₃²) is the root of a "
-                "negative number: NaN, in about {share} % of the postures. The others are off, the "
+                "negative number: NaN, in {lost:.0%} of the postures. The others are off, the "
                 "worst by {power}: around the singularity lies a zone where \u201cregular\u201d is "
                 "true and the regular formulas are not to be trusted.",
             ),
