@@ -180,7 +180,7 @@ def test_whole_turns_change_nothing():
 
 # The numbers of the machines as their sources print them, in degrees and millimetres.
 PUBLISHED = {
-    "IRB-140": (  # 001, listing 7; speeds: the lower ones of public models
+    "IRB-140": (  # 001, listing 7; speeds: our choice, below public models
         IRB140,
         [(-180, 180), (-90, 110), (-230, 50), (-200, 200), (-115, 115), (-400, 400)],
         [200, 200, 245, 348, 360, 450],

@@ -20,11 +20,13 @@ def _at(x: float, y: float, z: float) -> Transform:
 
 
 #: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the
-#: document's, its frame `wrist` split in two (joints 4 and 5). Its joint 2 turns about -y, so a
-#: positive angle leans the arm back, and its upper arm is 350 mm where other models of this robot
-#: have 360 mm (errata S1-g): we keep the document's numbers. Speeds: public models of the robot
-#: differ for joints 3 and 4 (260 and 360 elsewhere); these are the lower ones, not checked against
-#: the maker's data sheet.
+#: document's, its frame `wrist` split in two (joints 4 and 5). Public models of this robot
+#: (ROS-Industrial abb_experimental, ARTE) are another arm: an upper arm of 360 mm, here 350 mm, and
+#: a joint 2 that leans forward at positive angles, here back. With q2 negated their flange is 10 mm
+#: from this one's at every posture; with the same q2 = 30 degrees, all other joints at zero, 563 mm
+#: (errata S1-g; companion 001, section 2). ARTE has joint 5 to +-120 degrees. We keep the
+#: document's numbers. It states no speeds: those of joints 3 and 4 are ours, below the 260 and 360
+#: of the public models; the maker's data sheet was not at hand.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(

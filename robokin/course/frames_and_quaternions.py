@@ -272,8 +272,8 @@ SEEN_MISTAKES = (
     ),
     Mistake(
         "transposed for inverse",
-        "The whole matrix is transposed: then the shift stands in the last row. Only R is its own "
-        f"inverse when transposed. {INVERSE}",
+        "The whole matrix is transposed: then the shift stands in the last row. Transposing "
+        f"inverts the rotation R alone. {INVERSE}",
         _with(seen=lambda flange, part: flange.T @ part),
     ),
     Mistake(

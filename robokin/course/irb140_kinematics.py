@@ -601,7 +601,7 @@ def design_faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[F
 def past_limits(q: Floats, t: Floats) -> list[Fault]:
     """The joints that no choice of whole turns keeps inside their limits."""
     turns = 2 * np.pi * np.arange(-3, 4)
-    names, lines = [], []
+    names, lines, ends = [], [], True
     for k, (low, high) in enumerate(IRB140.limits):
         track = q[:, k, None] + turns
         over = np.maximum(track - high, low - track)  # (samples, whole turns)
@@ -611,19 +611,24 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
             continue
         limit = high if track[i, best] > high else low
         names.append(k + 1)
-        line = (
+        past = over[:, best] > 1e-6
+        ends &= not past[[0, -1]].any()
+        lines.append(
             f"Joint {k + 1} is past its limit of {limit / deg:.0f}° by "
-            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s"
+            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s (past it from {t[past][0]:.2f} to "
+            f"{t[past][-1]:.2f} s)."
         )
-        first_past = t[(over[:, best] > 1e-6)]
-        line += f" (past it from {first_past[0]:.2f} to {first_past[-1]:.2f} s)"
         if within(IRB140, q)[:, k].all():
-            line += "; no one value of it stays inside, it would have to jump by a whole turn"
-        lines.append(line + ".")
+            ends = False
+            ways = track[:, best] / deg
+            lines.append(
+                f"Each sample alone has a value inside, and the motion has not: without a jump it "
+                f"goes from {ways.min():.1f}° to {ways.max():.1f}°, or whole turns away, past a "
+                "limit wherever it starts."
+            )
     if not names:
         return []
     which = f"joint {names[0]}" if len(names) == 1 else f"joints {listed(names)}"
-    ends = within(IRB140, q[[0, -1]]).all()
     if ends:
         lines.append("At both ends every joint is inside: look at the whole way.")
     return [(f"past a limit: {which}", " ".join(lines))]
@@ -1084,6 +1089,7 @@ def spike_facts() -> dict[str, Any]:
         shown = np.angle(np.exp(1j * turning))
         found[name] = float(abs(np.diff(shown)).max() / step)
         found[f"true {name}"] = float(abs(np.diff(np.unwrap(shown))).max() / step)
+        found[f"central {name}"] = float(abs(np.gradient(shown, step)).max())
     found["true"] = found["true coarse"]
     return found
 
@@ -1153,9 +1159,15 @@ EXERCISES: dict[str, Exercise] = {
         hints=(
             "Begin with any duration: whether the motion exists and stays inside the limits is "
             "no matter of time. Which flags let the arm turn its back to the target?",
-            "Try every row and the heights from 400 to 900 mm in steps of 25 mm: "
-            "within(IRB140, IRB140.ik(my_target(t, total, height))[:, row]).all() tells. Joint 4 "
-            "may begin at half a turn: +180° or −180° is one posture.",
+            "Try every row and the heights from 400 to 900 mm in steps of 25 mm. within asks each "
+            "sample alone; the joints make one motion. With\n\n"
+            "    t = np.linspace(0, 1, 2001)\n"
+            "    q = np.unwrap(IRB140.ik(my_target(t, 1, height))[:, row], axis=0)\n"
+            "    low, high = IRB140.limits.T\n"
+            "    up = 360 * deg * np.ceil((low - q.min(axis=0)) / (360 * deg))  # whole turns\n"
+            "    stays = (q.max(axis=0) + up <= high).all()\n"
+            "    smooth = abs(np.diff(q, axis=0)).max() < 1.5\n\n"
+            "take a height and a row for which `stays` and `smooth` are True.",
             "Then the speeds, for one second: v = differentiate(np.unwrap(rows, axis=0), t) with t "
             "from 0 to 1. The busiest joint has used = (abs(v) / IRB140.speed_limits).max(), and "
             "the shortest duration is used / share. Take 1.1 times that.",
@@ -1450,8 +1462,10 @@ PREDICTIONS = {
             Option(
                 "it doubles",
                 "A whole turn is divided by the step of time: {coarse:.0f} rad/s at 10 ms, "
-                "{fine:.0f} rad/s at 5 ms. What grows with denser samples is no speed. Unwrap "
-                "first, then differentiate.",
+                "{fine:.0f} rad/s at 5 ms. What grows with denser samples is no speed. (A central "
+                "difference divides it by two steps: {central coarse:.0f} and {central fine:.0f} "
+                "rad/s.) "
+                "Unwrap first, then differentiate.",
             ),
             Option(
                 "it is gone as soon as no sample falls on 180°",

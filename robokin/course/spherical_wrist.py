@@ -1055,7 +1055,6 @@ def _noise_facts() -> dict[str, Any]:
     return {
         "worst": worst[row, 0],
         "lost": lost[row, 0],
-        "share": 10 * round(10 * lost[row, 0]),
         "power": f"{digit}·10{str(int(power)).translate(POWERS)}",
     }
 
@@ -1099,11 +1098,23 @@ def _noise_view() -> Any:
     return fig
 
 
+def _joint_end(k: int, sign: int) -> float:
+    """The least (+1) or greatest (-1) distance from a singularity while joint k + 1 alone turns by
+    up to 150 degrees to either side: 201 samples, then 201 about the best of them, down to 1e-8
+    degrees.
+    """
+    best, half = 0.0, 150.0
+    while half > 1e-8:
+        by = np.clip(best + half * np.linspace(-1, 1, 201), -150, 150)
+        q = _posture(20, 70, -60, 30, 50, 10) + by[:, None] * deg * np.eye(6)[k]
+        values = sign * distance_from_singularity(ITMO6R, q)
+        best, half = float(by[values.argmin()]), half / 50
+    return sign * float(values.min())
+
+
 @cache
 def _joints_facts() -> dict[str, Any]:
-    sweep = np.linspace(-150, 150, 61)[:, None] * deg * np.eye(6)[:, None]
-    values = distance_from_singularity(ITMO6R, _posture(20, 70, -60, 30, 50, 10) + sweep)
-    low, high = values.min(axis=-1), values.max(axis=-1)
+    low, high = ([_joint_end(k, sign) for k in range(6)] for sign in (1, -1))
     never = [k + 1 for k in range(6) if high[k] - low[k] < 1e-9]
     facts: dict[str, Any] = {"never": never}
     for k in range(6):
@@ -1132,10 +1143,12 @@ def _speeds(miss: float) -> tuple[Floats, Floats]:
     t = np.concatenate([np.linspace(0, 4, 401), np.linspace(1.9, 2.1, 2001)])
     t.sort()
     law = quintic(duration=4)
-    poses = tilted_line(45 * deg, miss, 0, 0, law(t))
+    level = turned(90 * deg, Y) @ turned(180 * deg, Z)
+    beside = miss * np.array([0, -1, 1]) / np.sqrt(2)
+    start, goal = (np.array([400, e * 80, 200 + e * 80]) * mm + beside for e in (-1, 1))
+    poses = lin(Transform(level, start), Transform(level, goal), law(t))
     rate = (law(t + 1e-6) - law(t - 1e-6)) / 2e-6
-    way = 2 * HALF * np.array([0, 1, 1]) / np.sqrt(2)
-    velocity = np.concatenate([way, np.zeros(3)]) * rate[:, None]
+    velocity = np.concatenate([goal - start, np.zeros(3)]) * rate[:, None]
     q = ITMO6R.ik(poses)[:, ROW]
     speeds = np.linalg.solve(ITMO6R.jacobian(q), velocity[..., None])[..., 0]
     joint4: Floats = np.abs(speeds[:, 3]) / deg
@@ -1149,7 +1162,7 @@ def _fastest(miss: float) -> float:
 
 @cache
 def _half_facts() -> dict[str, Any]:
-    two, one = round(_fastest(2 * mm), -2), _fastest(1 * mm)  # the player's sampled value is near
+    two, one = _fastest(2 * mm), _fastest(1 * mm)
     ends = ITMO6R.ik(tilted_line(45 * deg, 2 * mm, 0, 0, np.linspace(0, 1, 2001)))
     joint4 = follow(ITMO6R, ends, ROW)[:, 3]
     return {
@@ -1157,7 +1170,7 @@ def _half_facts() -> dict[str, Any]:
         "two": two,
         "one": one,
         "half": two / 2,
-        "root": round(np.sqrt(2) * two, -2),
+        "root": np.sqrt(2) * two,
         "double": 2 * two,
         "four": 4 * two,
     }
@@ -1316,7 +1329,7 @@ PREDICTIONS = {
                 "{size:.0f}",
                 "That is one leg of the right angle: how far both points are from the tool.",
                 "a leg for the hypotenuse",
-                "A knight's step 1 aside and 1 ahead is 1.41 long.",
+                "A step of 1 m aside and one of 1 m ahead lead 1.41 m away.",
             ),
             Option(
                 "{down:.0f}",
@@ -1441,33 +1454,33 @@ PREDICTIONS = {
     "p6": Prediction(
         question="In 200 random postures joint 5 stands at 0.000 000 001 rad (10⁻⁹), not at zero. "
         "For each we compute R₆³ from the chain, in double precision (16 digits), let the textbook "
-        "formulas find the three angles, and build the matrix of these angles. What happens to "
-        "the worst of the 200?",
+        "formulas find the three angles, and build the matrix of these angles. What becomes of "
+        "the 200? (An error is the greatest one of a matrix entry.)",
         options=(
             Option(
-                "It is off by 10⁻¹⁶: double precision has 16 digits.",
+                "All 200 come back, with errors of 10⁻¹⁶: double precision has 16 digits.",
                 "φ and ψ are read from numbers of size 10⁻⁹, and these carry a rounding of 10⁻¹⁶: "
                 "few digits are left.",
                 "all digits survive",
                 "1 − cos(10⁻⁹) is 5·10⁻¹⁹ on paper, and 0 in double precision.",
             ),
             Option(
-                "It is off by 10⁻⁹: an error as small as the angle.",
+                "All 200 come back, with errors up to 10⁻⁹: as small as the angle.",
                 "So small an angle hardly matters, and its direction does: the other two angles "
                 "are read from it. Where there is a number, the worst is off by {power}.",
                 "a small angle makes a small error",
                 "At the north pole a step of a millimetre takes you through any longitude.",
             ),
             Option(
-                "It is off by {power}: more than half of the digits go.",
+                "All 200 come back, with errors up to {power}: more than half of the digits go.",
                 "That is the worst of the postures with a number. The others have none.",
                 "the root is forgotten",
                 "Of 1 − h₃₃² rounding may leave a negative number, and it has no root.",
             ),
             Option(
-                "Some give no number at all, the rest lose about half their digits.",
+                "Some give no number at all; the others come back with errors up to {power}.",
                 "h₃₃ is rounded, now and then to more than 1, and √(1 − h₃₃²) is the root of a "
-                "negative number: NaN, in about {share} % of the postures. The others are off, the "
+                "negative number: NaN, in {lost:.0%} of the postures. The others are off, the "
                 "worst by {power}: around the singularity lies a zone where \u201cregular\u201d is "
                 "true and the regular formulas are not to be trusted.",
             ),
@@ -1513,11 +1526,11 @@ PREDICTIONS = {
         view=_joints_view,
     ),
     "p8": Prediction(
-        question="On the line 2 mm beside the hit joint 4 goes up to about {two:.0f}°/s. We run "
-        "the line 1 mm beside it, in the same time. How fast does joint 4 go?",
+        question="On the line 2 mm beside the hit joint 4 goes up to {two:.0f}°/s. We run the line "
+        "1 mm beside it, in the same time. How fast does joint 4 go?",
         options=(
             Option(
-                "About {half:.0f}°/s: the hit is easy, and we come nearer to it.",
+                "{half:.0f}°/s: the hit is easy, and we come nearer to it.",
                 "The hit needs next to no turn of joint 4. The line 2 mm beside it needs "
                 "{turn:.0f}°, and the nearer the line, the less time there is.",
                 "the hit taken for a limit",
@@ -1525,19 +1538,20 @@ PREDICTIONS = {
                 "across the street.",
             ),
             Option(
-                "About {root:.0f}°/s: the root of 2 times as fast.",
+                "{root:.0f}°/s: the root of 2 times as fast.",
                 "A root would come in if the time went with the root of the distance. It goes with "
                 "the distance.",
                 "a root of the distance",
                 "A plane at half the height passes overhead in half the time.",
             ),
             Option(
-                "About {double:.0f}°/s: half the distance, twice the speed.",
-                "Joint 4 follows the direction from the hit to where the forearm points, and that "
-                "sweeps past at a given pace: pace over distance.",
+                "{double:.0f}°/s: half the distance, twice the speed.",
+                "Seen along the tool, joint 4 turns with the line from where the tool points to "
+                "where the forearm points. The forearm's direction goes past at a given pace, so "
+                "this line turns fastest at pace over distance, when they are nearest.",
             ),
             Option(
-                "About {four:.0f}°/s: the inverse square.",
+                "{four:.0f}°/s: the inverse square.",
                 "The acceleration goes so. A speed of turning is pace over distance.",
                 "the square of the distance",
                 "From a train the trees at half the distance pass by twice as fast.",

@@ -28,10 +28,10 @@ my_numbers = variant("scara_kinematics", who)
 distance = 0.29  # between the hole, 126 mm, and 440 mm, where joint 2 stands at 25 degrees
 elbow = +1 if my_numbers["bearing"] > 0 else -1  # the first lever stays in front of the target
 
-omega = np.linspace(0, 2 * np.pi, 361)
-x = distance * np.cos(my_numbers["bearing"]) + my_numbers["radius"] * np.cos(omega)
-y = distance * np.sin(my_numbers["bearing"]) + my_numbers["radius"] * np.sin(omega)
-turned = my_numbers["turns"] * omega  # the tool's angle, were it to begin at 0
+beta = np.linspace(0, 2 * np.pi, 361)
+x = distance * np.cos(my_numbers["bearing"]) + my_numbers["radius"] * np.cos(beta)
+y = distance * np.sin(my_numbers["bearing"]) + my_numbers["radius"] * np.sin(beta)
+turned = my_numbers["turns"] * beta  # the tool's angle, were it to begin at 0
 rows = SCARA.ik(ScaraPose(np.stack([x, y, np.full_like(x, 100 * mm)], axis=-1)))
 q1, q2 = rows[:, SCARA.branch(elbow), :2].T
 q3 = turned - q1 - q2
