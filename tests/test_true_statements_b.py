@@ -20,14 +20,14 @@ from robokin import PUMA560, Quaternion, Transform, deg, lin, loader_arm, mm, qu
 from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.course import variant
 from robokin.course.book import find
-from robokin.course.obstacle_avoidance import sampled_tasks
+from robokin.course.obstacle_avoidance import _path_form, sampled_tasks
 from robokin.course.predictions import filled
+from robokin.course.three_levers import RING, SAMPLE
 from robokin.jobs import redundancy
 from robokin.jobs.conveyor import serve, spaced
-from robokin.jobs.obstacles import keeps, swept, way_round
+from robokin.jobs.obstacles import keeps, way_round
 from robokin.jobs.steppers import ramp
-from robokin.jobs.visit_collect import Task, principal_postures, workspace
-from robokin.motion import travel_time
+from robokin.jobs.visit_collect import Task, principal_postures, travel_time, workspace
 from robokin.show import motor_explorer
 
 ARM = three_lever(1.0)
@@ -228,7 +228,7 @@ def race_of_the_cell(count):
 
 
 def test_the_last_bit_decides_nothing_in_the_race(monkeypatch):
-    places, obstacle, _ = race_of_the_cell(60)
+    places, obstacle, _ = race_of_the_cell(40)
     start, rng, exact = np.array([60, 120, 120]) * deg, np.random.default_rng(1), {}
     measured = redundancy.distances
 
@@ -236,7 +236,7 @@ def test_the_last_bit_decides_nothing_in_the_race(monkeypatch):
         d = measured(*given)
         return d + rng.uniform(-1, 1, np.shape(d)) * 4e-16
 
-    for noise in (None, 1, 2, 3):
+    for noise in (None, 1, 2):
         if noise:
             monkeypatch.setattr(redundancy, "distances", noisy)
         rule = redundancy.distance_rule(obstacle)
@@ -255,11 +255,11 @@ def test_dice_turn_more_and_by_how_much():
     def least(place, before):
         """By a sweep of the whole family, then finer beside its best row."""
         low, high = ARM.alpha_range(place)
-        for _ in range(3):
-            alphas = np.linspace(low, high, 401)
+        for count in (8001, 101, 101):
+            alphas = np.linspace(low, high, count)
             rows = ARM.family(place, alphas)
             k = abs(rows - before).sum(axis=-1).argmin()
-            low, high = alphas[max(k - 1, 0)], alphas[min(k + 1, 400)]
+            low, high = alphas[max(k - 1, 0)], alphas[min(k + 1, count - 1)]
         return rows[k]
 
     def equal(place, before):
@@ -270,7 +270,7 @@ def test_dice_turn_more_and_by_how_much():
             return beta - alpha
 
         q = ARM.family(place, brentq(gap, low, high))
-        return q if q[0] <= np.pi else least(place, before)
+        return q if 0 <= q[0] <= np.pi else least(place, before)
 
     for place in places:
         low, high = ARM.alpha_range(place)
@@ -293,8 +293,6 @@ def test_dice_turn_more_and_by_how_much():
 def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
     question, _, _ = asked("three_levers.p4")
     first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
-    from robokin.course.three_levers import RING, SAMPLE
-
     KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus an angle that does not change
     gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
     beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2
@@ -365,7 +363,6 @@ def test_when_the_plan_stays():
     low, near, high, far, falls, to, stays = said(
         "10", "control-look", text + r"(\d+) to (\d+) mm.* At (\d+) mm the arm stays"
     )
-    stood = said("10", "control-look", r"The obstacle is at \(1\.2, 1\.3\) m")
     asks = eval(re.search(r"asks = (np\.array\(.*?\))", cells("10")["control-player-data"])[1])
     S = {}
     for each in asks:
@@ -374,7 +371,7 @@ def test_when_the_plan_stays():
         if len(path) > 1:
             assert least_distance(path, H) >= each - 1e-9
             assert ARM.points(path[-1])[3] == pytest.approx(K1, abs=1e-9)
-    assert [*S] == sorted(S) and [*S][0] == near and [*S][-2:] == [far, stays] and stood == []
+    assert [*S] == sorted(S) and [*S][0] == near and [*S][-2:] == [far, stays]
     assert round(S[near]) == low and round(S[far]) == high and S[stays] == 0
     ways = [*S.items()][:-1]
     down = [(a, b) for (a, x), (b, y) in pairwise(ways) if y < x]
@@ -461,7 +458,7 @@ def test_the_drawing_is_found_in_few_motions_drawn_as_the_question_says():
         for (A, K), (A1, K_1), H in tasks:
             if path([A, K, K_1, A1]).contains_point(H):
                 inside += 1
-                y = [np.interp(0, 1, 1)] and [line(P, Q, H[0]) for P, Q in ((A1, K_1), (A, K))]
+                y = [line(P, Q, H[0]) for P, Q in ((A1, K_1), (A, K))]
                 x = [line(P[::-1], Q[::-1], H[1]) for P, Q in ((A, A1), (K, K_1))]
                 found += y[0] < H[1] < y[1] and x[0] < H[0] < x[1]
         return inside, found
@@ -470,15 +467,17 @@ def test_the_drawing_is_found_in_few_motions_drawn_as_the_question_says():
         return P[1] + (x - P[0]) * (Q[1] - P[1]) / (Q[0] - P[0])
 
     def drawn(rng, count):
-        for _ in range(count):
-            q, r, phi = rng.uniform(0, np.pi, 3), rng.uniform(1.1, 2.9), rng.uniform(0, 120) * deg
-            ends = ARM.points(direct(q, r * np.array([np.cos(phi), np.sin(phi)])))[:, 2:]
-            if np.isfinite(ends).all():
-                corners = ends.reshape(-1, 2)
-                yield *ends, rng.uniform(corners.min(axis=0), corners.max(axis=0))
+        q, phi = rng.uniform(0, np.pi, (count, 3)), rng.uniform(0, 120, count) * deg
+        target = rng.uniform(1.1, 2.9, count) * [np.cos(phi), np.sin(phi)]
+        ends = ARM.points(np.stack([q, ARM.least(target.T, q)[0]], axis=1))[:, :, 2:]
+        for pair in ends:
+            corners = pair.reshape(-1, 2)
+            yield *pair, rng.uniform(corners.min(axis=0), corners.max(axis=0))
 
     inside, found = found_in(drawn(np.random.default_rng(77), 1500))
-    told = re.match(r"(\d+) of (\d+)\..* H is inside (\d+) times.* finds (\d+)\.", options[right][1])
+    told = re.match(
+        r"(\d+) of (\d+)\..* H is inside (\d+) times.* finds (\d+)\.", options[right][1]
+    )
     few, many, own, own_found = map(int, told.groups())
     p = few / many
     assert p < 0.1 and abs(found / inside - p) < 3 * np.sqrt(2 * p * (1 - p) / inside)
@@ -492,11 +491,13 @@ def test_what_lies_outside_the_quadrilateral():
     assert "from (150°, 120°, 120°) to K1 = (1.9, 0.3) m" in question
     assert f"{abs(end - start).sum() / deg:.0f}°" in question
     (A, K), (A1, K_1) = ARM.points(np.stack([start, end]))[:, 2:]
-    quad = pytest.importorskip("matplotlib.path").Path([A, K, K_1, A1])
+    path = pytest.importorskip("matplotlib.path").Path
+    quad = path([A, K, K_1, A1])
     points = np.stack(np.meshgrid(np.arange(-0.9, 1.92, 0.031), np.arange(0.28, 2.02, 0.031)), -1)
     points = points.reshape(-1, 2)
-    # what lever AK passes over comes to within its length of it: the least distance is 0
-    over = swept(ARM, start, end, points)["AK"]
+    levers = ARM.points(start + np.linspace(0, 1, 401)[:, None] * (end - start))[:, 2:]
+    strips = (path([a, b, d, c]) for (a, b), (c, d) in pairwise(levers))
+    over = np.any([strip.contains_points(points) for strip in strips], axis=0)
     missed = over & ~quad.contains_points(points)
     told = re.match(r"(\d+) %: (\S+) of (\S+) m².* quadrilateral (\S+) m²", options[right].reason)
     share, out, area, false = map(float, told.groups())
@@ -513,15 +514,15 @@ def test_seven_samples_miss_the_valley():
     seen = lever_distance(path[0] + np.linspace(0, 1, 7)[:, None] * (path[1] - path[0]), H).min()
     true = least_distance(path, H)
     assert f"at least {seen / mm:.0f} mm" in question
-    assert options[right].reason.startswith(f"{true / mm:.0f} mm, {(seen - true) / mm:.0f} mm below")
+    assert options[right].reason.startswith(
+        f"{true / mm:.0f} mm, {(seen - true) / mm:.0f} mm below"
+    )
 
 
 def test_which_angles_of_the_task_are_radians():
     given = variant("obstacle_avoidance", "your name")
     assert said("10", "task-2", r"`my_task\[\"start\"\]` holds (\w+), `my_task\[\"most\"\]` (\w+)")
     assert max(given["start"]) > 4 * np.pi > given["most"] and "held in radians" in repr(given)
-    from robokin.course.obstacle_avoidance import _path_form
-
     (most,) = said("10", "task-2", r"at most (\d+) postures")
     assert len(_path_form(np.zeros((int(most), 3)), given)) == most
     with pytest.raises(ValueError, match=f"at most {most:.0f}"):
@@ -535,9 +536,7 @@ def test_rounded_positions_stay_within_half_a_pulse():
     _, options, right = asked("motor_synchronisation.p7")
     alone, expected, counted = map(
         float,
-        re.match(
-            r"By (\d+)\. .* is (\d+), .* it is (\S+) at most", options[right].reason
-        ).groups(),
+        re.match(r"By (\d+)\. .* is (\d+), .* it is (\S+) at most", options[right].reason).groups(),
     )
     walk = np.cumsum(np.random.default_rng(1).uniform(-20, 20, (10_001, 3)), axis=0) * [10, 40, 40]
     off = walk - np.floor(walk + 0.5)
@@ -563,8 +562,8 @@ def test_one_motor_has_one_start_frequency(capsys):
                 lambda t, s: (s[1], (torque * np.sin(pull - s[0]) - damping * s[1]) / inertia),  # noqa: B023
                 (a, b),
                 state,
-                rtol=1e-8,
-                atol=1e-8,
+                rtol=1e-6,
+                atol=1e-6,
             ).y[:, -1]
         return round(state[0] / (np.pi / 2))
 
@@ -575,7 +574,9 @@ def test_one_motor_has_one_start_frequency(capsys):
     assert f"loses {48 - steps(160)} of 48" in options[2].reason
     few = int(re.search(r"loses (\d+) of 48", options[3].reason)[1])
     tempos = range(60, 281, 10)
-    lost = {motor.run(ramp(48, *x), np.ones(48)).lost for f in tempos for x in ((f, f, 0), (40, f, 0.1))}
+    lost = {
+        motor.run(ramp(48, *x), np.ones(48)).lost for f in tempos for x in ((f, f, 0), (40, f, 0.1))
+    }
     assert min(lost - {0}) == few
 
 
@@ -606,12 +607,12 @@ def test_exact_at_every_point_but_one_and_torn_there():
     assert "exact at every point of a line but one" in cells("12")["title"]
     made = run("12", "opening-setup")
     sp = pytest.importorskip("sympy")
-    x, y, l = sp.symbols("x y l", positive=True)
+    x, y, link = sp.symbols("x y l", positive=True)
     for side in (1, -1):  # x3 = side x: the formula of the cell, by symbols
         d2 = x**2 + y**2
-        y2 = (y * d2 + sp.sqrt(x**2 * d2 * (4 * l**2 - d2))) / (2 * d2)
+        y2 = (y * d2 + sp.sqrt(x**2 * d2 * (4 * link**2 - d2))) / (2 * d2)
         x2 = (d2 - 2 * y * y2) / (2 * side * x)
-        rest = [x2**2 + y2**2 - l**2, (x2 - side * x) ** 2 + (y2 - y) ** 2 - l**2]
+        rest = [x2**2 + y2**2 - link**2, (x2 - side * x) ** 2 + (y2 - y) ** 2 - link**2]
         assert [sp.simplify(each) for each in rest] == [0, 0]
     elbow = made["elbow_by_root"]
     for height in made["heights"]:
@@ -626,15 +627,8 @@ def test_exact_at_every_point_but_one_and_torn_there():
 def generated():
     """The lab's own generated programs: from sections 2, 4 and 7."""
     pytest.importorskip("sympy")
-    made = run("12", "opening-setup", "derive-line", "derive-check", "elimination-code")
-    made |= run_more(made, "sides-code", "count-code")
-    return made
-
-
-def run_more(made, *names):
-    for name in names:
-        exec(compile(cells("12")[name], name, "exec"), made)
-    return made
+    names = "opening-setup derive-line derive-check elimination-code sides-code count-code"
+    return run("12", *names.split())
 
 
 def test_the_table_next_to_zero_is_of_the_formulas_that_the_reader_has():

@@ -1319,9 +1319,10 @@ def _under_root(x: Floats, y: Floats) -> Floats:
 def _lost_facts() -> Mapping[str, Any]:
     x, y = _circle(1.7).T
     h2 = _under_root(x, y)
-    plain = LONG**2 / (x * x + y * y) - (LONG**2 - SHORT**2 + x * x + y * y) ** 2 / (
-        2 * x * x + 2 * y * y
-    ) ** 2
+    plain = (
+        LONG**2 / (x * x + y * y)
+        - (LONG**2 - SHORT**2 + x * x + y * y) ** 2 / (2 * x * x + 2 * y * y) ** 2
+    )
     return {
         "count": len(h2),
         "lost": int((h2 < 0).sum()),

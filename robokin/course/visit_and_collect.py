@@ -1769,9 +1769,9 @@ PREDICTIONS = {
         ),
     ),
     "p6": Prediction(
-        question="We draw {n} tasks, `random_task(0)` to `random_task({last})`: seven points, 15 to "
-        "40 s, 0.2 rad/s. In how many of them does nearest first visit fewer points than the best "
-        "of all 5040 orders?",
+        question="We draw {n} tasks, `random_task(0)` to `random_task({last})`: seven points, 15 "
+        "to 40 s, 0.2 rad/s. In how many of them does nearest first visit fewer points than the "
+        "best of all 5040 orders?",
         options=(
             Option(
                 "In at most 5: it takes a case made up for the purpose.",
