@@ -185,7 +185,8 @@ class Quaternion(Batch):
         """The angle in [0, pi] of the turn from these rotations to `other`: (...) in radians.
 
         The shape is that of both batches together. Right to the last digits for small angles, where
-        an arccos of the product's scalar part is not. Source: 001, listing 6.
+        an arccos of the product's scalar part is not. The `angle_to` of source 001 is another one:
+        the signed angle between two vectors about an axis.
         """
         instance(other, Quaternion, "other")
         broadcast("the two rotations", self.shape, other.shape)

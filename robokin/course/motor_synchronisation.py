@@ -1260,20 +1260,19 @@ def _lost_view() -> str:
 
 
 @cache
-def _random_moves() -> tuple[float, float]:
-    """The greatest miss after 10 000 random moves, in pulses: rounded one by one, and by
-    positions.
+def _random_moves() -> tuple[Floats, Floats]:
+    """How far three motors are off after each of 10 000 random moves (10 000, 3), in pulses:
+    rounded one by one, and by positions.
     """
     rng = np.random.default_rng(1)
-    walk = np.cumsum(rng.uniform(-20, 20, (10_001, 3)), axis=0)
-    exact = (walk - walk[0]) * PER_DEGREE
-    moves = np.cumsum(np.diff(counts(walk * deg, PER_DEGREE), axis=0), axis=0)
-    alone = np.cumsum(np.rint(np.diff(walk, axis=0) * PER_DEGREE), axis=0)
-    return float(abs(alone - exact[1:]).max()), float(abs(moves - exact[1:]).max())
+    walk = np.cumsum(rng.uniform(-20, 20, (10_001, 3)), axis=0)  # degrees
+    positions = counts(walk * deg, PER_DEGREE)
+    alone = positions[0] + np.cumsum(np.rint(np.diff(walk, axis=0) * PER_DEGREE), axis=0)
+    return alone - walk[1:] * PER_DEGREE, positions[1:] - walk[1:] * PER_DEGREE
 
 
 def _random_facts() -> dict[str, Any]:
-    alone, counted = _random_moves()
+    alone, counted = (float(abs(off).max()) for off in _random_moves())
     return {"alone": alone, "counted": counted, "expected": float(np.sqrt(10_000 / 12))}
 
 
@@ -1284,10 +1283,7 @@ def _random_right(facts: Mapping[str, Any]) -> int:
 def _random_view() -> Any:
     from ..show import JOINT_STYLES, figure
 
-    rng = np.random.default_rng(1)
-    walk = np.cumsum(rng.uniform(-20, 20, (10_001, 3)), axis=0)
-    alone = np.cumsum(np.rint(np.diff(walk, axis=0) * PER_DEGREE), axis=0)
-    off = alone - (walk[1:] - walk[0]) * PER_DEGREE
+    off, _ = _random_moves()
     fig = figure(
         f"The miss of three motors over 10 000 random moves, each rounded by itself: it wanders, "
         f"by up to {abs(off).max():.0f} pulses.",
@@ -1367,10 +1363,10 @@ def _far_view() -> str:
 
 @cache
 def _missed() -> dict[str, dict[int, int]]:
-    """Steps lost of 48 by the motor of table 1, over the frequency in pulses per second: from rest,
+    """Steps lost of 48 by the motor of the lab, over the frequency in pulses per second: from rest,
     and with a ramp of 0.1 s from 40 on.
     """
-    motor, ones = Stepper(), np.ones(48)
+    motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
     tempos = range(60, 281, 10)
     return {
         "from rest": {f: motor.run(ramp(48, f, f, 0), ones).lost for f in tempos},
@@ -1711,9 +1707,9 @@ PREDICTIONS = {
         view=_lost_view,
     ),
     "p7": Prediction(
-        question="Now 10 000 moves by random angles instead of a cycle. A careless program rounds "
-        "every move by itself, each by up to half a pulse. By how much is a motor off at most, on "
-        "the way?",
+        question="Now 10 000 moves instead of a cycle, each joint by an angle drawn evenly from "
+        "\N{MINUS SIGN}20° to 20°. A careless program rounds every move by itself, each by up to "
+        "half a pulse. By how much is one of the three motors off at most, on the way?",
         options=(
             Option(
                 "By less than a pulse: random errors cancel.",
@@ -1725,13 +1721,14 @@ PREDICTIONS = {
             Option(
                 "By some dozens of pulses.",
                 "By {alone:.0f}. The root of 10 000 times 0.29, the spread of one rounding, is "
-                "{expected:.0f}, and three motors on the way reach a few times that. By positions "
-                "it is {counted:.1f} at most.",
+                "{expected:.0f}, and on the way one of three motors reaches more. By positions it "
+                "is {counted:.1f} at most: each is rounded once, and never by more than half a "
+                "pulse.",
             ),
             Option(
                 "By some thousands: up to half a pulse each time.",
-                "So it would be if all roundings had one sign. In a cycle they do: it makes the "
-                "same ones again.",
+                "So it would be if all roundings had one sign. Here they have both. In a cycle the "
+                "same ones come again, and what is left of them grows with every cycle.",
                 "the worst case taken for every case",
                 "10 000 steps in random directions do not bring you 10 000 steps away.",
             ),
@@ -1810,9 +1807,9 @@ PREDICTIONS = {
         within=0.02,
     ),
     "p10": Prediction(
-        question="The motor of table 1 (wave drive, four rows) stands still and gets 48 pulses, "
-        "faster than its rotor can follow. In the end it stands again, and one winding is on. How "
-        "many steps can be missing?",
+        question="The motor of the next cell, a magnet of two poles (wave drive, four rows), "
+        "stands still and gets 48 pulses, faster than its rotor can follow. In the end it stands "
+        "again, and one winding is on. How many steps can be missing?",
         options=(
             Option(
                 "Any number from 1 to 48: it depends on the frequency.",

@@ -599,7 +599,7 @@ UNITS = {
     "target": ("m", 1.0),
     "bar": ("m, its two ends", 1.0),
     "distance": ("mm", mm),
-    "most": ("° of movement S at most", deg),
+    "most": ("° of movement S at most, held in radians", deg),
 }
 
 
@@ -1035,7 +1035,20 @@ def _drawing_facts() -> dict[str, Any]:
             inside += 1
             found += _drawing(corners, H)
     share = 100 * found / inside
-    return {"inside": inside, "found": found, "share": share, "tasks": count}
+    own = own_found = 0
+    for start, target, H in sampled_tasks():
+        (A, K_), (A1, K1_) = ARM.points(_direct(start, target))[:, 2:]
+        if _count([A, K_, K1_, A1], H) % 2 == 1:
+            own += 1
+            own_found += _drawing([A, K_, K1_, A1], H)
+    return {
+        "inside": inside,
+        "found": found,
+        "share": share,
+        "tasks": count,
+        "own": own,
+        "own_found": own_found,
+    }
 
 
 def _drawing_right(facts: Mapping[str, Any]) -> int:
@@ -1083,7 +1096,8 @@ def _swept_by_last(start: Floats, end: Floats, points: Floats) -> Bools:
     return over
 
 
-STEP = 0.04  # m, of the grid of points
+FINE_STEP = 0.02  # m: areas are counted on a grid
+STEP = 0.04  # m, of the points that are drawn
 GRID = np.stack(np.meshgrid(np.arange(-1.6, 3, STEP), np.arange(-1, 3, STEP)), axis=-1).reshape(
     -1, 2
 )
@@ -1092,17 +1106,20 @@ GRID = np.stack(np.meshgrid(np.arange(-1.6, 3, STEP), np.arange(-1, 3, STEP)), a
 @cache
 def _sweep_facts() -> dict[str, Any]:
     start, end = _direct(FAR)
-    over = _swept_by_last(start, end, GRID)
-    quad = in_quadrilateral(ARM, start, end, GRID)["AK"]
-    missed = over & ~quad
+    places = ARM.points(along(_direct(FAR), np.linspace(0, 1, 201)))[:, 2:].reshape(-1, 2)
+    low, high = places.min(axis=0), places.max(axis=0)
+    fine = np.stack(np.meshgrid(*map(np.arange, low, high, (FINE_STEP,) * 2)), axis=-1)
+    fine = fine.reshape(-1, 2)
+    over = _swept_by_last(start, end, fine)
+    quad = in_quadrilateral(ARM, start, end, fine)["AK"]
+    missed, area = over & ~quad, FINE_STEP**2
     return {
         "turn": float(abs(end - start).sum() / deg),
         "share": float(100 * missed.sum() / over.sum()),
-        "swept": float(over.sum() * STEP**2),
-        "missed": float(missed.sum() * STEP**2),
-        "false": float((quad & ~over).sum() * STEP**2),
-        "over": over,
-        "quad": quad,
+        "swept": float(over.sum() * area),
+        "missed": float(missed.sum() * area),
+        "false": float((quad & ~over).sum() * area),
+        "grid": FINE_STEP / mm,
     }
 
 
@@ -1114,17 +1131,17 @@ def _sweep_right(facts: Mapping[str, Any]) -> int:
 def _sweep_view() -> Any:
     from ..show import figure
 
-    facts = _sweep_facts()
     fig = figure(
         "The area that lever AK sweeps in the longer motion, and the quadrilateral between its "
         "first and its last place: most of the area lies outside.",
         height=3.8,
     )
     ax = fig.subplots()
-    over, quad = facts["over"], facts["quad"]
+    start, end = _direct(FAR)
+    over = _swept_by_last(start, end, GRID)
+    quad = in_quadrilateral(ARM, start, end, GRID)["AK"]
     ax.plot(*GRID[over & ~quad].T, "s", ms=3.2, color="#E08A4A", label="swept, outside")
     ax.plot(*GRID[over & quad].T, "s", ms=3.2, color="#A9CCE3", label="swept, inside")
-    start, end = _direct(FAR)
     corners = np.stack([*ARM.points(start)[2:], *ARM.points(end)[:1:-1]])
     ax.fill(*corners.T, facecolor="none", edgecolor="black", ls="--", label="quadrilateral")
     _draw(ax, start, "before", color="black")
@@ -1295,7 +1312,9 @@ def _wave_facts() -> dict[str, Any]:
         steps.append(keeps(ARM, a[:-1], a[1:], ROUND, WANTED))
     begin = tuple(np.round(START / size).astype(int).tolist())
     goals = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
-    wanted = {tuple(cell) for cell in np.round(goals / size).astype(int).tolist()}
+    cells = np.round(goals / size).astype(int)
+    ends = keeps(ARM, cells * size, goals, ROUND, WANTED)
+    wanted = {tuple(cell) for cell in cells[ends].tolist()}
     came: dict[Any, Any] = {begin: None}
     front, count, end = [begin], 0, None
     while front and end is None:
@@ -1437,7 +1456,7 @@ def _no_view() -> str:
     facts = _no_facts()
     return (
         f"Steps of {facts['coarse']}°: no way. Steps of 5°: a way with S = {facts['S']:.0f}°, "
-        f"proven on its whole length.\nThe passage is narrower than {facts['coarse']}°."
+        f"proven on its whole length.\nThe coarse grid misses the passage."
     )
 
 
@@ -1513,9 +1532,11 @@ EXERCISES = {
 # Objective 1: p1, p2. Objective 2: p3, p5, p6, p7. Objective 3: p4, p8.
 PREDICTIONS = {
     "p1": Prediction(
-        question="We draw {tasks} random motions, each with a point H, and {inside} of these "
-        "points lie inside the quadrilateral. How many of them does the test of this one drawing "
-        "find?",
+        question="We draw {tasks} motions: a first posture, all angles evenly from 0° to 180°; a "
+        "target evenly 1.1 to 2.9 m from O, in a direction evenly from 0° to 120°; the second "
+        "posture with the least S; and H evenly in the upright box round the quadrilateral. "
+        "{inside} of these H lie inside the quadrilateral. How many of them does the test of this "
+        "one drawing find?",
         options=(
             Option(
                 "Nearly all: turning a drawing changes names, not the test.",
@@ -1534,7 +1555,8 @@ PREDICTIONS = {
             Option(
                 "Few: fewer than one of ten.",
                 "{found} of {inside}. Both pairs of lines have to be in the order of the drawing, "
-                "and most motions have another one.",
+                "and most of these motions have another one. Other draws give other shares: in the "
+                "sample of section 7 H is inside {own} times, and the test finds {own_found}.",
             ),
             Option(
                 "A quarter: four ways to turn the drawing, one of them fits.",
@@ -1549,8 +1571,9 @@ PREDICTIONS = {
         view=_drawing_view,
     ),
     "p2": Prediction(
-        question="A longer motion: the joints turn by {turn:.0f}° in all. How much of the area "
-        "that lever AK truly sweeps lies outside the quadrilateral A K K1 A1?",
+        question="A longer motion: from (150°, 120°, 120°) to K1 = (1.9, 0.3) m with the least S, "
+        "{turn:.0f}°. How much of the area that lever AK truly sweeps lies outside the "
+        "quadrilateral A K K1 A1?",
         options=(
             Option(
                 "Nothing: the quadrilateral joins the first and the last place.",
@@ -1575,8 +1598,8 @@ PREDICTIONS = {
             Option(
                 "Most of it.",
                 "{share:.0f} %: {missed:.2f} of {swept:.2f} m² lie outside; and of the "
-                "quadrilateral "
-                "{false:.2f} m² are never touched.",
+                "quadrilateral {false:.2f} m² are never touched. (Counted on a grid of "
+                "{grid:.0f} mm.)",
             ),
         ),
         facts=_sweep_facts,
@@ -1632,8 +1655,9 @@ PREDICTIONS = {
         within=0.03,
     ),
     "p4": Prediction(
-        question="A program looks at {count} postures, evenly spaced on a motion, and finds the "
-        "obstacle at ({x:g}, {y:g}) m at least {seen:.0f} mm away in each. Wanted are "
+        question="A program looks at {count} postures, evenly spaced on the motion from (150°, "
+        "120°, 120°) to K1 = (1.9, 0.3) m with the least S, the first and the last among them. It "
+        "finds the obstacle at ({x:g}, {y:g}) m at least {seen:.0f} mm away in each. Wanted are "
         "{wanted:.0f} mm. What is the least distance on the whole motion?",
         options=(
             Option(
@@ -1704,8 +1728,9 @@ PREDICTIONS = {
         view=_via_view,
     ),
     "p6": Prediction(
-        question="The wave first arrives at the target after {count} steps of 10°, each of one "
-        "joint. {count} times 10° is what?",
+        question="The wave starts in the grid posture nearest to q0. After {count} steps of 10°, "
+        "each of one joint, it first comes to a grid posture from which a proven step leads onto "
+        "the target's curve. {count} times 10° is what, between these two grid postures?",
         options=(
             Option(
                 "The turn of the busiest joint, which sets the time.",

@@ -1384,10 +1384,23 @@ def _tiny_facts() -> Mapping[str, Any]:
     return {"x": abs(x), "y": y, "off": float(np.hypot(x, y))}
 
 
+def _expanded(x3: float, y3: float) -> Floats:
+    """As `_quadratic`, as SymPy writes it in section 4: not factored under the root."""
+    a, b = 4 * x3**2 + 4 * y3**2, -4 * x3**2 * y3 - 4 * y3**3
+    c = -4 * x3**2 + x3**4 + 2 * x3**2 * y3**2 + y3**4
+    y2 = (4 * x3**2 * y3 + 4 * y3**3 + math.sqrt(max(-4 * a * c + b**2, 0))) / (2 * a)
+    return np.array([(x3**2 + y3**2 - 2 * y3 * y2) / 2 / x3, y2])
+
+
 def _tiny_view() -> str:
-    lines = ["Links of 1 m, tip at (x3, 1): how far is the computed elbow from the base?"]
+    lines = [
+        "Links of 1 m, tip at (x3, 1): how far is the computed elbow from the base? First by "
+        "`elbow_by_root` of the first cell, then by `root_code` of section 4, the same formula "
+        "with the root multiplied out."
+    ]
     for x3 in (1e-3, 1e-6, 1e-9, 1e-12, 1e-300):
-        lines.append(f"x3 = {x3:.0e} m: {np.hypot(*_quadratic(x3, 1.0)):.6f} m")
+        factored, multiplied = (np.hypot(*rule(x3, 1.0)) for rule in (_quadratic, _expanded))
+        lines.append(f"x3 = {x3:.0e} m: {factored:.6f} m, {multiplied:.6f} m")
     return "\n".join(lines).translate(MINUS)
 
 
@@ -1487,11 +1500,32 @@ def _circle(distance: float, turns: Floats = RIM_TURNS) -> Floats:
     return tips
 
 
+def _under_root(x: Floats, y: Floats) -> Floats:
+    """h squared for tips beside the base at 0, as the program of section 7 computes it."""
+    t1, t3, t4 = LONG**2, x * x, y * y
+    t5, t6 = t3 + t4, 2 * t3 + 2 * t4
+    t7 = -(SHORT**2) + t1 + t5
+    h2: Floats = t1 / t5 - t7 * t7 / (t6 * t6)
+    return h2
+
+
 @cache
 def _lost_facts() -> Mapping[str, Any]:
-    with np.errstate(all="ignore"):
-        found = [_both(0, 0, *tip, LONG, SHORT)[0] for tip in _circle(LONG + SHORT)]
-    return {"share": 100 * float(np.isnan(found).mean())}
+    x, y = _circle(1.7).T
+    h2 = _under_root(x, y)
+    plain = (
+        LONG**2 / (x * x + y * y)
+        - (LONG**2 - SHORT**2 + x * x + y * y) ** 2 / (2 * x * x + 2 * y * y) ** 2
+    )
+    return {
+        "count": len(h2),
+        "lost": int((h2 < 0).sum()),
+        "above": int((h2 > 0).sum()),
+        "zero": int((h2 == 0).sum()),
+        "plain": int((plain < 0).sum()),
+        "most": float(abs(h2).max()),
+        "share": 100 * float((h2 < 0).mean()),
+    }
 
 
 def _lost_right(facts: Mapping[str, Any]) -> int:
@@ -1508,12 +1542,11 @@ def _lost_view() -> Any:
     made, ours = [], []
     for distance in distances:
         tips = _circle(float(distance), 0.9 * RIM_TURNS)  # q1 stays within its limits
-        with np.errstate(all="ignore"):
-            elbows = np.array([_both(0, 0, *tip, LONG, SHORT)[:2] for tip in tips])
+        lost = _under_root(*tips.T) < 0
         # on a circle joint 1 alone turns: smooth where ik rounds
         first = arm.ik(tips[0])[arm.branch(+1)]
         ours.append(first + np.outer(0.9 * (RIM_TURNS - RIM_TURNS[0]), [1, 0]))
-        made.append(np.where(np.isnan(elbows).any(axis=-1)[:, None], np.nan, ours[-1]))
+        made.append(np.where(lost[:, None], np.nan, ours[-1]))
     return animate(
         [arm, arm],
         t,
@@ -1710,7 +1743,8 @@ PREDICTIONS = {
             Option(
                 "A point that is no elbow, without a warning.",
                 "({x:.0f}, {y:.1f}) m: the elbow of a link of 1 m stands {off:.1f} m from the "
-                "base. On the way there the digits go one by one.",
+                "base. `elbow_by_root` and `root_code` both say so. On the way there the digits go "
+                "one by one.",
             ),
             Option(
                 "Infinity: something is divided by almost 0.",
@@ -1818,32 +1852,34 @@ PREDICTIONS = {
         view=_cast_view,
     ),
     "p8": Prediction(
-        question="The tip goes once round the base at 1.7 m exactly: links of 1 m and 0.7 m are "
-        "stretched all the way. In how many of 721 directions does the generated code have no "
-        "answer?",
+        question="The tip goes once round the base at 1.7 m: links of 1 m and 0.7 m are stretched "
+        "all the way. We take {count} tips, (1.7 cos φ, 1.7 sin φ) m, with φ of "
+        "`np.linspace(-np.pi, np.pi, {count})`. For how many of them does the program of section "
+        "7, with its temporaries, have no answer?",
         options=(
             Option(
-                "In none: 1.7 m is in reach.",
-                "In exact numbers h is 0. In the machine's numbers h squared is a few 1e-17 above "
-                "or below 0.",
+                "For none: 1.7 m is in reach.",
+                "In exact numbers h is 0. In the machine's numbers h squared is up to {most:.1e} "
+                "off 0, upwards or downwards.",
                 "the border taken for inside",
                 "0.1 + 0.2 is not 0.3 either.",
             ),
             Option(
-                "In a few, one or two in a hundred.",
-                "Rounding is small, but it is there in nearly every direction, and about half the "
-                "time it goes down.",
+                "For less than 5 in a hundred.",
+                "Rounding is small, but it is there in most directions: h squared comes out below "
+                "0 for {lost} of {count} tips, above 0 for {above}, and exactly 0 for {zero}.",
                 "small errors taken for rare errors",
                 "Toss a coin that is a millionth of a gram heavier on one side: heads still comes "
                 "about every second time.",
             ),
             Option(
-                "In a good part of them, between 5 and 70 in a hundred.",
-                "Where rounding takes h squared below 0, the root is NaN. On this machine that is "
-                "so in about {share:.0f} of a hundred directions.",
+                "For a good part of them, between 5 and 70 in a hundred.",
+                "Where rounding takes h squared below 0, the root is NaN. On the machine that ran "
+                "this page that is so for {lost} of {count} tips. Last digits decide: the same "
+                "formula without temporaries (section 2) has no answer for {plain}.",
             ),
             Option(
-                "In all of them: the arm is singular there.",
+                "For all of them: the arm is singular there.",
                 "A stretched arm exists; it has one elbow instead of two.",
                 "singular taken for out of reach",
                 "Your own arm can be stretched.",

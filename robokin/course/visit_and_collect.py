@@ -1403,8 +1403,13 @@ def _lost_facts() -> Mapping[str, Any]:
         arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
         lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(visit(task).order))
     counts = np.bincount(lost, minlength=4).tolist()
+    p, z2 = 1 - counts[0] / 200, 1.96**2 / 200  # Wilson's interval for a share
+    middle, half = p + z2 / 2, np.sqrt(z2 * (p * (1 - p) + z2 / 4))
     return {
         "n": 200,
+        "last": 199,
+        "low": 100 * (middle - half) / (1 + z2),
+        "high": 100 * (middle + half) / (1 + z2),
         "some": 200 - counts[0],
         "counts": counts,
         "none": counts[0],
@@ -1783,28 +1788,30 @@ PREDICTIONS = {
         ),
     ),
     "p6": Prediction(
-        question="We draw {n} random tasks: seven points, 15 to 40 s, 0.2 rad/s. In how many does "
-        "nearest first visit fewer points than the best of all 5040 orders?",
+        question="We draw {n} tasks, `random_task(0)` to `random_task({last})`: seven points, 15 "
+        "to 40 s, 0.2 rad/s. In how many of them does nearest first visit fewer points than the "
+        "best of all 5040 orders?",
         options=(
             Option(
-                "In nearly none: it takes a case made up for the purpose.",
+                "In at most 5: it takes a case made up for the purpose.",
                 "The case at the top is made up, but the fault is common: in {some} of {n}.",
                 "a made-up case taken for a rare one",
                 "Any point on the wrong side of p0 and a little nearer can do it.",
             ),
             Option(
-                "In about 1 of 10.",
-                "More often: in {some} of {n}, {share:.0f} %.",
+                "In 6 to 39, one of ten or so.",
+                "More often: in {some} of {n}, {share:.1f} %.",
                 "greed taken for nearly best",
                 "With four points it is rarer, with seven there are many ways to be lured.",
             ),
             Option(
-                "In about 3 of 10.",
-                "In {some} of {n}: one point lost in {one}, more in {more}. Most of the time greed "
-                "is good enough; it never tells you when it is not.",
+                "In 40 to 99.",
+                "In {some} of {n}: one point lost in {one}, more in {more}. So of all tasks drawn "
+                "in this way it is {low:.0f} to {high:.0f} %, with a confidence of 95 %. Most of "
+                "the time greed is good enough; it never tells you when it is not.",
             ),
             Option(
-                "In more than half.",
+                "In 100 or more, at least half.",
                 "In {none} of {n} it does as well as the best.",
                 "greed taken for always wrong",
                 "If T is long enough for the slowest order, every order visits all.",

@@ -29,6 +29,7 @@ FLAT = 1e-4  # of a lever's length; it damps pseudo-inverses: a stretched arm is
 NEAR = 0.5  # of a lever's length: an obstacle farther away than this stops no joint
 PULL = 0.1  # of the way to the middle of the limits, in one step
 SLACK = 1e-9  # rad; past a limit by no more than this is rounding
+SAME = 1e-12  # of a lever's length; distances that differ by less are the same distance
 
 
 class Run(NamedTuple):
@@ -163,6 +164,11 @@ def distance_rule(obstacle: ArrayLike) -> Method:
     that step, or turns away if it is nearer than L/7, and the other two take the gripper on.
     Source: 003, I.4 (M. Benzaoui), told there in words and without a length: where every lever
     stops, however far, more tasks fail.
+
+    Two levers are equally near whenever the nearest place is the joint between them. Then the one
+    nearer to the base stops: its joint moves that place, and the other's joint, which lies in it,
+    does not. What differs by less than 1e-12 of a length is equal here, so that the last bit of a
+    platform decides nothing.
     """
     H = floats(obstacle, "obstacle", 2)
 
@@ -171,10 +177,13 @@ def distance_rule(obstacle: ArrayLike) -> Method:
 
         def move(q: Floats, J: Floats, e: Floats) -> Floats:
             now, free = distances(arm, q, H), _bounded(_times(_inverse(arm, J), e))
-            comes = (distances(arm, q + free, H) < now) & (now < NEAR * arm.lever)
-            lever = np.where(comes, now, np.inf).argmin(axis=-1)[..., None]
+            same = SAME * arm.lever
+            comes = (distances(arm, q + free, H) < now - same) & (now < NEAR * arm.lever)
+            near = np.where(comes, now, np.inf)
+            lever = (near <= near.min(axis=-1, keepdims=True) + same).argmax(axis=-1)[..., None]
             stopped = (np.arange(3) == lever) & comes
-            grows = np.sign(distances(arm, q + 1e-6 * stopped, H) - now)
+            change = distances(arm, q + 1e-6 * stopped, H) - now
+            grows = np.where(abs(change) > same, np.sign(change), 0.0)
             away = TURN * stopped * grows * (now < arm.lever / 7) * _haste(arm, e)
             others = _inverse(arm, np.where(stopped[..., None, :], 0.0, J))
             step: Floats = away + _times(others, e - _times(J, away))

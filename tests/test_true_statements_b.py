@@ -1,0 +1,694 @@
+"""What labs 07 to 12 say, computed again in another way: each test reads the number where it stands
+(in a cell or a prediction), so that text and number cannot drift apart.
+"""
+
+import functools
+import inspect
+import json
+import re
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq, minimize_scalar
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+
+from robokin import PUMA560, Quaternion, Transform, deg, lin, loader_arm, mm, quintic, three_lever
+from robokin.arms.dexterity import velocity_ellipsoid
+from robokin.course import variant
+from robokin.course.book import find
+from robokin.course.obstacle_avoidance import _path_form, sampled_tasks
+from robokin.course.predictions import filled
+from robokin.course.three_levers import RING, SAMPLE
+from robokin.jobs import redundancy
+from robokin.jobs.conveyor import serve, spaced
+from robokin.jobs.obstacles import keeps, way_round
+from robokin.jobs.steppers import ramp
+from robokin.jobs.visit_collect import Task, principal_postures, travel_time, workspace
+from robokin.show import motor_explorer
+
+ARM = three_lever(1.0)
+K1 = np.array([1.9, 0.3])
+Q0 = ARM.family((1.2, 1.7), 118 * deg)
+DISTANCE = 1 / 7
+
+
+@functools.cache
+def cells(lab):
+    (path,) = [*NOTEBOOKS.glob(f"{lab}_*.ipynb"), *NOTEBOOKS.glob(f"documents/{lab}_*.ipynb")]
+    book = json.loads(path.read_text(encoding="utf-8"))
+    return {cell["id"]: "".join(cell["source"]) for cell in book["cells"]}
+
+
+def said(lab, cell, pattern):
+    """The groups of a pattern in a cell, numbers as numbers."""
+    match = re.search(pattern, re.sub(r"\s+", " ", cells(lab)[cell]))
+    assert match, f"{lab} {cell}: no {pattern!r}"
+    return [as_number(each) for each in match.groups()]
+
+
+def as_number(word):
+    try:
+        return float(word.replace("\N{MINUS SIGN}", "-"))
+    except ValueError:
+        return word
+
+
+def run(lab, *names, changed=()):
+    """The names of some cells of a lab, run in this order; `changed` replaces text in them."""
+    made = {}
+    for name in names:
+        source = cells(lab)[name]
+        for old, new in changed:
+            source = source.replace(old, new)
+        exec(compile(source, name, "exec"), made)
+    return made
+
+
+def tries(lab, cell):
+    """What stands after `# try`, as values."""
+    (line,) = [x for x in cells(lab)[cell].splitlines() if "# try" in x]
+    return eval("[" + line.split("# try")[1] + "]", {"np": np, "mm": mm, "deg": deg})
+
+
+def asked(name):
+    return filled(find(name, "PREDICTIONS"))
+
+
+# --- 07 -------------------------------------------------------------------------------------------
+
+
+def wrist_speeds(q_deg):
+    """The semi-axes of all velocities of the flange, by differences."""
+    q = np.array(q_deg) * deg
+    steps = 1e-6 * np.eye(6)
+    places = PUMA560.fk(np.stack([q + steps, q - steps])).translation
+    return np.linalg.svd((places[0] - places[1]).T / 2e-6)[1]
+
+
+def test_the_explorers_ellipsoid_keeps_still_for_joint_5_and_goes_flat_for_joint_3():
+    five, three = said("07", "near-look", r"joint 5 to (\S+): it stays.*joint 3 to (\S+)°: it goes")
+    before = wrist_speeds([0, 60, -170, 0, 40, 0])
+    assert wrist_speeds([0, 60, -170, 0, five, 0]) == pytest.approx(before, rel=1e-6)
+    flat = wrist_speeds([0, 60, three, 0, five, 0])
+    assert flat[2] / flat[0] < 0.002 < before[2] / before[0]
+    for q in (*tries("07", "near-ellipsoid"), [0, 60, -100, 0, 40, 0]):
+        q = np.array(q) * deg
+        J = PUMA560.jacobian(q)
+        still = np.linalg.svd(J[3:])[2][3:].T  # joint speeds that do not turn the tool
+        own = np.linalg.svd(J[:3] @ still)[1]
+        drawn = np.linalg.svd(velocity_ellipsoid(PUMA560, q))[1]
+        assert own == pytest.approx(drawn, rel=1e-9)
+        assert own[2] / own[0] < 0.1, "one axis is nearly gone"
+
+
+def test_what_ten_times_nearer_costs():
+    told = said(
+        "07",
+        "cross-look",
+        r"grows (\S+) and (\S+) times at the wrist, (\S+) and (\S+) times at the elbow, (\S+) and "
+        r"(\S+) times at the shoulder.*root says, (\S+) times from 100 to 10",
+    )
+    d3, l2, l3 = 150.05, 431.8, np.hypot(431.8, 20.3)  # mm
+    reach = l2 + l3
+
+    def shoulder(m):  # the angle of the tangent to the circle of radius d3
+        return d3 * 100 / ((d3 + m) * np.sqrt(2 * d3 * m + m * m)) / deg
+
+    def elbow(m):  # s^2 = l2^2 + l3^2 + 2 l2 l3 cos(bend), and s ds = rho drho
+        s = reach - m
+        rho = np.sqrt(s * s - (600 - 671.83) ** 2 + d3**2)
+        bend = np.arccos((s * s - l2**2 - l3**2) / (2 * l2 * l3))
+        return rho * 100 / (l2 * l3 * np.sin(bend)) / deg
+
+    aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
+
+    def wrist(m):  # by differences of the inverse
+        u = np.linspace(-m, m, 2001)[:, None] * [0, 1e-3, 0]
+        poses = Transform(aligned.rotation, aligned.translation + u + [0, 0, m * mm])
+        q6 = np.unwrap(PUMA560.ik(poses)[:, 3, 5])
+        return abs(np.diff(q6)).max() / (2 * m / 2000) * 100 / deg
+
+    own = [f(m / 10) / f(m) for f in (wrist, elbow, shoulder) for m in (10, 1)]
+    assert [round(x, 1) for x in (*own, shoulder(10) / shoulder(100))] == told
+    tiny = [f(1e-7) / f(1e-6) for f in (shoulder, elbow)]
+    assert tiny == pytest.approx([np.sqrt(10)] * 2, rel=1e-3)
+
+
+def test_three_of_eight_rows_are_usable_at_six_seconds():
+    seconds, many = said("07", "count", r"At (\d+) s of the line (\w+) of the eight rows")
+    assert float(re.search(r"when = (\S+)", cells("07")["eight-words"])[1]) == seconds
+    side = Quaternion.from_angle_axis(90 * deg, [0, 1, 0])
+    ends = [Transform(side, np.array(p) * mm) for p in ((550, 600, 800), (550, -200, 1100))]
+    q = PUMA560.ik(lin(*ends, quintic(10)(seconds)))
+    low, high = PUMA560.limits.T
+    turns = q[..., None] + 2 * np.pi * np.arange(-2, 3)
+    inside = ((turns >= low[:, None]) & (turns <= high[:, None])).any(axis=-1).all(axis=-1)
+    assert ["none", "one", "two", "three", "four"][inside.sum()] == many
+
+
+# --- 08 -------------------------------------------------------------------------------------------
+
+
+def test_where_first_come_wins():
+    v, missed, total = said(
+        "08", "belt-row", r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\."
+    )
+    assert v * mm in tries("08", "belt-work")
+    y = np.linspace(-400, 400, 161) * mm
+    window = np.stack([0 * y + 600 * mm, y, 0 * y + 50 * mm], axis=-1)
+    home = principal_postures(500 * mm, 400 * mm, np.array([150, -450, 250]) * mm)
+    turn = abs(principal_postures(500 * mm, 400 * mm, window) - home).max(axis=-1)
+    one_way = 15 / 8 * turn / 2.0
+    stream = spaced(int(total), 150 * mm, 0.5)
+    taken = [
+        len(serve(stream, v * mm, y, one_way, first_come=first)[0].objects)
+        for first in (False, True)
+    ]
+    assert taken == [total - missed, total]
+
+
+def test_how_often_nearest_first_loses():
+    question, options, right = asked("visit_and_collect.p6")
+    first, last = map(int, re.findall(r"random_task\((\d+)\)", question))
+    worse = 0
+    for seed in range(first, last + 1):
+        rng = np.random.default_rng(seed)
+        points = rng.uniform([-9, -9, 0], [9, 9, 9], size=(84, 3))
+        points = points[workspace(5, 4, points).all(axis=-1)][:8]
+        task = Task(5, 4, rng.uniform(15, 40), [0.2] * 3, points[0], points[1:], "visit")
+        legs = travel_time(task.q[:, None], task.q, task.speeds)
+        # by subsets: the least time to have visited them and to stand at the last one
+        best = np.full((256, 8), np.inf)
+        best[1, 0] = 0
+        for visited in range(1, 256, 2):
+            for stop in range(1, 8):
+                if not visited >> stop & 1:
+                    time = (best[visited] + legs[:, stop]).min()
+                    best[visited | 1 << stop, stop] = min(best[visited | 1 << stop, stop], time)
+        most = max(s.bit_count() - 1 for s in range(256) if best[s].min() <= task.T)
+        here, spent, left = 0, 0.0, set(range(1, 8))
+        while left:
+            near = min(left, key=lambda stop: legs[here, stop])  # noqa: B023
+            spent += legs[here, near]
+            if spent > task.T:
+                break
+            here = near
+            left.remove(near)
+        worse += 7 - len(left) < most
+    reason = options[right].reason
+    count, total, low, high = (
+        int(x)
+        for x in re.search(
+            r"In (\d+) of (\d+):.* is (\d+) to (\d+) %, with a confidence of 95", reason
+        ).groups()
+    )
+    assert (count, total) == (worse, last - first + 1)
+    assert 40 <= worse <= 99 and options[right].text == "In 40 to 99."
+    p = np.array([low, high]) / 100  # at the ends of Wilson's interval it is just 1.96 away
+    away = abs(p - count / total) / np.sqrt(p * (1 - p) / total)
+    assert away == pytest.approx([1.96] * 2, abs=0.2)
+
+
+# --- 09 -------------------------------------------------------------------------------------------
+
+
+def race_of_the_cell(count):
+    seed, many = said("09", "race-code", r"default_rng\((\d+)\)\.uniform\(0, np\.pi, \((\d+), 3\)")
+    obstacle = np.array(said("09", "race-code", r"race_obstacle = .*, \(([\d.]+), ([\d.]+)\)"))
+    dice = int(said("09", "race-code", r"seed=(\d+)")[0])
+    places = np.random.default_rng(int(seed)).uniform(0, np.pi, (int(many), 3))
+    angles = np.cumsum(places - [0, np.pi, np.pi], axis=1)
+    places = np.stack([np.cos(angles).sum(axis=1), np.sin(angles).sum(axis=1)], axis=-1)
+    reached = [x for x in places if np.isfinite(ARM.alpha_range(x)[0])]
+    return np.array(reached[:count]), obstacle, dice
+
+
+def test_the_last_bit_decides_nothing_in_the_race(monkeypatch):
+    places, obstacle, _ = race_of_the_cell(40)
+    start, rng, exact = np.array([60, 120, 120]) * deg, np.random.default_rng(1), {}
+    measured = redundancy.distances
+
+    def noisy(*given):
+        d = measured(*given)
+        return d + rng.uniform(-1, 1, np.shape(d)) * 4e-16
+
+    for noise in (None, 1, 2):
+        if noise:
+            monkeypatch.setattr(redundancy, "distances", noisy)
+        rule = redundancy.distance_rule(obstacle)
+        run_ = redundancy.race({"rule": rule}, ARM, places, start)["rule"]
+        exact[noise] = run_.turns.sum() / deg, run_.failed.sum()
+        assert exact[noise] == pytest.approx(exact[None], abs=1e-6)
+
+
+def test_dice_turn_more_and_by_how_much():
+    question, options, right = asked("three_levers.p10")
+    places, _, seed = race_of_the_cell(100)
+    assert question.startswith("100 targets") and "evenly from 0° to 180°" in question
+    stand = {name: np.array([60, 120, 120]) * deg for name in ("least", "dice", "equal")}
+    turned, dice = dict.fromkeys(stand, 0.0), np.random.default_rng(seed)
+
+    def least(place, before):
+        """By a sweep of the whole family, then finer beside its best row."""
+        low, high = ARM.alpha_range(place)
+        for count in (8001, 101, 101):
+            alphas = np.linspace(low, high, count)
+            rows = ARM.family(place, alphas)
+            k = abs(rows - before).sum(axis=-1).argmin()
+            low, high = alphas[max(k - 1, 0)], alphas[min(k + 1, count - 1)]
+        return rows[k]
+
+    def equal(place, before):
+        low, high = ARM.alpha_range(place, limited=False)
+
+        def gap(alpha):
+            _, beta, alpha = ARM.family(place, alpha)
+            return beta - alpha
+
+        q = ARM.family(place, brentq(gap, low, high))
+        return q if 0 <= q[0] <= np.pi else least(place, before)
+
+    for place in places:
+        low, high = ARM.alpha_range(place)
+        new = {
+            "least": least(place, stand["least"]),
+            "dice": ARM.family(place, low + (high - low) * dice.random()),
+            "equal": equal(place, stand["equal"]),
+        }
+        for name, q in new.items():
+            turned[name] += abs(q - stand[name]).sum() / deg
+            stand[name] = q
+    times = turned["dice"] / turned["least"]
+    assert options[right].text == f"About {times:.1f} times as much."
+    told = re.search(r"takes (\d+)° a task.* add (\d+)°.* take (\d+) % more", options[right].reason)
+    own = [turned["least"], turned["dice"] - turned["least"]]
+    own.append(1e4 * (turned["equal"] / turned["least"] - 1))
+    assert [round(x / 100) for x in own] == [int(x) for x in told.groups()]
+
+
+def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
+    question, _, _ = asked("three_levers.p4")
+    first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
+    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus an angle that does not change
+    gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
+    beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2
+    assert 0 < first + gamma_1 and last + gamma_1 < 180 and 0 < beta < np.pi
+    assert 90 + gamma_1 - 180 < 0, "the other one is past its limit behind 90°"
+    assert ARM.family((0, RING), SAMPLE)[:2] == pytest.approx([(90 + gamma_1) * deg, beta])
+
+
+# --- 10 -------------------------------------------------------------------------------------------
+
+
+def lever_distance(q, H, lever=slice(None)):
+    """The least distance (...) of H from the levers, from postures (..., 3)."""
+    angles = np.cumsum(q - np.array([0, np.pi, np.pi]), axis=-1)
+    along = np.stack([np.cos(angles), np.sin(angles)], axis=-1)  # (..., 3, 2), unit vectors
+    feet = np.cumsum(along, axis=-2) - along
+    u = np.clip(((H - feet) * along).sum(axis=-1), 0, 1)
+    return np.linalg.norm(feet + u[..., None] * along - H, axis=-1)[..., lever].min(axis=-1)
+
+
+def least_distance(path, H, count=2001):
+    """On a whole path: samples, each least one refined."""
+    found = []
+    for a, b in pairwise(np.asarray(path)):
+        s = np.linspace(0, 1, count)
+        d = lever_distance(a + s[:, None] * (b - a), H)
+        k = d.argmin()
+        ends = s[max(k - 1, 0)], s[min(k + 1, count - 1)]
+        best = minimize_scalar(
+            lambda x: lever_distance(a + x * (b - a), H),  # noqa: B023
+            bounds=ends,
+            method="bounded",
+            options={"xatol": 1e-12},
+        )
+        found += [d[k], best.fun]
+    return min(found)
+
+
+def direct(start, target=K1):
+    return np.stack([start, ARM.least(target, start)[0]])
+
+
+def test_how_many_stretches_prove_a_distance():
+    made = run("10", "setup", "lever-code", "whole-code")
+    proven, H = made["proven"], made["H_motion"]
+    a, b = made["q0"], made["q1"]
+    many, yes, more, edge, truth, no, few = said(
+        "10",
+        "whole-look",
+        r"(\d+) prove (\d+) mm, (\d+) prove (\d+) mm, since the truth, (\S+) mm.* \"no\" to (\d+) "
+        r"mm takes (\d+): half-way the arm is nearer",
+    )
+    assert proven(a, b, H, yes * mm) == (True, many)
+    assert proven(a, b, H, edge * mm) == (True, more)
+    assert proven(a, b, H, no * mm) == (False, few)
+    assert lever_distance((a + b) / 2, H) < no * mm
+    assert round(least_distance([a, b], H) / mm, 1) == truth
+    assert {yes * mm, edge * mm, no * mm} <= set(tries("10", "whole-code"))
+    room = lever_distance(a, H)
+    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), "a motion that is none"
+    assert proven(a, a, H, 1.1 * room) == (False, 1)
+
+
+def test_when_the_plan_stays():
+    made = run("10", "setup", "drawing-tools", "lever-code", "whole-code", "control-code")
+    control, H = made["control"], np.array([1.2, 1.3])
+    text = r"S rises from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, with one fall on the way, from "
+    low, near, high, far, falls, to, stays = said(
+        "10", "control-look", text + r"(\d+) to (\d+) mm.* At (\d+) mm the arm stays"
+    )
+    asks = eval(re.search(r"asks = (np\.array\(.*?\))", cells("10")["control-player-data"])[1])
+    S = {}
+    for each in asks:
+        path, _ = control(Q0, K1, H, each)
+        S[round(each / mm)] = abs(np.diff(path, axis=0)).sum() / deg
+        if len(path) > 1:
+            assert least_distance(path, H) >= each - 1e-9
+            assert ARM.points(path[-1])[3] == pytest.approx(K1, abs=1e-9)
+    assert [*S] == sorted(S) and [*S][0] == near and [*S][-2:] == [far, stays]
+    assert round(S[near]) == low and round(S[far]) == high and S[stays] == 0
+    ways = [*S.items()][:-1]
+    down = [(a, b) for (a, x), (b, y) in pairwise(ways) if y < x]
+    assert down == [(falls, to)]
+    assert lever_distance(Q0, H) < stays * mm, "more than there is at the start: never"
+
+
+def grid_wave(step, H):
+    """Steps from the grid posture nearest to q0 to the nearest one with a proven last step: by
+    Dijkstra's algorithm on the graph of all proven steps; None if a step cannot be made.
+    """
+    size = round(180 / step) + 1
+    cube = np.stack(np.meshgrid(*[np.arange(size)] * 3, indexing="ij"), axis=-1) * step * deg
+    number = np.arange(size**3).reshape(size, size, size)
+    rows, cols = [], []
+    for joint in range(3):
+        postures, numbers = np.moveaxis(cube, joint, 0), np.moveaxis(number, joint, 0)
+        sure = keeps(ARM, postures[:-1], postures[1:], H, DISTANCE)
+        rows.append(numbers[:-1][sure])
+        cols.append(numbers[1:][sure])
+    rows, cols = np.concatenate(rows), np.concatenate(cols)
+    start = tuple(np.rint(Q0 / (step * deg)).astype(int))
+    if least_distance([Q0, cube[start]], H) < DISTANCE:
+        return None, None
+    curve = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
+    ends = cube[tuple(np.rint(curve / (step * deg)).astype(int).T)]
+    sure = [least_distance(pair, H, 101) >= DISTANCE for pair in zip(ends, curve, strict=True)]
+    graph = coo_array((np.ones(len(rows)), (rows, cols)), shape=(size**3, size**3)).tocsr()
+    steps, before = dijkstra(graph, False, number[start], return_predecessors=True)
+    goals = number[tuple(np.rint(ends[sure] / (step * deg)).astype(int).T)]
+    goal = goals[steps[goals].argmin()]
+    if not np.isfinite(steps[goal]):
+        return None, None
+    way = [goal]
+    while way[-1] != number[start]:
+        way.append(before[way[-1]])
+    last = curve[sure][steps[goals].argmin()]
+    path = [Q0, *cube.reshape(-1, 3)[way[::-1]], last]
+    return int(steps[goal]), np.array(path)
+
+
+def test_the_wave_starts_and_ends_in_proven_postures(capsys):
+    H = np.array([1.2, 1.3])
+    question, _, _ = asked("obstacle_avoidance.p6")
+    wanted, path = grid_wave(10, H)
+    assert int(re.search(r"After (\d+) steps of 10°", question)[1]) == wanted
+    assert least_distance(path, H) >= DISTANCE
+    assert ARM.points(path[-1])[3] == pytest.approx(K1, abs=1e-9), "the gripper is at the target"
+    for step in (10, *tries("10", "cube-run")):
+        capsys.readouterr()
+        run("10", "setup", "cube-code", "cube-run", changed=[("step = 10", f"step = {step}")])
+        printed = capsys.readouterr().out
+        steps, _ = grid_wave(step, H)
+        cannot = re.search(r"cannot start: .* as near as (\d+) mm", printed)
+        came = re.search(r"comes to one after (\d+) steps", printed)
+        assert (came and int(came[1])) == steps
+        assert bool(cannot) == (step == 20) == ("to none" in printed)
+        if cannot:
+            first = np.rint(Q0 / (step * deg)) * step * deg
+            near = least_distance([Q0, first], H) / mm
+            assert round(near) == int(cannot[1]) and near < DISTANCE / mm
+
+
+def test_a_grid_of_15_degrees_finds_no_way_and_one_of_5_does():
+    question, options, _ = asked("obstacle_avoidance.p8")
+    H = np.array([0.5, 1.0])
+    assert "(0.5, 1) m" in question and "steps of 15°" in question
+    assert grid_wave(15, H) == (None, None)
+    path = way_round(ARM, Q0, K1, H, DISTANCE)
+    assert least_distance(path, H) >= DISTANCE
+    S = abs(np.diff(path, axis=0)).sum() / deg
+    assert f"S = {S:.0f}°" in options[0].reason
+
+
+def test_the_drawing_is_found_in_few_motions_drawn_as_the_question_says():
+    question, options, right = asked("obstacle_avoidance.p1")
+    for words in ("evenly from 0° to 180°", "evenly 1.1 to 2.9 m", "from 0° to 120°", "box round"):
+        assert words in question
+    path = pytest.importorskip("matplotlib.path").Path
+
+    def found_in(tasks):
+        """How many H are inside, and how many of them the drawing's test finds."""
+        inside = found = 0
+        for (A, K), (A1, K_1), H in tasks:
+            if path([A, K, K_1, A1]).contains_point(H):
+                inside += 1
+                y = [line(P, Q, H[0]) for P, Q in ((A1, K_1), (A, K))]
+                x = [line(P[::-1], Q[::-1], H[1]) for P, Q in ((A, A1), (K, K_1))]
+                found += y[0] < H[1] < y[1] and x[0] < H[0] < x[1]
+        return inside, found
+
+    def line(P, Q, x):
+        return P[1] + (x - P[0]) * (Q[1] - P[1]) / (Q[0] - P[0])
+
+    def drawn(rng, count):
+        q, phi = rng.uniform(0, np.pi, (count, 3)), rng.uniform(0, 120, count) * deg
+        target = rng.uniform(1.1, 2.9, count) * [np.cos(phi), np.sin(phi)]
+        ends = ARM.points(np.stack([q, ARM.least(target.T, q)[0]], axis=1))[:, :, 2:]
+        for pair in ends:
+            corners = pair.reshape(-1, 2)
+            yield *pair, rng.uniform(corners.min(axis=0), corners.max(axis=0))
+
+    inside, found = found_in(drawn(np.random.default_rng(77), 1500))
+    told = re.match(
+        r"(\d+) of (\d+)\..* H is inside (\d+) times.* finds (\d+)\.", options[right][1]
+    )
+    few, many, own, own_found = map(int, told.groups())
+    p = few / many
+    assert p < 0.1 and abs(found / inside - p) < 3 * np.sqrt(2 * p * (1 - p) / inside)
+    section_7 = ((*ARM.points(direct(q, target))[:, 2:], H) for q, target, H in sampled_tasks())
+    assert found_in(section_7) == (own, own_found)
+
+
+def test_what_lies_outside_the_quadrilateral():
+    question, options, right = asked("obstacle_avoidance.p2")
+    start, end = direct(np.array([150, 120, 120]) * deg)
+    assert "from (150°, 120°, 120°) to K1 = (1.9, 0.3) m" in question
+    assert f"{abs(end - start).sum() / deg:.0f}°" in question
+    (A, K), (A1, K_1) = ARM.points(np.stack([start, end]))[:, 2:]
+    path = pytest.importorskip("matplotlib.path").Path
+    quad = path([A, K, K_1, A1])
+    points = np.stack(np.meshgrid(np.arange(-0.9, 1.92, 0.031), np.arange(0.28, 2.02, 0.031)), -1)
+    points = points.reshape(-1, 2)
+    levers = ARM.points(start + np.linspace(0, 1, 401)[:, None] * (end - start))[:, 2:]
+    strips = (path([a, b, d, c]) for (a, b), (c, d) in pairwise(levers))
+    over = np.any([strip.contains_points(points) for strip in strips], axis=0)
+    missed = over & ~quad.contains_points(points)
+    told = re.match(r"(\d+) %: (\S+) of (\S+) m².* quadrilateral (\S+) m²", options[right].reason)
+    share, out, area, false = map(float, told.groups())
+    cell = 0.031**2
+    assert 100 * missed.sum() / over.sum() == pytest.approx(share, abs=1)
+    own = [missed.sum(), over.sum(), (quad.contains_points(points) & ~over).sum()]
+    assert np.array(own) * cell == pytest.approx([out, area, false], abs=0.015)
+
+
+def test_seven_samples_miss_the_valley():
+    question, options, right = asked("obstacle_avoidance.p4")
+    path, H = direct(np.array([150, 120, 120]) * deg), np.array([1.7, 1.0])
+    assert "(1.7, 1) m" in question and "from (150°, 120°, 120°) to K1" in question
+    seen = lever_distance(path[0] + np.linspace(0, 1, 7)[:, None] * (path[1] - path[0]), H).min()
+    true = least_distance(path, H)
+    assert f"at least {seen / mm:.0f} mm" in question
+    assert options[right].reason.startswith(
+        f"{true / mm:.0f} mm, {(seen - true) / mm:.0f} mm below"
+    )
+
+
+def test_which_angles_of_the_task_are_radians():
+    given = variant("obstacle_avoidance", "your name")
+    assert said("10", "task-2", r"`my_task\[\"start\"\]` holds (\w+), `my_task\[\"most\"\]` (\w+)")
+    assert max(given["start"]) > 4 * np.pi > given["most"] and "held in radians" in repr(given)
+    (most,) = said("10", "task-2", r"at most (\d+) postures")
+    assert len(_path_form(np.zeros((int(most), 3)), given)) == most
+    with pytest.raises(ValueError, match=f"at most {most:.0f}"):
+        _path_form(np.zeros((int(most) + 1, 3)), given)
+
+
+# --- 11 -------------------------------------------------------------------------------------------
+
+
+def test_rounded_positions_stay_within_half_a_pulse():
+    _, options, right = asked("motor_synchronisation.p7")
+    alone, expected, counted = map(
+        float,
+        re.match(r"By (\d+)\. .* is (\d+), .* it is (\S+) at most", options[right].reason).groups(),
+    )
+    walk = np.cumsum(np.random.default_rng(1).uniform(-20, 20, (10_001, 3)), axis=0) * [10, 40, 40]
+    off = walk - np.floor(walk + 0.5)
+    assert abs(off).max() <= 0.5 == counted and abs(off).max() > 0.45
+    ways = np.diff(walk, axis=0)
+    drift = np.cumsum(np.floor(ways + 0.5) - ways, axis=0) - off[0]
+    assert round(abs(drift).max()) == alone and round(np.sqrt(10_000 / 12)) == expected
+    assert "within half a pulse" in cells("11")["drift-look"]
+
+
+def test_one_motor_has_one_start_frequency(capsys):
+    torque, inertia, damping = said("11", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
+    made = run("11", "opening-setup", "missed-code")
+    top = int(re.search(r"start frequency: (\d+) pulses/s", capsys.readouterr().out)[1])
+    motor = made["motor"]
+
+    def steps(tempo):
+        """Steps made, by another integrator, pulse by pulse."""
+        state, times = [0.0, 0.0], [*(np.arange(1, 49) / tempo), 48 / tempo + 0.4]
+        for k, (a, b) in enumerate(pairwise([0.0, *times])):
+            pull = k * np.pi / 2
+            state = solve_ivp(
+                lambda t, s: (s[1], (torque * np.sin(pull - s[0]) - damping * s[1]) / inertia),  # noqa: B023
+                (a, b),
+                state,
+                rtol=1e-6,
+                atol=1e-6,
+            ).y[:, -1]
+        return round(state[0] / (np.pi / 2))
+
+    assert steps(top) == 48 > steps(top + 1)
+    assert "motor_explorer(motor)" in cells("11")["missed-explorer"]
+    assert repr(motor_explorer(motor)).endswith("44 steps lost.")
+    _, options, _ = asked("motor_synchronisation.p10")
+    assert f"loses {48 - steps(160)} of 48" in options[2].reason
+    few = int(re.search(r"loses (\d+) of 48", options[3].reason)[1])
+    tempos = range(60, 281, 10)
+    lost = {
+        motor.run(ramp(48, *x), np.ones(48)).lost for f in tempos for x in ((f, f, 0), (40, f, 0.1))
+    }
+    assert min(lost - {0}) == few
+
+
+def test_no_table_is_named_that_is_not_there():
+    question, _, _ = asked("motor_synchronisation.p10")
+    texts = [question, *cells("11").values()]
+    assert not [text for text in texts if re.search(r"\btable \d", text)]
+
+
+def test_every_cycle_to_try_drifts():
+    arm, per_degree = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40])
+    for stakes in ([420, -180, 420], *tries("11", "drift-code")):
+        points = np.array([[600, -350, 50], stakes, [50, 250, 350]]) * mm
+        x, y, z = points.T
+        h = np.linalg.norm(points, axis=1)
+        beta = np.arccos((0.45**2 + 0.3**2 - h**2) / (2 * 0.45 * 0.3))
+        gamma = np.arccos((0.45**2 - 0.3**2 + h**2) / (0.9 * h)) + np.arcsin(z / h)
+        q = np.stack([np.arctan2(y, x), gamma, beta], axis=-1)
+        assert arm.fk(q).translation == pytest.approx(points)
+        ways = (np.roll(q, -1, axis=0) - q) / deg * per_degree
+        assert np.rint(ways).sum(axis=0).any(), f"nothing drifts with {stakes}"
+
+
+# --- 12 -------------------------------------------------------------------------------------------
+
+
+def test_exact_at_every_point_but_one_and_torn_there():
+    assert "exact at every point of a line but one" in cells("12")["title"]
+    made = run("12", "opening-setup")
+    sp = pytest.importorskip("sympy")
+    x, y, link = sp.symbols("x y l", positive=True)
+    for side in (1, -1):  # x3 = side x: the formula of the cell, by symbols
+        d2 = x**2 + y**2
+        y2 = (y * d2 + sp.sqrt(x**2 * d2 * (4 * link**2 - d2))) / (2 * d2)
+        x2 = (d2 - 2 * y * y2) / (2 * side * x)
+        rest = [x2**2 + y2**2 - link**2, (x2 - side * x) ** 2 + (y2 - y) ** 2 - link**2]
+        assert [sp.simplify(each) for each in rest] == [0, 0]
+    elbow = made["elbow_by_root"]
+    for height in made["heights"]:
+        left, right = (elbow(side * 1e-3, height, 1.0) for side in (-1, 1))
+        assert left[0] * right[0] < 0, "on different sides"
+        with np.errstate(invalid="ignore"):
+            assert np.isnan(elbow(np.float64(0), height, 1.0)[0])
+    assert (made["tip_lines"][..., 0] != 0).all()
+
+
+@functools.cache
+def generated():
+    """The lab's own generated programs: from sections 2, 4 and 7."""
+    pytest.importorskip("sympy")
+    names = "opening-setup derive-line derive-check elimination-code sides-code count-code"
+    return run("12", *names.split())
+
+
+def test_the_table_next_to_zero_is_of_the_formulas_that_the_reader_has():
+    made = generated()
+    lines = find("two_link_code_generation.p4", "PREDICTIONS").view().split("\n")
+    assert "elbow_by_root" in lines[0] and "root_code" in lines[0]
+    for line in lines[1:]:
+        x3, one, two = re.match(r"x3 = (\S+) m: (\S+) m, (\S+) m$", line).groups()
+        x3 = as_number(x3)
+        own = [np.hypot(*rule(x3, 1.0, 1.0)) for rule in (made["elbow_by_root"], made["root_code"])]
+        assert [f"{x:.6f}" for x in own] == [one, two]
+
+
+def test_on_the_rim_rounding_takes_many_answers():
+    made = generated()
+    question, options, right = asked("two_link_code_generation.p8")
+    count = int(re.search(r"np\.linspace\(-np\.pi, np\.pi, (\d+)\)", question)[1])
+    phi = np.linspace(-np.pi, np.pi, count)
+    tips = dict(zip(("x3", "y3"), 1.7 * np.array([np.cos(phi), np.sin(phi)]), strict=True))
+    given = tips | {"x1": 0, "y1": 0, "l1": 1.0, "l2": 0.7, "sqrt": np.sqrt}
+    with np.errstate(invalid="ignore"):
+        exec(made["written"](made["general"]), given)
+        plain = eval(str(made["general"][0]), {k: given[k] for k in given if k[0] in "xyls"})
+    told = re.search(r"for (\d+) of (\d+) tips.* for (\d+)\.", options[right].reason)
+    assert [np.isnan(given["out0"]).sum(), count, np.isnan(plain).sum()] == [
+        int(x) for x in told.groups()
+    ]
+
+
+def test_how_exact_the_third_exercise_wants_it():
+    (power,) = said("12", "your-turn-3", r"to within \$10\^\{(-\d+)\}\$ m")
+    promise = find("two_link_code_generation.3", "EXERCISES").promise
+    assert f"within 1e{power:.0f} m" in promise
+
+
+# --- The documents --------------------------------------------------------------------------------
+
+
+def test_the_signed_angle_stands_where_its_row_says():
+    (row,) = [x for x in cells("001")["rows"].splitlines() if x.startswith("| S1-01 |")]
+    assert "signed `angle_to` about an axis" in row and "Quaternion.angle_to" not in row
+    assert "[here §1]" in row and "[02 Deeper]" in row
+    assert "listing" not in inspect.getdoc(Quaternion.angle_to)
+    assert any("def angle_to(one, two, axis)" in text for text in cells("02").values())
+    Vector = run("001", "setup", "vector")["Vector"]
+    for turn in (30, 150, -40, -170):
+        u, v = Vector(1, 0, 0), Vector(np.cos(turn * deg), np.sin(turn * deg), 0)
+        assert u.angle_to(v, Vector(0, 0, 1)) / deg == pytest.approx(turn)
+
+
+def test_how_many_methods_of_part_one_race():
+    (line,) = [x for x in cells("003")["lost"].splitlines() if x.startswith("| I |")]
+    many, first, second = re.search(r"09: (\w+) methods of (\S+) and (\S+) race", line).groups()
+    makers = [
+        redundancy.pseudo_inverse,
+        redundancy.gradient_projection,
+        redundancy.equal_angles,
+        redundancy.random_choice,
+        redundancy.distance_rule,
+    ]
+    sources = [re.search(r"003, (I\.\d(?:\.\d)?)", inspect.getdoc(each))[1] for each in makers]
+    assert many == "five" and {*sources} == {first, second}
+    assert len(redundancy.methods((1, 1), 0)) == 1 + len(makers)
