@@ -5,7 +5,7 @@ import {fk, matrix, origin, plus} from "./kinematics.js";
 import {ik} from "./geometries.js";
 import {follow} from "./branches.js";
 import {fill} from "./blanks.js";
-import {blend, differentiate, linear, quintic, trapezoidal} from "./motion.js";
+import {blend, differentiate, leaps, linear, quintic, trapezoidal} from "./motion.js";
 import {number} from "./canvas.js";
 import {curvesView} from "./curves.js";
 import {element, waiting} from "./elements.js";
@@ -36,7 +36,6 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
 
 const LAWS = {quintic, trapezoidal, linear};
-const LEAP = 0.1; // rad or m, as in motion/recording.py
 const STATIONS = /** @type {const} */ (["start", "via", "goal"]);
 const NUMBERS = /** @type {const} */ (["blend", "duration"]);
 const CHOICES = /** @type {const} */ (["law", "corner", "row"]);
@@ -197,18 +196,13 @@ function motionOf({arm, laws, corners, samples}, state) {
   );
   const q = follow(arm, rows, state.row),
     missing = q.map(row => row.some(Number.isNaN));
-  // No difference is taken across a jump: where the branch ends, where a joint leaps (as `record`
-  // says: by more than half a turn, or ten times as far as beside), at a corner without a blend.
+  // No difference is taken across a jump: where the branch ends, where a joint leaps, at a corner
+  // without a blend.
   /** @type {Set<number>} */
   const breaks = new Set();
-  /** @type {(i: number, j: number) => number} */
-  const step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
-  /** @type {(i: number, j: number) => boolean} */
-  const leaps = (i, j) =>
-    (step(i, j) > Math.PI && !arm.prismatic[j]) ||
-    (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
+  const jumps = leaps(q, Array.from(t), arm.prismatic);
   for (let i = 1; i < samples; i++)
-    if (missing[i] !== missing[i - 1] || q[i].some((_, j) => leaps(i, j))) breaks.add(i);
+    if (missing[i] !== missing[i - 1] || jumps[i - 1].includes(true)) breaks.add(i);
   const gaps = new Set([...breaks].map(i => i - 1)),
     corner = state.blend === 0 ? (samples - 1) / 2 : -1;
   const nothing = () => q.map(row => row.map(() => NaN)),
