@@ -49,6 +49,7 @@ from robokin import (
 from robokin.arms import dh_links, unwrapped
 from robokin.arms.elbow import elbow_arm
 from robokin.arms.geometry import ROUNDING
+from robokin.motion import refined_maximum
 from robokin.show.twin import arm_data
 
 SCRIPTS = Path(robokin.show.__file__).parent / "js"
@@ -622,6 +623,30 @@ def test_motion(twin):
                 )
                 rounding = 1e-15 / np.diff(t).min() ** order
                 close(got, differentiate(values, t, order), 10 * rounding)
+
+
+def test_greatest_values(twin):
+    """Refined in the same steps, of a sine, a corner and what has no value in a part."""
+    for low, high, decimals in ((0, 3, 1), (0.4, 1.9, 3), (-2, -0.7, 5)):
+        got = twin(
+            "return [x => Math.sin(3 * x), x => -Math.abs(x - 0.6), x => (x < 1 ? x : NaN)].map("
+            "f => refinedMaximum(f, ...a));",
+            None,
+            [low, high, decimals],
+            shape=(3,),
+        )
+        want = [
+            refined_maximum(f, low, high, decimals).value
+            for f in (
+                lambda x: np.sin(3 * x),
+                lambda x: -abs(x - 0.6),
+                lambda x: np.where(x < 1, x, np.nan),
+            )
+        ]
+        close(got, np.array(want), 1e-15)
+    for nothing in ("() => NaN", "x => 1 / (x - x)", "x => 1 / Math.abs(x - Math.SQRT1_2)"):
+        got = twin(f"return [refinedMaximum({nothing}, 0, 1, 2)];", None, [0], shape=(1,))
+        assert np.isnan(got[0])
 
 
 def test_jumps_of_position(twin):

@@ -276,6 +276,11 @@ CALLS = {
     "quintic": (quintic, dict(duration=2.0)),
     "trapezoidal": (trapezoidal, dict(duration=2.0, ramp=0.2)),
     "differentiate": (differentiate, dict(values=MOTION, t=TIMES, order=2)),
+    "refined_maximum": (
+        motion.refined_maximum,
+        dict(function=np.sin, low=0.0, high=2.0, decimals=2),
+    ),
+    "Maximum": (motion.Maximum, dict(value=1.0, at=0.0)),
     "record": (motion.record, dict(arm=IRB140, t=TIMES, q=MOTION)),
     "Recording": (motion.Recording, _fields(RECORDING)),
     "Jump": (motion.Jump, _fields(RECORDING.leaps[0])),

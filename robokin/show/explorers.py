@@ -90,8 +90,8 @@ WORDS: Mapping[str, str] = {
     "begin": "Begin here",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values stand in "
     "the table.",
-    "speed": "greatest speed, per s",
-    "acceleration": "greatest acceleration, per s²",
+    "speed": f"greatest speed of {SAMPLES} samples, per s",
+    "acceleration": f"greatest acceleration of {SAMPLES} samples, per s²",
     "near": "The path passes via at {distance}.",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",

@@ -154,6 +154,32 @@ export function differentiate(values, t, order = 1) {
 }
 
 /**
+ * The greatest value between low and high, to be shown with so many decimals, as Python's
+ * `refined_maximum`. `quantity` is NaN where it has no value.
+ * @param {(x: number) => number} quantity
+ * @param {number} low
+ * @param {number} high
+ * @param {number} decimals
+ * @returns {number}  NaN where there is no value, or none that stands
+ */
+export function refinedMaximum(quantity, low, high, decimals) {
+  const first = 32,
+    fine = 0.5 * 10 ** -(decimals + 2);
+  let found = -Infinity,
+    stands = -1;
+  for (let steps = first; stands < 2 && steps <= 2 ** 20; steps *= 2) {
+    let better = -Infinity;
+    for (let k = steps > first ? 1 : 0; k <= steps; k += steps > first ? 2 : 1) {
+      const value = quantity(low + (high - low) * (k / steps));
+      if (value > better) better = value;
+    }
+    stands = steps > first && better > found + fine ? 0 : stands + 1;
+    found = Math.max(found, better);
+  }
+  return stands < 2 || found === -Infinity ? NaN : found;
+}
+
+/**
  * Which joints jump in position between each sample and the next, as `record` says.
  * @param {number[][]} q  (samples, n), NaN where there is no posture
  * @param {number[]} t  seconds, rising
