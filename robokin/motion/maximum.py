@@ -8,7 +8,8 @@ import numpy as np
 from .._arrays import Floats
 from .._validate import floats, number, short, whole
 
-FIRST, LAST = 32, 2**20  # steps between the first samples, and at most
+STEPS = 64  # between the samples of a stretch
+MOST = 200  # stretches that are looked at
 
 
 class Maximum(NamedTuple):
@@ -21,14 +22,17 @@ class Maximum(NamedTuple):
 def refined_maximum(
     function: Callable[[Floats], Floats], low: float, high: float, decimals: int
 ) -> Maximum:
-    """The greatest value between `low` and `high`, to be shown with so many decimals: sampled in 32
-    steps, then ever again in twice as many, until two doublings in a row change it by less than
-    half a unit of the second decimal behind those shown. A peak narrower than a 32nd that no sample
-    meets is not seen.
+    """The greatest value between `low` and `high`, to be shown with `decimals`: two more stand.
+
+    The stretch is sampled in 64 steps; so is the stretch round each sample that stands above its
+    neighbours, if it would be the greatest when raised by as much again; and so on, until none
+    would change the greatest by half a unit of the second decimal behind those shown. A concave
+    peak rises above its greatest sample by no more than that. A peak between two samples that
+    neither of them tells of, narrower than a 64th, is not seen.
 
     `function` maps an array (k,) to an array (k,); NaN where it has no value. The lowest is that of
     the function's negative. TypeError: no function. ValueError: no finite range, other shapes, no
-    value at all, or one that does not stand in 2^20 steps: beside a pole, say.
+    value at all, or one that does not stand: beside a pole, say.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
     >>> round(value, 5), round(at, 2)
@@ -40,25 +44,30 @@ def refined_maximum(
     if not low < high:
         raise ValueError(f"low and high: wanted low < high, got {low:g} and {high:g}")
     fine = 0.5 * 10.0 ** -(whole(decimals, "decimals", 0) + 2)
-
-    def most(shares: Floats) -> Maximum:
-        at = low + (high - low) * shares
+    best, stretches = Maximum(-np.inf, np.nan), [(np.inf, low, high)]
+    for _ in range(MOST):
+        if not stretches or stretches[-1][0] < best.value + fine:
+            break
+        _, start, stop = stretches.pop()
+        at = start + (stop - start) * (np.arange(STEPS + 1) / STEPS)
         values = floats(function(at), "function", finite=False)
         if values.shape != at.shape:
             raise ValueError(f"function: wanted shape {at.shape}, got {values.shape}")
-        values = np.where(np.isnan(values), -np.inf, values)
-        best = int(values.argmax())
-        return Maximum(float(values[best]), float(at[best]))
-
-    steps, stands = FIRST, 0
-    found = most(np.arange(steps + 1) / steps)
-    while stands < 2:
-        steps *= 2
-        if steps > LAST:
-            raise ValueError(f"function: wanted a greatest value that stands, got {found.value:g}")
-        better = most(np.arange(1, steps, 2) / steps)
-        stands = 0 if better.value > found.value + fine else stands + 1
-        found = better if better.value > found.value else found
-    if found.value == -np.inf:
+        top = int(np.where(np.isnan(values), -np.inf, values).argmax())
+        if values[top] > best.value:
+            best = Maximum(float(values[top]), float(at[top]))
+        sides = np.pad(values, 1, constant_values=np.nan)
+        before, after = sides[:-2], sides[2:]
+        hopes = 2 * values - np.fmin(values, np.fmin(before, after))
+        peaks: list[int] = np.flatnonzero(
+            values >= np.fmax(before, np.fmax(values, after))
+        ).tolist()
+        for i in peaks:
+            ends = float(at[max(i - 1, 0)]), float(at[min(i + 1, STEPS)])
+            stretches.append((float(hopes[i]), *ends))
+        stretches.sort()
+    else:
+        raise ValueError(f"function: wanted a greatest value that stands, got {best.value:g}")
+    if best.value == -np.inf:
         raise ValueError("function: wanted values, got none")
-    return found
+    return best

@@ -5,7 +5,9 @@ import {slerp} from "./kinematics.js";
 /** @import {PagePose} from "./page.js" */
 
 const LEAP = 0.002, // rad or m
-  FEW = 8;
+  FEW = 8,
+  STEPS = 64,
+  MOST = 200;
 
 /**
  * @param {number} s
@@ -163,20 +165,26 @@ export function differentiate(values, t, order = 1) {
  * @returns {number}  NaN where there is no value, or none that stands
  */
 export function refinedMaximum(quantity, low, high, decimals) {
-  const first = 32,
-    fine = 0.5 * 10 ** -(decimals + 2);
-  let found = -Infinity,
-    stands = -1;
-  for (let steps = first; stands < 2 && steps <= 2 ** 20; steps *= 2) {
-    let better = -Infinity;
-    for (let k = steps > first ? 1 : 0; k <= steps; k += steps > first ? 2 : 1) {
-      const value = quantity(low + (high - low) * (k / steps));
-      if (value > better) better = value;
-    }
-    stands = steps > first && better > found + fine ? 0 : stands + 1;
-    found = Math.max(found, better);
+  const fine = 0.5 * 10 ** -(decimals + 2);
+  let best = -Infinity;
+  /** @type {number[][]} */
+  const stretches = [[Infinity, low, high]];
+  for (let looked = 0; looked < MOST; looked++) {
+    const [hope, start, stop] = stretches.pop() || [-Infinity, 0, 0];
+    if (hope === -Infinity || hope < best + fine) return best === -Infinity ? NaN : best;
+    const at = Array.from({length: STEPS + 1}, (_, k) => start + (stop - start) * (k / STEPS));
+    const values = at.map(quantity);
+    values.forEach((value, i) => {
+      if (Number.isNaN(value)) return;
+      best = Math.max(best, value);
+      const [from, to] = [Math.max(i - 1, 0), Math.min(i + 1, STEPS)];
+      const near = values.slice(from, to + 1).filter(x => !Number.isNaN(x));
+      if (value === Math.max(...near))
+        stretches.push([2 * value - Math.min(...near), at[from], at[to]]);
+    });
+    stretches.sort(([a, from], [b, to]) => a - b || from - to);
   }
-  return stands < 2 || found === -Infinity ? NaN : found;
+  return NaN;
 }
 
 /**
