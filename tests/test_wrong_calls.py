@@ -279,6 +279,9 @@ CALLS = {
     "refined_maximum": (
         motion.refined_maximum,
         dict(function=np.sin, low=0.0, high=2.0, decimals=2),
+        "low",
+        "high",
+        "decimals",
     ),
     "Maximum": (motion.Maximum, dict(value=1.0, at=0.0)),
     "record": (motion.record, dict(arm=IRB140, t=TIMES, q=MOTION)),
@@ -556,6 +559,7 @@ LENIENT = (
     "Recording",
     "Jump",
     "Extreme",
+    "Maximum",
     "obstacles.Plan",
     "redundancy.Run",
     "visit_collect.faults",

@@ -9,6 +9,7 @@ from .._arrays import Floats
 from .._validate import floats, number, short, whole
 
 STEPS = 64  # between the samples of a stretch
+DIGITS = 12  # behind the point; a float has few more
 MOST = 200  # stretches that are looked at
 
 
@@ -43,7 +44,7 @@ def refined_maximum(
     low, high = number(low, "low"), number(high, "high")
     if not low < high:
         raise ValueError(f"low and high: wanted low < high, got {low:g} and {high:g}")
-    fine = 0.5 * 10.0 ** -(whole(decimals, "decimals", 0) + 2)
+    fine = 0.5 * 10.0 ** -(whole(decimals, "decimals", 0, DIGITS) + 2)
     best, stretches = Maximum(-np.inf, np.nan), [(np.inf, low, high)]
     for _ in range(MOST):
         if not stretches or stretches[-1][0] < best.value + fine:
