@@ -261,7 +261,7 @@ def motion_explorer(
     speed = f"{_number(fastest[j] / _sizes(arm)[j], 1)} {_units(arm)[j]['name']}/s"
     summary = (
         f"{arm.name} on a blended motion past a via point that can be moved, 5 s, blend 0.1, "
-        f"branch {_flags(arm, row)}: greatest speed {speed} (joint {j + 1})."
+        f"branch {_flags(arm, row)}: greatest speed of {SAMPLES} samples {speed} (joint {j + 1})."
     )
     data = _page(
         arm,
