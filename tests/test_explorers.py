@@ -546,19 +546,14 @@ def shows_the_motion(shown, exact=True):
         words = f"q{j + 1} is past its limit in {past} of {SAMPLES} samples."
         assert (words in seen.says) == (past > 0), (words, seen.says)
     assert ("The speed jumps" in seen.says) == (fraction == 0 and len(recording.jumps) > 0)
-    near = _passing(arm.fk(q[~recording.missing]).translation, arm, stations[1])
+    fine = law(np.linspace(0, law.duration, 100 * (SAMPLES - 1) + 1))
+    path = blend(*stations, fraction, fine, corner=corner)
+    place = "position" if isinstance(path, ScaraPose) else "translation"
+    near = np.linalg.norm(getattr(path, place) - getattr(stations[1], place), axis=-1).min()
     [told] = map(float, re.findall(r"passes via at (-?[\d.]+)", seen.says.replace("\u2212", "-")))
     if missing == 0:
         assert told == pytest.approx(near / size, abs=0.0505 if exact else 0.1)
     return SimpleNamespace(seen=seen, stations=stations, q=q, t=t, missing=missing)
-
-
-def _passing(path, arm, via):
-    """How near a path of straight pieces passes the place of a pose."""
-    place = via.position if isinstance(via, ScaraPose) else via.translation
-    way, to = np.diff(path, axis=0), place - path[:-1]
-    share = np.clip((way * to).sum(axis=-1) / np.maximum((way**2).sum(axis=-1), 1e-30), 0, 1)
-    return np.linalg.norm(to - share[:, None] * way, axis=-1).min()
 
 
 @named(POSES)

@@ -323,6 +323,32 @@ def test_a_turn_by_two_pi_is_a_break_and_not_a_speed(motions):
     assert times[gap] <= 11.99 < 12.0 <= times[gap + 1] <= 12.001
 
 
+def test_a_saw_of_small_teeth_jumps_in_position_and_shows_no_speed_of_its_teeth():
+    """As lab 12's (int): each tooth is smaller than a tenth of a radian, and far from the next."""
+    t = np.linspace(0, 5, 500)
+    teeth = [82, 146, 199, 246, 289, 328]
+    q = np.zeros((500, 6))
+    q[:, 0] = 0.2 * t - 0.07 * np.searchsorted(teeth, np.arange(500))
+    arm = animate(IRB140, t, q).data["arms"][0]
+    assert [words for _, words in arm["leaps"]["0"]] == ["q1 jumps by 4.0°"] * 6
+    [note] = arm["notes"]["0"]
+    assert note.startswith("Jumps of position: q1 jumps by 4.0° at 0.83 s; ")
+    assert note.endswith("; and 3 more.") and not arm["jumps"]
+    assert arm["speed"][0][0] == pytest.approx(0.2 / deg, abs=0.05)
+    assert abs(arm["acceleration"][0][0]) < 0.1
+
+
+@pytest.mark.parametrize(
+    "t, words",
+    [
+        (T, "greatest values of the 2001 samples, every 0.01 s"),
+        (np.array([0, 0.01, 0.03, 0.04]), "greatest values of the 4 samples, at most 0.02 s apart"),
+    ],
+)
+def test_the_table_says_of_which_samples_the_greatest_are_told(t, words):
+    assert animate(IRB140, t, np.zeros((len(t), 6))).data["sampled"] == words
+
+
 def test_samples_past_a_limit_are_counted(motions):
     q = motions[1].copy()
     q[:, 1] += 130 * deg
@@ -936,6 +962,7 @@ def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
     assert page.locator("img").count() == 0  # the still picture has gone
     page.get_by_label("time", exact=True).fill("200")
     seen = [(ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text())]
+    assert blended.data["sampled"] in seen[0][2]
     assert (
         "jump 52.7" in seen[0][2]
         and "speed jumps at 10.00 s" in page.locator(".rk-notes").inner_text()

@@ -248,14 +248,150 @@ def test_a_turn_by_two_pi_from_one_sample_to_the_next_is_a_jump():
         assert (found.v[piece] == differentiate(q[piece], UNEVEN[piece])).all()
 
 
-@pytest.mark.parametrize("size, leap", [(0.09, False), (0.2, True), (3.0, True)])
-def test_a_step_far_beyond_those_beside_it_is_a_jump_if_it_is_a_tenth(size, leap):
+@pytest.mark.parametrize("size, leap", [(0.0019, False), (0.0021, True), (3.0, True)])
+def test_a_step_out_of_rest_is_a_jump_from_two_thousandths_on(size, leap):
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[50:, 0] = size
     found = record(IRB140, t, q)
     assert [jump.first for jump in found.leaps] == [49] * leap
     assert found.gaps[49] == leap and found.gaps.sum() == leap
+
+
+ON = {
+    "rest": lambda t: 0 * t,
+    "ramp": lambda t: 0.7 * t,
+    "sine": lambda t: np.sin(2 * t),
+    "fast sine": lambda t: 0.1 * np.sin(12 * t),
+}
+TEETH = {
+    "one": [120],
+    "several": [40, 100, 160, 220],
+    "close": [100, 103, 107, 110],
+    "as close as can be": [100, 102, 104, 106, 108],
+    "next to the ends": [1, 297],
+}
+
+
+@pytest.mark.parametrize("size", [0.12, -0.16, 1.5])
+@pytest.mark.parametrize("teeth", TEETH.values(), ids=TEETH)
+@pytest.mark.parametrize("on", ON.values(), ids=ON)
+@pytest.mark.parametrize("t", [np.linspace(0, 3, 300), UNEVEN], ids=["even", "uneven"])
+def test_every_tooth_of_a_saw_is_a_jump_of_position(t, on, teeth, size):
+    """Joint 2 falls back at every tooth; joint 1 goes on without. The size of each is known."""
+    up = size * np.searchsorted(teeth, np.arange(300))
+    q = np.zeros((300, 6))
+    q[:, 0], q[:, 1] = np.sin(t), on(t) + up
+    found = record(IRB140, t, q)
+    assert [(jump.first, jump.last) for jump in found.leaps] == [(i, i + 1) for i in teeth]
+    assert found.jumps == () and np.flatnonzero(found.gaps).tolist() == teeth
+    for jump in found.leaps:
+        assert jump.by[1] == pytest.approx(size, abs=0.013) and (np.delete(jump.by, 1) == 0).all()
+    # The speeds are those of the motion under the teeth, and no jump divided by a step.
+    exact = np.gradient(on(t), t)
+    assert np.nanmax(abs(found.v[:, 1] - exact)) < 0.4 and abs(size) / 0.015 > 3
+
+
+def test_a_saw_that_falls_back_to_where_it_began():
+    """In three samples it may be a sine, whose samples are the same."""
+    t = np.linspace(0, 2, 201)
+    for period, leaps in ((3, False), (4, True), (7, True), (30, True)):
+        q = 0.05 * (np.arange(201) % period)[:, None] * [1, 0.5]
+        falls = np.flatnonzero(np.diff(q[:, 0]) < 0)
+        found = record(two_link(1, 1), t, q)
+        inside = [jump for jump in found.leaps if 2 < jump.first < 197]  # the ends are another law
+        assert [jump.first for jump in inside] == [i for i in falls if 2 < i < 197] * leaps
+        for jump in inside:
+            np.testing.assert_allclose(jump.by, [-0.05 * period, -0.025 * period], atol=1e-9)
+
+
+@pytest.mark.parametrize("size", [0.5, -1.5])
+@pytest.mark.parametrize("on", list(ON.values())[:3], ids=list(ON)[:3])
+def test_at_the_ends_a_tooth_is_a_jump_if_it_is_ten_times_the_step_beside_it(on, size):
+    t = np.linspace(0, 3, 300)
+    q = np.stack([on(t) + size * np.searchsorted([0, 298], np.arange(300)), 0 * t], axis=-1)
+    found = record(two_link(1, 1), t, q)
+    assert [jump.first for jump in found.leaps] == [0, 298] and found.jumps == ()
+    assert all(jump.by[0] == pytest.approx(size, abs=0.03) for jump in found.leaps)
+
+
+def test_teeth_of_different_joints_are_each_their_own_jump():
+    t = np.linspace(0, 3, 300)
+    q = wave(t, 0.3)
+    teeth = {50: [0], 53: [3], 56: [0, 5], 200: [1, 2, 4]}
+    for i, joints in teeth.items():
+        q[i + 1 :, joints] += 0.2
+    found = record(IRB140, t, q)
+    told = {jump.first: np.flatnonzero(jump.by).tolist() for jump in found.leaps}
+    assert told == teeth and found.jumps == ()
+
+
+def test_teeth_between_missing_samples_are_found():
+    t = np.linspace(0, 3, 300)
+    q = np.stack([0.3 * t + 0.1 * (np.arange(300) > 60), 0 * t], axis=-1)
+    q[120:, 0] += 0.1
+    q[180:, 0] += 0.1
+    for missing in ([58, 63], [118, 122], [178]):
+        q[missing] = np.nan
+    found = record(two_link(1, 1), t, q)
+    assert [jump.first for jump in found.leaps] == [60, 119, 179] and found.jumps == ()
+    assert all(0.09 < jump.by[0] < 0.11 for jump in found.leaps)
+
+
+def test_a_sample_that_stands_aside_has_a_jump_on_both_sides():
+    t = np.linspace(0, 3, 301)
+    q = np.stack([np.sin(t), 0 * t], axis=-1)
+    q[140, 0] += 0.3
+    found = record(two_link(1, 1), t, q)
+    assert [jump.first for jump in found.leaps] == [139, 140] and found.jumps == ()
+    np.testing.assert_allclose([jump.by[0] for jump in found.leaps], [0.3, -0.3], atol=0.02)
+
+
+def test_a_jump_where_the_speed_jumps_too_is_a_jump_of_position():
+    t = np.linspace(0, 3, 301)
+    q = np.stack([np.where(t < 1.505, 0.2 * t, 0.5 - 0.3 * t), 0 * t], axis=-1)
+    [leap] = record(two_link(1, 1), t, q).leaps
+    assert leap.first == 150 and leap.by[0] == pytest.approx(0.5 - 0.5 * 1.505, abs=1e-9)
+
+
+QUICK = {
+    "point to point": lambda x, width: quintic(width)(x + width / 2),
+    "with ramps": lambda x, width: trapezoidal(width)(x + width / 2),
+    "at even speed": lambda x, width: np.clip(x / width, -0.5, 0.5),
+    "wrist flip": lambda x, width: np.arctan(2.7 * x / width),  # half of it within `width`
+    "there and back": lambda x, width: np.where(
+        abs(x) < width / 2, np.cos(np.pi * x / width) ** 2, 0
+    ),
+}
+
+
+@pytest.mark.parametrize("motion", QUICK.values(), ids=QUICK)
+def test_a_motion_of_two_steps_is_no_jump(motion):
+    """Wherever the samples fall, between rest and rest; there and back it takes four."""
+    samples = np.arange(-30, 31.0)
+    least = 4 if motion is QUICK["there and back"] else 2
+    for width in (least, least + 0.5, least + 1, 2 * least, 5 * least):
+        shifts = np.arange(0, 1, 0.05)[:, None]
+        q = motion(samples + shifts, width)
+        found = record(two_link(1, 1), samples, np.stack([q, 0 * q], axis=-1))
+        assert found.leaps == ()
+
+
+@pytest.mark.parametrize("period", [5, 5.5, 6.3, 7.1, 9, 20])
+def test_an_oscillation_of_five_samples_is_no_jump(period):
+    turns = np.arange(200) / period + np.arange(0, 1, 0.05)[:, None]
+    q = np.sin(2 * np.pi * turns)
+    assert record(two_link(1, 1), np.arange(200), np.stack([q, 0 * q], axis=-1)).leaps == ()
+
+
+@pytest.mark.parametrize("size", [1e-4, 1e-3, 0.01, 0.2])
+def test_noise_is_no_jump(size):
+    rng = np.random.default_rng(3)
+    t = np.linspace(0, 20, 5001)
+    q = np.sin(np.outer(t, [1, 1.5])) + size * rng.normal(size=(4, 5001, 2))
+    assert record(two_link(1, 1), t, q).leaps == ()
+    q[:, 3000:, 0] += 100 * size  # but what stands out of it is
+    assert [jump.first for jump in record(two_link(1, 1), t, q).leaps] == [2999] * 4
 
 
 def test_a_fast_motion_is_no_jump():

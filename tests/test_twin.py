@@ -37,6 +37,7 @@ from robokin import (
     nearest,
     ptp,
     quintic,
+    record,
     representative,
     scara_arm,
     spbu_arm,
@@ -48,6 +49,7 @@ from robokin import (
 from robokin.arms import dh_links, unwrapped
 from robokin.arms.elbow import elbow_arm
 from robokin.arms.geometry import ROUNDING
+from robokin.motion import refined_maximum
 from robokin.show.twin import arm_data
 
 SCRIPTS = Path(robokin.show.__file__).parent / "js"
@@ -621,6 +623,58 @@ def test_motion(twin):
                 )
                 rounding = 1e-15 / np.diff(t).min() ** order
                 close(got, differentiate(values, t, order), 10 * rounding)
+
+
+def test_greatest_values(twin):
+    """Refined in the same steps, of a sine, a corner and what has no value in a part."""
+    for low, high, decimals in ((0, 3, 1), (0.4, 1.9, 3), (-2, -0.7, 5)):
+        got = twin(
+            "return [x => Math.sin(3 * x), x => -Math.abs(x - 0.6), x => (x < 1 ? x : NaN)].map("
+            "f => refinedMaximum(f, ...a));",
+            None,
+            [low, high, decimals],
+            shape=(3,),
+        )
+        want = [
+            refined_maximum(f, low, high, decimals).value
+            for f in (
+                lambda x: np.sin(3 * x),
+                lambda x: -abs(x - 0.6),
+                lambda x: np.where(x < 1, x, np.nan),
+            )
+        ]
+        close(got, np.array(want), 1e-15)
+    for nothing in ("() => NaN", "x => 1 / Math.abs(x - Math.SQRT1_2)"):
+        got = twin(f"return [refinedMaximum({nothing}, 0, 1, 2)];", None, [0], shape=(1,))
+        assert np.isnan(got[0])
+
+
+def test_jumps_of_position(twin):
+    """Saw-teeth of all sizes on ramps, sines and noise, with holes, even and uneven: what `record`
+    finds the page finds, joint by joint.
+    """
+    rng, found = np.random.default_rng(16), 0
+    for k in range(60):
+        t = np.cumsum(rng.uniform(0.5 + 0.5 * (k % 2), 1.5 - 0.5 * (k % 2), 90)) * 0.02
+        q = rng.normal(size=4) * np.sin(rng.uniform(0, 6, 4) * t[:, None])
+        q += (k % 3 == 0) * 10.0 ** rng.uniform(-5, -1) * rng.normal(size=q.shape)
+        for _ in range(6):
+            q[rng.integers(90) :, rng.integers(4)] += rng.normal() * 10.0 ** rng.uniform(-3, 1)
+        q[rng.integers(90), rng.integers(4)] += 0.4  # one sample aside
+        q[rng.integers(90, size=k % 4)] = np.nan
+        want = np.zeros((89, 4))
+        for leap in record(SCARA, t, q).leaps:
+            want[leap.first] = leap.by != 0
+        got = twin(
+            "return leaps(nested(a, 4), Array.from(b), arm.prismatic).flat();",
+            SCARA,
+            np.where(np.isnan(q).any(axis=-1)[:, None], np.nan, q),
+            t,
+            shape=(89, 4),
+        )
+        assert np.array_equal(got, want)
+        found += want.sum()
+    assert found > 150
 
 
 # --- In words ------------------------------------------------------------------------------------

@@ -2,12 +2,14 @@
 
 from .derivatives import differentiate
 from .laws import TimeLaw, linear, quintic, trapezoidal
+from .maximum import Maximum, refined_maximum
 from .paths import blend, lin, lin_lin, ptp
 from .recording import Extreme, Jump, Recording, record
 
 __all__ = [
     "Extreme",
     "Jump",
+    "Maximum",
     "Recording",
     "TimeLaw",
     "blend",
@@ -18,5 +20,6 @@ __all__ = [
     "ptp",
     "quintic",
     "record",
+    "refined_maximum",
     "trapezoidal",
 ]

@@ -18,7 +18,8 @@ from ..arms.arm import Arm
 from ..arms.branches import SLACK
 from .derivatives import differentiate, rising
 
-LEAP = 0.1  # rad or m: a smaller step from one sample to the next is never taken for a jump
+LEAP = 0.002  # rad or m: less is never taken for a jump of position
+FEW = 8  # fewer changes of the speed do not tell what is noise
 # motion, first and last sample, time, values before and after (n,)
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
@@ -216,11 +217,25 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     """What is known of the motion q (..., N, n) at the rising times t (N,), two or more: a
     `Recording`.
 
-    q is taken as it is: give it unwrapped angles (`follow` does), for a turn by 2 pi from one
-    sample to the next is a jump. NaN is "no posture here". Speeds and accelerations are those of
-    `differentiate`, of each unbroken piece for itself. A UserWarning where degrees were likely
-    meant: a motion begins more than two turns away and outside its limits, or passes eight.
-    ValueError: shapes that do not fit, times that do not rise, infinite numbers.
+    q is taken as it is: give it unwrapped angles (`follow` does). NaN is "no posture here". Speeds
+    and accelerations are those of `differentiate`, of each unbroken piece for itself. A UserWarning
+    where degrees were likely meant: a motion begins more than two turns away and outside its
+    limits, or passes eight. ValueError: shapes that do not fit, times that do not rise, infinite
+    numbers.
+
+    A joint's position jumps in a step, from one sample to the next, if it turns by more than pi
+    there, or if the step's speed lies outside the speeds of the steps beside it (at a corner it
+    lies between them): by more than 8 times as far as the three steps before and the three behind
+    lie apart. Where some of those are jumps themselves, the alike ones are enough if the step is 3
+    times as fast as those beside it; 10 times where only one side is known, at an end or beside a
+    gap. One sample that stands aside has a jump before and a jump behind it. Less than 2 mrad or
+    2 mm is no jump, nor is what noise does: 10 times the lower quartile of the motion's changes of
+    the speed.
+
+    Samples cannot tell a jump from a motion that is over within a step and a half: it counts as a
+    jump. What takes two steps or more does not, nor does an oscillation of five samples. A quick
+    motion is also what two jumps the same way, or three in any way, in steps without another step
+    between them look like; and, if every other step of the motion jumps, all are taken for noise.
 
     >>> t = np.linspace(0, 2, 201)
     >>> motion = record(SCARA, t, ptp([0, 0, 0, 0], [1, 1.5, 0, 0.1], quintic(2)(t)))
@@ -239,7 +254,7 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     _warn(limits, prismatic, q, missing)
     with np.errstate(over="ignore"):
         steps = np.diff(q, axis=1)
-        parts = _parts(steps, prismatic)
+        parts = _parts(steps, t, prismatic)
         gaps = parts.any(axis=-1) | missing[:, 1:] | missing[:, :-1]
         speeds = np.where(gaps[..., None], np.nan, steps) / np.diff(t)[:, None]
     v, a = _derivatives(q, t, gaps)
@@ -253,13 +268,50 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     return Recording(arm, t, q, v, a, missing, gaps, _named(leaps, lead), _named(jumps, lead))
 
 
-def _parts(steps: Floats, prismatic: Bools) -> Bools:
-    """Which steps (C, N - 1, n) are jumps: a turn by more than pi, or ten times as far as the steps
-    beside it.
+def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
+    """Which steps (C, N - 1, n) are jumps of position, as `record` says."""
+    duration = np.diff(t)[:, None]
+    least = LEAP / duration
+    with np.errstate(invalid="ignore", over="ignore"):
+        speeds = steps / duration
+        found = _lonely(speeds, least)
+        for c, j in np.argwhere(found.any(axis=1)):
+            column = speeds[c : c + 1, :, j : j + 1]
+            changes = abs(np.diff(column[0, :, 0]))
+            changes = np.sort(changes[np.isfinite(changes)])
+            noise = 10 * changes[len(changes) // 4] if len(changes) >= FEW else 0.0
+            found[c, :, j] = _lonely(column, np.fmax(least, noise))[0, :, 0]
+        return found | ((abs(steps) > np.pi) & ~prismatic)
+
+
+def _lonely(speeds: Floats, least: Floats) -> Bools:
+    """Which speeds (C, N - 1, n) lie more than `least` (N - 1, 1) outside of those beside them; so
+    do those before and after one sample that stands aside.
     """
-    size = abs(steps)
-    beside = np.fmax(_shifted(size, 1), _shifted(size, -1))
-    return ((size > np.pi) & ~prismatic) | ((size > LEAP) & (size > 10 * beside))
+    found: Bools = _outside(speeds, 1, 1) > least
+    before = (_outside(speeds, 1, 2) > least) & (speeds * _shifted(speeds, 1) < 0)
+    before[:, :-1] &= (_outside(speeds, 2, 1) > least)[:, 1:]
+    found |= before
+    found[:, 1:] |= before[:, :-1]
+    return found
+
+
+def _outside(speeds: Floats, left: int, right: int) -> Floats:
+    """How far each speed (C, N - 1, n) lies outside of those `left` before and `right` after it; 0
+    where that may be a quick motion.
+    """
+    sides = _shifted(speeds, -left), _shifted(speeds, right)
+    low, high = np.fmin(*sides), np.fmax(*sides)
+    out = np.fmax(speeds - high, low - speeds)
+    size, beside = abs(speeds), np.fmax(*map(abs, sides))
+    near = far = high - low
+    for side, k in zip(sides, (-left, right), strict=True):
+        on = [abs(_shifted(speeds, k + i * np.sign(k)) - side) for i in (1, 2)]
+        near, far = np.fmax(near, np.fmin(*on)), np.fmax(far, np.fmax(*on))
+    both = np.isfinite(sides[0] + sides[1])
+    alone = both & (out > 8 * far)
+    crowd = (out > 8 * near) & (size > np.where(both, 3, 10) * beside)
+    return np.where(alone | crowd, out, 0.0)
 
 
 def _leaps(q: Floats, t: Floats, speeds: Floats, parts: Bools) -> list[Found]:

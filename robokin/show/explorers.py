@@ -90,8 +90,8 @@ WORDS: Mapping[str, str] = {
     "begin": "Begin here",
     "curves": "Curves over time: joint values, speeds, accelerations. The greatest values stand in "
     "the table.",
-    "speed": "greatest speed, per s",
-    "acceleration": "greatest acceleration, per s²",
+    "speed": f"greatest speed of {SAMPLES} samples, per s",
+    "acceleration": f"greatest acceleration of {SAMPLES} samples, per s²",
     "near": "The path passes via at {distance}.",
     "missingSamples": "No solution in {none} of {all} samples.",
     "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
@@ -261,7 +261,7 @@ def motion_explorer(
     speed = f"{_number(fastest[j] / _sizes(arm)[j], 1)} {_units(arm)[j]['name']}/s"
     summary = (
         f"{arm.name} on a blended motion past a via point that can be moved, 5 s, blend 0.1, "
-        f"branch {_flags(arm, row)}: greatest speed {speed} (joint {j + 1})."
+        f"branch {_flags(arm, row)}: greatest speed of {SAMPLES} samples {speed} (joint {j + 1})."
     )
     data = _page(
         arm,

@@ -43,6 +43,15 @@ def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[in
     }
 
 
+def sampled(t: Floats) -> str:
+    """Of which samples the greatest values are: what lies between two of them, nobody has seen."""
+    least, most = np.diff(t).min(), np.diff(t).max()
+    apart = "every" if most - least < 1e-3 * most else "at most"
+    return f"greatest values of the {len(t)} samples, {apart} {tidy(most, 6):.4g} s" + (
+        " apart" if apart == "at most" else ""
+    )
+
+
 def closest(arm: Arm, q: Floats, via: Transform, unit: float) -> list[list[float] | None]:
     """For every motion [smallest distance from the via point in the length unit, x, y, z of that
     place in metres].

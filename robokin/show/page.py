@@ -160,8 +160,9 @@ class PageArm(Greatest, Flaws):
 
 
 class Page(TypedDict):
-    """Everything that a player draws. `decimals` are those of speeds and accelerations, `ticks`
-    the scale of the time, `dashes` the dashes of the joints' lines.
+    """Everything that a player draws. `decimals` are those of speeds and accelerations, `sampled`
+    says of which samples the greatest are told, `ticks` is the scale of the time, `dashes` the
+    dashes of the joints' lines.
     """
 
     title: str
@@ -176,6 +177,7 @@ class Page(TypedDict):
     scene: PageScene
     panels: list[PagePanel]
     decimals: list[int]
+    sampled: str
     arms: list[PageArm]
 
 

@@ -228,6 +228,7 @@ def page_data(
         "scene": scene,
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
         "decimals": places,
+        "sampled": findings.sampled(t),
         "arms": drawn,
     }
 

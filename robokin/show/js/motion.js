@@ -1,8 +1,13 @@
-// Paths, time laws and derivatives. As motion/paths.py, laws.py, derivatives.py.
+// Paths, time laws, derivatives, jumps. As motion/paths.py, laws.py, derivatives.py, recording.py.
 
 import {slerp} from "./kinematics.js";
 
 /** @import {PagePose} from "./page.js" */
+
+const LEAP = 0.002, // rad or m
+  FEW = 8,
+  STEPS = 64,
+  MOST = 200;
 
 /**
  * @param {number} s
@@ -148,4 +153,97 @@ export function differentiate(values, t, order = 1) {
       Number.isNaN(value) ? NaN : a * values[k - 1][j] + b * values[k][j] + c * values[k + 1][j],
     );
   });
+}
+
+/**
+ * The greatest value between low and high, to be shown with so many decimals, as Python's
+ * `refined_maximum`. `quantity` is NaN where it has no value.
+ * @param {(x: number) => number} quantity
+ * @param {number} low
+ * @param {number} high
+ * @param {number} decimals
+ * @returns {number}  NaN where there is no value, or none that stands
+ */
+export function refinedMaximum(quantity, low, high, decimals) {
+  const fine = 0.5 * 10 ** -(decimals + 2);
+  let best = -Infinity;
+  /** @type {number[][]} */
+  const stretches = [[Infinity, low, high]];
+  for (let looked = 0; looked < MOST; looked++) {
+    const [hope, start, stop] = stretches.pop() || [-Infinity, 0, 0];
+    if (hope === -Infinity || hope < best + fine) return best === -Infinity ? NaN : best;
+    const at = Array.from({length: STEPS + 1}, (_, k) => start + (stop - start) * (k / STEPS));
+    const values = at.map(quantity);
+    values.forEach((value, i) => {
+      if (Number.isNaN(value)) return;
+      best = Math.max(best, value);
+      const [from, to] = [Math.max(i - 1, 0), Math.min(i + 1, STEPS)];
+      const near = values.slice(from, to + 1).filter(x => !Number.isNaN(x));
+      if (value === Math.max(...near))
+        stretches.push([2 * value - Math.min(...near), at[from], at[to]]);
+    });
+    stretches.sort(([a, from], [b, to]) => a - b || from - to);
+  }
+  return NaN;
+}
+
+/**
+ * Which joints jump in position between each sample and the next, as `record` says.
+ * @param {number[][]} q  (samples, n), NaN where there is no posture
+ * @param {number[]} t  seconds, rising
+ * @param {boolean[]} prismatic
+ * @returns {boolean[][]}  (samples - 1, n)
+ */
+export function leaps(q, t, prismatic) {
+  const columns = prismatic.map((shifts, j) => {
+    const steps = q.slice(1).map((row, i) => row[j] - q[i][j]);
+    const speeds = steps.map((step, i) => step / (t[i + 1] - t[i]));
+    const changes = speeds.slice(1).map((speed, i) => Math.abs(speed - speeds[i]));
+    const sorted = changes.filter(Number.isFinite).sort((a, b) => a - b);
+    const noise = sorted.length < FEW ? 0 : 10 * sorted[Math.floor(sorted.length / 4)];
+    /** @type {(i: number, left: number, right: number) => boolean} */
+    const stands = (i, left, right) =>
+      outside(speeds, i, left, right) > Math.max(LEAP / (t[i + 1] - t[i]), noise);
+    /** @type {(i: number) => boolean} */
+    const turnsBack = i => speeds[i] * speeds[i + 1] < 0 && stands(i, 1, 2) && stands(i + 1, 2, 1);
+    return steps.map(
+      (step, i) =>
+        (Math.abs(step) > Math.PI && !shifts) ||
+        stands(i, 1, 1) ||
+        turnsBack(i) ||
+        turnsBack(i - 1),
+    );
+  });
+  return q.slice(1).map((_, i) => columns.map(column => column[i]));
+}
+
+/**
+ * How far a speed lies outside of those `left` before and `right` after it; 0 where that may be a
+ * quick motion.
+ * @param {number[]} speeds
+ * @param {number} i
+ * @param {number} left
+ * @param {number} right
+ */
+function outside(speeds, i, left, right) {
+  const places = [
+    [i - left, -1],
+    [i + right, 1],
+  ].filter(([k]) => Number.isFinite(speeds[k]));
+  const beside = places.map(([k]) => speeds[k]);
+  const [low, high] = [Math.min(...beside), Math.max(...beside)];
+  const out = Math.max(speeds[i] - high, low - speeds[i]);
+  let near = high - low,
+    far = near;
+  for (const [k, side] of places) {
+    const on = [1, 2].map(m => Math.abs(speeds[k + m * side] - speeds[k])).filter(Number.isFinite);
+    if (!on.length) continue;
+    near = Math.max(near, Math.min(...on));
+    far = Math.max(far, ...on);
+  }
+  const both = places.length === 2,
+    times = Math.abs(speeds[i]) / Math.max(...beside.map(Math.abs));
+  const alone = both && out > 8 * far,
+    crowd = out > 8 * near && times > (both ? 3 : 10);
+  return alone || crowd ? out : 0;
 }

@@ -5,7 +5,15 @@ import {fk, matrix, origin, plus} from "./kinematics.js";
 import {ik} from "./geometries.js";
 import {follow} from "./branches.js";
 import {fill} from "./blanks.js";
-import {blend, differentiate, linear, quintic, trapezoidal} from "./motion.js";
+import {
+  blend,
+  differentiate,
+  leaps,
+  linear,
+  quintic,
+  refinedMaximum,
+  trapezoidal,
+} from "./motion.js";
 import {number} from "./canvas.js";
 import {curvesView} from "./curves.js";
 import {copyButton} from "./copy.js";
@@ -37,7 +45,6 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => motionExplorer(stageOf(root, data), data));
 
 const LAWS = {quintic, trapezoidal, linear};
-const LEAP = 0.1; // rad or m, as in motion/recording.py
 const STATIONS = /** @type {const} */ (["start", "via", "goal"]);
 const NUMBERS = /** @type {const} */ (["blend", "duration"]);
 const CHOICES = /** @type {const} */ (["law", "corner", "row"]);
@@ -151,7 +158,7 @@ function motionExplorer(stage, data) {
           ),
         ),
       );
-      stage.say([nearWords(data, state, tool), ...notes(data, now)].join(" "));
+      stage.say([nearWords(data, now.near), ...notes(data, now)].join(" "));
       stage.scene.targets = STATIONS.map(name => ({
         name,
         pose: matrix(
@@ -184,32 +191,29 @@ function motionExplorer(stage, data) {
 }
 
 /**
- * The motion for what is asked: times, joint values, speeds, accelerations, the tool's places;
- * where there is no posture, after which samples its curves break, where its speed jumps (-1:
- * nowhere).
+ * The motion for what is asked: times, joint values, speeds, accelerations, the tool's places, how
+ * near it passes via; where there is no posture, after which samples its curves break, where its
+ * speed jumps (-1: nowhere).
  * @param {MotionData} data
  * @param {Asked} state
  */
-function motionOf({arm, laws, corners, samples}, state) {
+function motionOf(data, state) {
+  const {arm, laws, corners, samples} = data;
   const law = LAWS[laws[state.law]](state.duration);
   const t = Float64Array.from({length: samples}, (_, i) => (state.duration * i) / (samples - 1));
-  const rows = Array.from(t, x =>
-    ik(arm, blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner])),
-  );
+  /** @type {(x: number) => PagePose} */
+  const poseAt = x =>
+    blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner]);
+  const rows = Array.from(t, x => ik(arm, poseAt(x)));
   const q = follow(arm, rows, state.row),
     missing = q.map(row => row.some(Number.isNaN));
-  // No difference is taken across a jump: where the branch ends, where a joint leaps (as `record`
-  // says: by more than half a turn, or ten times as far as beside), at a corner without a blend.
+  // No difference is taken across a jump: where the branch ends, where a joint leaps, at a corner
+  // without a blend.
   /** @type {Set<number>} */
   const breaks = new Set();
-  /** @type {(i: number, j: number) => number} */
-  const step = (i, j) => (i < 1 || i >= samples ? 0 : Math.abs(q[i][j] - q[i - 1][j]) || 0);
-  /** @type {(i: number, j: number) => boolean} */
-  const leaps = (i, j) =>
-    (step(i, j) > Math.PI && !arm.prismatic[j]) ||
-    (step(i, j) > LEAP && step(i, j) > 10 * Math.max(step(i - 1, j), step(i + 1, j)));
+  const jumps = leaps(q, Array.from(t), arm.prismatic);
   for (let i = 1; i < samples; i++)
-    if (missing[i] !== missing[i - 1] || q[i].some((_, j) => leaps(i, j))) breaks.add(i);
+    if (missing[i] !== missing[i - 1] || jumps[i - 1].includes(true)) breaks.add(i);
   const gaps = new Set([...breaks].map(i => i - 1)),
     corner = state.blend === 0 ? (samples - 1) / 2 : -1;
   const nothing = () => q.map(row => row.map(() => NaN)),
@@ -233,7 +237,8 @@ function motionOf({arm, laws, corners, samples}, state) {
   if (corner > 0) a[corner] = a[corner].map(() => NaN);
   const tool = q.map((row, i) => (missing[i] ? null : origin(fk(arm.chain, row))));
   const jump = corner > 0 && !missing[corner] && v[corner - 1] ? corner : -1;
-  return {t, q, v, a, tool, missing, gaps, jump};
+  const near = passing(data, state.via, poseAt, t, missing);
+  return {t, q, v, a, tool, missing, gaps, jump, near};
 }
 
 /**
@@ -319,31 +324,48 @@ const most = (rows, j) =>
     NaN,
   );
 
+/** @type {(unit: {size: number}) => number} */
+const nearDecimals = unit => (unit.size < 1 ? 1 : 3);
+
 /**
- * How near the tool passes the via station.
+ * How near the path passes the via station, in the shown unit: between the samples, too. Infinity
+ * where there is no path.
  * @param {MotionData} data
- * @param {Stations} stations
- * @param {(?Point)[]} tool
+ * @param {PagePose} via
+ * @param {(x: number) => PagePose} poseAt
+ * @param {Float64Array} t
+ * @param {boolean[]} missing
  */
-function nearWords({words, unit}, {via}, tool) {
-  let least = Infinity;
-  for (let i = 1; i < tool.length; i++) {
-    const before = tool[i - 1],
-      here = tool[i];
-    if (!here || !before) continue;
-    const way = plus(here, before, -1),
-      from = plus(via.place, before, -1);
-    const length = way.reduce((sum, x) => sum + x * x, 0);
-    const share = length
-      ? Math.min(1, Math.max(0, way.reduce((sum, x, k) => sum + x * from[k], 0) / length))
-      : 0;
-    const apart = plus(from, way, -share);
-    least = Math.min(least, Math.sqrt(apart.reduce((sum, x) => sum + x * x, 0)));
+function passing({unit}, via, poseAt, t, missing) {
+  /** @type {(place: number[], from: number[]) => number} */
+  const apart = (place, from) => Math.hypot(...plus(place, from, -1)) / unit.size;
+  const places = Array.from(t, x => poseAt(x).place),
+    far = places.map(place => apart(place, via.place));
+  const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
+  let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
+  // only on steps this long the path may come nearer than at the samples
+  for (const i of steps.filter(
+    k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
+  )) {
+    const away = -refinedMaximum(
+      x => -apart(poseAt(x).place, via.place),
+      t[i - 1],
+      t[i],
+      nearDecimals(unit),
+    );
+    if (away < least) least = away;
   }
-  return Number.isFinite(least)
-    ? fill(words.near, {distance: number(least / unit.size, unit.size < 1 ? 1 : 3)})
-    : "";
+  return least;
 }
+
+/**
+ * @param {MotionData} data
+ * @param {number} distance
+ */
+const nearWords = ({words, unit}, distance) =>
+  Number.isFinite(distance)
+    ? fill(words.near, {distance: number(distance, nearDecimals(unit))})
+    : "";
 
 /**
  * What is wrong with the motion.

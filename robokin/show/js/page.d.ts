@@ -147,6 +147,7 @@ export interface Page {
   scene: PageScene;
   panels: PagePanel[];
   decimals: number[];
+  sampled: string;
   arms: PageArm[];
 }
 

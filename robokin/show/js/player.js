@@ -167,6 +167,7 @@ function tell(parts, data, {arms, motion}, value) {
   const whose = arm => (data.arms.length > 1 ? `${arm.name}: ` : "");
   const near = arms
     .flatMap(arm => (arm.near ? [`${whose(arm)}path passes via at ${arm.near.text}`] : []))
+    .concat(data.sampled)
     .join("; ");
   const most = Math.max(...data.arms.map(arm => arm.chain.length));
   const head = element(
