@@ -645,9 +645,10 @@ def test_the_table_next_to_zero_is_of_the_formulas_that_the_reader_has():
 def test_on_the_rim_rounding_takes_many_answers():
     made = generated()
     question, options, right = asked("two_link_code_generation.p8")
-    count = int(re.search(r"np\.linspace\(-np\.pi, np\.pi, (\d+)\)", question)[1])
-    phi = np.linspace(-np.pi, np.pi, count)
-    tips = dict(zip(("x3", "y3"), 1.7 * np.array([np.cos(phi), np.sin(phi)]), strict=True))
+    count = int(re.search(r"We take (\d+) tips", question)[1])
+    u = eval(re.search(r"`(np\.arange.*?)`", question)[1], {"np": np})
+    tips = {"x3": 1.7 * (1 - u**2) / (1 + u**2), "y3": 1.7 * (2 * u) / (1 + u**2)}
+    assert len(u) == count and np.allclose(np.hypot(*tips.values()), 1.7, rtol=0, atol=1e-15)
     given = tips | {"x1": 0, "y1": 0, "l1": 1.0, "l2": 0.7, "sqrt": np.sqrt}
     with np.errstate(invalid="ignore"):
         exec(made["written"](made["general"]), given)

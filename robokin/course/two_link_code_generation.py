@@ -1511,7 +1511,9 @@ def _under_root(x: Floats, y: Floats) -> Floats:
 
 @cache
 def _lost_facts() -> Mapping[str, Any]:
-    x, y = _circle(1.7).T
+    # sums, products and quotients only: cos has another last digit on another machine
+    u = np.arange(-360, 361) / 360
+    x, y = 1.7 * (1 - u * u) / (1 + u * u), 1.7 * (2 * u) / (1 + u * u)
     h2 = _under_root(x, y)
     plain = (
         LONG**2 / (x * x + y * y)
@@ -1852,10 +1854,10 @@ PREDICTIONS = {
         view=_cast_view,
     ),
     "p8": Prediction(
-        question="The tip goes once round the base at 1.7 m: links of 1 m and 0.7 m are stretched "
-        "all the way. We take {count} tips, (1.7 cos φ, 1.7 sin φ) m, with φ of "
-        "`np.linspace(-np.pi, np.pi, {count})`. For how many of them does the program of section "
-        "7, with its temporaries, have no answer?",
+        question="The tip goes half round the base at 1.7 m: links of 1 m and 0.7 m are stretched "
+        "all the way. We take {count} tips, 1.7 (1 − u²) / (1 + u²) m ahead and 1.7 · 2u / (1 + u²) "
+        "m to the left, with u of `np.arange(-360, 361) / 360`. For how many of them does the "
+        "program of section 7, with its temporaries, have no answer?",
         options=(
             Option(
                 "For none: 1.7 m is in reach.",
@@ -1874,9 +1876,9 @@ PREDICTIONS = {
             ),
             Option(
                 "For a good part of them, between 5 and 70 in a hundred.",
-                "Where rounding takes h squared below 0, the root is NaN. On the machine that ran "
-                "this page that is so for {lost} of {count} tips. Last digits decide: the same "
-                "formula without temporaries (section 2) has no answer for {plain}.",
+                "Where rounding takes h squared below 0, the root is NaN: for {lost} of {count} "
+                "tips. Last digits decide: the same formula without temporaries (section 2) has "
+                "no answer for {plain}.",
             ),
             Option(
                 "For all of them: the arm is singular there.",
