@@ -384,6 +384,16 @@ def test_an_oscillation_of_five_samples_is_no_jump(period):
     assert record(two_link(1, 1), np.arange(200), np.stack([q, 0 * q], axis=-1)).leaps == ()
 
 
+def test_what_samples_cannot_tell_is_no_jump_of_position():
+    t = np.linspace(0, 1, 101)
+    twice = np.searchsorted([50, 51], np.arange(101)) * 0.3
+    thrice = np.zeros(101)
+    thrice[[51, 53]] = 0.3  # up, down, up, down
+    every_other = np.arange(101) // 2 * 0.3
+    for q in (twice, thrice, every_other):
+        assert record(two_link(1, 1), t, np.stack([q, 0 * q], axis=-1)).leaps == ()
+
+
 @pytest.mark.parametrize("size", [1e-4, 1e-3, 0.01, 0.2])
 def test_noise_is_no_jump(size):
     rng = np.random.default_rng(3)

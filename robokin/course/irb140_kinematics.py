@@ -615,8 +615,8 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
         ends &= not past[[0, -1]].any()
         lines.append(
             f"Joint {k + 1} is past its limit of {limit / deg:.0f}° by "
-            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s (past it from {t[past][0]:.2f} to "
-            f"{t[past][-1]:.2f} s)."
+            f"{apart(over[i, best] / deg, 0)[0]}° at t = {t[i]:.2f} s (past it from "
+            f"{t[past][0]:.2f} to {t[past][-1]:.2f} s)."
         )
         if within(IRB140, q)[:, k].all():
             ends = False

@@ -1855,9 +1855,9 @@ PREDICTIONS = {
     ),
     "p8": Prediction(
         question="The tip goes half round the base at 1.7 m: links of 1 m and 0.7 m are stretched "
-        "all the way. We take {count} tips, 1.7 (1 − u²) / (1 + u²) m ahead and 1.7 · 2u / (1 + u²) "
-        "m to the left, with u of `np.arange(-360, 361) / 360`. For how many of them does the "
-        "program of section 7, with its temporaries, have no answer?",
+        "all the way. We take {count} tips, 1.7 (1 − u²) / (1 + u²) m ahead and "
+        "1.7 · 2u / (1 + u²) m to the left, with u of `np.arange(-360, 361) / 360`. For how many "
+        "of them does the program of section 7, with its temporaries, have no answer?",
         options=(
             Option(
                 "For none: 1.7 m is in reach.",

@@ -232,10 +232,11 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     2 mm is no jump, nor is what noise does: 10 times the lower quartile of the motion's changes of
     the speed.
 
-    Samples cannot tell a jump from a motion that is over within a step and a half: it counts as a
-    jump. What takes two steps or more does not, nor does an oscillation of five samples. A quick
-    motion is also what two jumps the same way, or three in any way, in steps without another step
-    between them look like; and, if every other step of the motion jumps, all are taken for noise.
+    Samples cannot tell a jump from a motion that takes less than two steps: as they fall, it counts
+    as the one or the other. Of the motions tried (point to point, flips, there and back, sines)
+    none that takes two steps between rest and rest, or five a period, counts as a jump. Two jumps
+    the same way, or three in any way, without another step between them, look like a quick motion;
+    and, if every other step of a motion jumps, all are taken for noise.
 
     >>> t = np.linspace(0, 2, 201)
     >>> motion = record(SCARA, t, ptp([0, 0, 0, 0], [1, 1.5, 0, 0.1], quintic(2)(t)))
@@ -274,8 +275,10 @@ def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
     least = LEAP / duration
     with np.errstate(invalid="ignore", over="ignore"):
         speeds = steps / duration
-        found = _lonely(speeds, least)
-        for c, j in np.argwhere(found.any(axis=1)):
+        found = np.zeros(steps.shape, dtype=bool)
+        sides = _shifted(speeds, -1), _shifted(speeds, 1)
+        out = np.fmax(speeds - np.fmax(*sides), np.fmin(*sides) - speeds)
+        for c, j in np.argwhere((out > least).any(axis=1)):  # the others have none
             column = speeds[c : c + 1, :, j : j + 1]
             changes = abs(np.diff(column[0, :, 0]))
             changes = np.sort(changes[np.isfinite(changes)])
