@@ -111,13 +111,17 @@ def test_known_programs_and_nearly_right_ones_keep_their_names():
         (lambda d, a, b: abs(a - b) - 1e-6 <= d <= a + b + 1e-6, "a margin outside the rim"),
         (lambda d, a, b: abs(a - b) - 1e-5 <= d <= a + b + 1e-5, "a margin outside the rim"),
         (
-            lambda d, a, b: a - b - 1e-9 <= d <= a + b + 1e-9,
+            lambda d, a, b: a - b - 1e-9 * (a + b) <= d <= (1 + 1e-9) * (a + b),
             "the inner edge for a longer first link only",
         ),
         (
-            lambda d, a, b: b - a - 1e-9 <= d <= a + b + 1e-9,
+            lambda d, a, b: b - a - 1e-9 * (a + b) <= d <= (1 + 1e-9) * (a + b),
             "the inner edge for a longer second link only",
         ),
+        (
+            lambda d, a, b: abs(a - b) - 1e-9 <= d <= a + b + 1e-9,
+            None,
+        ),  # metres, also of a small arm
     ],
 )
 def test_a_rim_a_little_beside_is_seen(reach, name):

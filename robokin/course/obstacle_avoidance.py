@@ -880,8 +880,8 @@ RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
 CHECK_MISTAKES = (
     Mistake(
         "the gripper only",
-        "It looks at the gripper alone: a lever behind it may sweep the obstacle. Put an obstacle "
-        "beside the middle of a lever.",
+        "It looks at the gripper alone: a lever behind it may sweep the obstacle. A test finds "
+        "that with an obstacle beside the middle of a lever, in any of its tasks.",
         _of(lambda q, H: _corners_near(q, H)[:, 2]),
     ),
     Mistake(

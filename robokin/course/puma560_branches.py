@@ -587,9 +587,9 @@ SPEED_MISTAKES = (
     ),
     Mistake(
         "the tool may turn",
-        "Joints 1 to 3 carry the flange along (three rows of J say no more than that), and the "
-        "tool turns with them. Joints 4 to 6 have to hold it: all six rows, with zeros for the "
-        "angular velocity.",
+        "Joints 1 to 3 alone decide here: they carry the flange along, and the tool would turn "
+        "with them. Joints 4 to 6 have to hold it, and one of them may be at its limit first: all "
+        "six rows of J, with zeros for the angular velocity, and all six joints.",
         lambda q, d, most: np.min((most / abs(_rates(q, d)))[:3]),
     ),
     Mistake(

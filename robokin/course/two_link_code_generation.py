@@ -218,9 +218,10 @@ def _elbow_cases(rng: np.random.Generator) -> list[Case]:
     cases.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))  # 3 micrometres outside, inside
     cases.append(case([0, 0], [0, 1.7 * (1 - 2e-6)], 1.0, 0.7, +1))
     cases.append(case([0, 0], [1.7 * (1 + 1e-7), 0], 1.0, 0.7, +1))  # less than one outside
+    cases.append(case([0, 0], [1.7e-3 * (1 + 1e-7), 0], 1e-3, 0.7e-3, +1))  # a small arm
     cases.append(case([0, 0], [0.1, 0.1], 0.7, 1.0, +1))  # too near, the second link longer
     cases.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
-    while len(cases) < 43:
+    while len(cases) < 44:
         base, l1, l2 = rng.uniform(-1, 1, 2), *rng.uniform(0.4, 1.2, 2)
         turn, share = rng.uniform(-np.pi, np.pi), rng.uniform(0.1, 0.9)
         d = abs(l1 - l2) + share * (l1 + l2 - abs(l1 - l2))

@@ -179,7 +179,7 @@ INVERSE_MISTAKES = (
     Mistake(
         "arctan for atan2",
         "Joint 1 comes from arctan(y / x): behind the base, at negative x, it faces the wrong way. "
-        "Try points there.",
+        "Your test accepts it: a wrong answer at such a point has to make it say False.",
         _changed(lambda x, y, z, q1, q2, q3: (atan(y / x) if x else np.sign(y) * pi / 2, q2, q3)),
     ),
     Mistake(
@@ -300,15 +300,15 @@ INVERSE_MISTAKES = (
     ),
     Mistake(
         "not a number on axis 1",
-        "It divides by the distance from axis 1, so it has no answer at (0, 0, 6). Random points "
-        "never lie on the axis: put one there yourself.",
+        "It divides by the distance from axis 1, so it has no answer at (0, 0, 6). A test finds "
+        "that with a point on the axis, and with a comparison that NaN does not pass.",
         _of_point(_spoiled_on_axis),
     ),
     Mistake(
         "not a number on the border",
         "It has no answer where the arm is stretched or folded back, nor on the floor, though "
-        "these points belong to the workspace. Random points never lie on the border: put some "
-        "there, as (9, 0, 0).",
+        "these points belong to the workspace. A test finds that with a point there, as (9, 0, 0), "
+        "and with a comparison that NaN does not pass.",
         _of_point(_lost_on_border),
     ),
     Mistake(
