@@ -828,7 +828,7 @@ def test_a_full_disk_is_said_and_mended_later(school, capsys):
 
 def test_a_disk_that_fills_up_tells_what_was_laid(school, monkeypatch):
     """Whichever file is the last that it takes: what is told lies there, and nothing else does."""
-    write, names = copies._write, ("new.ipynb", "one.ipynb", "two.ipynb")
+    write, names = copies.write, ("new.ipynb", "one.ipynb", "two.ipynb")
     for name in names:
         school.newer(name, "second")
     told = []
@@ -842,7 +842,7 @@ def test_a_disk_that_fills_up_tells_what_was_laid(school, monkeypatch):
 
         folder = school.folder.with_name(f"student{room}")
         with monkeypatch.context() as patched:
-            patched.setattr(copies, "_write", full)
+            patched.setattr(copies, "write", full)
             try:
                 done = {each.path: each.what for each in copies.copy(folder, school.labs)}
             except OSError as error:

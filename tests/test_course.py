@@ -218,6 +218,15 @@ def test_a_loop_without_an_end_is_told_when_its_cpu_time_is_up(answer, monkeypat
     assert check("made.1", right).holds  # and whoever asks lives on
 
 
+@pytest.fixture
+def _interrupts():
+    """As in a kernel: Ctrl+C raises KeyboardInterrupt, whatever earlier tests have made of it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("_interrupts")
 def test_an_interrupt_of_the_reader_is_not_an_answer():
     before = _thread._count()
 

@@ -508,6 +508,7 @@ def test_data_that_are_no_page_are_refused(change):
         },
         "panels": [],
         "decimals": [1],
+        "sampled": "",
         "arms": [],
     }
     assert fits(data, Page)

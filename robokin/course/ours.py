@@ -164,9 +164,9 @@ def _question(data: Any, nonce: str, choices: Mapping[str, str] | None) -> str:
     prediction = _prepared(str(name), nonce)
     choice = data.get("choice") if choices is None else choices.get(name)
     try:
-        return Asked(name, prediction, _choice(prediction, choice)).in_page(nonce)
+        return Asked(name, prediction, _choice(prediction, choice))._in_page(nonce)
     except ValueError:  # a choice that is none
-        return Asked(name, prediction, None).in_page(nonce)
+        return Asked(name, prediction, None)._in_page(nonce)
 
 
 class Ready(NamedTuple):
@@ -174,7 +174,7 @@ class Ready(NamedTuple):
 
     html: str
 
-    def in_page(self, nonce: str) -> str:
+    def _in_page(self, nonce: str) -> str:
         """It."""
         return self.html
 

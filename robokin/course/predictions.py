@@ -147,9 +147,9 @@ class Asked:
     @property
     def html(self) -> str:
         """The question as a piece of HTML: in words, and the script that replaces them."""
-        return self.in_page()
+        return self._in_page()
 
-    def in_page(self, nonce: str = "") -> str:
+    def _in_page(self, nonce: str = "") -> str:
         """The same for a page whose policy lets only scripts with this nonce run."""
         from ..show.page import inert, output
 
@@ -209,6 +209,6 @@ def shown(view: Any, nonce: str = "") -> str:
     """What a view shows in a page, as HTML."""
     if isinstance(view, str):
         return "".join(paragraph(line) for line in view.split("\n") if line)
-    if nonce and hasattr(view, "in_page"):
-        return str(view.in_page(nonce))
+    if nonce and hasattr(view, "_in_page"):
+        return str(view._in_page(nonce))
     return str(view._repr_mimebundle_()["text/html"])

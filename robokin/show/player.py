@@ -144,9 +144,9 @@ class Output:
     @property
     def html(self) -> str:
         """The player as a piece of HTML: the still picture, and the script that replaces it."""
-        return self.in_page()
+        return self._in_page()
 
-    def in_page(self, nonce: str = "") -> str:
+    def _in_page(self, nonce: str = "") -> str:
         """The same for a page whose policy lets only scripts with this nonce run."""
         still = still_image(plots.palette_png(self.still), self.data["alt"])
         return output(self.call, self.id, self.text, still, nonce)
