@@ -274,6 +274,30 @@ def first_and_last_angle(program):
     return True
 
 
+def test_a_test_has_to_ask_from_unlike_postures():
+    """Also a second time: what remembers is made anew for each check."""
+    arm, rng = three_lever(1.0), np.random.default_rng(5)
+    places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
+
+    def judged(stands):
+        def is_least(program):
+            for K, previous in zip(places, stands, strict=True):
+                q, S = np.asarray(program(K, previous)), arm.least(K, previous)[1]
+                if q.shape != (3,) or not (abs(q - np.pi / 2) <= np.pi / 2 + 1e-6).all():
+                    return False
+                if not np.linalg.norm(arm.fk(q).translation[:2] - K) < 1e-5:
+                    return False
+                if not abs(q - previous).sum() <= S + 0.02 * deg:
+                    return False
+            return True
+
+        return check("three_levers.2", is_least).mistake
+
+    for _ in range(2):
+        assert judged(np.ones((100, 3))) == "accepts: the previous posture of the first task"
+    assert judged(rng.uniform(0.2, 3, (100, 3))) != judged(np.ones((100, 3)))
+
+
 def test_a_test_has_to_look_at_every_angle():
     assert "beta" in check("three_levers.2", first_and_last_angle).mistake
 

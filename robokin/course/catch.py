@@ -116,7 +116,8 @@ class Catch(Exercise):
 
 
 def _guarded(program: Program) -> Program:
-    """The program, which raises nothing but `NoResult`."""
+    """The program, which raises nothing but `NoResult`; a new one of those that remember."""
+    program = getattr(program, "anew", lambda: program)()
 
     def guarded(*inputs: Any) -> Any:
         try:

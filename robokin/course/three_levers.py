@@ -839,9 +839,30 @@ def _refined(point: Floats, previous: Floats, rows: Floats) -> Floats:
     return found
 
 
+class _Forgets:
+    """Takes the arm to stand for ever where it stood at the first call."""
+
+    def __init__(self) -> None:
+        self.first: Floats | None = None
+
+    def __call__(self, point: Floats, previous: Floats) -> Floats:
+        self.first = np.array(previous) if self.first is None else self.first
+        return _exact(point, self.first)
+
+    def anew(self) -> Program:
+        """One that has not been called."""
+        return _Forgets()
+
+
 MIDDLE = np.array([np.pi / 2, np.pi / 2, np.pi / 2])
 
 LEAST_MISTAKES = (
+    Mistake(
+        "the previous posture of the first task",
+        "It takes the arm to stand for ever where it stood at its first task. A test finds that "
+        "with tasks from unlike postures.",
+        _Forgets(),
+    ),
     Mistake(
         "it stays where it is",
         "It returns the old posture: no movement at all, and S = 0. Does the gripper reach K?",
