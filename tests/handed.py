@@ -36,7 +36,8 @@ def report_of(who, slug=SLUG, made=MADE, **changes):
 def page(data):
     """A page with data as a report has them; a text stands there as it is."""
     text = data if isinstance(data, str) else json.dumps(data)
-    return f"<!DOCTYPE html>\n<head>{DATA}{text.replace('<', chr(92) + 'u003c')}</script></head>"
+    data = text.replace("<", "\\u003c")
+    return f"<!DOCTYPE html>\n<html><head>{DATA}{data}</script></head></html>"
 
 
 def put(path, content):

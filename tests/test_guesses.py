@@ -28,7 +28,7 @@ P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
 OTHER = "scara_motion.p1"
 TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).PREDICTIONS.items() if p.unit)
 KEPT = "Kept for your report."
-RUN = "Kept in this browser only. Run this cell, and it is kept for your report."
+RUN = "Kept in this browser only. Run > Run All Cells, and it is kept for your report."
 
 
 def at(second):
@@ -369,14 +369,14 @@ def test_where_nobody_knows_a_path_the_only_kernel_is_meant(page):
     assert made_in(page) == [[["c"]]]
     page.evaluate(HUBS, [None])  # a second one
     answer(one, "d", again=True)
-    assert made_in(page) == [[]] and "Run this cell" in told(one).inner_text()
+    assert made_in(page) == [[]] and "Run All Cells" in told(one).inner_text()
 
 
 def test_a_kernel_that_comes_late_is_told_what_the_page_remembers(page):
     (one,) = shown(page, "Path: a.ipynb")
     answer(one, "b")
     answer(one, "c", again=True)
-    assert "Run this cell" in told(one).inner_text()
+    assert "Run All Cells" in told(one).inner_text()
     page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
     [[message]] = page.evaluate("sent")
     assert [(name, choice) for name, choice, _ in message["guesses"]] == [(P1, "b"), (P1, "c")]
@@ -515,8 +515,8 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     says(asks.nth(1), RUN)
     assert P2 not in chosen(lab)
     run_all(jupyter, page, 3)
-    for question in asks.all():
-        says(question, f"You guessed here before. {KEPT}")
+    for question, more in zip(asks.all(), (" Your first guess, b, counts.", "", ""), strict=True):
+        says(question, f"You guessed here before. {KEPT}{more}")
     page.keyboard.press("Control+s")
     saved = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     until(lambda: "jp-mod-dirty" not in saved.get_attribute("class"), 20, "not saved", page)

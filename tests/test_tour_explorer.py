@@ -258,9 +258,10 @@ def settled(page, root):
 
 def shown_task(page):
     """The task that the page shows, by its own "Copy as Python"."""
+    page.evaluate("window.copied = null")
     page.locator(".rk-word").last.click()  # Copy as Python
     space = {}
-    exec(page.evaluate("window.copied"), space)
+    exec(page.wait_for_function("window.copied").json_value(), space)
     return space["task"]
 
 

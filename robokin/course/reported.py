@@ -30,6 +30,8 @@ def report_data(text: str) -> dict[str, Any] | None:
     start = text.find(DATA)
     if start < 0:
         return None
+    if not text.rstrip().endswith("</html>"):
+        raise ValueError("a report that cannot be read: it is cut off")
     try:
         data, _ = json.JSONDecoder().raw_decode(text, start + len(DATA))
         return validated(data)

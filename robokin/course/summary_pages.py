@@ -49,7 +49,14 @@ pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-w
 .holds {{ color: {AXIS_COLORS[1]}; }}
 .not {{ color: {ALARM}; }}
 .open, small {{ color: {SOFT}; }}
-@media print {{ tr {{ break-inside: avoid; }} }}
+@page {{ size: landscape; }}
+@media print {{
+  body {{ font-size: 11px; margin: 0; }}
+  td, th {{ min-width: 0; padding-right: 8px; }}
+  tr {{ break-inside: avoid; }}
+  .wide {{ overflow: visible; }}
+  .students th small {{ display: none; }}  /* the table above has these words */
+}}
 """
 HASH = base64.b64encode(hashlib.sha256(STYLE.encode()).digest()).decode()
 POLICY = f"default-src 'none'; style-src 'sha256-{HASH}'; base-uri 'none'; form-action 'none'"

@@ -146,7 +146,9 @@ function start(root, data) {
       guesses: memory.read(),
       tell(error) {
         if (error) return alone(`: ${error}.`);
-        kept.textContent = `${before}Kept for your report.`;
+        const first = memory.read().find(([name]) => name === data.name)?.[1] ?? chosen();
+        const counts = first === chosen() ? "" : ` Your first guess, ${first}, counts.`;
+        kept.textContent = `${before}Kept for your report.${counts}`;
         copy.remove();
       },
     };
@@ -155,7 +157,7 @@ function start(root, data) {
     if (!document.dispatchEvent(event)) return;
     alone(
       memory.panel
-        ? ". Run this cell, and it is kept for your report."
+        ? ". Run > Run All Cells, and it is kept for your report."
         : ". For your report, copy your guesses into the lab's last cell.",
     );
   }
