@@ -177,9 +177,7 @@ def _written(path: Path, who: str) -> Note:
     page = path.parent / Path(said.strip().rpartition(":")[0]).name
     data = report_data(page.read_text(encoding="utf-8")) or {"exercises": [], "predictions": []}
     lines = [f"{page.name} is your report, beside this notebook. Look at it, and hand it in."]
-    lines.append(
-        "In JupyterLab press Trust HTML, and it moves; any browser opens the file."
-    )
+    lines.append("In JupyterLab press Trust HTML, and it moves; any browser opens the file.")
     for each in data["exercises"]:
         lines.append(f"{each['id']}: {each['state']}")
         if each["state"] in ("failed", "not judged"):
