@@ -1,5 +1,5 @@
-"""What students hand in, made by hand: reports as pages with data, of whatever is put there; and
-how a test reads what `summary` made of it.
+"""What students hand in, made by hand: notebooks, reports as pages with data, of whatever is put
+there; and how a test reads what `summary` made of it.
 """
 
 import csv
@@ -7,6 +7,9 @@ import json
 import os
 import re
 from html import unescape
+
+import nbformat
+from nbformat.v4 import new_code_cell, new_notebook, new_output
 
 from robokin.course import book
 from robokin.course.reported import DATA
@@ -38,6 +41,21 @@ def page(data):
     text = data if isinstance(data, str) else json.dumps(data)
     data = text.replace("<", "\\u003c")
     return f"<!DOCTYPE html>\n<html><head>{DATA}{data}</script></head></html>"
+
+
+def cell(source, said=None):
+    """A code cell; `said` is stored as its output."""
+    made = new_code_cell(source)
+    if said:
+        data = {"text/plain": said, "text/html": f"<div><b>{said}</b></div>"}
+        made.outputs = [new_output("execute_result", data=data, execution_count=1)]
+    return made
+
+
+def stored(path, *cells):
+    made = [c if not isinstance(c, str) else cell(c) for c in cells]
+    nbformat.write(new_notebook(cells=made), path)
+    return path
 
 
 def put(path, content):

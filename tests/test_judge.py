@@ -16,6 +16,7 @@ from types import SimpleNamespace
 import nbformat
 import psutil
 import pytest
+from handed import cell, stored
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from robokin import course
@@ -27,21 +28,6 @@ from robokin.course.process import _end_marked
 
 QUICK = Limits(cell=12, answer=60, all=100)
 IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as np"
-
-
-def cell(source, said=None):
-    """A code cell; `said` is stored as its output."""
-    made = new_code_cell(source)
-    if said:
-        data = {"text/plain": said, "text/html": f"<div><b>{said}</b></div>"}
-        made.outputs = [new_output("execute_result", data=data, execution_count=1)]
-    return made
-
-
-def stored(path, *cells):
-    made = [c if not isinstance(c, str) else cell(c) for c in cells]
-    nbformat.write(new_notebook(cells=made), path)
-    return path
 
 
 # --- What answers are worth -----------------------------------------------------------------------

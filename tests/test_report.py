@@ -8,10 +8,10 @@ import re
 import sys
 from types import SimpleNamespace
 
-import nbformat
 import pytest
 from conftest import NOTEBOOKS
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+from handed import cell, stored
+from nbformat.v4 import new_markdown_cell
 
 from robokin import course
 from robokin.course import book, solution
@@ -30,21 +30,6 @@ from robokin.show import animate
 t = np.linspace(0, 2, 41)
 q = ptp(np.zeros(6), np.array([90, 30, -60, 45, 60, 120]) * deg, t / 2)
 animate(IRB140, t, q, title="A turn of every joint")"""
-
-
-def cell(source, said=None):
-    """A code cell; `said` is stored as its output."""
-    made = new_code_cell(source)
-    if said:
-        data = {"text/plain": said, "text/html": f"<div><b>{said}</b></div>"}
-        made.outputs = [new_output("execute_result", data=data, execution_count=1)]
-    return made
-
-
-def stored(path, *cells):
-    made = [c if not isinstance(c, str) else cell(c) for c in cells]
-    nbformat.write(new_notebook(cells=made), path)
-    return path
 
 
 @pytest.fixture(scope="module")

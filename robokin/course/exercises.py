@@ -170,11 +170,9 @@ class Function(Exercise):
                 return "nearly right", (off,)
             unused = self._unused(answer, outcomes, cases)
             if unused:
-                one = len(unused) == 1
-                says = "makes no difference" if one else "make no difference"
-                told = " and ".join(f"`{each}`" for each in unused[:2])
+                told = " or ".join(f"`{each}`" for each in unused[:2])
                 names = [f"{each} is not used" for each in unused[:2]]
-                return " and ".join(names), (f"Other values, the same result: {told} {says}.",)
+                return " and ".join(names), (f"The result stays the same when {told} changes.",)
         return None, ("The mistake is not recognised: look at the case.",)
 
     def _formed(self, outcome: Outcome, case: tuple[Any, ...]) -> Outcome:
