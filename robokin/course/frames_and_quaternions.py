@@ -14,9 +14,9 @@ from .._arrays import Floats
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .catch import Catch
-from .exercises import Fault, Function, Value, words
+from .exercises import words
 from .mistakes import METRES, Mistake, Program, Tools
+from .old import Catch, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice

@@ -13,8 +13,9 @@ from ..arms import IRB140, explain, within
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .exercises import Exercise, Fault, Function, Value, words
+from .exercises import words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
+from .old import Exercise, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, one_number
 from .variants import Numbers, dice

@@ -16,9 +16,9 @@ from ..motion import blend, differentiate, lin, linear, ptp, quintic, trapezoida
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm, wrapped
-from .catch import Catch
-from .exercises import Function, words
+from .exercises import words
 from .mistakes import METRES, Mistake, Program, Tools
+from .old import Catch, Function
 from .predictions import Option, Prediction
 from .told import apart, floats, one_number
 

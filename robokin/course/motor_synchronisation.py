@@ -27,9 +27,9 @@ from ..jobs.steppers import (
     unsynchronised,
 )
 from ..units import deg, mm, wrapped
-from .catch import Catch
-from .exercises import Function, Value, words
+from .exercises import words
 from .mistakes import Mistake, Program, Tools
+from .old import Catch, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice

@@ -21,9 +21,9 @@ from ..jobs.obstacles import (
     way_round,
 )
 from ..units import deg, mm
-from .catch import Catch
-from .exercises import Fault, Function, Value, words
+from .exercises import words
 from .mistakes import DEGREES, Mistake, Program, Tools
+from .old import Catch, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice, normalised

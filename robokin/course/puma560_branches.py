@@ -18,8 +18,9 @@ from ..motion import blend, differentiate, lin, quintic
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm
-from .exercises import Function, Value, words
+from .exercises import words
 from .mistakes import Mistake, Tools
+from .old import Function, Value
 from .predictions import Option, Prediction
 from .told import apart, one_number
 from .variants import Numbers, dice

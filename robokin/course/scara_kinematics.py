@@ -14,9 +14,9 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import SCARA, ScaraPose, explain, follow, within
 from ..units import deg, mm, wrapped
-from .catch import Catch
-from .exercises import Fault, Function, Value, words
+from .exercises import words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
+from .old import Catch, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats, one_number
 from .variants import Numbers, dice

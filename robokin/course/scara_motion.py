@@ -14,8 +14,9 @@ from .._arrays import Floats
 from ..arms import SCARA, ScaraPose, follow, nearest
 from ..motion import blend, differentiate, lin, ptp
 from ..units import deg, mm, wrapped
-from .exercises import Fault, Function, Value, words
+from .exercises import words
 from .mistakes import Mistake, Program, Tools
+from .old import Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats, one_number
 from .variants import Numbers, dice

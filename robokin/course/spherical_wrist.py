@@ -16,9 +16,9 @@ from ..motion import differentiate, lin, quintic
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, mm, wrapped
-from .catch import Catch
-from .exercises import Fault, Function, Value, words
+from .exercises import words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
+from .old import Catch, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats, one_number
 from .variants import Numbers, dice

@@ -8,8 +8,9 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import IRB140
 from ..units import deg, mm
-from .exercises import Fault, Value, words
+from .exercises import words
 from .mistakes import DEGREES
+from .old import Fault, Value
 from .predictions import Option, Prediction
 
 OBJECTIVES = ("change a number and see what follows from it",)

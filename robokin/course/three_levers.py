@@ -16,9 +16,9 @@ from ..arms import three_lever
 from ..arms.branches import within
 from ..jobs.redundancy import methods, race
 from ..units import deg, wrapped
-from .catch import Catch
-from .exercises import Fault, Function, Value, words
+from .exercises import words
 from .mistakes import DEGREES, Mistake, Program, Tools
+from .old import Catch, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice

@@ -18,9 +18,9 @@ import numpy as np
 from .._arrays import Floats
 from ..arms import two_link
 from ..units import deg, mm
-from .catch import Catch
-from .exercises import Function, Value, words
+from .exercises import words
 from .mistakes import Mistake, Program, Tools
+from .old import Catch, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice

@@ -31,9 +31,9 @@ from ..jobs.visit_collect import (
 from ..motion import ptp
 from ..units import deg, mm
 from .answers import run
-from .catch import Catch
-from .exercises import Exercise, Fault, Function, Value, Verdict, words
+from .exercises import Verdict, words
 from .mistakes import DEGREES, Mistake, Program, Tools
+from .old import Catch, Exercise, Fault, Function, Value
 from .predictions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice

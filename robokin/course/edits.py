@@ -1,0 +1,259 @@
+"""Wrong programs made from the right one: edits of its text, those of an exercise and those that
+everybody makes, alone and two at a time.
+"""
+
+import ast
+import re
+import textwrap
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import accumulate, combinations
+from typing import Any, NamedTuple
+
+from .markdown import Edit, Wrong
+
+Span = tuple[int, int, str]  # from, to, and what stands there instead
+
+
+class Variant(NamedTuple):
+    """A wrong program: its name, a sentence, and what it changes in the solution, or its text."""
+
+    name: str
+    says: str
+    change: tuple[Span, ...] | str
+
+    def text(self, solution: str) -> str:
+        """The wrong program."""
+        return self.change if isinstance(self.change, str) else _edited(solution, self.change)
+
+
+def own(solution: str, mistakes: Sequence[Wrong]) -> list[Variant]:
+    """Every mistake of an exercise, alone. ValueError: an edit does not fit the solution."""
+    return [
+        Variant(each.name, each.says, p if isinstance(p, str) else _spans(solution, p, each))
+        for each in mistakes
+        for p in each.programs
+    ]
+
+
+def base(programs: Sequence[str], edits: tuple[Edit, ...] | str) -> str:
+    """The first of these programs that the edits fit, else the first one."""
+    if isinstance(edits, str):
+        return programs[0]
+    fits = (p for p in programs if all(p.count(old) == 1 for old, _ in edits))
+    return next(fits, programs[0])
+
+
+def pairs(variants: Sequence[Variant]) -> Iterator[Variant]:
+    """Every two mistakes that change different places."""
+    for a, b in combinations(variants, 2):
+        if isinstance(a.change, str) or isinstance(b.change, str) or a.name == b.name:
+            continue
+        both = sorted((*a.change, *b.change))
+        if all(one[1] <= two[0] for one, two in zip(both, both[1:], strict=False)):
+            says = a.says if a.says == b.says else f"{a.says} And: {b.says}"
+            yield Variant(f"{a.name}, and {b.name}", says, tuple(both))
+
+
+def _edited(text: str, change: Sequence[Span]) -> str:
+    for start, end, new in sorted(change, reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def _spans(solution: str, edits: tuple[Edit, ...], mistake: Wrong) -> tuple[Span, ...]:
+    for old, _ in edits:
+        if solution.count(old) != 1:
+            raise ValueError(
+                f"line {mistake.line}, {mistake.name!r}: `{old}` stands {solution.count(old)} "
+                "times in the solution, wanted once"
+            )
+    return tuple((at := solution.index(old), at + len(old), new) for old, new in edits)
+
+
+# --- What everybody does --------------------------------------------------------------------------
+
+SLIPS = {
+    "sign": "It is what comes out with a plus for a minus, or a minus for a plus.",
+    "order of a product": "Two factors of a product are in the wrong order. In A @ B the right "
+    "factor acts first, seen from the base.",
+    "element-wise product": "`*` multiplies element by element; the product of matrices is `@`.",
+    "inverse left out": "Something is used as it is where its inverse is wanted.",
+    "arcsin for atan2": "The angle comes from its sine alone: half of the plane is lost. Use "
+    "arctan2 of sine and cosine.",
+    "x and y exchanged": "arctan2 takes y first, then x.",
+    "sine for cosine": "A sine stands for a cosine, or a cosine for a sine.",
+    "a root left out": "A square root is missing.",
+    "a square left out": "A square is missing.",
+    "absolute value left out": "A difference counts with its sign: take its absolute value.",
+    "least for greatest": "The least is taken for the greatest, or the greatest for the least.",
+    "any for all": "One is enough for it where all have to be, or the other way round.",
+    "a factor of two": "A factor of two is missing, or too much.",
+    "the limit itself": "A value exactly at its limit is on the wrong side: < for <=, or so.",
+    "an index off by one": "It takes the neighbour of an element.",
+}
+SWAPPED = {
+    "min": ("max", "least for greatest"),
+    "max": ("min", "least for greatest"),
+    "argmin": ("argmax", "least for greatest"),
+    "argmax": ("argmin", "least for greatest"),
+    "sin": ("cos", "sine for cosine"),
+    "cos": ("sin", "sine for cosine"),
+    "all": ("any", "any for all"),
+    "any": ("all", "any for all"),
+}
+SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+EDGES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
+
+
+def everybody(solution: str) -> list[Variant]:
+    """The slips that can be made in any program, found in the functions of this one."""
+    lines = [0, *accumulate(len(line.encode()) for line in solution.splitlines(keepends=True))]
+    raw = solution.encode()
+
+    def place(node: Any) -> tuple[int, int]:
+        begin, end = lines[node.lineno - 1], lines[node.end_lineno - 1]
+        return begin + node.col_offset, end + node.end_col_offset
+
+    def said(node: Any) -> str:
+        return raw[slice(*place(node))].decode()
+
+    found = []
+    functions = [n for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)]
+    for node in (n for each in functions for top in each.body for n in ast.walk(top)):
+        for name, spot, new in (*_in_sums(node, said), *_in_calls(node, said)):
+            start, end = (len(raw[:at].decode()) for at in place(spot))
+            found.append(Variant(name, SLIPS[name], ((start, end, new),)))
+    return found
+
+
+def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
+    """Slips in arithmetic and comparisons: name, the piece that is replaced, what replaces it."""
+    match node:
+        case ast.BinOp(op=ast.Add() | ast.Sub(), left=a, right=b):
+            sign = "-" if isinstance(node.op, ast.Add) else "+"
+            yield "sign", node, f"({said(a)} {sign} ({said(b)}))"
+        case ast.UnaryOp(op=ast.USub(), operand=a) if not isinstance(a, ast.Constant):
+            yield "sign", node, f"({said(a)})"
+        case ast.BinOp(op=ast.MatMult(), left=a, right=b):
+            yield "order of a product", node, f"(({said(b)}) @ ({said(a)}))"
+            yield "element-wise product", node, f"(({said(a)}) * ({said(b)}))"
+        case ast.BinOp(op=ast.Pow(), left=a, right=ast.Constant(2)):
+            yield "a square left out", node, f"({said(a)})"
+        case ast.BinOp(op=ast.Mult() | ast.Div(), left=a, right=ast.Constant(2)):
+            yield "a factor of two", node, f"({said(a)})"
+        case ast.BinOp(op=ast.Mult(), left=ast.Constant(2), right=b):
+            yield "a factor of two", node, f"({said(b)})"
+        case ast.Compare(ops=ops) if all(type(op) in SIGNS for op in ops):
+            terms = [f" {said(term)}" for term in node.comparators]
+            for k in range(len(ops)):
+                signs = [SIGNS[type(op)] for op in ops]
+                signs[k] = EDGES[signs[k]]
+                rest = (f" {s}{t}" for s, t in zip(signs, terms, strict=True))
+                yield "the limit itself", node, f"({said(node.left)}{''.join(rest)})"
+        case ast.Subscript(slice=ast.Constant(value=int(k))):
+            for other in (k + 1, k - 1):
+                if other >= 0:
+                    yield "an index off by one", node, f"{said(node.value)}[{other}]"
+
+
+def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
+    """Slips in calls of functions."""
+    match node:
+        case ast.Call(func=ast.Attribute(value=a, attr="inverse"), args=[]):
+            yield "inverse left out", node, said(a)
+        case ast.Call(func=ast.Attribute(attr="arctan2"), args=[y, x]):
+            yield "x and y exchanged", node, f"np.arctan2({said(x)}, {said(y)})"
+            yield (
+                "arcsin for atan2",
+                node,
+                f"np.arcsin(({said(y)}) / np.hypot({said(y)}, {said(x)}))",
+            )
+        case ast.Call(func=ast.Attribute(attr="sqrt"), args=[a]):
+            yield "a root left out", node, f"({said(a)})"
+        case ast.Call(func=ast.Name(id="abs"), args=[a]):
+            yield "absolute value left out", node, f"({said(a)})"
+        case ast.Call(func=ast.Attribute(value=a, attr=name)) if name in SWAPPED:
+            other, slip = SWAPPED[name]
+            yield slip, node.func, f"{said(a)}.{other}"
+        case ast.Call(func=ast.Name(id=name)) if name in SWAPPED:
+            other, slip = SWAPPED[name]
+            yield slip, node.func, other
+
+
+# --- Programs that run ----------------------------------------------------------------------------
+
+
+def function_name(text: str) -> str:
+    """The name of the last function that a program defines at its top. ValueError: none."""
+    names = re.findall(r"^def (\w+)", text, re.M)
+    if not names:
+        raise ValueError("wanted a program that defines a function")
+    return str(names[-1])
+
+
+def run(text: str, also: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """All that a program names, by its names."""
+    found: dict[str, Any] = dict(also or {})
+    exec(compile(text, "<solution>", "exec"), found)
+    return found
+
+
+class Steps:
+    """A solution by the statements of its function, so that thousands of wrong programs run
+    quickly: each is made of statements that are compiled already, and begins after those that it
+    has in common with the solution. A solution that returns in more than one place is compiled
+    anew for each.
+    """
+
+    def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
+        self.solution, self.also, self.name = solution, also, function_name(solution)
+        top = [n for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)][-1]
+        lines = [0, *accumulate(map(len, solution.splitlines(keepends=True)))]
+        self.spans = [(lines[n.lineno - 1], lines[n.end_lineno or 0]) for n in top.body]
+        self.inputs = [each.arg for each in top.args.args]
+        self.before = run(solution[: lines[top.lineno - 1]], also)
+        returns = [n for n in ast.walk(top) if isinstance(n, ast.Return)]
+        alone = len({a for a, _ in self.spans}) == len(self.spans)  # one statement a line
+        self.plain = returns == top.body[-1:] and solution.isascii() and alone
+        self.names: dict[Any, dict[str, Any]] = {}
+
+    def program(self, variant: Variant) -> Callable[..., Any]:
+        """The wrong program."""
+        change = variant.change
+        inside = not isinstance(change, str) and all(
+            any(a <= start and end <= b for a, b in self.spans) for start, end, _ in change
+        )
+        if not (self.plain and inside):
+            program: Callable[..., Any] = run(variant.text(self.solution), self.also)[self.name]
+            return program
+        steps, same = [], 0
+        for a, b in self.spans:
+            mine = [(s - a, e - a, new) for s, e, new in change if a <= s < b]  # type: ignore[misc]
+            same += not mine and same == len(steps)
+            steps.append(_step(_edited(self.solution[a:b], mine)))
+
+        def stepped(*case: Any) -> Any:
+            names = dict(self._after(same, case))
+            for step in steps[same:]:
+                exec(step, names)
+            return names["returned"]
+
+        return stepped
+
+    def _after(self, count: int, case: tuple[Any, ...]) -> dict[str, Any]:
+        """All names after so many statements of the solution."""
+        key = count, tuple(map(id, case))
+        if count == 0:
+            return self.before | dict(zip(self.inputs, case, strict=True))
+        if key not in self.names:
+            names = dict(self._after(count - 1, case))
+            exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
+            self.names[key] = names
+        return self.names[key]
+
+
+@cache
+def _step(text: str) -> Any:
+    text = textwrap.dedent(text)
+    return compile(re.sub(r"^return ", "returned = ", text), "<solution>", "exec")

@@ -1,0 +1,82 @@
+"""Forms that several exercises share: a result as the check wants it, or a sentence that says what
+was wanted and what came.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .._arrays import Floats
+from ..arms.scara import ScaraPose
+from ..quaternion import Quaternion
+from ..transform import Transform
+from .answers import equal
+from .exercises import words
+from .told import floats, one_number
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two results are one answer: numbers to 1e-6, or to a millionth where they are large;
+    a NaN is a NaN.
+    """
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray) and a.shape == b.shape:
+        return bool(np.allclose(a, b, rtol=1e-6, atol=1e-6, equal_nan=True))
+    return equal(a, b)
+
+
+def like(result: Any, wanted: Any) -> Any:
+    """A result of the kind and shape of the right one. ValueError: it is of another."""
+    if isinstance(wanted, (bool, np.bool_)):
+        return truth(result)
+    if isinstance(wanted, (str, Transform, Quaternion, ScaraPose)):
+        if not isinstance(result, type(wanted)):
+            raise ValueError(f"wanted a {type(wanted).__name__}, got {words(result)}")
+        return result
+    if isinstance(wanted, Mapping):
+        if not isinstance(result, Mapping) or result.keys() != wanted.keys():
+            raise ValueError(
+                f"wanted a dict with {', '.join(map(repr, wanted))}, got {words(result)}"
+            )
+        return {key: like(result[key], wanted[key]) for key in wanted}
+    return numbers(result, np.shape(wanted))
+
+
+def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
+    """Numbers of this shape. ValueError: they are none, or of another shape."""
+    if not what:
+        what = f"an array of shape {shape}" if shape else "a number"
+    try:
+        values = floats(result)
+    except (TypeError, ValueError):
+        raise ValueError(f"wanted {what}, got {words(result)}") from None
+    if values.shape != shape and (values.size, shape) != (1, ()):
+        raise ValueError(f"wanted {what}, got {words(result)}")
+    return values.reshape(shape)
+
+
+def truth(result: Any, what: str = "") -> bool:
+    """True or False. ValueError: something else. `what`: of what, in words."""
+    if not isinstance(result, (bool, np.bool_)):
+        raise ValueError(f"wanted True or False{what and f' {what}'}, got {words(result)}")
+    return bool(result)
+
+
+def numbers_of(answer: Any, names: Sequence[str]) -> dict[str, float]:
+    """A dict with a finite number under each name. ValueError: one is missing or none."""
+    if not isinstance(answer, Mapping):
+        raise ValueError(f"Wanted a dict with {' and '.join(names)}, got {words(answer)}.")
+    missing = [name for name in names if name not in answer]
+    if missing:
+        raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
+    found = {}
+    for name in names:
+        try:
+            found[name] = one_number(answer[name])
+        except (TypeError, ValueError):
+            raise ValueError(f"{name}: wanted one number, got {words(answer[name])}.") from None
+        if not np.isfinite(found[name]):
+            raise ValueError(f"{name}: wanted a finite number, got {words(answer[name])}.")
+    return found

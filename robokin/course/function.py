@@ -1,0 +1,343 @@
+"""A function to write: the verdict on it, and the wrong programs that explain a wrong one."""
+
+import contextlib
+import inspect
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import edits, forms
+from .answers import Outcome, equal, is_stub, run, unended
+from .edits import Variant
+from .exercises import Exercise, Verdict, has_nan, numbers, unanswered, words
+from .markdown import Text
+from .slips import INPUTS, RESULTS, fed
+
+NEAR = 0.01  # an answer that is off by no larger share is told to be nearly right
+Case = tuple[Any, ...]
+Fault = tuple[str, str]  # the name of what is wrong, and a sentence
+
+
+class Candidate(NamedTuple):
+    """What may explain an answer: a name, a sentence, and its result in case k."""
+
+    name: str
+    says: str
+    result: Callable[[int], Any]
+
+
+class Function(Exercise):
+    """A function to write. `code`, the names of the Python file, has
+
+    cases  generator of random numbers -> inputs, the smallest first, each a tuple
+
+    and, where what `forms` has by default does not do,
+
+    form   (result, case) -> the result as `law` and `same` want it; ValueError that says what was
+           wanted and what came
+    law    (case, yours, wanted) -> None, or a sentence: what should hold
+    same   whether two results are one answer
+
+    Edits of the solution may use all names of the file.
+    """
+
+    def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
+        super().__init__(text)
+        self.code = dict(code)
+        self.function = edits.function_name(self.solution)
+        self.right: Callable[..., Any] = edits.run(self.solution)[self.function]
+        self.inputs = tuple(inspect.signature(self.right).parameters)
+        self.own = edits.own(self.solution, text.wrong())
+        self.same: Callable[[Any, Any], bool] = code.get("same", forms.same)
+        self.made: dict[Any, dict[int, Any]] = {}
+
+    @cached_property
+    def cases(self) -> list[Case]:
+        """The cases, the same on every machine. ValueError: none come, or not within 4 s."""
+        draw = self.code.get("cases")
+        if draw is None:
+            raise ValueError("wanted a function cases(rng) in the Python file")
+        [outcome] = run(lambda seed: list(draw(np.random.default_rng(seed))), [(140,)])
+        if outcome.name:
+            raise ValueError(f"cases: {outcome.says}")
+        if not outcome.result or not all(isinstance(case, tuple) for case in outcome.result):
+            raise ValueError(f"cases: wanted tuples of inputs, got {words(outcome.result)}")
+        return list(outcome.result)
+
+    @cached_property
+    def wanted(self) -> list[Any]:
+        """The right results, in form."""
+        right = [self.right(*case) for case in self.cases]
+        return [self.form(one, case, one) for one, case in zip(right, self.cases, strict=True)]
+
+    @cached_property
+    def steps(self) -> edits.Steps:
+        return edits.Steps(self.solution, self.code)
+
+    # --- The verdict
+
+    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
+        if is_stub(answer):
+            return unanswered(name)
+        if not callable(answer):
+            return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
+        cases = self.cases
+        outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
+        wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
+        if len(wrong) == len(cases) and not any(wrong):
+            line = f"It holds in all {len(cases)} cases that were tried, edges among them."
+            return Verdict(name, holds=True, says=(line,), points=1.0)
+        first = next(k for k, sentence in enumerate(wrong) if sentence)
+        mistake, says = self._explained(answer, outcomes, wrong, first)
+        good = round(wrong.count(None) / len(cases), 2)
+        case = self._told(first, outcomes[first], wrong[first])
+        return Verdict(name, mistake=mistake, says=says, case=case, points=min(good, 0.9))
+
+    def form(self, result: Any, case: Case, wanted: Any) -> Any:
+        """A result in form. ValueError: it has another one."""
+        own = self.code.get("form")
+        return own(result, case) if own else forms.like(result, wanted)
+
+    def formed(self, outcome: Outcome, k: int) -> Outcome:
+        """An outcome of case k, its result in form."""
+        if outcome.name:
+            return outcome
+        try:
+            wanted = None if "form" in self.code else self.wanted[k]
+            return Outcome(self.form(outcome.result, self.cases[k], wanted))
+        except Exception as error:
+            return Outcome(outcome.result, "another kind or shape", f"{error}")
+
+    def wrong(self, outcome: Outcome, k: int) -> str | None:
+        """What should hold and does not in case k; None: it holds."""
+        if outcome.name:
+            return outcome.says
+        with np.errstate(all="ignore"), contextlib.suppress(Exception):
+            if law := self.code.get("law"):
+                said: str | None = law(self.cases[k], outcome.result, self.wanted[k])
+                return said
+            same = self.same(outcome.result, self.wanted[k])
+            return None if same else f"should be {words(self.wanted[k])}"
+        return "It cannot be judged."
+
+    def _told(self, k: int, outcome: Outcome, law: str | None) -> str:
+        given = zip(self.inputs, self.cases[k], strict=True)
+        lines = ["  for " + ", ".join(f"{name} = {words(value)}" for name, value in given)]
+        if outcome.name in (None, "another kind or shape"):
+            lines.append(f"  you return {words(outcome.result)}")
+        return "\n".join([*lines, f"  {law}"])
+
+    def _explained(
+        self, answer: Any, outcomes: list[Outcome], wrong: list[str | None], first: int
+    ) -> tuple[str | None, tuple[str, ...]]:
+        """Name and sentences of what is wrong, `first` in that case."""
+        trouble = outcomes[first]
+        if unended(trouble):
+            return trouble.name, ()
+        ended = [o for o in outcomes if not unended(o)]
+        if found := self.named(ended, wrong, first):
+            names = list(dict.fromkeys(name for name, _ in found))[:2]
+            says = [says for _, says in found if says][: len(names)]
+            return " or ".join(names), tuple([" Or: ".join(says)] if says else [])
+        if trouble.name:
+            return trouble.name, ()
+        if has_nan(trouble.result) and not has_nan(self.wanted[first]):
+            return "NaN", ("A NaN stands where a number should.",)
+        if len(ended) == len(self.cases):
+            if off := self._nearly(outcomes):
+                return "nearly right", (off,)
+            if unused := self._unused(answer, outcomes)[:2]:
+                told = " or ".join(f"`{each}`" for each in unused)
+                names = [f"{each} is not used" for each in unused]
+                return " and ".join(names), (f"The result stays the same when {told} changes.",)
+        return None, ("The mistake is not recognised: look at the case.",)
+
+    # --- What explains a wrong answer
+
+    def named(self, outcomes: list[Outcome], wrong: list[str | None], first: int) -> list[Fault]:
+        """The mistakes that give these outcomes in all cases, asked in groups, the likeliest first:
+        one of the exercise; one answer to everything; one that everybody makes; two of the
+        exercise, or one of it and one that everybody makes.
+        """
+        if len(outcomes) < min(6, len(self.cases)):
+            return []
+        if all(o.name is None and has_nan(o.result) for o in outcomes):
+            return [("always NaN", "It gives NaN in every case that was tried.")]
+        order = [first, *(k for k in range(len(outcomes)) if k != first)]
+        for group in (self._singles, lambda: self._alike(outcomes), self._common):
+            found = [c for c in group() if self.agrees(c, outcomes, wrong, order)]
+            if names := list(dict.fromkeys((c.name, c.says) for c in found)):
+                return names
+        if all(o.name == "raises an error" for o in outcomes):
+            return []
+        found = [c for c in self._doubles() if self.agrees(c, outcomes, wrong, order)]
+        names = list(dict.fromkeys((c.name, c.says) for c in found))
+        if len(names) != 1:  # unlike pairs: a guess
+            return []
+        if isinstance(outcomes[first].result, (bool, np.bool_, str)):  # of few answers
+            return [(names[0][0], f"It behaves like a program with two mistakes. {names[0][1]}")]
+        return names
+
+    def _singles(self) -> Iterator[Candidate]:
+        return map(self._candidate, self.own)
+
+    def _alike(self, outcomes: list[Outcome]) -> Iterator[Candidate]:
+        said = outcomes[0].result
+        if not any(o.name for o in outcomes) and all(equal(o.result, said) for o in outcomes):
+            says = f"It answers {words(said)} to every case that was tried."
+            yield Candidate("one answer to everything", says, lambda k: said)
+
+    def _common(self) -> Iterator[Candidate]:
+        yield from map(self._candidate, self.everybody)
+        for name, says, change in RESULTS:
+            yield Candidate(name, says, lambda k, change=change: change(self.wanted[k]))
+        for name, says, change in INPUTS:
+            for i, given in enumerate(self.inputs):
+                yield Candidate(
+                    name,
+                    f"{says} It is about `{given}`.",
+                    lambda k, i=i, change=change: self.right(*fed(self.cases[k], i, change)),
+                )
+
+    def _doubles(self) -> Iterator[Candidate]:
+        for pair in edits.pairs(self.own):
+            program = self.steps.program(pair)
+            yield Candidate(
+                pair.name, pair.says, lambda k, program=program: program(*self.cases[k])
+            )
+        for one in self.own:
+            for name, says, change in RESULTS:
+                yield Candidate(
+                    f"{one.name}, and {name}",
+                    f"{one.says} And: {says}",
+                    lambda k, one=one, change=change: change(self.result(one, k)),
+                )
+
+    @cached_property
+    def everybody(self) -> list[Variant]:
+        """The slips that can be made in this solution, but those that its own mistakes are."""
+        mine = {variant.text(self.solution) for variant in self.own}
+        slips = edits.everybody(self.solution)
+        return [slip for slip in slips if slip.text(self.solution) not in mine]
+
+    def _candidate(self, variant: Variant) -> Candidate:
+        return Candidate(variant.name, variant.says, lambda k: self.result(variant, k))
+
+    def result(self, variant: Variant, k: int) -> Any:
+        """What a wrong program makes of case k. It runs once a case; what it raises, is raised."""
+        results = self.made.setdefault(variant.change, {})
+        if k not in results:
+            try:
+                results.setdefault(-1, None) or results.update({-1: self.steps.program(variant)})
+                results[k] = results[-1](*self.cases[k])
+            except Exception as error:
+                results[k] = error
+        if isinstance(results[k], Exception):
+            raise results[k]
+        return results[k]
+
+    def agrees(
+        self,
+        candidate: Candidate,
+        outcomes: Sequence[Outcome],
+        wrong: Sequence[str | None],
+        order: Sequence[int],
+    ) -> bool:
+        """Whether it gives these outcomes in all cases, and an outcome at all in one; and whether
+        it keeps the law where they do and breaks it where they do. So what leaves the right
+        program as it is explains nothing.
+        """
+        others = {}
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            for k in order:
+                mine = outcomes[k]
+                try:
+                    other = self.formed(Outcome(candidate.result(k)), k)
+                except Exception:
+                    other = Outcome(name="raises an error")
+                if mine.name != other.name:
+                    return False
+                if mine.name == "another kind or shape":
+                    if not equal(mine.result, other.result):
+                        return False
+                elif mine.name is None and not self.same(mine.result, other.result):
+                    return False
+                others[k] = other
+            return any(other.name != "raises an error" for other in others.values()) and all(
+                other.name is not None or (self.wrong(other, k) is None) == (wrong[k] is None)
+                for k, other in others.items()
+            )
+
+    # --- What is told where no mistake explains it
+
+    def _nearly(self, outcomes: list[Outcome]) -> str:
+        """By how much an answer is off that is nearly right in every case; "": it is not."""
+        worst = 0.0
+        for outcome, wanted in zip(outcomes, self.wanted, strict=True):
+            mine, right = numbers(outcome.result), numbers(wanted)
+            if outcome.name or mine is None or right is None or mine.shape != right.shape:
+                return ""
+            known = np.isfinite(right)
+            if not np.array_equal(known, np.isfinite(mine)):
+                return ""
+            if off := float(abs(mine - right)[known].max(initial=0)):
+                worst = max(worst, off / max(float(abs(right[known]).max(initial=0)), 1e-300))
+        if not 0 < worst <= NEAR:
+            return ""
+        much = f"{100 * worst:.2g} %" if worst > 1e-4 else f"{1e6 * worst:.2g} parts in a million"
+        return (
+            f"It is nearly right: off by at most {much}. A number with too few digits does that, "
+            "a tolerance that is too loose, or a step that is too coarse."
+        )
+
+    def _unused(self, answer: Any, outcomes: list[Outcome]) -> list[str]:
+        """The inputs that make no difference to the answer, and should in some of the cases that
+        are asked. Asked from several, with unlike results, none of them NaN; where the answers are
+        True and False, from cases of both.
+        """
+        if any(outcome.name for outcome in outcomes):
+            return []
+        cases = self.cases
+        order = np.random.default_rng(140).permutation(len(cases)).tolist()
+        unlike: list[list[int]] = []  # cases with the same result
+        for k in order:
+            result = outcomes[k].result
+            if not has_nan(result):
+                group = [g for g in unlike if self.same(result, outcomes[g[0]].result)]
+                group[0].append(k) if group else unlike.append([k])
+        if len(unlike) < 2:
+            return []
+        bases = [g[n] for n in range(3) for g in unlike if n < len(g)][:6]
+        found = []
+        for i, name in enumerate(self.inputs):
+            tried = [
+                (b, (*cases[b][:i], cases[k][i], *cases[b][i + 1 :]))
+                for b in bases
+                for k in order[:6]
+                if not equal(cases[k][i], cases[b][i])
+            ]
+            got = run(answer, [case for _, case in tried])
+            alike = all(
+                self._as_before(o, case, outcomes[b].result)
+                for o, (b, case) in zip(got, tried, strict=False)
+            )
+            if alike and len(got) == len(tried):
+                should = [b for b, case in tried if not self._same_right(case, b)]
+                if len(should) >= 4 and len(set(should)) > 1:
+                    found.append(name)
+        return found
+
+    def _as_before(self, outcome: Outcome, case: Case, before: Any) -> bool:
+        with contextlib.suppress(Exception):
+            return outcome.name is None and equal(self.form(outcome.result, case, before), before)
+        return False
+
+    def _same_right(self, case: Case, k: int) -> bool:
+        with contextlib.suppress(Exception):
+            wanted = self.wanted[k]
+            return self.same(self.form(self.right(*case), case, wanted), wanted)
+        return True

@@ -1,0 +1,194 @@
+"""What teachers write: the exercises, predictions and objectives of a lab, as Markdown."""
+
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+Edit = tuple[str, str]  # a piece of the solution, which stands there once, and what replaces it
+
+
+class Wrong(NamedTuple):
+    """A mistake: its name, a sentence, and one or more wrong programs, each as edits of the
+    solution or as a text of its own. Also a right program of a test: then it has no edits.
+    """
+
+    name: str
+    says: str
+    programs: tuple[tuple[Edit, ...] | str, ...]
+    line: int = 0
+
+
+class Text(NamedTuple):
+    """An exercise as it is written. `parts`: the other sections, by heading: line and text."""
+
+    file: str
+    number: str
+    title: str
+    objective: int
+    task: str
+    hints: tuple[str, ...]
+    parts: dict[str, tuple[int, str]]
+
+    def code(self, part: str) -> str:
+        """The program of a section."""
+        found = CODE.search(self.parts.get(part, (0, ""))[1])
+        if not found:
+            raise wrong(self.file, 1, f"wanted a section {part!r} with a program")
+        return found[1]
+
+    def words(self, part: str) -> str:
+        """The words of a section, on one line."""
+        return one_line(self.parts.get(part, (0, ""))[1])
+
+    def wrong(self, part: str = "Mistakes") -> list[Wrong]:
+        """The mistakes of a section, or the right programs of a test."""
+        line, text = self.parts.get(part, (0, ""))
+        starts = [found.start() for found in re.finditer(r"^\*\*", _blank(text), re.M)]
+        blocks = [text[a:b] for a, b in zip(starts, [*starts[1:], len(text)], strict=True)]
+        lines = [line + text.count("\n", 0, start) for start in starts]
+        return [_mistake(self.file, *each) for each in zip(lines, blocks, strict=True)]
+
+
+class Option(NamedTuple):
+    """An answer to a prediction, with its places for facts. Without a confusion: the right one."""
+
+    name: str
+    text: str
+    reason: str
+    confusion: str | None = None
+    second: str = ""
+
+
+class Question(NamedTuple):
+    """A prediction as it is written. For a number to type: its unit, and how near is near."""
+
+    question: str
+    options: tuple[Option, ...]
+    unit: str | None = None
+    within: float = 0.1
+
+
+CODE = re.compile(r"^```python\n(.*?)^```", re.M | re.S)
+EDIT = re.compile(r"(`+)(.+?)\1 (?:→|->) (?:(`+)(.+?)\3|nothing)(?:, (?=`)|$)")
+
+
+def read(file: Path) -> str:
+    """The text of a file. ValueError: it cannot be read, or is not UTF-8."""
+    try:
+        return file.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise wrong(f"{file}", line, "this is not UTF-8") from None
+    except OSError as error:
+        raise ValueError(f"{file}: {error.strerror}") from None
+
+
+def wrong(file: str, line: int, what: str) -> ValueError:
+    """The error for a line of a file."""
+    return ValueError(f"{file}, line {line}: {what}")
+
+
+def one_line(text: str) -> str:
+    """Its words with one blank between any two."""
+    return " ".join(text.split())
+
+
+def exercise(file: str, text: str) -> Text:
+    """An exercise. ValueError: a part is missing."""
+    places = [found.start() for found in re.finditer("^## ", _blank(text), re.M)]
+    head, rest = text[: places[0] if places else None], {}
+    for a, b in zip(places, [*places[1:], len(text)], strict=True):
+        heading, _, part = text[a:b].partition("\n")
+        rest[heading[3:].strip()] = text.count("\n", 0, a) + 2, part
+    found = re.match(r"\s*# (\w+)\. (.+)\n+Objective (\d)\.(.*)", head, re.S)
+    if not found:
+        raise wrong(file, 1, "wanted '# 1. TITLE', an empty line, 'Objective 1. TASK'")
+    number, title, objective, task = found.groups()
+    _, hints = rest.pop("Hints", (0, ""))
+    given = tuple(map(_hint, re.split(r"^\d\. ", hints, flags=re.M)[1:]))
+    return Text(file, number, title.strip(), int(objective), one_line(task), given, rest)
+
+
+def objectives(text: str) -> tuple[str, ...]:
+    """The objectives of a lab: the numbered lines."""
+    return tuple(map(one_line, re.split(r"^\d\. ", text, flags=re.M)[1:]))
+
+
+def questions(file: str, text: str) -> dict[str, Question]:
+    """The predictions of a lab by their numbers.
+
+    ## p5, a number in mm/s, within 2 %
+
+    The question.
+
+    - `name` **An answer.** Why it is right.
+    - `other` **Another.** Why it is not. *The confusion:* a second case.
+    """
+    made = {}
+    for found in re.finditer(r"^## (.+)\n((?s:.*?))(?=^## |\Z)", text, re.M):
+        line, head, body = text.count("\n", 0, found.start()) + 1, found[1], found[2]
+        shape = re.fullmatch(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?", head.strip())
+        if not shape or shape[1] in made:
+            raise wrong(
+                file,
+                line,
+                f"wanted '## p1' or '## p1, a number in UNIT, within 2 %' "
+                f"and each number once, got {head!r}",
+            )
+        asked, *answers = re.split(r"^- ", body, flags=re.M)
+        options = tuple(_option(file, line, one_line(answer)) for answer in answers)
+        names = [each.name for each in options]
+        if len(set(names)) < max(2, len(names)) or sum(o.confusion is None for o in options) != 1:
+            raise wrong(
+                file,
+                line,
+                "wanted two answers or more, each with its own name, and a "
+                "confusion for each but the right one",
+            )
+        number = {"unit": shape[2], "within": float(shape[3]) / 100} if shape[2] else {}
+        made[shape[1]] = Question(one_line(asked), options, **number)
+    return made
+
+
+def _option(file: str, line: int, text: str) -> Option:
+    shape = r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?"
+    found = re.fullmatch(shape, text)
+    if not found:
+        raise wrong(
+            file,
+            line,
+            "wanted '- `name` **An answer.** Why. *The confusion:* a second "
+            f"case.', got {text[:60]!r}",
+        )
+    name, answer, reason, confusion, second = found.groups()
+    return Option(name, answer, reason, confusion, second or "")
+
+
+def _hint(text: str) -> str:
+    """A hint: its words on one line, and below them a program, if it has one."""
+    found = CODE.search(text)
+    if not found:
+        return one_line(text)
+    code = "\n".join(f"    {line}".rstrip() for line in found[1].rstrip().split("\n"))
+    rest = one_line(text[found.end() :])
+    return "\n".join(filter(None, [one_line(text[: found.start()]), code, rest]))
+
+
+def _mistake(file: str, line: int, block: str) -> Wrong:
+    programs: list[tuple[Edit, ...] | str] = list(CODE.findall(block))
+    words, *edits = re.split(r"^- ", CODE.sub("", block), flags=re.M)
+    found = re.fullmatch(r"\*\*(.+?)\*\*(.*)", one_line(re.split(r"^#+ ", words, flags=re.M)[0]))
+    if not found:
+        raise wrong(file, line, f"wanted '**name.** A sentence.', got {block[:60]!r}")
+    for each in edits:
+        text = one_line(re.split(r"^#+ ", each, flags=re.M)[0])
+        pairs = [(old, new or "") for _, old, _, new in EDIT.findall(text)]
+        if not pairs or EDIT.sub("", text):
+            raise wrong(file, line, f"wanted `right` → `wrong`, got {text!r}")
+        programs.append(tuple(pairs))
+    return Wrong(found[1].removesuffix("."), found[2].strip(), tuple(programs), line)
+
+
+def _blank(text: str) -> str:
+    """The text with its programs blanked out: a comment in one is no heading."""
+    return CODE.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)

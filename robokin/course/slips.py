@@ -1,0 +1,154 @@
+"""What everybody does to a result or to an input, whatever the exercise: other units, a sign, rows
+and columns exchanged.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..quaternion import Quaternion
+from ..transform import Transform
+from ..units import deg, mm, wrapped
+
+Program = Callable[..., Any]
+
+
+def _numbers(change: Program) -> Program:
+    """`change` of a result that is numbers; ValueError for another one."""
+
+    def changed(value: Any) -> Any:
+        if isinstance(value, (Transform, Quaternion, str, bool)) or value is None:
+            raise ValueError("no numbers")
+        return change(np.asarray(value, dtype=float))
+
+    return changed
+
+
+def _place(change: Program) -> Program:
+    """`change` of the place of a pose, or of numbers."""
+
+    def changed(value: Any) -> Any:
+        if isinstance(value, Transform):
+            return Transform(value.rotation, change(value.translation))
+        return _numbers(change)(value)
+
+    return changed
+
+
+def _turn(change: Program) -> Program:
+    """`change` of the angle of a pose's rotation about its axis, or of numbers."""
+
+    def changed(value: Any) -> Any:
+        if isinstance(value, Transform):
+            angle, axis = value.rotation.as_angle_axis()
+            return Transform(Quaternion.from_angle_axis(change(angle), axis), value.translation)
+        return _numbers(change)(value)
+
+    return changed
+
+
+def _axis(k: int) -> Program:
+    def turned(value: Any) -> Any:
+        flip = np.where(np.arange(3) == k, -1.0, 1.0)
+        if isinstance(value, Transform):
+            return Transform(value.rotation, flip * value.translation)
+        value = np.asarray(value, dtype=float)
+        if value.shape[-1:] != (3,):
+            raise ValueError("not three axes")
+        return flip * value
+
+    return turned
+
+
+def _sample(by: int) -> Program:
+    def shifted(value: Any) -> Any:
+        value = np.asarray(value, dtype=float)
+        if value.ndim == 0 or len(value) < 9:
+            raise ValueError("no samples")
+        return np.concatenate([value[:1], value[:-1]] if by > 0 else [value[1:], value[-1:]])
+
+    return shifted
+
+
+def _inverse(value: Any) -> Any:
+    if isinstance(value, (Transform, Quaternion)):
+        return value.inverse()
+    value = np.asarray(value, dtype=float)
+    if value.ndim == 2 and value.shape[0] == value.shape[1]:
+        return np.linalg.inv(value)
+    return 1 / value
+
+
+def _transposed(value: Any) -> Any:
+    if isinstance(value, Transform):
+        return Transform(value.rotation.inverse(), value.translation)
+    value = np.asarray(value, dtype=float)
+    if value.ndim < 2:
+        raise ValueError("nothing to transpose")
+    return np.swapaxes(value, -1, -2)
+
+
+def _not(value: Any) -> Any:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError("neither True nor False")
+    return not value
+
+
+DEGREES = "Angles are in radians here: `90 * deg`, and `angle / deg` only to print."
+METRES = "Lengths are in metres here: `350 * mm`, and `length / mm` only to print."
+# name, sentence, what is done to a result
+RESULTS = (
+    ("degrees for radians", DEGREES, _turn(lambda x: x / deg)),
+    ("degrees for radians", DEGREES, _turn(lambda x: x * deg)),
+    ("mm for m", METRES, _place(lambda x: x / mm)),
+    ("mm for m", METRES, _place(lambda x: x * mm)),
+    ("percent", "A share is a number from 0 to 1 here.", _numbers(lambda x: 100 * x)),
+    (
+        "a factor of two",
+        "Your result is twice what it should be.",
+        _numbers(lambda x: 2 * x),
+    ),
+    ("a factor of two", "Your result is half of what it should be.", _numbers(lambda x: x / 2)),
+    ("sign", "Every sign is turned round.", _numbers(lambda x: -x)),
+    *(
+        ("sign of an axis", f"The sign of {letter} is turned round.", _axis(k))
+        for k, letter in enumerate("xyz")
+    ),
+    (
+        "inverse for the thing",
+        "This is the inverse of what is wanted: the base seen from the tool, or 1 / x.",
+        _inverse,
+    ),
+    ("transposed", "Rows and columns are exchanged.", _transposed),
+    (
+        "wrapped angle",
+        "Angles are wrapped into -180 to 180 degrees. Here they go on, or stay inside the limits.",
+        _numbers(wrapped),
+    ),
+    ("off by one sample", "Every value comes one sample too late.", _sample(+1)),
+    ("off by one sample", "Every value comes one sample too early.", _sample(-1)),
+    (
+        "True and False exchanged",
+        "It says True where False is right, and False where True is right.",
+        _not,
+    ),
+)
+# name, sentence, what is done to one of the inputs that are numbers
+INPUTS = (
+    ("degrees for radians", DEGREES, lambda x: x / deg),
+    ("degrees for radians", DEGREES, lambda x: x * deg),
+    ("mm for m", METRES, lambda x: x / mm),
+    ("mm for m", METRES, lambda x: x * mm),
+    ("sign", "A sign is turned round.", lambda x: -x),
+)
+
+
+def fed(case: tuple[Any, ...], i: int, change: Program) -> tuple[Any, ...]:
+    """The inputs of a case, one of them changed. TypeError: it is no numbers."""
+    value = case[i]
+    if isinstance(value, (float, int)) and not isinstance(value, bool):
+        value = float(value)
+    elif not (isinstance(value, np.ndarray) and value.dtype.kind == "f"):
+        raise TypeError("no numbers")
+    return (*case[:i], change(value), *case[i + 1 :])

@@ -1,0 +1,60 @@
+"""A value to give, of which many are right: numbers for one's own task, a pose, a program."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from .answers import is_stub
+from .exercises import Exercise, Verdict, unanswered, words
+from .markdown import Text
+
+
+class Value(Exercise):
+    """A value to give. `code`, the names of the Python file, has
+
+    form    (answer, given) -> the answer as `faults` wants it; ValueError that says what was wanted
+    faults  (answer, given) -> what does not hold, each with a name and a sentence: the first counts
+    COUNT   how many conditions there are
+
+    and may have
+
+    given   who -> this student's numbers; without it all have the same task
+    GOAL    for a pose taken from an explorer: what the page tells by itself (page.PageExplorer)
+    plain   answer -> the answer as the case shows it
+    holds   (answer, given) -> what else is said of an answer that holds
+    """
+
+    def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
+        super().__init__(text)
+        self.code = dict(code)
+        self.given: Callable[[Any], Any] | None = code.get("given")
+        self.goal: Mapping[str, Any] | None = code.get("GOAL")
+        self.count: int = code["COUNT"]
+
+    def judge(self, name: str, answer: Any, who: Any) -> Verdict:
+        if is_stub(answer):
+            return unanswered(name)
+        if isinstance(answer, Mapping) and any(v is None or v is ... for v in answer.values()):
+            return unanswered(name)
+        if self.given and who is None:
+            line = 'Whose numbers? Give your name: check(..., who="your name").'
+            return Verdict(name, says=(line,))
+        given = self.given(who) if self.given else None
+        case = f"  your answer is {words(self.code.get('plain', lambda x: x)(answer))}"
+        try:
+            formed = self.code["form"](answer, given)
+        except Exception as error:
+            return Verdict(name, mistake="another kind or shape", says=(f"{error}",), case=case)
+        found = list(self.code["faults"](formed, given))
+        if not found:
+            line = "It does what it should."
+            if self.count > 1:
+                line = f"All {self.count} conditions hold."
+            more = self.code["holds"](formed, given) if "holds" in self.code else ()
+            return Verdict(name, holds=True, says=(line, *more), points=1.0)
+        return Verdict(
+            name,
+            mistake=found[0][0],
+            says=tuple(dict.fromkeys(says for _, says in found)),
+            case=case,
+            points=round(max(0, self.count - len(found)) / self.count, 2),
+        )
