@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 import robokin.course.irb140_kinematics as lab
 from robokin import IRB140, Quaternion, Transform, deg, differentiate, mm, within
 from robokin.course import check, pose_explorer, variant
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 
 TIP, POSE, DESIGN = (f"irb140_kinematics.{k}" for k in (1, 2, 3))
 X, Y, Z = np.eye(3)

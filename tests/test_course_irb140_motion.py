@@ -13,7 +13,7 @@ import robokin.course.irb140_motion as book
 from robokin import IRB140, blend, deg, differentiate, mm, nearest, ptp
 from robokin.course import check
 from robokin.course.mistakes import Tools
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 
 FUNCTIONS = ("1", "2")
 START, VIA, GOAL = book.START, book.VIA, book.GOAL

@@ -19,12 +19,12 @@ from robokin.course.catch import Catch
 from robokin.course.exercises import Function
 from robokin.course.predictions import filled, judged, shown
 
-LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.LABS}
-EXERCISES = [f"{lab}.{n}" for lab in book.LABS for n in book.lab(lab).EXERCISES]
-PREDICTIONS = [f"{lab}.{n}" for lab in book.LABS for n in book.lab(lab).PREDICTIONS]
-FUNCTIONS = [e for e in EXERCISES if isinstance(book.find(e, "EXERCISES"), Function)]
-CATCHES = [e for e in EXERCISES if isinstance(book.find(e, "EXERCISES"), Catch)]
-every_lab = pytest.mark.parametrize("lab", book.LABS)
+LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.labs()}
+EXERCISES = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).exercises]
+PREDICTIONS = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).predictions]
+FUNCTIONS = [e for e in EXERCISES if isinstance(book.find(e, "exercises"), Function)]
+CATCHES = [e for e in EXERCISES if isinstance(book.find(e, "exercises"), Catch)]
+every_lab = pytest.mark.parametrize("lab", book.labs())
 SMALL = "start_here"  # ten minutes: one exercise and one prediction
 
 
@@ -85,7 +85,7 @@ def test_the_untouched_lab_is_not_answered_yet(name):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_hints_rise_and_the_solution_holds(name):
-    exercise = book.find(name, "EXERCISES")
+    exercise = book.find(name, "exercises")
     assert len(exercise.hints) == 3 and len(set(exercise.hints)) == 3
     assert all(text in hint(name, k) for k, text in enumerate(exercise.hints, 1))
     [call] = re.findall(rf'^(check\("{re.escape(name)}".*\))$', code(name.partition(".")[0]), re.M)
@@ -106,7 +106,7 @@ def zeros(value):
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_no_exercise_accepts_nothing(name):
     """Zeros, NaN, the input itself, an empty answer."""
-    exercise = book.find(name, "EXERCISES")
+    exercise = book.find(name, "exercises")
     right = [exercise.right_result(case) for case in exercise.seeded()]
     like = right[0]
     nothing = {
@@ -124,7 +124,7 @@ def test_no_exercise_accepts_nothing(name):
 
 @pytest.mark.parametrize("name", [e for e in EXERCISES if e not in FUNCTIONS])
 def test_no_value_and_no_test_is_right_by_chance(name):
-    exercise = book.find(name, "EXERCISES")
+    exercise = book.find(name, "exercises")
     if isinstance(exercise, Catch):
         for answer in (lambda p: True, lambda p: False, lambda p: 1 / 0, lambda p: "x"):
             assert not check(name, answer).holds
@@ -147,7 +147,7 @@ def of_the_solution(name):
 def test_no_test_holds_by_a_trick(name, monkeypatch):
     """One that counts its calls, passes over errors, says nothing, or says it only now and then."""
     right = of_the_solution(name)
-    exercise = book.find(name, "EXERCISES")
+    exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.mistakes) + 1
     dice = random.Random(1)
     monkeypatch.setattr(catch.random, "SystemRandom", lambda: dice)
@@ -201,7 +201,7 @@ def remembered(program):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_every_two_mistakes_differ_on_a_case(name):
-    exercise = book.find(name, "EXERCISES")
+    exercise = book.find(name, "exercises")
     cases = exercise.seeded()
     programs = [(mistake, remembered(mistake.program)) for mistake in exercise.mistakes]
     for mistake in exercise.mistakes:
@@ -218,7 +218,7 @@ def test_every_two_mistakes_differ_on_a_case(name):
 
 @pytest.mark.parametrize("name", PREDICTIONS)
 def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
-    prediction = book.find(name, "PREDICTIONS")
+    prediction = book.find(name, "predictions")
     question, options, right = filled(prediction)
     typed = prediction.unit is not None
     assert 3 <= len(options) <= (7 if typed else 4)
@@ -244,7 +244,7 @@ def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
 @pytest.mark.parametrize("name", PREDICTIONS)
 def test_nothing_behind_a_prediction_stands_open(name):
     lab, _, number = name.partition(".")
-    _, options, right = filled(book.find(name, "PREDICTIONS"))
+    _, options, right = filled(book.find(name, "predictions"))
     open_words = []
     for cell in cells(lab):
         open_words.append("".join(cell["source"]))

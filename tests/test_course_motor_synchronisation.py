@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from robokin import deg, loader_arm
 from robokin.course import check, solution, variant
 from robokin.course.motor_synchronisation import EXERCISES, PREDICTIONS
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
 A, B = 0.45, 0.3

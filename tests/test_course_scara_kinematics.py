@@ -10,7 +10,7 @@ import pytest
 import robokin.course.scara_kinematics as book
 from robokin import SCARA, ScaraPose, deg, follow, mm, scara_arm, within
 from robokin.course import check, solution, variant
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 
 LEVERS = 0.2, 0.25
 

@@ -8,7 +8,7 @@ import pytest
 import robokin.course.scara_motion as book
 from robokin import SCARA, ScaraPose, blend, deg, follow, lin, mm
 from robokin.course import check, variant
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 
 TURN = 2 * np.pi
 LOW, HIGH = SCARA.limits.T

@@ -12,7 +12,7 @@ import robokin.course.spherical_wrist as book
 from robokin import ITMO6R, Transform, deg, dh_links, mm
 from robokin.arms.link import home
 from robokin.course import check, variant
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 
 A, ALPHA, D, OFFSET = book.A, book.ALPHA, book.D, book.OFFSET
 

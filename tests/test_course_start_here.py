@@ -7,7 +7,7 @@ import pytest
 
 from robokin import IRB140, deg, mm
 from robokin.course import check, solution
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 from robokin.course.start_here import PREDICTIONS
 
 ANSWER = [45, -17, -10, 0, 30, 0]  # degrees

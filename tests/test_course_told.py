@@ -52,15 +52,15 @@ def test_numbers_of_any_kind_are_floats():
 
 FUNCTIONS = [
     f"{lab}.{n}"
-    for lab in book.LABS
-    for n, exercise in book.lab(lab).EXERCISES.items()
+    for lab in book.labs()
+    for n, exercise in book.lab(lab).exercises.items()
     if isinstance(exercise, Function)
 ]
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_text_for_numbers_is_another_kind_of_answer(name):
-    exercise = book.find(name, "EXERCISES")
+    exercise = book.find(name, "exercises")
 
     def in_text(*case):
         result = exercise.right_result(case)

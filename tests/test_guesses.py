@@ -26,7 +26,7 @@ page = test_browser.page  # keeps account of errors and of requests to elsewhere
 LAB = "irb140_motion"
 P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
 OTHER = "scara_motion.p1"
-TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).PREDICTIONS.items() if p.unit)
+TYPED = next(f"{LAB}.{n}" for n, p in hub.lab(LAB).predictions.items() if p.unit)
 KEPT = "Kept for your report."
 RUN = "Kept in this browser only. Run > Run All Cells, and it is kept for your report."
 

@@ -465,8 +465,8 @@ def test_a_report_opens_each_question_with_the_first_guess():
     assert '"choice":null' in again(stored, "n", {"irb140_motion.p1": "no letter"})
     number = next(
         f"{lab}.{n}"
-        for lab in book.LABS
-        for n, each in book.lab(lab).PREDICTIONS.items()
+        for lab in book.labs()
+        for n, each in book.lab(lab).predictions.items()
         if each.unit
     )
     assert '"choice":"-12.5"' in again(predict(number).html, "n", {number: "-12.5"})
@@ -622,12 +622,12 @@ def report_of(path, folder):
     notebook = nbformat.read(path, as_version=4)
     slug = path.stem.partition("_")[2]
     data = data_of() | {"lab": None, "exercises": [], "predictions": []}
-    if slug in book.LABS:
+    if slug in book.labs():
         data["lab"] = slug
         data["predictions"] = [
             {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
             | {"when": None, "later": []}
-            for n in book.lab(slug).PREDICTIONS
+            for n in book.lab(slug).predictions
         ]
     page = folder / f"{path.stem}.html"
     page.write_text(page_of(data, notebook, path.parent), encoding="utf-8")

@@ -12,7 +12,8 @@ from playwright.sync_api import expect
 
 from robokin import IRB140, deg
 from robokin.course import book
-from robokin.course.predictions import ASLEEP, Asked, Option, Prediction, filled
+from robokin.course.predictions import ASLEEP, Asked
+from robokin.course.questions import Option, Prediction, filled
 from robokin.show import animate, figure
 
 REASON = "Half the distance costs 12.5 units."
@@ -302,7 +303,7 @@ def test_an_exported_lab_asks_on_a_phone(browser, exported, lab):
     page.goto(exported[lab].as_uri())
     questions = page.locator(".rk-ask")
     questions.first.wait_for()
-    assert questions.count() == len(book.lab(lab[3:]).PREDICTIONS)
+    assert questions.count() == len(book.lab(lab[3:]).predictions)
     for question in questions.all():
         answer = question.locator(":scope > .rk-answer")
         typed = question.locator("fieldset input[type=number]")

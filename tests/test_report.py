@@ -102,7 +102,7 @@ def test_what_is_odd_is_said(hostile):
 
 def test_predictions_are_told_as_they_were_made(hostile):
     made = {each["id"].partition(".p")[2]: each for each in hostile.data["predictions"]}
-    assert len(made) == len(book.lab("scara_motion").PREDICTIONS)
+    assert len(made) == len(book.lab("scara_motion").predictions)
     for number, letter in (("1", "a"), ("2", "c")):
         asked = course.predict(f"scara_motion.p{number}", letter)
         assert made[number]["choice"] == letter
@@ -148,7 +148,7 @@ def test_a_report_is_hardly_larger_than_the_lab():
         says = ("A sentence about what is wrong and how it can be mended, of usual length.",) * 4
         made = [
             Result(f"{given.lab}.{n}", e.task, e.objective, "failed", "the mistake", says, "case")
-            for n, e in book.lab(given.lab).EXERCISES.items()
+            for n, e in book.lab(given.lab).exercises.items()
         ]
         judged = Judged(given.notebook, tuple(made), guesses(given), says * 5)
         page = page_of(told(given, "Ada", judged), given.notebook, path.parent)

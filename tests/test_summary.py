@@ -142,13 +142,13 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
             counts[name].append(len(who))
         assert all(each == sorted(each, reverse=True) for each in counts.values())
         assert max(map(max, counts.values())) > 1
-        labs = [book.LABS.index(name.partition(".")[0]) for name, _, _ in rows]
+        labs = [book.labs().index(name.partition(".")[0]) for name, _, _ in rows]
         assert labs == sorted(labs)
     summary_pages.write(made, tmp_path)
     page = page_in(tmp_path)
     rows = rows_of(page, "counted")
     for (name, what), who in wrong.items():
-        task = book.find(name, "EXERCISES").task.replace("`", "")
+        task = book.find(name, "exercises").task.replace("`", "")
         lab = book.titled(name.partition(".")[0]).capitalize()
         assert [f"{lab}: {task}", what, str(len(who))] in [r[:3] for r in rows]
     for name, what in guessed:
@@ -157,11 +157,11 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
     figures = iter(rows_of(page, "class"))
     for slug in SLUGS:  # each exercise has an objective of its own
         students = sum(data["lab"] == slug for data in drawn.values())
-        for n, exercise in book.lab(slug).EXERCISES.items():
+        for n, exercise in book.lab(slug).exercises.items():
             head, holds, *_, task = next(figures)
             assert (head, task) == (f"exercise {n}", exercise.task.replace("`", ""))
             assert holds == f"{held[f'{slug}.{n}']} of {students}"
-        for k, text in enumerate(book.lab(slug).OBJECTIVES, 1):
+        for k, text in enumerate(book.lab(slug).objectives, 1):
             head, holds, *_, words = next(figures)
             assert (head, words) == (f"objective {k}", text.replace("`", ""))
             assert holds == f"{held[f'{slug} objective {k}']} of {students}"
@@ -298,7 +298,7 @@ def stub(wait=lambda name: None):
         wait(given.path.parent.name)
         exercises = [
             Result(f"{given.lab}.{n}", e.task, e.objective)
-            for n, e in book.lab(given.lab).EXERCISES.items()
+            for n, e in book.lab(given.lab).exercises.items()
         ]
         return Judged(given.notebook, tuple(exercises), (), (given.path.parent.name,))
 

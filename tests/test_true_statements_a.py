@@ -37,7 +37,7 @@ from robokin import (
     within,
 )
 from robokin.course.book import find
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 from robokin.show import explorers
 
 NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
@@ -83,7 +83,7 @@ def number(pattern, text):
 
 def options(name):
     """Question, options and the number of the right one of a prediction."""
-    return filled(find(name, "PREDICTIONS"))
+    return filled(find(name, "predictions"))
 
 
 # --- 01 -------------------------------------------------------------------------------------------
@@ -115,7 +115,7 @@ def test_near_half_a_turn_the_trace_loses_its_digits():
 
 
 def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump():
-    lines = find("irb140_kinematics.3", "EXERCISES").hints[1].split("\n")
+    lines = find("irb140_kinematics.3", "exercises").hints[1].split("\n")
     program = "\n".join(line[4:] for line in lines if line.startswith("    "))
     task = sources("02")["yourturn-3"]
     assert "one continuous motion" in task and "one motion" in lines[0]
@@ -387,7 +387,7 @@ def test_how_near_joint_2_brings_the_arm_to_a_singularity():
     q2 = np.arctan2(100 + 200 * np.cos(q3), 200 * np.sin(q3))
     shoulder = np.array([20 * deg, q2, q3, *np.array([30, 50, 10]) * deg])
     assert abs(q2 - 70 * deg) < 150 * deg and distance_from_singularity(ITMO6R, shoulder) < 1e-12
-    view = find("spherical_wrist.p7", "PREDICTIONS").view()
+    view = find("spherical_wrist.p7", "predictions").view()
     said = {n: (a, b) for n, a, b in re.findall(r"joint (\d): (\S+) to (\S+)", view)}
     assert sorted(said) == ["2", "3", "4", "5"] and said["2"][0] == "0.000"
     by = np.arange(-150, 150.01, 0.02) * deg

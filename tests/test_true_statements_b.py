@@ -21,7 +21,7 @@ from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.course import variant
 from robokin.course.book import find
 from robokin.course.obstacle_avoidance import _path_form, sampled_tasks
-from robokin.course.predictions import filled
+from robokin.course.questions import filled
 from robokin.course.three_levers import RING, SAMPLE
 from robokin.jobs import redundancy
 from robokin.jobs.conveyor import serve, spaced
@@ -75,7 +75,7 @@ def tries(lab, cell):
 
 
 def asked(name):
-    return filled(find(name, "PREDICTIONS"))
+    return filled(find(name, "predictions"))
 
 
 # --- 07 -------------------------------------------------------------------------------------------
@@ -633,7 +633,7 @@ def generated():
 
 def test_the_table_next_to_zero_is_of_the_formulas_that_the_reader_has():
     made = generated()
-    lines = find("two_link_code_generation.p4", "PREDICTIONS").view().split("\n")
+    lines = find("two_link_code_generation.p4", "predictions").view().split("\n")
     assert "elbow_by_root" in lines[0] and "root_code" in lines[0]
     for line in lines[1:]:
         x3, one, two = re.match(r"x3 = (\S+) m: (\S+) m, (\S+) m$", line).groups()
@@ -661,7 +661,7 @@ def test_on_the_rim_rounding_takes_many_answers():
 
 def test_how_exact_the_third_exercise_wants_it():
     (power,) = said("12", "your-turn-3", r"to within \$10\^\{(-\d+)\}\$ m")
-    promise = find("two_link_code_generation.3", "EXERCISES").promise
+    promise = find("two_link_code_generation.3", "exercises").promise
     assert f"within 1e{power:.0f} m" in promise
 
 

@@ -7,11 +7,12 @@ Each lab has a file here with its exercises and predictions, and one in `solutio
 
 import re
 import textwrap
+from collections.abc import Callable
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from .book import find, lab
-from .exercises import Verdict
+from .book import find, lab, own
+from .exercises import Exercise, Verdict
 from .hand_in import report, watch
 from .note import Note
 from .predictions import predict
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Verdict",
     "check",
+    "exercise",
     "hint",
     "key",
     "pose_explorer",
@@ -39,26 +41,45 @@ _verdicts: dict[
 ] = {}  # the last one for each exercise in this kernel, or one that held
 
 
-def check(name: str, answer: Any = None, who: Any = None) -> Verdict:
+def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     """A `Verdict` on the answer to an exercise, "irb140_motion.1"; it shows itself in a cell.
 
-    who  the student, where the exercise has numbers of one's own (`variant`)
+    name  an id, or an exercise of one's own (`exercise`)
+    who   the student, where the exercise has numbers of one's own (`variant`)
 
     Never raises. An answer that does, that prints, changes its input or never ends is told so.
     """
+    called = name.title if isinstance(name, Exercise) else str(name)
     try:
-        exercise = find(name, "EXERCISES")
+        asked = name if isinstance(name, Exercise) else find(name, "exercises")
     except ValueError as error:
-        return Verdict(str(name), answered=False, says=(str(error),))
+        return Verdict(called, answered=False, says=(str(error),))
     try:
-        verdict: Verdict = exercise.judge(str(name), answer, who)
+        verdict: Verdict = asked.judge(called, answer, who)
     except Exception as error:
         says = f"This cannot be judged: {type(error).__name__}: {error}"
-        verdict = Verdict(str(name), says=(says,))
+        verdict = Verdict(called, says=(says,))
+    if isinstance(name, Exercise):  # no lab's
+        return verdict
     before = _verdicts.get(verdict.exercise)
     if before is None or not before.holds:  # what held once is practised
         _verdicts[verdict.exercise] = verdict
     return verdict
+
+
+def exercise(
+    solution: Any, cases: Callable[..., Any] | None = None, mistakes: str = ""
+) -> Exercise:
+    """An exercise of one's own: `check(exercise(...), answer)`.
+
+    solution  a Markdown file as those of the labs, with its Python file beside it; or a function
+              that is right, or its text
+    cases     generator of random numbers -> inputs of the function, each a tuple
+    mistakes  in the form of the Markdown: a name, a sentence, edits of the solution
+
+    ValueError: a file that cannot be read, no function, an edit that does not fit.
+    """
+    return own(solution, cases, mistakes)
 
 
 def pose_explorer(name: str) -> "Explorer":
@@ -68,7 +89,7 @@ def pose_explorer(name: str) -> "Explorer":
     from ..arms.catalogue import IRB140
     from ..show.explorers import Explorer, target_explorer
 
-    exercise = find(name, "EXERCISES")
+    exercise = find(name, "exercises")
     goal = getattr(exercise, "goal", None)
     if goal is None:
         raise ValueError(f"id: {name} is not an exercise whose answer is a pose")
@@ -79,7 +100,7 @@ def pose_explorer(name: str) -> "Explorer":
 
 def hint(name: str, n: int = 1) -> Note:
     """Hint n of an exercise, from 1: each says more. ValueError: no such exercise."""
-    hints = find(name, "EXERCISES").hints
+    hints = find(name, "exercises").hints
     if not isinstance(n, int) or not 1 <= n <= len(hints):
         return Note(f"There are {len(hints)} hints: 1 to {len(hints)}.")
     more = f" ({len(hints) - n} more)" if n < len(hints) else ""
@@ -88,14 +109,16 @@ def hint(name: str, n: int = 1) -> Note:
 
 def solution(name: str) -> Note:
     """A solution of an exercise, as text to read; it is not run. ValueError: no such exercise."""
-    find(name, "EXERCISES")
+    found = find(name, "exercises")
     slug, _, number = name.partition(".")
+    if isinstance(found, Exercise):
+        return Note(f"# --- {number}: {found.title}\n{found.solution.strip()}")
     file = files(__package__).joinpath("solutions", f"{slug}.py")
     if not file.is_file():
         return Note("The solutions are not part of this copy: ask your teacher.")
     text = file.read_text(encoding="utf-8")
-    found = re.search(rf"^# --- {number}: .*?(?=^# --- |\Z)", text, re.M | re.S)
-    return Note(found[0].strip() if found else "There is no solution here yet.")
+    there = re.search(rf"^# --- {number}: .*?(?=^# --- |\Z)", text, re.M | re.S)
+    return Note(there[0].strip() if there else "There is no solution here yet.")
 
 
 def progress(name: str | None = None) -> Note:
@@ -105,8 +128,8 @@ def progress(name: str | None = None) -> Note:
     for slug in slugs:
         book = lab(slug)
         lines.append(f"{slug}:")
-        for k, objective in enumerate(book.OBJECTIVES, 1):
-            mine = {f"{slug}.{n}": e for n, e in book.EXERCISES.items() if e.objective == k}
+        for k, objective in enumerate(book.objectives, 1):
+            mine = {f"{slug}.{n}": e for n, e in book.exercises.items() if e.objective == k}
             got = [i for i in mine if i in _verdicts and _verdicts[i].holds]
             tried = [i for i in mine if i in _verdicts and _verdicts[i].answered]
             word = "holds" if len(got) == len(mine) else "begun" if tried else "not yet"

@@ -220,16 +220,15 @@ class Steps:
 
     def program(self, variant: Variant) -> Callable[..., Any]:
         """The wrong program."""
-        change = variant.change
-        inside = not isinstance(change, str) and all(
-            any(a <= start and end <= b for a, b in self.spans) for start, end, _ in change
-        )
-        if not (self.plain and inside):
+        change = () if isinstance(variant.change, str) else variant.change
+        inside = [any(a <= start and end <= b for a, b in self.spans) for start, end, _ in change]
+        if not (self.plain and change and all(inside)):
             program: Callable[..., Any] = run(variant.text(self.solution), self.also)[self.name]
             return program
-        steps, same = [], 0
+        steps: list[Any] = []
+        same = 0
         for a, b in self.spans:
-            mine = [(s - a, e - a, new) for s, e, new in change if a <= s < b]  # type: ignore[misc]
+            mine = [(start - a, end - a, new) for start, end, new in change if a <= start < b]
             same += not mine and same == len(steps)
             steps.append(_step(_edited(self.solution[a:b], mine)))
 

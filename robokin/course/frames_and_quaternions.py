@@ -17,7 +17,7 @@ from ..units import deg, mm
 from .exercises import words
 from .mistakes import METRES, Mistake, Program, Tools
 from .old import Catch, Fault, Function, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice
 

@@ -4,7 +4,7 @@ import contextlib
 import inspect
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,7 +52,7 @@ class Function(Exercise):
         self.inputs = tuple(inspect.signature(self.right).parameters)
         self.own = edits.own(self.solution, text.wrong())
         self.same: Callable[[Any, Any], bool] = code.get("same", forms.same)
-        self.made: dict[Any, dict[int, Any]] = {}
+        self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
 
     @cached_property
     def cases(self) -> list[Case]:
@@ -191,30 +191,33 @@ class Function(Exercise):
             yield Candidate("one answer to everything", says, lambda k: said)
 
     def _common(self) -> Iterator[Candidate]:
+        def read(change: Callable[[Any], Any], k: int) -> Any:
+            return change(self.wanted[k])
+
+        def given(i: int, change: Callable[[Any], Any], k: int) -> Any:
+            return self.right(*fed(self.cases[k], i, change))
+
         yield from map(self._candidate, self.everybody)
         for name, says, change in RESULTS:
-            yield Candidate(name, says, lambda k, change=change: change(self.wanted[k]))
+            yield Candidate(name, says, partial(read, change))
         for name, says, change in INPUTS:
-            for i, given in enumerate(self.inputs):
-                yield Candidate(
-                    name,
-                    f"{says} It is about `{given}`.",
-                    lambda k, i=i, change=change: self.right(*fed(self.cases[k], i, change)),
-                )
+            for i, about in enumerate(self.inputs):
+                told = f"{says} It is about `{about}`."
+                yield Candidate(name, told, partial(given, i, change))
 
     def _doubles(self) -> Iterator[Candidate]:
+        def ran(program: Callable[..., Any], k: int) -> Any:
+            return program(*self.cases[k])
+
+        def read(one: Variant, change: Callable[[Any], Any], k: int) -> Any:
+            return change(self.result(one, k))
+
         for pair in edits.pairs(self.own):
-            program = self.steps.program(pair)
-            yield Candidate(
-                pair.name, pair.says, lambda k, program=program: program(*self.cases[k])
-            )
+            yield Candidate(pair.name, pair.says, partial(ran, self.steps.program(pair)))
         for one in self.own:
             for name, says, change in RESULTS:
-                yield Candidate(
-                    f"{one.name}, and {name}",
-                    f"{one.says} And: {says}",
-                    lambda k, one=one, change=change: change(self.result(one, k)),
-                )
+                told = f"{one.says} And: {says}"
+                yield Candidate(f"{one.name}, and {name}", told, partial(read, one, change))
 
     @cached_property
     def everybody(self) -> list[Variant]:
@@ -224,15 +227,16 @@ class Function(Exercise):
         return [slip for slip in slips if slip.text(self.solution) not in mine]
 
     def _candidate(self, variant: Variant) -> Candidate:
-        return Candidate(variant.name, variant.says, lambda k: self.result(variant, k))
+        return Candidate(variant.name, variant.says, partial(self.result, variant))
 
     def result(self, variant: Variant, k: int) -> Any:
         """What a wrong program makes of case k. It runs once a case; what it raises, is raised."""
-        results = self.made.setdefault(variant.change, {})
+        if variant.change not in self.made:
+            self.made[variant.change] = (self.steps.program(variant), {})
+        program, results = self.made[variant.change]
         if k not in results:
             try:
-                results.setdefault(-1, None) or results.update({-1: self.steps.program(variant)})
-                results[k] = results[-1](*self.cases[k])
+                results[k] = program(*self.cases[k])
             except Exception as error:
                 results[k] = error
         if isinstance(results[k], Exception):

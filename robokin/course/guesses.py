@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from .._validate import short
 from .book import find, lab
 from .copies import alone, write
-from .predictions import Option, filled, judged
+from .questions import Option, filled, judged
 
 if TYPE_CHECKING:
     from .handed_in import HandedIn
@@ -142,7 +142,7 @@ def guesses(given: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess,
     except ValueError as error:
         remarks.append(f"{error}.")
     made = []
-    for number in lab(given.lab).PREDICTIONS if given.lab else ():
+    for number in lab(given.lab).predictions if given.lab else ():
         name = f"{given.lab}.{number}"
         line, call = pasted.get(number), given.choices.get(name)
         others = [line, _literal(call.answer) if call else None]
@@ -172,7 +172,7 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
             later.append(other)
         seen.add(_value(other))
     guess = Guess(name, choice, False, "no choice that can be read", when, tuple(later))
-    prediction = find(name, "PREDICTIONS")
+    prediction = find(name, "predictions")
     _, options, right = _filled(name)
     try:
         at = judged(prediction, options, right, float(choice) if prediction.unit else choice)
@@ -185,7 +185,7 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
 
 @functools.cache
 def _filled(name: str) -> tuple[str, list[Option], int]:
-    return filled(find(name, "PREDICTIONS"))  # its facts are worked out once
+    return filled(find(name, "predictions"))  # its facts are worked out once
 
 
 def _value(choice: str) -> str | float:
@@ -257,7 +257,7 @@ def _moment(time: Any) -> datetime:
 
 def _known(name: str) -> bool:
     with contextlib.suppress(ValueError):
-        return bool(find(name, "PREDICTIONS"))
+        return bool(find(name, "predictions"))
     return False
 
 

@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .book import LABS
+from .book import labs
 from .guesses import own_notebook, parse_line
 from .note import Note
 from .reported import report_data
@@ -123,7 +123,7 @@ def _may_be(path: Path, lab: str | None) -> bool:
 
 def _lab(sources: Iterable[str]) -> str | None:
     """The lab whose ids stand most often in these cells."""
-    found = Counter(lab for source in sources for lab in IDS.findall(source) if lab in LABS)
+    found = Counter(lab for source in sources for lab in IDS.findall(source) if lab in labs())
     return found.most_common(1)[0][0] if found else None
 
 

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import nbformat
 
 from .._validate import short
-from .book import LABS, lab
+from .book import lab, labs
 
 NONE = "your name"  # what the labs have where the student's name should stand
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet)\.")
@@ -84,7 +84,7 @@ def handed_in(path: Path) -> HandedIn:
     checks: dict[str, Call] = {}
     choices: dict[str, Call] = {}
     broken: dict[str, str] = {}
-    labs: Counter[str] = Counter()
+    named: Counter[str] = Counter()
     guesses, room = "", ALL_CODE
     for k, cell in enumerate(notebook.cells):
         if cell.cell_type != "code" or not any(word in cell.source for word in CALLS):
@@ -99,23 +99,23 @@ def handed_in(path: Path) -> HandedIn:
             calls = []
             reason = str(error)[:300] or "nested too deep"
             for name in set(CHECKED.findall(cell.source)):
-                if _known(name, "EXERCISES"):
+                if _known(name, "exercises"):
                     broken[name] = f"{type(error).__name__}: {reason}"
         for what, call in calls:
             if what == "report":
                 guesses = call.answer or guesses
                 continue
-            if not _known(call.name, "EXERCISES" if what == "check" else "PREDICTIONS"):
+            if not _known(call.name, "exercises" if what == "check" else "predictions"):
                 continue
-            labs[call.name.partition(".")[0]] += 1
+            named[call.name.partition(".")[0]] += 1
             if what == "check":
                 checks[call.name] = call
                 broken.pop(call.name, None)
             elif call.answer not in ("", "None"):
                 choices[call.name] = call
-    labs.update(name.partition(".")[0] for name in broken)
-    most = [slug for slug, _ in labs.most_common()]
-    most = most or [slug for slug in LABS if slug in path.stem.lower()]
+    named.update(name.partition(".")[0] for name in broken)
+    most = [slug for slug, _ in named.most_common()]
+    most = most or [slug for slug in labs() if slug in path.stem.lower()]
     return HandedIn(path, notebook, most[0] if most else None, checks, choices, broken, guesses)
 
 
@@ -237,9 +237,9 @@ def _said(cell: Any) -> Iterator[tuple[str, str]]:
 
 
 def _known(name: str, what: str) -> bool:
-    """Whether there is an exercise (`what`: EXERCISES) or a prediction with that id."""
+    """Whether there is an exercise (`what`: "exercises") or a prediction with that id."""
     slug, _, number = name.partition(".")
-    return slug in LABS and number in getattr(lab(slug), what)
+    return slug in labs() and number in getattr(lab(slug), what)
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:

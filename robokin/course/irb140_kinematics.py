@@ -16,7 +16,7 @@ from ..units import deg, mm
 from .exercises import words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .old import Exercise, Fault, Function, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 from .told import apart, one_number
 from .variants import Numbers, dice
 

@@ -82,7 +82,7 @@ def judge(given: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     may judge at the same time. OSError: no kernel starts.
     """
     notebook = nbformat.from_dict(given.notebook)
-    names = _ids(given.lab, "EXERCISES")
+    names = _ids(given.lab, "exercises")
     checks = {name: call for name, call in given.checks.items() if name in names}
     before = claims(notebook, checks)
     run = Run(notebook, checks, who, limits)
@@ -189,7 +189,7 @@ class Run:
 
     def result(self, name: str, broken: dict[str, str]) -> Result:
         """What came of an exercise."""
-        exercise = find(name, "EXERCISES")
+        exercise = find(name, "exercises")
         blank = Result(name, exercise.task, exercise.objective)
         found, call = self.found.get(name), self.checks.get(name)
         if name in broken:
@@ -236,7 +236,7 @@ class Run:
             self.remarks.append(f"{cell}: what it shows was too much and is shortened here.")
         for name, found in self.found.items():
             own = found.get("own")
-            if not isinstance(own, str) or not getattr(find(name, "EXERCISES"), "given", None):
+            if not isinstance(own, str) or not getattr(find(name, "exercises"), "given", None):
                 continue
             own = own.strip()[:100] or NONE
             if self.who is None:

@@ -15,15 +15,15 @@ from ipykernel.iostream import OutStream
 from ipykernel.kernelapp import IPKernelApp
 
 from .. import course
-from .book import LABS, lab
+from .book import labs
 
 SAID = 10_000  # characters that a cell may print; a report shows fewer
 
 
 def main(memory: int) -> None:
     """Be the kernel until told to end. memory: bytes; 0: no limit."""
-    for slug in LABS:
-        lab(slug)  # all that judges is loaded before the first cell
+    for each in labs().values():
+        each.read()  # all that judges is loaded before the first cell
     kernel = IPKernelApp.instance(outstream_class=f"{__name__}.Stream")
     kernel.initialize(sys.argv[1:])
     shell: Any = kernel.shell

@@ -1,4 +1,4 @@
-"""What teachers write: the exercises, predictions and objectives of a lab, as Markdown."""
+"""What teachers write: the exercises and objectives of a lab, as Markdown."""
 
 import re
 from pathlib import Path
@@ -49,25 +49,6 @@ class Text(NamedTuple):
         return [_mistake(self.file, *each) for each in zip(lines, blocks, strict=True)]
 
 
-class Option(NamedTuple):
-    """An answer to a prediction, with its places for facts. Without a confusion: the right one."""
-
-    name: str
-    text: str
-    reason: str
-    confusion: str | None = None
-    second: str = ""
-
-
-class Question(NamedTuple):
-    """A prediction as it is written. For a number to type: its unit, and how near is near."""
-
-    question: str
-    options: tuple[Option, ...]
-    unit: str | None = None
-    within: float = 0.1
-
-
 CODE = re.compile(r"^```python\n(.*?)^```", re.M | re.S)
 EDIT = re.compile(r"(`+)(.+?)\1 (?:→|->) (?:(`+)(.+?)\3|nothing)(?:, (?=`)|$)")
 
@@ -112,56 +93,6 @@ def exercise(file: str, text: str) -> Text:
 def objectives(text: str) -> tuple[str, ...]:
     """The objectives of a lab: the numbered lines."""
     return tuple(map(one_line, re.split(r"^\d\. ", text, flags=re.M)[1:]))
-
-
-def questions(file: str, text: str) -> dict[str, Question]:
-    """The predictions of a lab by their numbers.
-
-    ## p5, a number in mm/s, within 2 %
-
-    The question.
-
-    - `name` **An answer.** Why it is right.
-    - `other` **Another.** Why it is not. *The confusion:* a second case.
-    """
-    made = {}
-    for found in re.finditer(r"^## (.+)\n((?s:.*?))(?=^## |\Z)", text, re.M):
-        line, head, body = text.count("\n", 0, found.start()) + 1, found[1], found[2]
-        shape = re.fullmatch(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?", head.strip())
-        if not shape or shape[1] in made:
-            raise wrong(
-                file,
-                line,
-                f"wanted '## p1' or '## p1, a number in UNIT, within 2 %' "
-                f"and each number once, got {head!r}",
-            )
-        asked, *answers = re.split(r"^- ", body, flags=re.M)
-        options = tuple(_option(file, line, one_line(answer)) for answer in answers)
-        names = [each.name for each in options]
-        if len(set(names)) < max(2, len(names)) or sum(o.confusion is None for o in options) != 1:
-            raise wrong(
-                file,
-                line,
-                "wanted two answers or more, each with its own name, and a "
-                "confusion for each but the right one",
-            )
-        number = {"unit": shape[2], "within": float(shape[3]) / 100} if shape[2] else {}
-        made[shape[1]] = Question(one_line(asked), options, **number)
-    return made
-
-
-def _option(file: str, line: int, text: str) -> Option:
-    shape = r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?"
-    found = re.fullmatch(shape, text)
-    if not found:
-        raise wrong(
-            file,
-            line,
-            "wanted '- `name` **An answer.** Why. *The confusion:* a second "
-            f"case.', got {text[:60]!r}",
-        )
-    name, answer, reason, confusion, second = found.groups()
-    return Option(name, answer, reason, confusion, second or "")
 
 
 def _hint(text: str) -> str:

@@ -30,7 +30,7 @@ from ..units import deg, mm, wrapped
 from .exercises import words
 from .mistakes import Mistake, Program, Tools
 from .old import Catch, Function, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice
 

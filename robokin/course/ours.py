@@ -30,7 +30,8 @@ from ..show.page import Page, PageExplorer, inert, output, still_image
 from .book import find
 from .exercises import Verdict
 from .harmless import all_visible, png, visible
-from .predictions import Asked, Prediction, shown
+from .predictions import Asked, shown
+from .questions import Prediction
 
 MARK = 'class="robokin-player"'
 LEFT_OUT = Markup("<p>An output of robokin that cannot be read is left out here.</p>")
@@ -182,7 +183,7 @@ class Ready(NamedTuple):
 @lru_cache(256)
 def _prepared(name: str, nonce: str) -> Prediction:
     """A prediction whose facts and view are worked out, once for a page."""
-    prediction: Prediction = find(name, "PREDICTIONS")
+    prediction: Prediction = find(name, "predictions")
     facts, view = prediction.facts(), Ready(shown(prediction.view(), nonce))
     return replace(prediction, facts=lambda: facts, view=lambda: view)
 

@@ -7,94 +7,18 @@ import html
 import json
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-from .._validate import number
 from .book import find
+from .questions import LETTERS, Option, Prediction, filled, judged
 
 if TYPE_CHECKING:
     from ..show.page import PageAnswer, PageQuestion
 
-LETTERS = "abcdef"
 ASLEEP = (
     "To answer it: run all cells (Run > Run All Cells), or trust the notebook (Ctrl+Shift+C, then "
     "Trust Notebook)."
 )
-
-
-class Option(NamedTuple):
-    """An answer to choose, or a number that somebody may type.
-
-    text       what it says; for a number to type, the number as the facts have it: "{tool:.0f}"
-    reason     why it is right, or why it is not
-    confusion  the name of the confusion behind a wrong one; None: the right one
-    second     for a wrong one: a second case that shows it
-    """
-
-    text: str
-    reason: str
-    confusion: str | None = None
-    second: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Prediction:
-    """A question, its answers, and the view that answers it.
-
-    Every text is filled with `facts`, which are computed: "{most:.0f} mm".
-
-    question  in two or three sentences
-    options   three or four answers, one of them right; for a number to type (`unit` is given): the
-              right one and those of the confusions, which are not shown
-    facts     () -> the numbers behind all texts
-    right     facts -> which option is right, from 0: computed, not typed in
-    view      () -> what opens after the choice: an `Output` or a `Figure` of robokin.show, or words
-    unit      of a number to type; `within`: how near to a number counts as it, as a share
-    """
-
-    question: str
-    options: Sequence[Option]
-    facts: Callable[[], Mapping[str, Any]]
-    right: Callable[[Mapping[str, Any]], int]
-    view: Callable[[], Any] = field(default=lambda: "")
-    unit: str | None = None
-    within: float = 0.1
-
-
-def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
-    """Question, options and the number of the right one, with all facts in their places."""
-    facts = prediction.facts()
-    options = [
-        Option(
-            each.text.format(**facts),
-            each.reason.format(**facts),
-            each.confusion,
-            each.second.format(**facts),
-        )
-        for each in prediction.options
-    ]
-    return prediction.question.format(**facts), options, prediction.right(facts)
-
-
-def judged(prediction: Prediction, options: Sequence[Option], right: int, choice: Any) -> int:
-    """Which option a choice is, -1 for a number that is none of them. ValueError: neither a letter
-    of an option nor a number, as the prediction wants it.
-    """
-    if prediction.unit is None:
-        letters = LETTERS[: len(options)]
-        if not (isinstance(choice, str) and len(choice) == 1 and choice in letters):
-            raise ValueError(f"choice: wanted one of {', '.join(letters)}, got {choice!r}")
-        return letters.index(choice)
-    given = number(choice, "choice")
-    order = [right, *range(len(options))]
-    near = (k for k in order if _near(given, float(options[k].text), prediction.within))
-    return next(near, -1)
-
-
-def _near(x: float, value: float, within: float) -> bool:
-    return abs(x - value) <= within * abs(value) + 1e-9
 
 
 def predict(name: str, choice: str | float | None = None) -> "Asked":
@@ -106,7 +30,7 @@ def predict(name: str, choice: str | float | None = None) -> "Asked":
 
     ValueError: no such prediction, a choice that is none.
     """
-    return Asked(name, find(name, "PREDICTIONS"), choice)
+    return Asked(name, find(name, "predictions"), choice)
 
 
 class Asked:

@@ -21,7 +21,7 @@ from ..units import deg, mm
 from .exercises import words
 from .mistakes import Mistake, Tools
 from .old import Function, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 from .told import apart, one_number
 from .variants import Numbers, dice
 

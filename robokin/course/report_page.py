@@ -101,7 +101,7 @@ def told(given: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
 def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
     """(objective, "holds", "begun" or "not yet") for each of the lab's."""
     found = []
-    texts = lab(data["lab"]).OBJECTIVES if data["lab"] else ()
+    texts = lab(data["lab"]).objectives if data["lab"] else ()
     for k, text in enumerate(texts, 1):
         states = [e["state"] for e in data["exercises"] if e["objective"] == k]
         held = bool(states) and all(state == "holds" for state in states)

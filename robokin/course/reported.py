@@ -14,7 +14,7 @@ from datetime import datetime
 from typing import Any
 
 from .._validate import short
-from .book import LABS, find, lab
+from .book import find, lab, labs
 from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
@@ -49,7 +49,7 @@ def validated(data: Any) -> dict[str, Any]:
     if not isinstance(data, dict) or data.get("report") not in (1, 2):
         raise ValueError("its data are not those of a report that this robokin knows")
     old, slug = data["report"] == 1, data.get("lab")
-    if slug is not None and not (isinstance(slug, str) and slug in LABS):
+    if slug is not None and not (isinstance(slug, str) and slug in labs()):
         raise ValueError(f"lab: wanted one of robokin's, got {short(slug)}")
     who = _text(data, "who", TEXT)
     if len(who) > NAME:
@@ -90,7 +90,7 @@ def _shows(c: str) -> bool:
 
 
 def _exercise(each: dict[str, Any]) -> dict[str, Any]:
-    exercise = find(each["id"], "EXERCISES")
+    exercise = find(each["id"], "exercises")
     points: Any = each.get("points")
     if type(points) not in (int, float) or not 0 <= points <= 1:  # NaN is not
         raise ValueError(f"points: wanted a number from 0 to 1, got {short(points)}")
@@ -127,7 +127,7 @@ def _known(
     checked: Callable[[dict[str, Any]], dict[str, Any]],
 ) -> list[dict[str, Any]]:
     """The entries for the lab's exercises or predictions, in the lab's order."""
-    known = [f"{slug}.{number}" for number in getattr(lab(slug), what.upper())] if slug else []
+    known = [f"{slug}.{number}" for number in getattr(lab(slug), what)] if slug else []
     found: dict[str, dict[str, Any]] = {}
     for each in _list(data, what):
         name = each.get("id") if isinstance(each, dict) else None

@@ -19,7 +19,7 @@ from ..units import deg, mm, wrapped
 from .exercises import words
 from .mistakes import DEGREES, METRES, Mistake, Program, Tools
 from .old import Catch, Fault, Function, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 from .told import apart, floats, one_number
 from .variants import Numbers, dice
 

@@ -11,7 +11,7 @@ from ..units import deg, mm
 from .exercises import words
 from .mistakes import DEGREES
 from .old import Fault, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 
 OBJECTIVES = ("change a number and see what follows from it",)
 YOURS = (-20, -10, 0, 30, 0)  # q2 to q6, in degrees, as the lab has them

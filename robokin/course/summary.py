@@ -23,7 +23,7 @@ from typing import Any
 
 import psutil
 
-from .book import LABS
+from .book import labs
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
 from .report_page import objectives, told
@@ -138,7 +138,7 @@ def summary(
                 tell(done, len(jobs), f"{newest.file}: {newest.who}, {newest.lab}, {newest.held}")
     finally:
         pool.shutdown(cancel_futures=True)  # Ctrl+C: what has not begun does not begin
-    made.entries.sort(key=lambda each: (LABS.index(each.lab), normalised(each.who)))
+    made.entries.sort(key=lambda each: (list(labs()).index(each.lab), normalised(each.who)))
     made.left_out.sort(key=lambda each: (each.file, each.reason))
     return made
 
@@ -156,7 +156,7 @@ def who_of(inside: Path) -> str:
     the nearest folder, one that is called as a lab left out, else its name.
     """
     for k, part in enumerate((inside.stem, *reversed(inside.parent.parts))):
-        slug = re.search("|".join(LABS), part, re.I)
+        slug = re.search("|".join(labs()), part, re.I)
         if slug:
             before = re.sub(r"(^|[\s_-])\d{1,2}[\s_-]*$", " ", part[: slug.start()])  # its number
             after = re.sub(r"-Copy\d+|\(\d+\)|_checkpoint", " ", part[slug.end() :])

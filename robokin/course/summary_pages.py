@@ -23,8 +23,8 @@ from markupsafe import Markup, escape
 
 from ..show.page import write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
-from .book import LABS, find, lab, titled
-from .predictions import filled
+from .book import find, lab, labs, titled
+from .questions import filled
 from .report_page import safe
 from .summary import Entry, Summary
 from .variants import normalised
@@ -90,7 +90,8 @@ def _most(found: dict[tuple[str, str], list[str]]) -> list[tuple[str, str, list[
 
     def place(row: tuple[str, str, list[str]]) -> Any:
         slug, _, number = row[0].partition(".")
-        return LABS.index(slug), int(number.lstrip("p")), -len(row[2]), row[1]  # p9 before p10
+        place = list(labs()).index(slug), int(number.lstrip("p"))  # p9 before p10
+        return *place, -len(row[2]), row[1]
 
     return sorted(rows, key=place)
 
@@ -146,12 +147,14 @@ def page_of(made: Summary, links: list[str], points: bool = True) -> str:
     predictions; what was left out. `links`: where the entries' own pages are.
     """
     rows = list(zip(made.entries, links, strict=True))
-    labs = [(slug, [row for row in rows if row[0].lab == slug]) for slug in LABS]
+    taught = [(slug, [row for row in rows if row[0].lab == slug]) for slug in labs()]
     return _page(
         "summary.html.j2",
         points=points,
         made=made,
-        labs=[{"name": slug, "rows": here, **_figures(slug, here)} for slug, here in labs if here],
+        labs=[
+            {"name": slug, "rows": here, **_figures(slug, here)} for slug, here in taught if here
+        ],
         now=f"{datetime.now():%Y-%m-%d %H:%M}",
         students=len({normalised(each.who) for each in made.entries}),
         counted=(
@@ -174,8 +177,8 @@ def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
             states[each["id"]][each["state"]] += 1
     held = Counter(text for entry, _ in rows for text, s in entry.objectives if s == "holds")
     return {
-        "exercises": [(n, f"{slug}.{n}", states[f"{slug}.{n}"]) for n in lab(slug).EXERCISES],
-        "objectives": [(text, held[text]) for text in lab(slug).OBJECTIVES],
+        "exercises": [(n, f"{slug}.{n}", states[f"{slug}.{n}"]) for n in lab(slug).exercises],
+        "objectives": [(text, held[text]) for text in lab(slug).objectives],
     }
 
 
@@ -205,9 +208,9 @@ def _words(text: str) -> Markup:
 def _asked(name: str) -> str:
     """An exercise's task, a prediction's question, as robokin has it."""
     slug, _, number = name.partition(".")
-    if number in lab(slug).EXERCISES:
-        return str(find(name, "EXERCISES").task)
-    return filled(find(name, "PREDICTIONS"))[0]
+    if number in lab(slug).exercises:
+        return str(find(name, "exercises").task)
+    return filled(find(name, "predictions"))[0]
 
 
 def _time(text: str) -> str:

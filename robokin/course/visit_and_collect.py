@@ -34,7 +34,7 @@ from .answers import run
 from .exercises import Verdict, words
 from .mistakes import DEGREES, Mistake, Program, Tools
 from .old import Catch, Exercise, Fault, Function, Value
-from .predictions import Option, Prediction
+from .questions import Option, Prediction
 from .told import apart, floats
 from .variants import Numbers, dice
 

@@ -60,8 +60,8 @@ CALLS = calls()
 
 def checks():
     everything = []
-    for lab in book.LABS:
-        for n, exercise in book.lab(lab).EXERCISES.items():
+    for lab in book.labs():
+        for n, exercise in book.lab(lab).exercises.items():
             name = f"{lab}.{n}"
             times = [timed(name, each, who="your name")[0] for each in answers(name, exercise)]
             everything += times
@@ -76,8 +76,8 @@ def checks():
 
 
 def variants(count):
-    for lab in book.LABS:
-        for n, exercise in book.lab(lab).EXERCISES.items():
+    for lab in book.labs():
+        for n, exercise in book.lab(lab).exercises.items():
             if not getattr(exercise, "given", None):
                 continue
             name = f"{lab}.{n}"

@@ -34,7 +34,7 @@ def solved(slug, folder):
     """A copy of the lab with all answers, where the labs' own folders lie beside it."""
     [path] = NOTEBOOKS.glob(f"*_{slug}.ipynb")
     notebook = nbformat.read(path, as_version=4)
-    predictions, cells, checks = book.lab(slug).PREDICTIONS, [], []
+    predictions, cells, checks = book.lab(slug).predictions, [], []
     for cell in notebook.cells:
         found = re.match(r'check\("([\w.]+)"', cell.source)
         if found:  # at the end: a solution may give names of the lab another meaning
@@ -132,4 +132,4 @@ def main(slugs):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:] or book.LABS))
+    sys.exit(main(sys.argv[1:] or book.labs()))
