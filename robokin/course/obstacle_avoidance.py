@@ -877,6 +877,21 @@ RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
     ),
     ("it says no wherever a joint turns by more than 90° in a part, as promised", _short_parts),
 )
+class _Late:
+    """Answers each time with what it found the time before."""
+
+    def __init__(self, first: bool) -> None:
+        self.first = self.found = first
+
+    def __call__(self, path: Any, H: Any, distance: float) -> bool:
+        before, self.found = self.found, _fine(path, H, distance)
+        return before
+
+    def anew(self) -> Program:
+        """One that has not been called."""
+        return _Late(self.first)
+
+
 CHECK_MISTAKES = (
     Mistake(
         "the gripper only",
@@ -992,6 +1007,15 @@ CHECK_MISTAKES = (
         lambda path, H, distance: bool(
             _distances(_sampled(path, FINE), H).min(axis=0).max() >= distance
         ),
+    ),
+    *(
+        Mistake(
+            name,
+            "It answers with what it found for the motion before, so it says yes as often as a "
+            "right program. Compare each answer with the right one; do not count.",
+            _Late(first),
+        )
+        for name, first in (("one motion late", True), ("one motion late, at first no", False))
     ),
     Mistake(
         "yes and no exchanged",
