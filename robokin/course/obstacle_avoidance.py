@@ -864,7 +864,10 @@ def _short_parts(path: Any, H: Any, distance: float) -> bool:
 
 RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
     ("robokin's keeps, which proves the distance", _bounded),
-    (f"{FINE} postures of every part, all levers", _fine),
+    (
+        f"{FINE} postures of every part, all levers, answered with NumPy's True and False",
+        lambda path, H, distance: np.bool_(_fine(path, H, distance)),
+    ),
     ("motions halved until a bound decides", _halving),
     ("part after part, up to the first that is too near", _plain),
     (
