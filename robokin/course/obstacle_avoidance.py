@@ -880,6 +880,8 @@ RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
     ),
     ("it says no wherever a joint turns by more than 90° in a part, as promised", _short_parts),
 )
+
+
 class _Late:
     """Answers each time with what it found the time before."""
 
