@@ -901,7 +901,7 @@ CHECK_MISTAKES = (
     Mistake(
         "the gripper only",
         "It looks at the gripper alone: a lever behind it may sweep the obstacle. A test finds "
-        "that with an obstacle beside the middle of a lever, in any of its tasks.",
+        "that with tasks in which only a lever, and not the gripper, comes too near.",
         _of(lambda q, H: _corners_near(q, H)[:, 2]),
     ),
     Mistake(

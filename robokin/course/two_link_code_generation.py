@@ -1228,12 +1228,14 @@ CATCH_MISTAKES = (
     ),
     Mistake(
         "divides by x3 \N{MINUS SIGN} x1",
-        "Put a tip straight above the base: there it gives NaN.",
+        "A tip straight above the base gets NaN. A test finds that with such a tip, and with a "
+        "comparison that NaN does not pass.",
         _by_division(0, True),
     ),
     Mistake(
         "divides by y3 \N{MINUS SIGN} y1",
-        "Put a tip level with the base: there it gives NaN.",
+        "A tip level with the base gets NaN. A test finds that with such a tip, and with a "
+        "comparison that NaN does not pass.",
         _by_division(1, True),
     ),
     Mistake(
