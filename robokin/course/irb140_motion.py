@@ -482,11 +482,13 @@ def _short_cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         case([0, 0, 0, 0, 30, 380], [0, 0, 0, 0, 30, -340], [0, 0.3, 1]),  # stays, two turns on
         case([0, 0, 0, 0, 30, 350], [0, 0, 0, 0, 30, -710], [0, 0.5, 1]),  # three turns
         case([0, 0, 0, 0, 30, -350], [0, 0, 0, 0, 30, 710], [0, 0.5, 1]),
+        case([0, 0, 0, -190, 30, 0], [0, 0, 0, -565, 30, 0], [0, 0.5, 1]),  # -205 is outside
+        case([0, 0, 0, 190, 30, 0], [0, 0, 0, 565, 30, 0], [0, 0.5, 1]),
         case(home, [-60, 50, -90, 170, -40, -100], [0.5]),
         case(home, [-60, 50, -90, -170, -40, 120], [0.2, 0.25, 0.9]),
         case([100, -30, -200, 190, 60, 370], [-160, 40, 170, -179, -60, 30], np.linspace(1, 0, 5)),
     ]
-    while len(cases) < 34:
+    while len(cases) < 36:
         q0 = rng.uniform(LOW, HIGH).round(2)
         q1 = wrapped(rng.uniform(LOW, HIGH).round(2))
         if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # a half turn: two short ways

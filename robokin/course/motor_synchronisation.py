@@ -986,6 +986,12 @@ PHASE_MISTAKES = (
         lambda drive, signs: _good("wave", signs),
     ),
     Mistake(
+        "two-phase for wave",
+        "For the wave drive it takes the two-phase table: two half windings carry current in each "
+        "row.",
+        lambda drive, signs: _good("two-phase" if drive == "wave" else drive, signs),
+    ),
+    Mistake(
         "half step without the single windings",
         "For the half step it takes the two-phase table: one row is as far from the next as a full "
         "step.",

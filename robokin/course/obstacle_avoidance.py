@@ -864,7 +864,10 @@ def _short_parts(path: Any, H: Any, distance: float) -> bool:
 
 RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
     ("robokin's keeps, which proves the distance", _bounded),
-    (f"{FINE} postures of every part, all levers", _fine),
+    (
+        f"{FINE} postures of every part, all levers, answered with NumPy's True and False",
+        lambda path, H, distance: np.bool_(_fine(path, H, distance)),
+    ),
     ("motions halved until a bound decides", _halving),
     ("part after part, up to the first that is too near", _plain),
     (
@@ -877,11 +880,28 @@ RIGHT_CHECKS: tuple[tuple[str, Program], ...] = (
     ),
     ("it says no wherever a joint turns by more than 90° in a part, as promised", _short_parts),
 )
+
+
+class _Late:
+    """Answers each time with what it found the time before."""
+
+    def __init__(self, first: bool) -> None:
+        self.first = self.found = first
+
+    def __call__(self, path: Any, H: Any, distance: float) -> bool:
+        before, self.found = self.found, _fine(path, H, distance)
+        return before
+
+    def anew(self) -> Program:
+        """One that has not been called."""
+        return _Late(self.first)
+
+
 CHECK_MISTAKES = (
     Mistake(
         "the gripper only",
         "It looks at the gripper alone: a lever behind it may sweep the obstacle. A test finds "
-        "that with an obstacle beside the middle of a lever, in any of its tasks.",
+        "that with tasks in which only a lever, and not the gripper, comes too near.",
         _of(lambda q, H: _corners_near(q, H)[:, 2]),
     ),
     Mistake(
@@ -992,6 +1012,15 @@ CHECK_MISTAKES = (
         lambda path, H, distance: bool(
             _distances(_sampled(path, FINE), H).min(axis=0).max() >= distance
         ),
+    ),
+    *(
+        Mistake(
+            name,
+            "It answers with what it found for the motion before, so it says yes as often as a "
+            "right program. Compare each answer with the right one; do not count.",
+            _Late(first),
+        )
+        for name, first in (("one motion late", True), ("one motion late, at first no", False))
     ),
     Mistake(
         "yes and no exchanged",

@@ -931,8 +931,9 @@ def _row_fault(judged: _Judged, row: int) -> tuple[str, str]:
         )
     if row == judged.obvious:
         return (
-            "chosen at the first sample",
-            says + " At the start it is usable, and the nearest to the rest posture.",
+            "usable at the start, not to the end",
+            says + " At the start it is usable, and the nearest to the rest posture. Rows count "
+            "from 0.",
         )
     return "not usable to the end", says + " Follow each row to the end of the line."
 

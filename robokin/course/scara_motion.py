@@ -930,9 +930,10 @@ LIMIT_MISTAKES = (
         _limits(4, -1 * mm, STROKE + 1 * mm),
     ),
     Mistake(
-        "np.allclose with its own tolerances",
-        "np.allclose allows for 1e-5 of the number: at 400° that is 7e-5 rad. Asked is 10^-6: "
-        "compare with <=, or set rtol and atol.",
+        "a tolerance that is too loose",
+        "A value may be past its limit by more than 10^-6 here. np.allclose with its own "
+        "tolerances does that, since it allows 1e-5 of the number (at 400° that is 7e-5 rad), and "
+        "rounding does it, too: compare with <= and with your own tolerance.",
         lambda q: bool(np.isfinite(q).all()) and np.allclose(q, np.clip(q, LOW, HIGH)),
     ),
     Mistake(

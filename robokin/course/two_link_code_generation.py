@@ -1175,6 +1175,20 @@ def _one_x(*case: float) -> tuple[float, ...]:
     return xr, y1 + _divided(yr - y1, x3 - x1), xl, y1 + _divided(yl - y1, x3 - x1)
 
 
+def _half_missing(*case: float) -> tuple[float, ...]:
+    both = _both(*case)
+    return (both[0], case[1], both[2], case[1]) if math.isnan(both[1]) else both
+
+
+def _half_angle(*case: float) -> tuple[float, ...]:
+    x1, y1, x3, y3, l1, _ = case
+    base, way = np.array([x1, y1]), np.array([x3 - x1, y3 - y1])
+    both = np.reshape(_both(*case), (2, 2)) - base
+    along = both / l1 + way / np.hypot(*way)  # halfway between the elbow and the way to the tip
+    found = base + l1 * along / np.hypot(along[:, :1], along[:, 1:])
+    return tuple(float(x) for x in found.ravel())
+
+
 CATCH_MISTAKES = (
     Mistake(
         "both elbows are the right one",
@@ -1214,12 +1228,14 @@ CATCH_MISTAKES = (
     ),
     Mistake(
         "divides by x3 \N{MINUS SIGN} x1",
-        "Put a tip straight above the base: there it gives NaN.",
+        "A tip straight above the base gets NaN. A test finds that with such a tip, and with a "
+        "comparison that NaN does not pass.",
         _by_division(0, True),
     ),
     Mistake(
         "divides by y3 \N{MINUS SIGN} y1",
-        "Put a tip level with the base: there it gives NaN.",
+        "A tip level with the base gets NaN. A test finds that with such a tip, and with a "
+        "comparison that NaN does not pass.",
         _by_division(1, True),
     ),
     Mistake(
@@ -1247,6 +1263,16 @@ CATCH_MISTAKES = (
         "an answer out of reach: too near",
         "Put a tip nearer than |l1 \N{MINUS SIGN} l2| to the base: there has to be NaN.",
         lambda *case: _both(*case, rim=_outer),
+    ),
+    Mistake(
+        "out of reach NaN in x only",
+        "Out of reach all four numbers have to be NaN: look at each of them.",
+        _half_missing,
+    ),
+    Mistake(
+        "half of the angle at the base",
+        "Its points are l1 away from the base, and not l2 from the tip: measure both distances.",
+        _half_angle,
     ),
     Mistake(
         "gives up near the rim",
