@@ -1,0 +1,97 @@
+"""What holds of all content: of the folders in notebooks/exercises, and of those that
+ROBOKIN_EXERCISES names. What is too slow to be asked at every check is asked here.
+"""
+
+import warnings
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from robokin.course import book
+from robokin.course.answers import Outcome
+from robokin.course.catch import Catch
+from robokin.course.exercises import Exercise
+from robokin.course.function import Function
+
+EXERCISES = {
+    f"{name}.{number}": each
+    for name, lab in book.labs().items()
+    for number, each in lab.exercises.items()
+    if isinstance(each, Exercise)
+}
+FUNCTIONS = [name for name, each in EXERCISES.items() if isinstance(each, Function)]
+CATCHES = [name for name, each in EXERCISES.items() if isinstance(each, Catch)]
+UNJUDGED = "It cannot be judged."
+
+
+def test_nothing_is_broken():
+    assert {name: lab.broken for name, lab in book.labs().items() if lab.broken} == {}
+
+
+@pytest.mark.parametrize("lab", book.labs())
+def test_a_file_is_read_in_one_sitting(lab):
+    """At most 350 lines, and no name that pytest would take for tests."""
+    for file in book.labs()[lab].folder.glob("*.[mp][dy]"):
+        assert len(file.read_text(encoding="utf-8").splitlines()) <= 350, file
+        assert not file.stem.startswith("test_") and not file.stem.endswith("_test"), file
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_an_exercise_has_its_words(name):
+    text = EXERCISES[name].text
+    assert text.title and text.task and len(set(text.hints)) == 3
+    assert all(hint.strip() for hint in text.hints) and text.code("Solution").strip()
+
+
+@pytest.mark.parametrize("name", [*FUNCTIONS, *CATCHES])
+def test_no_two_mistakes_have_one_name_or_one_sentence(name):
+    mistakes = EXERCISES[name].text.wrong()
+    assert len({each.name for each in mistakes}) >= 6
+    for what in ("name", "says"):
+        found = Counter(getattr(each, what) for each in mistakes)
+        assert [text for text, times in found.items() if times > 1] == []
+    assert all(each.says and each.programs for each in mistakes)
+
+
+def outcomes(exercise, variant):
+    """What a wrong program makes of all cases."""
+    found = []
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        for k in range(len(exercise.cases)):
+            try:
+                found.append(exercise.formed(Outcome(exercise.result(variant, k)), k))
+            except Exception as error:
+                found.append(Outcome(name="raises an error", says=f"{error!r}"))
+    return found
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_the_solution_keeps_the_law(name):
+    exercise = EXERCISES[name]
+    right = [exercise.formed(Outcome(wanted), k) for k, wanted in enumerate(exercise.wanted)]
+    assert [exercise.wrong(o, k) for k, o in enumerate(right)] == [None] * len(exercise.cases)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_every_mistake_runs_is_wrong_and_has_a_name_of_its_own(name):
+    """A name that an edit needs, and that is not there, shows itself as an error in each case."""
+    exercise = EXERCISES[name]
+    for variant in exercise.own:
+        got = outcomes(exercise, variant)
+        raised = [o.says for o in got if o.name == "raises an error"]
+        assert len(raised) < len(got) / 2, (variant.name, raised[0])
+        wrong = [exercise.wrong(o, k) for k, o in enumerate(got)]
+        assert any(wrong) and UNJUDGED not in wrong, variant
+        first = next(k for k, sentence in enumerate(wrong) if sentence)
+        told = {each for each, _ in exercise.named(got, wrong, first)}
+        assert told == {variant.name}, variant
+
+
+@pytest.mark.parametrize("name", CATCHES)
+def test_every_program_of_a_test_is_made(name):
+    exercise = EXERCISES[name]
+    assert exercise.promise and len(exercise.rights) >= 3
+    for _, text in [*exercise.rights, *((n, text) for n, _, text in exercise.wrongs)]:
+        assert callable(exercise.program(text))
