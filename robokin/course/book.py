@@ -69,7 +69,7 @@ class Lab:
     def predictions(self) -> Mapping[str, Prediction]:
         """By their numbers. ValueError: they cannot be read."""
         file = self.folder / "predictions.md"
-        if not file.is_file():
+        if not file.with_suffix(".py").is_file():
             return _old(self.folder.name, "PREDICTIONS") or {}
         code = self.module("pictures") | self.module("predictions")
         return predictions(f"{file}", markdown.read(file), code)
