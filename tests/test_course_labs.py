@@ -280,3 +280,10 @@ def test_in_a_kernel_an_endless_answer_is_told_and_the_kernel_lives():
     assert "does not come to an end, or" in told["data"]["text/plain"]
     assert alive["text"] == "2\n"
     assert "begun" in after["data"]["text/plain"]
+
+
+@pytest.mark.parametrize("name", ["answers", "", "..", None, 7, "irb140_motion.1"])
+def test_what_is_no_lab_is_refused(name):
+    """A module of the course, too: a name comes from a file that was handed in."""
+    with pytest.raises(ValueError, match="lab: wanted one of start_here, "):
+        book.lab(name)

@@ -234,6 +234,25 @@ def test_a_limit_counts_cpu_time_with_that_of_child_processes(tmp_path, monkeypa
     assert (two.state, three.state) == ("does not hold", "unanswered")
 
 
+def test_all_cells_have_a_time_and_a_memory_together(tmp_path):
+    """What is beyond them does not run, or raises; what came before counts."""
+    spin = "import time\nend = time.process_time() + 1\nwhile time.process_time() < end:\n    pass"
+    lab = stored(
+        tmp_path / "lab.ipynb",
+        f"{IMPORTS}\nlarge = bytes(6 * 2**30)",
+        'check("irb140_motion.1", 1)',
+        *[f"{spin}\nprint({k})" for k in range(7)],
+        'check("irb140_motion.2", 1)',
+    )
+    judged = judge(handed_in(lab), "Ada", Limits(cell=6, answer=6, all=6, memory=4 * 2**30))
+    one, two, _ = judged.exercises
+    late = "Not run: the 6 s for all cells were over."
+    assert one.state == "does not hold" and (two.state, two.says) == ("failed", (late,))
+    assert any("MemoryError" in remark for remark in judged.remarks) or sys.platform != "linux"
+    printed = [o.text for c in judged.notebook.cells for o in c.outputs if o.get("text")]
+    assert "0\n" in printed and f"{late}\n" in printed
+
+
 def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch):
     slower(monkeypatch, 2)
     lab = stored(
