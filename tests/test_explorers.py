@@ -46,6 +46,7 @@ from robokin import (
 )
 from robokin.show import animate, joint_explorer, motion_explorer, target_explorer
 from robokin.show.camera import arm_points, project
+from robokin.show.joiner import script
 from robokin.show.page import STILL
 from robokin.show.palette import PAGE
 
@@ -473,6 +474,29 @@ def test_a_click_on_a_row_chooses_it_and_a_key_does(opened):
     assert np.isclose(shown.code()["q"], IRB140.ik(shown.code()["target"])[2]).all()
     shown.choose("branch", 0)
     assert shows_every_branch(shown).seen.menus["branch"] == 0
+
+
+def test_a_click_on_a_row_or_its_button_takes_the_row_once(browser):
+    tab = browser.new_page()
+    click = """const taken = [];
+      const {node} = $stage.table(["a", "b"], ["", "x"], [1], k => taken.push(k));
+      document.body.append(node);
+      node.querySelectorAll("button")[1].click();
+      node.querySelector("td").click();
+      return taken;"""
+    assert tab.evaluate(f"() => {{ {script('stage')}\n{click} }}") == [1, 0]
+    tab.close()
+
+
+def test_home_on_an_arc_gives_back_the_first_turns(opened):
+    """The sliders wrote into the very turns that Home gives back."""
+    shown = opened(target_explorer(IRB140), IRB140)
+    first = shown.look().boxes
+    for name in ("roll", "pitch", "yaw"):
+        shown.slide(name, first[name] / 2 + 10)
+    assert all(shown.look().boxes[name] != first[name] for name in ("roll", "pitch", "yaw"))
+    shown.press("turn y", "Home")
+    assert shown.look().boxes == first
 
 
 def test_levers_of_other_lengths(opened):
