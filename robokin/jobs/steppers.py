@@ -558,8 +558,8 @@ def _rotor_run(
     for name, value in (("load", load), ("torque", torque)):
         if not abs(value) / damping <= FASTEST:
             wanted = f"wanted one that turns the rotor at {FASTEST:g} rad/s at most"
-            at = f"at a damping of {damping:.4g} N m s"
-            raise ValueError(f"{name}: {wanted}, got {value:.4g} N m {at}")
+            got = f"got {value:.4g} N m at a damping of {damping:.4g} N m s"
+            raise ValueError(f"{name}: {wanted}, {got}")
 
     def pull(currents: list[float]) -> tuple[float, float]:
         x = y = 0.0
