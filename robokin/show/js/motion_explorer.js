@@ -278,8 +278,8 @@ function motionOf(data, state) {
 }
 
 /**
- * The greatest speeds and accelerations between the samples, too; null where the motion is broken or
- * passes a singularity, or one of them does not stand.
+ * The greatest speeds and accelerations between the samples, too; null where the motion is broken
+ * or passes a singularity, or one of them does not stand.
  * @param {MotionData} data
  * @param {Motion} motion
  * @param {number[][]} sampled

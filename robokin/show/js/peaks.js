@@ -32,8 +32,8 @@ export function timeOf(law, duration, s) {
  * @param {number[]} ends  of the stretches, rising: at each an acceleration, or speed, may jump
  * @param {number[]} sizes  of the units
  * @param {number[][]} near  speeds and accelerations of the same size
- * @returns {?number[][]}  speeds, accelerations; null where one of them does not stand, or a posture
- *   is not sure
+ * @returns {?number[][]}  speeds, accelerations; null where one of them does not stand, or a
+ *   posture is not sure
  */
 export function peaks(posture, ends, sizes, near) {
   const last = /** @type {number} */ (ends.at(-1)),
