@@ -22,9 +22,10 @@ from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from .book import lab
 from .export import View, page
 from .handed_in import HandedIn, handed_in
-from .harmless import all_visible, shortened, visible
+from .harmless import shortened
 from .judge import LIMITS, Judged, Limits, judge
 from .reported import DATA, report_data
+from .texts import all_visible, visible
 from .variants import normalised, variant
 
 WORDS = 2_000  # characters of one text in the header

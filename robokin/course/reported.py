@@ -8,13 +8,13 @@ it is still a stranger's text, and a page escapes it.
 """
 
 import json
-import unicodedata
 from collections.abc import Callable
 from datetime import datetime
 from typing import Any
 
 from .._validate import short
 from .book import LABS, find, lab
+from .texts import visible
 from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
@@ -72,21 +72,6 @@ def validated(data: Any) -> dict[str, Any]:
         if old
         else _one_of(data, "guesses_came", (True, False)),
     }
-
-
-def plain(text: str, most: int = LINE, ends: str = "") -> str:
-    r"""A text that shows what it is, without those characters that control, that turn the direction
-    of writing, that end a line (but those of `ends`) or that are none: they become \x1b or \u202e.
-    What is longer than `most` characters is cut.
-    """
-    kept = text if len(text) <= most else f"{text[:most]} ... shortened"
-    if kept.isprintable():
-        return kept
-    return "".join(c if _shows(c) or c in ends else ascii(c)[1:-1] for c in kept)
-
-
-def _shows(c: str) -> bool:
-    return c.isprintable() or c in JOINERS or unicodedata.category(c) == "Zs"
 
 
 def _exercise(each: dict[str, Any]) -> dict[str, Any]:
@@ -168,7 +153,7 @@ def _text(data: dict[str, Any], name: str, most: int, ends: str = "") -> str:
     value = data.get(name)
     if not isinstance(value, str):
         raise ValueError(f"{name}: wanted a text, got {short(value)}")
-    return plain(value, most, ends)
+    return visible(value, ends, most)
 
 
 def _time(data: dict[str, Any], name: str) -> str:

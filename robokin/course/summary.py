@@ -27,7 +27,8 @@ from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
 from .report_page import objectives, told
-from .reported import NAME, TEXT, plain, report_data, validated
+from .reported import NAME, TEXT, report_data, validated
+from .texts import visible
 from .variants import normalised
 
 LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
@@ -242,9 +243,10 @@ def _left(inside: Path, reason: str, wrong: bool) -> LeftOut:
 def _shown(name: Path | str) -> str:
     r"""A file's name as a text; what is not UTF-8 in it becomes \xff."""
     text = name.as_posix() if isinstance(name, Path) else name
-    return plain(os.fsencode(text).decode(errors="backslashreplace"), TEXT)
+    return visible(os.fsencode(text).decode(errors="backslashreplace"), "", TEXT)
 
 
 def _reason(error: Exception) -> str:
     known = isinstance(error, (OSError, ValueError)) and not isinstance(error, UnicodeError)
-    return plain(str(error) if known else f"{type(error).__name__}: {error}", 500).rstrip(": ")
+    text = str(error) if known else f"{type(error).__name__}: {error}"
+    return visible(text, "", 500).rstrip(": ")
