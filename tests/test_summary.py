@@ -291,6 +291,36 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
     assert second.data["predictions"][0]["choice"] == "b"
 
 
+def test_the_same_page_in_several_folders_counts_once(tmp_path):
+    """In the folder with the student's name, else in the first; the others say which it is."""
+    for folder in ("Bob", "Ada_123_file/lab", "Adam", "Zoë"):
+        put(tmp_path / folder / "lab.html", report_of("Ada"))
+    put(tmp_path / "Bob" / "lab of Eve.html", report_of("Eve"))
+    put(tmp_path / "Carl" / "lab of Eve.html", report_of("Eve"))
+    put(tmp_path / "Carl" / "other.html", report_of("Eve", title="Another one"))
+    put(tmp_path / "lab.html", report_of("Ada", made="2026-11-01T09:30:00+01:00"))
+    for file in ("a.html", "b.html"):
+        put(tmp_path / file, report_of("../x"))
+    made = summary.summary(tmp_path)
+    counts = {each.who: each.file for each in made.entries}
+    assert counts == {
+        "Ada": "Ada_123_file/lab/lab.html",
+        "Eve": "Bob/lab of Eve.html",
+        "../x": "a.html",
+    }
+    same = "the same page as {}, which counts".format
+    assert {each.file: (each.who, each.reason) for each in made.left_out} == {
+        "Adam/lab.html": ("Adam", same(counts["Ada"])),
+        "Bob/lab.html": ("Bob", same(counts["Ada"])),
+        "Zoë/lab.html": ("Zoë", same(counts["Ada"])),
+        "Carl/lab of Eve.html": ("Carl", same(counts["Eve"])),
+        "Carl/other.html": ("Eve", f"{counts['Eve']} of Eve for {SLUG} is as new and counts"),
+        "b.html": ("../x", same("a.html")),
+        "lab.html": ("Ada", f"{counts['Ada']} of Ada for {SLUG} is newer and counts"),
+    }
+    assert not any(each.wrong for each in made.left_out)
+
+
 def stub(wait=lambda name: None):
     """A judge that runs nothing."""
 

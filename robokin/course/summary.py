@@ -5,7 +5,8 @@ Who it is from: a report says it; of a notebook it is what its file's name has b
 ("03_irb140_motion Ada.ipynb"), else the folder that it lies in. Its own numbers are those of the
 name that stands in it, since folders are seldom called what students call themselves; where that is
 another name, a remark says so. Of two files of one student for one lab the newer counts: by the
-report's date, by the notebook's time.
+report's date, by the notebook's time. Of those that are as new as each other, as copies of one page
+are, the one in a folder with the student's name counts, else the first.
 
 What is handed in is hostile until it is validated (`reported`), and escaped where it is written
 (`summary_pages`). Whatever is wrong with one file, the others are done.
@@ -219,7 +220,8 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
     """Of one student's files for one lab the newest that can be used, judged if it is a notebook;
     and what is left out.
     """
-    several = sorted(several, key=lambda each: (each.when, each.file))
+    several = sorted(several, key=lambda each: each.file, reverse=True)
+    several.sort(key=lambda each: (each.when, _at_home(each)))
     left_out: list[LeftOut] = []
     while several:
         entry = several.pop()
@@ -230,10 +232,25 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
         except Exception as error:  # what a student's code gave may be anything
             left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
             continue
-        reason = f"{entry.file} of {entry.who} for {entry.lab} is newer and counts"
-        left_out += [LeftOut(each.file, each.who, reason, False) for each in several]
+        for each in several:
+            who, reason = each.who, f"{entry.file} of {entry.who} for {entry.lab}"
+            if each.data and each.data == entry.data:
+                folder = Path(each.file).parent
+                who = who_of(folder / "_") if folder.name else who
+                reason = f"the same page as {entry.file}, which counts"
+            elif each.when == entry.when:
+                reason += " is as new and counts"
+            else:
+                reason += " is newer and counts"
+            left_out.append(LeftOut(each.file, who, reason, False))
         return entry, left_out
     return None, left_out
+
+
+def _at_home(entry: Entry) -> bool:
+    """Whether a folder in which its file lies has the student's name."""
+    name, folders = normalised(entry.who), normalised(f"/{Path(entry.file).parent}")
+    return bool(re.search(rf"(?<![^\W_]){re.escape(name)}(?![^\W_])", folders))
 
 
 def _left(inside: Path, reason: str, wrong: bool) -> LeftOut:
