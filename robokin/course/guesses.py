@@ -9,7 +9,6 @@ of a guess. Nothing of it is stored in the notebook.
 
 import ast
 import contextlib
-import functools
 import json
 import os
 import re
@@ -23,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from .._validate import short
 from .book import find, lab
 from .copies import alone, write
-from .predictions import Option, filled, judged
+from .predictions import judged, worked_out
 
 if TYPE_CHECKING:
     from .handed_in import HandedIn
@@ -173,7 +172,7 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
         seen.add(_value(other))
     guess = Guess(name, choice, False, "no choice that can be read", when, tuple(later))
     prediction = find(name, "PREDICTIONS")
-    _, options, right = _filled(name)
+    _, options, right = worked_out(name)
     try:
         at = judged(prediction, options, right, float(choice) if prediction.unit else choice)
     except (ValueError, TypeError):
@@ -181,11 +180,6 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
     if at == right:
         return replace(guess, right=True, confusion=None)
     return replace(guess, confusion=options[at].confusion if at >= 0 else None)
-
-
-@functools.cache
-def _filled(name: str) -> tuple[str, list[Option], int]:
-    return filled(find(name, "PREDICTIONS"))  # its facts are worked out once
 
 
 def _value(choice: str) -> str | float:

@@ -1418,6 +1418,7 @@ def _missed_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The next posture",
         task="The posture for a point, joint 1 the short way round",
         objective=1,
         hints=(
@@ -1439,6 +1440,7 @@ EXERCISES = {
         mistakes=POSTURE_MISTAKES,
     ),
     "2": Value(
+        title="Gears for a move of your own",
         task="Gears and frequencies for a move of your own",
         objective=2,
         hints=(
@@ -1457,6 +1459,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for phases",
         task="A test: whether the program windings(drive, signs) feeds the half windings rightly",
         objective=3,
         hints=(

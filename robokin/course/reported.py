@@ -74,6 +74,15 @@ def validated(data: Any) -> dict[str, Any]:
     }
 
 
+def counted(data: dict[str, Any]) -> list[dict[str, Any]]:
+    """The predictions among which one can be missing: an optional one is there if it was made."""
+    return [
+        each
+        for each in data["predictions"]
+        if each["choice"] is not None or not find(each["id"], "PREDICTIONS").optional
+    ]
+
+
 def _exercise(each: dict[str, Any]) -> dict[str, Any]:
     exercise = find(each["id"], "EXERCISES")
     points: Any = each.get("points")

@@ -28,7 +28,7 @@ from .book import LABS
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
 from .report_page import objectives, told
-from .reported import NAME, TEXT, report_data, validated
+from .reported import NAME, TEXT, counted, report_data, validated
 from .texts import visible
 from .variants import normalised
 
@@ -37,13 +37,15 @@ LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
 
 @dataclass(frozen=True)
 class Entry:
-    """What one student handed in for one lab. `file`: below the folder; `data`: validated, as in a
-    report; `given`: a notebook that is still to be judged; `judged`: one that was.
+    """What one student handed in for one lab. `file`: below the folder, as a text, `path`: where it
+    is; `data`: validated, as in a report; `given`: a notebook that is still to be judged; `judged`:
+    one that was.
     """
 
     who: str
     lab: str
     file: str
+    path: Path
     when: datetime
     data: dict[str, Any]
     given: HandedIn | None = None
@@ -75,7 +77,7 @@ class Entry:
         """How many first guesses are right."""
         if not self.data["guesses_came"]:
             return "guesses: none came with the notebook"
-        asked = self.data["predictions"]
+        asked = counted(self.data)
         rights = [each["right"] for each in asked if each["right"] is not None]
         return f"{sum(rights)} right of {len(rights)} made ({len(asked)} asked)"
 
@@ -208,12 +210,12 @@ def _read(path: Path, inside: Path) -> Entry | str:
         if data["lab"] is None:
             return "a report of a notebook without exercises of robokin's"
         when = datetime.fromisoformat(data["made"])
-        return Entry(data["who"], data["lab"], _shown(inside), when, data)
+        return Entry(data["who"], data["lab"], _shown(inside), path, when, data)
     given = handed_in(path)
     if given.lab is None:
         return "a notebook without exercises of robokin's"
     when = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
-    return Entry(who_of(inside), given.lab, _shown(inside), when, {}, given)
+    return Entry(who_of(inside), given.lab, _shown(inside), path, when, {}, given)
 
 
 def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[LeftOut]]:
