@@ -182,7 +182,7 @@ def test_each_row_leads_to_a_page_of_its_own(handed, tmp_path):
     made = summary.summary(folder)
     for points in (True, False):
         summary_pages.write(made, tmp_path, points)
-        links = re.findall('<a href="(summary_pages/[^"]*)">(.*?)</a>', page_in(tmp_path))
+        links = re.findall('<td><a href="(summary_pages/[^"]*)">(.*?)</a><br>', page_in(tmp_path))
         assert sorted(unescape(who) for _, who in links) == sorted(drawn)
         for link, who in links:
             data = drawn[unescape(who)]
@@ -349,6 +349,30 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
     assert [e["state"] for e in second.data["exercises"]] == ["unanswered"] * 2 + ["holds"]
     assert second.data["remarks"] == ["scara_motion.3: judged with the numbers of 'Bob'."]
     assert second.data["predictions"][0]["choice"] == "b"
+
+
+def test_one_table_has_all_students_and_labs(tmp_path):
+    held = {"Zoë": {SLUGS[0]: 2, SLUGS[2]: 0}, "ada": {SLUGS[2]: 3}, "Bob": {SLUGS[0]: 1}}
+    for who, labs in held.items():
+        for slug, count in labs.items():
+            data = report_of(who.upper() if slug == SLUGS[2] else who, slug)
+            for each in data["exercises"][:count]:
+                each |= {"state": "holds", "points": 1.0}
+            put(tmp_path / who / f"{slug}.html", data)
+    assert main(["summary", str(tmp_path), "--to", str(tmp_path)]) == 0
+    page = page_in(tmp_path)
+    [table] = re.findall('<table class="overview">(.*?)</table>', page, re.S)
+    heads = re.findall("<th>(.*?)</th>", table)
+    assert heads == ["Who", *(book.titled(slug).capitalize() for slug in (SLUGS[0], SLUGS[2]))]
+    assert rows_of(page, "overview") == [
+        ["ADA", "", "3 of 3"],
+        ["Bob", "1 of 3", ""],
+        ["Zoë", "2 of 3", "0 of 3"],
+    ]
+    for link, count in re.findall('<a href="([^"]*)">(.*?)</a>', table):
+        told = rows_of((tmp_path / unquote(link)).read_text(encoding="utf-8"), "sheet")
+        states = [row[1] for row in told if row[0].startswith("exercise")]
+        assert count == f"{states.count('holds')} of {len(states)}"
 
 
 def test_the_same_page_in_several_folders_counts_once(tmp_path):

@@ -68,9 +68,9 @@ class Entry:
 
     @property
     def held(self) -> str:
-        """How many exercises hold."""
+        """How many exercises hold: "2 of 3"."""
         states = [each["state"] for each in self.data["exercises"]]
-        return f"{states.count('holds')} of {len(states)} hold"
+        return f"{states.count('holds')} of {len(states)}"
 
     @property
     def guessed(self) -> str:
@@ -139,7 +139,11 @@ def summary(
             made.left_out += left_out
             if newest:
                 made.entries.append(newest)
-                tell(done, len(jobs), f"{newest.file}: {newest.who}, {newest.lab}, {newest.held}")
+                tell(
+                    done,
+                    len(jobs),
+                    f"{newest.file}: {newest.who}, {newest.lab}, {newest.held} hold",
+                )
     finally:
         pool.shutdown(cancel_futures=True)  # Ctrl+C: what has not begun does not begin
     made.entries.sort(key=lambda each: (LABS.index(each.lab), normalised(each.who)))

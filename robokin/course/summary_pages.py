@@ -144,10 +144,14 @@ def harmless(text: str) -> str:
 
 
 def page_of(made: Summary, links: list[str], points: bool = True) -> str:
-    """The page: for each lab how many hold each exercise, and a row for each student; mistakes and
-    predictions; what was left out. `links`: where the entries' own pages are.
+    """The page: how many exercises hold, a row for each student, a column for each lab; for each
+    lab how many hold each exercise, and a row for each student; mistakes and predictions; what was
+    left out. `links`: where the entries' own pages are.
     """
     rows = list(zip(made.entries, links, strict=True))
+    students: dict[str, dict[str, tuple[Entry, str]]] = defaultdict(dict)
+    for entry, link in rows:
+        students[normalised(entry.who)][entry.lab] = entry, link
     labs = [(slug, [row for row in rows if row[0].lab == slug]) for slug in LABS]
     return _page(
         "summary.html.j2",
@@ -155,7 +159,7 @@ def page_of(made: Summary, links: list[str], points: bool = True) -> str:
         made=made,
         labs=[{"name": slug, "rows": here, **_figures(slug, here)} for slug, here in labs if here],
         now=f"{datetime.now():%Y-%m-%d %H:%M}",
-        students=len({normalised(each.who) for each in made.entries}),
+        students=[students[name] for name in sorted(students)],
         counted=(
             ("The most frequent mistakes", "Exercise", "Mistake", mistakes(made)),
             ("Predictions that went wrong", "Prediction", "Confusion", confusions(made)),
