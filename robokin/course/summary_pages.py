@@ -42,6 +42,8 @@ table {{ border-collapse: collapse; margin-bottom: 20px; }}
 td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0; contain: paint;
   border-bottom: 1px solid {RULE}; overflow-wrap: anywhere; min-width: 6em; }}
 th {{ overflow-wrap: normal; }}
+.overview td:first-child {{ min-width: 10em; }}
+.overview :is(td, th) + * {{ min-width: 0; white-space: nowrap; }}
 th small {{ font-weight: 400; }}
 pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
 .wide {{ overflow-x: auto; }}
