@@ -541,7 +541,8 @@ def test_pictures_come_from_the_folder_and_nowhere_else(tmp_path):
 def test_the_header_says_what_is_to_be_known(tmp_path):
     none_came = data_of() | {"guesses_came": False}
     text = page_of(none_came, new_notebook(), tmp_path)
-    assert "Guesses: none came with the notebook." in text and "can forge" in text
+    assert "Guesses: none came with the notebook." in text and "in another folder" in text
+    assert "can forge" in text
     assert "default-src 'none'" in text
     assert "none came" not in page_of(data_of(), new_notebook(), tmp_path)
 

@@ -147,7 +147,29 @@ def guesses(given: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess,
         others = [line, _literal(call.answer) if call else None]
         timeless = [(choice, None) for choice in others if choice is not None]
         made.append(_guess(name, [*kept.get(name, ()), *timeless]))
+    if given.lab and not any(each.choice for each in made):
+        remarks += _beside(given.path, given.lab)
     return tuple(made)
+
+
+def _beside(path: Path, slug: str) -> list[str]:
+    """What to say of a notebook without guesses where a single other one of its lab has some. They
+    are not taken: of two copies one may be another student's, or another try.
+    """
+    found = []
+    with contextlib.suppress(OSError, ValueError):  # it has been said that the file is of no use
+        for name, kept in _stored(path.parent / FOLDER / FILE).items():
+            first = {p: made[0][0] for p, made in kept.items() if made and _known(p)}
+            mine = {p.partition(".")[2]: c for p, c in first.items() if p.startswith(f"{slug}.")}
+            if mine and name != path.name:
+                found.append((name, ", ".join(f"{number} {c}" for number, c in mine.items())))
+    return [
+        f"No guesses are kept for {path.name}, but some are for {name}, in the same folder. If "
+        "they are yours, hand them in with the last cell of Your turn: "
+        f'report(who, guesses="{line}")'
+        for name, line in found
+        if len(found) == 1
+    ]
 
 
 def _literal(text: str) -> str:
