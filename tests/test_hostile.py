@@ -343,7 +343,7 @@ class Opened:
         self.folder = folder
         self.context = browser.new_context(viewport={"width": 1000, "height": 800})
 
-    def look(self, name, text):
+    def look(self, name, text, picture=True):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")
         page = self.context.new_page()
@@ -354,7 +354,7 @@ class Opened:
         head = page.locator(".rk-report")
         if head.count():
             seen.verdicts = page.evaluate(VERDICTS)
-            seen.head = head.screenshot(), head.inner_text()
+            seen.head = picture and head.screenshot(), head.inner_text()
         if page.locator(".rk-notebook").count():
             seen.odd = page.evaluate(ALLOWED)
             seen.scripts = page.evaluate(SCRIPTS)
@@ -381,7 +381,8 @@ def seen(browser, listening, tmp_path_factory):
     assert len(data["remarks"]) > 1, "formulas that could not be read are told"
     same = data_of() | {"remarks": data["remarks"]}
     result.harmless = opened.look("harmless.html", page_of(same, quiet, folder))
-    result.data = opened.look("data.html", page_of(data_of(short), quiet, folder))
+    many = page_of(data_of(short), quiet, folder)
+    result.data = opened.look("data.html", many, picture=False)  # it would have 50 million pixels
     result.asked = list(listening.asked)
     careless = "".join(v for v in (*FETCHES, *RUNS) if "frame" not in v)
     raw = careless.replace("JS", ATTACK).replace("URL", listening.url)
