@@ -360,7 +360,7 @@ HOSTILE = ("<", " ", "-", "(", '"', "check(", "\\", "\n ", "?\n", "&#9", "1;", "
 
 
 @pytest.mark.parametrize(
-    ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE), (4_000_000, HOSTILE[:4])]
+    ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE[4:]), (4_000_000, HOSTILE[:4])]
 )
 def test_reading_takes_time_in_proportion_to_size(size, pieces, tmp_path):
     """At most 2 s of CPU time for a megabyte."""

@@ -80,10 +80,8 @@ def chosen(name: str, choice: str) -> str:
     unit = find(name, "PREDICTIONS").unit
     if unit is not None:
         return with_unit(choice, unit) if NUMBER.fullmatch(choice) else choice
-    texts = {
-        letter: option.text for letter, option in zip(LETTERS, worked_out(name)[1], strict=False)
-    }
-    return f"{choice}) {texts[choice]}" if choice in texts else choice
+    options = dict(zip(LETTERS, worked_out(name)[1], strict=False))
+    return f"{choice}) {options[choice].text}" if choice in options else choice
 
 
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:

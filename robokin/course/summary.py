@@ -139,11 +139,8 @@ def summary(
             made.left_out += left_out
             if newest:
                 made.entries.append(newest)
-                tell(
-                    done,
-                    len(jobs),
-                    f"{newest.file}: {newest.who}, {newest.lab}, {newest.held} hold",
-                )
+                line = f"{newest.file}: {newest.who}, {newest.lab}, {newest.held} hold"
+                tell(done, len(jobs), line)
     finally:
         pool.shutdown(cancel_futures=True)  # Ctrl+C: what has not begun does not begin
     made.entries.sort(key=lambda each: (LABS.index(each.lab), normalised(each.who)))

@@ -5,7 +5,7 @@ import re
 from typing import Any
 
 # A class of `re`: characters that control, that turn the direction of writing or end a line, marks
-# without a width, tags, halves of pairs. The joiners are none: Persian, Hindi and emoji need them.
+# without a width, tags, halves of pairs. Not the joiners: Persian, Hindi and emoji need them.
 UNSEEN = (
     "\0-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
     "\ufff9-\ufffb\ud800-\udfff\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
@@ -16,7 +16,7 @@ DEEP = 100  # lists in lists
 
 
 def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
-    r"""The text with each character that nobody sees as its escape, \x1b or \u202e. `kept`: those
+    r"""The text, with an escape like \x1b or \u202e for each character that nobody sees. `kept`: those
     to leave, as a class of `re`. What is longer than `most` characters is cut.
     """
     if most is not None and len(text) > most:
