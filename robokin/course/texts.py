@@ -16,7 +16,7 @@ DEEP = 100  # lists in lists
 
 
 def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
-    r"""The text, with an escape like \x1b or \u202e for each character that nobody sees. `kept`: those
+    r"""The text, with an escape, \x1b or \u202e, for each character that nobody sees. `kept`: those
     to leave, as a class of `re`. What is longer than `most` characters is cut.
     """
     if most is not None and len(text) > most:
