@@ -36,7 +36,7 @@ IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as n
 def test_missing_raising_and_endless_answers(tmp_path):
     lab = stored(
         tmp_path / "03_irb140_motion Ada.ipynb",
-        f"{IMPORTS}\nfrom robokin.course import answers\nanswers.SECONDS = 0.3  # and not 4, twice",
+        IMPORTS,
         "def fraction_for(distance, corner):\n    while True:\n        pass",
         cell('check("irb140_motion.1", fraction_for)', "irb140_motion.1: does not hold."),
         cell("'a check that was deleted'", "irb140_motion.2: holds."),
