@@ -74,10 +74,11 @@ class Verdict:
 
 @dataclass(frozen=True, kw_only=True)
 class Exercise(ABC):
-    """What every kind has. `objective` is one of the lab's three, from 1; `hints` go from a nudge
-    to nearly all.
+    """What every kind has. `title` is the lab's own; `objective` is one of the lab's three, from 1;
+    `hints` go from a nudge to nearly all.
     """
 
+    title: str
     task: str
     objective: int
     hints: Sequence[str]

@@ -1114,6 +1114,7 @@ def spike_view() -> str:
 
 EXERCISES: dict[str, Exercise] = {
     "1": Function(
+        title="The tip of a gripper",
         task="Where is the tip of a gripper on the flange?",
         objective=1,
         hints=(
@@ -1132,6 +1133,7 @@ EXERCISES: dict[str, Exercise] = {
         mistakes=TIP_MISTAKES,
     ),
     "2": Value(
+        title="Four ways",
         task="Find a pose that the IRB-140 reaches in exactly four ways",
         objective=2,
         hints=(
@@ -1154,6 +1156,7 @@ EXERCISES: dict[str, Exercise] = {
         },
     ),
     "3": Value(
+        title="A target of your own",
         task="Choose height, flags and duration for a moving target of your own",
         objective=3,
         hints=(
@@ -1480,6 +1483,7 @@ PREDICTIONS = {
         view=spike_view,
     ),
     "p9": Prediction(
+        optional=True,
         question=(
             "A program finds the angle inside the triangle at the shoulder by the law of sines, "
             "with arcsin. The wrist centre comes to 100 mm from joint 2, and that angle is "
@@ -1518,6 +1522,7 @@ PREDICTIONS = {
         view=arcsin_view,
     ),
     "p10": Prediction(
+        optional=True,
         question=(
             "A row of ik says q6 = {q6}. Joint 6 may stand between −400° and 400°. At how many "
             "values may it stand so that the arm is in the same posture?"

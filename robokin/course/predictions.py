@@ -2,6 +2,7 @@
 kernel.
 """
 
+import functools
 import hashlib
 import html
 import json
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ..show.page import PageAnswer, PageQuestion
 
 LETTERS = "abcdef"
+NUMBER = re.compile("[-+.eE0-9]{1,30}")  # and nothing else: no words
 ASLEEP = (
     "To answer it: run all cells (Run > Run All Cells), or trust the notebook (Ctrl+Shift+C, then "
     "Trust Notebook)."
@@ -52,6 +54,7 @@ class Prediction:
     right     facts -> which option is right, from 0: computed, not typed in
     view      () -> what opens after the choice: an `Output` or a `Figure` of robokin.show, or words
     unit      of a number to type; `within`: how near to a number counts as it, as a share
+    optional  whether it stands in the lab's optional part
     """
 
     question: str
@@ -61,6 +64,24 @@ class Prediction:
     view: Callable[[], Any] = field(default=lambda: "")
     unit: str | None = None
     within: float = 0.1
+    optional: bool = False
+
+
+@functools.cache
+def worked_out(name: str) -> tuple[str, list[Option], int]:
+    """`filled` for the prediction with an id: its facts are worked out once."""
+    return filled(find(name, "PREDICTIONS"))
+
+
+def chosen(name: str, choice: str) -> str:
+    """A choice in words: the letter and what its option says, a number with its unit; what is none
+    of the question's stays as it is.
+    """
+    unit = find(name, "PREDICTIONS").unit
+    if unit is not None:
+        return with_unit(choice, unit) if NUMBER.fullmatch(choice) else choice
+    options = dict(zip(LETTERS, worked_out(name)[1], strict=False))
+    return f"{choice}) {options[choice].text}" if choice in options else choice
 
 
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:

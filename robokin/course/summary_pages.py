@@ -17,6 +17,7 @@ from collections.abc import Collection
 from datetime import datetime
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import jinja2
 from markupsafe import Markup, escape
@@ -24,8 +25,9 @@ from markupsafe import Markup, escape
 from ..show.page import write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from .book import LABS, find, lab, titled
-from .predictions import filled
-from .report_page import safe
+from .predictions import chosen, worked_out
+from .report_page import exercise_title, safe
+from .reported import counted
 from .summary import Entry, Summary
 from .variants import normalised
 
@@ -40,6 +42,8 @@ table {{ border-collapse: collapse; margin-bottom: 20px; }}
 td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0; contain: paint;
   border-bottom: 1px solid {RULE}; overflow-wrap: anywhere; min-width: 6em; }}
 th {{ overflow-wrap: normal; }}
+.overview td:first-child {{ min-width: 10em; }}
+.overview :is(td, th) + * {{ min-width: 0; white-space: nowrap; }}
 th small {{ font-weight: 400; }}
 pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
 .wide {{ overflow-x: auto; }}
@@ -142,10 +146,14 @@ def harmless(text: str) -> str:
 
 
 def page_of(made: Summary, links: list[str], points: bool = True) -> str:
-    """The page: for each lab how many hold each exercise, and a row for each student; mistakes and
-    predictions; what was left out. `links`: where the entries' own pages are.
+    """The page: how many exercises hold, a row for each student, a column for each lab; for each
+    lab how many hold each exercise, and a row for each student; mistakes and predictions; what was
+    left out. `links`: where the entries' own pages are.
     """
     rows = list(zip(made.entries, links, strict=True))
+    students: dict[str, dict[str, tuple[Entry, str]]] = defaultdict(dict)
+    for entry, link in rows:
+        students[normalised(entry.who)][entry.lab] = entry, link
     labs = [(slug, [row for row in rows if row[0].lab == slug]) for slug in LABS]
     return _page(
         "summary.html.j2",
@@ -153,7 +161,7 @@ def page_of(made: Summary, links: list[str], points: bool = True) -> str:
         made=made,
         labs=[{"name": slug, "rows": here, **_figures(slug, here)} for slug, here in labs if here],
         now=f"{datetime.now():%Y-%m-%d %H:%M}",
-        students=len({normalised(each.who) for each in made.entries}),
+        students=[students[name] for name in sorted(students)],
         counted=(
             ("The most frequent mistakes", "Exercise", "Mistake", mistakes(made)),
             ("Predictions that went wrong", "Prediction", "Confusion", confusions(made)),
@@ -161,9 +169,11 @@ def page_of(made: Summary, links: list[str], points: bool = True) -> str:
     )
 
 
-def sheet(entry: Entry, points: bool = True) -> str:
-    """One student's page, written from validated data."""
-    return _page("sheet.html.j2", points=points, entry=entry, mark=Markup(SHEET))
+def sheet(entry: Entry, points: bool = True, link: str = "") -> str:
+    """One student's page, written from validated data. `link`: where the file is that was handed
+    in.
+    """
+    return _page("sheet.html.j2", points=points, entry=entry, link=link, mark=Markup(SHEET))
 
 
 def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
@@ -192,7 +202,8 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
     )
     pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
-    pages.filters["titled"] = titled
+    pages.filters |= {"titled": titled, "title": exercise_title}
+    pages.globals |= {"chosen": chosen, "counted": counted}
     return pages
 
 
@@ -207,7 +218,7 @@ def _asked(name: str) -> str:
     slug, _, number = name.partition(".")
     if number in lab(slug).EXERCISES:
         return str(find(name, "EXERCISES").task)
-    return filled(find(name, "PREDICTIONS"))[0]
+    return worked_out(name)[0]
 
 
 def _time(text: str) -> str:
@@ -251,7 +262,7 @@ def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]
     names: dict[str, str] = {}  # in small letters: two names may be one to a file system
     for entry in made.entries:
         path = _free(pages, f"{entry.lab}_{safe(entry.who)}", names)
-        write_page(path, sheet(entry, points))
+        write_page(path, sheet(entry, points, _link(entry.path, pages)))
         names[path.name.casefold()] = path.name
     write_page(page, page_of(made, [f"{PAGES}/{name}" for name in names.values()], points))
     _write(table, csv_of(made, points).encode("utf-8-sig"))
@@ -277,6 +288,17 @@ def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
         k += 1
         path = pages / f"{name}_{k}.html"
     return path
+
+
+def _link(file: Path, pages: Path) -> str:
+    """The address of a file, seen from the folder `pages`; "" where none leads there. It is
+    percent-encoded: with no colon in it, it is a path whatever the file is called.
+    """
+    try:
+        plain = file.is_file() and not file.is_symlink()
+        return quote(os.fsencode(Path(os.path.relpath(file, pages)).as_posix())) if plain else ""
+    except ValueError:  # another drive of Windows
+        return ""
 
 
 def _begins(path: Path, begin: str) -> bool:
