@@ -37,15 +37,14 @@ LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
 
 @dataclass(frozen=True)
 class Entry:
-    """What one student handed in for one lab. `file`: below the folder, as a text, `path`: where it
-    is; `data`: validated, as in a report; `given`: a notebook that is still to be judged; `judged`:
-    one that was.
+    """What one student handed in for one lab. `file`: below the folder, as a text; `data`:
+    validated, as in a report; `given`: a notebook that is still to be judged; `judged`: one that
+    was.
     """
 
     who: str
     lab: str
     file: str
-    path: Path
     when: datetime
     data: dict[str, Any]
     given: HandedIn | None = None
@@ -211,12 +210,12 @@ def _read(path: Path, inside: Path) -> Entry | str:
         if data["lab"] is None:
             return "a report of a notebook without exercises of robokin's"
         when = datetime.fromisoformat(data["made"])
-        return Entry(data["who"], data["lab"], _shown(inside), path, when, data)
+        return Entry(data["who"], data["lab"], _shown(inside), when, data)
     given = handed_in(path)
     if given.lab is None:
         return "a notebook without exercises of robokin's"
     when = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
-    return Entry(who_of(inside), given.lab, _shown(inside), path, when, {}, given)
+    return Entry(who_of(inside), given.lab, _shown(inside), when, {}, given)
 
 
 def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[LeftOut]]:

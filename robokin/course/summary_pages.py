@@ -17,7 +17,6 @@ from collections.abc import Collection
 from datetime import datetime
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 import jinja2
 from markupsafe import Markup, escape
@@ -169,11 +168,9 @@ def page_of(made: Summary, links: list[str], points: bool = True) -> str:
     )
 
 
-def sheet(entry: Entry, points: bool = True, link: str = "") -> str:
-    """One student's page, written from validated data. `link`: where the file is that was handed
-    in.
-    """
-    return _page("sheet.html.j2", points=points, entry=entry, link=link, mark=Markup(SHEET))
+def sheet(entry: Entry, points: bool = True) -> str:
+    """One student's page, written from validated data."""
+    return _page("sheet.html.j2", points=points, entry=entry, mark=Markup(SHEET))
 
 
 def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
@@ -262,7 +259,7 @@ def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]
     names: dict[str, str] = {}  # in small letters: two names may be one to a file system
     for entry in made.entries:
         path = _free(pages, f"{entry.lab}_{safe(entry.who)}", names)
-        write_page(path, sheet(entry, points, _link(entry.path, pages)))
+        write_page(path, sheet(entry, points))
         names[path.name.casefold()] = path.name
     write_page(page, page_of(made, [f"{PAGES}/{name}" for name in names.values()], points))
     _write(table, csv_of(made, points).encode("utf-8-sig"))
@@ -288,17 +285,6 @@ def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
         k += 1
         path = pages / f"{name}_{k}.html"
     return path
-
-
-def _link(file: Path, pages: Path) -> str:
-    """The address of a file, seen from the folder `pages`; "" where none leads there. It is
-    percent-encoded: with no colon in it, it is a path whatever the file is called.
-    """
-    try:
-        plain = file.is_file() and not file.is_symlink()
-        return quote(os.fsencode(Path(os.path.relpath(file, pages)).as_posix())) if plain else ""
-    except ValueError:  # another drive of Windows
-        return ""
 
 
 def _begins(path: Path, begin: str) -> bool:
