@@ -1364,6 +1364,7 @@ def _twin_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="Name a posture",
         task="Name a posture from its joint values",
         objective=1,
         hints=(
@@ -1384,6 +1385,7 @@ EXERCISES = {
         mistakes=_told_apart(),
     ),
     "2": Function(
+        title="The speed that the joints allow",
         task="Find the flange speed that the joints allow",
         objective=2,
         hints=(
@@ -1402,6 +1404,7 @@ EXERCISES = {
         mistakes=SPEED_MISTAKES,
     ),
     "3": Value(
+        title="A line of your own",
         task="Choose row and duration for a line of your own",
         objective=3,
         hints=(

@@ -1537,6 +1537,7 @@ def _belt_view() -> Any:
 
 EXERCISES: dict[str, Exercise] = {
     "1": InverseTest(
+        title="A test for inverses",
         task="A test: whether the program inverse(p) gives right joint values for the arm.",
         objective=1,
         hints=(
@@ -1557,6 +1558,7 @@ EXERCISES: dict[str, Exercise] = {
         mistakes=INVERSE_MISTAKES,
     ),
     "2": Function(
+        title="When is the arm where?",
         task="When the arm reaches each stop, with joint 1 free on the axis.",
         objective=2,
         hints=(
@@ -1578,6 +1580,7 @@ EXERCISES: dict[str, Exercise] = {
         mistakes=_arrival_mistakes(),
     ),
     "3": Trap(
+        title="A trap, or none?",
         task="For three tasks: four points on which the greedy rule is beaten, or that there are "
         "none.",
         objective=3,
@@ -1822,6 +1825,7 @@ PREDICTIONS = {
         view=_lost_view,
     ),
     "p7": Prediction(
+        optional=True,
         question="Now l1 = {l1:g} m and l2 = {l2:g} m. No part of the arm may be under the floor. "
         "How high above the origin is the lowest point of axis 1 that the tool can touch?",
         options=(
@@ -1864,6 +1868,7 @@ PREDICTIONS = {
         within=0.02,
     ),
     "p8": Prediction(
+        optional=True,
         question="The tool goes from (6, 0, 1) to (1.05, 0, 0.1) m, every joint evenly. Both "
         "points are in the workspace. How low is the tool on the way?",
         options=(
@@ -1900,6 +1905,7 @@ PREDICTIONS = {
         view=_dip_view,
     ),
     "p9": Prediction(
+        optional=True,
         question="Objects lie on the belt one every 150 mm exactly. One arm, with joints at "
         "2 rad/s, which always takes the object with which it is back soonest, takes all 200 up to "
         "{even} mm/s (we try steps of 5). Now they lie 75 to 225 mm apart in random order, 150 mm "
