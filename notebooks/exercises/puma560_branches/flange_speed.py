@@ -36,7 +36,6 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 
 
 def form(result: Any, case: tuple[Any, ...]) -> float:
-    """One number."""
     return float(numbers(result, (), "one number, a speed in m/s"))
 
 

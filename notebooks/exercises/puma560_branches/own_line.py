@@ -98,7 +98,6 @@ def given(who: Any) -> Numbers:
 
 
 def form(answer: Any, given: Any) -> tuple[int, float]:
-    """The row and the duration."""
     if not isinstance(answer, Mapping) or not {"row", "duration"} <= set(answer):
         raise ValueError(
             f'wanted {{"row": ..., "duration": ...}} with a row of ik and seconds, got '
@@ -119,7 +118,6 @@ def form(answer: Any, given: Any) -> tuple[int, float]:
 
 
 def faults(answer: tuple[int, float], given: Any) -> list[tuple[str, str]]:
-    """A row that does not serve, a duration too short, one too long."""
     row, duration = answer
     line = judged_line(given)
     found = []

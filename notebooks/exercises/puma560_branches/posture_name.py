@@ -1,7 +1,6 @@
 """Exercise 1: the cases, the form of a name, the law, and what wrong lines use."""
 
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -47,20 +46,18 @@ def above_line(q: Floats) -> float:
     return float(UPPER * (np.sin(q[1]) - np.cos(q[1]) * np.divide(wrist_height(q), ahead(q))))
 
 
-def cases(rng: np.random.Generator) -> Iterator[tuple[Any, ...]]:
+def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     """Simple postures, then some that no rounding decides."""
-    yield from ((np.array(q) * deg,) for q in SIMPLE)
-    left = 40 - len(SIMPLE)
-    while left:
+    made = [(np.array(q) * deg,) for q in SIMPLE]
+    while len(made) < 40:
         q = rng.uniform(LOW, HIGH).round(2)
         clear = abs(ahead(q)) > 10 * mm and abs(np.sin(q[2] + OFFSET)) > 0.02 and abs(q[4]) > 0.05
         if clear and abs(above_line(q)) > 2 * mm:
-            left -= 1
-            yield (q,)
+            made.append((q,))
+    return made
 
 
 def form(result: Any, case: tuple[Any, ...]) -> str:
-    """One word of each pair, in order."""
     parts = [result] if isinstance(result, str) else result
     if not isinstance(parts, (list, tuple, set)) or not all(isinstance(x, str) for x in parts):
         raise ValueError(f'wanted three words, "RIGHTY ABOVE NOFLIP", got {words(result)}')
