@@ -1051,8 +1051,8 @@ def _waist_view() -> Any:
 
     facts = _waist_facts()
     fig = figure(
-        "The two values of joint 1 over the distance of the wrist centre from axis 1. At 850 mm "
-        f"they differ by {np.ptp(_waists(850 * mm)):.0f} degrees, at {facts['rho']:.0f} mm by "
+        "The two values of joint 1 over the distance of the wrist centre from axis 1. At 800 mm "
+        f"they differ by {np.ptp(_waists(800 * mm)):.0f} degrees, at {facts['rho']:.0f} mm by "
         f"{facts['turn']:.0f} degrees, at {D3 / mm:.2f} mm they are one.",
         7,
         3.6,
