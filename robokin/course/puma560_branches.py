@@ -1051,9 +1051,9 @@ def _waist_view() -> Any:
 
     facts = _waist_facts()
     fig = figure(
-        "The two values of joint 1 over the distance of the wrist centre from axis 1. Far away "
-        f"they differ by almost 180 degrees, at {facts['rho']:.0f} mm by {facts['turn']:.0f} "
-        f"degrees, at {D3 / mm:.2f} mm they are one.",
+        "The two values of joint 1 over the distance of the wrist centre from axis 1. At 800 mm "
+        f"they differ by {np.ptp(_waists(800 * mm)):.0f} degrees, at {facts['rho']:.0f} mm by "
+        f"{facts['turn']:.0f} degrees, at {D3 / mm:.2f} mm they are one.",
         7,
         3.6,
     )
@@ -1275,10 +1275,10 @@ def _rule_facts() -> dict[str, Any]:
     rng = np.random.default_rng(7)
     ends = _random_poses(rng, (2, 3000))
     ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
-    rows = PUMA560.ik(lin(ends[0][:, None], ends[1][:, None], np.linspace(0, 1, 41)))
-    rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]  # (lines, 41, 8, 6)
+    rows = PUMA560.ik(lin(ends[0][:, None], ends[1][:, None], np.linspace(0, 1, 81)))
+    rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]  # (lines, 81, 8, 6)
     turned = np.stack([np.roll(rows, -k, axis=2) for k in range(8)], axis=1)
-    tracks = follow(PUMA560, turned, 0)  # (lines, 8, 41, 6)
+    tracks = follow(PUMA560, turned, 0)  # (lines, 8, 81, 6)
     serves: Any = (_excess(tracks) <= SLACK).all(axis=(2, 3))
     can = serves.any(axis=-1)
     at_start = np.all(within(PUMA560, rows[:, 0]), axis=-1)
@@ -1322,6 +1322,7 @@ def _twin_facts() -> dict[str, Any]:
         "past1": past[1],
         "same": abs(zero - one) < 1e-6 * one,
         "by": over[0].max() / deg,
+        "bend": abs(tracks[0, :, 4]).min() / deg,
     }
 
 
@@ -1609,7 +1610,7 @@ PREDICTIONS = {
         "{near:.4f}. What is the greatest speed that a joint reaches?",
         options=(
             Option(
-                "About {over:.0f}°/s: speed over distance, as at the wrist.",
+                "About {over:.0f}°/s: speed over distance, 1/m as at the wrist.",
                 "That is the law of the wrist. Here nothing turns about the point that is missed.",
                 "one law for all singularities",
                 "The elbow and the way towards the axis do not follow 1/m either.",
@@ -1698,7 +1699,8 @@ PREDICTIONS = {
                 "It jumps: half a turn cannot be followed.",
                 "Each twin is continuous on its own. Only who changes from one to the other jumps.",
                 "changing the row taken for being on it",
-                "A fixed row jumps only where q5 passes 0; here it never does.",
+                "Whole turns aside, a fixed row jumps only at a singularity, the wrist's at q5 = "
+                "0; here |q5| stays above {bend:.0f}°.",
             ),
         ),
         facts=_twin_facts,
