@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from robokin import Transform
 from robokin.course import book, check
-from robokin.course.exercises import Function
+from robokin.course.function import Function
 from robokin.course.told import apart, floats, one_number
 
 numbers = st.floats(-1e4, 1e4)

@@ -1404,7 +1404,7 @@ PREDICTIONS = {
                 "That is the shift alone. The matrix turns the point about the origin of the base, "
                 "and the point is not there.",
                 "a turn moves no point",
-                "The point (0, 0, 0) is the one that the turn leaves where it is.",
+                "The points of the z axis are the ones that the turn leaves where they are.",
             ),
         ),
         facts=_point_facts,

@@ -1140,8 +1140,8 @@ EXERCISES: dict[str, Exercise] = {
         hints=(
             "Rows vanish when a triangle does not close. Which of the three flags changes the "
             "triangle that joints 2 and 3 have to close?",
-            "The shoulder stands 70 mm ahead of axis 1. A wrist centre in front of axis 1 is "
-            "140 mm farther away from the shoulder of an arm that faces away.",
+            "The shoulder stands 70 mm ahead of axis 1. At its height a wrist centre more than 70 "
+            "mm ahead is 140 mm farther away from the shoulder of an arm that faces away.",
             "Stretched, the arm reaches 730 mm from joint 2 to the wrist centre. Put the wrist "
             "centre at the shoulder's height (352 mm), more than 660 mm and less than 800 mm "
             "ahead of axis 1, and let the tool look down: the flange is 65 mm below it. "

@@ -1084,7 +1084,7 @@ SPEED_MISTAKES = (
     ),
     Mistake(
         "smoothed",
-        "It takes the mean of half a second: peaks become flat. Your motion needs peaks of the "
+        "It takes the mean of up to 51 samples: peaks become flat. Your motion needs peaks of the "
         "speed, inside, and your tolerance has to be fine.",
         _smoothed,
     ),
@@ -1642,11 +1642,11 @@ PREDICTIONS = {
             ),
             Option(
                 "All six: what is constant at the tool is constant in the joints.",
-                "On a straight line joint 1 has to turn fastest where the line passes nearest to "
-                "its axis: here between {low1:.1f} and {high1:.1f}°/s.",
+                "Joint 1 turns by the wrist centre's speed round axis 1 over its distance from "
+                "axis 1, and both change: it goes between {low1:.1f} and {high1:.1f}°/s.",
                 "the tool's speed taken for the joints'",
-                "A lighthouse beam that follows a ship on a straight course turns fastest when the "
-                "ship is nearest.",
+                "A lighthouse beam that follows a ship on a straight course at a constant speed "
+                "turns fastest when the ship is nearest.",
             ),
         ),
         facts=_lin_facts,
@@ -1802,9 +1802,9 @@ PREDICTIONS = {
             ),
             Option(
                 "About {double:.1f} rad/s²: the same change, in half the time.",
-                "The speed jumps by {half_change:.3f} rad/s, and the jump is divided by half the "
-                "step: {found:.1f} rad/s². A number that depends on the step says nothing about "
-                "the robot.",
+                "From one interval to the next the speed changes by {half_change:.3f} rad/s, and "
+                "that is divided by half the step: {found:.1f} rad/s². A number that depends on "
+                "the step says nothing about the robot.",
             ),
             Option(
                 "About {four:.1f} rad/s²: the formula divides by the step squared.",

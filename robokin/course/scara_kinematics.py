@@ -280,7 +280,7 @@ OTHER_MISTAKES = (
     ),
     Mistake(
         "atan for atan2 in the triangle",
-        "Beyond q2 = 143° the tool is behind joint 2's foot on the first lever, and a quotient "
+        "Beyond q2 = 143° the tool is behind joint 1, seen along the first lever, and a quotient "
         "cannot tell: half a turn is lost. Use arctan2.",
         lambda q: np.array([*_by_atan(q), q[3]]),
     ),

@@ -1815,7 +1815,7 @@ PREDICTIONS = {
                 "On LIN alone.",
                 "Each joint of PTP runs between two allowed values. On LIN the joints do what the "
                 "line asks for: it passes axis 1 at {near:.0f} mm, so joint 2 has to fold far, and "
-                "behind the column joint 1 turns too far. Drag the goal's x: away from axis 1 both "
+                "past the column joint 1 turns too far. Drag the goal's x: away from axis 1 both "
                 "are good.",
             ),
             Option(

@@ -22,9 +22,9 @@ def p1_view() -> Any:
 def p2_view() -> Any:
     facts = of.p2()
     fig = figure(
-        "The two values of joint 1 over the distance of the wrist centre from axis 1. Far away "
-        f"they differ by almost 180 degrees, at {facts['rho']:.0f} mm by {facts['turn']:.0f} "
-        f"degrees, at {D3 / mm:.2f} mm they are one.",
+        "The two values of joint 1 over the distance of the wrist centre from axis 1. At 800 mm "
+        f"they differ by {np.ptp(of.waists(800 * mm)):.0f} degrees, at {facts['rho']:.0f} mm by "
+        f"{facts['turn']:.0f} degrees, at {D3 / mm:.2f} mm they are one.",
         7,
         3.6,
     )

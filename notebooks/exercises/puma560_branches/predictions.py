@@ -167,9 +167,9 @@ def p7() -> dict[str, Any]:
     rng = np.random.default_rng(7)
     ends = random_poses(rng, (2, 3000))
     ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
-    rows = PUMA560.ik(lin(ends[0][:, None], ends[1][:, None], np.linspace(0, 1, 41)))
-    rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]  # (lines, 41, 8, 6)
-    followed = tracks(rows)  # (lines, 8, 41, 6)
+    rows = PUMA560.ik(lin(ends[0][:, None], ends[1][:, None], np.linspace(0, 1, 81)))
+    rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]  # (lines, 81, 8, 6)
+    followed = tracks(rows)  # (lines, 8, 81, 6)
     served = serves(followed)
     can = served.any(axis=-1)
     facts: dict[str, Any] = {"lines": int(can.sum())}
@@ -196,4 +196,5 @@ def p8() -> dict[str, Any]:
     right = "faster"
     if abs(zero - one) < 1e-6 * one:
         right = "past a limit" if over > 0 else "inside as well"
-    return {"right": right, "one": one, "by": over / deg}
+    bend = abs(both[0][:, 4]).min()
+    return {"right": right, "one": one, "by": over / deg, "bend": bend / deg}
