@@ -7,6 +7,7 @@ import numpy as np
 from robokin import three_lever
 
 ARM = three_lever(1.0)
+K = np.array([1.5, 1.0])
 
 
 def direction(angle: Any) -> Any:
