@@ -14,11 +14,6 @@ from .shared import direction
 Case = tuple[Any, ...]
 
 
-def corner(a: Any, b: Any, c: Any) -> Any:
-    """`angle_between` without its clip: NaN where there is no triangle."""
-    return np.arccos((a**2 + b**2 - c**2) / (2 * a * b))
-
-
 def third(b: float, c: float, alpha: float) -> float:
     """The third side of a triangle: KB from BA, AK and alpha."""
     return float(np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha)))

@@ -43,15 +43,6 @@ def nearest(found: Any, previous: Any) -> Any:
     return found[abs(found - previous).sum(axis=-1).argmin()]
 
 
-def kept(K: Any, previous: Any, joint: int, otherwise: int) -> Any:
-    """One angle as it was, where the family has it; else the first or the last row."""
-    found = rows(K, 0.1 * deg)
-    change = found[:, joint] - previous[joint]
-    if change.min() > 0 or change.max() < 0:
-        return found[otherwise]
-    return found[abs(change).argmin()]
-
-
 class Forgets:
     """Takes the arm to stand for ever where it stood at the first call."""
 
