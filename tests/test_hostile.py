@@ -318,7 +318,7 @@ def data_of(words=("a sentence",)):
                 "case": "\n".join(words),
                 "points": 0.5,
             }
-            for k, (n, exercise) in enumerate(lab.EXERCISES.items())
+            for k, (n, exercise) in enumerate(lab.exercises.items())
         ],
         "predictions": [
             {
@@ -329,7 +329,7 @@ def data_of(words=("a sentence",)):
                 "when": "2026-01-02T03:04:05+00:00",
                 "later": list(words),
             }
-            for k, n in enumerate(lab.PREDICTIONS)
+            for k, n in enumerate(lab.predictions)
         ],
         "remarks": list(words),
         "guesses_came": True,

@@ -146,7 +146,7 @@ def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
 def test_the_header_has_words_for_guesses_and_titles_in_the_labs_order(tmp_path):
     slug = "irb140_motion"
     lab, data = book.lab(slug), report_of("Ada", slug)
-    typed = next(n for n, each in lab.PREDICTIONS.items() if each.unit == "°")
+    typed = next(n for n, each in lab.predictions.items() if each.unit == "°")
     for each in data["predictions"]:
         number = each["id"].partition(".")[2]
         choice = {"p1": "b", "p9": "a", typed: "-90"}.get(number)
@@ -154,7 +154,7 @@ def test_the_header_has_words_for_guesses_and_titles_in_the_labs_order(tmp_path)
     data["predictions"][0]["later"] = ["a", "<b>"]
     header = page_of(data, new_notebook(), tmp_path).partition("<header")[2].partition("<main")[0]
     said = [unescape(text) for text in re.findall(r">\s*([^<>]+?)\s*<", header)]
-    titles = [each.title for each in lab.EXERCISES.values()]
+    titles = [each.title for each in lab.exercises.values()]
     assert [text for text in said if text in titles] == titles
     assert [text for text in said if re.fullmatch(r"objective \d", text)] == [
         f"objective {k}" for k in range(1, 4)
@@ -164,7 +164,7 @@ def test_the_header_has_words_for_guesses_and_titles_in_the_labs_order(tmp_path)
         assert words.replace("`", "") in said, words
     assert "later: <b>" in said
     missing, optional = (said[said.index(word) - 1] for word in ("not made", "optional, not made"))
-    left = [n for n in lab.PREDICTIONS if n not in ("p1", "p9", "p10", typed)]
+    left = [n for n in lab.predictions if n not in ("p1", "p9", "p10", typed)]
     assert (missing.split(", "), optional) == (left, "p10")
 
 

@@ -150,7 +150,7 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
             counts[name].append(len(who))
         assert all(each == sorted(each, reverse=True) for each in counts.values())
         assert max(map(max, counts.values())) > 1
-        labs = [book.labs().index(name.partition(".")[0]) for name, _, _ in rows]
+        labs = [list(book.labs()).index(name.partition(".")[0]) for name, _, _ in rows]
         assert labs == sorted(labs)
     summary_pages.write(made, tmp_path)
     page = page_in(tmp_path)

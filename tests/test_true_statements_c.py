@@ -26,6 +26,7 @@ from robokin import (
     scara_arm,
     within,
 )
+from robokin.course import book
 from robokin.course.book import find
 from robokin.jobs.visit_collect import principal_postures
 
@@ -51,7 +52,7 @@ def shown(lab, cell):
 
 def view(name):
     """The words of a prediction's view, or of its figure."""
-    made = find(name, "PREDICTIONS").view()
+    made = find(name, "predictions").view()
     return made if isinstance(made, str) else made.alt
 
 
@@ -72,7 +73,7 @@ def mistakes(lab, name):
 
 
 def find_exercises(lab):
-    return [find(f"{lab}.{n}", "EXERCISES") for n in (1, 2, 3)]
+    return [find(f"{lab}.{n}", "exercises") for n in (1, 2, 3)]
 
 
 # --- 01 -------------------------------------------------------------------------------------------
@@ -182,7 +183,7 @@ def test_where_axis_5_points():
 
 
 def test_how_much_farther_the_shoulder_behind_is():
-    hint = find("irb140_kinematics.2", "EXERCISES").hints[1]
+    hint = find("irb140_kinematics.2", "exercises").hints[1]
     ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
     for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
         assert abs(x + ahead) - abs(x - ahead) == more == 140
@@ -324,10 +325,8 @@ def test_all_but_one_row_become_forbidden_and_how_far_the_two_values_are_apart()
 
 def test_how_many_lines_a_finer_look_leaves():
     """In steps a fifth as long, each row unwrapped by itself from values inside the limits on."""
-    from robokin.course import puma560_branches as lab_7
-
-    rng = np.random.default_rng(7)
-    ends = lab_7._random_poses(rng, (2, 3000))
+    drawn = book.lab("puma560_branches").module("predictions")["random_poses"]
+    ends = drawn(np.random.default_rng(7), (2, 3000))
     ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
     served, (low, high) = 0, PUMA560.limits.T
     for a, b in zip(*ends, strict=True):
@@ -405,8 +404,7 @@ def test_gamma_cannot_stand_still_from_here_to_there():
 
 
 def test_where_the_sum_and_the_largest_are_least():
-    from robokin.course.three_levers import STAND, TARGET
-
+    STAND, TARGET = map(book.lab("three_levers").module("predictions").get, ("STAND", "TARGET"))
     at = numbers(r"least at (\d+) degrees, the largest at (\d+) degrees", view("three_levers.p8"))
     q = np.array([one_posture(TARGET, g) for g in np.linspace(0, np.pi, 20001)])
     change = abs(q - STAND)
