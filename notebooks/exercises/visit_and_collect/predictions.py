@@ -1,0 +1,250 @@
+"""The facts behind the predictions of visit and collect.
+
+Objective 1: p1 to p3, p7. Objective 2: p4, p8, p9. Objective 3: p5, p6. In Deeper: p7 to p9.
+"""
+
+from collections.abc import Mapping
+from functools import cache
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robokin import deg, mm, within
+from robokin.jobs.conveyor import serve, spaced
+from robokin.jobs.visit_collect import (
+    Task,
+    best_visit,
+    collect,
+    lowest,
+    principal_postures,
+    travel_time,
+    visit,
+    workspace,
+)
+
+from .shared import ARM, L1, L2, STOPS, Floats, costs, drawn, each_needs
+
+
+def p1() -> dict[str, Any]:
+    x, y, z = (float(c) for c in ARM.fk(np.array([90, 90, 0]) * deg).translation.round(9) + 0.0)
+    facts = {"x": x, "y": y, "z": abs(z), "l1": L1, "l2": L2, "both": L1 + L2}
+    places = {
+        "stretched on the floor": (0, L1 + L2, 0),
+        "under the floor": (0, L1, -L2),
+        "link 2 upright": (0, L1, L2),
+        "flat ahead": (L1, 0, -L2),
+    }
+    return facts | {"right": next(name for name, at in places.items() if at == (x, y, z))}
+
+
+def p2() -> dict[str, Any]:
+    q = principal_postures(L1, L2, [L1 + L2, 0, 0])
+    facts = {"q3": float(q[2]) / deg, "zero": 0.0, "plus": 90.0, "half": 180.0, "reach": L1 + L2}
+    return facts | {"right": "stretched"}
+
+
+@cache
+def p3() -> Mapping[str, Any]:
+    """How many random points of the workspace have two postures inside the limits."""
+    box = np.random.default_rng(0).uniform([-9, -9, 0], [9, 9, 9], size=(20000, 3))
+    cloud = box[workspace(L1, L2, box).all(axis=-1)]
+    count = within(ARM, ARM.ik(cloud)).all(axis=-1).sum(axis=-1)
+    radius = np.hypot(cloud[:, 0], cloud[:, 1]).astype(int)
+    shares = [float(100 * (count[radius == k] == 2).mean()) for k in range(9)]
+    share = 100 * float((count == 2).mean())
+    few = "none" if share == 0 else "1 in 10"
+    return {
+        "n": len(cloud),
+        "one": int((count == 1).sum()),
+        "two": int((count == 2).sum()),
+        "share": share,
+        "near": shares[0],
+        "far": shares[-1],
+        "shares": shares,
+        "right": few if share < 25 else "about half" if share < 75 else "all of them",
+    }
+
+
+def p4() -> dict[str, Any]:
+    q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])
+    long, half = float(travel_time(q[0], q[1], [0.2] * 3)), np.pi / 0.2
+    return {
+        "long": long,
+        "short": float(travel_time(q[0], q[1], [0.2] * 3, short_way=True)),
+        "half": half,
+        "speed": 0.2,
+        "right": "nearly a whole turn" if long > 1.5 * half else "2 cm apart",
+    }
+
+
+SUBSETS = (np.arange(2**5)[:, None] >> np.arange(5)) & 1  # (32, 5)
+ORDERS = np.array(list(permutations(range(5))))  # (120, 5)
+
+
+def beaten_by_subset(task: Task, values: Floats) -> bool:
+    """Whether some choice is worth more than the cheapest ones that fit."""
+    fits = task.T + 1e-9 >= SUBSETS @ costs(task)
+    mine = values[list(collect(task).order)].sum()
+    return bool((SUBSETS[fits] @ values).max() > mine + 1e-9)
+
+
+def beaten_by_order(task: Task) -> bool:
+    """With the container on axis 1: whether some order brings more than the cheapest next."""
+    best = 0
+    for order in ORDERS:
+        q = np.repeat(task.q[:1], 11, axis=0)
+        q[1::2] = task.q[1:][order]
+        arrivals = each_needs(q, task.speeds).max(axis=-1).cumsum()[1::2]
+        best = max(best, int((arrivals <= task.T + 1e-9).sum()))
+    return best > len(collect(task).order)
+
+
+@cache
+def p5() -> Mapping[str, Any]:
+    """Of 30 random tasks: in how many is cheapest (or nearest) first beaten, under each change?"""
+    seeds = range(30)
+    plain = np.ones(5)
+    axis = sum(beaten_by_order(drawn(s, 5, "collect", p0=[0, 0, 6.5], T=40.0)) for s in seeds)
+    speeds = sum(
+        beaten_by_subset(drawn(s, 5, "collect", speeds=[0.1, 0.3, 0.5]), plain) for s in seeds
+    )
+    prices = sum(
+        beaten_by_subset(
+            drawn(s, 5, "collect"), np.random.default_rng(s).integers(1, 10, 5).astype(float)
+        )
+        for s in seeds
+    )
+    onward = sum(
+        len(best_visit(task).order) > len(visit(task).order)
+        for task in (drawn(s, 5) for s in seeds)
+    )
+    beaten = {
+        "container on axis 1": axis,
+        "prices": prices,
+        "unlike speeds": speeds,
+        "emptied at the end": onward,
+    }
+    return {
+        "n": len(seeds),
+        "axis": axis,
+        "speeds": speeds,
+        "prices": prices,
+        "onward": onward,
+        "right": next(name for name, times in beaten.items() if not times),
+    }
+
+
+@cache
+def p6() -> Mapping[str, Any]:
+    """Points lost by nearest first in 200 random tasks, against all 5040 orders of each."""
+    lost = []
+    for seed in range(200):
+        task = drawn(seed)
+        legs = travel_time(task.q[:, None], task.q, task.speeds)
+        arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
+        lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(visit(task).order))
+    counts = np.bincount(lost, minlength=4).tolist()
+    p, z2 = 1 - counts[0] / 200, 1.96**2 / 200  # Wilson's interval for a share
+    middle, half = p + z2 / 2, np.sqrt(z2 * (p * (1 - p) + z2 / 4))
+    share = (200 - counts[0]) / 2
+    few = "at most 5" if share < 3 else "6 to 39"
+    return {
+        "n": 200,
+        "last": 199,
+        "low": 100 * (middle - half) / (1 + z2),
+        "high": 100 * (middle + half) / (1 + z2),
+        "some": 200 - counts[0],
+        "counts": counts,
+        "none": counts[0],
+        "one": counts[1],
+        "more": sum(counts[2:]),
+        "share": share,
+        "right": few if share < 20 else "40 to 99" if share < 50 else "at least half",
+    }
+
+
+LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
+
+
+def p7() -> dict[str, Any]:
+    heights = np.linspace(0, 8, 8001)
+    served = workspace(LOW1, LOW2, np.stack([0 * heights, 0 * heights, heights], -1)).all(axis=-1)
+    return {
+        "l1": LOW1,
+        "l2": LOW2,
+        "height": float(heights[served.argmax()]),
+        "triangle": LOW2 - LOW1,
+        "floor": 0.0,
+        "square": float(np.hypot(LOW1, LOW2)),
+        "top": LOW1 + LOW2,
+        "right": "elbow on the floor",
+    }
+
+
+DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m
+
+
+def p8() -> dict[str, Any]:
+    q = principal_postures(L1, L2, DIP)
+    low = float(lowest(L1, L2, q[0], q[1]))
+    a, b = DIP[:, 2]
+    high = "never lower" if low >= b - 1e-9 else "about 0.05 m"
+    right = high if low >= 0 else "under the floor"
+    return {"low": low, "deep": abs(low), "a": a, "b": b, "right": right}
+
+
+GAP = 150 * mm
+WINDOW = np.linspace(-400, 400, 161) * mm
+COUNT = 200
+UNEVEN = 0.5  # spread of the gaps
+
+
+@cache
+def belt_ways() -> Floats:
+    """How long one way from the bin to each place of the window takes: (161,) in s."""
+    places = np.stack([0 * WINDOW + 600 * mm, WINDOW, 0 * WINDOW + 50 * mm], axis=-1)
+    l1, l2 = 500 * mm, 400 * mm
+    q = principal_postures(l1, l2, np.vstack([np.array([150, -450, 250]) * mm, places]))
+    ways: Floats = 15 / 8 * travel_time(q[0], q[1:], [2, 2, 2])
+    return ways
+
+
+def missed(v: float, spread: float = UNEVEN, seed: int = 8, first_come: bool = False) -> int:
+    """How many of the objects one arm does not take, at v mm/s."""
+    offsets = spaced(COUNT, GAP, spread, seed=seed)
+    (trips,) = serve(offsets, v * mm, WINDOW, belt_ways(), first_come=first_come)
+    return COUNT - len(trips.objects)
+
+
+@cache
+def p9() -> Mapping[str, Any]:
+    speeds = np.arange(60, 141, 5)  # mm/s
+    lost = {
+        "uneven": [missed(v) for v in speeds.tolist()],
+        "even": [missed(v, spread=0) for v in speeds.tolist()],
+        "first": [missed(v, first_come=True) for v in speeds.tolist()],
+    }
+    others = [[missed(v, seed=seed) for v in speeds.tolist()] for seed in (9, 10)]
+    most = {name: most_speed(speeds, n) for name, n in lost.items()}
+    band = [most["uneven"], *(most_speed(speeds, n) for n in others)]
+    share = most["uneven"] / most["even"]
+    fast = "more" if share > 1.02 else "the average counts"
+    slow = "about three quarters" if share > 0.6 else "half, by the least gap"
+    return {
+        **most,
+        "least": min(band),
+        "greatest": max(band),
+        "half": round(most["even"] / 2),
+        "rule": float(GAP / (2 * belt_ways().min()) / mm),
+        "speeds": speeds.tolist(),
+        "lost": lost,
+        "at_even": lost["uneven"][speeds.tolist().index(most["even"])],
+        "right": fast if share > 0.95 else slow,
+    }
+
+
+def most_speed(speeds: NDArray[np.int_], lost: list[int]) -> int:
+    """The speed up to which none is lost."""
+    return int(speeds[np.flatnonzero(np.cumsum(lost) == 0)[-1]])
