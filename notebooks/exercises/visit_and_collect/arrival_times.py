@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from robokin.course import forms
 from robokin.course.exercises import words
 from robokin.course.told import apart, floats
 
@@ -76,6 +77,13 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
         f"stop {k + 1} should be reached at {at} s: the move to it takes {needs[j]:.4g} s, set by "
         f"joint {j + 1}{kept}; you have {is_at} s"
     )
+
+
+def same(a: Floats, b: Floats) -> bool:
+    """As the check's own, and quicker where all are numbers: a thousand programs are compared."""
+    if a.shape == b.shape and np.isfinite(a).all() and np.isfinite(b).all():
+        return bool((abs(a - b) <= 1e-6 * (1 + abs(b))).all())
+    return forms.same(a, b)
 
 
 # --- What wrong programs use ----------------------------------------------------------------------
