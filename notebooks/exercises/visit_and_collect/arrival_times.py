@@ -91,8 +91,8 @@ def same(a: Floats, b: Floats) -> bool:
 
 def between(q: Floats) -> Floats:
     """Half of the turn before a stop on the axis, half after it."""
-    k, known = np.arange(len(q)), ~np.isnan(q[:, 0])
-    return np.interp(k, k[known], q[known, 0])
+    known = np.flatnonzero(~np.isnan(q[:, 0]))
+    return np.asarray(np.interp(range(len(q)), known, q[known, 0]))
 
 
 def nearest(q: Floats) -> Floats:
@@ -101,8 +101,3 @@ def nearest(q: Floats) -> Floats:
     away = abs(np.arange(len(q))[:, None] - known)
     angles: Floats = q[known[away.argmin(axis=-1)], 0]
     return angles
-
-
-def before(q: Floats) -> Floats:
-    """The angle of the stop before, as it was given."""
-    return np.append(q[0, 0], q[:-1, 0])

@@ -13,6 +13,9 @@ from robokin.jobs.visit_collect import Task, best_visit, collect, out_of_workspa
 
 from .shared import L1, L2, Floats, costs
 
+Fault = tuple[str, str]
+Traps = Traps  # None: no trap
+
 COUNT = 3
 APART = 0.3  # m
 LOST = 2  # points
@@ -20,15 +23,12 @@ TASKS = ("visit", "collect", "worth")
 NO_TRAP = "no trap"
 NOBODY = "your name"  # as it stands in the lab
 KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])  # the opening
-UNITS = {
-    "T": ("s", 1.0),
-    "T_collect": ("s", 1.0),
-    "worth": ("(of object 0, 1, 2, 3)", 1.0),
-    "speed": ("rad/s, of every joint", 1.0),
-    "p0": ("m", 1.0),
-    "apart": ("m", 1.0),
+GIVEN_UP = {
+    "visit": "What a point costs depends on where the arm comes from: the opening has such a case, "
+    "for other numbers.",
+    "worth": "The cheapest objects are the most of them, and need not be worth the most: let a "
+    "cheap one use up the time that a dear one needs.",
 }
-Fault = tuple[str, str]
 
 
 def given(who: Any) -> Numbers:
@@ -42,34 +42,28 @@ def given(who: Any) -> Numbers:
     height = 1.0 + 0.25 * roll.randrange(7)
     worth = [3 + roll.randrange(3) for _ in range(4)]  # no one is half of another ...
     worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... but of the dear one
-    values = {
-        "T": round(budget / speed, 1),
-        "T_collect": round(3 * budget / speed, 1),
-        "worth": worth,
-        "speed": round(speed, 2),
-        "p0": [x, y, height],
-        "apart": APART,
+    made = {
+        "T": (round(budget / speed, 1), "s"),
+        "T_collect": (round(3 * budget / speed, 1), "s"),
+        "worth": (worth, "(of object 0, 1, 2, 3)"),
+        "speed": (round(speed, 2), "rad/s, of every joint"),
+        "p0": ([x, y, height], "m"),
+        "apart": (APART, "m"),
     }
-    return Numbers(values, UNITS)
-
-
-# --- The form -------------------------------------------------------------------------------------
+    units = {name: (unit, 1.0) for name, (_, unit) in made.items()}
+    return Numbers({name: value for name, (value, _) in made.items()}, units)
 
 
 def plain(answer: Any) -> Any:
     """Lists of numbers as arrays, which are told in few digits."""
-    if not isinstance(answer, Mapping):
-        return answer
-    found = dict(answer)
-    for task, points in answer.items():
-        with suppress(TypeError, ValueError):
-            if isinstance(points, (list, tuple)):
-                found[task] = floats(points)
-    return found
+    if isinstance(answer, Mapping):
+        return {task: plain(points) for task, points in answer.items()}
+    with suppress(TypeError, ValueError):
+        return floats(answer) if isinstance(answer, (list, tuple)) else answer
+    return answer
 
 
-def form(answer: Any, given: Any) -> dict[str, Floats | None]:
-    """The points of each task; None: no trap."""
+def form(answer: Any, given: Any) -> Traps:
     answer = plain(answer)
     if not isinstance(answer, Mapping) or set(answer) != set(TASKS):
         wanted = 'Wanted {"visit": ..., "collect": ..., "worth": ...}'
@@ -84,18 +78,14 @@ def points_form(task: str, answer: Any) -> Floats | None:
     )
     if isinstance(answer, str) and " ".join(answer.casefold().strip(" .!'\"").split()) == NO_TRAP:
         return None
-    try:
+    points = np.zeros(0)
+    with suppress(TypeError, ValueError):
         points = floats(answer)
-    except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(answer)}.") from None
     if points.shape != (4, 3) or not np.isfinite(points).all():
         raise ValueError(f"{wanted}, got {words(answer)}.")
     if abs(points).max() > 50:
         raise ValueError(f"{wanted}; yours are up to {abs(points).max():.4g} m away")
     return points
-
-
-# --- What the rules and the best choices bring ----------------------------------------------------
 
 
 def both(task: str, points: Floats, numbers: Any) -> tuple[list[int], list[int]]:
@@ -129,7 +119,7 @@ def scores(task: str, points: Floats, numbers: Any) -> str:
     )
 
 
-def holds(traps: dict[str, Floats | None], numbers: Any) -> list[str]:
+def holds(traps: Traps, numbers: Any) -> list[str]:
     told = [scores(task, points, numbers) for task, points in traps.items() if points is not None]
     told.append('"collect": no trap, and the proof of section 6 says why.')
     if numbers == given(NOBODY):
@@ -137,10 +127,7 @@ def holds(traps: dict[str, Floats | None], numbers: Any) -> list[str]:
     return told
 
 
-# --- What does not hold ---------------------------------------------------------------------------
-
-
-def faults(traps: dict[str, Floats | None], numbers: Any) -> list[Fault]:
+def faults(traps: Traps, numbers: Any) -> list[Fault]:
     found = (trap_fault(task, traps[task], numbers) for task in TASKS)
     return [fault for fault in found if fault]
 
@@ -148,7 +135,8 @@ def faults(traps: dict[str, Floats | None], numbers: Any) -> list[Fault]:
 def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
     """What does not hold of the answer for one task; None: it is right."""
     if points is None:
-        return given_up(task)
+        says = f'"{task}": there is a trap. {GIVEN_UP.get(task)}'
+        return ("given up, where there is a trap", says) if task in GIVEN_UP else None
     fault = places_fault(task, points, numbers)
     if task == "collect":
         says = '"collect": look at the proof of section 6 before you build.'
@@ -159,18 +147,6 @@ def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
             )
         return "a trap against a proof", says
     return fault or not_beaten(task, points, numbers)
-
-
-def given_up(task: str) -> Fault | None:
-    why = {
-        "visit": "What a point costs depends on where the arm comes from: the opening has such a "
-        "case, for other numbers.",
-        "worth": "The cheapest objects are the most of them, and need not be worth the most: let a "
-        "cheap one use up the time that a dear one needs.",
-    }
-    if task not in why:
-        return None
-    return "given up, where there is a trap", f'"{task}": there is a trap. {why[task]}'
 
 
 def places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
@@ -190,11 +166,10 @@ def places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
 
 def known(points: Floats) -> bool:
     """The four points of the opening, in any order, or their mirror images, or nearly so."""
-    for mirror in (1, -1):
-        gaps = np.linalg.norm(points[:, None] - KNOWN * [1, mirror, 1], axis=-1)
-        if gaps.min(axis=0).max() < 0.15 and gaps.min(axis=1).max() < 0.15:
-            return True
-    return False
+    both_ways = np.array([KNOWN, KNOWN * [1, -1, 1]])[:, None]
+    gaps = np.linalg.norm(points[:, None] - both_ways, axis=-1)  # (2, 4, 4)
+    nearest = np.maximum(gaps.min(axis=1).max(axis=-1), gaps.min(axis=2).max(axis=-1))
+    return bool((nearest < 0.15).any())
 
 
 def not_beaten(task: str, points: Floats, numbers: Any) -> Fault | None:

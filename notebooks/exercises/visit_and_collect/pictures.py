@@ -9,21 +9,19 @@ from robokin import deg, ptp
 from robokin.jobs.visit_collect import principal_postures
 from robokin.show import Sketch, figure
 
-from .predictions import DIP, LOW1, p1, p2, p3, p6, p7, p8, p9
+from .predictions import DIP, LOW1, SPEEDS, p1, p2, p3, p6, p7, p8, p9
 from .shared import ARM, L1, L2
+
+SIDE: dict[str, Any] = {"unit": "m", "x": "distance from the axis", "y": "height"}
 
 
 def p1_view() -> Any:
-    facts = p1()
-    sketch = Sketch(
+    says = (
         f"Side view at q1 = q2 = 90 degrees and q3 = 0: link 1 lies flat, {L1:g} m long, link 2 "
-        f"hangs from its end, and the tool is {facts['z']:g} m under the floor.",
-        title="Link 1 flat, link 2 square to it: downwards",
-        unit="m",
-        x="y",
-        y="height",
-        height=3.6,
+        f"hangs from its end, and the tool is {p1()['z']:g} m under the floor."
     )
+    title = "Link 1 flat, link 2 square to it: downwards"
+    sketch = Sketch(says, title=title, **SIDE | {"x": "y", "height": 3.6})
     sketch.levers([(0, 0), (L1, 0), (L1, -L2)], ["O1", "O2", "tool"])
     sketch.ax.axhline(0, color="0.6", lw=1)
     sketch.ax.margins(0.22)
@@ -32,14 +30,9 @@ def p1_view() -> Any:
 
 def p2_view() -> Any:
     q3 = p2()["q3"]
-    sketch = Sketch(
-        f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above the square to link 1.",
-        title=f"Stretched: link 2 is {abs(q3):.0f}° above its square to link 1",
-        unit="m",
-        x="distance from the axis",
-        y="height",
-        height=3.6,
-    )
+    says = f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above the square to link 1."
+    title = f"Stretched: link 2 is {abs(q3):.0f}° above its square to link 1"
+    sketch = Sketch(says, title=title, height=3.6, **SIDE)
     sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "", "tool"])
     sketch.ax.text(L1, 0.25, "O2", ha="center", fontsize=12)
     sketch.levers([(L1, 0), (L1, -L2)], dashed=True)
@@ -48,22 +41,17 @@ def p2_view() -> Any:
 
 
 def p3_view() -> Any:
-    facts = p3()
-    shares = facts["shares"]
-    fig = figure(
+    shares = p3()["shares"]
+    says = (
         f"Bars: of the points nearer than 1 m to the axis {shares[0]:.0f} percent have a second "
-        f"posture inside the limits, of those farther than 8 m {shares[-1]:.0f} percent.",
-        height=3,
+        f"posture inside the limits, of those farther than 8 m {shares[-1]:.0f} percent."
     )
+    fig = figure(says, height=3)
     ax = fig.subplots()
     ax.bar(np.arange(9) + 0.5, shares, width=0.92, color="#0072B2")
-    ax.set(
-        title="The nearer to the axis, the easier it is to lean over backwards",
-        xlabel="distance from axis 1, m",
-        ylabel="points with a second posture, %",
-        xlim=(0, 9),
-        ylim=(0, 105),
-    )
+    ax.set_title("The nearer to the axis, the easier it is to lean over backwards")
+    ax.set(xlabel="distance from axis 1, m", ylabel="points with a second posture, %")
+    ax.set(xlim=(0, 9), ylim=(0, 105))
     fig.tight_layout()
     return fig
 
@@ -71,19 +59,17 @@ def p3_view() -> Any:
 def p4_view() -> Any:
     q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])[:, 0]
     turned = (q[0] - q[1]) / deg
-    sketch = Sketch(
+    says = (
         f"Seen from above: joint 1 turns from {q[0] / deg:.1f} to {q[1] / deg:.1f} degrees, away "
-        f"from the stop at 180 degrees and all the way round, {turned:.0f} degrees.",
-        title=f"Joint 1 turns away from its stop and goes round, {turned:.0f}°",
-        unit="m",
-        height=3.6,
+        f"from the stop at 180 degrees and all the way round, {turned:.0f} degrees."
     )
+    title = f"Joint 1 turns away from its stop and goes round, {turned:.0f}°"
+    sketch = Sketch(says, title=title, unit="m", height=3.6)
     sketch.levers([(0, 0), (-2, 0.01)], ["axis 1", ""])
     turn = np.linspace(q[0], q[1], 200)
     sketch.ax.plot(np.cos(turn), np.sin(turn), color="black", lw=1.3)
-    sketch.ax.annotate(
-        "", (-1, -0.02), (-0.985, -0.17), arrowprops={"arrowstyle": "-|>", "color": "black"}
-    )
+    tip = {"arrowstyle": "-|>", "color": "black"}
+    sketch.ax.annotate("", (-1, -0.02), (-0.985, -0.17), arrowprops=tip)
     sketch.ax.text(-2.1, 0.15, "both points", ha="right")
     sketch.ax.text(-2.1, -0.25, "stop at ±180°", ha="right")
     sketch.ax.text(0.85, 0.85, "joint 1")
@@ -100,23 +86,19 @@ def p5_view() -> Any:
 
 
 def p6_view() -> Any:
-    facts = p6()
-    counts = facts["counts"]
-    fig = figure(
+    some, counts = p6()["some"], p6()["counts"]
+    says = (
         f"Bars: nearest first loses no point in {counts[0]} of 200 random tasks, one in "
-        f"{counts[1]}, two in {counts[2]}, three in {counts[3]}.",
-        height=2.8,
+        f"{counts[1]}, two in {counts[2]}, three in {counts[3]}."
     )
+    fig = figure(says, height=2.8)
     ax = fig.subplots()
     names = ["none", "1 point", "2 points", "3 points"]
     bars = ax.barh(names, counts[:4], color=["#9DB7C9", "#E69F00", "#D55E00", "#CC79A7"])
     ax.bar_label(bars, padding=4)
     ax.invert_yaxis()
-    ax.set(
-        xlabel="tasks of 200, seven random points each",
-        xlim=(0, 200),
-        title=f"Nearest first loses a point or more in {facts['some']} of 200 tasks",
-    )
+    ax.set(xlabel="tasks of 200, seven random points each", xlim=(0, 200))
+    ax.set_title(f"Nearest first loses a point or more in {some} of 200 tasks")
     ax.spines[["top", "right"]].set_visible(False)
     fig.tight_layout()
     return fig
@@ -124,14 +106,12 @@ def p6_view() -> Any:
 
 def p7_view() -> Any:
     height = p7()["height"]
-    sketch = Sketch(
+    says = (
         f"Side view: link 1 lies on the floor behind the axis, link 2 reaches from there to the "
-        f"axis, {height:g} m above the origin.",
-        title=f"The elbow lies on the floor, the tool is {height:g} m above the origin",
-        unit="m",
-        x="distance from the axis",
-        y="height",
+        f"axis, {height:g} m above the origin."
     )
+    title = f"The elbow lies on the floor, the tool is {height:g} m above the origin"
+    sketch = Sketch(says, title=title, **SIDE)
     sketch.levers([(0, 0), (-LOW1, 0), (0, height)], ["O1", "O2", "tool"])
     sketch.ax.axhline(0, color="0.6", lw=1)
     sketch.ax.axvline(0, color="0.6", lw=1, ls=":")
@@ -145,17 +125,14 @@ def p8_view() -> Any:
     way = ptp(q[0], q[1], np.linspace(0, 1, 200))
     side = ARM.fk(way).translation[:, [0, 2]]
     deep = -p8()["low"]
-    sketch = Sketch(
+    says = (
         f"Side view of the move: the arm at its start, dashed, and where its tool is lowest; the "
-        f"path of the tool goes {deep:.2f} m under the floor.",
-        title=f"Between two allowed points: {deep:.2f} m under the floor",
-        unit="m",
-        x="distance from the axis",
-        y="height",
+        f"path of the tool goes {deep:.2f} m under the floor."
     )
+    title = f"Between two allowed points: {deep:.2f} m under the floor"
+    sketch = Sketch(says, title=title, **SIDE)
     for k, dashed in ((0, True), (int(side[:, 1].argmin()), False)):
-        lean = way[k, 1]
-        elbow = L1 * np.array([np.sin(lean), np.cos(lean)])
+        elbow = L1 * np.array([np.sin(way[k, 1]), np.cos(way[k, 1])])
         sketch.levers([np.zeros(2), elbow, side[k]], dashed=dashed)
     sketch.ax.plot(*side.T, color="black", lw=1.5)
     sketch.ax.axhline(0, color="#009E73", lw=2)
@@ -168,25 +145,21 @@ def p8_view() -> Any:
 
 def p9_view() -> Any:
     facts = p9()
-    fig = figure(
-        f"Objects missed of 200 over the belt speed. Evenly spaced: none up to {facts['even']} "
-        f"mm/s. Uneven: none up to {facts['uneven']} mm/s, then more and more.",
-        height=3.4,
+    even, uneven = facts["even"], facts["uneven"]
+    says = (
+        f"Objects missed of 200 over the belt speed. Evenly spaced: none up to {even} "
+        f"mm/s. Uneven: none up to {uneven} mm/s, then more and more."
     )
+    fig = figure(says, height=3.4)
     ax = fig.subplots()
     for name, line, color in (("even", "-", "#0072B2"), ("uneven", "--", "#D55E00")):
         lost = facts["lost"][name]
-        ax.plot(facts["speeds"], lost, line, color=color, lw=2.2, marker="o", ms=4)
+        ax.plot(SPEEDS, lost, line, color=color, lw=2.2, marker="o", ms=4)
         higher = lost[-1] == max(facts["lost"]["even"][-1], facts["lost"]["uneven"][-1])
         ax.text(142, lost[-1] + (3 if higher else -3), name, color=color, va="center")
     ax.axvline(facts["rule"], color="0.4", ls=":", lw=1.3)
     ax.text(facts["rule"] - 1, 45, "c v / g = 1", color="0.4", ha="right")
-    ax.set(
-        xlabel="belt speed, mm/s",
-        ylabel="objects missed of 200",
-        xlim=(58, 150),
-        ylim=(-2, 58),
-        title=f"One arm: even objects up to {facts['even']} mm/s, uneven up to {facts['uneven']}",
-    )
+    ax.set(xlabel="belt speed, mm/s", ylabel="objects missed of 200", xlim=(58, 150), ylim=(-2, 58))
+    ax.set_title(f"One arm: even objects up to {even} mm/s, uneven up to {uneven}")
     fig.tight_layout()
     return fig

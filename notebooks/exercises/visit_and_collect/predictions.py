@@ -4,12 +4,12 @@ Objective 1: p1 to p3, p7. Objective 2: p4, p8, p9. Objective 3: p5, p6. In Deep
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from itertools import permutations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robokin import deg, mm, within
 from robokin.jobs.conveyor import serve, spaced
@@ -28,21 +28,14 @@ from .shared import ARM, L1, L2, STOPS, Floats, costs, drawn, each_needs
 
 
 def p1() -> dict[str, Any]:
-    x, y, z = (float(c) for c in ARM.fk(np.array([90, 90, 0]) * deg).translation.round(9) + 0.0)
-    facts = {"x": x, "y": y, "z": abs(z), "l1": L1, "l2": L2, "both": L1 + L2}
-    places = {
-        "stretched on the floor": (0, L1 + L2, 0),
-        "under the floor": (0, L1, -L2),
-        "link 2 upright": (0, L1, L2),
-        "flat ahead": (L1, 0, -L2),
-    }
-    return facts | {"right": next(name for name, at in places.items() if at == (x, y, z))}
+    _, y, z = (float(c) for c in ARM.fk(np.array([90, 90, 0]) * deg).translation.round(9) + 0.0)
+    right = "under the floor" if (y, z) == (L1, -L2) else "link 2 upright"
+    return {"y": y, "z": abs(z), "l1": L1, "l2": L2, "both": L1 + L2, "right": right}
 
 
 def p2() -> dict[str, Any]:
-    q = principal_postures(L1, L2, [L1 + L2, 0, 0])
-    facts = {"q3": float(q[2]) / deg, "zero": 0.0, "plus": 90.0, "half": 180.0, "reach": L1 + L2}
-    return facts | {"right": "stretched"}
+    q3 = float(principal_postures(L1, L2, [L1 + L2, 0, 0])[2]) / deg
+    return {"q3": q3, "zero": 0.0, "plus": 90.0, "half": 180.0, "right": "stretched"}
 
 
 @cache
@@ -57,10 +50,7 @@ def p3() -> Mapping[str, Any]:
     few = "none" if share == 0 else "1 in 10"
     return {
         "n": len(cloud),
-        "one": int((count == 1).sum()),
         "two": int((count == 2).sum()),
-        "share": share,
-        "near": shares[0],
         "far": shares[-1],
         "shares": shares,
         "right": few if share < 25 else "about half" if share < 75 else "all of them",
@@ -70,13 +60,9 @@ def p3() -> Mapping[str, Any]:
 def p4() -> dict[str, Any]:
     q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])
     long, half = float(travel_time(q[0], q[1], [0.2] * 3)), np.pi / 0.2
-    return {
-        "long": long,
-        "short": float(travel_time(q[0], q[1], [0.2] * 3, short_way=True)),
-        "half": half,
-        "speed": 0.2,
-        "right": "nearly a whole turn" if long > 1.5 * half else "2 cm apart",
-    }
+    short = float(travel_time(q[0], q[1], [0.2] * 3, short_way=True))
+    right = "nearly a whole turn" if long > 1.5 * half else "2 cm apart"
+    return {"long": long, "short": short, "half": half, "speed": 0.2, "right": right}
 
 
 SUBSETS = (np.arange(2**5)[:, None] >> np.arange(5)) & 1  # (32, 5)
@@ -104,36 +90,19 @@ def beaten_by_order(task: Task) -> bool:
 @cache
 def p5() -> Mapping[str, Any]:
     """Of 30 random tasks: in how many is cheapest (or nearest) first beaten, under each change?"""
-    seeds = range(30)
-    plain = np.ones(5)
-    axis = sum(beaten_by_order(drawn(s, 5, "collect", p0=[0, 0, 6.5], T=40.0)) for s in seeds)
-    speeds = sum(
-        beaten_by_subset(drawn(s, 5, "collect", speeds=[0.1, 0.3, 0.5]), plain) for s in seeds
-    )
-    prices = sum(
-        beaten_by_subset(
-            drawn(s, 5, "collect"), np.random.default_rng(s).integers(1, 10, 5).astype(float)
+    beaten = {"container on axis 1": 0, "prices": 0, "unlike speeds": 0, "emptied at the end": 0}
+    for seed in range(30):
+        task = drawn(seed, 5, "collect")
+        prices = np.random.default_rng(seed).integers(1, 10, 5).astype(float)
+        beaten["prices"] += beaten_by_subset(task, prices)
+        uneven = replace(task, speeds=np.array([0.1, 0.3, 0.5]))
+        beaten["unlike speeds"] += beaten_by_subset(uneven, np.ones(5))
+        beaten["container on axis 1"] += beaten_by_order(
+            replace(task, p0=np.array([0, 0, 6.5]), T=40.0)
         )
-        for s in seeds
-    )
-    onward = sum(
-        len(best_visit(task).order) > len(visit(task).order)
-        for task in (drawn(s, 5) for s in seeds)
-    )
-    beaten = {
-        "container on axis 1": axis,
-        "prices": prices,
-        "unlike speeds": speeds,
-        "emptied at the end": onward,
-    }
-    return {
-        "n": len(seeds),
-        "axis": axis,
-        "speeds": speeds,
-        "prices": prices,
-        "onward": onward,
-        "right": next(name for name, times in beaten.items() if not times),
-    }
+        onward = replace(task, kind="visit")
+        beaten["emptied at the end"] += len(best_visit(onward).order) > len(visit(onward).order)
+    return beaten | {"right": next(name for name, times in beaten.items() if not times)}
 
 
 @cache
@@ -146,22 +115,17 @@ def p6() -> Mapping[str, Any]:
         arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
         lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(visit(task).order))
     counts = np.bincount(lost, minlength=4).tolist()
-    p, z2 = 1 - counts[0] / 200, 1.96**2 / 200  # Wilson's interval for a share
+    none, one, *more = counts
+    p, z2 = 1 - none / 200, 1.96**2 / 200  # Wilson's interval for a share
     middle, half = p + z2 / 2, np.sqrt(z2 * (p * (1 - p) + z2 / 4))
-    share = (200 - counts[0]) / 2
+    share = (200 - none) / 2
     few = "at most 5" if share < 3 else "6 to 39"
-    return {
-        "n": 200,
-        "last": 199,
+    right = few if share < 20 else "40 to 99" if share < 50 else "at least half"
+    facts = {"n": 200, "last": 199, "share": share, "right": right, "counts": counts}
+    facts |= {"some": 200 - none, "none": none, "one": one, "more": sum(more)}
+    return facts | {
         "low": 100 * (middle - half) / (1 + z2),
         "high": 100 * (middle + half) / (1 + z2),
-        "some": 200 - counts[0],
-        "counts": counts,
-        "none": counts[0],
-        "one": counts[1],
-        "more": sum(counts[2:]),
-        "share": share,
-        "right": few if share < 20 else "40 to 99" if share < 50 else "at least half",
     }
 
 
@@ -171,16 +135,10 @@ LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
 def p7() -> dict[str, Any]:
     heights = np.linspace(0, 8, 8001)
     served = workspace(LOW1, LOW2, np.stack([0 * heights, 0 * heights, heights], -1)).all(axis=-1)
-    return {
-        "l1": LOW1,
-        "l2": LOW2,
-        "height": float(heights[served.argmax()]),
-        "triangle": LOW2 - LOW1,
-        "floor": 0.0,
-        "square": float(np.hypot(LOW1, LOW2)),
-        "top": LOW1 + LOW2,
-        "right": "elbow on the floor",
-    }
+    height = float(heights[served.argmax()])
+    facts = {"l1": LOW1, "l2": LOW2, "height": height, "triangle": LOW2 - LOW1, "floor": 0.0}
+    square = float(np.hypot(LOW1, LOW2))
+    return facts | {"square": square, "top": LOW1 + LOW2, "right": "elbow on the floor"}
 
 
 DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m
@@ -188,17 +146,21 @@ DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m
 
 def p8() -> dict[str, Any]:
     q = principal_postures(L1, L2, DIP)
-    low = float(lowest(L1, L2, q[0], q[1]))
-    a, b = DIP[:, 2]
-    high = "never lower" if low >= b - 1e-9 else "about 0.05 m"
-    right = high if low >= 0 else "under the floor"
-    return {"low": low, "deep": abs(low), "a": a, "b": b, "right": right}
+    low, end = float(lowest(L1, L2, q[0], q[1])), DIP[1, 2]
+    high = "never lower" if low >= end - 1e-9 else "about 0.05 m"
+    return {
+        "low": low,
+        "deep": abs(low),
+        "b": end,
+        "right": high if low >= 0 else "under the floor",
+    }
 
 
 GAP = 150 * mm
 WINDOW = np.linspace(-400, 400, 161) * mm
 COUNT = 200
 UNEVEN = 0.5  # spread of the gaps
+SPEEDS = list(range(60, 141, 5))  # mm/s
 
 
 @cache
@@ -218,33 +180,30 @@ def missed(v: float, spread: float = UNEVEN, seed: int = 8, first_come: bool = F
     return COUNT - len(trips.objects)
 
 
+def speed(lost: list[int]) -> int:
+    """The speed up to which none is lost."""
+    return SPEEDS[int(np.flatnonzero(np.cumsum(lost) == 0)[-1])]
+
+
 @cache
 def p9() -> Mapping[str, Any]:
-    speeds = np.arange(60, 141, 5)  # mm/s
     lost = {
-        "uneven": [missed(v) for v in speeds.tolist()],
-        "even": [missed(v, spread=0) for v in speeds.tolist()],
-        "first": [missed(v, first_come=True) for v in speeds.tolist()],
+        "uneven": [missed(v) for v in SPEEDS],
+        "even": [missed(v, spread=0) for v in SPEEDS],
+        "first": [missed(v, first_come=True) for v in SPEEDS],
     }
-    others = [[missed(v, seed=seed) for v in speeds.tolist()] for seed in (9, 10)]
-    most = {name: most_speed(speeds, n) for name, n in lost.items()}
-    band = [most["uneven"], *(most_speed(speeds, n) for n in others)]
+    most = {name: speed(counts) for name, counts in lost.items()}
+    others = [speed([missed(v, seed=seed) for v in SPEEDS]) for seed in (9, 10)]
     share = most["uneven"] / most["even"]
     fast = "more" if share > 1.02 else "the average counts"
     slow = "about three quarters" if share > 0.6 else "half, by the least gap"
     return {
         **most,
-        "least": min(band),
-        "greatest": max(band),
+        "least": min(most["uneven"], *others),
+        "greatest": max(most["uneven"], *others),
         "half": round(most["even"] / 2),
         "rule": float(GAP / (2 * belt_ways().min()) / mm),
-        "speeds": speeds.tolist(),
         "lost": lost,
-        "at_even": lost["uneven"][speeds.tolist().index(most["even"])],
+        "at_even": lost["uneven"][SPEEDS.index(most["even"])],
         "right": fast if share > 0.95 else slow,
     }
-
-
-def most_speed(speeds: NDArray[np.int_], lost: list[int]) -> int:
-    """The speed up to which none is lost."""
-    return int(speeds[np.flatnonzero(np.cumsum(lost) == 0)[-1]])

@@ -1,7 +1,6 @@
 """What several exercises and predictions of visit and collect use."""
 
 from itertools import permutations
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,11 +35,9 @@ def costs(task: Task) -> Floats:
     return legs
 
 
-def drawn(seed: int, count: int = 7, kind: str = "visit", **changed: Any) -> Task:
+def drawn(seed: int, count: int = 7, kind: str = "visit") -> Task:
     """The random task of the lab."""
     rng = np.random.default_rng(seed)
     points = rng.uniform([-9, -9, 0], [9, 9, 9], size=(12 * count, 3))
     points = points[workspace(L1, L2, points).all(axis=-1)][: count + 1]
-    T = rng.uniform(15, 40)
-    given = {"T": T, "speeds": [0.2] * 3, "p0": points[0]} | changed
-    return Task(L1, L2, given["T"], given["speeds"], given["p0"], points[1:], kind)
+    return Task(L1, L2, rng.uniform(15, 40), [0.2] * 3, points[0], points[1:], kind)
