@@ -14,7 +14,7 @@ from robokin.jobs.visit_collect import Task, best_visit, collect, out_of_workspa
 from .shared import L1, L2, Floats, costs
 
 Fault = tuple[str, str]
-Traps = Traps  # None: no trap
+Traps = dict[str, Floats | None]  # None: no trap
 
 COUNT = 3
 APART = 0.3  # m
@@ -56,11 +56,13 @@ def given(who: Any) -> Numbers:
 
 def plain(answer: Any) -> Any:
     """Lists of numbers as arrays, which are told in few digits."""
-    if isinstance(answer, Mapping):
-        return {task: plain(points) for task, points in answer.items()}
-    with suppress(TypeError, ValueError):
-        return floats(answer) if isinstance(answer, (list, tuple)) else answer
-    return answer
+    if not isinstance(answer, Mapping):
+        return answer
+    found = dict(answer)
+    for task, points in answer.items():
+        with suppress(TypeError, ValueError):
+            found[task] = floats(points) if isinstance(points, (list, tuple)) else points
+    return found
 
 
 def form(answer: Any, given: Any) -> Traps:
@@ -78,7 +80,7 @@ def points_form(task: str, answer: Any) -> Floats | None:
     )
     if isinstance(answer, str) and " ".join(answer.casefold().strip(" .!'\"").split()) == NO_TRAP:
         return None
-    points = np.zeros(0)
+    points: Floats = np.zeros(0)
     with suppress(TypeError, ValueError):
         points = floats(answer)
     if points.shape != (4, 3) or not np.isfinite(points).all():
@@ -100,23 +102,20 @@ def both(task: str, points: Floats, numbers: Any) -> tuple[list[int], list[int]]
     return list(collect(made).order), np.flatnonzero(fits[(fits @ worth).argmax()]).tolist()
 
 
+def worths(numbers: Any, *choices: list[int]) -> list[int]:
+    return [sum(numbers["worth"][k] for k in taken) for taken in choices]
+
+
 def scores(task: str, points: Floats, numbers: Any) -> str:
     greedy, best = both(task, points, numbers)
-    if task == "visit":
-        return (
-            f'"visit": nearest first visits {len(greedy)} of 4 (order {greedy}), the best order '
-            f"{len(best)} ({best})."
-        )
-    if task == "collect":
-        return (
-            f'"collect": cheapest first brings {len(greedy)} of 4 ({greedy}), the best choice '
-            f"{len(best)}."
-        )
-    first, most = (sum(numbers["worth"][k] for k in taken) for taken in (greedy, best))
-    return (
-        f'"worth": cheapest first brings {greedy}, worth {first}; the best choice {best}, worth '
-        f"{most}."
-    )
+    a, b, (first, most) = len(greedy), len(best), worths(numbers, greedy, best)
+    told = {
+        "visit": f"nearest first visits {a} of 4 (order {greedy}), the best order {b} ({best}).",
+        "collect": f"cheapest first brings {a} of 4 ({greedy}), the best choice {b}.",
+        "worth": f"cheapest first brings {greedy}, worth {first}; the best choice {best}, worth "
+        f"{most}.",
+    }
+    return f'"{task}": {told[task]}'
 
 
 def holds(traps: Traps, numbers: Any) -> list[str]:
@@ -188,7 +187,7 @@ def not_beaten(task: str, points: Floats, numbers: Any) -> Fault | None:
             return "the rule is not beaten", f"{told} No order does better."
         return "one point lost, not two", f"{told} One more, and it is a trap."
     if task == "worth":
-        first, most = (sum(numbers["worth"][k] for k in taken) for taken in (greedy, best))
+        first, most = worths(numbers, greedy, best)
         if first == most:
             return "the rule is not beaten", f"{told} No choice is worth more."
         if 2 * first > most:

@@ -10,6 +10,8 @@ from robokin.jobs.visit_collect import out_of_workspace, workspace
 
 from .shared import ARM, L1, L2, Floats
 
+LIMITS = np.array([pi, pi / 2, pi / 2])
+
 
 def refusal(inputs: tuple[Any, ...], result: Any) -> str:
     """Which point a right program was asked last, and what it answered."""
@@ -51,19 +53,13 @@ def mirrored(p: Any) -> Floats:
     return np.array([q1 - pi if q1 > 0 else q1 + pi, q2 - 2 * atan2(hypot(x, y), z), q3])
 
 
-def inside(q: Floats) -> bool:
-    return bool((abs(q) <= [pi, pi / 2, pi / 2]).all())
-
-
 def lower(p: Floats) -> Floats:
     """Every coordinate 0.1 m too small, where the arm reaches that."""
-    x, y, z = p - 0.1
-    found = np.array([x, y, max(z, 0.0)])
+    found = np.maximum(p - 0.1, [-np.inf, -np.inf, 0.0])
     return found if L1 - L2 < np.linalg.norm(found) < L1 + L2 else p
 
 
 def short(p: Any, gap: float) -> Floats:
     """The point nearer to the origin by so many metres."""
     place = point(p)
-    near: Floats = place * (1 - gap / max(float(np.linalg.norm(place)), 1.0))
-    return near
+    return np.asarray(place * (1 - gap / max(float(np.linalg.norm(place)), 1.0)))

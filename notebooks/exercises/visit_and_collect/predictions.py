@@ -1,7 +1,4 @@
-"""The facts behind the predictions of visit and collect.
-
-Objective 1: p1 to p3, p7. Objective 2: p4, p8, p9. Objective 3: p5, p6. In Deeper: p7 to p9.
-"""
+"""The facts behind the predictions. Objective 1: p1 to p3, p7; 2: p4, p8, p9; 3: p5, p6."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -12,17 +9,8 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm, within
+from robokin.jobs import visit_collect as jobs
 from robokin.jobs.conveyor import serve, spaced
-from robokin.jobs.visit_collect import (
-    Task,
-    best_visit,
-    collect,
-    lowest,
-    principal_postures,
-    travel_time,
-    visit,
-    workspace,
-)
 
 from .shared import ARM, L1, L2, STOPS, Floats, costs, drawn, each_needs
 
@@ -34,7 +22,7 @@ def p1() -> dict[str, Any]:
 
 
 def p2() -> dict[str, Any]:
-    q3 = float(principal_postures(L1, L2, [L1 + L2, 0, 0])[2]) / deg
+    q3 = float(jobs.principal_postures(L1, L2, [L1 + L2, 0, 0])[2]) / deg
     return {"q3": q3, "zero": 0.0, "plus": 90.0, "half": 180.0, "right": "stretched"}
 
 
@@ -42,7 +30,7 @@ def p2() -> dict[str, Any]:
 def p3() -> Mapping[str, Any]:
     """How many random points of the workspace have two postures inside the limits."""
     box = np.random.default_rng(0).uniform([-9, -9, 0], [9, 9, 9], size=(20000, 3))
-    cloud = box[workspace(L1, L2, box).all(axis=-1)]
+    cloud = box[jobs.workspace(L1, L2, box).all(axis=-1)]
     count = within(ARM, ARM.ik(cloud)).all(axis=-1).sum(axis=-1)
     radius = np.hypot(cloud[:, 0], cloud[:, 1]).astype(int)
     shares = [float(100 * (count[radius == k] == 2).mean()) for k in range(9)]
@@ -58,33 +46,32 @@ def p3() -> Mapping[str, Any]:
 
 
 def p4() -> dict[str, Any]:
-    q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])
-    long, half = float(travel_time(q[0], q[1], [0.2] * 3)), np.pi / 0.2
-    short = float(travel_time(q[0], q[1], [0.2] * 3, short_way=True))
+    q = jobs.principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])
+    long, half = float(jobs.travel_time(q[0], q[1], [0.2] * 3)), np.pi / 0.2
+    short = float(jobs.travel_time(q[0], q[1], [0.2] * 3, short_way=True))
     right = "nearly a whole turn" if long > 1.5 * half else "2 cm apart"
     return {"long": long, "short": short, "half": half, "speed": 0.2, "right": right}
 
 
 SUBSETS = (np.arange(2**5)[:, None] >> np.arange(5)) & 1  # (32, 5)
-ORDERS = np.array(list(permutations(range(5))))  # (120, 5)
 
 
-def beaten_by_subset(task: Task, values: Floats) -> bool:
+def beaten_by_subset(task: jobs.Task, values: Floats) -> bool:
     """Whether some choice is worth more than the cheapest ones that fit."""
     fits = task.T + 1e-9 >= SUBSETS @ costs(task)
-    mine = values[list(collect(task).order)].sum()
+    mine = values[list(jobs.collect(task).order)].sum()
     return bool((SUBSETS[fits] @ values).max() > mine + 1e-9)
 
 
-def beaten_by_order(task: Task) -> bool:
+def beaten_by_order(task: jobs.Task) -> bool:
     """With the container on axis 1: whether some order brings more than the cheapest next."""
     best = 0
-    for order in ORDERS:
+    for order in permutations(range(1, 6)):
         q = np.repeat(task.q[:1], 11, axis=0)
-        q[1::2] = task.q[1:][order]
+        q[1::2] = task.q[list(order)]
         arrivals = each_needs(q, task.speeds).max(axis=-1).cumsum()[1::2]
         best = max(best, int((arrivals <= task.T + 1e-9).sum()))
-    return best > len(collect(task).order)
+    return best > len(jobs.collect(task).order)
 
 
 @cache
@@ -97,11 +84,11 @@ def p5() -> Mapping[str, Any]:
         beaten["prices"] += beaten_by_subset(task, prices)
         uneven = replace(task, speeds=np.array([0.1, 0.3, 0.5]))
         beaten["unlike speeds"] += beaten_by_subset(uneven, np.ones(5))
-        beaten["container on axis 1"] += beaten_by_order(
-            replace(task, p0=np.array([0, 0, 6.5]), T=40.0)
-        )
+        central = replace(task, p0=np.array([0, 0, 6.5]), T=40.0)
+        beaten["container on axis 1"] += beaten_by_order(central)
         onward = replace(task, kind="visit")
-        beaten["emptied at the end"] += len(best_visit(onward).order) > len(visit(onward).order)
+        best = jobs.best_visit(onward).order
+        beaten["emptied at the end"] += len(best) > len(jobs.visit(onward).order)
     return beaten | {"right": next(name for name, times in beaten.items() if not times)}
 
 
@@ -111,9 +98,9 @@ def p6() -> Mapping[str, Any]:
     lost = []
     for seed in range(200):
         task = drawn(seed)
-        legs = travel_time(task.q[:, None], task.q, task.speeds)
+        legs = jobs.travel_time(task.q[:, None], task.q, task.speeds)
         arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
-        lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(visit(task).order))
+        lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(jobs.visit(task).order))
     counts = np.bincount(lost, minlength=4).tolist()
     none, one, *more = counts
     p, z2 = 1 - none / 200, 1.96**2 / 200  # Wilson's interval for a share
@@ -123,10 +110,8 @@ def p6() -> Mapping[str, Any]:
     right = few if share < 20 else "40 to 99" if share < 50 else "at least half"
     facts = {"n": 200, "last": 199, "share": share, "right": right, "counts": counts}
     facts |= {"some": 200 - none, "none": none, "one": one, "more": sum(more)}
-    return facts | {
-        "low": 100 * (middle - half) / (1 + z2),
-        "high": 100 * (middle + half) / (1 + z2),
-    }
+    low, high = (100 * (middle + side) / (1 + z2) for side in (-half, half))
+    return facts | {"low": low, "high": high}
 
 
 LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
@@ -134,7 +119,8 @@ LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
 
 def p7() -> dict[str, Any]:
     heights = np.linspace(0, 8, 8001)
-    served = workspace(LOW1, LOW2, np.stack([0 * heights, 0 * heights, heights], -1)).all(axis=-1)
+    points = np.stack([0 * heights, 0 * heights, heights], axis=-1)
+    served = jobs.workspace(LOW1, LOW2, points).all(axis=-1)
     height = float(heights[served.argmax()])
     facts = {"l1": LOW1, "l2": LOW2, "height": height, "triangle": LOW2 - LOW1, "floor": 0.0}
     square = float(np.hypot(LOW1, LOW2))
@@ -145,21 +131,16 @@ DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m
 
 
 def p8() -> dict[str, Any]:
-    q = principal_postures(L1, L2, DIP)
-    low, end = float(lowest(L1, L2, q[0], q[1])), DIP[1, 2]
-    high = "never lower" if low >= end - 1e-9 else "about 0.05 m"
-    return {
-        "low": low,
-        "deep": abs(low),
-        "b": end,
-        "right": high if low >= 0 else "under the floor",
-    }
+    q = jobs.principal_postures(L1, L2, DIP)
+    low, end = float(jobs.lowest(L1, L2, q[0], q[1])), DIP[1, 2]
+    above = "never lower" if low >= end - 1e-9 else "about 0.05 m"
+    right = above if low >= 0 else "under the floor"
+    return {"low": low, "deep": abs(low), "b": end, "right": right}
 
 
 GAP = 150 * mm
 WINDOW = np.linspace(-400, 400, 161) * mm
 COUNT = 200
-UNEVEN = 0.5  # spread of the gaps
 SPEEDS = list(range(60, 141, 5))  # mm/s
 
 
@@ -168,12 +149,11 @@ def belt_ways() -> Floats:
     """How long one way from the bin to each place of the window takes: (161,) in s."""
     places = np.stack([0 * WINDOW + 600 * mm, WINDOW, 0 * WINDOW + 50 * mm], axis=-1)
     l1, l2 = 500 * mm, 400 * mm
-    q = principal_postures(l1, l2, np.vstack([np.array([150, -450, 250]) * mm, places]))
-    ways: Floats = 15 / 8 * travel_time(q[0], q[1:], [2, 2, 2])
-    return ways
+    q = jobs.principal_postures(l1, l2, np.vstack([np.array([150, -450, 250]) * mm, places]))
+    return np.asarray(15 / 8 * jobs.travel_time(q[0], q[1:], [2, 2, 2]))
 
 
-def missed(v: float, spread: float = UNEVEN, seed: int = 8, first_come: bool = False) -> int:
+def missed(v: float, spread: float = 0.5, seed: int = 8, first_come: bool = False) -> int:
     """How many of the objects one arm does not take, at v mm/s."""
     offsets = spaced(COUNT, GAP, spread, seed=seed)
     (trips,) = serve(offsets, v * mm, WINDOW, belt_ways(), first_come=first_come)

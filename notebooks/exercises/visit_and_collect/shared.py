@@ -25,14 +25,12 @@ def filled(q: Floats) -> Floats:
 
 def each_needs(q: Floats, speeds: Floats) -> Floats:
     """What each joint needs for each move: (n, 3)."""
-    needs: Floats = abs(np.diff(filled(q), axis=0)) / speeds
-    return needs
+    return np.asarray(abs(np.diff(filled(q), axis=0)) / speeds)
 
 
 def costs(task: Task) -> Floats:
     """What it takes to bring each object."""
-    legs: Floats = 2 * travel_time(task.q[0], task.q[1:], task.speeds)
-    return legs
+    return np.asarray(2 * travel_time(task.q[0], task.q[1:], task.speeds))
 
 
 def drawn(seed: int, count: int = 7, kind: str = "visit") -> Task:
