@@ -101,8 +101,7 @@ def p6() -> Mapping[str, Any]:
         legs = jobs.travel_time(task.q[:, None], task.q, task.speeds)
         arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
         lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(jobs.visit(task).order))
-    counts = np.bincount(lost, minlength=4).tolist()
-    none, one, *more = counts
+    none, one, *more = counts = np.bincount(lost, minlength=4).tolist()
     p, z2 = 1 - none / 200, 1.96**2 / 200  # Wilson's interval for a share
     middle, half = p + z2 / 2, np.sqrt(z2 * (p * (1 - p) + z2 / 4))
     share = (200 - none) / 2
@@ -118,10 +117,9 @@ LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
 
 
 def p7() -> dict[str, Any]:
-    heights = np.linspace(0, 8, 8001)
-    points = np.stack([0 * heights, 0 * heights, heights], axis=-1)
+    points = np.linspace([0, 0, 0], [0, 0, 8], 8001)
     served = jobs.workspace(LOW1, LOW2, points).all(axis=-1)
-    height = float(heights[served.argmax()])
+    height = float(points[served.argmax(), 2])
     facts = {"l1": LOW1, "l2": LOW2, "height": height, "triangle": LOW2 - LOW1, "floor": 0.0}
     square = float(np.hypot(LOW1, LOW2))
     return facts | {"square": square, "top": LOW1 + LOW2, "right": "elbow on the floor"}
