@@ -162,6 +162,22 @@ def test_a_wrap_spoils_two_central_differences_and_one_of_neighbours():
     assert re.search(r"two steps: 314 and 628 rad/s", reply) and "628 rad/s at 10 ms" in reply
 
 
+def test_what_to_try_doubles_the_false_speed_and_leaves_the_true_ones():
+    """The duration, which it was, scales both alike."""
+    (name,) = re.findall(r"Try other values of `(\w+)`", sources("02")["speed-look"])
+    found = [run("02", "setup", "speed-code")[0]]
+    for value in tries("02", "speed-code", name):
+        found.append(run("02", "setup", "speed-code", name=name, value=value)[0])
+    steps = np.array([g["times"][1] for g in found])
+    false, true = (
+        np.array([abs(differentiate(g[track], g["times"])).max(axis=0) for g in found])
+        for track in ("one_row", "smooth")
+    )
+    assert len(set(steps)) == len(found) == 3
+    assert np.allclose(true, true[0], rtol=2e-3)
+    assert np.allclose(false[:, 5], np.pi / steps, rtol=2e-3)
+
+
 def test_the_cross_product_fails_in_another_way_at_each_value_to_try():
     before = "setup", "chain-code", "package-code", "split-code", "joint1-code", "triangle-code"
     before += "matrix-code", "wrist-code"
@@ -289,7 +305,7 @@ def test_the_explorer_shows_the_numbers_of_the_table():
     assert explorer.data["laws"][explorer.data["start_values"]["law"]] == "quintic"
     assert explorer.data["samples"] == number(r"in (\d+) samples", text)
     tops = []
-    for count in (explorer.data["samples"], 1001):  # the explorer's and the table's
+    for count in (8001, 1001):  # as the explorer, which finds what lies between; the table's
         t = np.linspace(0, 20, count)
         q = follow(IRB140, IRB140.ik(blend(*path, linear(20.0)(t))), g["row"])
         speed, push = (abs(differentiate(q, t, n)).max(axis=0) for n in (1, 2))

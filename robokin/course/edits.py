@@ -91,6 +91,8 @@ SLIPS = {
     "a factor of two": "A factor of two is missing, or too much.",
     "the limit itself": "A value exactly at its limit is on the wrong side: < for <=, or so.",
     "an index off by one": "It takes the neighbour of an element.",
+    "the long way round": "An angle goes through a whole turn more than it has to: two values that "
+    "differ by 360 degrees are the same posture.",
 }
 SWAPPED = {
     "min": ("max", "least for greatest"),
@@ -171,6 +173,8 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
             )
         case ast.Call(func=ast.Attribute(attr="sqrt"), args=[a]):
             yield "a root left out", node, f"({said(a)})"
+        case ast.Call(func=ast.Name(id="wrapped"), args=[a, *_]):
+            yield "the long way round", node, f"({said(a)})"
         case ast.Call(func=ast.Name(id="abs"), args=[a]):
             yield "absolute value left out", node, f"({said(a)})"
         case ast.Call(func=ast.Attribute(value=a, attr=name)) if name in SWAPPED:

@@ -1544,6 +1544,7 @@ def _hole_view() -> str:
 
 EXERCISES = {
     "1": Function(
+        title="The blend from a distance",
         task="The blend (0 to 0.5) with which the tool passes at `distance` metres from via in the "
         "middle of the corner; NaN where even the blend 0.5 does not come so far away.",
         objective=2,
@@ -1566,6 +1567,7 @@ EXERCISES = {
         mistakes=_fraction_mistakes(),
     ),
     "2": Function(
+        title="PTP the short way",
         task="The PTP motion from q0 to the posture q1, each joint to that of the values "
         "q1 + 2 pi k inside its limits that is nearest to q0: (samples, 6).",
         objective=1,
@@ -1587,6 +1589,7 @@ EXERCISES = {
         mistakes=SHORT_MISTAKES,
     ),
     "3": Catch(
+        title="A test for speeds",
         task="A test: whether the program speeds(q, t) makes right speeds of wrapped angles.",
         objective=3,
         hints=(
@@ -1928,6 +1931,7 @@ PREDICTIONS = {
         view=_best_view,
     ),
     "p9": Prediction(
+        optional=True,
         question="With b = 0.55 the first control pose A lies {before:.1f} mm before the start, on "
         "the line from via to start and beyond. Where does the motion begin at s = 0?",
         options=(
@@ -1962,6 +1966,7 @@ PREDICTIONS = {
         view=_too_much_view,
     ),
     "p10": Prediction(
+        optional=True,
         question="q holds {count} samples of a motion, as ik gives them. Samples {first} to "
         "{last}, counted from 0, are out of reach: their rows are NaN. How many samples are "
         "usable after np.unwrap(q, axis=0), along time?",

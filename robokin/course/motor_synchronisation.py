@@ -1424,6 +1424,7 @@ def _missed_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The next posture",
         task="The posture for a point, joint 1 the short way round",
         objective=1,
         hints=(
@@ -1445,6 +1446,7 @@ EXERCISES = {
         mistakes=POSTURE_MISTAKES,
     ),
     "2": Value(
+        title="Gears for a move of your own",
         task="Gears and frequencies for a move of your own",
         objective=2,
         hints=(
@@ -1463,6 +1465,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for phases",
         task="A test: whether the program windings(drive, signs) feeds the half windings rightly",
         objective=3,
         hints=(

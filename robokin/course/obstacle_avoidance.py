@@ -1493,6 +1493,7 @@ def _no_view() -> str:
 
 EXERCISES = {
     "1": Function(
+        title="Inside or outside",
         task="Whether H lies inside the shape with these corners: True or False.",
         objective=1,
         hints=(
@@ -1515,6 +1516,7 @@ EXERCISES = {
         mistakes=INSIDE_MISTAKES,
     ),
     "2": Value(
+        title="Past a bar",
         task="A path of your own past a bar: postures from the start to the target on which all "
         "levers keep the distance from all of the bar.",
         objective=2,
@@ -1537,6 +1539,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for checks",
         task="A test: whether the program safe(path, H, distance) judges motions rightly.",
         objective=3,
         hints=(

@@ -1207,6 +1207,7 @@ def _half_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The axes of a table",
         task="The axes of all joints from a Denavit-Hartenberg table: a point of each and its "
         "direction, in base coordinates.",
         objective=1,
@@ -1229,6 +1230,7 @@ EXERCISES = {
         mistakes=AXES_MISTAKES,
     ),
     "2": Catch(
+        title="A test for wrist programs",
         task="A test that tells right wrist programs from wrong ones.",
         objective=2,
         hints=(
@@ -1254,6 +1256,7 @@ EXERCISES = {
         "choice is right.",
     ),
     "3": Value(
+        title="A line of your own",
         task="Tilt the tool, and choose the duration, so that your line keeps its distance from "
         "the wrist singularity.",
         objective=3,

@@ -1742,6 +1742,7 @@ def _race_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="Levers of any lengths",
         task="The posture (gamma, beta, alpha) of three levers of any lengths with the gripper at "
         "K, alpha given, B counter-clockwise from the line OK; NaN where there is none.",
         objective=1,
@@ -1764,6 +1765,7 @@ EXERCISES = {
         mistakes=LEVER_MISTAKES,
     ),
     "2": Catch(
+        title="A test for least movement",
         task="A test: whether the program least(K, previous) finds the least movement.",
         objective=2,
         hints=(
@@ -1783,6 +1785,7 @@ EXERCISES = {
         mistakes=LEAST_MISTAKES,
     ),
     "3": Value(
+        title="Two tasks at once",
         task="Two postures for two targets of one's own: little movement in all, and quick.",
         objective=3,
         hints=(

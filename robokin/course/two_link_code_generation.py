@@ -1590,6 +1590,7 @@ def _lost_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The elbow, wherever it is",
         task="The elbow where two circles meet, on the side asked for",
         objective=1,
         hints=(
@@ -1609,6 +1610,7 @@ EXERCISES = {
         mistakes=_elbow_mistakes(),
     ),
     "2": Value(
+        title="A budget of operations",
         task="A program for both elbows of an arm of your own, within a budget of operations",
         objective=2,
         hints=(
@@ -1627,6 +1629,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for generated code",
         task="A test: whether the program elbows(x1, y1, x3, y3, l1, l2) finds both elbows",
         objective=3,
         hints=(
