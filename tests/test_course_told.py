@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from robokin import Transform
 from robokin.course import book, check
-from robokin.course.exercises import Function
+from robokin.course.function import Function
 from robokin.course.told import apart, floats, one_number
 
 numbers = st.floats(-1e4, 1e4)
@@ -63,11 +63,11 @@ def test_text_for_numbers_is_another_kind_of_answer(name):
     exercise = book.find(name, "exercises")
 
     def in_text(*case):
-        result = exercise.right_result(case)
+        result = exercise.right(*case)
         numbers = result.as_matrix() if isinstance(result, Transform) else np.asarray(result)
         return np.asarray(numbers, dtype=float).astype(str).tolist()
 
-    if not isinstance(exercise.right_result(exercise.seeded()[0]), (str, bool)):
+    if not isinstance(exercise.wanted[0], (str, bool)):
         assert check(name, in_text).mistake == "another kind or shape"
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from .book import find, lab, own
 from .exercises import Exercise, Verdict
 from .hand_in import report, watch
+from .markdown import BadFile
 from .note import Note
 from .predictions import predict
 from .variants import key, variant
@@ -57,8 +58,8 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     try:
         verdict: Verdict = asked.judge(called, answer, who)
     except Exception as error:
-        says = f"This cannot be judged: {type(error).__name__}: {error}"
-        verdict = Verdict(called, says=(says,))
+        told = f"{error}" if isinstance(error, BadFile) else f"{type(error).__name__}: {error}"
+        verdict = Verdict(called, says=(f"This cannot be judged: {told}",))
     if isinstance(name, Exercise):  # no lab's
         return verdict
     before = _verdicts.get(verdict.exercise)
