@@ -135,7 +135,9 @@ EDGES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 
 
 def everybody(solution: str) -> list[Variant]:
-    """The slips that can be made in any program, found in the functions of this one."""
+    """The slips that can be made in any program, found in the functions of this one: not in those
+    that may never end after a slip.
+    """
     lines = [0, *accumulate(len(line.encode()) for line in solution.splitlines(keepends=True))]
     raw = solution.encode()
 
@@ -147,8 +149,11 @@ def everybody(solution: str) -> list[Variant]:
         return f"({raw[slice(*place(node))].decode()})"
 
     found = []
-    functions = [n for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)]
-    for node in (n for each in functions for top in each.body for n in ast.walk(top)):
+    functions = [
+        list(ast.walk(n)) for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)
+    ]
+    ending = (nodes for nodes in functions if not any(isinstance(n, ast.While) for n in nodes))
+    for node in (n for nodes in ending for n in nodes):
         for name, spot, new in (*_in_sums(node, said), *_in_calls(node, said)):
             start, end = (len(raw[:at].decode()) for at in place(spot))
             found.append(Variant(name, SLIPS[name], ((start, end, new),)))

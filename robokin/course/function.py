@@ -105,7 +105,7 @@ class Function(Exercise):
             return unanswered(name)
         if not callable(answer):
             return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
-        cases = self.cases
+        cases, _ = self.cases, self.wanted  # BadFile comes from here and from nowhere below
         outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
         wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
         if len(wrong) == len(cases) and not any(wrong):

@@ -42,7 +42,9 @@ class Text(NamedTuple):
         line, text = self.parts.get(part, (0, ""))
         found = CODE.search(text)
         if not found:
-            raise BadFile(self.file, line or None, f"wanted a section {part!r} with a program")
+            raise BadFile(
+                self.file, line - 1 if line else None, f"wanted a section {part!r} with a program"
+            )
         return line + text.count("\n", 0, found.start(1)), found[1]
 
     def words(self, part: str) -> str:
