@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from .book import find, lab, own
 from .exercises import Exercise, Verdict
 from .hand_in import report, watch
+from .markdown import BadFile
 from .note import Note
 from .predictions import predict
 from .variants import key, variant
@@ -57,8 +58,8 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     try:
         verdict: Verdict = asked.judge(called, answer, who)
     except Exception as error:
-        says = f"This cannot be judged: {type(error).__name__}: {error}"
-        verdict = Verdict(called, says=(says,))
+        told = f"{error}" if isinstance(error, BadFile) else f"{type(error).__name__}: {error}"
+        verdict = Verdict(called, says=(f"This cannot be judged: {told}",))
     if isinstance(name, Exercise):  # no lab's
         return verdict
     before = _verdicts.get(verdict.exercise)
@@ -128,11 +129,13 @@ def progress(name: str | None = None) -> Note:
     for slug in slugs:
         book = lab(slug)
         lines.append(f"{slug}:")
-        for k, objective in enumerate(book.objectives, 1):
+        objectives = dict(enumerate(book.objectives, 1))
+        for k in sorted({*objectives, *(e.objective for e in book.exercises.values())}):
             mine = {f"{slug}.{n}": e for n, e in book.exercises.items() if e.objective == k}
             got = [i for i in mine if i in _verdicts and _verdicts[i].holds]
             tried = [i for i in mine if i in _verdicts and _verdicts[i].answered]
             word = "holds" if len(got) == len(mine) else "begun" if tried else "not yet"
+            objective = objectives.get(k) or "; ".join(e.title for e in mine.values())
             text = f"{word:8} {', '.join(mine)}: {objective}"
             lines += textwrap.wrap(text, 88, initial_indent="  ", subsequent_indent=" " * 11)
     return Note("\n".join(lines) or "Nothing has been checked in this kernel.")

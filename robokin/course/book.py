@@ -13,66 +13,87 @@ import inspect
 import os
 import sys
 import textwrap
-from collections.abc import Mapping
-from functools import cache, cached_property
+import traceback
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import cache, cached_property, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from . import edits, markdown
+from . import edits, markdown, questions
 from .catch import Catch
 from .exercises import Exercise
 from .function import Function
-from .questions import Prediction, predictions
+from .markdown import BadFile
+from .questions import Prediction
 from .value import Value
 
 OURS = Path(__file__).parents[2] / "notebooks" / "exercises"
 ELSEWHERE = "ROBOKIN_EXERCISES"
 WORDS = ("objectives", "predictions")  # Markdown that is no exercise
+DEFAULTS = ("form", "law", "same")  # what a notebook calls so by chance is no part of an exercise
 
 
 class Lab:
-    """The exercises and predictions of a lab, read from its folder when they are asked for."""
+    """The exercises and predictions of a lab, read from its folder when they are asked for. What
+    cannot be read is in `broken`, file -> why, and the others are there.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.broken: dict[str, str] = {}  # file -> why it cannot be read
+        self.broken: dict[str, str] = {}
         self.package = f"robokin_exercises_{hashlib.sha1(os.fsencode(folder)).hexdigest()[:12]}"
+        for name in [each for each in sys.modules if each.startswith(f"{self.package}.")]:
+            del sys.modules[name]  # its file may have changed
+        importlib.invalidate_caches()
         sys.modules.setdefault(self.package, ModuleType(self.package)).__path__ = [str(folder)]
 
     @cached_property
     def objectives(self) -> tuple[str, ...]:
         """What a student can do after the lab."""
+        found = tuple(_old(self.folder.name, "OBJECTIVES") or ())
         file = self.folder / "objectives.md"
-        if not file.is_file():
-            return tuple(_old(self.folder.name, "OBJECTIVES") or ())
-        return markdown.objectives(markdown.read(file))
+        with self._noted(file.name):
+            found = markdown.objectives(markdown.read(file)) if file.is_file() else found
+        return found
 
     @cached_property
     def exercises(self) -> Mapping[str, Exercise]:
-        """By their numbers. What cannot be read is in `broken`, and the others are there."""
-        found: dict[str, Exercise] = {}
+        """By their numbers."""
+        found = dict(_old(self.folder.name, "EXERCISES"))
+        files: dict[str, str] = {}
         for file in sorted(self.folder.glob("*.md")):
             if file.stem not in WORDS:
-                try:
-                    exercise = self._exercise(file)
-                    if exercise.number in found:
-                        raise markdown.wrong(f"{file}", 1, f"another one is {exercise.number}, too")
+                with self._noted(file.name):
+                    exercise = self.exercise(file)
+                    other = files.setdefault(exercise.number, file.name)
+                    if other != file.name:
+                        told = f"{exercise.number} is the number of {other}, too"
+                        raise BadFile(f"{file}", 1, told)
                     found[exercise.number] = exercise
-                except Exception as error:  # a teacher's file may hold anything
-                    known = isinstance(error, ValueError)
-                    told = f"{error}" if known else f"{file}: {type(error).__name__}: {error}"
-                    self.broken[file.name] = told
-        return dict(sorted({**_old(self.folder.name, "EXERCISES"), **found}.items()))
+        return dict(sorted(found.items(), key=lambda each: (len(each[0]), each[0])))
 
     @cached_property
     def predictions(self) -> Mapping[str, Prediction]:
-        """By their numbers. ValueError: they cannot be read."""
+        """By their numbers."""
+        found = dict(_old(self.folder.name, "PREDICTIONS"))
         file = self.folder / "predictions.md"
-        if not file.with_suffix(".py").is_file():
-            return _old(self.folder.name, "PREDICTIONS") or {}
-        code = self.module("pictures") | self.module("predictions")
-        return predictions(f"{file}", markdown.read(file), code)
+        if not file.is_file() or (found and not file.with_suffix(".py").is_file()):
+            return found
+        with self._noted(file.name):
+            code = self.module("predictions")
+            for line, heading, text in questions.sections(markdown.read(file)):
+                with self._noted(f"{file.name}, {heading}"):
+                    number, each = questions.prediction(f"{file}", line, heading, text, code)
+                    if number in found:
+                        raise BadFile(f"{file}", line, f"{number} is there twice")
+                    found[number] = replace(each, view=partial(self._view, number))
+        return found
+
+    def _view(self, number: str) -> Any:
+        """What answers a prediction. Only now is what draws imported."""
+        return self.module("pictures").get(f"{number}_view", str)()
 
     def read(self) -> None:
         """Read everything now."""
@@ -85,25 +106,37 @@ class Lab:
                 return given(who)
         raise ValueError(f"lab: {self.folder.name} has no numbers of one's own")
 
-    def _exercise(self, file: Path) -> Exercise:
+    def exercise(self, file: Path) -> Exercise:
+        """The one that a Markdown file and the Python file beside it have. ValueError: none."""
         text = markdown.exercise(f"{file}", markdown.read(file))
-        code = self.module(file.stem)
-        try:
-            return made(text, code)
-        except ValueError as error:
-            raise ValueError(
-                f"{error}" if f"{file}" in f"{error}" else f"{file}, {error}"
-            ) from None
+        return made(text, self.module(file.stem))
 
     def module(self, stem: str) -> dict[str, Any]:
-        if not (self.folder / f"{stem}.py").is_file():
+        """The names of a Python file. ValueError: it cannot be run."""
+        file = self.folder / f"{stem}.py"
+        if not file.is_file():
             return {}
-        return vars(importlib.import_module(f"{self.package}.{stem}"))
+        try:
+            return vars(importlib.import_module(f"{self.package}.{stem}"))
+        except SyntaxError as error:
+            raise BadFile(error.filename or f"{file}", error.lineno, markdown.why(error)) from None
+        except Exception as error:
+            steps = traceback.extract_tb(error.__traceback__)
+            mine = [each for each in steps if Path(each.filename).parent == self.folder]
+            where, line = (mine[-1].filename, mine[-1].lineno) if mine else (f"{file}", None)
+            raise BadFile(where, line, markdown.why(error)) from None
+
+    @contextlib.contextmanager
+    def _noted(self, name: str) -> Iterator[None]:
+        try:
+            yield
+        except ValueError as error:
+            self.broken[name] = f"{error}"
 
 
 def _old(name: str, what: str) -> Any:
     """What a lab has in Python still."""
-    if name not in numbered():
+    if name not in numbered(OURS):
         return {}
     with contextlib.suppress(ModuleNotFoundError):
         return getattr(importlib.import_module(f".{name}", __package__), what)
@@ -112,7 +145,7 @@ def _old(name: str, what: str) -> Any:
 
 def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
     """An exercise of the kind that it is written as: a test to write has right programs, a value to
-    give has `faults`, and what has neither is a function to write.
+    give has `faults`, and what has neither is a function to write. ValueError: it is none.
     """
     if "Right programs" in text.parts:
         return Catch(text, code)
@@ -121,42 +154,48 @@ def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
 
 def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
     """An exercise of one's own: of a Markdown file, or of a right function, or its text, and its
-    cases. ValueError: it cannot be read.
+    cases. ValueError: it is none.
     """
-    if isinstance(solution, os.PathLike) or (isinstance(solution, str) and "\n" not in solution):
-        file = Path(solution)
-        return Lab(file.resolve().parent)._exercise(file.resolve())
-    source = solution if isinstance(solution, str) else inspect.getsource(solution)
-    title = edits.function_name(textwrap.dedent(source))
+    if isinstance(solution, os.PathLike) or f"{solution}".endswith(".md"):
+        file = Path(solution).resolve()
+        return Lab(file.parent).exercise(file)
+    names: dict[str, Any] = {}
+    if not isinstance(solution, str):
+        try:
+            names = {k: v for k, v in solution.__globals__.items() if k not in DEFAULTS}
+            solution = inspect.getsource(solution)
+        except (AttributeError, OSError, TypeError):
+            raise ValueError(f"solution: wanted a function or its text, got {solution!r}") from None
+    source = textwrap.dedent(solution).strip()
+    title = edits.function_name("solution", 1, source)
     parts = {
-        "Solution": (1, f"```python\n{textwrap.dedent(source)}```"),
+        "Solution": (1, f"```python\n{source}\n```"),
         "Mistakes": (1, textwrap.dedent(mistakes)),
     }
-    text = markdown.Text("<exercise>", "1", title, 1, "", (), parts)
-    names = {} if isinstance(solution, str) else vars(inspect.getmodule(solution))
+    text = markdown.Text(f"exercise {title}", "1", title, 1, "", (), parts)
     return Function(text, names | {"cases": cases})
 
 
 def labs() -> Mapping[str, Lab]:
-    """All labs by their names, in the order of their notebooks; those of other folders after ours,
-    in the order of their names.
+    """All labs by their names: ours, then those of other folders, each folder's in the order of the
+    notebooks beside it, and those without a notebook after them.
     """
-    return _labs(os.environ.get(ELSEWHERE, ""))
+    return _labs(OURS, os.environ.get(ELSEWHERE, ""))
 
 
-def numbered() -> list[str]:
-    """Our labs in the order of their notebooks."""
-    return [file.stem.partition("_")[2] for file in sorted(OURS.parent.glob("[0-9]*_*.ipynb"))]
+def numbered(place: Path) -> list[str]:
+    """The labs whose notebooks stand beside a folder, in their order."""
+    return [file.stem.partition("_")[2] for file in sorted(place.parent.glob("[0-9]*_*.ipynb"))]
 
 
 @cache
-def _labs(elsewhere: str) -> Mapping[str, Lab]:
-    numbers = numbered()
-    found: dict[str, Lab] = {name: Lab(OURS / name) for name in numbers}
-    for place in (OURS, *map(Path, filter(None, elsewhere.split(os.pathsep)))):
-        folders = [each for each in place.glob("[!._]*") if each.is_dir()]
-        for each in sorted(folders, key=lambda each: each.name):
-            found.setdefault(each.name, Lab(each))  # nobody takes a name of ours
+def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
+    found: dict[str, Lab] = {}
+    for place in (ours, *map(Path, filter(None, elsewhere.split(os.pathsep)))):
+        folders = {each.name: each for each in place.glob("[!._]*") if each.is_dir()}
+        first = [name for name in numbered(place) if name in folders]
+        for name in dict.fromkeys([*first, *sorted(folders)]):
+            found.setdefault(name, Lab(folders[name]))  # nobody takes a name of ours
     return found
 
 
@@ -168,7 +207,7 @@ def lab(name: Any) -> Lab:
             f"lab: no labs are here. Install robokin from its clone, or let {ELSEWHERE} name the "
             "folder notebooks/exercises of one"
         )
-    if name not in known:
+    if not isinstance(name, str) or name not in known:
         raise ValueError(f"lab: wanted one of {', '.join(known)}, got {name!r}")
     return known[name]
 
@@ -189,8 +228,9 @@ def find(name: Any, what: str) -> Any:
             f'id: wanted a lab and a number, "{next(iter(known))}.1", of {", ".join(known)}; got '
             f"{name!r}"
         )
-    entries = getattr(lab(slug), what)
+    entries, broken = getattr(lab(slug), what), lab(slug).broken
     if number not in entries:
-        told = f"id: wanted one of {', '.join(f'{slug}.{key}' for key in entries)}, got {name!r}"
-        raise ValueError(". ".join([told, *lab(slug).broken.values()]))
+        ids = ", ".join(f"{slug}.{each}" for each in entries)
+        wanted = f"wanted one of {ids}" if ids else f"{slug} has no {what}"
+        raise ValueError("\n".join([f"id: {wanted}, got {name!r}", *broken.values()]))
     return entries[number]

@@ -9,7 +9,7 @@ import numpy as np
 from . import edits
 from .answers import Outcome, is_stub, run
 from .exercises import Exercise, Verdict, unanswered, words
-from .markdown import Text
+from .markdown import BadFile, Text
 
 ASSERTS = "It raises AssertionError"  # as `answers.run` says it
 RAISES = (
@@ -40,17 +40,17 @@ class Catch(Exercise):
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
         super().__init__(text)
         self.code = dict(code)
-        written = [(each, str(each.programs[0])) for each in text.wrong("Right programs")]
-        self.rights = [(f"{each.name}{each.says and ' '}{each.says}", p) for each, p in written]
+        line, first = text.code("Right programs")
+        self.function = edits.function_name(text.file, line, first)
+        right = edits.own(text.file, self.function, [first], text.wrong("Right programs"))
+        if not right:
+            raise BadFile(text.file, line - 1, "wanted '**what is special.**' above the program")
+        self.rights = [(" ".join(filter(None, each[:2])), each.text(first)) for each, _ in right]
         programs = [program for _, program in self.rights]
-        self.function = edits.function_name(programs[0])
         self.promise = text.words("Promise")
         self.wrongs = [
             (variant.name, variant.says, variant.text(base))
-            for mistake in text.wrong()
-            for each in mistake.programs
-            for base in [edits.base(programs, each)]
-            for variant in edits.own(base, [mistake._replace(programs=(each,))])
+            for variant, base in edits.own(text.file, self.function, programs, text.wrong())
         ]
 
     def program(self, text: str) -> Program:

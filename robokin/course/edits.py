@@ -3,14 +3,17 @@ everybody makes, alone and two at a time.
 """
 
 import ast
+import copy
 import re
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
-from itertools import accumulate, combinations
+from itertools import accumulate, combinations, pairwise
 from typing import Any, NamedTuple
 
-from .markdown import Edit, Wrong
+import numpy as np
+
+from .markdown import BadFile, Edit, Wrong
 
 Span = tuple[int, int, str]  # from, to, and what stands there instead
 
@@ -27,21 +30,24 @@ class Variant(NamedTuple):
         return self.change if isinstance(self.change, str) else _edited(solution, self.change)
 
 
-def own(solution: str, mistakes: Sequence[Wrong]) -> list[Variant]:
-    """Every mistake of an exercise, alone. ValueError: an edit does not fit the solution."""
-    return [
-        Variant(each.name, each.says, p if isinstance(p, str) else _spans(solution, p, each))
-        for each in mistakes
-        for p in each.programs
-    ]
-
-
-def base(programs: Sequence[str], edits: tuple[Edit, ...] | str) -> str:
-    """The first of these programs that the edits fit, else the first one."""
-    if isinstance(edits, str):
-        return programs[0]
-    fits = (p for p in programs if all(p.count(old) == 1 for old, _ in edits))
-    return next(fits, programs[0])
+def own(
+    file: str, name: str, programs: Sequence[str], mistakes: Sequence[Wrong]
+) -> list[tuple[Variant, str]]:
+    """Every mistake of an exercise, alone, and which of these right programs it changes: the first
+    that it fits. `name`: what they all define. ValueError: what does not fit, each in a sentence.
+    """
+    found, misfits = [], []
+    for each in mistakes:
+        for line, wrong in zip(each.lines, each.programs, strict=True):
+            base = next((p for p in programs if not _misfit(p, wrong, name)), programs[0])
+            if why := _misfit(base, wrong, name):
+                misfits.append(f"{BadFile(file, line, f'{each.name!r}: {why}')}")
+            else:
+                change = wrong if isinstance(wrong, str) else _spans(base, wrong)
+                found.append((Variant(each.name, each.says, change), base))
+    if misfits:
+        raise ValueError("\n".join(misfits))
+    return found
 
 
 def pairs(variants: Sequence[Variant]) -> Iterator[Variant]:
@@ -50,7 +56,7 @@ def pairs(variants: Sequence[Variant]) -> Iterator[Variant]:
         if isinstance(a.change, str) or isinstance(b.change, str) or a.name == b.name:
             continue
         both = sorted((*a.change, *b.change))
-        if all(one[1] <= two[0] for one, two in zip(both, both[1:], strict=False)):
+        if _apart(both):
             says = a.says if a.says == b.says else f"{a.says} And: {b.says}"
             yield Variant(f"{a.name}, and {b.name}", says, tuple(both))
 
@@ -61,14 +67,34 @@ def _edited(text: str, change: Sequence[Span]) -> str:
     return text
 
 
-def _spans(solution: str, edits: tuple[Edit, ...], mistake: Wrong) -> tuple[Span, ...]:
-    for old, _ in edits:
-        if solution.count(old) != 1:
-            raise ValueError(
-                f"line {mistake.line}, {mistake.name!r}: `{old}` stands {solution.count(old)} "
-                "times in the solution, wanted once"
-            )
+def _apart(change: Sequence[Span]) -> bool:
+    return all(one[1] <= two[0] for one, two in pairwise(sorted(change)))
+
+
+def _spans(solution: str, edits: tuple[Edit, ...]) -> tuple[Span, ...]:
     return tuple((at := solution.index(old), at + len(old), new) for old, new in edits)
+
+
+def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
+    """Why this is no change of the solution that gives a program; "": it is one."""
+    if isinstance(wrong, str):
+        text = wrong
+        if not re.search(rf"^(?:def |class )?{name}\b", text, re.M):
+            return f"the program does not define {name}"
+    else:
+        for old, _ in wrong:
+            if solution.count(old) != 1:
+                times = f"{solution.count(old)} times"
+                return f"`{old}` stands {times} in the solution, wanted once"
+        change = _spans(solution, wrong)
+        if not _apart(change):
+            return "its pieces overlap"
+        text = _edited(solution, change)
+    try:
+        ast.parse(text)
+    except SyntaxError as error:
+        return f"no Python: {error.msg}"
+    return ""
 
 
 # --- What everybody does --------------------------------------------------------------------------
@@ -109,7 +135,9 @@ EDGES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 
 
 def everybody(solution: str) -> list[Variant]:
-    """The slips that can be made in any program, found in the functions of this one."""
+    """The slips that can be made in any program, found in the functions of this one: not in those
+    that may never end after a slip.
+    """
     lines = [0, *accumulate(len(line.encode()) for line in solution.splitlines(keepends=True))]
     raw = solution.encode()
 
@@ -118,11 +146,14 @@ def everybody(solution: str) -> list[Variant]:
         return begin + node.col_offset, end + node.end_col_offset
 
     def said(node: Any) -> str:
-        return raw[slice(*place(node))].decode()
+        return f"({raw[slice(*place(node))].decode()})"
 
     found = []
-    functions = [n for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)]
-    for node in (n for each in functions for top in each.body for n in ast.walk(top)):
+    functions = [
+        list(ast.walk(n)) for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)
+    ]
+    ending = (nodes for nodes in functions if not any(isinstance(n, ast.While) for n in nodes))
+    for node in (n for nodes in ending for n in nodes):
         for name, spot, new in (*_in_sums(node, said), *_in_calls(node, said)):
             start, end = (len(raw[:at].decode()) for at in place(spot))
             found.append(Variant(name, SLIPS[name], ((start, end, new),)))
@@ -134,18 +165,18 @@ def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, 
     match node:
         case ast.BinOp(op=ast.Add() | ast.Sub(), left=a, right=b):
             sign = "-" if isinstance(node.op, ast.Add) else "+"
-            yield "sign", node, f"({said(a)} {sign} ({said(b)}))"
+            yield "sign", node, f"({said(a)} {sign} {said(b)})"
         case ast.UnaryOp(op=ast.USub(), operand=a) if not isinstance(a, ast.Constant):
-            yield "sign", node, f"({said(a)})"
+            yield "sign", node, said(a)
         case ast.BinOp(op=ast.MatMult(), left=a, right=b):
-            yield "order of a product", node, f"(({said(b)}) @ ({said(a)}))"
-            yield "element-wise product", node, f"(({said(a)}) * ({said(b)}))"
+            yield "order of a product", node, f"({said(b)} @ {said(a)})"
+            yield "element-wise product", node, f"({said(a)} * {said(b)})"
         case ast.BinOp(op=ast.Pow(), left=a, right=ast.Constant(2)):
-            yield "a square left out", node, f"({said(a)})"
+            yield "a square left out", node, said(a)
         case ast.BinOp(op=ast.Mult() | ast.Div(), left=a, right=ast.Constant(2)):
-            yield "a factor of two", node, f"({said(a)})"
+            yield "a factor of two", node, said(a)
         case ast.BinOp(op=ast.Mult(), left=ast.Constant(2), right=b):
-            yield "a factor of two", node, f"({said(b)})"
+            yield "a factor of two", node, said(b)
         case ast.Compare(ops=ops) if all(type(op) in SIGNS for op in ops):
             terms = [f" {said(term)}" for term in node.comparators]
             for k in range(len(ops)):
@@ -166,17 +197,14 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
             yield "inverse left out", node, said(a)
         case ast.Call(func=ast.Attribute(attr="arctan2"), args=[y, x]):
             yield "x and y exchanged", node, f"np.arctan2({said(x)}, {said(y)})"
-            yield (
-                "arcsin for atan2",
-                node,
-                f"np.arcsin(({said(y)}) / np.hypot({said(y)}, {said(x)}))",
-            )
+            sine = f"{said(y)} / np.hypot({said(y)}, {said(x)})"
+            yield "arcsin for atan2", node, f"np.arcsin({sine})"
         case ast.Call(func=ast.Attribute(attr="sqrt"), args=[a]):
-            yield "a root left out", node, f"({said(a)})"
+            yield "a root left out", node, said(a)
         case ast.Call(func=ast.Name(id="wrapped"), args=[a, *_]):
-            yield "the long way round", node, f"({said(a)})"
+            yield "the long way round", node, said(a)
         case ast.Call(func=ast.Name(id="abs"), args=[a]):
-            yield "absolute value left out", node, f"({said(a)})"
+            yield "absolute value left out", node, said(a)
         case ast.Call(func=ast.Attribute(value=a, attr=name)) if name in SWAPPED:
             other, slip = SWAPPED[name]
             yield slip, node.func, f"{said(a)}.{other}"
@@ -188,12 +216,18 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
 # --- Programs that run ----------------------------------------------------------------------------
 
 
-def function_name(text: str) -> str:
-    """The name of the last function that a program defines at its top. ValueError: none."""
-    names = re.findall(r"^def (\w+)", text, re.M)
+def function_name(file: str, line: int, program: str) -> str:
+    """The name of the last function that a program defines at its top. BadFile: it defines none, or
+    is no Python. `line`: its first one in the file.
+    """
+    try:
+        top = ast.parse(program).body
+    except SyntaxError as error:
+        raise BadFile(file, line + (error.lineno or 1) - 1, f"no Python: {error.msg}") from None
+    names = [each.name for each in top if isinstance(each, ast.FunctionDef)]
     if not names:
-        raise ValueError("wanted a program that defines a function")
-    return str(names[-1])
+        raise BadFile(file, line, "wanted a program that defines a function")
+    return names[-1]
 
 
 def run(text: str, also: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -206,30 +240,30 @@ def run(text: str, also: Mapping[str, Any] | None = None) -> dict[str, Any]:
 class Steps:
     """A solution by the statements of its function, so that thousands of wrong programs run
     quickly: each is made of statements that are compiled already, and begins after those that it
-    has in common with the solution. For a solution that does more than give names to values, and
-    return at its end, each wrong program is compiled as a whole: what a loop changes in place would
-    be changed for all.
+    has in common with the solution, with its own copies of all that a statement may change. What
+    cannot be taken apart so is compiled anew for each: a solution that returns in more than one
+    place, or has a function inside that asks for what comes later.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
-        self.solution, self.also, self.name = solution, also, function_name(solution)
+        self.solution, self.also = solution, also
         top = [n for n in ast.parse(solution).body if isinstance(n, ast.FunctionDef)][-1]
+        self.name, self.inputs = top.name, [each.arg for each in top.args.args]
         lines = [0, *accumulate(map(len, solution.splitlines(keepends=True)))]
         self.spans = [(lines[n.lineno - 1], lines[n.end_lineno or 0]) for n in top.body]
-        self.inputs = [each.arg for each in top.args.args]
         self.before = run(solution[: lines[top.lineno - 1]], also)
+        returns = [n for n in ast.walk(top) if isinstance(n, ast.Return)]
         alone = len({a for a, _ in self.spans}) == len(self.spans)  # one statement a line
-        last = isinstance(top.body[-1], ast.Return)
-        self.plain = last and all(map(_names, top.body[:-1])) and solution.isascii() and alone
+        self.plain = returns == top.body[-1:] and alone and not _asks_later(top.body)
         self.names: dict[Any, dict[str, Any]] = {}
 
     def program(self, variant: Variant) -> Callable[..., Any]:
-        """The wrong program."""
+        """The wrong program. It leaves its inputs as they are."""
         change = () if isinstance(variant.change, str) else variant.change
         inside = [any(a <= start and end <= b for a, b in self.spans) for start, end, _ in change]
         if not (self.plain and change and all(inside)):
-            program: Callable[..., Any] = run(variant.text(self.solution), self.also)[self.name]
-            return program
+            program = run(variant.text(self.solution), self.also)[self.name]
+            return lambda *case: program(*copy.deepcopy(case))
         steps: list[Any] = []
         same = 0
         for a, b in self.spans:
@@ -238,7 +272,7 @@ class Steps:
             steps.append(_step(_edited(self.solution[a:b], mine)))
 
         def stepped(*case: Any) -> Any:
-            names = dict(self._after(same, case))
+            names = self._after(same, case)
             for step in steps[same:]:
                 exec(step, names)
             return names["returned"]
@@ -246,30 +280,39 @@ class Steps:
         return stepped
 
     def _after(self, count: int, case: tuple[Any, ...]) -> dict[str, Any]:
-        """All names after so many statements of the solution."""
+        """All names after so many statements of the solution, to be used once."""
         key = count, tuple(map(id, case))
-        if count == 0:
-            return self.before | dict(zip(self.inputs, case, strict=True))
         if key not in self.names:
-            names = dict(self._after(count - 1, case))
-            exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
-            self.names[key] = names
-        return self.names[key]
+            names = dict(zip(self.inputs, case, strict=True))
+            if count:
+                names = self._after(count - 1, case)
+                exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
+            self.names[key] = {k: v for k, v in names.items() if v is not self.before.get(k, ...)}
+        memo: dict[int, Any] = {}  # one array of two names stays one
+        mine = self.names[key].items()
+        return self.before | {
+            k: copy.deepcopy(v, memo) if isinstance(v, CHANGEABLE) else v for k, v in mine
+        }
 
 
-def _names(node: ast.stmt) -> bool:
-    """Whether a statement only gives names to values, or is a docstring."""
-    if isinstance(node, ast.With):
-        return all(map(_names, node.body))
-    if isinstance(node, ast.If):
-        return all(map(_names, [*node.body, *node.orelse]))
-    if isinstance(node, ast.Assign):
-        names = [n for each in node.targets for n in getattr(each, "elts", [each])]
-        return all(isinstance(n, ast.Name) for n in names)
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+CHANGEABLE = (np.ndarray, list, dict, set)
 
 
 @cache
 def _step(text: str) -> Any:
     text = textwrap.dedent(text)
-    return compile(re.sub(r"^return ", "returned = ", text), "<solution>", "exec")
+    return compile(re.sub(r"^return\b", "returned =", text), "<solution>", "exec")
+
+
+def _asks_later(body: Sequence[ast.stmt]) -> bool:
+    """Whether a function inside one of these statements asks for a name that a later one gives."""
+    later: set[str] = set()
+    for statement in reversed(body):
+        nodes = list(ast.walk(statement))
+        inner = (n for n in nodes if isinstance(n, (ast.Lambda, ast.FunctionDef, ast.GeneratorExp)))
+        asked = {n.id for each in inner for n in ast.walk(each) if isinstance(n, ast.Name)}
+        if asked & later:
+            return True
+        stored = (n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
+        later |= {n.id for n in stored}
+    return False

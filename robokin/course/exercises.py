@@ -71,11 +71,7 @@ class Exercise(ABC):
     def __init__(self, text: Text) -> None:
         self.text, self.number, self.title = text, text.number, text.title
         self.task, self.objective, self.hints = text.task, text.objective, text.hints
-
-    @property
-    def solution(self) -> str:
-        """A right program, as it is shown."""
-        return self.text.code("Solution")
+        _, self.solution = text.code("Solution")  # a right program, as it is shown
 
     @abstractmethod
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
@@ -120,6 +116,8 @@ def words(value: Any) -> str:
     if isinstance(value, (float, np.floating)):
         return f"{value:.6g}"
     if isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
+        if not value.ndim:
+            return words(value.item())
         if value.size > 12:
             return f"an array of shape {value.shape}: [{_row(value.ravel()[:4])}, ...]"
         if value.ndim == 2:

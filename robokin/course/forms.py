@@ -12,6 +12,7 @@ from ..arms.scara import ScaraPose
 from ..quaternion import Quaternion
 from ..transform import Transform
 from .answers import equal
+from .exercises import numbers as as_numbers
 from .exercises import words
 from .told import floats, one_number
 
@@ -22,9 +23,12 @@ def same(a: Any, b: Any) -> bool:
     """
     if isinstance(a, Mapping) and isinstance(b, Mapping):
         return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
-    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray) and a.shape == b.shape:
-        return bool(np.allclose(a, b, rtol=1e-6, atol=1e-6, equal_nan=True))
-    return equal(a, b)
+    if isinstance(a, ScaraPose) and isinstance(b, ScaraPose):
+        a, b = ([*each.position.ravel(), *each.angle.ravel()] for each in (a, b))
+    one, two = as_numbers(a), as_numbers(b)
+    if one is None or two is None:
+        return equal(a, b)
+    return one.shape == two.shape and np.allclose(one, two, rtol=1e-6, atol=1e-6, equal_nan=True)
 
 
 def like(result: Any, wanted: Any) -> Any:
@@ -41,6 +45,13 @@ def like(result: Any, wanted: Any) -> Any:
                 f"wanted a dict with {', '.join(map(repr, wanted))}, got {words(result)}"
             )
         return {key: like(result[key], wanted[key]) for key in wanted}
+    if np.asarray(wanted).dtype.kind == "b":
+        made = np.asarray(result)
+        if made.dtype.kind != "b" or made.shape != np.shape(wanted):
+            raise ValueError(
+                f"wanted True or False in an array of shape {np.shape(wanted)}, got {words(result)}"
+            )
+        return made
     return numbers(result, np.shape(wanted))
 
 

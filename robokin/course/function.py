@@ -4,7 +4,8 @@ import contextlib
 import inspect
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from . import edits, forms
 from .answers import Outcome, equal, is_stub, run, unended
 from .edits import Variant
 from .exercises import Exercise, Verdict, has_nan, numbers, unanswered, words
-from .markdown import Text
+from .markdown import BadFile, Text, why
 from .slips import INPUTS, RESULTS, fed
 
 NEAR = 0.01  # an answer that is off by no larger share is told to be nearly right
@@ -46,32 +47,52 @@ class Function(Exercise):
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
         super().__init__(text)
+        if not callable(code.get("cases")):
+            raise BadFile(text.file, None, "wanted a function cases(rng) in its Python file")
         self.code = dict(code)
-        self.function = edits.function_name(self.solution)
-        self.right: Callable[..., Any] = edits.run(self.solution)[self.function]
+        line, _ = text.code("Solution")
+        name = edits.function_name(text.file, line, self.solution)
+        try:
+            self.right: Callable[..., Any] = edits.run(self.solution, self.code)[name]
+        except Exception as error:
+            raise BadFile(text.file, line, f"the solution: {why(error)}") from None
         self.inputs = tuple(inspect.signature(self.right).parameters)
-        self.own = edits.own(self.solution, text.wrong())
+        wrong = edits.own(text.file, name, [self.solution], text.wrong())
+        self.own = [variant for variant, _ in wrong]
         self.same: Callable[[Any, Any], bool] = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
 
     @cached_property
     def cases(self) -> list[Case]:
-        """The cases, the same on every machine. ValueError: none come, or not within 4 s."""
-        draw = self.code.get("cases")
-        if draw is None:
-            raise ValueError("wanted a function cases(rng) in the Python file")
-        [outcome] = run(lambda seed: list(draw(np.random.default_rng(seed))), [(140,)])
-        if outcome.name:
-            raise ValueError(f"cases: {outcome.says}")
-        if not outcome.result or not all(isinstance(case, tuple) for case in outcome.result):
-            raise ValueError(f"cases: wanted tuples of inputs, got {words(outcome.result)}")
-        return list(outcome.result)
+        """The cases, the same on every machine. BadFile: none come, or not within 4 s."""
+        draw = self.code["cases"]
+        [outcome] = run(partial(_drawn, draw), [(140,)])
+        found: list[Case] = outcome.result or []
+        if outcome.name or not (found and all(self._fits(case) for case in found)):
+            wanted = f"wanted tuples of {', '.join(self.inputs)}, got {words(outcome.result)}"
+            code = getattr(draw, "__code__", None)
+            file = code.co_filename if code and Path(code.co_filename).is_file() else self.text.file
+            line = code.co_firstlineno if code else None
+            raise BadFile(file, line, f"cases: {outcome.says or wanted}")
+        return found
+
+    def _fits(self, case: Any) -> bool:
+        return isinstance(case, tuple) and len(case) == len(self.inputs)
 
     @cached_property
     def wanted(self) -> list[Any]:
-        """The right results, in form."""
-        right = [self.right(*case) for case in self.cases]
-        return [self.form(one, case, one) for one, case in zip(right, self.cases, strict=True)]
+        """The right results, in form. BadFile: the solution has none."""
+        found: list[Any] = []
+        for outcome, case in zip(run(self.right, self.cases), self.cases, strict=False):
+            try:
+                if outcome.name:
+                    raise ValueError(outcome.says)
+                found.append(self.form(outcome.result, case, outcome.result))
+            except Exception as error:
+                line, _ = self.text.code("Solution")
+                told = f"the solution, for {self._given(case)}: {error}"
+                raise BadFile(self.text.file, line, told) from None
+        return found
 
     @cached_property
     def steps(self) -> edits.Steps:
@@ -84,7 +105,7 @@ class Function(Exercise):
             return unanswered(name)
         if not callable(answer):
             return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
-        cases = self.cases
+        cases, _ = self.cases, self.wanted  # BadFile comes from here and from nowhere below
         outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
         wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
         if len(wrong) == len(cases) and not any(wrong):
@@ -124,11 +145,13 @@ class Function(Exercise):
         return "It cannot be judged."
 
     def _told(self, k: int, outcome: Outcome, law: str | None) -> str:
-        given = zip(self.inputs, self.cases[k], strict=True)
-        lines = ["  for " + ", ".join(f"{name} = {words(value)}" for name, value in given)]
+        lines = [f"  for {self._given(self.cases[k])}"]
         if outcome.name in (None, "another kind or shape"):
             lines.append(f"  you return {words(outcome.result)}")
         return "\n".join([*lines, f"  {law}"])
+
+    def _given(self, case: Case) -> str:
+        return ", ".join(f"{n} = {words(v)}" for n, v in zip(self.inputs, case, strict=True))
 
     def _explained(
         self, answer: Any, outcomes: list[Outcome], wrong: list[str | None], first: int
@@ -160,7 +183,7 @@ class Function(Exercise):
     def named(self, outcomes: list[Outcome], wrong: list[str | None], first: int) -> list[Fault]:
         """The mistakes that give these outcomes in all cases, asked in groups, the likeliest first:
         one of the exercise; one answer to everything; one that everybody makes; two of the
-        exercise; one of it and one that everybody makes.
+        exercise; one of it and one that everybody makes of a result.
         """
         if len(outcomes) < min(6, len(self.cases)):
             return []
@@ -200,7 +223,7 @@ class Function(Exercise):
         def given(i: int, change: Callable[[Any], Any], k: int) -> Any:
             return self.right(*fed(self.cases[k], i, change))
 
-        yield from map(self._candidate, self.everybody)
+        yield from map(self._candidate, self.slips)
         for name, says, change in RESULTS:
             yield Candidate(name, says, partial(read, change))
         for name, says, change in INPUTS:
@@ -209,11 +232,12 @@ class Function(Exercise):
                 yield Candidate(name, told, partial(given, i, change))
 
     def _pairs(self) -> Iterator[Candidate]:
-        def ran(program: Callable[..., Any], k: int) -> Any:
-            return program(*self.cases[k])
+        def ran(program: Callable[[], Any], k: int) -> Any:
+            return program()(*self.cases[k])
 
         for pair in edits.pairs(self.own):
-            yield Candidate(pair.name, pair.says, partial(ran, self.steps.program(pair)))
+            program = cache(partial(self.steps.program, pair))  # made when it is asked
+            yield Candidate(pair.name, pair.says, partial(ran, program))
 
     def _slipped(self) -> Iterator[Candidate]:
         def read(one: Variant, change: Callable[[Any], Any], k: int) -> Any:
@@ -225,11 +249,9 @@ class Function(Exercise):
                 yield Candidate(f"{one.name}, and {name}", told, partial(read, one, change))
 
     @cached_property
-    def everybody(self) -> list[Variant]:
-        """The slips that can be made in this solution, but those that its own mistakes are."""
-        mine = {variant.text(self.solution) for variant in self.own}
-        slips = edits.everybody(self.solution)
-        return [slip for slip in slips if slip.text(self.solution) not in mine]
+    def slips(self) -> list[Variant]:
+        """What everybody does wrongly in a program like this solution."""
+        return edits.everybody(self.solution)
 
     def _candidate(self, variant: Variant) -> Candidate:
         return Candidate(variant.name, variant.says, partial(self.result, variant))
@@ -350,3 +372,7 @@ class Function(Exercise):
             wanted = self.wanted[k]
             return self.same(self.form(self.right(*case), case, wanted), wanted)
         return True
+
+
+def _drawn(cases: Callable[..., Any], seed: int) -> list[Case]:
+    return list(cases(np.random.default_rng(seed)))

@@ -1,6 +1,7 @@
 """What teachers write: the exercises and objectives of a lab, as Markdown."""
 
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,7 +16,14 @@ class Wrong(NamedTuple):
     name: str
     says: str
     programs: tuple[tuple[Edit, ...] | str, ...]
-    line: int = 0
+    lines: tuple[int, ...]  # of the programs, in the file
+
+
+class BadFile(ValueError):
+    """What a teacher's file has that cannot be used: "FILE, line 3: why", in one sentence."""
+
+    def __init__(self, file: str, line: int | None, why: str) -> None:
+        super().__init__(f"{file}, line {line}: {why}" if line else f"{file}: {why}")
 
 
 class Text(NamedTuple):
@@ -29,12 +37,15 @@ class Text(NamedTuple):
     hints: tuple[str, ...]
     parts: dict[str, tuple[int, str]]
 
-    def code(self, part: str) -> str:
-        """The program of a section."""
-        found = CODE.search(self.parts.get(part, (0, ""))[1])
+    def code(self, part: str) -> tuple[int, str]:
+        """The program of a section, and its first line. BadFile: there is none."""
+        line, text = self.parts.get(part, (0, ""))
+        found = CODE.search(text)
         if not found:
-            raise wrong(self.file, 1, f"wanted a section {part!r} with a program")
-        return found[1]
+            raise BadFile(
+                self.file, line - 1 if line else None, f"wanted a section {part!r} with a program"
+            )
+        return line + text.count("\n", 0, found.start(1)), found[1]
 
     def words(self, part: str) -> str:
         """The words of a section, on one line."""
@@ -44,29 +55,31 @@ class Text(NamedTuple):
         """The mistakes of a section, or the right programs of a test."""
         line, text = self.parts.get(part, (0, ""))
         starts = [found.start() for found in re.finditer(r"^\*\*", _blank(text), re.M)]
-        blocks = [text[a:b] for a, b in zip(starts, [*starts[1:], len(text)], strict=True)]
-        lines = [line + text.count("\n", 0, start) for start in starts]
-        return [_mistake(self.file, *each) for each in zip(lines, blocks, strict=True)]
+        return [
+            _mistake(self.file, line + text.count("\n", 0, a), text[a:b])
+            for a, b in pairwise([*starts, len(text)])
+        ]
 
 
 CODE = re.compile(r"^```python\n(.*?)^```", re.M | re.S)
+ITEM = re.compile(r"^- (.*?)(?=^- |^#+ |\Z)", re.M | re.S)
 EDIT = re.compile(r"(`+)(.+?)\1 (?:→|->) (?:(`+)(.+?)\3|nothing)(?:, (?=`)|$)")
 
 
 def read(file: Path) -> str:
-    """The text of a file. ValueError: it cannot be read, or is not UTF-8."""
+    """The text of a file. BadFile: it cannot be read, or is not UTF-8."""
     try:
-        return file.read_text(encoding="utf-8")
+        return file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
-        raise wrong(f"{file}", line, "this is not UTF-8") from None
+        raise BadFile(f"{file}", line, "this is not UTF-8") from None
     except OSError as error:
-        raise ValueError(f"{file}: {error.strerror}") from None
+        raise BadFile(f"{file}", None, f"{error.strerror}") from None
 
 
-def wrong(file: str, line: int, what: str) -> ValueError:
-    """The error for a line of a file."""
-    return ValueError(f"{file}, line {line}: {what}")
+def why(error: Exception) -> str:
+    """What an error says, without a place: that one is told beside it."""
+    return f"{type(error).__name__}: {getattr(error, 'msg', error)}"
 
 
 def one_line(text: str) -> str:
@@ -75,15 +88,15 @@ def one_line(text: str) -> str:
 
 
 def exercise(file: str, text: str) -> Text:
-    """An exercise. ValueError: a part is missing."""
+    """An exercise. BadFile: its head is none."""
     places = [found.start() for found in re.finditer("^## ", _blank(text), re.M)]
     head, rest = text[: places[0] if places else None], {}
-    for a, b in zip(places, [*places[1:], len(text)], strict=True):
+    for a, b in pairwise([*places, len(text)]):
         heading, _, part = text[a:b].partition("\n")
         rest[heading[3:].strip()] = text.count("\n", 0, a) + 2, part
     found = re.match(r"\s*# (\w+)\. (.+)\n+Objective (\d)\.(.*)", head, re.S)
     if not found:
-        raise wrong(file, 1, "wanted '# 1. TITLE', an empty line, 'Objective 1. TASK'")
+        raise BadFile(file, 1, "wanted '# 1. TITLE', an empty line, 'Objective 1. TASK'")
     number, title, objective, task = found.groups()
     _, hints = rest.pop("Hints", (0, ""))
     given = tuple(map(_hint, re.split(r"^\d\. ", hints, flags=re.M)[1:]))
@@ -106,18 +119,24 @@ def _hint(text: str) -> str:
 
 
 def _mistake(file: str, line: int, block: str) -> Wrong:
-    programs: list[tuple[Edit, ...] | str] = list(CODE.findall(block))
-    words, *edits = re.split(r"^- ", CODE.sub("", block), flags=re.M)
-    found = re.fullmatch(r"\*\*(.+?)\*\*(.*)", one_line(re.split(r"^#+ ", words, flags=re.M)[0]))
-    if not found:
-        raise wrong(file, line, f"wanted '**name.** A sentence.', got {block[:60]!r}")
-    for each in edits:
-        text = one_line(re.split(r"^#+ ", each, flags=re.M)[0])
+    programs: list[tuple[Edit, ...] | str] = []
+    lines = []
+    for found in CODE.finditer(block):
+        programs.append(found[1])
+        lines.append(line + block.count("\n", 0, found.start(1)))
+    block = _blank(block)
+    words = re.split(r"^(?:- |#+ )", block, maxsplit=1, flags=re.M)[0]
+    head = re.fullmatch(r"\*\*(.+?)\*\*(.*)", one_line(words))
+    if not head:
+        raise BadFile(file, line, f"wanted '**name.** A sentence.', got {one_line(words)[:60]!r}")
+    for found in ITEM.finditer(block):
+        lines.append(line + block.count("\n", 0, found.start()))
+        text = one_line(found[1])
         pairs = [(old, new or "") for _, old, _, new in EDIT.findall(text)]
         if not pairs or EDIT.sub("", text):
-            raise wrong(file, line, f"wanted `right` → `wrong`, got {text!r}")
+            raise BadFile(file, lines[-1], f"wanted `right` → `wrong`, got {text!r}")
         programs.append(tuple(pairs))
-    return Wrong(found[1].removesuffix("."), found[2].strip(), tuple(programs), line)
+    return Wrong(head[1].removesuffix("."), head[2].strip(), tuple(programs), tuple(lines))
 
 
 def _blank(text: str) -> str:

@@ -1,12 +1,12 @@
 """Predictions as they are written: a question, its answers, and what they are filled with."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from .._validate import number
-from .markdown import one_line, wrong
+from .markdown import BadFile, one_line
 
 LETTERS = "abcdef"
 
@@ -95,10 +95,18 @@ HEAD = re.compile(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?(, optional
 ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?")
 
 
-def predictions(file: str, text: str, code: Mapping[str, Any]) -> dict[str, Prediction]:
-    """The predictions of a lab by their numbers, with the names of their Python file: for p1 `p1()`
-    gives its facts, "right" among them, which is an answer's name, and `p1_view()` what opens.
-    ValueError: something is missing.
+def sections(text: str) -> Iterator[tuple[int, str, str]]:
+    """What stands under each heading: the heading's line, the heading, the rest."""
+    for found in re.finditer(r"^## (.+)\n((?s:.*?))(?=^## |\Z)", text, re.M):
+        yield text.count("\n", 0, found.start()) + 1, found[1].strip(), found[2]
+
+
+def prediction(
+    file: str, line: int, heading: str, text: str, code: Mapping[str, Any]
+) -> tuple[str, Prediction]:
+    """The number of a prediction, and what stands under its heading, with the names of its Python
+    file: for p1 `p1()` gives its facts, "right" among them, which is an answer's name. BadFile:
+    something is missing.
 
     ## p5, a number in mm/s, within 2 %
 
@@ -107,37 +115,41 @@ def predictions(file: str, text: str, code: Mapping[str, Any]) -> dict[str, Pred
     - `half` **An answer.** Why it is right.
     - `twice` **Another.** Why it is not. *The confusion:* a second case.
     """
-    made: dict[str, Prediction] = {}
-    for found in re.finditer(r"^## (.+)\n((?s:.*?))(?=^## |\Z)", text, re.M):
-        line, head = text.count("\n", 0, found.start()) + 1, HEAD.fullmatch(found[1].strip())
-        if not head or head[1] in made or head[1] not in code:
-            told = f"wanted '## p1' or '## p1, a number in UNIT, within 2 %', got {found[1]!r}"
-            if head:
-                told = f"{head[1]} is there twice" if head[1] in made else f"no facts {head[1]}()"
-            raise wrong(file, line, told)
-        question, *answers = re.split(r"^- ", found[2], flags=re.M)
-        options = [_option(file, line, one_line(answer)) for answer in answers]
-        names = [each.name for each in options]
-        if len(set(names)) < max(2, len(names)) or sum(o.confusion is None for o in options) != 1:
-            told = "wanted answers with unlike names, and a confusion for each but the right one"
-            raise wrong(file, line, told)
-        made[head[1]] = Prediction(
-            question=one_line(question),
-            options=options,
-            facts=code[head[1]],
-            right=lambda facts, names=names: names.index(facts["right"]),  # type: ignore[misc]
-            view=code.get(f"{head[1]}_view", lambda: ""),
-            unit=head[2],
-            within=float(head[3]) / 100 if head[3] else 0.1,
-            optional=bool(head[4]),
-        )
-    return made
+    head = HEAD.fullmatch(heading)
+    if not head:
+        told = f"wanted '## p1' or '## p1, a number in UNIT, within 2 %', got {heading!r}"
+        raise BadFile(file, line, told)
+    number, unit, within, optional = head.groups()
+    if number not in code:
+        raise BadFile(file, line, f"no facts: a function {number}() in its Python file")
+    question, *answers = re.split(r"^- ", text, flags=re.M)
+    options = [_option(file, line, one_line(answer)) for answer in answers]
+    names = [each.name for each in options]
+    if len(set(names)) < max(2, len(names)) or sum(o.confusion is None for o in options) != 1:
+        told = "wanted answers with unlike names, and a confusion for each but the right one"
+        raise BadFile(file, line, f"{number}: {told}")
+
+    def right(facts: Mapping[str, Any]) -> int:
+        if facts.get("right") not in names:
+            told = f"{number}(): wanted 'right' to be one of {', '.join(names)}"
+            raise BadFile(file, line, f"{told}, got {facts.get('right')!r}")
+        return names.index(facts["right"])
+
+    return number, Prediction(
+        question=one_line(question),
+        options=options,
+        facts=code[number],
+        right=right,
+        unit=unit,
+        within=float(within) / 100 if within else 0.1,
+        optional=bool(optional),
+    )
 
 
 def _option(file: str, line: int, text: str) -> Option:
     found = ANSWER.fullmatch(text)
     if not found:
         told = f"wanted '- `name` **An answer.** Why. *The confusion:* a case', got {text[:60]!r}"
-        raise wrong(file, line, told)
+        raise BadFile(file, line, told)
     name, answer, reason, confusion, second = found.groups()
     return Option(answer, reason, confusion, second or "", name)

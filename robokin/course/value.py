@@ -5,7 +5,7 @@ from typing import Any
 
 from .answers import is_stub
 from .exercises import Exercise, Verdict, unanswered, words
-from .markdown import Text
+from .markdown import BadFile, Text
 
 
 class Value(Exercise):
@@ -25,6 +25,8 @@ class Value(Exercise):
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
         super().__init__(text)
+        if missing := [name for name in ("form", "faults", "COUNT") if name not in code]:
+            raise BadFile(text.file, None, f"wanted {' and '.join(missing)} in its Python file")
         self.code = dict(code)
         self.given: Callable[[Any], Any] | None = code.get("given")
         self.goal: Mapping[str, Any] | None = code.get("GOAL")
