@@ -15,10 +15,9 @@ from .shared import HIGH, LOW, MINUS, Floats
 Case = tuple[Any, ...]
 
 
-def same_elbow(q0: Floats, position: Any, angle: float, side: int = 1) -> Floats:
+def same_elbow(q0: Floats, position: Any, angle: float, side: int = 1) -> Any:
     """The row of ik with the elbow of q0; side -1: the other one."""
-    row: Floats = SCARA.ik(ScaraPose(position, angle))[SCARA.branch(side if q0[1] >= 0 else -side)]
-    return row
+    return SCARA.ik(ScaraPose(position, angle))[SCARA.branch(side if q0[1] >= 0 else -side)]
 
 
 def cases(rng: np.random.Generator) -> list[Case]:
@@ -94,13 +93,14 @@ def told(case: Case, yours: Floats, wanted: Floats) -> str | None:
     off = ~(abs(yours - wanted) <= 1e-6)
     if not off.any():
         return None
-    q0 = case[0]
+    q0, position, angle = case
     if off[:2].any() and (abs(yours[:2] * deg - wanted[:2]) <= 1e-6).all():
         return (
             f"joint 2 is {yours[1]:.1f}, which is right in degrees; wanted are radians, "
             f"{wanted[1]:.4f}, and metres for joint 4"
         )
-    if off[:2].any() and (abs(wrapped(yours[:2] - same_elbow(*case, side=-1)[:2])) <= 1e-6).all():
+    other = same_elbow(q0, position, angle, -1)
+    if off[:2].any() and (abs(wrapped(yours[:2] - other[:2])) <= 1e-6).all():
         counts = ", which counts as positive" if q0[1] == 0 else ""
         return (
             f"the elbow has changed its side: joint 2 stands at {q0[1] / deg:.1f}° in q0{counts}, "
@@ -127,14 +127,13 @@ def told(case: Case, yours: Floats, wanted: Floats) -> str | None:
 # --- What wrong programs use ----------------------------------------------------------------------
 
 
-def nearer(rows: Floats, q0: Floats, count: int, order: float = 1, whole: bool = False) -> Floats:
+def nearer(rows: Floats, q0: Floats, count: int, order: float = 1, whole: bool = False) -> Any:
     """The row whose first joints are nearest to q0, by sum, length or greatest change; `whole`:
     whole turns left out.
     """
     change = (rows - q0)[:, :count]
     change = wrapped(change) if whole else change
-    row: Floats = rows[np.nanargmin(np.linalg.norm(change, ord=order, axis=-1))]
-    return row
+    return rows[np.nanargmin(np.linalg.norm(change, ord=order, axis=-1))]
 
 
 def least_travel(rows: Floats, q0: Floats) -> Floats:

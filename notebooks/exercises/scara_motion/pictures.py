@@ -5,38 +5,11 @@ from typing import Any
 import numpy as np
 
 from robokin import SCARA, ScaraPose, deg, differentiate, lin, mm, ptp
-from robokin.show import JOINT_STYLES, Player, animate, figure, plot_joints
+from robokin.show import JOINT_STYLES, animate, figure, plot_joints
 from robokin.units import wrapped
 
-from .predictions import (
-    B1,
-    DOWN,
-    H1,
-    H2,
-    HALF,
-    OFF,
-    UP,
-    acceleration,
-    near_start,
-    p9,
-    turning,
-)
-from .shared import (
-    DURATION,
-    GOAL,
-    HIGH,
-    MINUS,
-    ROW,
-    START,
-    STROKE,
-    VIA,
-    S,
-    Shown,
-    T,
-    behind,
-    joints,
-    stroke,
-)
+from .predictions import B1, H1, H2, OFF, acceleration, behind, near_start, p5, p9, turning
+from .shared import GOAL, HIGH, ROW, START, VIA, S, Shown, T, joints, stroke
 
 FEW = T[::10]  # every 0.2 s: enough for a view that shows a shape
 PINK, RED = JOINT_STYLES[3]["color"], "#B3261E"
@@ -51,7 +24,7 @@ def p1_view() -> Any:
     for i, ax in enumerate(fig.subplots(1, 4)):
         for angle, style in ((0, "-"), (45, "--"), (90, ":")):
             start = ScaraPose(START.position, angle * deg)
-            q = joints(lin(start, GOAL, FEW / DURATION))[:, i] / (mm if i == 3 else deg)
+            q = joints(lin(start, GOAL, FEW / 20))[:, i] / (mm if i == 3 else deg)
             ax.plot(FEW, q, style, color=JOINT_STYLES[i]["color"], lw=2)
             if i == 2:
                 ax.text(0.6, q[0] + 7, f"{angle}°", fontsize=9)
@@ -67,9 +40,9 @@ def p2_view() -> Any:
     return plot_joints(SCARA, T, q, differentiate(q, T), title=title)
 
 
-def lin_and_ptp(goals: ScaraPose, slider: Any, title: str) -> Player:
+def lin_and_ptp(goals: ScaraPose, slider: Any, title: str) -> Any:
     """Both motions to the same goals, one of which the slider chooses."""
-    share = FEW / DURATION
+    share = FEW / 20
     line = joints(lin(START, goals[:, None], share))
     even = ptp(SCARA.ik(START)[ROW], SCARA.ik(goals)[:, None, ROW], share)
     return animate([SCARA] * 2, FEW, [line, even], names=["LIN", "PTP"], slider=slider, title=title)
@@ -89,16 +62,16 @@ def p4_view() -> Any:
 
 
 def p5_view() -> Any:
-    before, after, t = DOWN / HALF, -UP / HALF, np.array([0, HALF, 2 * HALF])
+    down, up, half, before = (p5()[name] for name in ("down", "up", "half", "before"))
+    after, t = -up / half, np.array([0, half, 2 * half])
     fig = figure(
-        f"Joint 4 over time: its value rises by {DOWN:g} mm and falls by {UP:g} mm; its speed is "
+        f"Joint 4 over time: its value rises by {down:g} mm and falls by {up:g} mm; its speed is "
         f"{before:g} mm/s, then {after:g} mm/s.",
         height=2.6,
     )
     place, speed = fig.subplots(1, 2)
-    place.plot(t, [0, DOWN, DOWN - UP], "-.", color=PINK, lw=2)
-    for side, value in ((t[:2], before), (t[1:], after)):
-        speed.plot(side, [value, value], "-.", color=PINK, lw=2)
+    place.plot(t, [0, down, down - up], "-.", color=PINK, lw=2)
+    speed.plot(t[:2], [before] * 2, "-.", t[1:], [after] * 2, "-.", color=PINK, lw=2)
     place.set(xlabel="time t, s", ylabel="q4 since the start, mm", title="Lower is more stroke")
     jump = f"A jump of {Shown(after - before):g} mm/s"
     speed.set(xlabel="time t, s", ylabel="speed of q4, mm/s", title=jump)
@@ -114,7 +87,7 @@ def p6_view() -> Any:
     )
     axes = fig.subplots(1, 2, sharey=True)
     for off, style in ((-OFF, "-"), (OFF, "--")):
-        name = f"start at {off:+.2f}°".translate(MINUS)
+        name = f"start at {Shown(off):+.2f}°"
         axes[0].plot(S, np.unwrap(turning(off, S)) / deg, style, lw=2, label=name)
         axes[1].plot(S, near_start(off).lerp(VIA, S).angle / deg, style, lw=2, label=name)
     ticks = range(-180, 181, 90)
@@ -202,7 +175,7 @@ def p9_view() -> Any:
     ):
         q4 = stroke(facts[of], S, corner)
         ax.plot(T, q4 / mm, style, lw=2, label=f"{corner}, blend {facts[of]:.3f}")
-    ax.axhspan(STROKE / mm, 200, color=PINK, alpha=0.22, lw=0)
+    ax.axhspan(HIGH[3] / mm, 200, color=PINK, alpha=0.22, lw=0)
     ax.text(5.1, 192, "past the limit of 180 mm")
     ax.set(xlim=(5, 15), ylim=(120, 200), xlabel="time t, s", ylabel="stroke q4, mm")
     ax.set_title(f"The quintic goes deeper: it needs a blend of {facts['quintic']:.3f}")

@@ -12,108 +12,68 @@ import numpy as np
 from robokin import SCARA, ScaraPose, blend, deg, differentiate, lin, mm, ptp
 from robokin.units import wrapped
 
-from .shared import (
-    DURATION,
-    GOAL,
-    HIGH,
-    LEVEL,
-    LOW,
-    ROW,
-    START,
-    STROKE,
-    VIA,
-    Floats,
-    S,
-    Shown,
-    T,
-    behind,
-    joints,
-    stroke,
-)
+from .shared import GOAL, HIGH, LEVEL, LOW, ROW, START, VIA, S, Shown, T, joints, plus, stroke
 
 
 def p1() -> Mapping[str, Any]:
     """How much each joint of the LIN changes where the tool starts turned by 45°."""
     turned = ScaraPose(START.position, START.angle + 45 * deg)
     most = abs(joints(lin(turned, GOAL, S)) - joints(lin(START, GOAL, S))).max(axis=0)
-    claims = {
-        (3,): "joint 3 alone",
-        (1, 2, 3): "joints 1 to 3",
-        (3, 4): "joints 3 and 4",
-        (1, 2, 3, 4): "all four",
-    }
-    return {"most": most[2] / deg, "right": claims[tuple(np.flatnonzero(most > 1e-9) + 1)]}
+    changed = (f"q{i + 1}" for i in range(4) if most[i] > 1e-9)
+    return {"most": most[2] / deg, "right": plus(changed)}
 
 
 @cache
 def p2() -> Mapping[str, Any]:
     v = differentiate(joints(lin(START, GOAL, S)), T) / [deg, deg, deg, mm]
     low, high = v.min(axis=0), v.max(axis=0)
-    claims = {
-        (): "none",
-        (3, 4): "joints 3 and 4",
-        (4,): "joint 4 alone",
-        (1, 2, 3, 4): "all four",
-    }
-    facts: dict[str, Any] = {"stroke": Shown(v[0, 3])}
+    steady = (f"q{i + 1}" for i in range(4) if high[i] - low[i] < 1e-6 * abs(high[i]))
+    facts: dict[str, Any] = {"stroke": Shown(v[0, 3]), "right": plus(steady)}
     for i in range(3):
         facts |= {f"low{i + 1}": Shown(low[i]), f"high{i + 1}": Shown(high[i])}
-    return facts | {"right": claims[tuple(np.flatnonzero(high - low < 1e-6 * abs(high)) + 1)]}
+    return facts
 
 
 @cache
 def p3() -> Mapping[str, Any]:
     line = lin(START, GOAL, S)
     q = ptp(SCARA.ik(START)[ROW], SCARA.ik(GOAL)[ROW], S)
-    off = abs(SCARA.fk(q).translation - line.position).max(axis=0)
-    turned = abs(q[:, :3].sum(axis=-1) - line.angle).max()
-    differ = (*(off > 1e-9).tolist(), bool(turned > 1e-9))
-    claims = {
-        (True, True, True, True): "all four",
-        (True, True, True, False): "x, y and z",
-        (True, True, False, True): "x, y and the angle",
-        (True, True, False, False): "x and y",
-    }
-    return {"x": off[0] / mm, "y": off[1] / mm, "right": claims[differ]}
+    x, y, z = abs(SCARA.fk(q).translation - line.position).max(axis=0)
+    apart = {"x": x, "y": y, "z": z, "angle": abs(q[:, :3].sum(axis=-1) - line.angle).max()}
+    differ = (name for name, gap in apart.items() if gap > 1e-9)
+    return {"x": x / mm, "y": y / mm, "right": plus(differ)}
+
+
+def behind(x: Any) -> ScaraPose:
+    """Goals on the other side of the column, x in mm (section 4)."""
+    places = np.stack(np.broadcast_arrays(np.multiply(x, mm), -0.4, 0.2), axis=-1)
+    return ScaraPose(places, np.full(np.shape(x), 90 * deg))
 
 
 @cache
 def p4() -> Mapping[str, Any]:
     goal = behind(0)
     line = lin(START, goal, S)
-    bad, even = (
-        ((q < LOW) | (q > HIGH)).sum(axis=0)
-        for q in (joints(line), ptp(SCARA.ik(START)[ROW], SCARA.ik(goal)[ROW], S))
-    )
-    claims = {
-        (False, False): "neither",
-        (False, True): "PTP alone",
-        (True, False): "LIN alone",
-        (True, True): "both",
-    }
-    return {
-        "bad1": int(bad[0]),
-        "bad2": int(bad[1]),
-        "near": np.linalg.norm(line.position[:, :2], axis=-1).min() / mm,
-        "right": claims[bool(bad.any()), bool(even.any())],
-    }
-
-
-DOWN, UP, HALF = 90.0, 60.0, 5.0  # mm, mm, s: the corner of prediction 5
+    both = joints(line), ptp(SCARA.ik(START)[ROW], SCARA.ik(goal)[ROW], S)
+    bad, even = (((q < LOW) | (q > HIGH)).sum(axis=0) for q in both)
+    near = np.linalg.norm(line.position[:, :2], axis=-1).min()
+    name = ("neither", "PTP alone", "LIN alone", "both")[2 * bool(bad.any()) + bool(even.any())]
+    return {"bad1": int(bad[0]), "bad2": int(bad[1]), "near": near / mm, "right": name}
 
 
 @cache
 def p5() -> Mapping[str, Any]:
-    before, after = DOWN / HALF, -UP / HALF
+    down, up, half = 90.0, 60.0, 5.0  # mm, mm, s
+    before, after = down / half, -up / half
     via = ScaraPose([0.3, 0.1, 0.05], 0.0)
-    start = ScaraPose([0.2, 0.2, 0.05 + DOWN * mm], 0.0)
-    goal = ScaraPose([0.3, -0.1, 0.05 + UP * mm], 0.0)
+    start = ScaraPose([0.2, 0.2, 0.05 + down * mm], 0.0)
+    goal = ScaraPose([0.3, -0.1, 0.05 + up * mm], 0.0)
     t = np.array([4.8, 4.9, 5.0, 5.1, 5.2])
-    q4 = SCARA.ik(blend(start, via, goal, 0.0, t / (2 * HALF)))[:, ROW, 3] / mm
+    q4 = SCARA.ik(blend(start, via, goal, 0.0, t / (2 * half)))[:, ROW, 3] / mm
     jump = (q4[4] - q4[3] - q4[1] + q4[0]) / 0.1
     guesses = {"sign": -jump, "sizes": -after - before, "less": before + after, "first": before}
-    guesses |= {"mean": jump / 2, "way": -(DOWN + UP)}
-    told = {"down": DOWN, "up": UP, "half": HALF, "before": before, "after": Shown(after)}
+    guesses |= {"mean": jump / 2, "way": -(down + up)}
+    told = {"down": down, "up": up, "half": half, "before": before, "after": Shown(after)}
     return {"jump": jump, "right": "after less before"} | guesses | told | {"slower": -after}
 
 
@@ -124,11 +84,11 @@ def near_start(off: float) -> ScaraPose:
     return ScaraPose(START.position, off * deg)
 
 
-def turning(off: float, s: Any) -> Floats:
+def turning(off: float, s: Any) -> Any:
     """The tool's angle, interpolated as a rotation."""
     pose = near_start(off).as_transform().lerp(VIA.as_transform(), s)
     x_axis = pose.rotation @ np.array([1.0, 0, 0])
-    return np.asarray(np.arctan2(x_axis[..., 1], x_axis[..., 0]), dtype=float)
+    return np.arctan2(x_axis[..., 1], x_axis[..., 0])
 
 
 @cache
@@ -152,9 +112,8 @@ def p7() -> Mapping[str, Any]:
         q = middle + (ends[:, None] - middle) * S
         seen = wrapped(q) if i < 3 else q
         if not ((seen < LOW[i]) | (seen > HIGH[i])).any():
-            blind.append(i + 1)
-    claims = {(1,): "joint 1", (3,): "joint 3", (4,): "joint 4", (): "none"}
-    return {"right": claims[tuple(blind)]}
+            blind.append(f"q{i + 1}")
+    return {"right": plus(blind)}
 
 
 H1, H2, B0, B1 = 60.0, 180.0, 0.1, 0.4  # heights over via in mm, and two blends: prediction 8
@@ -178,11 +137,10 @@ def p8() -> Mapping[str, Any]:
 @cache
 def p9() -> Mapping[str, Any]:
     """From which blend on the lab's motion keeps the stroke, by two corners."""
-    half = (
-        float(blend(START, VIA, GOAL, 0.5, np.linspace(0, 1, 4001), corner=c).position[:, 2].min())
-        for c in ("parabola", "quintic")
+    parabola, quintic = (
+        (LEVEL - HIGH[3]) / (LEVEL - stroke(0.5, np.linspace(0, 1, 4001), corner).max()) / 2
+        for corner in ("parabola", "quintic")
     )
-    parabola, quintic = ((LEVEL - STROKE) / mm / (z / 0.5 / mm) for z in half)
     guesses = {"less": 0.75 * parabola, "the same": parabola}
     right = min(guesses, key=lambda name: abs(guesses[name] - quintic))
     if quintic > 1.05 * parabola:
@@ -199,7 +157,7 @@ def acceleration(b: float, duration: float) -> float:
 
 @cache
 def p10() -> Mapping[str, Any]:
-    before, after = acceleration(0.4, DURATION / 2), acceleration(0.2, DURATION)
-    claims = {"a quarter": 0.25, "half": 0.5, "the same": 1.0, "twice": 2.0}
-    right = min(claims, key=lambda name: abs(np.log(claims[name] * before / after)))
+    before, after = acceleration(0.4, 10.0), acceleration(0.2, 20.0)
+    names = {"a quarter": 0.25, "half": 0.5, "the same": 1.0, "twice": 2.0}
+    right = min(names, key=lambda name: abs(np.log(names[name] * before / after)))
     return {"before": before, "after": after, "short": acceleration(0.2, 10.0), "right": right}
