@@ -12,16 +12,14 @@ from robokin.units import wrapped
 
 from .shared import HIGH, LOW, MINUS, Floats
 
-Case = tuple[Any, ...]
-
 
 def same_elbow(q0: Floats, position: Any, angle: float, side: int = 1) -> Any:
     """The row of ik with the elbow of q0; side -1: the other one."""
     return SCARA.ik(ScaraPose(position, angle))[SCARA.branch(side if q0[1] >= 0 else -side)]
 
 
-def cases(rng: np.random.Generator) -> list[Case]:
-    def case(q0: list[float], place: list[float], angle: float) -> Case:
+def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
+    def case(q0: list[float], place: list[float], angle: float) -> tuple[Any, ...]:
         return np.array(q0) * [deg, deg, deg, mm], np.array(place) * mm, angle * deg
 
     found = [
@@ -71,7 +69,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
     return found
 
 
-def form(result: Any, case: Case) -> Floats:
+def form(result: Any, case: tuple[Any, ...]) -> Floats:
     with contextlib.suppress(TypeError, ValueError):
         values = np.squeeze(floats(result))
         if values.shape == (4,):
@@ -84,12 +82,12 @@ def same(a: Floats, b: Floats) -> bool:
     return np.allclose(a, b, rtol=0, atol=1e-6, equal_nan=True)
 
 
-def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
+def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     said = told(case, yours, wanted)
     return said and said.translate(MINUS)
 
 
-def told(case: Case, yours: Floats, wanted: Floats) -> str | None:
+def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     off = ~(abs(yours - wanted) <= 1e-6)
     if not off.any():
         return None
@@ -124,12 +122,9 @@ def told(case: Case, yours: Floats, wanted: Floats) -> str | None:
     )
 
 
-# --- What wrong programs use ----------------------------------------------------------------------
-
-
 def nearer(rows: Floats, q0: Floats, count: int, order: float = 1, whole: bool = False) -> Any:
-    """The row whose first joints are nearest to q0, by sum, length or greatest change; `whole`:
-    whole turns left out.
+    """For wrong programs: the row whose first joints are nearest to q0, by sum, length or greatest
+    change; `whole`: whole turns left out.
     """
     change = (rows - q0)[:, :count]
     change = wrapped(change) if whole else change

@@ -9,20 +9,18 @@ from robokin.course.forms import truth
 
 from .shared import HIGH, LOW, MINUS, Floats
 
-Case = tuple[Floats]
 
-
-def cases(rng: np.random.Generator) -> list[Case]:
+def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
     """Motions: limits reached, limits broken, NaN, at the first, a middle and the last sample."""
     still = np.array([0.1, 0.5, 0.2, 0.1])
 
-    def one(sample: int, joint: int, value: float, count: int = 25) -> Case:
+    def one(sample: int, joint: int, value: float, count: int = 25) -> tuple[Floats]:
         q = np.tile(still, (count, 1))
         q[sample, joint] = value
         return (q,)
 
     unit = np.array([deg, deg, deg, mm])
-    found: list[Case] = [(np.tile(still, (3, 1)),)]
+    found: list[tuple[Floats]] = [(np.tile(still, (3, 1)),)]
     for joint in (3, 0, 1, 2):
         for limit, side in ((LOW[joint], -1), (HIGH[joint], 1)):
             # exactly only for the stroke: an angle turned into degrees is rounded
@@ -52,11 +50,11 @@ def cases(rng: np.random.Generator) -> list[Case]:
     return found
 
 
-def form(result: Any, case: Case) -> bool:
+def form(result: Any, case: tuple[Floats]) -> bool:
     return truth(result, "for the whole motion")
 
 
-def law(case: Case, yours: bool, wanted: bool) -> str | None:
+def law(case: tuple[Floats], yours: bool, wanted: bool) -> str | None:
     (q,) = case
     if yours == wanted:
         return None

@@ -26,10 +26,9 @@ def joints(path: ScaraPose) -> Floats:
     return follow(SCARA, SCARA.ik(path), ROW)
 
 
-def stroke(fraction: float, s: Any, corner: str = "parabola") -> Floats:
+def stroke(fraction: float, s: Any, corner: str = "parabola") -> Any:
     """Joint 4 on the lab's way past its via point, m."""
-    found: Floats = SCARA.ik(blend(START, VIA, GOAL, fraction, s, corner=corner))[:, ROW, 3]
-    return found
+    return SCARA.ik(blend(START, VIA, GOAL, fraction, s, corner=corner))[:, ROW, 3]
 
 
 class Shown(float):
