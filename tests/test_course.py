@@ -65,6 +65,7 @@ def law(case, result):
 
 
 POSE = Function(
+    title="A pose",
     task="a pose",
     objective=1,
     hints=("first", "second"),
@@ -81,6 +82,7 @@ POSE = Function(
     ),
 )
 HALF = Value(
+    title="A half",
     task="a half",
     objective=2,
     hints=("one",),
@@ -90,6 +92,7 @@ HALF = Value(
     given=lambda who: 0.5,
 )
 STEEP = Catch(
+    title="A test",
     task="a test",
     objective=3,
     hints=("one",),
@@ -343,6 +346,7 @@ def test_a_changed_input_is_told(lab, monkeypatch):
         return 2 * q
 
     arrays = Function(
+        title="twice",
         task="twice",
         objective=1,
         hints=("one",),
@@ -410,6 +414,7 @@ def test_an_input_that_is_not_used_is_named():
 
 def yes_or_no(lab, monkeypatch, program, cases):
     made = Function(
+        title="yes or no",
         task="yes or no",
         objective=1,
         hints=("one",),
@@ -492,6 +497,7 @@ def test_a_general_mistake_with_numbers_is_named(name, lab, monkeypatch):
         return a.shape == b.shape and np.allclose(a, b, rtol=0, atol=1e-9)
 
     samples = Function(
+        title="twice",
         task="twice",
         objective=1,
         hints=("one",),
@@ -551,6 +557,7 @@ def test_a_mistake_in_an_operation_is_named(name, lab, monkeypatch):
         return np.shape(a) == np.shape(b) and np.allclose(a, b, rtol=1e-9, atol=1e-9)
 
     made = Function(
+        title="an operation",
         task="an operation",
         objective=1,
         hints=("one",),

@@ -206,8 +206,9 @@ def run(text: str, also: Mapping[str, Any] | None = None) -> dict[str, Any]:
 class Steps:
     """A solution by the statements of its function, so that thousands of wrong programs run
     quickly: each is made of statements that are compiled already, and begins after those that it
-    has in common with the solution. A solution that returns in more than one place is compiled
-    anew for each.
+    has in common with the solution. For a solution that does more than give names to values, and
+    return at its end, each wrong program is compiled as a whole: what a loop changes in place would
+    be changed for all.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
@@ -217,9 +218,9 @@ class Steps:
         self.spans = [(lines[n.lineno - 1], lines[n.end_lineno or 0]) for n in top.body]
         self.inputs = [each.arg for each in top.args.args]
         self.before = run(solution[: lines[top.lineno - 1]], also)
-        returns = [n for n in ast.walk(top) if isinstance(n, ast.Return)]
         alone = len({a for a, _ in self.spans}) == len(self.spans)  # one statement a line
-        self.plain = returns == top.body[-1:] and solution.isascii() and alone
+        last = isinstance(top.body[-1], ast.Return)
+        self.plain = last and all(map(_names, top.body[:-1])) and solution.isascii() and alone
         self.names: dict[Any, dict[str, Any]] = {}
 
     def program(self, variant: Variant) -> Callable[..., Any]:
@@ -254,6 +255,18 @@ class Steps:
             exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
             self.names[key] = names
         return self.names[key]
+
+
+def _names(node: ast.stmt) -> bool:
+    """Whether a statement only gives names to values, or is a docstring."""
+    if isinstance(node, ast.With):
+        return all(map(_names, node.body))
+    if isinstance(node, ast.If):
+        return all(map(_names, [*node.body, *node.orelse]))
+    if isinstance(node, ast.Assign):
+        names = [n for each in node.targets for n in getattr(each, "elts", [each])]
+        return all(isinstance(n, ast.Name) for n in names)
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
 
 
 @cache

@@ -41,6 +41,7 @@ class Prediction:
     right     facts -> which option is right, from 0: computed, not typed in
     view      () -> what opens after the choice: an `Output` or a `Figure` of robokin.show, or words
     unit      of a number to type; `within`: how near to a number counts as it, as a share
+    optional  whether it stands in the lab's optional part
     """
 
     question: str
@@ -50,6 +51,7 @@ class Prediction:
     view: Callable[[], Any] = field(default=lambda: "")
     unit: str | None = None
     within: float = 0.1
+    optional: bool = False
 
 
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
@@ -89,7 +91,7 @@ def _near(x: float, value: float, within: float) -> bool:
 
 # --- As Markdown ----------------------------------------------------------------------------------
 
-HEAD = re.compile(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?")
+HEAD = re.compile(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?(, optional)?")
 ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?")
 
 
@@ -127,6 +129,7 @@ def predictions(file: str, text: str, code: Mapping[str, Any]) -> dict[str, Pred
             view=code.get(f"{head[1]}_view", lambda: ""),
             unit=head[2],
             within=float(head[3]) / 100 if head[3] else 0.1,
+            optional=bool(head[4]),
         )
     return made
 
