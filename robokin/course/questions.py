@@ -71,14 +71,19 @@ def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
 
 
 def judged(prediction: Prediction, options: Sequence[Option], right: int, choice: Any) -> int:
-    """Which option a choice is, -1 for a number that is none of them. ValueError: neither a letter
-    of an option nor a number, as the prediction wants it.
+    """Which option a choice is, -1 for a number that is none of them: "b", or "b: joint 3", where
+    the name counts if an option has it, since options may have changed places. ValueError: neither
+    a letter of an option nor a number, as the prediction wants it.
     """
     if prediction.unit is None:
-        letters = LETTERS[: len(options)]
-        if not (isinstance(choice, str) and len(choice) == 1 and choice in letters):
+        letters = list(LETTERS[: len(options)])
+        letter, _, name = choice.partition(": ") if isinstance(choice, str) else ("", "", "")
+        names = [each.name for each in options]
+        if name and name in names:
+            return names.index(name)
+        if letter not in letters:
             raise ValueError(f"choice: wanted one of {', '.join(letters)}, got {choice!r}")
-        return letters.index(choice)
+        return letters.index(letter)
     given = number(choice, "choice")
     order = [right, *range(len(options))]
     near = (k for k in order if _near(given, float(options[k].text), prediction.within))

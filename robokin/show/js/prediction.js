@@ -77,7 +77,7 @@ function start(root, data) {
   const inputs =
     data.unit === null
       ? data.options.map((_, i) =>
-          control("input", {type: "radio", name: group, value: LETTERS[i]}),
+          control("input", {type: "radio", name: group, value: named(data, i)}),
         )
       : [control("input", {type: "number", step: "any", "aria-label": `your guess, ${data.unit}`})];
   const rows =
@@ -101,7 +101,7 @@ function start(root, data) {
     for (const input of inputs) {
       input.disabled = true;
       if (data.unit !== null) input.value = choice;
-      else input.checked = input.value === choice;
+      else input.checked = input.value === named(data, at);
     }
     if (data.unit === null)
       rows.forEach((row, i) => {
@@ -147,7 +147,8 @@ function start(root, data) {
       tell(error) {
         if (error) return alone(`: ${error}.`);
         const first = memory.read().find(([name]) => name === data.name)?.[1] ?? chosen();
-        const counts = first === chosen() ? "" : ` Your first guess, ${first}, counts.`;
+        const same = judged(data, first) === judged(data, chosen());
+        const counts = same ? "" : ` Your first guess, ${first.split(":")[0]}, counts.`;
         kept.textContent = `${before}Kept for your report.${counts}`;
         copy.remove();
       },
@@ -228,8 +229,12 @@ function start(root, data) {
 /** @type {(data: PageQuestion, choice: string) => boolean} */
 const valid = (data, choice) =>
   data.unit === null
-    ? choice !== "" && LETTERS.indexOf(choice) < data.options.length && LETTERS.includes(choice)
+    ? judged(data, choice) >= 0 && judged(data, choice) < data.options.length
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
+
+/** A choice as it is kept: a letter, and the name that stays when answers change places. */
+const named = (/** @type {PageQuestion} */ {options}, /** @type {number} */ i) =>
+  options[i].name ? `${LETTERS[i]}: ${options[i].name}` : LETTERS[i];
 
 /**
  * Which answer is meant: its number; of a typed number the answer that it is near to, the right one
@@ -238,7 +243,11 @@ const valid = (data, choice) =>
  * @param {string} choice
  */
 function judged(data, choice) {
-  if (data.unit === null) return LETTERS.indexOf(choice);
+  if (data.unit === null) {
+    const [letter, name] = choice.split(": "),
+      at = data.options.findIndex(option => name && option.name === name);
+    return at < 0 && letter ? LETTERS.indexOf(letter) : at;
+  }
   /** @type {(answer: PageAnswer) => boolean} */
   const near = ({value = NaN}) => Math.abs(+choice - value) <= data.within * Math.abs(value) + 1e-9;
   return near(data.options[data.right]) ? data.right : data.options.findIndex(near);
@@ -281,7 +290,7 @@ function line(made, own) {
   const lab = own.slice(0, own.indexOf(".") + 1);
   const said = made
     .filter(([name], k) => name.startsWith(lab) && made.findIndex(each => each[0] === name) === k)
-    .map(([name, choice]) => `${name.slice(lab.length)} ${choice}`);
+    .map(([name, choice]) => `${name.slice(lab.length)} ${choice.split(":")[0]}`);
   return `report(who, guesses="${said.join(", ")}")`;
 }
 
