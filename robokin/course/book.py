@@ -125,8 +125,9 @@ class Lab:
     def _noted(self, name: str) -> Iterator[None]:
         try:
             yield
-        except ValueError as error:
-            self.broken[name] = f"{error}"
+        except Exception as error:  # a teacher's file may hold anything
+            known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
+            self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
 
 
 def _old(name: str, what: str) -> Any:
