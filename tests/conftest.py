@@ -264,7 +264,15 @@ LONGEST = (
     "test_course_labs.py",
     "test_live.py",
     "test_wrong_calls.py",
+    "test_hand_in.py",
+    "test_guesses.py",
+    "test_hostile.py",
+    "test_judge.py",
     "test_report.py",
+    "test_true_statements_b.py",
+    "test_true_statements_a.py",
+    "test_summary_attacked.py",
+    "test_course_time.py",
 )
 
 

@@ -24,12 +24,12 @@ def report_of(who, slug=SLUG, made=MADE, **changes):
     exercises = [
         {"id": f"{slug}.{n}", "task": each.task, "objective": each.objective}
         | {"state": "unanswered", "mistake": None, "says": [], "case": None, "points": 0.0}
-        for n, each in lab.EXERCISES.items()
+        for n, each in lab.exercises.items()
     ]
     predictions = [
         {"id": f"{slug}.{n}", "choice": None, "right": None, "confusion": None}
         | {"when": None, "later": []}
-        for n in lab.PREDICTIONS
+        for n in lab.predictions
     ]
     data = {"report": 2, "who": who, "lab": slug, "title": "A lab", "file": f"{slug}.ipynb"}
     data |= {"made": made, "robokin": "2.0.0", "numbers": "", "remarks": [], "guesses_came": True}

@@ -49,6 +49,17 @@ def test_a_lab_asks_what_its_file_has_in_this_order(lab):
 
 
 @every_lab
+def test_titles_and_what_is_optional_are_those_of_the_lab(lab):
+    sources = ["".join(c["source"]) for c in cells(lab)]
+    text = "\n".join(sources)
+    for n, exercise in book.lab(lab).exercises.items():
+        assert re.search(rf"^\*\*{n}\. {re.escape(exercise.title)}[.?]?\*\*", text, re.M)
+    [deeper] = [k for k, each in enumerate(sources) if each.startswith("## Deeper (optional)")]
+    later = re.findall(r'^predict\("\w+\.(\w+)"\)$', "\n".join(sources[deeper:]), re.M)
+    assert later == [n for n, each in book.lab(lab).predictions.items() if each.optional]
+
+
+@every_lab
 def test_every_objective_is_practised_and_stands_in_the_lab(lab, monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     made = book.lab(lab)

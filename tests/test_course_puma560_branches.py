@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from robokin import PUMA560, deg
-from robokin.course import check
-from robokin.course import puma560_branches as lab
+from robokin.course import book, check
 
 FORE = np.hypot(431.8, 20.3)
 OFFSET = np.arctan2(431.8, 20.3)
+lab = book.lab("puma560_branches")
+judged_line = lab.module("own_line")["judged_line"]
 
 
 def said(front, above, noflip):
@@ -59,7 +60,7 @@ def test_right_names_hold(answer):
         (lambda q: (*by_flags(q)[:2], "NOFLIP"), "always NOFLIP"),
         (
             lambda q: said(front_of(q), q[2] < -90 * deg, q[4] > 0),
-            "the stretched arm at q3 = −90° and the elbow's flag alone, −1 for ABOVE",
+            "the stretched arm at q3 = −90°, and the elbow's flag alone, −1 for ABOVE",
         ),
         (
             lambda q: said(front_of(q), np.sin(q[1]) > 0, q[4] > 0),
@@ -129,7 +130,7 @@ def test_a_duration_is_told_what_it_is(change, mistake):
     # near 1 rad/s a joint speed is no longer told from a duration
     who = next(name for name in map(str, range(99)) if abs(lab.given(name)["fastest"] - 1) > 0.3)
     numbers = lab.given(who)
-    least = lab._of(numbers).least(numbers["fastest"])
+    least = judged_line(numbers).least(numbers["fastest"])
     duration = least.min() * change(numbers["fastest"])
     verdict = check(
         "puma560_branches.3", {"row": int(least.argmin()), "duration": duration}, who=who
@@ -139,7 +140,7 @@ def test_a_duration_is_told_what_it_is(change, mistake):
 
 def test_the_peak_of_ptp_is_not_that_of_a_line():
     numbers = lab.given("Chen")
-    judged = lab._of(numbers)
+    judged = judged_line(numbers)
     row = int(judged.least(1.0).argmin())
     duration = 15 / 8 * judged.mean[row] / numbers["fastest"]
     verdict = check("puma560_branches.3", {"row": row, "duration": duration}, who="Chen")
@@ -150,7 +151,7 @@ def test_the_peak_of_ptp_is_not_that_of_a_line():
 def test_no_fault_of_a_line_tells_the_answer_or_guesses(factor):
     for who in ("Ada", "Bo", "Chen", "Dora", "Emil"):
         numbers = lab.given(who)
-        least = lab._of(numbers).least(numbers["fastest"])
+        least = judged_line(numbers).least(numbers["fastest"])
         row, other = np.argsort(least)[:2].tolist()
         for k in (row, other):
             answer = {"row": k, "duration": factor * float(least[k] if k == row else least[row])}
@@ -165,15 +166,13 @@ def test_no_fault_of_a_line_tells_the_answer_or_guesses(factor):
 
 
 def test_distances_and_speeds_are_told_in_sensible_numbers():
-    law = lab.EXERCISES["1"].law
-    for (q,) in lab.EXERCISES["1"].seeded():
-        told = law((q,), "nothing")
+    names, speeds = lab.exercises["1"], lab.exercises["2"]
+    for k, (q,) in enumerate(names.cases):
+        told = names.code["law"]((q,), "nothing", names.wanted[k])
         assert int(re.search(r"the elbow (\d+) mm", told)[1]) <= 432, told
-    case = lab.EXERCISES["2"].seeded()[0]
-    right = lab.EXERCISES["2"].right_result(case)
-    told = lab.EXERCISES["2"].law(case, 1.489e31)
-    assert "1.5 · 10³¹ m/s is far too fast" in told
-    should, is_at = re.findall(r"(\d\.\d+) m/s", lab.EXERCISES["2"].law(case, 1.003 * right))
+    law, case, right = speeds.code["law"], speeds.cases[0], speeds.wanted[0]
+    assert "1.5 · 10³¹ m/s is far too fast" in law(case, 1.489e31, right)
+    should, is_at = re.findall(r"(\d\.\d+) m/s", law(case, 1.003 * right, right))
     assert should != is_at
 
 

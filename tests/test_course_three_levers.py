@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from robokin import deg, three_lever
-from robokin.course import check, variant
-from robokin.course import three_levers as lab
+from robokin.course import book, check, variant
 
 ARM = three_lever(1.0)
+PLAN = book.lab("three_levers").module("two_tasks")
 
 
 def law(a, b, c):
@@ -114,7 +114,7 @@ def added(K, alpha, lengths):
     [
         (
             of_the_lab,
-            "the formulas of equal levers, with OB; and clipped where there is no triangle",
+            "the formulas of equal levers, with OB, and clipped where there is no triangle",
         ),
         (first_of_the_lab, "L of the lab for OB"),
         (whole_arm, "the reach of the whole arm"),
@@ -214,14 +214,14 @@ def test_what_is_promised_is_what_is_tested(test, mistake):
 @pytest.mark.parametrize("who", range(8))
 def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
     numbers = variant("three_levers", who)
-    greedy = [q[2] for q in lab.greedy(numbers)]
+    greedy = [q[2] for q in PLAN["greedy"](numbers)]
     verdict = check("three_levers.3", {"first": greedy[0], "second": greedy[1]}, who=who)
     assert not verdict.holds and "greed" in verdict.mistake
     one, two = (
         ARM.family(place, np.linspace(*ARM.alpha_range(place), 121))
-        for place in lab.places(numbers)
+        for place in PLAN["places"](numbers)
     )
-    to_one, to_two = lab.changes(numbers, (one[:, None], two))
+    to_one, to_two = PLAN["changes"](numbers, (one[:, None], two))
     S = to_one.sum(axis=-1) + to_two.sum(axis=-1)
     longest = to_one.max(axis=-1) + to_two.max(axis=-1)
     met = np.argwhere((S <= numbers["most"]) & (longest <= numbers["longest"]))

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from robokin import spbu_arm, within
-from robokin.course import check, variant
-from robokin.course import visit_and_collect as lab
-from robokin.jobs.visit_collect import best_visit, misfit, visit, workspace
+from robokin.course import book, check, variant
+from robokin.jobs.visit_collect import best_visit, misfit, travel_time, visit, workspace
+
+LAB = book.lab("visit_and_collect")
+TRAPS, FACTS, SHARED = (LAB.module(name) for name in ("greedy_traps", "predictions", "shared"))
 
 ARM = spbu_arm(5, 4)
 BOX = np.random.default_rng(5).uniform([-9, -9, 0], [9, 9, 9], size=(200, 3))
@@ -184,7 +186,7 @@ def filled_backward(q, speeds):
         (lambda q, speeds: nothing(np.nan_to_num(q), speeds), "NaN taken for 0"),
         (
             lambda q, speeds: np.diff(nothing(np.nan_to_num(q), speeds), prepend=0),
-            "NaN taken for 0, and not added up",
+            "NaN taken for 0, and times of the moves, not added up",
         ),
         (forward_only, "a start on the axis left out"),
         (
@@ -280,9 +282,9 @@ def test_what_is_no_trap_is_told(task, points, mistake):
 def test_a_worth_lost_in_part_is_told():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
-    name, says = lab._trap_fault("worth", points, numbers)
+    name, says = TRAPS["trap_fault"]("worth", points, numbers)
     assert name == "less than half is lost" and "worth 3; the best choice [3], worth 4" in says
-    name, _ = lab._trap_fault("worth", points, numbers | {"worth": [9, 1, 1, 1]})
+    name, _ = TRAPS["trap_fault"]("worth", points, numbers | {"worth": [9, 1, 1, 1]})
     assert name == "the rule is not beaten"
 
 
@@ -291,22 +293,24 @@ def test_no_set_of_points_beats_cheapest_first():
     numbers = variant("visit_and_collect", 3)
     rng = np.random.default_rng(3)
     for _ in range(100):
-        greedy, best = lab._both("collect", rng.permutation(POINTS)[:4], numbers)
+        greedy, best = TRAPS["both"]("collect", rng.permutation(POINTS)[:4], numbers)
         assert len(greedy) == len(best)
 
 
 def test_the_numbers_behind_the_predictions():
-    assert lab._axis_facts()["height"] == 3.0  # 3-4-5
-    assert -1.017 < lab._dip_facts()["low"] < -1.016
-    facts = lab._belt_facts()
+    assert FACTS["p7"]()["height"] == 3.0  # 3-4-5
+    assert -1.017 < FACTS["p8"]()["low"] < -1.016
+    facts = FACTS["p9"]()
     assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
     assert (facts["least"], facts["greatest"]) == (80, 90)  # other orders of the same gaps
     assert facts["first"] == 95
-    changes = lab._change_facts()
-    assert [changes[k] > 0 for k in ("axis", "prices", "speeds", "onward")] == [1, 1, 0, 1]
+    changes = FACTS["p5"]()
+    beaten = ("container on axis 1", "prices", "unlike speeds", "emptied at the end")
+    assert [changes[k] > 0 for k in beaten] == [1, 1, 0, 1]
+    stops = SHARED["STOPS"]
     for seed in range(5):  # against the package's own optimum
-        task = lab._drawn(seed)
-        legs = lab.travel_time(task.q[:, None], task.q, task.speeds)
-        arrivals = legs[lab.STOPS[:, :-1], lab.STOPS[:, 1:]].cumsum(axis=-1)
+        task = SHARED["drawn"](seed)
+        legs = travel_time(task.q[:, None], task.q, task.speeds)
+        arrivals = legs[stops[:, :-1], stops[:, 1:]].cumsum(axis=-1)
         assert (arrivals <= task.T).sum(axis=-1).max() == len(best_visit(task).order)
         assert len(visit(task).order) <= len(best_visit(task).order)

@@ -579,6 +579,29 @@ def test_a_test_to_write_is_read_from_a_file(place):
     assert refused.mistake == "another kind or shape"
 
 
+EMPTY = """\
+def f(x, low):
+    if low:
+        x = x + 1
+        x = x * 3
+    return x
+"""
+NOTHING = """\
+**not raised.** One.
+- `x = x + 1` → nothing
+
+**not tripled.** Two.
+- `x = x * 3` → nothing
+"""
+
+
+def test_two_mistakes_that_are_no_program_together_explain_nothing():
+    mine = exercise(EMPTY, lambda rng: [(k / 2, k % 3 > 0) for k in range(9)], NOTHING)
+    assert check(mine, lambda x, low: x * 3 if low else x).mistake == "not raised"
+    verdict = check(mine, lambda x, low: x + 7 if low else x)
+    assert not verdict.holds and verdict.case and "cannot be judged" not in repr(verdict)
+
+
 def test_results_that_cannot_be_compared_are_unlike():
     mine = exercise("def f(n):\n    return n", lambda rng: [(n,) for n in range(9)])
     mine.alike = lambda a, b: 1 / 0

@@ -4,6 +4,8 @@ the first one first; whatever else lies there.
 
 import json
 import os
+import re
+import shutil
 import threading
 import time
 from datetime import datetime
@@ -281,6 +283,35 @@ def test_a_line_that_cannot_be_read_is_told(tmp_path):
     remarks = []
     assert guesses(handed_in(lab), remarks)[0].choice == "c"
     assert len(remarks) == 1 and "guesses: wanted" in remarks[0] and "all b" in remarks[0]
+
+
+def test_a_copy_says_whose_guesses_lie_beside_it_and_takes_none(tmp_path):
+    lab = notebook(tmp_path / "lab.ipynb", ids=[P1, TYPED])
+    number = TYPED.partition(".")[2]
+    made = [(P1, "b", at(1)), (P1, "c", at(2)), (TYPED, "-290", at(3)), (f"{LAB}.p99", "a", at(4))]
+    keep(lab, made)
+    keep(notebook(tmp_path / "other.ipynb", ids=[OTHER]), [(OTHER, "d", at(1))])
+
+    def of(path):
+        remarks = []
+        return {g.id: g.choice for g in guesses(handed_in(path), remarks) if g.choice}, remarks
+
+    copied = shutil.copy(lab, tmp_path / "copy.ipynb")
+    got, [remark] = of(copied)
+    line = re.search(r'report\(who, guesses="(.*)"\)$', remark)[1]
+    assert got == {} and parse_line(line) == {"p1": "b", number: "-290"}
+    assert "for copy.ipynb, but some are for lab.ipynb," in remark
+    handed = notebook(copied, remark.partition(": ")[2], ids=[P1, TYPED])
+    assert of(handed) == ({P1: "b", TYPED: "-290"}, []), "as the sentence says"
+    assert of(lab) == (of(handed)[0], [])
+    (tmp_path / "away").mkdir()
+    assert of(shutil.copy(lab, tmp_path / "away" / "lab.ipynb")) == ({}, [])
+    keep(notebook(tmp_path / "second.ipynb", ids=[P1]), [(P1, "a", at(1))])
+    third = notebook(tmp_path / "third.ipynb", ids=[P1])
+    assert of(third) == ({}, []), "of two others nobody knows which one"
+    written(tmp_path, "{")
+    got, [remark] = of(third)
+    assert got == {} and "cannot be used" in remark
 
 
 # --- In a page ------------------------------------------------------------------------------------

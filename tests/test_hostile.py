@@ -11,6 +11,7 @@ import json
 import re
 import threading
 import time
+import unicodedata
 from functools import cache
 from types import SimpleNamespace
 
@@ -30,9 +31,10 @@ from robokin.course import book, predict
 from robokin.course import export as course_export
 from robokin.course.exercises import Verdict
 from robokin.course.export import View, page
-from robokin.course.harmless import clean, harmless_link, is_deep, visible
+from robokin.course.harmless import clean, harmless_link, is_deep
 from robokin.course.ours import CALL, KINDS, LEFT_OUT, again, fits
 from robokin.course.report_page import page_of
+from robokin.course.texts import ALL_BUT_HALVES, all_visible, visible
 from robokin.show import target_explorer
 from robokin.show.page import Page
 
@@ -316,7 +318,7 @@ def data_of(words=("a sentence",)):
                 "case": "\n".join(words),
                 "points": 0.5,
             }
-            for k, (n, exercise) in enumerate(lab.EXERCISES.items())
+            for k, (n, exercise) in enumerate(lab.exercises.items())
         ],
         "predictions": [
             {
@@ -327,7 +329,7 @@ def data_of(words=("a sentence",)):
                 "when": "2026-01-02T03:04:05+00:00",
                 "later": list(words),
             }
-            for k, n in enumerate(lab.PREDICTIONS)
+            for k, n in enumerate(lab.predictions)
         ],
         "remarks": list(words),
         "guesses_came": True,
@@ -341,7 +343,7 @@ class Opened:
         self.folder = folder
         self.context = browser.new_context(viewport={"width": 1000, "height": 800})
 
-    def look(self, name, text):
+    def look(self, name, text, picture=True):
         path = self.folder / name
         path.write_text(text, encoding="utf-8")
         page = self.context.new_page()
@@ -352,7 +354,7 @@ class Opened:
         head = page.locator(".rk-report")
         if head.count():
             seen.verdicts = page.evaluate(VERDICTS)
-            seen.head = head.screenshot(), head.inner_text()
+            seen.head = picture and head.screenshot(), head.inner_text()
         if page.locator(".rk-notebook").count():
             seen.odd = page.evaluate(ALLOWED)
             seen.scripts = page.evaluate(SCRIPTS)
@@ -379,7 +381,8 @@ def seen(browser, listening, tmp_path_factory):
     assert len(data["remarks"]) > 1, "formulas that could not be read are told"
     same = data_of() | {"remarks": data["remarks"]}
     result.harmless = opened.look("harmless.html", page_of(same, quiet, folder))
-    result.data = opened.look("data.html", page_of(data_of(short), quiet, folder))
+    many = page_of(data_of(short), quiet, folder)
+    result.data = opened.look("data.html", many, picture=False)  # it would have 50 million pixels
     result.asked = list(listening.asked)
     careless = "".join(v for v in (*FETCHES, *RUNS) if "frame" not in v)
     raw = careless.replace("JS", ATTACK).replace("URL", listening.url)
@@ -539,7 +542,8 @@ def test_pictures_come_from_the_folder_and_nowhere_else(tmp_path):
 def test_the_header_says_what_is_to_be_known(tmp_path):
     none_came = data_of() | {"guesses_came": False}
     text = page_of(none_came, new_notebook(), tmp_path)
-    assert "Guesses: none came with the notebook." in text and "can forge" in text
+    assert "Guesses: none came with the notebook." in text and "in another folder" in text
+    assert "can forge" in text
     assert "default-src 'none'" in text
     assert "none came" not in page_of(data_of(), new_notebook(), tmp_path)
 
@@ -569,6 +573,35 @@ def test_what_is_not_seen_is_written_out():
     for fine in ("Юрий", "कमला", "José", "家", "عربي", "a\N{ZERO WIDTH JOINER}b", "−290°"):
         assert visible(fine) == fine
     assert clean("&#8238;x&lt;y&amp;z") == "\\u202ex&lt;y&amp;z"
+    assert visible("a\tb\r\nc", "") == r"a\tb\r\nc" and visible("a\x1b", "\x1b") == "a\x1b"
+    assert visible("abc", most=2) == "ab ... shortened"
+
+
+def test_every_character_is_seen_or_told():
+    """By Python's tables: what controls, ends a line or turns the direction; and what it prints."""
+    every = [chr(c) for c in range(0x110000)]
+    turns = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
+    told = [
+        c
+        for c in every
+        if unicodedata.category(c) in ("Cc", "Zl", "Zp", "Cs")
+        or unicodedata.bidirectional(c) in turns
+    ]
+    shown = visible("".join(told), "")
+    assert shown.isascii() and shown.isprintable() and shown.count("\\") == len(told) > 2048
+    seen = "".join(c for c in every if c.isprintable())
+    assert visible(seen, "") == visible(seen) == seen
+    kept = visible("".join(every), ALL_BUT_HALVES)
+    assert kept.encode() and kept.startswith("".join(every[:0xD800]) + r"\ud800\ud801")
+
+
+def test_all_texts_of_what_came_as_json_are_visible():
+    assert all_visible({"a\0": [1, None, ("\u202e",)]}) == {r"a\x00": [1, None, [r"\u202e"]]}
+    deep = []
+    for _ in range(200):
+        deep = [deep]
+    with pytest.raises(ValueError, match="nested deeper than 100"):
+        all_visible(deep)
 
 
 PIECES = ("<", " ", "&", "<b>", "</b>", "<div>", "<p>", "&lt;", " \n", "a.", "\\\\[", "$a$", "[a](")

@@ -254,25 +254,26 @@ def test_all_cells_have_a_time_and_a_memory_together(tmp_path):
 
 
 def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch):
-    slower(monkeypatch, 2)
+    slower(monkeypatch, 1)
     lab = stored(
         tmp_path / "lab.ipynb",
         f"{IMPORTS}\nimport signal, time\nfrom unittest.mock import Mock",
         "nap = Mock()\nnap.side_effect = lambda: time.sleep(1000) if nap.call_count > 1 else None",
         'check("irb140_motion.1", nap())',
-        "time.sleep(1000)",
+        "signal.signal(signal.SIGINT, signal.SIG_IGN)\ntime.sleep(1000)",  # ends the first kernel
         'check("irb140_motion.2", 1)',
-        "signal.signal(signal.SIGINT, signal.SIG_IGN)\ntime.sleep(1000)",
+        "time.sleep(1000)",
         'check("irb140_motion.3", 1)',
     )
     begun = time.monotonic()
-    judged = judge(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=40))
+    judged = judge(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=80))
     assert time.monotonic() - begun < 500
     # the machine may be too slow for other cells as well: nothing else is sure
     assert {each.state for each in judged.exercises} == {"not judged"}
     assert {each.points for each in judged.exercises} == {0}
     assert all("too slow" in each.says[0] for each in judged.exercises)
-    assert any("Stopped after 2 s by the clock" in remark for remark in judged.remarks)
+    stopped = [r for r in judged.remarks if "Stopped after 1 s by the clock" in r]
+    assert any("nothing less than ending the kernel" in remark for remark in stopped)
 
 
 def test_what_is_not_judged_contradicts_nothing(tmp_path):
@@ -378,7 +379,7 @@ HOSTILE = ("<", " ", "-", "(", '"', "check(", "\\", "\n ", "?\n", "&#9", "1;", "
 
 
 @pytest.mark.parametrize(
-    ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE), (4_000_000, HOSTILE[:4])]
+    ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE[4:]), (4_000_000, HOSTILE[:4])]
 )
 def test_reading_takes_time_in_proportion_to_size(size, pieces, tmp_path):
     """At most 2 s of CPU time for a megabyte."""
@@ -482,8 +483,8 @@ def test_an_exercise_in_a_cell_that_cannot_be_read_is_broken(source, tmp_path):
     lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
     assert tried(lab)
     given = handed_in(lab)
-    if "\ud800" in source:  # is no character, and is read as "?"
-        assert given.checks["irb140_motion.1"].answer == "'?'"
+    if "\ud800" in source:  # is no character, and is read as its escape
+        assert given.checks["irb140_motion.1"].answer == r"'\ud800'"
         return
     assert set(given.broken) == {"irb140_motion.1"} and given.broken["irb140_motion.1"]
 

@@ -6,12 +6,13 @@ The labs are written here, so that what every answer is worth is known beforehan
 import io
 import re
 import sys
+from html import unescape
 from types import SimpleNamespace
 
 import pytest
 from conftest import NOTEBOOKS
-from handed import cell, stored
-from nbformat.v4 import new_markdown_cell
+from handed import cell, report_of, stored
+from nbformat.v4 import new_markdown_cell, new_notebook
 
 from robokin import course
 from robokin.course import book, solution
@@ -140,6 +141,31 @@ def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
     assert complaints == []
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
     context.close()
+
+
+def test_the_header_has_words_for_guesses_and_titles_in_the_labs_order(tmp_path):
+    slug = "irb140_motion"
+    lab, data = book.lab(slug), report_of("Ada", slug)
+    typed = next(n for n, each in lab.predictions.items() if each.unit == "°")
+    for each in data["predictions"]:
+        number = each["id"].partition(".")[2]
+        choice = {"p1": "b", "p9": "a", typed: "-90"}.get(number)
+        each |= {"choice": choice, "right": choice and False}
+    data["predictions"][0]["later"] = ["a", "<b>"]
+    header = page_of(data, new_notebook(), tmp_path).partition("<header")[2].partition("<main")[0]
+    said = [unescape(text) for text in re.findall(r">\s*([^<>]+?)\s*<", header)]
+    titles = [each.title for each in lab.exercises.values()]
+    assert [text for text in said if text in titles] == titles
+    assert [text for text in said if re.fullmatch(r"objective \d", text)] == [
+        f"objective {k}" for k in range(1, 4)
+    ], "after the exercises"
+    one, nine = (course.predict(f"{slug}.{n}").options for n in ("p1", "p9"))
+    for words in (f"b) {one[1].text}", f"later: a) {one[0].text}", f"a) {nine[0].text}", "−90°"):
+        assert words.replace("`", "") in said, words
+    assert "later: <b>" in said
+    missing, optional = (said[said.index(word) - 1] for word in ("not made", "optional, not made"))
+    left = [n for n in lab.predictions if n not in ("p1", "p9", "p10", typed)]
+    assert (missing.split(", "), optional) == (left, "p10")
 
 
 def test_a_report_is_hardly_larger_than_the_lab():

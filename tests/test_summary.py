@@ -76,6 +76,14 @@ def question(name):
     return course.predict(name).question.replace("`", "")
 
 
+def words(name, choice):
+    """A guess as the lab's own page would say it."""
+    asked = course.predict(name)
+    if choice is None or asked.unit:
+        return choice or ""  # "b" is no number
+    return f"{choice}) {asked.options['abcd'.index(choice)].text}".replace("`", "")
+
+
 def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):
     folder, drawn = handed
     assert main(["summary", str(folder), "--to", str(tmp_path)]) == 1
@@ -142,7 +150,7 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
             counts[name].append(len(who))
         assert all(each == sorted(each, reverse=True) for each in counts.values())
         assert max(map(max, counts.values())) > 1
-        labs = [book.labs().index(name.partition(".")[0]) for name, _, _ in rows]
+        labs = [list(book.labs()).index(name.partition(".")[0]) for name, _, _ in rows]
         assert labs == sorted(labs)
     summary_pages.write(made, tmp_path)
     page = page_in(tmp_path)
@@ -173,25 +181,49 @@ def test_each_row_leads_to_a_page_of_its_own(handed, tmp_path):
     made = summary.summary(folder)
     for points in (True, False):
         summary_pages.write(made, tmp_path, points)
-        links = re.findall('<a href="(summary_pages/[^"]*)">(.*?)</a>', page_in(tmp_path))
+        links = re.findall('<td><a href="(summary_pages/[^"]*)">(.*?)</a><br>', page_in(tmp_path))
         assert sorted(unescape(who) for _, who in links) == sorted(drawn)
         for link, who in links:
             data = drawn[unescape(who)]
             page = (tmp_path / unquote(link)).read_text(encoding="utf-8")
+            assert re.findall('<a href="([^"]*)"', page) == ["../summary.html"], "no student's page"
             told = [row for row in rows_of(page, "sheet") if row[0].startswith("exercise")]
-            for row, each in zip(
-                told, sorted(data["exercises"], key=lambda e: e["objective"]), strict=True
-            ):
+            for row, each in zip(told, data["exercises"], strict=True):
+                title = book.find(each["id"], "exercises").title
+                assert row[0] == f"exercise {each['id'][-1]}{title}"
                 assert row[1] == each["state"] and (each["mistake"] or "") in row[2]
                 assert row[3:] == ([f"{each['points']:g}"] if points else [])
             guesses = rows_of(page, "guesses")
             for row, each in zip(guesses, data["predictions"], strict=True):
                 assert row[0] == question(each["id"])
-                assert row[1] == (each["choice"] or "") and row[3] == ", ".join(each["later"])
+                assert row[1] == words(each["id"], each["choice"])
+                assert row[3] == "".join(words(each["id"], later) for later in each["later"])
         assert len(links) == 29 == len(os.listdir(tmp_path / "summary_pages"))
         said = page_in(tmp_path)
         assert ("not marks" in said) == points == ("<th>Points</th>" in said)
         assert any("points" in head for head in table_in(tmp_path)[0]) == points
+
+
+def test_a_number_has_its_unit_and_what_is_optional_is_not_missing(tmp_path):
+    slug = "irb140_motion"
+    data = report_of("Ada", slug)
+    asked = book.lab(slug).predictions
+    optional = [f"{slug}.{n}" for n, each in asked.items() if each.optional]
+    typed = next(n for n, each in asked.items() if each.unit == "°")
+    for each in data["predictions"]:
+        if each["id"] == f"{slug}.{typed}":
+            each |= {"choice": "-90", "right": False, "later": ["-9<b>", "120"]}
+        elif each["id"] not in optional[1:]:
+            each |= {"choice": "a", "right": True}
+    put(tmp_path / "a.html", data)
+    [entry] = summary.summary(tmp_path).entries
+    rows = rows_of(summary_pages.sheet(entry), "guesses")
+    [row] = [row for row in rows if row[0] == question(f"{slug}.{typed}")]
+    assert row[1:] == ["−90°", "not so", "-9<b>120°"]
+    [last] = [row for row in rows if row[0] == question(optional[1])]
+    assert len(optional) == 2 and last[1:3] == ["", "optional, not made"]
+    made = len(asked) - 1
+    assert entry.guessed == f"{made - 1} right of {made} made ({made} asked)"
 
 
 def test_points_can_be_left_out_and_guesses_that_did_not_come_are_told(tmp_path):
@@ -289,6 +321,60 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
     assert [e["state"] for e in second.data["exercises"]] == ["unanswered"] * 2 + ["holds"]
     assert second.data["remarks"] == ["scara_motion.3: judged with the numbers of 'Bob'."]
     assert second.data["predictions"][0]["choice"] == "b"
+
+
+def test_one_table_has_all_students_and_labs(tmp_path):
+    held = {"Zoë": {SLUGS[0]: 2, SLUGS[2]: 0}, "ada": {SLUGS[2]: 3}, "Bob": {SLUGS[0]: 1}}
+    for who, labs in held.items():
+        for slug, count in labs.items():
+            data = report_of(who.upper() if slug == SLUGS[2] else who, slug)
+            for each in data["exercises"][:count]:
+                each |= {"state": "holds", "points": 1.0}
+            put(tmp_path / who / f"{slug}.html", data)
+    assert main(["summary", str(tmp_path), "--to", str(tmp_path)]) == 0
+    page = page_in(tmp_path)
+    [table] = re.findall('<table class="overview">(.*?)</table>', page, re.S)
+    heads = re.findall("<th>(.*?)</th>", table)
+    assert heads == ["Who", "Lab 03", "Lab 09"]
+    assert rows_of(page, "overview") == [
+        ["ADA", "", "3 of 3"],
+        ["Bob", "1 of 3", ""],
+        ["Zoë", "2 of 3", "0 of 3"],
+    ]
+    for link, count in re.findall('<a href="([^"]*)">(.*?)</a>', table):
+        told = rows_of((tmp_path / unquote(link)).read_text(encoding="utf-8"), "sheet")
+        states = [row[1] for row in told if row[0].startswith("exercise")]
+        assert count == f"{states.count('holds')} of {len(states)}"
+
+
+def test_the_same_page_in_several_folders_counts_once(tmp_path):
+    """In the folder with the student's name, else in the first; the others say which it is."""
+    for folder in ("Bob", "Ada_123_file/lab", "Adam", "Zoë"):
+        put(tmp_path / folder / "lab.html", report_of("Ada"))
+    put(tmp_path / "Bob" / "lab of Eve.html", report_of("Eve"))
+    put(tmp_path / "Carl" / "lab of Eve.html", report_of("Eve"))
+    put(tmp_path / "Carl" / "other.html", report_of("Eve", title="Another one"))
+    put(tmp_path / "lab.html", report_of("Ada", made="2026-11-01T09:30:00+01:00"))
+    for file in ("a.html", "b.html"):
+        put(tmp_path / file, report_of("../x"))
+    made = summary.summary(tmp_path)
+    counts = {each.who: each.file for each in made.entries}
+    assert counts == {
+        "Ada": "Ada_123_file/lab/lab.html",
+        "Eve": "Bob/lab of Eve.html",
+        "../x": "a.html",
+    }
+    same = "the same page as {}, which counts".format
+    assert {each.file: (each.who, each.reason) for each in made.left_out} == {
+        "Adam/lab.html": ("Adam", same(counts["Ada"])),
+        "Bob/lab.html": ("Bob", same(counts["Ada"])),
+        "Zoë/lab.html": ("Zoë", same(counts["Ada"])),
+        "Carl/lab of Eve.html": ("Carl", same(counts["Eve"])),
+        "Carl/other.html": ("Eve", f"{counts['Eve']} of Eve for {SLUG} is as new and counts"),
+        "b.html": ("../x", same("a.html")),
+        "lab.html": ("Ada", f"{counts['Ada']} of Ada for {SLUG} is newer and counts"),
+    }
+    assert not any(each.wrong for each in made.left_out)
 
 
 def stub(wait=lambda name: None):

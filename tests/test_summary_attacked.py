@@ -76,6 +76,7 @@ SEEN = """() => {
     remarks: texts("li"),
     colours: [...new Set(wrong.map(each => getComputedStyle(each).color))],
     odd: document.querySelectorAll(odd).length,
+    links: [...document.links].map(each => each.href),
     ran: window.ran,
   };
 }"""
@@ -154,6 +155,7 @@ def test_no_words_of_a_student_run(browser, server, tmp_path):
         assert link.startswith((tmp_path / "summary_pages").as_uri())
         view.goto(link)
         found = view.evaluate(SEEN)
+        assert found["links"] == [(tmp_path / "summary.html").as_uri()]
         verdicts, guesses = [[t.replace("`", "") for t in found[n]] for n in ("tasks", "guesses")]
         assert len(verdicts) == 3 and all(shown in text for text in verdicts)
         assert len(guesses) > 20 and set(guesses) == {shown, f"not so: {shown}"}

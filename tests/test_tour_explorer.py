@@ -12,7 +12,7 @@ import pytest
 
 from robokin import spbu_arm
 from robokin.jobs.visit_collect import Task, best_visit, collect, visit, workspace
-from robokin.show import tour_explorer
+from robokin.show import live, tour_explorer
 from robokin.show.tour_explorer import WHILE_HELD, answered
 
 SPEEDS = np.array([0.2, 0.2, 0.2])
@@ -238,6 +238,9 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     jupyter.run_all(page, "tours.ipynb")
     root = page.locator(".robokin-player[data-awake]")
     root.wait_for(timeout=10_000)
+    # from here on this very one: a view that JupyterLab makes anew has its first numbers again
+    root.evaluate("root => root.setAttribute('data-held', '')")
+    root = page.locator(".robokin-player[data-awake][data-held]")
     before = len(page.complaints)  # of JupyterLab itself
     _drags(page, root)
     _typed(page, root)
@@ -245,6 +248,83 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     _many(page, root)
     assert page.complaints[before:] == []
     page.close()
+
+
+# A kernel that answers when and in which order the test says.
+WAKE = """root => root.dispatchEvent(new CustomEvent("robokin-wake", {
+  detail: (n, question) => (window.asked ||= []).push({n, question}),
+}))"""
+ANSWER = """(root, detail) =>
+  root.dispatchEvent(new CustomEvent("robokin-answer", {detail: {...detail, buffers: []}}))"""
+
+
+@pytest.fixture
+def slow(browser, tmp_path):
+    """The explorer in a page, awake; its place, and two functions: what was asked so far, and an
+    answer to one of that.
+    """
+    tour_explorer(CIRCLE).save(tmp_path / "tour.html")
+    page = opened(browser)
+    page.goto(f"file://{tmp_path}/tour.html")
+    root = page.locator(".robokin-player")
+    page.locator(".rk-asleep").wait_for()
+    root.evaluate(WAKE)
+
+    def asked():
+        page.evaluate(FRAMES)
+        return page.evaluate("window.asked || []")
+
+    def answer(one):
+        content = live.stored(*live.packed(answered(one["question"], SPEEDS)))
+        root.evaluate(ANSWER, {"n": one["n"], "answer": content})
+        page.evaluate(FRAMES)
+
+    yield page, root, asked, answer
+    assert not page.complaints
+    page.close()
+
+
+def typed(page, label, value):
+    box = page.get_by_label(label)
+    box.fill(value)
+    assert box.input_value() == value, "something else has the focus"
+    box.press("Enter")
+
+
+def test_an_answer_that_comes_late_takes_nothing_back(slow):
+    page, _, asked, answer = slow
+    typed(page, "T, s, exactly", "29")
+    typed(page, "L1, m, exactly", "4.5")
+    early = asked()
+    typed(page, "L2, m, exactly", "4.2")
+    for one in early:
+        answer(one)
+        task = shown_task(page)
+        assert (task.T, task.l1, task.l2) == (29, 4.5, 4.2)
+    last = asked()[-1]
+    assert [last["question"][key] for key in ("T", "l1", "l2")] == [29, 4.5, 4.2]
+    answer(last)
+    answer(early[0])
+    task = shown_task(page)
+    assert (task.T, task.l1, task.l2) == (29, 4.5, 4.2)
+    assert cells(page) == told(task, visit, best_visit)
+
+
+@pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
+def test_what_was_asked_before_a_kernel_came_is_asked_again(slow, between):
+    """Else the tours are those of other points than the ones shown, until the hand moves on."""
+    page, root, asked, answer = slow
+    typed(page, "T, s, exactly", "29")
+    (lost,) = asked()
+    if between == "sleeps":
+        root.evaluate("root => root.dispatchEvent(new CustomEvent('robokin-sleep'))")
+    root.evaluate(WAKE)
+    again = asked()[1:]
+    assert [one["question"] for one in again] == [lost["question"]]
+    answer(again[0])
+    assert cells(page) == told(shown_task(page), visit, best_visit)
+    root.evaluate(WAKE)
+    assert len(asked()) == 2, "what was answered is not asked again"
 
 
 def settled(page, root):
@@ -305,9 +385,8 @@ def _typed(page, root):
         ("L1, m, exactly", "4.5"),
         ("L2, m, exactly", "4.2"),
     ):
-        page.get_by_label(label).fill(value)
-        page.get_by_label(label).press("Enter")
-    settled(page, root)
+        typed(page, label, value)
+        settled(page, root)
     task = shown_task(page)
     assert (task.T, task.l1, task.l2) == (29, 4.5, 4.2)
     assert cells(page) == told(task, visit, best_visit)

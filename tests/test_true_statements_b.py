@@ -20,9 +20,9 @@ from robokin import PUMA560, Quaternion, Transform, deg, lin, loader_arm, mm, qu
 from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.course import variant
 from robokin.course.book import find
+from robokin.course.book import lab as content
 from robokin.course.obstacle_avoidance import _path_form, sampled_tasks
 from robokin.course.questions import filled
-from robokin.course.three_levers import RING, SAMPLE
 from robokin.jobs import redundancy
 from robokin.jobs.conveyor import serve, spaced
 from robokin.jobs.obstacles import keeps, way_round
@@ -293,6 +293,8 @@ def test_dice_turn_more_and_by_how_much():
 def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
     question, _, _ = asked("three_levers.p4")
     first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
+    facts = content("three_levers").module("predictions")
+    RING, SAMPLE = facts["RING"], facts["SAMPLE"]
     KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus an angle that does not change
     gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
     beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2

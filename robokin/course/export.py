@@ -32,9 +32,9 @@ from .harmless import (
     is_deep,
     odd_in_math,
     shortened,
-    visible,
 )
 from .ours import again
+from .texts import LINES, visible
 
 FORMULAS = LatexToMathML(fancy_error=False)
 TEX = 2_000  # characters of a formula; the parser's stack grows with its braces
@@ -275,7 +275,7 @@ def _as_typed(text: str) -> Markup:
 
 def _coloured(text: str) -> Markup:
     """A text of a terminal: colours are kept."""
-    made = ansi2html(visible(shortened(text), kept="\x1b"))
+    made = ansi2html(visible(shortened(text), LINES + "\x1b"))
     return Markup(made.replace("\x1b", "\\x1b"))
 
 

@@ -1317,6 +1317,7 @@ def _long_view() -> str:
 
 EXERCISES = {
     "1": Function(
+        title="Seen from the flange",
         task="Where is a part, seen from the flange of an arm with a DH table?",
         objective=1,
         hints=(
@@ -1336,6 +1337,7 @@ EXERCISES = {
         mistakes=SEEN_MISTAKES,
     ),
     "2": Value(
+        title="A camera that looks at a part",
         task="Turn a camera so that it looks at your part, level and upright",
         objective=2,
         hints=(
@@ -1353,6 +1355,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for slerp",
         task="Write a test that tells a right slerp from a wrong one",
         objective=3,
         hints=(
@@ -1401,7 +1404,7 @@ PREDICTIONS = {
                 "That is the shift alone. The matrix turns the point about the origin of the base, "
                 "and the point is not there.",
                 "a turn moves no point",
-                "The point (0, 0, 0) is the one that the turn leaves where it is.",
+                "The points of the z axis are the ones that the turn leaves where they are.",
             ),
         ),
         facts=_point_facts,

@@ -189,26 +189,29 @@ class Function(Exercise):
     def named(self, outcomes: list[Outcome], wrong: list[str | None], first: int) -> list[Fault]:
         """The mistakes that give these outcomes in all cases, asked in groups, the likeliest first:
         one of the exercise; one answer to everything; one that everybody makes; two of the
-        exercise, or one of it and one that everybody makes of a result.
+        exercise; one of it and one that everybody makes of a result.
         """
         if len(outcomes) < min(6, len(self.cases)):
             return []
         if all(o.name is None and has_nan(o.result) for o in outcomes):
             return [("always NaN", "It gives NaN in every case that was tried.")]
         order = [first, *(k for k in range(len(outcomes)) if k != first)]
+        raising = all(o.name == "raises an error" for o in outcomes)
         for group in (self._singles, lambda: self._alike(outcomes), self._common):
             found = [c for c in group() if self.agrees(c, outcomes, wrong, order)]
             if names := list(dict.fromkeys((c.name, c.says) for c in found)):
                 return names
-        if all(o.name == "raises an error" for o in outcomes):
-            return []
-        found = [c for c in self._doubles() if self.agrees(c, outcomes, wrong, order)]
-        names = list(dict.fromkeys((c.name, c.says) for c in found))
-        if len(names) != 1:  # unlike pairs: a guess
-            return []
-        if isinstance(outcomes[first].result, (bool, np.bool_, str)):  # of few answers
-            return [(names[0][0], f"It behaves like a program with two mistakes. {names[0][1]}")]
-        return names
+        for group in () if raising else (self._pairs, self._slipped):
+            found = [c for c in group() if self.agrees(c, outcomes, wrong, order)]
+            names = list(dict.fromkeys((c.name, c.says) for c in found))
+            if len(names) > 1:  # unlike pairs: a guess
+                return []
+            if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):  # few answers
+                says = f"It behaves like a program with two mistakes. {names[0][1]}"
+                return [(names[0][0], says)]
+            if names:
+                return names
+        return []
 
     def _singles(self) -> Iterator[Candidate]:
         return map(self._candidate, self.own)
@@ -234,17 +237,18 @@ class Function(Exercise):
                 told = f"{says} It is about `{about}`."
                 yield Candidate(name, told, partial(given, i, change))
 
-    def _doubles(self) -> Iterator[Candidate]:
+    def _pairs(self) -> Iterator[Candidate]:
         def ran(program: Callable[[], Any], k: int) -> Any:
             return program()(*self.cases[k])
 
+        for pair in edits.pairs(self.own):
+            program = cache(partial(self.steps.program, pair))  # it may be no Python
+            yield Candidate(pair.name, pair.says, partial(ran, program))
+
+    def _slipped(self) -> Iterator[Candidate]:
         def read(one: Variant, change: Callable[[Any], Any], k: int) -> Any:
             return change(self.result(one, k))
 
-        for pair in edits.pairs(self.own):
-            yield Candidate(
-                pair.name, pair.says, partial(ran, cache(partial(self.steps.program, pair)))
-            )
         for one in self.own:
             for name, says, change in RESULTS:
                 told = f"{one.says} And: {says}"

@@ -9,7 +9,6 @@ of a guess. Nothing of it is stored in the notebook.
 
 import ast
 import contextlib
-import functools
 import json
 import os
 import re
@@ -23,7 +22,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from .._validate import short
 from .book import find, lab
 from .copies import alone, write
-from .questions import Option, filled, judged
+from .predictions import worked_out
+from .questions import judged
 
 if TYPE_CHECKING:
     from .handed_in import HandedIn
@@ -148,7 +148,29 @@ def guesses(given: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess,
         others = [line, _literal(call.answer) if call else None]
         timeless = [(choice, None) for choice in others if choice is not None]
         made.append(_guess(name, [*kept.get(name, ()), *timeless]))
+    if given.lab and not any(each.choice for each in made):
+        remarks += _beside(given.path, given.lab)
     return tuple(made)
+
+
+def _beside(path: Path, slug: str) -> list[str]:
+    """What to say of a notebook without guesses where a single other one of its lab has some. They
+    are not taken: of two copies one may be another student's, or another try.
+    """
+    found = []
+    with contextlib.suppress(OSError, ValueError):  # it has been said that the file is of no use
+        for name, kept in _stored(path.parent / FOLDER / FILE).items():
+            first = {p: made[0][0] for p, made in kept.items() if made and _known(p)}
+            mine = {p.partition(".")[2]: c for p, c in first.items() if p.startswith(f"{slug}.")}
+            if mine and name != path.name:
+                found.append((name, ", ".join(f"{number} {c}" for number, c in mine.items())))
+    return [
+        f"No guesses are kept for {path.name}, but some are for {name}, in the same folder. If "
+        "they are yours, hand them in with the last cell of Your turn: "
+        f'report(who, guesses="{line}")'
+        for name, line in found
+        if len(found) == 1
+    ]
 
 
 def _literal(text: str) -> str:
@@ -173,7 +195,7 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
         seen.add(_value(other))
     guess = Guess(name, choice, False, "no choice that can be read", when, tuple(later))
     prediction = find(name, "predictions")
-    _, options, right = _filled(name)
+    _, options, right = worked_out(name)
     try:
         at = judged(prediction, options, right, float(choice) if prediction.unit else choice)
     except (ValueError, TypeError):
@@ -181,11 +203,6 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
     if at == right:
         return replace(guess, right=True, confusion=None)
     return replace(guess, confusion=options[at].confusion if at >= 0 else None)
-
-
-@functools.cache
-def _filled(name: str) -> tuple[str, list[Option], int]:
-    return filled(find(name, "predictions"))  # its facts are worked out once
 
 
 def _value(choice: str) -> str | float:

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from .book import labs
 from .guesses import own_notebook, parse_line
 from .note import Note
-from .reported import report_data
+from .reported import counted, report_data
 from .variants import normalised
 
 NAMELESS = "your name"  # what the labs have where the student's name should stand
@@ -182,9 +182,10 @@ def _written(path: Path, who: str) -> Note:
         lines.append(f"{each['id']}: {each['state']}")
         if each["state"] in ("failed", "not judged"):
             lines[-1] += f". {each['says'][0]}"
-    made = sum(each["choice"] is not None for each in data["predictions"])
-    lines.append(f"{made} of {len(data['predictions'])} predictions made")
-    if made < len(data["predictions"]):  # a page's guess waits while the kernel runs all cells
+    asked = counted(data)
+    made = sum(each["choice"] is not None for each in asked)
+    lines.append(f"{made} of {len(asked)} predictions made")
+    if made < len(asked):  # a page's guess waits while the kernel runs all cells
         lines[-1] += ". Is a guess missing? Run this cell once more."
     note = Note("\n".join(lines))
     note.file = page.name

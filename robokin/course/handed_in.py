@@ -23,6 +23,7 @@ import nbformat
 
 from .._validate import short
 from .book import lab, labs
+from .texts import ALL_BUT_HALVES, all_visible
 
 NONE = "your name"  # what the labs have where the student's name should stand
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet)\.")
@@ -30,7 +31,6 @@ CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")  # in w
 SIZE = 20_000_000  # bytes of a notebook
 CODE = 100_000  # characters of a cell that is read as Python
 ALL_CODE = 5 * CODE  # of all such cells
-DEEP = 100  # lists in lists
 
 
 CALLS = ("check", "predict", "report")
@@ -133,21 +133,6 @@ def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
     return found
 
 
-def plain(value: Any, depth: int = 0) -> Any:
-    """A copy of a value that came as JSON, without lone surrogates, which no file can hold.
-    ValueError: nested too deep.
-    """
-    if isinstance(value, str):
-        return value if value.isascii() else value.encode(errors="replace").decode()
-    if not isinstance(value, (dict, list)):
-        return value
-    if depth == DEEP:
-        raise ValueError(f"nested deeper than {DEEP} levels")
-    if isinstance(value, list):
-        return [plain(each, depth + 1) for each in value]
-    return {plain(name): plain(each, depth + 1) for name, each in value.items()}
-
-
 # --- The file -------------------------------------------------------------------------------------
 
 
@@ -156,7 +141,7 @@ def _notebook(path: Path) -> Any:
         size = path.stat().st_size
         if size > SIZE:
             raise ValueError(f"{size / 1e6:.0f} MB are more than {SIZE / 1e6:.0f} MB")
-        raw = plain(json.loads(path.read_text(encoding="utf-8-sig")))
+        raw = all_visible(json.loads(path.read_text(encoding="utf-8-sig")), ALL_BUT_HALVES)
         if not isinstance(raw, dict) or raw.get("nbformat") != 4:
             version = short(raw.get("nbformat")) if isinstance(raw, dict) else "none"
             raise ValueError(f"nbformat: wanted 4, got {version}")

@@ -17,15 +17,11 @@ from bleach.html5lib_shim import Filter
 from bleach.sanitizer import Cleaner
 from markupsafe import Markup
 
+from .texts import visible
+
 LONG = 100_000  # characters of a text that are shown
 DEEP = 100  # open elements; the parser's time grows with their square
 
-# Characters that are not seen, except tab, newline and the joiners that scripts and emoji need:
-# control characters, marks that turn the direction of the text, tags, halves of pairs.
-UNSEEN = re.compile(
-    "[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u206f\ufeff\ufff9-\ufffb"
-    "\ud800-\udfff\U000e0000-\U000e007f]"
-)
 TAGS = frozenset(
     "a abbr b blockquote br caption code col colgroup dd del details div dl dt em figcaption "
     "figure h1 h2 h3 h4 h5 h6 hr i img ins kbd li mark ol p pre q s samp small span strong sub "
@@ -50,28 +46,6 @@ MATH_STYLE = re.compile(
     r"(?:(?:text-align|justify-items): ?[a-z]+;|(?:padding|margin)-(?:left|right): ?"
     r"-?[\d.]{1,12}(?:em)?;|border-(?:top|bottom|left|right): ?[\d.]+em (?:solid|dashed);)*"
 )
-
-
-def visible(text: str, kept: str = "") -> str:
-    """The text with what is not seen written out as its number; `kept`: characters to leave."""
-    text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return UNSEEN.sub(lambda c: c[0] if c[0] in kept else _named(c[0]), text)
-
-
-def all_visible(value: Any) -> Any:
-    """The same for all texts in what JSON can hold."""
-    if isinstance(value, str):
-        return visible(value)
-    if isinstance(value, (list, tuple)):
-        return [all_visible(each) for each in value]
-    if isinstance(value, dict):
-        return {visible(key): all_visible(each) for key, each in value.items()}
-    return value
-
-
-def _named(character: str) -> str:
-    number = ord(character)
-    return f"\\u{number:04x}" if number < 0x10000 else f"\\U{number:08x}"
 
 
 def shortened(text: str, most: int = LONG) -> str:
@@ -165,11 +139,8 @@ class _Attributes(Filter):  # type: ignore[misc]
                 yield token | {"data": visible(token["data"])}
             elif kind == "Entity":
                 meant = html.unescape(f"&{name};")
-                yield (
-                    {"type": "Characters", "data": visible(meant)}
-                    if UNSEEN.search(meant)
-                    else token
-                )
+                shown = visible(meant)
+                yield token if shown == meant else {"type": "Characters", "data": shown}
             elif kind in ("StartTag", "EmptyTag"):
                 yield self._element(token)
             else:

@@ -1115,6 +1115,7 @@ def spike_view() -> str:
 
 EXERCISES: dict[str, Exercise] = {
     "1": Function(
+        title="The tip of a gripper",
         task="Where is the tip of a gripper on the flange?",
         objective=1,
         hints=(
@@ -1133,13 +1134,14 @@ EXERCISES: dict[str, Exercise] = {
         mistakes=TIP_MISTAKES,
     ),
     "2": Value(
+        title="Four ways",
         task="Find a pose that the IRB-140 reaches in exactly four ways",
         objective=2,
         hints=(
             "Rows vanish when a triangle does not close. Which of the three flags changes the "
             "triangle that joints 2 and 3 have to close?",
-            "The shoulder stands 70 mm ahead of axis 1. A wrist centre in front of axis 1 is "
-            "140 mm farther away from the shoulder of an arm that faces away.",
+            "The shoulder stands 70 mm ahead of axis 1. At its height a wrist centre more than 70 "
+            "mm ahead is 140 mm farther away from the shoulder of an arm that faces away.",
             "Stretched, the arm reaches 730 mm from joint 2 to the wrist centre. Put the wrist "
             "centre at the shoulder's height (352 mm), more than 660 mm and less than 800 mm "
             "ahead of axis 1, and let the tool look down: the flange is 65 mm below it. "
@@ -1155,6 +1157,7 @@ EXERCISES: dict[str, Exercise] = {
         },
     ),
     "3": Value(
+        title="A target of your own",
         task="Choose height, flags and duration for a moving target of your own",
         objective=3,
         hints=(
@@ -1481,6 +1484,7 @@ PREDICTIONS = {
         view=spike_view,
     ),
     "p9": Prediction(
+        optional=True,
         question=(
             "A program finds the angle inside the triangle at the shoulder by the law of sines, "
             "with arcsin. The wrist centre comes to 100 mm from joint 2, and that angle is "
@@ -1519,6 +1523,7 @@ PREDICTIONS = {
         view=arcsin_view,
     ),
     "p10": Prediction(
+        optional=True,
         question=(
             "A row of ik says q6 = {q6}. Joint 6 may stand between −400° and 400°. At how many "
             "values may it stand so that the arm is in the same posture?"

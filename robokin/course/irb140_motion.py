@@ -1084,7 +1084,7 @@ SPEED_MISTAKES = (
     ),
     Mistake(
         "smoothed",
-        "It takes the mean of half a second: peaks become flat. Your motion needs peaks of the "
+        "It takes the mean of up to 51 samples: peaks become flat. Your motion needs peaks of the "
         "speed, inside, and your tolerance has to be fine.",
         _smoothed,
     ),
@@ -1544,6 +1544,7 @@ def _hole_view() -> str:
 
 EXERCISES = {
     "1": Function(
+        title="The blend from a distance",
         task="The blend (0 to 0.5) with which the tool passes at `distance` metres from via in the "
         "middle of the corner; NaN where even the blend 0.5 does not come so far away.",
         objective=2,
@@ -1566,6 +1567,7 @@ EXERCISES = {
         mistakes=_fraction_mistakes(),
     ),
     "2": Function(
+        title="PTP the short way",
         task="The PTP motion from q0 to the posture q1, each joint to that of the values "
         "q1 + 2 pi k inside its limits that is nearest to q0: (samples, 6).",
         objective=1,
@@ -1587,6 +1589,7 @@ EXERCISES = {
         mistakes=SHORT_MISTAKES,
     ),
     "3": Catch(
+        title="A test for speeds",
         task="A test: whether the program speeds(q, t) makes right speeds of wrapped angles.",
         objective=3,
         hints=(
@@ -1639,11 +1642,11 @@ PREDICTIONS = {
             ),
             Option(
                 "All six: what is constant at the tool is constant in the joints.",
-                "On a straight line joint 1 has to turn fastest where the line passes nearest to "
-                "its axis: here between {low1:.1f} and {high1:.1f}°/s.",
+                "Joint 1 turns by the wrist centre's speed round axis 1 over its distance from "
+                "axis 1, and both change: it goes between {low1:.1f} and {high1:.1f}°/s.",
                 "the tool's speed taken for the joints'",
-                "A lighthouse beam that follows a ship on a straight course turns fastest when the "
-                "ship is nearest.",
+                "A lighthouse beam that follows a ship on a straight course at a constant speed "
+                "turns fastest when the ship is nearest.",
             ),
         ),
         facts=_lin_facts,
@@ -1799,9 +1802,9 @@ PREDICTIONS = {
             ),
             Option(
                 "About {double:.1f} rad/s²: the same change, in half the time.",
-                "The speed jumps by {half_change:.3f} rad/s, and the jump is divided by half the "
-                "step: {found:.1f} rad/s². A number that depends on the step says nothing about "
-                "the robot.",
+                "From one interval to the next the speed changes by {half_change:.3f} rad/s, and "
+                "that is divided by half the step: {found:.1f} rad/s². A number that depends on "
+                "the step says nothing about the robot.",
             ),
             Option(
                 "About {four:.1f} rad/s²: the formula divides by the step squared.",
@@ -1928,6 +1931,7 @@ PREDICTIONS = {
         view=_best_view,
     ),
     "p9": Prediction(
+        optional=True,
         question="With b = 0.55 the first control pose A lies {before:.1f} mm before the start, on "
         "the line from via to start and beyond. Where does the motion begin at s = 0?",
         options=(
@@ -1962,6 +1966,7 @@ PREDICTIONS = {
         view=_too_much_view,
     ),
     "p10": Prediction(
+        optional=True,
         question="q holds {count} samples of a motion, as ik gives them. Samples {first} to "
         "{last}, counted from 0, are out of reach: their rows are NaN. How many samples are "
         "usable after np.unwrap(q, axis=0), along time?",

@@ -27,8 +27,9 @@ import nbformat
 from .book import find, lab
 from .guesses import Guess as Guess
 from .guesses import guesses as guesses
-from .handed_in import NONE, Call, HandedIn, claims, plain
+from .handed_in import NONE, Call, HandedIn, claims
 from .process import SLOWER, TEXT, Ended, Kernel, running, shortened
+from .texts import ALL_BUT_HALVES, all_visible
 from .variants import normalised
 
 TIMES = 5  # how often a kernel is started again, at most
@@ -281,8 +282,8 @@ def _stopped(ended: Ended, limit: float) -> str:
 
 def _read(answer: Any) -> dict[str, Any]:
     """What a kernel has answered: any text, since cells share it with the checks."""
-    with contextlib.suppress(ValueError, RecursionError):
-        found = plain(json.loads(answer)) if isinstance(answer, str) else None
+    with contextlib.suppress(ValueError, TypeError, RecursionError):
+        found = all_visible(json.loads(answer), ALL_BUT_HALVES)
         if isinstance(found, dict):
             return found
     return {"error": "the kernel gave no answer"}

@@ -1063,8 +1063,8 @@ PHASE_MISTAKES = (
     ),
     Mistake(
         "one more winding now and then",
-        "In one row of the half step three half windings carry current: two of them cancel, so the "
-        "direction is right, and the strength is not that of a half step.",
+        "In one row of the half step three half windings carry current: two of them cancel, so "
+        "direction and strength are right, and three windings draw the current of one.",
         _tables(
             lambda drive, table: (
                 np.vstack([[[1, 1, 0, 1]], table[1:]]) if drive == "half-step" else table
@@ -1100,8 +1100,9 @@ def _passing_view() -> Any:
     points = np.stack([200 - 100 * t, 0 * t + facts["beside"], 0 * t + 300], axis=-1) * mm
     alpha = station_postures(LOADER, points)[:, 0] / deg
     fig = figure(
-        f"Joint 1 over time. It turns by {facts['turned']:.0f} degrees, nearly all of them in the "
-        "second in the middle, where the gripper passes the vertical axis.",
+        f"Joint 1 over time. It turns by {facts['turned']:.0f} degrees, "
+        f"{np.ptp(alpha[150:251]):.0f} of them in the second in the middle, where the gripper "
+        "passes the vertical axis.",
         6.4,
         3.2,
     )
@@ -1399,10 +1400,13 @@ def _missed_right(facts: Mapping[str, Any]) -> int:
 def _missed_view() -> Any:
     from ..show import JOINT_STYLES, figure
 
-    first = next(f for f, n in _missed()["from rest"].items() if n)
+    first = [next(f for f, n in ways.items() if n) for ways in _missed().values()]
+    least = [min(n for n in ways.values() if n) for ways in _missed().values()]
+    most = max(_missed()["with a ramp"].values())
     fig = figure(
-        f"Steps lost of 48 over the frequency. From rest nearly all are lost from {first} pulses "
-        "per second on, with a ramp only at much higher frequencies, and always a multiple of 4.",
+        f"Steps lost of 48 over the frequency. From rest {least[0]} to 48 are lost from {first[0]} "
+        f"pulses per second on, with a ramp {least[1]} to {most} from {first[1]} on, and always a "
+        "multiple of 4.",
         6.4,
         3.2,
     )
@@ -1424,6 +1428,7 @@ def _missed_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The next posture",
         task="The posture for a point, joint 1 the short way round",
         objective=1,
         hints=(
@@ -1445,6 +1450,7 @@ EXERCISES = {
         mistakes=POSTURE_MISTAKES,
     ),
     "2": Value(
+        title="Gears for a move of your own",
         task="Gears and frequencies for a move of your own",
         objective=2,
         hints=(
@@ -1463,6 +1469,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for phases",
         task="A test: whether the program windings(drive, signs) feeds the half windings rightly",
         objective=3,
         hints=(
@@ -1500,13 +1507,13 @@ PREDICTIONS = {
             ),
             Option(
                 "It stands still, and jumps by 180° as x changes its sign.",
-                "That is what arctan(y / x) does. The point itself does not jump, and atan2 does "
-                "not either; only on a line through the axis would it be so.",
+                "arctan(y / x) jumps so, and moves on both sides. The point itself does not jump, "
+                "and atan2 does not either; only on a line through the axis would it be so.",
                 "the jump of arctan taken for a jump of the arm",
                 "On y = 0.001 mm it still does not jump: it turns fast.",
             ),
             Option(
-                "It turns by {turned:.0f}°, nearly all in the middle, with up to {most:.0f}°/s.",
+                "It turns by {turned:.0f}°, most of it in the middle, with up to {most:.0f}°/s.",
                 "The speed is v y / (x² + y²): {end:.1f}°/s at the ends, v / y = {most:.0f}°/s "
                 "beside the axis. Half the distance, twice the speed.",
             ),

@@ -398,7 +398,8 @@ RIGHTWARD_MISTAKES = (
     Mistake(
         "any turns, not an odd number",
         "It asks whether the shape goes round H at all. Where sides cross it may go round twice: "
-        "the middle of a star drawn in one line is outside by the even-odd rule. Odd or even?",
+        "the middle of a five-pointed star drawn in one line is outside by the even-odd rule. Odd "
+        "or even?",
         lambda corners, H: _turns(corners, H) != 0,
     ),
     Mistake(
@@ -1307,8 +1308,9 @@ def _via_view() -> Any:
     from ..show import figure
 
     fig = figure(
-        "Sixty moments of the path through two via points. The gripper goes round the circle; the "
-        "lever AK passes over the obstacle in its middle.",
+        "Sixty moments of the path through two via points. The gripper comes as near to the "
+        f"obstacle as {_via_facts()['gripper']:.0f} mm, inside the circle; the lever AK passes "
+        "over it.",
         height=4,
     )
     ax = fig.subplots()
@@ -1401,7 +1403,7 @@ LARGER = 0.25
 
 
 def sampled_tasks(count: int = TASKS) -> list[tuple[Floats, Floats, Floats]]:
-    """Start, target and an obstacle beside lever AK somewhere on the direct way; start, target and
+    """Start, target and an obstacle on lever AK somewhere on the direct way; start, target and
     base keep L/7. The sample of section 7.
     """
     rng = np.random.default_rng(33)
@@ -1454,9 +1456,9 @@ def _often_view() -> str:
     facts = _often_facts()
     return (
         f"Of {facts['count']} tasks, with the circle of {facts['r']:.0f} mm: {facts['keep']} keep "
-        f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} out of reach.\n"
-        "A larger circle helps where the gripper was too near. It does not help where a lever "
-        "stands on the other side of the obstacle."
+        f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} out of "
+        f"reach.\nWith {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: none of "
+        f"these keeps it now; in 53 no lever does: {facts['keep']} of these keep it now."
     )
 
 
@@ -1484,8 +1486,8 @@ def _no_facts() -> dict[str, Any]:
 def _no_view() -> str:
     facts = _no_facts()
     return (
-        f"Steps of {facts['coarse']}°: no way. Steps of 5°: a way with S = {facts['S']:.0f}°, "
-        f"proven on its whole length.\nThe coarse grid misses the passage."
+        f"The wave in steps of {facts['coarse']}°: no way found. Steps of 5°: a way with S = "
+        f"{facts['S']:.0f}°, proven on its whole length."
     )
 
 
@@ -1493,6 +1495,7 @@ def _no_view() -> str:
 
 EXERCISES = {
     "1": Function(
+        title="Inside or outside",
         task="Whether H lies inside the shape with these corners: True or False.",
         objective=1,
         hints=(
@@ -1515,6 +1518,7 @@ EXERCISES = {
         mistakes=INSIDE_MISTAKES,
     ),
     "2": Value(
+        title="Past a bar",
         task="A path of your own past a bar: postures from the start to the target on which all "
         "levers keep the distance from all of the bar.",
         objective=2,
@@ -1537,6 +1541,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for checks",
         task="A test: whether the program safe(path, H, distance) judges motions rightly.",
         objective=3,
         hints=(
@@ -1706,8 +1711,7 @@ PREDICTIONS = {
             Option(
                 "Less by about a decimetre.",
                 "{true:.0f} mm, {less:.0f} mm below the nearest sample. Samples can only be too "
-                "optimistic: more "
-                "of them find smaller distances, never larger ones.",
+                "optimistic. If the old ones are kept, more of them never find a larger distance.",
             ),
             Option(
                 "More: samples err on the safe side.",
@@ -1758,8 +1762,9 @@ PREDICTIONS = {
     ),
     "p6": Prediction(
         question="The wave starts in the grid posture nearest to q0. After {count} steps of 10°, "
-        "each of one joint, it first comes to a grid posture from which a proven step leads onto "
-        "the target's curve. {count} times 10° is what, between these two grid postures?",
+        "each of one joint, it first comes to a grid posture that is the nearest one to a posture "
+        "of the target's curve, with a proven step onto it. {count} times 10° is what, between "
+        "these two grid postures?",
         options=(
             Option(
                 "The turn of the busiest joint, which sets the time.",
@@ -1806,15 +1811,16 @@ PREDICTIONS = {
             ),
             Option(
                 "About a quarter.",
-                "{keep} of {count}. Where only the gripper was too near, a larger circle can help. "
-                "{near} come nearer all the same.",
+                "{keep} of {count}, none of them among the 47 in which a lever sweeps the "
+                "obstacle on the circle of 143 mm. {near} come nearer all the same.",
             ),
             Option(
                 "About two thirds.",
                 "{keep} of {count}. In most tasks the levers stand in the way, and the circle "
                 "moves the gripper only.",
                 "the gripper's trouble taken for the arm's",
-                "With the obstacle between base and elbow no circle helps.",
+                "Of the 47 tasks in which a lever sweeps the obstacle with r = 143 mm, none is "
+                "mended.",
             ),
             Option(
                 "All: the circle is larger than the distance wanted.",
@@ -1834,8 +1840,8 @@ PREDICTIONS = {
         options=(
             Option(
                 "No way keeps {wanted:.0f} mm.",
-                "None in steps of {coarse}°. With steps of 5° there is one, of S = {S:.0f}°, and "
-                "it is proven.",
+                "This wave found none in steps of {coarse}°. With steps of 5° there is one, of S "
+                "= {S:.0f}°, and it is proven.",
                 "not found taken for not there",
                 "A net with wide meshes that comes up empty does not prove that the lake has no "
                 "fish.",
@@ -1847,7 +1853,7 @@ PREDICTIONS = {
                 "The target of the lab is the same with every obstacle.",
             ),
             Option(
-                "Nothing but that this grid has none: the arm stays, or a finer one is tried.",
+                "Nothing but that this wave found none: the arm stays, or a finer grid is tried.",
                 "Steps of 5° find a way of S = {S:.0f}°. The answer no is right all the same: "
                 "without a proven way the arm stays.",
             ),

@@ -25,6 +25,7 @@ class Exercise(ABC):
     to nearly all.
     """
 
+    title: str
     task: str
     objective: int
     hints: Sequence[str]

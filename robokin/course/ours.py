@@ -29,9 +29,10 @@ from ..show.motors import PageMotors
 from ..show.page import Page, PageExplorer, inert, output, still_image
 from .book import find
 from .exercises import Verdict
-from .harmless import all_visible, png, visible
+from .harmless import png
 from .predictions import Asked, shown
 from .questions import Prediction
+from .texts import all_visible, visible
 
 MARK = 'class="robokin-player"'
 LEFT_OUT = Markup("<p>An output of robokin that cannot be read is left out here.</p>")

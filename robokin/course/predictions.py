@@ -2,6 +2,7 @@
 kernel.
 """
 
+import functools
 import hashlib
 import html
 import json
@@ -15,10 +16,28 @@ from .questions import LETTERS, Option, Prediction, filled, judged
 if TYPE_CHECKING:
     from ..show.page import PageAnswer, PageQuestion
 
+NUMBER = re.compile("[-+.eE0-9]{1,30}")  # and nothing else: no words
 ASLEEP = (
     "To answer it: run all cells (Run > Run All Cells), or trust the notebook (Ctrl+Shift+C, then "
     "Trust Notebook)."
 )
+
+
+@functools.cache
+def worked_out(name: str) -> tuple[str, list[Option], int]:
+    """`filled` for the prediction with an id: its facts are worked out once."""
+    return filled(find(name, "predictions"))
+
+
+def chosen(name: str, choice: str) -> str:
+    """A choice in words: the letter and what its option says, a number with its unit; what is none
+    of the question's stays as it is.
+    """
+    unit = find(name, "predictions").unit
+    if unit is not None:
+        return with_unit(choice, unit) if NUMBER.fullmatch(choice) else choice
+    options = dict(zip(LETTERS, worked_out(name)[1], strict=False))
+    return f"{choice}) {options[choice].text}" if choice in options else choice
 
 
 def predict(name: str, choice: str | float | None = None) -> "Asked":

@@ -26,7 +26,7 @@ from jupyter_client.manager import AsyncKernelManager
 from nbclient import NotebookClient
 from nbclient.exceptions import DeadKernelError
 
-from .handed_in import plain
+from .texts import ALL_BUT_HALVES, all_visible
 
 SLOWER = 10
 GRACE = 5.0  # seconds that a kernel has after an interrupt, before it is ended
@@ -236,7 +236,7 @@ def shortened(cell: Any) -> bool:
     kept: list[Any] = []
     for output in cell.outputs:
         try:
-            output = nbformat.from_dict(plain(output))
+            output = nbformat.from_dict(all_visible(output, ALL_BUT_HALVES))
         except ValueError:  # nested too deep
             cut = True
             continue

@@ -41,6 +41,7 @@ class Prediction:
     right     facts -> which option is right, from 0: computed, not typed in
     view      () -> what opens after the choice: an `Output` or a `Figure` of robokin.show, or words
     unit      of a number to type; `within`: how near to a number counts as it, as a share
+    optional  whether it stands in the lab's optional part
     """
 
     question: str
@@ -50,6 +51,7 @@ class Prediction:
     view: Callable[[], Any] = field(default=lambda: "")
     unit: str | None = None
     within: float = 0.1
+    optional: bool = False
 
 
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
@@ -89,7 +91,7 @@ def _near(x: float, value: float, within: float) -> bool:
 
 # --- As Markdown ----------------------------------------------------------------------------------
 
-HEAD = re.compile(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?")
+HEAD = re.compile(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?(, optional)?")
 ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?")
 
 
@@ -117,7 +119,7 @@ def prediction(
     if not head:
         told = f"wanted '## p1' or '## p1, a number in UNIT, within 2 %', got {heading!r}"
         raise BadFile(file, line, told)
-    number, unit, within = head.groups()
+    number, unit, within, optional = head.groups()
     if number not in code:
         raise BadFile(file, line, f"no facts: a function {number}() in its Python file")
     question, *answers = re.split(r"^- ", text, flags=re.M)
@@ -141,6 +143,7 @@ def prediction(
         view=code.get(f"{number}_view", lambda: ""),
         unit=unit,
         within=float(within) / 100 if within else 0.1,
+        optional=bool(optional),
     )
 
 

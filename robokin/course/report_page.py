@@ -19,12 +19,14 @@ from markupsafe import Markup
 from .. import __version__
 from ..show.page import inert, write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
-from .book import lab
+from .book import find, lab
 from .export import View, page
 from .handed_in import HandedIn, handed_in
-from .harmless import all_visible, shortened, visible
+from .harmless import shortened
 from .judge import LIMITS, Judged, Limits, judge
-from .reported import DATA, report_data
+from .predictions import chosen
+from .reported import DATA, counted, report_data
+from .texts import all_visible, visible
 from .variants import normalised, variant
 
 WORDS = 2_000  # characters of one text in the header
@@ -110,6 +112,11 @@ def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
     return found
 
 
+def exercise_title(name: str) -> str:
+    """The title of the exercise with an id."""
+    return str(find(name, "exercises").title)
+
+
 def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
     """The page: what a report says, and the notebook with its outputs. Pictures are looked for in
     `folder`. What could not be shown is added to the data's remarks.
@@ -175,4 +182,5 @@ PAGES = jinja2.Environment(
     trim_blocks=True,
     lstrip_blocks=True,
 )
-PAGES.filters |= {"said": _said, "day": _day}
+PAGES.filters |= {"said": _said, "day": _day, "title": exercise_title}
+PAGES.globals |= {"chosen": chosen, "counted": counted}

@@ -8,13 +8,13 @@ it is still a stranger's text, and a page escapes it.
 """
 
 import json
-import unicodedata
 from collections.abc import Callable
 from datetime import datetime
 from typing import Any
 
 from .._validate import short
 from .book import find, lab, labs
+from .texts import visible
 from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
@@ -74,19 +74,13 @@ def validated(data: Any) -> dict[str, Any]:
     }
 
 
-def plain(text: str, most: int = LINE, ends: str = "") -> str:
-    r"""A text that shows what it is, without those characters that control, that turn the direction
-    of writing, that end a line (but those of `ends`) or that are none: they become \x1b or \u202e.
-    What is longer than `most` characters is cut.
-    """
-    kept = text if len(text) <= most else f"{text[:most]} ... shortened"
-    if kept.isprintable():
-        return kept
-    return "".join(c if _shows(c) or c in ends else ascii(c)[1:-1] for c in kept)
-
-
-def _shows(c: str) -> bool:
-    return c.isprintable() or c in JOINERS or unicodedata.category(c) == "Zs"
+def counted(data: dict[str, Any]) -> list[dict[str, Any]]:
+    """The predictions among which one can be missing: an optional one is there if it was made."""
+    return [
+        each
+        for each in data["predictions"]
+        if each["choice"] is not None or not find(each["id"], "predictions").optional
+    ]
 
 
 def _exercise(each: dict[str, Any]) -> dict[str, Any]:
@@ -168,7 +162,7 @@ def _text(data: dict[str, Any], name: str, most: int, ends: str = "") -> str:
     value = data.get(name)
     if not isinstance(value, str):
         raise ValueError(f"{name}: wanted a text, got {short(value)}")
-    return plain(value, most, ends)
+    return visible(value, ends, most)
 
 
 def _time(data: dict[str, Any], name: str) -> str:

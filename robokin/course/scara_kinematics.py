@@ -280,7 +280,7 @@ OTHER_MISTAKES = (
     ),
     Mistake(
         "atan for atan2 in the triangle",
-        "Beyond q2 = 143° the tool is behind joint 2's foot on the first lever, and a quotient "
+        "Beyond q2 = 143° the tool is behind joint 1, seen along the first lever, and a quotient "
         "cannot tell: half a turn is lost. Use arctan2.",
         lambda q: np.array([*_by_atan(q), q[3]]),
     ),
@@ -993,6 +993,7 @@ def _last_view() -> str:
 
 EXERCISES = {
     "1": Function(
+        title="The other elbow",
         task="The posture with the other elbow: same place, same angle of the tool as a number, "
         "same stroke.",
         objective=1,
@@ -1014,6 +1015,7 @@ EXERCISES = {
         mistakes=OTHER_MISTAKES,
     ),
     "2": Value(
+        title="A circle of your own",
         task="Distance, elbow and first angle of the tool for a circle of your own",
         objective=2,
         hints=(
@@ -1034,6 +1036,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for limits",
         task="A test: whether the program inside(q, limits) tells motions inside their limits.",
         objective=3,
         hints=(

@@ -1607,6 +1607,7 @@ def _quintic_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The least turn of the tool",
         task="The posture (q1, q2, q3, q4) for a place and a tool angle, elbow as in q0, in which "
         "the tool has turned least from q0 and joint 3 is inside its limits.",
         objective=1,
@@ -1629,6 +1630,7 @@ EXERCISES = {
         mistakes=TURN_MISTAKES,
     ),
     "2": Function(
+        title="A limit test",
         task="Whether a motion q (samples, 4) with unwrapped angles keeps SCARA.limits in every "
         "sample and every joint.",
         objective=2,
@@ -1650,6 +1652,7 @@ EXERCISES = {
         mistakes=LIMIT_MISTAKES,
     ),
     "3": Value(
+        title="A blend of your own",
         task="Choose a blend, and the shortest duration that it allows, for a via point of your "
         "own that is too low",
         objective=3,
@@ -1812,7 +1815,7 @@ PREDICTIONS = {
                 "On LIN alone.",
                 "Each joint of PTP runs between two allowed values. On LIN the joints do what the "
                 "line asks for: it passes axis 1 at {near:.0f} mm, so joint 2 has to fold far, and "
-                "behind the column joint 1 turns too far. Drag the goal's x: away from axis 1 both "
+                "past the column joint 1 turns too far. Drag the goal's x: away from axis 1 both "
                 "are good.",
             ),
             Option(

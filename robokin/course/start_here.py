@@ -110,6 +110,7 @@ def _minus(text: str) -> str:
 
 EXERCISES = {
     "1": Value(
+        title="A place for the tool",
         task=f"Bring the tool to a height of {HEIGHT} mm, as far to the left as to the front",
         objective=1,
         hints=(

@@ -5,7 +5,8 @@ Who it is from: a report says it; of a notebook it is what its file's name has b
 ("03_irb140_motion Ada.ipynb"), else the folder that it lies in. Its own numbers are those of the
 name that stands in it, since folders are seldom called what students call themselves; where that is
 another name, a remark says so. Of two files of one student for one lab the newer counts: by the
-report's date, by the notebook's time.
+report's date, by the notebook's time. Of those that are as new as each other, as copies of one page
+are, the one in a folder with the student's name counts, else the first.
 
 What is handed in is hostile until it is validated (`reported`), and escaped where it is written
 (`summary_pages`). Whatever is wrong with one file, the others are done.
@@ -27,7 +28,8 @@ from .book import labs
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge
 from .report_page import objectives, told
-from .reported import NAME, TEXT, plain, report_data, validated
+from .reported import NAME, TEXT, counted, report_data, validated
+from .texts import visible
 from .variants import normalised
 
 LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
@@ -35,8 +37,9 @@ LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
 
 @dataclass(frozen=True)
 class Entry:
-    """What one student handed in for one lab. `file`: below the folder; `data`: validated, as in a
-    report; `given`: a notebook that is still to be judged; `judged`: one that was.
+    """What one student handed in for one lab. `file`: below the folder, as a text; `data`:
+    validated, as in a report; `given`: a notebook that is still to be judged; `judged`: one that
+    was.
     """
 
     who: str
@@ -64,16 +67,16 @@ class Entry:
 
     @property
     def held(self) -> str:
-        """How many exercises hold."""
+        """How many exercises hold: "2 of 3"."""
         states = [each["state"] for each in self.data["exercises"]]
-        return f"{states.count('holds')} of {len(states)} hold"
+        return f"{states.count('holds')} of {len(states)}"
 
     @property
     def guessed(self) -> str:
         """How many first guesses are right."""
         if not self.data["guesses_came"]:
             return "guesses: none came with the notebook"
-        asked = self.data["predictions"]
+        asked = counted(self.data)
         rights = [each["right"] for each in asked if each["right"] is not None]
         return f"{sum(rights)} right of {len(rights)} made ({len(asked)} asked)"
 
@@ -135,7 +138,8 @@ def summary(
             made.left_out += left_out
             if newest:
                 made.entries.append(newest)
-                tell(done, len(jobs), f"{newest.file}: {newest.who}, {newest.lab}, {newest.held}")
+                line = f"{newest.file}: {newest.who}, {newest.lab}, {newest.held} hold"
+                tell(done, len(jobs), line)
     finally:
         pool.shutdown(cancel_futures=True)  # Ctrl+C: what has not begun does not begin
     made.entries.sort(key=lambda each: (list(labs()).index(each.lab), normalised(each.who)))
@@ -218,7 +222,8 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
     """Of one student's files for one lab the newest that can be used, judged if it is a notebook;
     and what is left out.
     """
-    several = sorted(several, key=lambda each: (each.when, each.file))
+    several = sorted(several, key=lambda each: each.file, reverse=True)
+    several.sort(key=lambda each: (each.when, _at_home(each)))
     left_out: list[LeftOut] = []
     while several:
         entry = several.pop()
@@ -229,10 +234,25 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
         except Exception as error:  # what a student's code gave may be anything
             left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
             continue
-        reason = f"{entry.file} of {entry.who} for {entry.lab} is newer and counts"
-        left_out += [LeftOut(each.file, each.who, reason, False) for each in several]
+        for each in several:
+            who, reason = each.who, f"{entry.file} of {entry.who} for {entry.lab}"
+            if each.data and each.data == entry.data:
+                folder = Path(each.file).parent
+                who = who_of(folder / "_") if folder.name else who
+                reason = f"the same page as {entry.file}, which counts"
+            elif each.when == entry.when:
+                reason += " is as new and counts"
+            else:
+                reason += " is newer and counts"
+            left_out.append(LeftOut(each.file, who, reason, False))
         return entry, left_out
     return None, left_out
+
+
+def _at_home(entry: Entry) -> bool:
+    """Whether a folder in which its file lies has the student's name."""
+    name, folders = normalised(entry.who), normalised(f"/{Path(entry.file).parent}")
+    return bool(re.search(rf"(?<![^\W_]){re.escape(name)}(?![^\W_])", folders))
 
 
 def _left(inside: Path, reason: str, wrong: bool) -> LeftOut:
@@ -242,9 +262,10 @@ def _left(inside: Path, reason: str, wrong: bool) -> LeftOut:
 def _shown(name: Path | str) -> str:
     r"""A file's name as a text; what is not UTF-8 in it becomes \xff."""
     text = name.as_posix() if isinstance(name, Path) else name
-    return plain(os.fsencode(text).decode(errors="backslashreplace"), TEXT)
+    return visible(os.fsencode(text).decode(errors="backslashreplace"), "", TEXT)
 
 
 def _reason(error: Exception) -> str:
     known = isinstance(error, (OSError, ValueError)) and not isinstance(error, UnicodeError)
-    return plain(str(error) if known else f"{type(error).__name__}: {error}", 500).rstrip(": ")
+    text = str(error) if known else f"{type(error).__name__}: {error}"
+    return visible(text, "", 500).rstrip(": ")

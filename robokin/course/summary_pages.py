@@ -24,8 +24,9 @@ from markupsafe import Markup, escape
 from ..show.page import write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from .book import find, lab, labs, titled
-from .questions import filled
-from .report_page import safe
+from .predictions import chosen, worked_out
+from .report_page import exercise_title, safe
+from .reported import counted
 from .summary import Entry, Summary
 from .variants import normalised
 
@@ -40,6 +41,8 @@ table {{ border-collapse: collapse; margin-bottom: 20px; }}
 td, th {{ text-align: left; vertical-align: top; padding: 4px 12px 4px 0; contain: paint;
   border-bottom: 1px solid {RULE}; overflow-wrap: anywhere; min-width: 6em; }}
 th {{ overflow-wrap: normal; }}
+.overview td:first-child {{ min-width: 10em; }}
+.overview :is(td, th) + * {{ min-width: 0; white-space: nowrap; }}
 th small {{ font-weight: 400; }}
 pre {{ margin: 2px 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; }}
 .wide {{ overflow-x: auto; }}
@@ -143,10 +146,14 @@ def harmless(text: str) -> str:
 
 
 def page_of(made: Summary, links: list[str], points: bool = True) -> str:
-    """The page: for each lab how many hold each exercise, and a row for each student; mistakes and
-    predictions; what was left out. `links`: where the entries' own pages are.
+    """The page: how many exercises hold, a row for each student, a column for each lab; for each
+    lab how many hold each exercise, and a row for each student; mistakes and predictions; what was
+    left out. `links`: where the entries' own pages are.
     """
     rows = list(zip(made.entries, links, strict=True))
+    students: dict[str, dict[str, tuple[Entry, str]]] = defaultdict(dict)
+    for entry, link in rows:
+        students[normalised(entry.who)][entry.lab] = entry, link
     taught = [(slug, [row for row in rows if row[0].lab == slug]) for slug in labs()]
     return _page(
         "summary.html.j2",
@@ -156,7 +163,7 @@ def page_of(made: Summary, links: list[str], points: bool = True) -> str:
             {"name": slug, "rows": here, **_figures(slug, here)} for slug, here in taught if here
         ],
         now=f"{datetime.now():%Y-%m-%d %H:%M}",
-        students=len({normalised(each.who) for each in made.entries}),
+        students=[students[name] for name in sorted(students)],
         counted=(
             ("The most frequent mistakes", "Exercise", "Mistake", mistakes(made)),
             ("Predictions that went wrong", "Prediction", "Confusion", confusions(made)),
@@ -195,7 +202,8 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
     )
     pages.filters |= {"words": _words, "asked": _asked, "time": _time, "kind": _kind}
-    pages.filters["titled"] = titled
+    pages.filters |= {"titled": titled, "title": exercise_title}
+    pages.globals |= {"chosen": chosen, "counted": counted}
     return pages
 
 
@@ -210,7 +218,7 @@ def _asked(name: str) -> str:
     slug, _, number = name.partition(".")
     if number in lab(slug).exercises:
         return str(find(name, "exercises").task)
-    return filled(find(name, "predictions"))[0]
+    return worked_out(name)[0]
 
 
 def _time(text: str) -> str:

@@ -484,7 +484,7 @@ FORMULAS: tuple[Parts, ...] = (
     ),
     (
         "the ratio of the links for a",
-        "The line divides the way by l1 : l2 only where the arm is stretched.",
+        "With unequal links the line divides the way by l1 : l2 only where the arm is stretched.",
         _with_a(lambda d2, l1, l2: l1 / (l1 + l2)),
     ),
     (
@@ -569,13 +569,13 @@ FORMULAS: tuple[Parts, ...] = (
     (
         "divides by dx, and the side from the sign of the root",
         "Solved for x the line is divided by dx: no answer straight above the base, and to its "
-        "left the two elbows are exchanged.",
+        "right the two elbows are exchanged.",
         _eliminated(0, 1, False),
     ),
     (
         "divides by dx, and the side from the sign of the root",
         "Solved for x the line is divided by dx: no answer straight above the base, and to its "
-        "right the two elbows are exchanged.",
+        "left the two elbows are exchanged.",
         _eliminated(0, -1, False),
     ),
     (
@@ -1590,6 +1590,7 @@ def _lost_view() -> Any:
 
 EXERCISES = {
     "1": Function(
+        title="The elbow, wherever it is",
         task="The elbow where two circles meet, on the side asked for",
         objective=1,
         hints=(
@@ -1609,6 +1610,7 @@ EXERCISES = {
         mistakes=_elbow_mistakes(),
     ),
     "2": Value(
+        title="A budget of operations",
         task="A program for both elbows of an arm of your own, within a budget of operations",
         objective=2,
         hints=(
@@ -1627,6 +1629,7 @@ EXERCISES = {
         given=given,
     ),
     "3": Catch(
+        title="A test for generated code",
         task="A test: whether the program elbows(x1, y1, x3, y3, l1, l2) finds both elbows",
         objective=3,
         hints=(
@@ -1700,7 +1703,8 @@ PREDICTIONS = {
                 "Only points in the middle are as far from the base as from the tip; the links "
                 "differ.",
                 "equal links assumed",
-                "If link 2 were 0.1 m long, both elbows would be near the tip.",
+                "If link 2 were 0.3 m long, both elbows would be 0.3 m from the tip and 0.7 m "
+                "from the base.",
             ),
             Option(
                 "Between base and tip, nearer to the base.",
@@ -1777,7 +1781,7 @@ PREDICTIONS = {
             ),
             Option(
                 "Infinity: something is divided by almost 0.",
-                "What is divided goes to 0 faster.",
+                "What is divided is lost by rounding first, and is 0 then.",
                 "only the divisor looked at",
                 "x / x stays 1 however small x is.",
             ),

@@ -555,9 +555,11 @@ def _rotor_run(
     if not counted.sum() <= INTEGRATED:
         wanted = f"wanted a run of at most {INTEGRATED} steps of {longest:.3g} s"
         raise ValueError(f"times: {wanted}, got one of {ends[-1]:.4g} s")
-    if not max(abs(load), torque) / damping <= FASTEST:
-        wanted = f"wanted one that turns the rotor at {FASTEST:g} rad/s at most"
-        raise ValueError(f"load: {wanted}, got {load:.4g} N m at a damping of {damping:.4g} N m s")
+    for name, value in (("load", load), ("torque", torque)):
+        if not abs(value) / damping <= FASTEST:
+            wanted = f"wanted one that turns the rotor at {FASTEST:g} rad/s at most"
+            got = f"got {value:.4g} N m at a damping of {damping:.4g} N m s"
+            raise ValueError(f"{name}: {wanted}, {got}")
 
     def pull(currents: list[float]) -> tuple[float, float]:
         x = y = 0.0

@@ -111,6 +111,20 @@ function start(arm, track) {
 }
 
 /**
+ * Where a motion goes on from the posture `before`: the row with the least travel. NaN where there
+ * is none.
+ * @param {ArmData} arm
+ * @param {number[][]} rows
+ * @param {number[]} before
+ * @returns {number[]}
+ */
+export const onward = (arm, rows, before) =>
+  leastTravel(
+    rows.map(q => choose(arm, unwrapped(arm, q, before), before)),
+    before,
+  );
+
+/**
  * One continuous motion through the rows of `ik` along a path: it starts on `row`, then every
  * sample takes the row nearest to the one before. NaN where no row exists.
  * @param {ArmData} arm
@@ -125,10 +139,7 @@ export function follow(arm, samples, row) {
     ),
     started = false;
   return samples.map(rows => {
-    const options = (started ? rows : [rows[row]]).map(q =>
-      choose(arm, unwrapped(arm, q, before), before),
-    );
-    const q = leastTravel(options, before);
+    const q = onward(arm, started ? rows : [rows[row]], before);
     if (exists(q)) [before, started] = [q, true];
     return q;
   });

@@ -25,8 +25,8 @@ const SLOW = 100;
 /**
  * The way from a view to its kernel.
  *
- * ask(question)  whatever JSON can hold. The newest question is always answered in the end; older
- *                ones may be skipped while the kernel is at work.
+ * ask(question)  whatever JSON can hold. The newest question is always answered in the end, by the
+ *                next kernel if this one leaves; older ones may be skipped while it is at work.
  *
  * While asleep, controls and handles do not take a hand, and one sentence says why. `root.dataset`
  * tells: `awake`, the numbers of the last question `asked` and the last one `answered`.
@@ -62,10 +62,15 @@ export function kernelOf(root, id, words, hear) {
     says.textContent = sentence;
     says.hidden = !sentence;
   }
-  function sleep() {
+  /** Takes back what has no answer yet: the newest of it is asked again. */
+  function takeBack() {
     clearTimeout(timer);
+    wanted ??= [...questions.values()].at(-1)?.question ?? null;
     questions.clear();
-    port = wanted = null;
+  }
+  function sleep() {
+    takeBack();
+    port = null;
     stir(false, words.asleep);
   }
   function pump() {
@@ -85,10 +90,10 @@ export function kernelOf(root, id, words, hear) {
     if (questions.size) timer = setTimeout(() => stir(false, words.waiting), PATIENCE);
   }
   root.addEventListener("robokin-wake", event => {
-    questions.clear();
+    takeBack();
     port = /** @type {CustomEvent<Port>} */ (event).detail;
-    wanted = null;
     stir(true);
+    pump();
   });
   root.addEventListener("robokin-sleep", sleep);
   root.addEventListener("robokin-answer", event => {

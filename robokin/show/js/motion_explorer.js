@@ -2,8 +2,8 @@
 // every number of the arm, comes from Python (page.py: PageExplorer).
 
 import {fk, matrix, origin, plus} from "./kinematics.js";
-import {ik} from "./geometries.js";
-import {follow} from "./branches.js";
+import {ik, singularities} from "./geometries.js";
+import {follow, onward} from "./branches.js";
 import {fill} from "./blanks.js";
 import {
   blend,
@@ -19,6 +19,7 @@ import {curvesView} from "./curves.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
+import {decimalsOf, peaks, timeOf} from "./peaks.js";
 import {menu, slider, stageOf, table} from "./stage.js";
 import {lengths, plain} from "./turns.js";
 
@@ -118,9 +119,28 @@ function motionExplorer(stage, data) {
   };
   stage.handles.set(stationHandles(stage, state, copied, data));
 
+  // While a hand holds something, the samples have to do: between them it takes too long.
+  let held = false;
+  /** @type {(on: boolean) => void} */
+  const hold = on => {
+    held = on;
+    stage.changed();
+  };
+  const {layer} = stage.handles;
+  layer.addEventListener("pointerdown", () => hold(true));
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+    layer.addEventListener(end, () => hold(false));
+  stage.below.addEventListener("input", ({target}) =>
+    hold(/** @type {HTMLInputElement} */ (target).type === "range"),
+  );
+  stage.below.addEventListener("change", () => hold(false));
+
+  const heads = numbers.node.querySelectorAll("tbody th");
   let known = "";
   /** @type {?Motion} */
   let found = null;
+  /** @type {?number[][]} */
+  let tops = null;
   /** @type {?Parameters<CurvesView["draw"]>} */
   let drawn = null;
   stage.run(
@@ -128,7 +148,7 @@ function motionExplorer(stage, data) {
       const {time, ...asked} = state,
         key = JSON.stringify(asked);
       // the clock alone changes nothing
-      if (!found || key !== known) [known, found] = [key, motionOf(data, state)];
+      if (!found || key !== known) [known, found, tops] = [key, motionOf(data, state), null];
       const now = found,
         {t, q, v, a, tool, missing} = now;
       sliders.forEach((s, k) =>
@@ -146,14 +166,20 @@ function motionExplorer(stage, data) {
         scaleOf(0, state.duration, 5),
         time * state.duration,
       ];
+      const sampled = [v, a].map(rows => units.map(({size}, j) => most(rows, j) / size));
+      if (!held) tops ||= topsOf(data, now, sampled);
+      const shown = tops || sampled;
+      [words.speed, words.acceleration].forEach((text, k) => {
+        heads[k].textContent = tops ? text : fill(words.sampled, {what: text, samples});
+      });
       numbers.set(
-        [v, a].map((rows, order) =>
-          units.map((u, j) =>
-            Number.isNaN(most(rows, j))
+        shown.map((values, order) =>
+          values.map((value, j) =>
+            Number.isNaN(value)
               ? words.none
-              : number(most(rows, j) / u.size, 1) +
+              : number(value, decimalsOf(value)) +
                 (order === 0 && arm.speed_limits
-                  ? ` (${Math.round((100 * most(rows, j)) / arm.speed_limits[j])}\u00A0%)`
+                  ? ` (${Math.round((100 * value * units[j].size) / arm.speed_limits[j])}\u00A0%)`
                   : ""),
           ),
         ),
@@ -193,7 +219,7 @@ function motionExplorer(stage, data) {
 /**
  * The motion for what is asked: times, joint values, speeds, accelerations, the tool's places, how
  * near it passes via; where there is no posture, after which samples its curves break, where its
- * speed jumps (-1: nowhere).
+ * speed jumps (-1: nowhere); the pose at a time, and the times at which an acceleration may jump.
  * @param {MotionData} data
  * @param {Asked} state
  */
@@ -238,7 +264,42 @@ function motionOf(data, state) {
   const tool = q.map((row, i) => (missing[i] ? null : origin(fk(arm.chain, row))));
   const jump = corner > 0 && !missing[corner] && v[corner - 1] ? corner : -1;
   const near = passing(data, state.via, poseAt, t, missing);
-  return {t, q, v, a, tool, missing, gaps, jump, near};
+  const bend = timeOf(law, state.duration, 0.5 - state.blend),
+    ramps = laws[state.law] === "trapezoidal" ? [0.25, 0.75] : [];
+  const times = [
+    0,
+    bend,
+    ...ramps.map(x => x * state.duration),
+    state.duration - bend,
+    state.duration,
+  ];
+  times.sort((x, y) => x - y);
+  return {t, q, v, a, tool, missing, gaps, jump, near, poseAt, times};
+}
+
+/**
+ * The greatest speeds and accelerations between the samples, too; null where the motion is broken
+ * or passes a singularity, or one of them does not stand.
+ * @param {MotionData} data
+ * @param {Motion} motion
+ * @param {number[][]} sampled
+ */
+function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
+  if (gaps.size || missing[0]) return null;
+  const step = t[1];
+  // where joints are free, it is a choice how they stand
+  /** @type {(x: number) => number[]} */
+  const posture = x => {
+    const near = q[Math.min(Math.round(x / step), samples - 1)],
+      row = onward(arm, ik(arm, poseAt(x)), near);
+    return Object.values(singularities(arm, row)).some(Boolean) ? row.map(() => NaN) : row;
+  };
+  return peaks(
+    posture,
+    times,
+    units.map(({size}) => size),
+    sampled,
+  );
 }
 
 /**

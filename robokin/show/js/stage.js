@@ -310,9 +310,9 @@ export function table(names, heads, widths, take) {
   const count = k => (heads.length ? widths.length : widths[k]);
   const lines = names.map((name, k) => {
     const button = take ? control("button", {type: "button", class: "rk-choose"}, name) : null;
-    button?.addEventListener("click", () => take?.(k));
     const cells = Array.from({length: count(k)}, () => element("td"));
     const row = element("tr", {}, element("th", {scope: "row"}, button || name), ...cells);
+    // a click on the button reaches its row
     if (take) row.addEventListener("click", () => take(k));
     return {row, cells, button};
   });

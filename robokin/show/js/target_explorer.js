@@ -63,7 +63,7 @@ function targetExplorer(stage, data) {
   /** @type {Target} */
   const home = {...data.target, turns: data.turns};
   /** @type {State} */
-  const state = {...home, place: [...home.place], q: [...data.q], wanted: -1, chosen: 0};
+  const state = {...structuredClone(home), q: [...data.q], wanted: -1, chosen: 0};
   if (oriented) state.rotation = rotationOf(state.turns);
 
   const sliders = data.controls.map((spec, k) =>

@@ -1,0 +1,69 @@
+"""Exercise 2: the cases, the form of a speed, the law, and what wrong lines use."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import PUMA560, deg, distance_from_singularity
+from robokin.course.forms import numbers
+from robokin.course.told import apart
+
+from .shared import HIGH, LOW, Floats, X, Y, Z
+
+
+def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
+    """Joints that stand still, joints with unlike limits, a wrist nearly aligned, then any."""
+    even = np.full(6, 100.0) * deg
+    uneven = np.array([80, 60, 100, 150, 120, 200]) * deg
+    stand = np.array([0, 60, -170, 0, 40, 0]) * deg
+    turned = np.array([20, 50, -150, 30, 40, -10]) * deg
+    near = np.array([0, 60, -170, 30, 3, 0]) * deg
+    made: list[tuple[Any, ...]] = [
+        (stand, X, even),  # joints 1, 4 and 6 stand still
+        (stand, Y, even),
+        (turned, X, even),
+        (turned, -Z, uneven),
+        (turned, 3 * Y, uneven),
+        (near, Y, uneven),
+        (near, np.array([1.0, -2.0, 2.0]), uneven),
+    ]
+    while len(made) < 30:
+        q = rng.uniform(LOW, HIGH).round(3)
+        if distance_from_singularity(PUMA560, q) > 0.02:
+            direction = (rng.normal(size=3) * rng.choice([0.2, 1, 5])).round(3)
+            made.append((q, direction, (rng.integers(5, 26, 6) * 10 * deg).astype(float)))
+    return made
+
+
+def form(result: Any, case: tuple[Any, ...]) -> float:
+    return float(numbers(result, (), "one number, a speed in m/s"))
+
+
+def law(case: tuple[Any, ...], yours: float, wanted: float) -> str | None:
+    """The right speed, and with what share of its most a joint turns at yours."""
+    q, direction, most = case
+    if abs(yours - wanted) <= 2e-3 * wanted:
+        return None
+    twist = [*(direction / np.linalg.norm(direction)), 0, 0, 0]
+    share = abs(np.linalg.solve(PUMA560.jacobian(q), twist)) * wanted / most
+    should, is_at = apart(wanted, yours, 4)
+    says = f"should be {should} m/s: joint {int(share.argmax()) + 1} then turns with its most"
+    if not np.isfinite(yours) or yours <= 0:
+        return says
+    if yours > 100 * wanted:
+        return f"{says}; {is_at} m/s is far too fast"
+    used = apart(100 * yours / wanted, 100, 0)[0]  # all joints in proportion
+    return f"{says}; at {is_at} m/s it turns with {used} % of it"
+
+
+def same(a: float, b: float) -> bool:
+    """To a millionth, however small."""
+    both = a == b or (np.isnan(a) and np.isnan(b))
+    return bool(both or abs(a - b) <= 1e-6 * abs(b))
+
+
+def scaled_jacobian(q: Floats) -> Floats:
+    """With lengths in reaches."""
+    jacobian = PUMA560.jacobian(q)
+    jacobian[:3] /= PUMA560.reach
+    return jacobian

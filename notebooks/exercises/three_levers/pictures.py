@@ -1,0 +1,218 @@
+"""What opens after the choice, for each prediction of three levers."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from robokin import deg
+from robokin.show import JOINT_STYLES, Sketch, animate, figure
+
+from . import predictions as of
+from .shared import ARM, K, direction
+
+BLUE = "#7FB8D8"
+
+
+def panels(alt: str, count: int = 1, height: float = 3.5, **keywords: Any) -> tuple[Any, Any]:
+    """A figure with a row of plots, its layout kept tight: the figure, and the plot or plots."""
+    fig = figure(alt, height=height)
+    fig.set_layout_engine("tight")
+    return fig, fig.subplots(1, count, **keywords)
+
+
+def joints() -> Iterator[tuple[int, str, dict[str, Any]]]:
+    """Each joint, its letter, and how its line looks."""
+    for joint, (letter, style) in enumerate(zip("γβα", JOINT_STYLES[:3], strict=True)):
+        dash = (0, style["dash"]) if style["dash"] else "-"
+        yield joint, letter, {"color": style["color"], "ls": dash}
+
+
+def p1_view() -> Any:
+    alpha = of.BENT[2] / deg
+    sketch = Sketch(
+        "The upright arm dashed, the bent one drawn: the last lever has turned to the right by "
+        "60 degrees; the angle inside, between AB and AK, is 120 degrees.",
+        title=f"An interior angle of {alpha:.0f}° is a turn of {180 - alpha:.0f}° to the right",
+        unit="m",
+        height=3.8,
+    )
+    sketch.levers(ARM.points(of.UPRIGHT), dashed=True)
+    sketch.levers(ARM.points(of.BENT), ["O", "B", "A", "K"])
+    sketch.angle(ARM.points(of.BENT)[2], 270 * deg, 390 * deg, "α = 120°", radius=0.3)
+    sketch.ax.set_xlim(-2.5, 3.5)
+    return sketch
+
+
+def p2_view() -> Any:
+    KO = np.linspace(1, 3, 401)
+    low = ARM.alpha_range(np.stack([KO, 0 * KO], axis=-1), limited=False)[0] / deg
+    fig, ax = panels(
+        "The angles alpha that reach K, against the distance KO: from 0 to 180 degrees at 1 m, "
+        "180 degrees alone at 3 m.",
+        height=3.4,
+    )
+    ax.fill_between(KO, low, 180, color=BLUE, linewidth=0)
+    for at in (of.NEAR, of.FAR):
+        ax.plot([at, at], [180 - of.width(at), 180], "k", lw=2)
+        told = f"{of.width(at):.1f}°"
+        ax.annotate(told, (at, 150), (-6, 0), textcoords="offset points", ha="right")
+    ax.set(xlabel="distance KO, m", ylabel="free angle α, °", xlim=(1, 3), ylim=(0, 182))
+    ax.set_title("The farther K is, the smaller is the family")
+    return fig
+
+
+def p3_view() -> Any:
+    low, high = ARM.alpha_range(K)
+    alphas = np.linspace(low, high, 241)
+    family = ARM.family(K, alphas) / deg
+    fig, (left, right) = panels(
+        "Left: nine postures of the family, the symmetric one strongly. Right: beta falls and "
+        "gamma grows with alpha; beta and alpha are equal at one place.",
+        count=2,
+        height=3.7,
+        width_ratios=[1, 1.15],
+    )
+    for a in np.linspace(low, high, 9):
+        left.plot(*ARM.points(ARM.family(K, a)).T, "o-", color="0.7", markersize=4, lw=1.3)
+    same = of.p3()["trapezoid"]
+    left.plot(*ARM.points(ARM.family(K, same * deg)).T, "ko-", markersize=6, lw=3)
+    left.set(aspect="equal", xlabel="x, m", ylabel="y, m", title="Three equal sides: a trapezoid")
+    for joint, name, style in joints():
+        right.plot(alphas / deg, family[:, joint], lw=2.2, **style)
+        right.text(182, family[-1, joint], name, color=style["color"], va="center")
+    right.plot(same, same, "ko", markersize=7)
+    right.annotate(f"{same:.1f}°", (same, same), (12, -3), textcoords="offset points")
+    right.set(xlabel="free angle α, °", ylabel="γ, β, α, °", title="β = α at one place")
+    return fig
+
+
+def p4_view() -> Any:
+    t = np.linspace(0, 8, 601)
+    phi = (30 + 100 * t / t[-1]) * deg
+    ring = of.RING * direction(phi)
+    q = ARM.family(ring, of.SAMPLE)
+    wrong = q.copy()
+    wrong[:, 0] += np.arctan(ring[:, 1] / ring[:, 0]) - phi
+    moving = np.concatenate([ring, np.zeros((len(t), 1))], axis=1)
+    names, title = ["arctan2(y, x)", "arctan(y / x)"], "K passes the y axis"
+    return animate([ARM, ARM], t, [q, wrong], names=names, points={"K": moving}, title=title)
+
+
+def p5_view() -> Any:
+    phi = np.linspace(0, 180, 721)
+    ring = of.BEHIND_KO * direction(phi * deg)
+    every, kept = (np.array(ARM.alpha_range(ring, limited=flag)) / deg for flag in (False, True))
+    fig, ax = panels(
+        "Range of alpha for targets 2 m away against their direction. Up to about 104 degrees all "
+        "of it is usable; then less and less, and from about 151 degrees on nothing.",
+        height=3.4,
+    )
+    ax.fill_between(phi, *every, facecolor="0.92", edgecolor="0.6", hatch="//", linewidth=0)
+    ax.fill_between(phi, *kept, color=BLUE, linewidth=0)
+    ax.text(30, 125, "usable", fontweight="bold")
+    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.9}
+    ax.text(128, 160, "γ above 180°", bbox=box)
+    ax.axvline(of.BEHIND, color="black", lw=1)
+    ax.set(xlabel="direction of K seen from O, °", ylabel="α, °", xlim=(0, 180), ylim=(60, 182))
+    ax.set_title(f"{of.BEHIND_KO:g} m from the base: behind the arm the family dies out")
+    return fig
+
+
+def p6_view() -> Any:
+    before, target = ARM.family(K, 100 * deg), K + [0.1, 0.0]
+    exact, S = ARM.least(target, before)
+    alphas = np.linspace(*ARM.alpha_range(target), 2001)
+    change = abs(ARM.family(target, alphas) - before) / deg
+    fig, ax = panels(
+        "The changes of gamma, beta and alpha and their sum S against alpha, near the least S. "
+        "Each change is a V that touches 0 where this angle stays; S has its least value at one "
+        "of these places.",
+        height=3.7,
+    )
+    ax.plot(alphas / deg, change.sum(axis=-1), "k", lw=2.4)
+    ax.plot(exact[2] / deg, S / deg, "kD", markersize=7)
+    ax.text(117, change.sum(axis=-1)[abs(alphas / deg - 117).argmin()] + 1.5, "S", ha="right")
+    for joint, name, style in joints():
+        ax.plot(alphas / deg, change[:, joint], lw=1.8, **style)
+        at = abs(alphas / deg - 119).argmin()
+        ax.text(119.3, change[at, joint] - 1.5, name, color=style["color"], va="top")
+    stays = "γβα"[int(np.argmin(abs(exact - before)))]
+    ax.set(xlabel="α, °", ylabel="change, °", xlim=(86, 121), ylim=(0, 45))
+    ax.set_title(f"S is least where {stays} stays as it was")
+    return fig
+
+
+def p7_view() -> Any:
+    target, before = np.array([1.8, 0.6]), np.array([100, 110, 120]) * deg
+    exact, S = ARM.least(target, before)
+    fig, axes = panels(
+        "S near its least value is a V. The rows of a sweep with a step of 1 degree and with a "
+        "tenth of it lie on both sides of the tip; the finer ones come about ten times nearer.",
+        count=2,
+    )
+    for ax, step in zip(axes, (of.COARSE, of.FINE), strict=True):
+        near = exact[2] + np.linspace(-1.8, 1.8, 801) * step * deg
+        curve = abs(ARM.family(target, near) - before).sum(axis=-1) / deg
+        ax.plot(near / deg, curve, "k", lw=1.6)
+        rows = ARM.table(target, step * deg)
+        rows = rows[abs(rows[:, 2] - exact[2]) < 1.8 * step * deg]
+        ax.plot(rows[:, 2] / deg, abs(rows - before).sum(axis=-1) / deg, "o", color="#D55E00")
+        ax.plot(exact[2] / deg, S / deg, "kD", markersize=7)
+        ax.ticklabel_format(useOffset=False)
+        ax.locator_params(axis="x", nbins=5)
+        ax.set(xlabel="α, °", ylabel="S, °", title=f"rows {step:g}° apart, ◆ exact")
+    return fig
+
+
+def p8_view() -> Any:
+    alphas = np.linspace(*ARM.alpha_range(of.TARGET), 801)
+    change = abs(ARM.family(of.TARGET, alphas) - of.STAND) / deg
+    least = [alphas[each.argmin()] / deg for each in (change.sum(axis=-1), change.max(axis=-1))]
+    fig, ax = panels(
+        "The sum of the changes and the largest of them against alpha: the sum is least at "
+        f"{least[0]:.0f} degrees, the largest at {least[1]:.0f} degrees."
+    )
+    best = []
+    for curve, style, name, side, place in (
+        (change.sum(axis=-1), "-", "S, the sum", "right", (166, 68)),
+        (change.max(axis=-1), "--", "the longest motor: the time", "left", (160, 25)),
+    ):
+        ax.plot(alphas / deg, curve, style, color="black", lw=2)
+        k = int(curve.argmin())
+        best.append(alphas[k] / deg)
+        ax.plot(best[-1], curve[k], "kD", markersize=7)
+        ax.text(*place, name, ha=side)
+    ax.set(xlabel="α, °", ylabel="°")
+    ax.set_title(f"Least sum at α = {best[0]:.0f}°, least time at {best[1]:.0f}°")
+    return fig
+
+
+def p9_view() -> Any:
+    lost, facts = 100 * np.sort(np.maximum(of.losses(), 0))[::-1], of.p9()
+    fig, ax = panels(
+        "The loss of greed for each of the tours, sorted: a few high bars, and a long row of "
+        "hardly any loss.",
+        height=3.2,
+    )
+    ax.bar(np.arange(1, len(lost) + 1), lost, width=1.0, color="#56B4E9")
+    ax.axhline(5, color="black", lw=1, ls="--")
+    ax.set(xlabel="tours, sorted", ylabel="loss, %")
+    ax.set_title(f"{facts['count']} of {facts['tours']} tours lose more than 5 %")
+    return fig
+
+
+def p10_view() -> Any:
+    facts = of.p10()
+    fig, ax = panels(
+        f"The turns of all joints, added up over {facts['tasks']} tasks, for three rules. All "
+        "rise evenly; dice are the steepest, equal angles and least movement lie close together.",
+        height=3.4,
+    )
+    styles = zip(("#D55E00", "#009E73", "#0072B2"), ("--", ":", "-"), strict=True)
+    for (name, each), (color, dash) in zip(of.turns().items(), styles, strict=True):
+        ax.plot(np.append(0, np.cumsum(each)), color=color, ls=dash, lw=1.8, label=name)
+    ax.legend(frameon=False)
+    ax.set(xlabel="tasks done", ylabel="turns in all, °")
+    ax.set_title(f"Dice turn the joints {facts['percent']:.0f} % more than the least movement")
+    return fig

@@ -1,0 +1,195 @@
+"""Exercise 3: a student's numbers, and what does not hold of the traps."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from robokin.course.exercises import words
+from robokin.course.told import apart, floats
+from robokin.course.variants import Numbers, dice
+from robokin.jobs.visit_collect import Task, best_visit, collect, out_of_workspace, visit
+
+from .shared import L1, L2, Floats, costs
+
+Fault = tuple[str, str]
+Traps = dict[str, Floats | None]  # None: no trap
+
+COUNT = 3
+APART = 0.3  # m
+LOST = 2  # points
+TASKS = ("visit", "collect", "worth")
+NO_TRAP = "no trap"
+NOBODY = "your name"  # as it stands in the lab
+KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])  # the opening
+GIVEN_UP = {
+    "visit": "What a point costs depends on where the arm comes from: the opening has such a case, "
+    "for other numbers.",
+    "worth": "The cheapest objects are the most of them, and need not be worth the most: let a "
+    "cheap one use up the time that a dear one needs.",
+}
+
+
+def given(who: Any) -> Numbers:
+    """Times, worths, speed and start for traps of one's own. Solvable for everybody: points on the
+    circle through p0 about axis 1 do it, since joint 1 has room for 2.7 rad to both sides.
+    """
+    roll = dice("visit_and_collect", who)
+    speed = 0.2 + 0.05 * roll.randrange(5)
+    budget = 1.2 + 0.05 * roll.randrange(9)  # rad that a joint can turn in the time T
+    x, y = 3.5 + 0.25 * roll.randrange(5), -1.5 + 0.25 * roll.randrange(13)
+    height = 1.0 + 0.25 * roll.randrange(7)
+    worth = [3 + roll.randrange(3) for _ in range(4)]  # no one is half of another ...
+    worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... but of the dear one
+    made = {
+        "T": (round(budget / speed, 1), "s"),
+        "T_collect": (round(3 * budget / speed, 1), "s"),
+        "worth": (worth, "(of object 0, 1, 2, 3)"),
+        "speed": (round(speed, 2), "rad/s, of every joint"),
+        "p0": ([x, y, height], "m"),
+        "apart": (APART, "m"),
+    }
+    units = {name: (unit, 1.0) for name, (_, unit) in made.items()}
+    return Numbers({name: value for name, (value, _) in made.items()}, units)
+
+
+def plain(answer: Any) -> Any:
+    """Lists of numbers as arrays, which are told in few digits."""
+    if not isinstance(answer, Mapping):
+        return answer
+    found = dict(answer)
+    for task, points in answer.items():
+        with suppress(TypeError, ValueError):
+            found[task] = floats(points) if isinstance(points, (list, tuple)) else points
+    return found
+
+
+def form(answer: Any, given: Any) -> Traps:
+    answer = plain(answer)
+    if not isinstance(answer, Mapping) or set(answer) != set(TASKS):
+        wanted = 'Wanted {"visit": ..., "collect": ..., "worth": ...}'
+        raise ValueError(f"{wanted}, got {words(answer)}.")
+    return {task: points_form(task, answer[task]) for task in TASKS}
+
+
+def points_form(task: str, answer: Any) -> Floats | None:
+    wanted = (
+        f'"{task}": wanted four points, [[x, y, z], [x, y, z], [x, y, z], [x, y, z]] in metres, '
+        f'or "{NO_TRAP}"'
+    )
+    if isinstance(answer, str) and " ".join(answer.casefold().strip(" .!'\"").split()) == NO_TRAP:
+        return None
+    points: Floats = np.zeros(0)
+    with suppress(TypeError, ValueError):
+        points = floats(answer)
+    if points.shape != (4, 3) or not np.isfinite(points).all():
+        raise ValueError(f"{wanted}, got {words(answer)}.")
+    if abs(points).max() > 50:
+        raise ValueError(f"{wanted}; yours are up to {abs(points).max():.4g} m away")
+    return points
+
+
+def both(task: str, points: Floats, numbers: Any) -> tuple[list[int], list[int]]:
+    """What the greedy rule takes, in order, and what is best."""
+    T, kind = (numbers["T"], "visit") if task == "visit" else (numbers["T_collect"], "collect")
+    made = Task(L1, L2, T, [numbers["speed"]] * 3, numbers["p0"], points.tolist(), kind)
+    if task == "visit":
+        return list(visit(made).order), list(best_visit(made).order)
+    worth = np.array(numbers["worth"] if task == "worth" else [1, 1, 1, 1])
+    choices = (np.arange(16)[:, None] >> np.arange(4)) & 1
+    fits = choices[choices @ costs(made) <= made.T + 1e-9]
+    return list(collect(made).order), np.flatnonzero(fits[(fits @ worth).argmax()]).tolist()
+
+
+def worths(numbers: Any, *choices: list[int]) -> list[int]:
+    return [sum(numbers["worth"][k] for k in taken) for taken in choices]
+
+
+def scores(task: str, points: Floats, numbers: Any) -> str:
+    greedy, best = both(task, points, numbers)
+    a, b, (first, most) = len(greedy), len(best), worths(numbers, greedy, best)
+    told = {
+        "visit": f"nearest first visits {a} of 4 (order {greedy}), the best order {b} ({best}).",
+        "collect": f"cheapest first brings {a} of 4 ({greedy}), the best choice {b}.",
+        "worth": f"cheapest first brings {greedy}, worth {first}; the best choice {best}, worth "
+        f"{most}.",
+    }
+    return f'"{task}": {told[task]}'
+
+
+def holds(traps: Traps, numbers: Any) -> list[str]:
+    told = [scores(task, points, numbers) for task, points in traps.items() if points is not None]
+    told.append('"collect": no trap, and the proof of section 6 says why.')
+    if numbers == given(NOBODY):
+        told.append(f'These numbers belong to "{NOBODY}": give your own name.')
+    return told
+
+
+def faults(traps: Traps, numbers: Any) -> list[Fault]:
+    found = (trap_fault(task, traps[task], numbers) for task in TASKS)
+    return [fault for fault in found if fault]
+
+
+def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
+    """What does not hold of the answer for one task; None: it is right."""
+    if points is None:
+        says = f'"{task}": there is a trap. {GIVEN_UP.get(task)}'
+        return ("given up, where there is a trap", says) if task in GIVEN_UP else None
+    fault = places_fault(task, points, numbers)
+    if task == "collect":
+        says = '"collect": look at the proof of section 6 before you build.'
+        if not fault:
+            says = (
+                f"{scores(task, points, numbers)} No four points change that: any k objects cost "
+                "at least as much as the k cheapest (section 6)."
+            )
+        return "a trap against a proof", says
+    return fault or not_beaten(task, points, numbers)
+
+
+def places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
+    for k, point in enumerate(points):
+        if reasons := out_of_workspace(L1, L2, point):
+            return "out of the workspace", f'"{task}": point {k} {reasons[0]}.'
+    places = np.vstack([numbers["p0"], points])
+    gaps = np.linalg.norm(places[:, None] - places, axis=-1) + 100 * np.eye(5)
+    if gaps.min() < APART - 1e-9:
+        a, b = (int(k) for k in np.unravel_index(gaps.argmin(), gaps.shape))
+        names = ["p0", *(f"point {k}" for k in range(4))]
+        near, wanted = apart(gaps.min(), APART, 2)
+        says = f"{names[a]} and {names[b]} are {near} m apart, wanted are {wanted} m."
+        return "too near to each other", f'"{task}": {says}'
+    return None
+
+
+def known(points: Floats) -> bool:
+    """The four points of the opening, in any order, or their mirror images, or nearly so."""
+    both_ways = np.array([KNOWN, KNOWN * [1, -1, 1]])[:, None]
+    gaps = np.linalg.norm(points[:, None] - both_ways, axis=-1)  # (2, 4, 4)
+    nearest = np.maximum(gaps.min(axis=1).max(axis=-1), gaps.min(axis=2).max(axis=-1))
+    return bool((nearest < 0.15).any())
+
+
+def not_beaten(task: str, points: Floats, numbers: Any) -> Fault | None:
+    """Why the greedy rule of "visit" or "worth" is not trapped by points that are allowed."""
+    if known(points):
+        says = "these are the four points of the opening. Build your own, for your start and time."
+        return "the lab's own points", f'"{task}": {says}'
+    greedy, best = both(task, points, numbers)
+    told = scores(task, points, numbers)
+    if not best:
+        return "nothing in time", f"{told} Not even the nearest one is in time: come nearer."
+    if len(greedy) == 4:
+        return "all in time", f"{told} There is time for all of them: spread them."
+    if task == "visit" and len(best) - len(greedy) < LOST:
+        if len(best) == len(greedy):
+            return "the rule is not beaten", f"{told} No order does better."
+        return "one point lost, not two", f"{told} One more, and it is a trap."
+    if task == "worth":
+        first, most = worths(numbers, greedy, best)
+        if first == most:
+            return "the rule is not beaten", f"{told} No choice is worth more."
+        if 2 * first > most:
+            return "less than half is lost", f"{told} Wanted is at most half."
+    return None

@@ -1,0 +1,65 @@
+"""Exercise 1: what right and wrong programs use, and what a refused one did last."""
+
+from math import acos, asin, atan2, hypot, pi
+from typing import Any
+
+import numpy as np
+
+from robokin.course.exercises import words
+from robokin.jobs.visit_collect import out_of_workspace, workspace
+
+from .shared import ARM, L1, L2, Floats
+
+LIMITS = np.array([pi, pi / 2, pi / 2])
+
+
+def refusal(inputs: tuple[Any, ...], result: Any) -> str:
+    """Which point a right program was asked last, and what it answered."""
+    p, q = np.array(inputs[0], dtype=float).reshape(3), np.asarray(result, dtype=float)
+    if not workspace(L1, L2, p).all():
+        why = f"this point is not in the workspace: it {out_of_workspace(L1, L2, p)[0]}."
+    else:
+        off = float(np.linalg.norm(ARM.fk(q).translation - p))
+        why = f"inside the limits, with the tool {off:.1g} m from the point."
+    return f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"
+
+
+def point(p: Any) -> Floats:
+    """One point."""
+    place = np.asarray(p, dtype=float)
+    if place.size != 3:
+        raise ValueError(f"p: wanted one point (3,) at a time, got shape {place.shape}")
+    return place.reshape(3)
+
+
+def clipped(x: float) -> float:
+    return min(1.0, max(-1.0, x))
+
+
+def principal(p: Any) -> Floats:
+    """The first right program again, for the others."""
+    x, y, z = point(p).tolist()
+    rho = hypot(x, y)
+    d = max(hypot(rho, z), 1e-12)
+    beta = acos(clipped((L1**2 + d**2 - L2**2) / (2 * L1 * d)))
+    bend = asin(clipped((L1**2 + L2**2 - d**2) / (2 * L1 * L2)))
+    return np.array([atan2(y, x), atan2(rho, z) - beta, bend])
+
+
+def mirrored(p: Any) -> Floats:
+    """The arm faces away from the point and leans over its back; within two turns."""
+    x, y, z = point(p).tolist()
+    q1, q2, q3 = principal(p).tolist()
+    return np.array([q1 - pi if q1 > 0 else q1 + pi, q2 - 2 * atan2(hypot(x, y), z), q3])
+
+
+def lower(p: Floats) -> Floats:
+    """Every coordinate 0.1 m too small, where the arm reaches that."""
+    found = np.maximum(p - 0.1, [-np.inf, -np.inf, 0.0])
+    return found if L1 - L2 < np.linalg.norm(found) < L1 + L2 else p
+
+
+def short(p: Any, gap: float) -> Floats:
+    """The point nearer to the origin by so many metres."""
+    place = point(p)
+    return np.asarray(place * (1 - gap / max(float(np.linalg.norm(place)), 1.0)))

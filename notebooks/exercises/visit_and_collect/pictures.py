@@ -1,0 +1,165 @@
+"""What opens after the choice, for each prediction of visit and collect."""
+
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, ptp
+from robokin.jobs.visit_collect import principal_postures
+from robokin.show import Sketch, figure
+
+from .predictions import DIP, LOW1, SPEEDS, p1, p2, p3, p6, p7, p8, p9
+from .shared import ARM, L1, L2
+
+SIDE: dict[str, Any] = {"unit": "m", "x": "distance from the axis", "y": "height"}
+
+
+def p1_view() -> Any:
+    says = (
+        f"Side view at q1 = q2 = 90 degrees and q3 = 0: link 1 lies flat, {L1:g} m long, link 2 "
+        f"hangs from its end, and the tool is {p1()['z']:g} m under the floor."
+    )
+    title = "Link 1 flat, link 2 square to it: downwards"
+    sketch = Sketch(says, title=title, **SIDE | {"x": "y", "height": 3.6})
+    sketch.levers([(0, 0), (L1, 0), (L1, -L2)], ["O1", "O2", "tool"])
+    sketch.ax.axhline(0, color="0.6", lw=1)
+    sketch.ax.margins(0.22)
+    return sketch
+
+
+def p2_view() -> Any:
+    q3 = p2()["q3"]
+    says = f"The stretched arm, flat: link 2 is {abs(q3):.0f} degrees above the square to link 1."
+    title = f"Stretched: link 2 is {abs(q3):.0f}° above its square to link 1"
+    sketch = Sketch(says, title=title, height=3.6, **SIDE)
+    sketch.levers([(0, 0), (L1, 0), (L1 + L2, 0)], ["O1", "", "tool"])
+    sketch.ax.text(L1, 0.25, "O2", ha="center", fontsize=12)
+    sketch.levers([(L1, 0), (L1, -L2)], dashed=True)
+    sketch.angle((L1, 0), -pi / 2, 0, "−q3", radius=1.5)
+    return sketch
+
+
+def p3_view() -> Any:
+    shares = p3()["shares"]
+    says = (
+        f"Bars: of the points nearer than 1 m to the axis {shares[0]:.0f} percent have a second "
+        f"posture inside the limits, of those farther than 8 m {shares[-1]:.0f} percent."
+    )
+    fig = figure(says, height=3)
+    ax = fig.subplots()
+    ax.bar(np.arange(9) + 0.5, shares, width=0.92, color="#0072B2")
+    ax.set_title("The nearer to the axis, the easier it is to lean over backwards")
+    ax.set(xlabel="distance from axis 1, m", ylabel="points with a second posture, %")
+    ax.set(xlim=(0, 9), ylim=(0, 105))
+    fig.tight_layout()
+    return fig
+
+
+def p4_view() -> Any:
+    q = principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])[:, 0]
+    turned = (q[0] - q[1]) / deg
+    says = (
+        f"Seen from above: joint 1 turns from {q[0] / deg:.1f} to {q[1] / deg:.1f} degrees, away "
+        f"from the stop at 180 degrees and all the way round, {turned:.0f} degrees."
+    )
+    title = f"Joint 1 turns away from its stop and goes round, {turned:.0f}°"
+    sketch = Sketch(says, title=title, unit="m", height=3.6)
+    sketch.levers([(0, 0), (-2, 0.01)], ["axis 1", ""])
+    turn = np.linspace(q[0], q[1], 200)
+    sketch.ax.plot(np.cos(turn), np.sin(turn), color="black", lw=1.3)
+    tip = {"arrowstyle": "-|>", "color": "black"}
+    sketch.ax.annotate("", (-1, -0.02), (-0.985, -0.17), arrowprops=tip)
+    sketch.ax.text(-2.1, 0.15, "both points", ha="right")
+    sketch.ax.text(-2.1, -0.25, "stop at ±180°", ha="right")
+    sketch.ax.text(0.85, 0.85, "joint 1")
+    sketch.ax.set(xlim=(-4, 2), ylim=(-1.3, 1.4))
+    return sketch
+
+
+def p5_view() -> Any:
+    return (
+        "With prices: objects of 5, 5 and 9 s, and T = 10 s. The two cheapest fit. At prices of 1, "
+        "1 and 10 they bring 2, and the dear one alone 10. Unlike speeds only put other numbers in "
+        "the place of 5, 5 and 9 s, and the proof holds for any numbers."
+    )
+
+
+def p6_view() -> Any:
+    some, counts = p6()["some"], p6()["counts"]
+    says = (
+        f"Bars: nearest first loses no point in {counts[0]} of 200 random tasks, one in "
+        f"{counts[1]}, two in {counts[2]}, three in {counts[3]}."
+    )
+    fig = figure(says, height=2.8)
+    ax = fig.subplots()
+    names = ["none", "1 point", "2 points", "3 points"]
+    bars = ax.barh(names, counts[:4], color=["#9DB7C9", "#E69F00", "#D55E00", "#CC79A7"])
+    ax.bar_label(bars, padding=4)
+    ax.invert_yaxis()
+    ax.set(xlabel="tasks of 200, seven random points each", xlim=(0, 200))
+    ax.set_title(f"Nearest first loses a point or more in {some} of 200 tasks")
+    ax.spines[["top", "right"]].set_visible(False)
+    fig.tight_layout()
+    return fig
+
+
+def p7_view() -> Any:
+    height = p7()["height"]
+    says = (
+        f"Side view: link 1 lies on the floor behind the axis, link 2 reaches from there to the "
+        f"axis, {height:g} m above the origin."
+    )
+    title = f"The elbow lies on the floor, the tool is {height:g} m above the origin"
+    sketch = Sketch(says, title=title, **SIDE)
+    sketch.levers([(0, 0), (-LOW1, 0), (0, height)], ["O1", "O2", "tool"])
+    sketch.ax.axhline(0, color="0.6", lw=1)
+    sketch.ax.axvline(0, color="0.6", lw=1, ls=":")
+    sketch.ax.text(-0.1, 0.15 * height, "axis 1", ha="right")
+    sketch.ax.margins(0.22)
+    return sketch
+
+
+def p8_view() -> Any:
+    q = principal_postures(L1, L2, DIP)
+    way = ptp(q[0], q[1], np.linspace(0, 1, 200))
+    side = ARM.fk(way).translation[:, [0, 2]]
+    deep = -p8()["low"]
+    says = (
+        f"Side view of the move: the arm at its start, dashed, and where its tool is lowest; the "
+        f"path of the tool goes {deep:.2f} m under the floor."
+    )
+    title = f"Between two allowed points: {deep:.2f} m under the floor"
+    sketch = Sketch(says, title=title, **SIDE)
+    for k, dashed in ((0, True), (int(side[:, 1].argmin()), False)):
+        elbow = L1 * np.array([np.sin(way[k, 1]), np.cos(way[k, 1])])
+        sketch.levers([np.zeros(2), elbow, side[k]], dashed=dashed)
+    sketch.ax.plot(*side.T, color="black", lw=1.5)
+    sketch.ax.axhline(0, color="#009E73", lw=2)
+    sketch.ax.text(6.2, -0.3, "floor", color="#009E73")
+    sketch.point(DIP[0, [0, 2]], "start", away=(1, 0))
+    sketch.point(DIP[1, [0, 2]], "goal", away=(1, 1))
+    sketch.ax.margins(0.18)
+    return sketch
+
+
+def p9_view() -> Any:
+    facts = p9()
+    even, uneven = facts["even"], facts["uneven"]
+    says = (
+        f"Objects missed of 200 over the belt speed. Evenly spaced: none up to {even} "
+        f"mm/s. Uneven: none up to {uneven} mm/s, then more and more."
+    )
+    fig = figure(says, height=3.4)
+    ax = fig.subplots()
+    for name, line, color in (("even", "-", "#0072B2"), ("uneven", "--", "#D55E00")):
+        lost = facts["lost"][name]
+        ax.plot(SPEEDS, lost, line, color=color, lw=2.2, marker="o", ms=4)
+        higher = lost[-1] == max(facts["lost"]["even"][-1], facts["lost"]["uneven"][-1])
+        ax.text(142, lost[-1] + (3 if higher else -3), name, color=color, va="center")
+    ax.axvline(facts["rule"], color="0.4", ls=":", lw=1.3)
+    ax.text(facts["rule"] - 1, 45, "c v / g = 1", color="0.4", ha="right")
+    ax.set(xlabel="belt speed, mm/s", ylabel="objects missed of 200", xlim=(58, 150), ylim=(-2, 58))
+    ax.set_title(f"One arm: even objects up to {even} mm/s, uneven up to {uneven}")
+    fig.tight_layout()
+    return fig

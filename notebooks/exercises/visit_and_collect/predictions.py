@@ -1,0 +1,187 @@
+"""The facts behind the predictions. Objective 1: p1 to p3, p7; 2: p4, p8, p9; 3: p5, p6."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm, within
+from robokin.jobs import visit_collect as jobs
+from robokin.jobs.conveyor import serve, spaced
+
+from .shared import ARM, L1, L2, STOPS, Floats, costs, drawn, each_needs
+
+
+def p1() -> dict[str, Any]:
+    _, y, z = (float(c) for c in ARM.fk(np.array([90, 90, 0]) * deg).translation.round(9) + 0.0)
+    right = "under the floor" if (y, z) == (L1, -L2) else "link 2 upright"
+    return {"y": y, "z": abs(z), "l1": L1, "l2": L2, "both": L1 + L2, "right": right}
+
+
+def p2() -> dict[str, Any]:
+    q3 = float(jobs.principal_postures(L1, L2, [L1 + L2, 0, 0])[2]) / deg
+    return {"q3": q3, "zero": 0.0, "plus": 90.0, "half": 180.0, "right": "stretched"}
+
+
+@cache
+def p3() -> Mapping[str, Any]:
+    """How many random points of the workspace have two postures inside the limits."""
+    box = np.random.default_rng(0).uniform([-9, -9, 0], [9, 9, 9], size=(20000, 3))
+    cloud = box[jobs.workspace(L1, L2, box).all(axis=-1)]
+    count = within(ARM, ARM.ik(cloud)).all(axis=-1).sum(axis=-1)
+    radius = np.hypot(cloud[:, 0], cloud[:, 1]).astype(int)
+    shares = [float(100 * (count[radius == k] == 2).mean()) for k in range(9)]
+    share = 100 * float((count == 2).mean())
+    few = "none" if share == 0 else "1 in 10"
+    return {
+        "n": len(cloud),
+        "two": int((count == 2).sum()),
+        "far": shares[-1],
+        "shares": shares,
+        "right": few if share < 25 else "about half" if share < 75 else "all of them",
+    }
+
+
+def p4() -> dict[str, Any]:
+    q = jobs.principal_postures(L1, L2, [[-2, 0.01, 2], [-2, -0.01, 2]])
+    long, half = float(jobs.travel_time(q[0], q[1], [0.2] * 3)), np.pi / 0.2
+    short = float(jobs.travel_time(q[0], q[1], [0.2] * 3, short_way=True))
+    right = "nearly a whole turn" if long > 1.5 * half else "2 cm apart"
+    return {"long": long, "short": short, "half": half, "speed": 0.2, "right": right}
+
+
+SUBSETS = (np.arange(2**5)[:, None] >> np.arange(5)) & 1  # (32, 5)
+
+
+def beaten_by_subset(task: jobs.Task, values: Floats) -> bool:
+    """Whether some choice is worth more than the cheapest ones that fit."""
+    fits = task.T + 1e-9 >= SUBSETS @ costs(task)
+    mine = values[list(jobs.collect(task).order)].sum()
+    return bool((SUBSETS[fits] @ values).max() > mine + 1e-9)
+
+
+def beaten_by_order(task: jobs.Task) -> bool:
+    """With the container on axis 1: whether some order brings more than the cheapest next."""
+    best = 0
+    for order in permutations(range(1, 6)):
+        q = np.repeat(task.q[:1], 11, axis=0)
+        q[1::2] = task.q[list(order)]
+        arrivals = each_needs(q, task.speeds).max(axis=-1).cumsum()[1::2]
+        best = max(best, int((arrivals <= task.T + 1e-9).sum()))
+    return best > len(jobs.collect(task).order)
+
+
+@cache
+def p5() -> Mapping[str, Any]:
+    """Of 30 random tasks: in how many is cheapest (or nearest) first beaten, under each change?"""
+    beaten = {"container on axis 1": 0, "prices": 0, "unlike speeds": 0, "emptied at the end": 0}
+    for seed in range(30):
+        task = drawn(seed, 5, "collect")
+        prices = np.random.default_rng(seed).integers(1, 10, 5).astype(float)
+        beaten["prices"] += beaten_by_subset(task, prices)
+        uneven = replace(task, speeds=np.array([0.1, 0.3, 0.5]))
+        beaten["unlike speeds"] += beaten_by_subset(uneven, np.ones(5))
+        central = replace(task, p0=np.array([0, 0, 6.5]), T=40.0)
+        beaten["container on axis 1"] += beaten_by_order(central)
+        onward = replace(task, kind="visit")
+        best = jobs.best_visit(onward).order
+        beaten["emptied at the end"] += len(best) > len(jobs.visit(onward).order)
+    return beaten | {"right": next(name for name, times in beaten.items() if not times)}
+
+
+@cache
+def p6() -> Mapping[str, Any]:
+    """Points lost by nearest first in 200 random tasks, against all 5040 orders of each."""
+    lost = []
+    for seed in range(200):
+        task = drawn(seed)
+        legs = jobs.travel_time(task.q[:, None], task.q, task.speeds)
+        arrivals = legs[STOPS[:, :-1], STOPS[:, 1:]].cumsum(axis=-1)
+        lost.append(int((arrivals <= task.T).sum(axis=-1).max()) - len(jobs.visit(task).order))
+    none, one, *more = counts = np.bincount(lost, minlength=4).tolist()
+    p, z2 = 1 - none / 200, 1.96**2 / 200  # Wilson's interval for a share
+    middle, half = p + z2 / 2, np.sqrt(z2 * (p * (1 - p) + z2 / 4))
+    share = (200 - none) / 2
+    few = "at most 5" if share < 3 else "6 to 39"
+    right = few if share < 20 else "40 to 99" if share < 50 else "at least half"
+    facts = {"n": 200, "last": 199, "share": share, "right": right, "counts": counts}
+    facts |= {"some": 200 - none, "none": none, "one": one, "more": sum(more)}
+    low, high = (100 * (middle + side) / (1 + z2) for side in (-half, half))
+    return facts | {"low": low, "high": high}
+
+
+LOW1, LOW2 = 4.0, 5.0  # m, so that the answer is a round number
+
+
+def p7() -> dict[str, Any]:
+    points = np.linspace([0, 0, 0], [0, 0, 8], 8001)
+    served = jobs.workspace(LOW1, LOW2, points).all(axis=-1)
+    height = float(points[served.argmax(), 2])
+    facts = {"l1": LOW1, "l2": LOW2, "height": height, "triangle": LOW2 - LOW1, "floor": 0.0}
+    square = float(np.hypot(LOW1, LOW2))
+    return facts | {"square": square, "top": LOW1 + LOW2, "right": "elbow on the floor"}
+
+
+DIP = np.array([[6.0, 0, 1], [1.05, 0, 0.1]])  # m
+
+
+def p8() -> dict[str, Any]:
+    q = jobs.principal_postures(L1, L2, DIP)
+    low, end = float(jobs.lowest(L1, L2, q[0], q[1])), DIP[1, 2]
+    above = "never lower" if low >= end - 1e-9 else "about 0.05 m"
+    right = above if low >= 0 else "under the floor"
+    return {"low": low, "deep": abs(low), "b": end, "right": right}
+
+
+GAP = 150 * mm
+WINDOW = np.linspace(-400, 400, 161) * mm
+COUNT = 200
+SPEEDS = list(range(60, 141, 5))  # mm/s
+
+
+@cache
+def belt_ways() -> Floats:
+    """How long one way from the bin to each place of the window takes: (161,) in s."""
+    places = np.stack([0 * WINDOW + 600 * mm, WINDOW, 0 * WINDOW + 50 * mm], axis=-1)
+    l1, l2 = 500 * mm, 400 * mm
+    q = jobs.principal_postures(l1, l2, np.vstack([np.array([150, -450, 250]) * mm, places]))
+    return np.asarray(15 / 8 * jobs.travel_time(q[0], q[1:], [2, 2, 2]))
+
+
+def missed(v: float, spread: float = 0.5, seed: int = 8, first_come: bool = False) -> int:
+    """How many of the objects one arm does not take, at v mm/s."""
+    offsets = spaced(COUNT, GAP, spread, seed=seed)
+    (trips,) = serve(offsets, v * mm, WINDOW, belt_ways(), first_come=first_come)
+    return COUNT - len(trips.objects)
+
+
+def speed(lost: list[int]) -> int:
+    """The speed up to which none is lost."""
+    return SPEEDS[int(np.flatnonzero(np.cumsum(lost) == 0)[-1])]
+
+
+@cache
+def p9() -> Mapping[str, Any]:
+    lost = {
+        "uneven": [missed(v) for v in SPEEDS],
+        "even": [missed(v, spread=0) for v in SPEEDS],
+        "first": [missed(v, first_come=True) for v in SPEEDS],
+    }
+    most = {name: speed(counts) for name, counts in lost.items()}
+    others = [speed([missed(v, seed=seed) for v in SPEEDS]) for seed in (9, 10)]
+    share = most["uneven"] / most["even"]
+    fast = "more" if share > 1.02 else "the average counts"
+    slow = "about three quarters" if share > 0.6 else "half, by the least gap"
+    return {
+        **most,
+        "least": min(most["uneven"], *others),
+        "greatest": max(most["uneven"], *others),
+        "half": round(most["even"] / 2),
+        "rule": float(GAP / (2 * belt_ways().min()) / mm),
+        "lost": lost,
+        "at_even": lost["uneven"][SPEEDS.index(most["even"])],
+        "right": fast if share > 0.95 else slow,
+    }

@@ -1,0 +1,44 @@
+"""Texts of strangers, shown as what they are."""
+
+import functools
+import re
+from typing import Any
+
+# A class of `re`: characters that control, that turn the direction of writing or end a line, marks
+# without a width, tags, halves of pairs. Not the joiners: Persian, Hindi and emoji need them.
+UNSEEN = (
+    "\0-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
+    "\ufff9-\ufffb\ud800-\udfff\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
+)
+LINES = "\t\n"  # what a text of many lines needs of them
+ALL_BUT_HALVES = "^\ud800-\udfff"  # no file can hold half of a pair
+DEEP = 100  # lists in lists
+
+
+def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
+    r"""The text, with an escape, \x1b or \u202e, for each character that nobody sees. `kept`: those
+    to leave, as a class of `re`. What is longer than `most` characters is cut.
+    """
+    if most is not None and len(text) > most:
+        text = f"{text[:most]} ... shortened"
+    if kept == LINES:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return _unseen(kept).sub(lambda found: ascii(found[0])[1:-1], text)
+
+
+def all_visible(value: Any, kept: str = LINES, depth: int = 0) -> Any:
+    """A copy of what came as JSON, with all its texts visible. ValueError: nested too deep."""
+    if isinstance(value, str):
+        return visible(value, kept)
+    if not isinstance(value, (dict, list, tuple)):
+        return value
+    if depth == DEEP:
+        raise ValueError(f"nested deeper than {DEEP} levels")
+    if isinstance(value, dict):
+        return {visible(k, kept): all_visible(v, kept, depth + 1) for k, v in value.items()}
+    return [all_visible(each, kept, depth + 1) for each in value]
+
+
+@functools.cache
+def _unseen(kept: str) -> re.Pattern[str]:
+    return re.compile(f"[{UNSEEN}](?<![{kept}])" if kept else f"[{UNSEEN}]")

@@ -1,0 +1,97 @@
+// The greatest speeds and accelerations of a motion, between its samples, too.
+
+import {refinedMaximum} from "./motion.js";
+
+const NODES = [-2, -1, 0, 1, 2],
+  FINE = 2e-4, // from node to node, of the whole motion
+  SHARE = 200; // and of a stretch: at most one of so many parts
+
+/** @type {(x: number) => number} behind the point: no more than rounding leaves */
+export const decimalsOf = x => (Math.abs(x) < 1e4 ? 1 : 0);
+
+/**
+ * When a rising law passes s.
+ * @param {(t: number) => number} law
+ * @param {number} duration
+ * @param {number} s
+ */
+export function timeOf(law, duration, s) {
+  let [low, high] = [0, duration];
+  for (let i = 0; i < 60; i++) {
+    const middle = (low + high) / 2;
+    if (law(middle) < s) low = middle;
+    else high = middle;
+  }
+  return high;
+}
+
+/**
+ * The greatest speed and acceleration of each joint, either way, in its unit, so that two digits
+ * more than `decimalsOf` stand.
+ * @param {(t: number) => number[]} posture  NaN: there is none, or it is not sure
+ * @param {number[]} ends  of the stretches, rising: at each an acceleration, or speed, may jump
+ * @param {number[]} sizes  of the units
+ * @param {number[][]} near  speeds and accelerations of the same size
+ * @returns {?number[][]}  speeds, accelerations; null where one of them does not stand, or a
+ *   posture is not sure
+ */
+export function peaks(posture, ends, sizes, near) {
+  const last = /** @type {number} */ (ends.at(-1)),
+    best = near.map(values => values.map(() => 0));
+  let sure = true;
+  for (const [k, high] of ends.entries()) {
+    const low = ends[k - 1];
+    if (!(high - low > 1e-9 * last)) continue;
+    const h = Math.min(FINE * last, (high - low) / SHARE);
+    /** @type {Map<number, number[][]>} */
+    const known = new Map();
+    /** @type {(t: number) => number[][]} */
+    const at = t => {
+      const found = known.get(t) || slopes(posture, t, low + 2 * h, high - 2 * h, h);
+      known.set(t, found);
+      sure &&= !found[0].some(Number.isNaN);
+      return found;
+    };
+    for (const [order, values] of near.entries())
+      for (const [j, value] of values.entries()) {
+        const top = refinedMaximum(
+          t => Math.abs(at(t)[order][j]) / sizes[j],
+          low,
+          high,
+          decimalsOf(value),
+        );
+        if (!sure || Number.isNaN(top)) return null;
+        best[order][j] = Math.max(best[order][j], top);
+      }
+  }
+  return best;
+}
+
+/**
+ * Speeds and accelerations at t: those of the polynomials through five postures, the middle one
+ * between `low` and `high`.
+ * @param {(t: number) => number[]} posture
+ * @param {number} t
+ * @param {number} low
+ * @param {number} high
+ * @param {number} h  from posture to posture
+ */
+function slopes(posture, t, low, high, h) {
+  const middle = Math.min(Math.max(t, low), high),
+    u = (t - middle) / h;
+  const [a, b, c, d, e] = NODES.map(k => posture(middle + k * h));
+  const speeds = [],
+    accelerations = [];
+  for (let j = 0; j < c.length; j++) {
+    const [odd, wide] = [d[j] - b[j], e[j] - a[j]],
+      [even, far] = [d[j] - 2 * c[j] + b[j], e[j] - 2 * c[j] + a[j]];
+    // of the polynomial in u
+    const p1 = (8 * odd - wide) / 12,
+      p2 = (16 * even - far) / 24,
+      p3 = (wide - 2 * odd) / 12,
+      p4 = (far - 4 * even) / 24;
+    speeds.push((p1 + u * (2 * p2 + u * (3 * p3 + u * 4 * p4))) / h);
+    accelerations.push((2 * p2 + u * (6 * p3 + u * 12 * p4)) / (h * h));
+  }
+  return [speeds, accelerations];
+}

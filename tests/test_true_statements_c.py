@@ -1,0 +1,412 @@
+"""Statements that fresh readers refuted in the second round: each is read where it stands, in a
+cell, a figure's words or a prediction, and computed again in another way.
+"""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS
+from scipy.optimize import fsolve
+from test_true_statements_b import ARM, asked, cells
+from test_true_statements_b import run as run_cells
+
+from robokin import (
+    IRB140,
+    PUMA560,
+    Quaternion,
+    ScaraPose,
+    Transform,
+    blend,
+    deg,
+    lin,
+    mm,
+    quintic,
+    scara_arm,
+    within,
+)
+from robokin.course import book
+from robokin.course.book import find
+from robokin.jobs.visit_collect import principal_postures
+
+X, Y, Z = np.eye(3)
+
+
+def flat(lab, cell):
+    """The text of a cell in one line."""
+    return re.sub(r"\s+", " ", cells(lab)[cell])
+
+
+def shown(lab, cell):
+    """What the stored output of a cell says in words."""
+    (path,) = NOTEBOOKS.glob(f"{lab}_*.ipynb")
+    (found,) = [
+        each for each in json.loads(path.read_text(encoding="utf-8"))["cells"] if each["id"] == cell
+    ]
+    return "".join(
+        "".join(out["text"] if "text" in out else out["data"].get("text/plain", ""))
+        for out in found["outputs"]
+    )
+
+
+def view(name):
+    """The words of a prediction's view, or of its figure."""
+    made = find(name, "predictions").view()
+    return made if isinstance(made, str) else made.alt
+
+
+def numbers(pattern, text):
+    match = re.search(pattern, text)
+    assert match, pattern
+    return [float(each.replace("\N{MINUS SIGN}", "-")) for each in match.groups()]
+
+
+def mistakes(lab, name):
+    """What is said about the mistakes of this name."""
+    return [
+        (each, each.says)
+        for exercise in find_exercises(lab)
+        for each in getattr(exercise, "mistakes", ())
+        if getattr(each, "name", "") == name
+    ]
+
+
+def find_exercises(lab):
+    return [find(f"{lab}.{n}", "exercises") for n in (1, 2, 3)]
+
+
+# --- 01 -------------------------------------------------------------------------------------------
+
+
+def test_what_no_three_by_three_matrix_does_and_what_the_turn_leaves():
+    assert "no 3 × 3 matrix shifts: each sends 0 to 0" in flat("01", "matrices")
+    rng = np.random.default_rng(1)
+    assert not (rng.normal(size=(50, 3, 3)) @ np.zeros(3)).any()
+    _, options, _ = asked("frames_and_quaternions.p1")
+    assert "points of the z axis are the ones that the turn leaves" in options[3].second
+    values, vectors = np.linalg.eig([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    assert np.sum(abs(values - 1) < 1e-12) == 1 and abs(vectors[2, abs(values - 1).argmin()]) == 1
+
+
+def test_where_a_and_d_lie():
+    assert "each $a$ lies along the red axis of the frame at its end" in flat("01", "dh-look")
+    assert "each $d$ along the blue axis of the frame before it" in flat("01", "dh-look")
+    for q, d, a, alpha in np.random.default_rng(2).uniform(-2, 2, (20, 4)):
+        turn = Quaternion.from_angle_axis
+        end = Transform(turn(q, Z)) @ Transform(translation=[a, 0, d]) @ Transform(turn(alpha, X))
+        assert end.translation == pytest.approx(a * end.rotation.as_matrix()[:, 0] + d * Z)
+
+
+def test_how_the_average_of_two_rotations_shrinks():
+    assert r"by $\cos(\theta/2)$" in flat("01", "deeper")
+    rng = np.random.default_rng(3)
+    for theta in (20, 90, 150):
+        axis = rng.normal(size=3)
+        first = Quaternion.from_angle_axis(1.0, axis / np.linalg.norm(axis)).as_matrix()
+        axis = rng.normal(size=3)
+        other = Quaternion.from_angle_axis(theta * deg, axis / np.linalg.norm(axis)).as_matrix()
+        sizes = np.linalg.svd((first + first @ other) / 2)[1]
+        assert sizes == pytest.approx([1, *[np.cos(theta / 2 * deg)] * 2])
+
+
+# --- 02 and 03 ------------------------------------------------------------------------------------
+
+
+def test_the_arm_of_the_first_picture_has_eight_ways():
+    assert "The arm below reaches one and the same pose in eight ways" in flat("02", "title")
+    place = [
+        float(x) for x in re.findall(r"\[(\d+) \* mm, (\d+) \* mm, (\d+)", cells("02")["setup"])[0]
+    ]
+    pose = Transform(Quaternion.from_angle_axis(90 * deg, Y), np.array(place) * mm)
+    wanted = pose.as_matrix()
+
+    def off(q):
+        gap = IRB140.fk(np.angle(np.exp(1j * q))).as_matrix() - wanted
+        turned = wanted[:3, :3].T @ gap[:3, :3]
+        return np.array([*gap[:3, 3], turned[2, 1], turned[0, 2], turned[1, 0]])
+
+    found, rng = [], np.random.default_rng(4)
+    for start in rng.uniform(-np.pi, np.pi, (250, 6)):
+        q, _, fine, _ = fsolve(off, start, full_output=True)
+        if fine == 1 and np.allclose(IRB140.fk(np.angle(np.exp(1j * q))).as_matrix(), wanted):
+            if not any(abs(np.exp(1j * q) - np.exp(1j * old)).max() < 1e-4 for old in found):
+                found.append(q)
+    assert len(found) == 8
+
+
+def test_which_angles_come_from_atan2_and_what_joint_6_does_beside_joint_4():
+    assert "Every angle but joint 3's comes from atan2" in flat("02", "short")
+    code = cells("02")
+    assert (
+        code["triangle-code"].count("np.arccos") == 1
+        and "gamma = -elbow * np.arccos" in code["triangle-code"]
+    )
+    assert not [c for c in ("joint1-code", "wrist-code") if re.search(r"arc(cos|sin)", code[c])]
+    assert "At $q_5 = 0$ axes 4 and 6" in flat("02", "home")
+    q = np.array([10, 20, -30, 0, 0, 50]) * deg
+    back = IRB140.fk(q + [0, 0, 0, 1, 0, -1]).as_matrix()
+    assert np.allclose(IRB140.fk(q).as_matrix(), back)
+
+
+def test_the_corner_of_the_target_and_the_configuration_past_its_limit():
+    before, after = numbers(
+        r"jumps from (\d+) mm/s along y to (\d+) mm/s along x", flat("02", "deeper-questions")
+    )
+    made = run_cells("02", "setup", "task-code")
+    places = made["target"](np.array([9, 10, 11]), 20).translation / mm
+    assert np.diff(places, axis=0) == pytest.approx(np.array([[0, before, 0], [after, 0, 0]]))
+    assert "With this configuration joint 2 is always past its limit" in flat("02", "limits-look")
+    times = np.linspace(0, 20, 4001)
+    q2 = made["IRB140"].ik(made["target"](times, 20))[:, made["IRB140"].branch(+1, -1, +1), 1]
+    least = (IRB140.limits[1, 0] - q2).min()  # in between it cannot fall by more than a step does
+    assert least > 10 * abs(np.diff(q2)).max() > 0
+
+
+def test_where_axis_5_points():
+    aside, below = numbers(
+        r"axis 5, (\d+) degrees from aside and (\d+)", shown("02", "matrix-figure")
+    )
+    q = np.array([-30, 10, 0, 35, 50, 40]) * deg
+    assert "np.array([-30, 10, 0, 35, 50, 40]) * deg" in cells("02")["matrix-figure"]
+    h = 1e-6  # axis 5 from how the flange turns with joint 5
+    turn = (
+        IRB140.fk(q + [0, 0, 0, 0, h, 0]).rotation @ IRB140.fk(q).rotation.inverse()
+    ).as_matrix()
+    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / (
+        2 * h
+    )
+    forearm = run_cells("02", "setup", "chain-code")["my_chain"](q)[3].rotation.as_matrix()
+    ways = {"below": -forearm[:, 2], "aside": forearm[:, 1]}
+    assert np.arccos(axis @ ways["aside"]) / deg == pytest.approx(aside, abs=1e-3)
+    assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
+
+
+def test_how_much_farther_the_shoulder_behind_is():
+    hint = find("irb140_kinematics.2", "exercises").hints[1]
+    ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
+    for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
+        assert abs(x + ahead) - abs(x - ahead) == more == 140
+
+
+def test_what_makes_joint_1_fast_and_what_changes_between_two_intervals():
+    _, options, _ = asked("irb140_motion.p1")
+    assert "by the wrist centre's speed round axis 1 over its distance" in options[3].reason
+    low, high = numbers(r"between (\S+) and (\S+)°/s", options[3].reason)
+    made = run_cells("03", "setup")
+    t = np.linspace(0, 20, 20001)
+    pose = lin(made["left"], made["right"], t / 20)
+    x, y, _ = (pose.translation - 65 * mm * pose.rotation.as_matrix()[..., 2]).T
+    speed = (x * np.gradient(y, t) - y * np.gradient(x, t)) / (x**2 + y**2) / deg
+    assert [round(abs(speed).min(), 1), round(abs(speed).max(), 1)] == [low, high]
+    _, options, right = asked("irb140_motion.p5")
+    (change,) = numbers(r"to the next the speed changes by (\S+) rad/s", options[right].reason)
+    share = np.linspace(0.999, 1, 2)[:, None]  # 10 ms before and after via, and via
+    before = IRB140.ik(lin(made["start"], made["via"], share[:, 0]))[:, made["row"], 2]
+    after = IRB140.ik(lin(made["goal"], made["via"], share[:, 0]))[:, made["row"], 2]
+    assert round(abs(before[0] - 2 * before[1] + after[0]) / 0.01, 3) == change
+
+
+# --- 04 to 06 -------------------------------------------------------------------------------------
+
+
+def test_where_the_notch_begins_and_where_the_tool_is_behind_joint_1():
+    hole, notch = numbers(
+        r"between (\d+) mm and 450 .* from (\d+) mm on", shown("04", "zone-figure")
+    )
+    assert "a ring with a hole, and with a notch behind" in flat("04", "short")
+    limits = np.array([[-140, 140], [-150, 150], [-400, 400], [0, 1]]) * [[deg], [deg], [deg], [1]]
+    arm = scara_arm("zone", 220.2 * mm, 200 * mm, 250 * mm, limits)
+    x = np.arange(1, 450) * mm
+    rows = arm.ik(ScaraPose(np.stack([-x, 0 * x, 0.1 + 0 * x], axis=-1)))
+    inside = x[within(arm, rows).all(axis=-1).any(axis=-1)] / mm
+    assert [np.floor(inside.min()), np.ceil(inside.max())] == pytest.approx([hole, notch], abs=1)
+    assert len(inside) == inside.max() - inside.min() + 1, "closed between"
+    ((_, says),) = mistakes("scara_kinematics", "atan for atan2 in the triangle")
+    (angle,) = numbers(r"Beyond q2 = (\d+)° the tool is behind joint 1", says)
+    assert round(np.arccos(-200 / 250) / deg) == angle
+
+
+def test_the_two_ways_to_one_orientation_have_their_greatest_speed():
+    slow, fast = numbers(
+        r"speed (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
+    )
+    assert "trapezoidal(duration=1)" in cells("06")["twins"]  # a quarter up, a quarter down
+    assert [135 / (1 - 0.25), (45 + 180) / (1 - 0.25)] == pytest.approx([slow, fast])
+
+
+def test_what_the_cure_keeps_and_what_sharing_is_least_in():
+    words = view("spherical_wrist.p6")
+    most, down, where, there = numbers(
+        r"below (\S+) down to theta = (\S+); at (\S+), where phi .* it is (\S+), and falls", words
+    )
+    names = "setup table-code chain-drawing zyz-drawing zyz-code regular-code noise-code cure-code"
+    made = run_cells("06", *names.split())
+
+    def worst(theta):
+        h = made["wrists"](theta)
+        return max(abs(made["zyz"](*made["my_wrist"](each, +1)) - each).max() for each in h)
+
+    assert max(worst(10.0**-n) for n in range(13)) < most and down == 1e-12 and where == 1e-13
+    assert worst(where) == pytest.approx(there, rel=0.1)
+    assert worst(1e-14) == pytest.approx(there / 10, rel=0.2)
+    assert "Sharing turns the faster joint least *now*" in flat("06", "share")
+    shares = np.linspace(-1, 2, 301)
+    assert shares[np.maximum(abs(shares), abs(1 - shares)).argmin()] == pytest.approx(0.5)
+
+
+# --- 07 to 09 -------------------------------------------------------------------------------------
+
+
+def test_the_corner_is_a_share_of_the_progress_and_where_a_row_jumps():
+    assert "a share $b$ of the progress $s$ on either side of via" in flat("07", "via")
+    made = run_cells("07", "opening-setup")
+    start, goal = made["start"], made["goal"]
+    via = Transform(goal.rotation, np.array([600, -100, 1000]) * mm)
+    t = np.linspace(0, 10, 4001)
+    s = quintic(10)(t)
+    path = blend(start, via, goal, 0.1, s)
+    sharp = np.where(
+        s[:, None] < 0.5,
+        lin(start, via, (2 * s).clip(0, 1)).translation,
+        lin(via, goal, (2 * s - 1).clip(0, 1)).translation,
+    )
+    cut = abs(path.translation - sharp).max(axis=1) > 1e-9
+    assert cut.sum() / len(t) < 0.11 and [s[cut].min(), s[cut].max()] == pytest.approx(
+        [0.4, 0.6], abs=2e-3
+    )
+    _, options, _ = asked("puma560_branches.p8")
+    (least,) = numbers(r"Whole turns aside, a fixed row .* stays above (\d+)°", options[3].second)
+    row = PUMA560.ik(path)[:, 0]
+    assert least < abs(row[:, 4]).min() / deg < least + 1
+    steps = np.diff(row, axis=0)
+    assert abs(steps).max() > 6, "a jump of the numbers"
+    assert abs(np.angle(np.exp(1j * steps))).max() < 0.1 * deg, "none of the arm"
+
+
+def test_what_is_left_of_the_peak_at_the_wrist_and_of_the_root_at_the_shoulder():
+    text = flat("07", "cross-look")
+    assert "as $m$ goes to 0, it becomes a jump by half a turn" in text
+    aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
+    for m in (1e-2, 1e-3):
+        u = 100 * m * mm * np.linspace(-1, 1, 4001) ** 3
+        place = aligned.translation + u[:, None] * Y + m * mm * Z
+        q = np.unwrap(PUMA560.ik(Transform(aligned.rotation, place))[:, 3], axis=0) / deg
+        assert np.ptp(q, axis=0)[[3, 5]] == pytest.approx(180, abs=2)
+    assert r"it is $v\,d_3/(\rho\,r)$, with $\rho = d_3 + m$" in text
+    assert "when $m$ is small beside $d_3$" in text
+    d3, h = 150.05 * mm, 1e-7
+    for m in (100 * mm, 10 * mm, 1 * mm):  # by differences of joint 1
+        place = np.array([[d3 + m + x, 0, 1.2] for x in (-h, h)])
+        q1 = PUMA560.ik(Transform(Quaternion(np.array([1.0, 0, 0, 0])), place))[:, 2, 0]
+        rho, r = d3 + m, np.sqrt(2 * d3 * m + m * m)
+        assert abs(np.diff(q1)[0]) / (2 * h) == pytest.approx(d3 / (rho * r), rel=1e-5)
+    assert "at least 150.05 mm away from axis 1" in flat("07", "short")
+
+
+def test_all_but_one_row_become_forbidden_and_how_far_the_two_values_are_apart():
+    assert "and all but row 2 become forbidden" in flat("07", "count-look")
+    words = shown("07", "drag-target")
+    place = numbers(r"x (\S+), y (\S+), z (\S+),", words)
+    roll, pitch, yaw = np.array(numbers(r"roll (\S+), pitch (\S+), yaw (\S+)\.", words)) * deg
+    turn = Quaternion.from_angle_axis
+    rotation = turn(yaw, Z) @ turn(pitch, Y) @ turn(roll, X)
+    x = np.arange(place[0], -1, -1) * mm
+    rows = PUMA560.ik(Transform(rotation, np.stack([x, 0 * x + 0.6, 0 * x + 0.6], axis=-1)))
+    fits = within(PUMA560, rows).all(axis=-1)
+    assert place == [600] * 3 and np.isfinite(rows).all() and fits[0].all()
+    assert (
+        fits[-1].tolist() == [k == 2 for k in range(8)]
+        and (np.diff(fits.astype(int), axis=0) <= 0).all()
+    )
+    (apart,) = numbers(r"At 800 mm they differ by (\d+) degrees", view("puma560_branches.p2"))
+    assert round(180 - 2 * np.arcsin(150.05 / 800) / deg) == apart
+
+
+def test_how_many_lines_a_finer_look_leaves():
+    """In steps a fifth as long, each row unwrapped by itself from values inside the limits on."""
+    drawn = book.lab("puma560_branches").module("predictions")["random_poses"]
+    ends = drawn(np.random.default_rng(7), (2, 3000))
+    ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
+    served, (low, high) = 0, PUMA560.limits.T
+    for a, b in zip(*ends, strict=True):
+        rows = PUMA560.ik(lin(a, b, np.linspace(0, 1, 11)))
+        if not np.isfinite(rows).all() or not within(PUMA560, rows).all(axis=2).all(axis=0).any():
+            continue
+        rows = PUMA560.ik(lin(a, b, np.linspace(0, 1, 401)))
+        if np.isfinite(rows).all():
+            q = np.unwrap(rows, axis=0)[..., None] + 2 * np.pi * np.array([0, -1, 1, -2, 2])
+            inside = (q > low[:, None] - 1e-9) & (q < high[:, None] + 1e-9)  # (401, 8, 6, 5)
+            begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first that is inside
+            served += np.take_along_axis(inside.all(axis=0)[None], begins, -1).all(axis=2).any()
+    question, _, _ = asked("puma560_branches.p7")
+    assert question.startswith(f"{served} random straight lines")
+
+
+def test_where_first_come_meets_its_objects():
+    text = flat("08", "belt-row")
+    assert "each of its first seven objects farther from the bin than the one before" in text
+    assert "from the fourth on in the far two fifths" in text
+    passed, near, taken = numbers(
+        r"lets (\d+) of the 200 pass, and meets (\d+) of its (\d+) in the near quarter", text
+    )
+    made = run_cells(
+        "08",
+        "opening",
+        "setup",
+        "chain-code",
+        "inverse-code",
+        "time-code",
+        "belt-code",
+        "belt-work",
+    )
+    far = principal_postures(500 * mm, 400 * mm, made["window"]) - made["q_bin"]
+    assert (np.diff(abs(far).max(axis=-1)) > 0).all(), "farther along is farther from the bin"
+    first, soonest = (
+        np.array([place for _, _, place in made["work"](made["uneven"], 0.15, come)[0]])
+        for come in (True, False)
+    )
+    assert (np.diff(first[:7]) > 0).all() and first[7] == first[6] and first[3:].min() >= 0.6 * 160
+    assert [200 - len(soonest), (soonest <= 40).sum(), len(soonest)] == [passed, near, taken]
+
+
+def one_posture(place, gamma):
+    """(gamma, beta, alpha) on a target, from gamma and two circles; NaN where there is none."""
+    K = np.asarray(place)
+    B = np.array([np.cos(gamma), np.sin(gamma)])
+    way = K - B
+    d = np.hypot(*way)
+    with np.errstate(invalid="ignore"):
+        bend = np.arccos(d / 2)  # both levers are 1 m
+    first = np.arctan2(way[1], way[0]) + bend  # clockwise from B on: A lies to the left
+    A = B + [np.cos(first), np.sin(first)]
+    last = np.arctan2(*(K - A)[::-1])
+    beta, alpha = (
+        np.remainder(x, 2 * np.pi) for x in (np.pi + first - gamma, np.pi + last - first)
+    )
+    q = np.array([gamma, beta, alpha])
+    return q if (q <= np.pi + 1e-9).all() else np.full(3, np.nan)
+
+
+def test_gamma_cannot_stand_still_from_here_to_there():
+    _, options, _ = asked("three_levers.p10")
+    most, least = numbers(r"gamma turns from at most (\S+)° to at least (\S+)°", options[2].second)
+    gammas = np.linspace(0, 180, 7201)
+    for place, inside in (((2, 0), lambda g: g <= most), ((-1, np.sqrt(3)), lambda g: g >= least)):
+        q = np.array([one_posture(place, g * deg) for g in gammas])
+        there = gammas[np.isfinite(q).all(axis=1)]
+        assert (
+            len(there)
+            and inside(there).all()
+            and not inside(there - (0.15 if place[1] else -0.15)).all()
+        )
+        assert np.allclose(ARM.points(q[np.isfinite(q).all(axis=1)])[:, 3], place)
+
+
+def test_where_the_sum_and_the_largest_are_least():
+    STAND, TARGET = map(book.lab("three_levers").module("predictions").get, ("STAND", "TARGET"))
+    at = numbers(r"least at (\d+) degrees, the largest at (\d+) degrees", view("three_levers.p8"))
+    q = np.array([one_posture(TARGET, g) for g in np.linspace(0, np.pi, 20001)])
+    change = abs(q - STAND)
+    for alpha, size in zip(at, (change.sum(axis=1), change.max(axis=1)), strict=True):
+        assert round(q[np.nanargmin(size), 2] / deg) == alpha

@@ -1,0 +1,304 @@
+"""Statements of labs 10 to 12 that fresh readers refuted in the second round, computed again in
+another way.
+"""
+
+import re
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from test_true_statements_b import (
+    ARM,
+    DISTANCE,
+    K1,
+    Q0,
+    asked,
+    direct,
+    grid_wave,
+    least_distance,
+    lever_distance,
+)
+from test_true_statements_b import run as run_cells
+from test_true_statements_c import flat, mistakes, numbers, shown, view
+
+from robokin import deg, loader_arm, mm
+from robokin.course.obstacle_avoidance import _count, _star, sampled_tasks
+from robokin.course.two_link_code_generation import _eliminated
+from robokin.jobs.obstacles import plan, via_path, way_round
+from robokin.jobs.steppers import Stepper, ramp, shortest_turn, station_postures, straight
+
+LOADER, PER_DEGREE, LIMIT = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40]), 500
+
+
+# --- 10 -------------------------------------------------------------------------------------------
+
+
+def test_a_grid_of_15_degrees_has_a_way_that_this_wave_does_not_find():
+    _, options, right = asked("obstacle_avoidance.p8")
+    assert options[right].text.startswith("Nothing but that this wave found none")
+    assert options[0].reason.startswith("This wave found none in steps of 15°")
+    assert "no way found" in view("obstacle_avoidance.p8")
+    H = np.array([0.5, 1.0])
+    assert grid_wave(15, H) == (None, None)
+    corners = "120 120 120, 180 120 120, 180 90 120, 180 90 90, 180 60 90, 150 60 90, 150 30 90, "
+    corners += "90 30 90, 90 60 90, 90 60 180"  # all of it on the grid
+    way = np.array([each.split() for each in corners.split(", ")], dtype=float)
+    assert (way % 15 == 0).all() and ((np.diff(way, axis=0) != 0).sum(axis=1) == 1).all()
+    curve = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
+    last = curve[abs(curve - way[-1] * deg).sum(axis=1).argmin()]
+    assert least_distance([Q0, *(way * deg), last], H) >= DISTANCE
+    assert abs(last - way[-1] * deg).max() < 15 * deg, "less than a step of the grid"
+    words = flat("10", "cube")
+    assert "to a posture of the curve from the grid posture nearest to it" in words
+
+
+def test_what_more_samples_find():
+    _, options, right = asked("obstacle_avoidance.p4")
+    says = options[right].reason
+    assert "If the old ones are kept, more of them never find a larger distance" in says
+    path, H = direct(np.array([150, 120, 120]) * deg), np.array([1.7, 1.0])
+
+    def found(count):
+        s = np.linspace(0, 1, count)[:, None]
+        return lever_distance(path[0] + s * (path[1] - path[0]), H).min()
+
+    assert found(7) >= found(13) >= found(25) >= found(49)
+    assert found(10) > found(9), "new places, and a larger distance"
+
+
+def test_what_the_six_plans_show():
+    most, least = numbers(
+        r"five plans.*one no.* from (\d+) down to (\d+) ", shown("10", "deeper-figure")
+    )
+    made = run_cells("10", "setup")
+    places = np.array(made["places"])[[1, 3, 4, 6, 8, 10]]
+    places = places[np.argsort(-np.hypot(*places.T))]
+    folds = []
+    for H in places:
+        path = plan(ARM, Q0, K1, H, DISTANCE).path
+        if len(path) > 1:
+            s = np.linspace(0, 1, 2001)[:, None]
+            q = np.concatenate([a + s * (b - a) for a, b in pairwise(path)])
+            folds.append((q[:, 1] + q[:, 2]).min() / deg)
+    assert len(folds) == 5 and (np.diff(folds) < 0).all()
+    assert [round(folds[0]), round(folds[-1])] == [most, least]
+
+
+def test_how_near_the_gripper_comes_and_what_the_circles_mend():
+    (near,) = numbers(r"as near to the obstacle as (\d+) mm, inside", view("obstacle_avoidance.p5"))
+    path = via_path(ARM, Q0, K1, np.array([1.0, 1.5]))
+    s = np.linspace(0, 1, 20001)[:, None]
+    ways = np.concatenate([ARM.points(a + s * (b - a))[:, 3] for a, b in pairwise(path)])
+    assert round(np.hypot(*(ways - [1.0, 1.5]).T).min() / mm) == near < DISTANCE / mm
+    swept, mended, lost = 0, 0, 0
+    for start, target, H in sampled_tasks():
+        small, large = (
+            least_distance(via_path(ARM, start, target, H, r), H, 301) for r in (DISTANCE, 0.25)
+        )
+        swept += small < 1e-6
+        mended += small >= 1e-6 and large >= DISTANCE
+        lost += small < 1e-6 and large >= DISTANCE
+    text = flat("10", "often-look")
+    assert numbers(r"mends (\d+) of the (\d+) that .* none of the (\d+) in", text) == [
+        mended,
+        100 - swept,
+        swept,
+    ]
+    _, options, _ = asked("obstacle_avoidance.p7")
+    assert lost == 0 and f"none of them among the {swept:.0f} in" in options[1].reason
+    assert options[1].reason.startswith(f"{mended} of 100")
+    assert f"Of the {swept} tasks" in options[2].second
+    shown_view = view("obstacle_avoidance.p7")
+    assert (
+        f"in {swept} tasks" in shown_view
+        and f"in {100 - swept} no lever does: {mended}" in shown_view
+    )
+
+
+def test_the_middle_of_a_star():
+    ((_, says),) = mistakes("obstacle_avoidance", "any turns, not an odd number")
+    assert "the middle of a five-pointed star drawn in one line is outside" in says
+    middle = np.array([0.01, 0.02])
+    for points, step, inside in ((5, 2, False), (8, 3, True)):
+        corners = np.array(_star(points, step))
+        assert (_count(corners, middle) % 2 == 1) == inside
+        seen = np.unwrap(np.arctan2(*(np.vstack([corners, corners[:1]]) - middle).T[::-1]))
+        assert round(abs(seen[-1] - seen[0]) / (2 * np.pi)) % 2 == inside
+
+
+def test_where_two_circles_meet():
+    text = flat("10", "deeper-locate")
+    assert "in two places, in one if it stands in line with both sensors" in text
+    assert "A third sensor, not in line with these, tells which" in text
+    made = run_cells("10", "setup", "drawing-tools", "deeper-locate-code")
+    for truth in ([1.5, 0], [2.5, 0], [1.5, 1.0]):
+        far = np.hypot(*(np.array(truth) - made["sensors"]).T)
+        spots = made["locate"](*made["sensors"][:2], *far[:2])
+        assert np.allclose(spots[0], spots[1], atol=1e-6) == (truth[1] == 0)
+        in_line = np.hypot(*(spots - [1.0, 0]).T)
+        assert in_line[0] == pytest.approx(in_line[1])
+
+
+def test_how_the_package_searches_and_where_the_obstacle_of_the_sample_is():
+    words = flat("10", "cube-look")
+    assert "in steps of at most 5° between allowed postures" in words
+    assert "proves every part" in words and "an obstacle on AK" in flat("10", "often-code")
+    assert "the gripper passes both points, and a lever comes too near" in flat("10", "title")
+    for start, target, H in sampled_tasks()[:20]:
+        a, b = direct(start, target)
+        on_AK = lever_distance(a + np.linspace(0, 1, 4001)[:, None] * (b - a), H, slice(2, 3))
+        assert on_AK.min() < 1e-3
+        path = way_round(ARM, start, target, H, DISTANCE)
+        assert path is None or least_distance(path, H, 301) >= DISTANCE
+
+
+# --- 11 -------------------------------------------------------------------------------------------
+
+
+def test_more_pulses_are_not_always_more_time(capsys):
+    assert "more time, if its motor then has the most" in flat("11", "pulses-look")
+    q = station_postures(LOADER, np.array([[600, -350, 50], [50, 250, 350]]) * mm) / deg
+    seconds = {}
+    for gears in ((18, 72, 72), (36, 72, 72), (18, 144, 72), (18, 72, 144)):
+        n = np.rint(q * np.array(gears) / 1.8)
+        seconds[gears] = abs(np.diff(n, axis=0)).max() / LIMIT
+    first, *others = seconds.values()
+    assert others[0] == first < others[2] < others[1]
+
+
+def test_when_a_straight_line_takes_longer_than_the_curve():
+    words = flat("11", "deeper-straight-look")
+    assert (
+        "longer than its d if the motor at the limit changes on the way, and as long if it does not"
+        in words
+    )
+    rng, kinds = np.random.default_rng(5), set()
+    for _ in range(60):
+        ends = rng.uniform([-600, -600, 50], [600, 600, 300], (2, 3)) * mm
+        ends[1] = ends[0] + 0.3 * (ends[1] - ends[0])
+        try:
+            move = straight(LOADER, *ends, PER_DEGREE)
+        except ValueError:
+            continue
+        points = ends[0] + np.linspace(0, 1, 4001)[:, None] * (ends[1] - ends[0])
+        if not np.isfinite(station_postures(LOADER, points)).all():
+            continue
+        n = np.unwrap(station_postures(LOADER, points), axis=0) / deg * PER_DEGREE
+        steps = np.diff(n, axis=0)
+        if ((steps > 0).any(axis=0) & (steps < 0).any(axis=0)).any() or abs(
+            n[-1] - n[0]
+        ).max() < 200:
+            continue  # a c, or too few pulses to tell rounding from the law
+        changes = len({*abs(steps).argmax(axis=1).tolist()}) > 1
+        d = abs(n[-1] - n[0]).max() / LIMIT
+        share = move.duration / d
+        kinds.add(changes)
+        assert share > 1 - 0.005 and (changes or share < 1 + 0.01)
+        own = abs(steps).max(axis=1).sum() / LIMIT
+        assert own > d * (1 + 1e-9) if changes else own == pytest.approx(d)
+    assert kinds == {True, False}
+
+
+def test_where_the_rule_by_size_goes_wrong():
+    text = flat("11", "turn-look")
+    low, high = numbers(r"for \$-(\d+)° < d < -(\d+)°\$ the rule gives minus the right turn", text)
+    for d in np.arange(-899.5, 0):
+        right = shortest_turn(0, d * deg) / deg
+        rule = d if abs(d) <= 180 else -(360 - abs(d))
+        assert (abs(rule + right) < 1e-9) == (-low < d < -high), d
+
+
+def test_three_windings_for_one_and_how_arctan_jumps():
+    ((_, says),) = mistakes("motor_synchronisation", "one more winding now and then")
+    assert "so direction and strength are right, and three windings draw" in says
+    field = np.array([1, 1j, -1, -1j])
+    assert np.array([1, 1, 0, 1]) @ field == np.array([1, 0, 0, 0]) @ field == 1
+    _, options, right = asked("motor_synchronisation.p1")
+    x = np.linspace(200, -200, 4001)
+    with np.errstate(divide="ignore"):
+        angle = np.arctan(20 / x) / deg
+    steps = np.diff(angle)
+    assert options[1].reason.startswith("arctan(y / x) jumps so, and moves on both sides.")
+    assert (abs(steps) > 100).sum() in (1, 2) and (abs(steps[:1900]) > 0).all()
+    whole, middle = numbers(
+        r"by (\d+) degrees, (\d+) of them in the second in the middle",
+        view("motor_synchronisation.p1"),
+    )
+    turned = [2 * np.degrees(np.arctan2(half, 20)) for half in (200, 50)]
+    assert [round(each) for each in turned] == [whole, middle] and middle > whole / 2
+    assert "most of it in the middle" in options[right].text
+
+
+def test_how_many_steps_are_lost_and_what_a_ramp_mends():
+    words = view("motor_synchronisation.p10")
+    least, top, first, few, most, second = numbers(
+        r"rest (\d+) to (\d+) are lost from (\d+) .* ramp (\d+) to (\d+) from (\d+) on", words
+    )
+    motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
+    for start, (low, high, at) in ((None, (least, top, first)), (40, (few, most, second))):
+        lost = {
+            f: motor.run(ramp(48, start or f, f, 0.1 if start else 0), ones).lost
+            for f in range(60, 281, 10)
+        }
+        assert min(f for f, n in lost.items() if n) == at and not any(n % 4 for n in lost.values())
+        behind = [n for f, n in lost.items() if f >= at]
+        assert [min(behind), max(behind)] == [low, high]
+    text = flat("11", "short")
+    f, seconds = numbers(r"at (\d+) pulses/s a ramp of (\S+) s mends that for the motor", text)
+    assert (
+        motor.run(ramp(48, f, f, 0), ones).lost
+        > 0
+        == motor.run(ramp(48, 40, f, seconds), ones).lost
+    )
+    assert "(section 8 measures the second)" in flat("11", "pulses")
+    assert re.search(r"maximum start frequency: \d+ pulses/s", shown("11", "missed-code"))
+
+
+# --- 12 -------------------------------------------------------------------------------------------
+
+
+def test_on_which_side_the_elbows_are_exchanged():
+    name = "divides by dx, and the side from the sign of the root"
+    said = mistakes("two_link_code_generation", name)
+    sides = []
+    for sign in (1, -1):
+        for x in (1.0, -1.0):
+            h2, place, _ = _eliminated(0, sign, False)(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
+            elbow = place(np.sqrt(h2))
+            if x * elbow[1] - 0.5 * elbow[0] > 0:  # to the left of the line to the tip
+                sides.append("right" if x > 0 else "left")
+    assert sides == ["right", "left"]
+    assert [re.search(r"to its (\w+) the two", says)[1] for _, says in said] == sides
+
+
+def test_elbows_near_the_tip_the_ratio_and_the_lost_digits():
+    question, options, _ = asked("two_link_code_generation.p2")
+    l1, d = numbers(r"Link 1 is (\S+) m, .* tip is (\S+) m from", question)
+    l2, from_tip, from_base = numbers(
+        r"link 2 were (\S+) m long, both elbows would be (\S+) m from the tip and (\S+) m",
+        options[1].second,
+    )
+    x = (l1**2 - l2**2 + d**2) / (2 * d)
+    elbow = np.array([x, np.sqrt(l1**2 - x**2)])
+    assert np.hypot(*elbow) == pytest.approx(from_base) and np.hypot(
+        *(elbow - [d, 0])
+    ) == pytest.approx(from_tip)
+    ((_, says),) = mistakes("two_link_code_generation", "the ratio of the links for a")
+    assert says.startswith("With unequal links") and "only where the arm is stretched" in says
+    for first, second in ((1.0, 1.0), (0.7, 1.0), (1.0, 0.4)):
+        for d in np.linspace(abs(first - second) + 0.05, first + second, 9):
+            same = (
+                abs((first**2 - second**2 + d**2) / (2 * d**2) - first / (first + second)) < 1e-12
+            )
+            assert same == (first == second or d == pytest.approx(first + second))
+    _, options, _ = asked("two_link_code_generation.p4")
+    assert options[3].reason == "What is divided is lost by rounding first, and is 0 then."
+    y3, x3 = 1.0, np.array([1e-3, 1e-6, 1e-9, 1e-12])
+    d2 = x3**2 + y3**2
+    y2 = (y3 * d2 + np.sqrt(x3**2 * d2 * (4 - d2))) / (2 * d2)
+    exact = -x3 * np.sqrt(3)  # what is divided, to first order: as slow as 2 x3
+    lost = abs((d2 - 2 * y3 * y2) / exact - 1)
+    assert lost[1] < 1e-5 < lost[3], "in numbers of the machine"
+    below = 1e-20
+    y2 = (y3 + np.sqrt(below**2 * (4 - 1))) / 2
+    assert below > 0 == y3**2 - 2 * y3 * y2, "0 is divided, by a number that is not 0"
