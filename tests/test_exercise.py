@@ -695,6 +695,13 @@ def test_a_prediction_that_is_there_twice_or_has_no_right_answer_is_told(place):
         predict("mine.p1")
 
 
+def test_a_text_of_a_prediction_that_cannot_be_filled_is_told(place):
+    facts = FACTS.replace("length", "size")
+    write(place / "mine", predictions_md=PREDICTED, predictions_py=facts)
+    with pytest.raises(BadFile, match="line 3: p1 cannot be filled: KeyError: 'length'"):
+        predict("mine.p1")
+
+
 @pytest.mark.parametrize("name", ["predictions.py", "pictures.py", "objectives.md"])
 def test_a_broken_file_beside_exercises_leaves_them(name, place):
     write(

@@ -187,7 +187,7 @@ def numbered(place: Path) -> list[str]:
 @cache
 def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
     found: dict[str, Lab] = {}
-    for place in (ours, *map(Path, filter(None, elsewhere.split(os.pathsep)))):
+    for place in (ours, *(Path(each).resolve() for each in elsewhere.split(os.pathsep) if each)):
         folders = {each.name: each for each in place.glob("[!._]*") if each.is_dir()}
         first = [name for name in numbered(place) if name in folders]
         for name in dict.fromkeys([*first, *sorted(folders)]):
