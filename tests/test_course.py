@@ -14,7 +14,7 @@ import types
 import numpy as np
 import pytest
 from conftest import until
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robokin import Quaternion, ScaraPose, Transform, course, deg, mm
@@ -749,6 +749,7 @@ def test_what_is_told_of_a_test_does_not_depend_on_the_order(monkeypatch):
     assert len(told) == 2
 
 
+@settings(deadline=None)
 @given(
     st.one_of(
         st.none(),

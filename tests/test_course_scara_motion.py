@@ -5,11 +5,11 @@ and the keys of the predictions are computed a second time, another way.
 import numpy as np
 import pytest
 
-import robokin.course.scara_motion as book
 from robokin import SCARA, ScaraPose, blend, deg, follow, lin, mm
-from robokin.course import check, variant
+from robokin.course import book, check, variant
 from robokin.course.questions import filled
 
+LAB = book.lab("scara_motion")
 TURN = 2 * np.pi
 LOW, HIGH = SCARA.limits.T
 
@@ -390,7 +390,7 @@ def test_no_near_variant_gets_the_name_of_another_program(answer, name):
 
 
 def test_a_case_of_the_limit_test_prints_the_excess():
-    law = book.EXERCISES["2"].law
+    law = LAB.module("limits_kept")["law"]
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
         (3, -2e-6, "joint 4 at −0.0000020 m, 0.002 mm below its limit of 0 mm"),
@@ -399,10 +399,10 @@ def test_a_case_of_the_limit_test_prints_the_excess():
     ):
         bad = q.copy()
         bad[1, joint] = value
-        assert told in law((bad,), True)
-        assert law((bad,), False) is None
+        assert told in law((bad,), True, False)
+        assert law((bad,), False, False) is None
     bad[1, 0] = HIGH[0] - 1e-7
-    assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in law((bad,), False)
+    assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in law((bad,), False, True)
 
 
 # --- 3: a blend of one's own ----------------------------------------------------------------------
@@ -432,9 +432,10 @@ def test_every_name_can_be_served(more):
 
 
 def test_joints_1_to_3_stay_inside_whatever_the_heights():
+    start, via, goal = (LAB.module("shared")[name] for name in ("START", "VIA", "GOAL"))
     for b in np.linspace(0, 0.5, 11):
-        path = blend(book.START, book.VIA, book.GOAL, b, book.S)
-        q = book._joints(path)[:, :3]
+        path = blend(start, via, goal, b, np.linspace(0, 1, 1001))
+        q = LAB.module("shared")["joints"](path)[:, :3]
         assert ((q > LOW[:3]) & (q < HIGH[:3])).all()
         higher = ScaraPose(path.position + [0, 0, 0.1], path.angle)
         assert np.allclose(SCARA.ik(higher)[..., :3], SCARA.ik(path)[..., :3], rtol=0, atol=1e-12)
@@ -464,7 +465,7 @@ def test_a_wrong_design_is_named():
 
 
 def test_the_right_answers_in_another_way():
-    right = {name: filled(p)[1][filled(p)[2]].text for name, p in book.PREDICTIONS.items()}
+    right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
     assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
     assert right["p3"] == "x and y." and right["p4"] == "On LIN alone."
     assert right["p7"] == "Joint 3."
@@ -475,13 +476,13 @@ def test_the_right_answers_in_another_way():
 
 
 def test_a_corner_is_an_enlargement_from_via():
+    start, via, goal = (LAB.module("shared")[name] for name in ("START", "VIA", "GOAL"))
     x = np.linspace(0, 1, 11)
     for corner in ("parabola", "quintic"):
         shapes = [
-            blend(book.START, book.VIA, book.GOAL, b, 0.5 - b + 2 * b * x, corner=corner)
-            for b in (0.1, 0.2, 0.5)
+            blend(start, via, goal, b, 0.5 - b + 2 * b * x, corner=corner) for b in (0.1, 0.2, 0.5)
         ]
-        ways = [(shape.position - book.VIA.position) for shape in shapes]
+        ways = [(shape.position - via.position) for shape in shapes]
         assert np.allclose(2 * ways[0], ways[1], rtol=0, atol=1e-12)
         assert np.allclose(5 * ways[0], ways[2], rtol=0, atol=1e-12)
 

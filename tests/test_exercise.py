@@ -702,7 +702,18 @@ def test_a_text_of_a_prediction_that_cannot_be_filled_is_told(place):
         predict("mine.p1")
 
 
-@pytest.mark.parametrize("name", ["predictions.py", "pictures.py", "objectives.md"])
+def test_broken_pictures_are_told_where_they_are_drawn(place):
+    pictures = "def p1_view():\n    return 'half'\n"
+    write(place / "mine", predictions_md=PREDICTED, predictions_py=FACTS, pictures_py=pictures)
+    write(place / "other", predictions_md=PREDICTED, predictions_py=FACTS, pictures_py="x = 1 / 0")
+    assert predict("mine.p1").view() == "half" and "p>half" in predict("mine.p1").html
+    assert "0.5 m" in repr(predict("other.p1"))
+    told = f"{place / 'other' / 'pictures.py'}, line 1: ZeroDivisionError: division by zero"
+    with pytest.raises(BadFile, match=re.escape(told)):
+        _ = predict("other.p1").html
+
+
+@pytest.mark.parametrize("name", ["predictions.py", "objectives.md"])
 def test_a_broken_file_beside_exercises_leaves_them(name, place):
     write(
         place / "mine",

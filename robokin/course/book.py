@@ -15,7 +15,8 @@ import sys
 import textwrap
 import traceback
 from collections.abc import Iterator, Mapping
-from functools import cache, cached_property
+from dataclasses import replace
+from functools import cache, cached_property, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -81,14 +82,18 @@ class Lab:
         if not file.is_file() or (found and not file.with_suffix(".py").is_file()):
             return found
         with self._noted(file.name):
-            code = self.module("pictures") | self.module("predictions")
+            code = self.module("predictions")
             for line, heading, text in questions.sections(markdown.read(file)):
                 with self._noted(f"{file.name}, {heading}"):
                     number, each = questions.prediction(f"{file}", line, heading, text, code)
                     if number in found:
                         raise BadFile(f"{file}", line, f"{number} is there twice")
-                    found[number] = each
+                    found[number] = replace(each, view=partial(self._view, number))
         return found
+
+    def _view(self, number: str) -> Any:
+        """What answers a prediction. Only now is what draws imported."""
+        return self.module("pictures").get(f"{number}_view", str)()
 
     def read(self) -> None:
         """Read everything now."""

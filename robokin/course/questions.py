@@ -105,8 +105,8 @@ def prediction(
     file: str, line: int, heading: str, text: str, code: Mapping[str, Any]
 ) -> tuple[str, Prediction]:
     """The number of a prediction, and what stands under its heading, with the names of its Python
-    file: for p1 `p1()` gives its facts, "right" among them, which is an answer's name, and
-    `p1_view()` what opens. BadFile: something is missing.
+    file: for p1 `p1()` gives its facts, "right" among them, which is an answer's name. BadFile:
+    something is missing.
 
     ## p5, a number in mm/s, within 2 %
 
@@ -145,7 +145,6 @@ def prediction(
         options=options,
         facts=facts,
         right=lambda facts: names.index(facts["right"]),
-        view=code.get(f"{number}_view", lambda: ""),
         unit=unit,
         within=float(within) / 100 if within else 0.1,
         optional=bool(optional),

@@ -1,0 +1,192 @@
+"""What opens after the choice, for each prediction of scara motion."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import SCARA, ScaraPose, deg, differentiate, lin, mm, ptp
+from robokin.show import JOINT_STYLES, animate, figure, plot_joints
+from robokin.units import wrapped
+
+from .predictions import B1, H1, H2, OFF, acceleration, behind, near_start, p5, p9, turning
+from .shared import GOAL, HIGH, ROW, START, VIA, S, Shown, T, joints, stroke
+
+FEW = T[::10]  # every 0.2 s: enough for a view that shows a shape
+PINK, RED = JOINT_STYLES[3]["color"], "#B3261E"
+
+
+def p1_view() -> Any:
+    fig = figure(
+        "The four joints over time on the line, with a tool angle of 0, 45 and 90 degrees at the "
+        "start. Joint 3 has three curves, which meet at the goal; joints 1, 2 and 4 have one.",
+        height=2.9,
+    )
+    for i, ax in enumerate(fig.subplots(1, 4)):
+        for angle, style in ((0, "-"), (45, "--"), (90, ":")):
+            start = ScaraPose(START.position, angle * deg)
+            q = joints(lin(start, GOAL, FEW / 20))[:, i] / (mm if i == 3 else deg)
+            ax.plot(FEW, q, style, color=JOINT_STYLES[i]["color"], lw=2)
+            if i == 2:
+                ax.text(0.6, q[0] + 7, f"{angle}°", fontsize=9)
+        ax.set(xlabel="t, s", title=f"q{i + 1}, {'mm' if i == 3 else '°'}")
+    fig.suptitle("Another tool angle at the start (0°, 45°, 90°): joint 3 alone moves differently")
+    fig.tight_layout()
+    return fig
+
+
+def p2_view() -> Any:
+    q = joints(lin(START, GOAL, S))
+    title = "A line at constant speed: the stroke runs evenly, three joints do not"
+    return plot_joints(SCARA, T, q, differentiate(q, T), title=title)
+
+
+def lin_and_ptp(goals: ScaraPose, slider: Any, title: str) -> Any:
+    """Both motions to the same goals, one of which the slider chooses."""
+    share = FEW / 20
+    line = joints(lin(START, goals[:, None], share))
+    even = ptp(SCARA.ik(START)[ROW], SCARA.ik(goals)[:, None, ROW], share)
+    return animate([SCARA] * 2, FEW, [line, even], names=["LIN", "PTP"], slider=slider, title=title)
+
+
+def p3_view() -> Any:
+    lower = np.array([0, 60, 120])  # the goal lowered by so many mm
+    goals = ScaraPose([[0.2, -0.2, (200 - z) * mm] for z in lower], 90 * deg)
+    title = "Two motions with the same ends, at the same heights at all times"
+    return lin_and_ptp(goals, ("goal lowered by, mm", lower), title)
+
+
+def p4_view() -> Any:
+    values = np.array([0.0, 50.0, 100.0])
+    title = "The same good ends: LIN depends on what lies between, PTP does not"
+    return lin_and_ptp(behind(values), ("goal x, mm", values), title)
+
+
+def p5_view() -> Any:
+    down, up, half, before = (p5()[name] for name in ("down", "up", "half", "before"))
+    after, t = -up / half, np.array([0, half, 2 * half])
+    fig = figure(
+        f"Joint 4 over time: its value rises by {down:g} mm and falls by {up:g} mm; its speed is "
+        f"{before:g} mm/s, then {after:g} mm/s.",
+        height=2.6,
+    )
+    place, speed = fig.subplots(1, 2)
+    place.plot(t, [0, down, down - up], "-.", color=PINK, lw=2)
+    speed.plot(t[:2], [before] * 2, "-.", t[1:], [after] * 2, "-.", color=PINK, lw=2)
+    place.set(xlabel="time t, s", ylabel="q4 since the start, mm", title="Lower is more stroke")
+    jump = f"A jump of {Shown(after - before):g} mm/s"
+    speed.set(xlabel="time t, s", ylabel="speed of q4, mm/s", title=jump)
+    fig.tight_layout()
+    return fig
+
+
+def p6_view() -> Any:
+    fig = figure(
+        "Tool angle over the progress. By the rotation, a start at +0.01 degrees turns to the left "
+        "and one at -0.01 degrees to the right. By the number, both turn to the left.",
+        height=3.4,
+    )
+    axes = fig.subplots(1, 2, sharey=True)
+    for off, style in ((-OFF, "-"), (OFF, "--")):
+        name = f"start at {Shown(off):+.2f}°"
+        axes[0].plot(S, np.unwrap(turning(off, S)) / deg, style, lw=2, label=name)
+        axes[1].plot(S, near_start(off).lerp(VIA, S).angle / deg, style, lw=2, label=name)
+    ticks = range(-180, 181, 90)
+    axes[0].set(title="As a rotation: 0.02° decides", ylabel="tool angle, °", yticks=ticks)
+    axes[1].set(title="As a number: the number decides")
+    for ax in axes:
+        ax.set_xlabel("progress s")
+    axes[1].legend()
+    fig.tight_layout()
+    return fig
+
+
+def p7_view() -> Any:
+    fig = figure(
+        "Two motions that leave a limit, wrapped. Joint 1 turns from 0 to 350 degrees: on the way "
+        "it is seen between 140 and 180 degrees, past its limit. Joint 3 turns from 300 to 410 "
+        "degrees: wrapped it runs from -60 to 50 degrees, never past its limit of 400.",
+        height=3.4,
+    )
+    for ax, i, first, last in zip(fig.subplots(1, 2), (0, 2), (0, 300), (350, 410), strict=True):
+        q = first + (last - first) * S
+        seen, limit = wrapped(q * deg) / deg, HIGH[i] / deg
+        shown = np.where(abs(np.diff(seen, append=seen[-1])) > 180, np.nan, seen)
+        caught = abs(seen) > limit
+        ax.plot(S, q, "--", color="0.5", lw=1.5)
+        ax.text(0.97, q[-1] - 75, "as it turns", ha="right", va="top", color="0.4")
+        ax.plot(S, shown, color=JOINT_STYLES[i]["color"], lw=2)
+        ax.text(0.97, seen[-1] - 45, "wrapped", ha="right", va="top")
+        if caught.any():
+            ax.plot(S[caught], seen[caught], ".", color=RED, ms=5)
+            ax.text(S[caught][0] - 0.02, seen[caught][0] + 15, "caught", ha="right", color=RED)
+        ax.axhspan(limit, 500, color=PINK, alpha=0.22, lw=0)
+        ax.axhspan(-500, -limit, color=PINK, alpha=0.22, lw=0)
+        told = "caught on its way out" if caught.any() else "no sample is caught"
+        ax.set(xlim=(0, 1), ylim=(-450, 450), yticks=range(-360, 361, 180), xlabel="progress s")
+        ax.set(ylabel=f"q{i + 1}, °", title=f"Joint {i + 1}, limit ±{limit:.0f}°: {told}")
+    fig.tight_layout()
+    return fig
+
+
+def p8_view() -> Any:
+    fig = figure(
+        "Side view of the corner for blends 0.1 to 0.4: the four curves are copies of one another, "
+        "enlarged from the via point.",
+        height=3.4,
+    )
+    ax = fig.subplots()
+    x = np.linspace(0, 1, 101)
+    ax.plot([-1, 0, 1], [H1, 0, H2], color="0.6", lw=1)
+    for b, style in zip((0.1, 0.2, 0.3, 0.4), (":", "-.", "--", "-"), strict=True):
+        across, height = 2 * b * (x**2 - (1 - x) ** 2), 2 * b * (H1 * (1 - x) ** 2 + H2 * x**2)
+        ax.plot(across, height, style, lw=2, label=f"blend {b}")
+        ax.plot(across[height.argmin()], height.min(), "o", color="0.2", ms=4)
+    ax.plot(0, 0, "o", color="0.4")
+    for place, name, off in (
+        ((-2 * B1, 2 * B1 * H1), "A", (-4, 8)),
+        ((0, 0), "B = via", (12, -4)),
+        ((2 * B1, 2 * B1 * H2), "C", (-14, 2)),
+    ):
+        ax.plot(*place, "o", color="0.2", ms=4)
+        ax.annotate(name, place, off, textcoords="offset points", fontsize=11)
+    for at, tall, name, side in ((-1, H1, "$h_1$", 6), (1, H2, "$h_2$", -20)):
+        ax.annotate("", (at, 0), (at, tall), arrowprops={"arrowstyle": "<->", "color": "0.4"})
+        ax.annotate(name, (at, tall / 2), (side, 0), textcoords="offset points", fontsize=11)
+    ax.axhline(0, color="0.8", lw=0.8, zorder=0)
+    ax.set_title("Every corner is an enlargement of the same one, from the via point")
+    ax.set(xlabel="share of the line before (−) and after (+) via", ylabel="height over via, mm")
+    ax.legend()
+    fig.tight_layout()
+    return fig
+
+
+def p9_view() -> Any:
+    facts = p9()
+    fig = figure(
+        "Stroke over time at the same blend: the parabola touches the limit of 180 mm, the quintic "
+        "is past it; with more blend the quintic touches it, too.",
+        height=3.2,
+    )
+    ax = fig.subplots()
+    for corner, of, style in (
+        ("parabola", "parabola", "-"),
+        ("quintic", "parabola", "--"),
+        ("quintic", "quintic", ":"),
+    ):
+        q4 = stroke(facts[of], S, corner)
+        ax.plot(T, q4 / mm, style, lw=2, label=f"{corner}, blend {facts[of]:.3f}")
+    ax.axhspan(HIGH[3] / mm, 200, color=PINK, alpha=0.22, lw=0)
+    ax.text(5.1, 192, "past the limit of 180 mm")
+    ax.set(xlim=(5, 15), ylim=(120, 200), xlabel="time t, s", ylabel="stroke q4, mm")
+    ax.set_title(f"The quintic goes deeper: it needs a blend of {facts['quintic']:.3f}")
+    ax.legend(loc="lower center")
+    fig.tight_layout()
+    return fig
+
+
+def p10_view() -> str:
+    lines = ["The stroke's acceleration in the corner, measured:"]
+    for b, duration in ((0.4, 10.0), (0.2, 10.0), (0.4, 20.0), (0.2, 20.0)):
+        a = acceleration(b, duration)
+        lines.append(f"blend {b:g}, duration {duration:g} s: {a:.2f} mm/s²")
+    return "\n".join(lines)
