@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from .._validate import number
-from .markdown import BadFile, one_line
+from .markdown import BadFile, one_line, why
 
 LETTERS = "abcdef"
 
@@ -134,17 +134,22 @@ def prediction(
         told = "wanted answers with unlike names, and a confusion for each but the right one"
         raise BadFile(file, line, f"{number}: {told}")
 
-    def right(facts: Mapping[str, Any]) -> int:
-        if facts.get("right") not in names:
+    def facts() -> Mapping[str, Any]:
+        found: Mapping[str, Any] = code[number]()
+        try:
+            text.format(**found)
+        except Exception as error:
+            raise BadFile(file, line, f"{number} cannot be filled: {why(error)}") from None
+        if found.get("right") not in names:
             told = f"{number}(): wanted 'right' to be one of {', '.join(names)}"
-            raise BadFile(file, line, f"{told}, got {facts.get('right')!r}")
-        return names.index(facts["right"])
+            raise BadFile(file, line, f"{told}, got {found.get('right')!r}")
+        return found
 
     return number, Prediction(
         question=one_line(question),
         options=options,
-        facts=code[number],
-        right=right,
+        facts=facts,
+        right=lambda facts: names.index(facts["right"]),
         unit=unit,
         within=float(within) / 100 if within else 0.1,
         optional=bool(optional),
