@@ -77,7 +77,7 @@ function start(root, data) {
   const inputs =
     data.unit === null
       ? data.options.map((_, i) =>
-          control("input", {type: "radio", name: group, value: named(data, i)}),
+          control("input", {type: "radio", name: group, value: LETTERS[i]}),
         )
       : [control("input", {type: "number", step: "any", "aria-label": `your guess, ${data.unit}`})];
   const rows =
@@ -101,7 +101,7 @@ function start(root, data) {
     for (const input of inputs) {
       input.disabled = true;
       if (data.unit !== null) input.value = choice;
-      else input.checked = input.value === named(data, at);
+      else input.checked = input.value === LETTERS[at];
     }
     if (data.unit === null)
       rows.forEach((row, i) => {
@@ -166,7 +166,9 @@ function start(root, data) {
   /** @param {string} choice */
   const settle = choice => {
     open(choice);
-    memory.write([...memory.read(), [data.name, choice, new Date().toISOString()]]);
+    const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
+    const made = name ? `${choice}: ${name}` : choice; // the name stays if answers change places
+    memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
     offer();
   };
   function recall(times = 50) {
@@ -231,10 +233,6 @@ const valid = (data, choice) =>
   data.unit === null
     ? judged(data, choice) >= 0 && judged(data, choice) < data.options.length
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
-
-/** A choice as it is kept: a letter, and the name that stays when answers change places. */
-const named = (/** @type {PageQuestion} */ {options}, /** @type {number} */ i) =>
-  options[i].name ? `${LETTERS[i]}: ${options[i].name}` : LETTERS[i];
 
 /**
  * Which answer is meant: its number; of a typed number the answer that it is near to, the right one
