@@ -130,8 +130,9 @@ class Lab:
     def _noted(self, name: str) -> Iterator[None]:
         try:
             yield
-        except ValueError as error:
-            self.broken[name] = f"{error}"
+        except Exception as error:  # a teacher's file may hold anything
+            known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
+            self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
 
 
 def _old(name: str, what: str) -> Any:
@@ -191,7 +192,7 @@ def numbered(place: Path) -> list[str]:
 @cache
 def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
     found: dict[str, Lab] = {}
-    for place in (ours, *map(Path, filter(None, elsewhere.split(os.pathsep)))):
+    for place in (ours, *(Path(each).resolve() for each in elsewhere.split(os.pathsep) if each)):
         folders = {each.name: each for each in place.glob("[!._]*") if each.is_dir()}
         first = [name for name in numbered(place) if name in folders]
         for name in dict.fromkeys([*first, *sorted(folders)]):
