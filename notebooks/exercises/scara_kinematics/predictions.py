@@ -87,7 +87,7 @@ def p4() -> Mapping[str, Any]:
     _, angle, sine = sine_angles(SINE_AT)
     near = 2 * SINE_AT / mm * abs(np.sin((angle - sine) / 2))
     border = float(np.sqrt(L2**2 - L1**2)) / mm
-    right = nearest({"right": 0, "beside": 28}, near) if np.isfinite(near) else "NaN"
+    right = "NaN" if not np.isfinite(near) else "beside" if round(near) == 28 else "right"
     told = {"corner": shown(angle), "sine": shown(sine), "border": border}
     return {"near": near, "right": right} | told
 
