@@ -8,7 +8,7 @@ import numpy as np
 
 from robokin.course.exercises import words
 
-from .shared import MINUS, Floats, count, crossing, drawing, sides, to_segment
+from .shared import MINUS, Floats, count, crossing, drawing, gap_to, sides
 
 __all__ = ["count", "drawing"]
 Case = tuple[Floats, Floats]
@@ -36,69 +36,46 @@ def cases(rng: np.random.Generator) -> list[Case]:
     triangle = [(0, 0), (3, 0), (0, 2)]
     pentagon = [(0, 0), (3, 0), (4, 2), (2, 1), (0, 3)]
     tried: list[tuple[Any, Any]] = [
-        (square, (0.5, 0.5)),
-        (square, (1.5, 0.5)),
-        (square, (-0.5, 0.5)),
-        (square[::-1], (0.25, 0.75)),
-        (square, (1.1, 0.5)),
-        (square, (0.5, 1.5)),
-        (square, (-1, 0)),  # level with a side
-        (square, (-1, 1)),
-        (diamond, (0, 0)),  # level with corners
-        (diamond, (-2, 0)),
-        (diamond, (-2, 1)),
-        (diamond, (0.25, 0.5)),
-        (diamond, (0.7, 0.6)),
-        (diamond[::-1], (-0.75, -0.5)),
-        (drawn, (1.3, 1.1)),
-        (drawn, (0.5, 1.1)),
-        (drawn, (1.3, 2.0)),
-        (drawn[::-1], (1.3, 1.1)),
-        (dent, (3, 1)),
-        (dent, (2, 1.5)),
-        (dent, (1, 1)),
-        (dent[::-1], (1.5, 0.5)),
-        (arrow, (2, 0.5)),
-        (arrow, (2, 2)),
-        (arrow, (-1, 1)),
-        (arrow[1:] + arrow[:1], (2, 0.5)),
-        (bow, (1, 0.5)),
-        (bow, (0.5, 1)),
-        (bow, (1.75, 1.5)),
-        (bow, (1, 1.5)),
-        (comb, (0.4, 1.2)),
-        (comb, (1.8, 2)),
-        (comb, (3, 2)),
-        (comb, (0.5, 0.25)),
-        (comb, (4, 1)),
-        (steep, (1.03, 0.45)),
-        (steep, (0.8, 0.3)),
-        (triangle, (1, 1)),
-        (triangle, (2, 1)),
-        (triangle, (-1, 2)),
-        (pentagon, (3, 1.75)),
-        (pentagon, (0.5, 2)),
-        (pentagon, (3.2, 1)),
-        (dent, (1.5, 0.5)),  # in line with a side
-        (comb, (5.7, 2)),  # many crossings on one side of H, one on the other
-        (star, (0.1, 0.05)),  # two sides to the right: outside
-        (star, (1.5, 0.1)),
-        (star[::-1], (-0.1, 0.1)),
-        (star, (0.95, 0.9)),
-        (ring, (0.1, 0.05)),
-        (ring[::-1], (-0.05, 0.1)),
-        (ring, (0.9, 0.2)),
-        (ring, (1.7, 0.05)),
-        ([(y, x) for x, y in comb], (2, 3)),  # between two teeth, one above, one below
-        (hook, (3.5, 2.5)),  # outside, with sides in every direction
-        (hook, (1.5, 3)),
-        (hook[::-1], (2.5, 3.5)),
+        (square, [(0.5, 0.5), (1.5, 0.5), (-0.5, 0.5)]),
+        (square[::-1], [(0.25, 0.75)]),
+        (square, [(1.1, 0.5), (0.5, 1.5)]),
+        (square, [(-1, 0)]),  # level with a side
+        (square, [(-1, 1)]),
+        (diamond, [(0, 0)]),  # level with corners
+        (diamond, [(-2, 0), (-2, 1), (0.25, 0.5), (0.7, 0.6)]),
+        (diamond[::-1], [(-0.75, -0.5)]),
+        (drawn, [(1.3, 1.1), (0.5, 1.1), (1.3, 2.0)]),
+        (drawn[::-1], [(1.3, 1.1)]),
+        (dent, [(3, 1), (2, 1.5), (1, 1)]),
+        (dent[::-1], [(1.5, 0.5)]),
+        (arrow, [(2, 0.5), (2, 2), (-1, 1)]),
+        (arrow[1:] + arrow[:1], [(2, 0.5)]),
+        (bow, [(1, 0.5), (0.5, 1), (1.75, 1.5), (1, 1.5)]),
+        (comb, [(0.4, 1.2), (1.8, 2), (3, 2), (0.5, 0.25), (4, 1)]),
+        (steep, [(1.03, 0.45), (0.8, 0.3)]),
+        (triangle, [(1, 1), (2, 1), (-1, 2)]),
+        (pentagon, [(3, 1.75), (0.5, 2), (3.2, 1)]),
+        (dent, [(1.5, 0.5)]),  # in line with a side
+        (comb, [(5.7, 2)]),  # many crossings on one side of H, one on the other
+        (star, [(0.1, 0.05)]),  # two sides to the right: outside
+        (star, [(1.5, 0.1)]),
+        (star[::-1], [(-0.1, 0.1)]),
+        (star, [(0.95, 0.9)]),
+        (ring, [(0.1, 0.05)]),
+        (ring[::-1], [(-0.05, 0.1)]),
+        (ring, [(0.9, 0.2), (1.7, 0.05)]),
+        ([(y, x) for x, y in comb], [(2, 3)]),  # between two teeth, one above, one below
+        (hook, [(3.5, 2.5)]),  # outside, with sides in every direction
+        (hook, [(1.5, 3)]),
+        (hook[::-1], [(2.5, 3.5)]),
     ]
-    found = [(np.array(c, dtype=float), np.array(h, dtype=float)) for c, h in tried]
+    found = [
+        (np.array(c, dtype=float), np.array(H, dtype=float)) for c, all_H in tried for H in all_H
+    ]
     while len(found) < 66:
         corners = rng.uniform(0, 2, (4, 2)).round(2)
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0)).round(2)
-        gaps = [to_segment(P, Q, H) for P, Q in sides(corners)]
+        gaps = [gap_to(P, Q, H) for P, Q in sides(corners)]
         if min(gaps) > 0.02:
             found.append((corners, H))
     return found

@@ -8,21 +8,7 @@ from robokin import mm
 from robokin.jobs.obstacles import along, in_quadrilateral, via_path
 from robokin.show import figure
 
-from .predictions import (
-    FAR,
-    H_LEVER,
-    P_LEVER,
-    PASSED,
-    Q_LEVER,
-    SAMPLED,
-    SEEN,
-    p3,
-    p5,
-    p6,
-    p7,
-    p8,
-    swept_by_last,
-)
+from .predictions import FAR, LEVER, PASSED, SAMPLED, SEEN, p3, p5, p6, p7, p8, swept_by_last
 from .shared import ARM, K1, START, WANTED, Floats, direct, distances, drawing, sampled
 
 COLORS = ("#0072B2", "#D55E00", "#009E73")
@@ -100,7 +86,7 @@ def p3_view() -> Any:
         height=2.6,
     )
     ax = fig.subplots()
-    P, Q, H = P_LEVER, Q_LEVER, H_LEVER
+    P, Q, H = LEVER
     ax.plot(*np.array([P, Q]).T, color=COLORS[0], lw=6, solid_capstyle="round")
     ax.plot([1, 1.6], [0, 0], "--", color="0.6")
     ax.plot(*H, "X", color="black", ms=10)

@@ -5,20 +5,14 @@ Objective 1: p1, p2. Objective 2: p3, p5, p6, p7. Objective 3: p4, p8.
 
 from collections.abc import Mapping
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robokin import deg, mm
-from robokin.jobs.obstacles import (
-    along,
-    clearance,
-    in_quadrilateral,
-    keeps,
-    via_path,
-    way_round,
-)
+from robokin.jobs.obstacles import along, clearance, in_quadrilateral, keeps, via_path, way_round
 
 from .shared import (
     ARM,
@@ -26,13 +20,12 @@ from .shared import (
     START,
     WANTED,
     Floats,
-    L,
     count,
     direct,
     distances,
     drawing,
+    gap_to,
     sampled,
-    to_segment,
 )
 
 
@@ -73,7 +66,7 @@ def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool
     joints = ARM.points(start + s * (end - start))[:, :, None]
     P, Q = joints[:, 2], joints[:, 3]
     (dx, dy), (x, y) = np.moveaxis(Q - P, -1, 0), np.moveaxis(points - P, -1, 0)
-    left, share = dx * y - dy * x > 0, (dx * x + dy * y) / L**2
+    left, share = dx * y - dy * x > 0, dx * x + dy * y  # a lever is 1 m long
     beside = (share >= 0) & (share <= 1)
     over: NDArray[np.bool_] = ((left[1:] != left[:-1]) & beside[1:] & beside[:-1]).any(axis=0)
     return over
@@ -106,23 +99,21 @@ def p2() -> dict[str, Any]:
     }
 
 
-P_LEVER, Q_LEVER, H_LEVER = np.zeros(2), np.array([1.0, 0.0]), np.array([1.3, 0.4])
+LEVER = np.zeros(2), np.array([1.0, 0.0]), np.array([1.3, 0.4])
 
 
 def p3() -> dict[str, Any]:
-    P, Q, H = P_LEVER, Q_LEVER, H_LEVER
+    P, Q, H = LEVER
     guesses = {
         "end": float(np.hypot(*(H - Q)) / mm),
         "line": abs(H[1]) / mm,
         "start": float(np.hypot(*(H - P)) / mm),
         "middle": float(np.hypot(*(H - (P + Q) / 2)) / mm),
-        "beside": (H[0] - Q[0]) / mm,
+        "along": (H[0] - Q[0]) / mm,
         "sum": float(abs(H - Q).sum() / mm),
         "square": float(((H - Q) ** 2).sum() / mm),
     }
-    names = {name: f"to the {name}" for name in ("end", "line", "start", "middle")}
-    right = nearest(guesses, to_segment(P, Q, H) / mm)
-    return guesses | {"x": H[0], "y": H[1], "right": names.get(right, right)}
+    return guesses | {"x": H[0], "y": H[1], "right": nearest(guesses, gap_to(P, Q, H) / mm)}
 
 
 SAMPLED = np.array([1.7, 1.0])  # m: the obstacle of p4
@@ -182,45 +173,35 @@ def p6() -> dict[str, Any]:
     size = 10 * deg
     angles = np.arange(19) * size
     cube = np.stack(np.meshgrid(angles, angles, angles, indexing="ij"), axis=-1)
-    open_ = distances(cube.reshape(-1, 3), ROUND).min(axis=-1).reshape(19, 19, 19) >= WANTED
-    steps = []
+    steps = []  # of joint j, by the lower one of two cells
     for j in range(3):
         a = np.moveaxis(cube, j, 0)
-        steps.append(keeps(ARM, a[:-1], a[1:], ROUND, WANTED))
-    begin = tuple(np.round(START / size).astype(int).tolist())
+        steps.append(np.moveaxis(keeps(ARM, a[:-1], a[1:], ROUND, WANTED), 0, j))
     goals = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
     cells = np.round(goals / size).astype(int)
-    ends = keeps(ARM, cells * size, goals, ROUND, WANTED)
-    wanted = {tuple(cell) for cell in cells[ends].tolist()}
-    came: dict[Any, Any] = {begin: None}
-    front, steps_made, end = [begin], 0, None
-    while front and end is None:
-        later = []
-        for cell in front:
-            for j in range(3):
-                rest = cell[:j] + cell[j + 1 :]
-                for move in (-1, 1):
-                    at = cell[j] + move
-                    other = (*cell[:j], at, *cell[j + 1 :])
-                    if not 0 <= at < 19 or other in came or not open_[other]:
-                        continue
-                    if steps[j][(min(at, cell[j]), *rest)]:
-                        came[other] = cell
-                        later.append(other)
-        front, steps_made = later, steps_made + 1
-        end = next((cell for cell in front if cell in wanted), None)
-    way, at = [], end
-    while at is not None:
-        way.append(cube[at])
-        at = came[at]
-    path = np.array(way[::-1])
+    wanted = cells[keeps(ARM, cells * size, goals, ROUND, WANTED)].tolist()
+    queue = [tuple(np.round(START / size).astype(int).tolist())]
+    came: dict[Any, Any] = {queue[0]: None}
+    for cell in queue:  # it grows on the way
+        if list(cell) in wanted:
+            break
+        for j, move in product(range(3), (-1, 1)):
+            other = (*cell[:j], cell[j] + move, *cell[j + 1 :])
+            if 0 <= other[j] < 19 and other not in came and steps[j][min(cell, other)]:
+                came[other] = cell
+                queue.append(other)
+    way = [cell]
+    while came[way[-1]]:
+        way.append(came[way[-1]])
+    length = len(way) - 1
+    path = np.array([cube[each] for each in way[::-1]])
     turns = abs(np.diff(path, axis=0)).sum(axis=0) / deg
     net = (path[-1] - path[0]) / deg
     most, straight = float(turns.max()), float(np.linalg.norm(net))
     total, signed = float(turns.sum()), float(abs(net.sum()))
     guesses = {"busiest joint": most, "straight distance": straight, "S": total}
-    right = nearest(guesses | {"gripper's direction": signed}, 10.0 * steps_made)
-    told = {"count": steps_made, "sum": total, "most": most, "straight": straight}
+    right = nearest(guesses | {"gripper's direction": signed}, 10.0 * length)
+    told = {"count": length, "sum": total, "most": most, "straight": straight}
     return told | {"net": signed, "turns": turns, "right": right}
 
 
@@ -250,16 +231,14 @@ def sampled_tasks(many: int = TASKS) -> list[tuple[Floats, Floats, Floats]]:
 
 @cache
 def p7() -> dict[str, Any]:
-    keep = swept_ = out = 0
+    keep = out = 0
     for start, target, H in sampled_tasks():
         path = via_path(ARM, start, target, H, LARGER)
         if np.isnan(path).any():
             out += 1
             continue
         # samples suffice to say that it comes too near; `clearance` decides the others
-        if distances(sampled(path, 41), H).min() < WANTED:
-            swept_ += 1
-        else:
+        if distances(sampled(path, 41), H).min() >= WANTED:
             keep += bool(clearance(ARM, path, H).min() >= WANTED)
     passed = clearance(ARM, via_path(ARM, START, K1, ROUND, LARGER), ROUND)
     guesses = {"none": 0, "a quarter": 25, "two thirds": 65, "all": 100}

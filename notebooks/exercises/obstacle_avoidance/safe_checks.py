@@ -7,9 +7,9 @@ import numpy as np
 from robokin import deg, mm
 from robokin.jobs.obstacles import keeps
 
-from .shared import ARM, Floats, L, distances, joints, sampled, to_segment
+from .shared import ARM, Floats, L, distances, gap_to, joints, sampled
 
-__all__ = ["deg", "distances", "halved", "joints", "mm", "np", "proven", "sampled", "to_segment"]
+__all__ = ["deg", "distances", "halved", "joints", "mm", "np", "proven", "sampled", "gap_to"]
 
 
 def proven(path: Any, H: Any, distance: float) -> bool:

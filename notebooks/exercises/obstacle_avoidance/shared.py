@@ -45,7 +45,7 @@ def height(P: Any, Q: Any, x: float) -> float:
     return float(P[1] + (Q[1] - P[1]) / (Q[0] - P[0]) * (x - P[0]))
 
 
-def to_segment(P: Floats, Q: Floats, H: Floats) -> float:
+def gap_to(P: Floats, Q: Floats, H: Floats) -> float:
     """How far H is from a side, or from a lever."""
     share = np.clip((H - P) @ (Q - P) / ((Q - P) @ (Q - P)), 0, 1)
     return float(np.hypot(*(P + share * (Q - P) - H)))
