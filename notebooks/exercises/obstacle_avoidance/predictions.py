@@ -14,19 +14,7 @@ from numpy.typing import NDArray
 from robokin import deg, mm
 from robokin.jobs.obstacles import along, clearance, in_quadrilateral, keeps, via_path, way_round
 
-from .shared import (
-    ARM,
-    K1,
-    START,
-    WANTED,
-    Floats,
-    count,
-    direct,
-    distances,
-    drawing,
-    gap_to,
-    sampled,
-)
+from .shared import ARM, K1, START, WANTED, Floats, count, direct, distances, drawing, sampled
 
 
 def nearest(guesses: Mapping[str, float], value: float) -> str:
@@ -41,23 +29,21 @@ def p1() -> dict[str, Any]:
     r, phi = rng.uniform(1.1, 2.9, many), rng.uniform(0, 120, many) * deg
     targets = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
     after = ARM.least(targets, before)[0]
-    inside = found = 0
+    found = []
     for a, b in zip(ARM.points(before)[:, 2:], ARM.points(after)[:, 2:], strict=True):
         corners = np.array([*a, *b[::-1]])
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0))
         if count(corners, H) % 2 == 1:
-            inside += 1
-            found += drawing(corners, H)
-    own = own_found = 0
+            found.append(drawing(corners, H))
+    own = []  # what the test says of each H inside in the sample of section 7
     for start, target, H in sampled_tasks():
         (A, K_), (A1, K1_) = ARM.points(direct(start, target))[:, 2:]
         if count([A, K_, K1_, A1], H) % 2 == 1:
-            own += 1
-            own_found += drawing([A, K_, K1_, A1], H)
+            own.append(drawing([A, K_, K1_, A1], H))
     guesses = {"nearly all": 98, "half": 50, "few": 5, "a quarter": 25}
-    right = nearest(guesses, 100 * found / inside)
-    told = {"inside": inside, "found": found, "tasks": many, "own": own, "own_found": own_found}
-    return told | {"right": right}
+    told = {"tasks": many, "inside": len(found), "found": sum(found)}
+    told |= {"own": len(own), "own_found": sum(own)}
+    return told | {"right": nearest(guesses, 100 * sum(found) / len(found))}
 
 
 def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool_]:
@@ -88,15 +74,10 @@ def p2() -> dict[str, Any]:
     missed, area = over & ~quad, FINE_STEP**2
     share = float(100 * missed.sum() / over.sum())
     guesses = {"nothing": 0, "narrow rim": 5, "a third": 33, "most": 75}
-    return {
-        "right": nearest(guesses, share),
-        "turn": float(abs(end - start).sum() / deg),
-        "share": share,
-        "swept": float(over.sum() * area),
-        "missed": float(missed.sum() * area),
-        "false": float((quad & ~over).sum() * area),
-        "grid": FINE_STEP / mm,
-    }
+    areas = {"swept": over, "missed": missed, "false": quad & ~over}
+    told = {name: float(each.sum() * area) for name, each in areas.items()}
+    told |= {"turn": float(abs(end - start).sum() / deg), "share": share, "grid": FINE_STEP / mm}
+    return told | {"right": nearest(guesses, share)}
 
 
 LEVER = np.zeros(2), np.array([1.0, 0.0]), np.array([1.3, 0.4])
@@ -113,7 +94,8 @@ def p3() -> dict[str, Any]:
         "sum": float(abs(H - Q).sum() / mm),
         "square": float(((H - Q) ** 2).sum() / mm),
     }
-    return guesses | {"x": H[0], "y": H[1], "right": nearest(guesses, gap_to(P, Q, H) / mm)}
+    away = float(np.hypot(*(H - [np.clip(H[0], 0, 1), 0])) / mm)
+    return guesses | {"x": H[0], "y": H[1], "right": nearest(guesses, away)}
 
 
 SAMPLED = np.array([1.7, 1.0])  # m: the obstacle of p4
@@ -126,16 +108,9 @@ def p4() -> dict[str, Any]:
     seen = float(distances(sampled(path, SEEN), SAMPLED).min())
     true = float(clearance(ARM, path, SAMPLED).min())
     less = {"the nearest sample": 0, "a little less": 5, "a decimetre less": 100, "more": -50}
-    return {
-        "right": nearest(less, (seen - true) / mm),
-        "count": SEEN,
-        "x": SAMPLED[0],
-        "y": SAMPLED[1],
-        "seen": seen / mm,
-        "wanted": WANTED / mm,
-        "true": true / mm,
-        "less": (seen - true) / mm,
-    }
+    told = {"count": SEEN, "x": SAMPLED[0], "y": SAMPLED[1], "wanted": WANTED / mm}
+    told |= {"seen": seen / mm, "true": true / mm, "less": (seen - true) / mm}
+    return told | {"right": nearest(less, told["less"])}
 
 
 PASSED = np.array([1.0, 1.5])  # m: the obstacle of p5
@@ -153,18 +128,9 @@ def p5() -> dict[str, Any]:
         right = "all keep it"
     elif least[2] <= 1 * mm:
         right = "AK and BA over it" if least[1] <= 1 * mm else "AK over it"
-    return {
-        "right": right,
-        "far": float(far.min() / mm),
-        "other_x": ROUND[0],
-        "other_y": ROUND[1],
-        "x": PASSED[0],
-        "y": PASSED[1],
-        "r": WANTED / mm,
-        "gripper": float(np.hypot(*ways.T).min() / mm),
-        "BA": least[1] / mm,
-        "AK": least[2] / mm,
-    }
+    told = {"x": PASSED[0], "y": PASSED[1], "other_x": ROUND[0], "other_y": ROUND[1]}
+    told |= {"far": far.min() / mm, "gripper": np.hypot(*ways.T).min() / mm, "r": WANTED / mm}
+    return told | {"BA": least[1] / mm, "AK": least[2] / mm, "right": right}
 
 
 @cache
@@ -242,16 +208,9 @@ def p7() -> dict[str, Any]:
             keep += bool(clearance(ARM, path, H).min() >= WANTED)
     passed = clearance(ARM, via_path(ARM, START, K1, ROUND, LARGER), ROUND)
     guesses = {"none": 0, "a quarter": 25, "two thirds": 65, "all": 100}
-    return {
-        "right": nearest(guesses, 100 * keep / TASKS),
-        "passed": float(passed.min() / mm),
-        "count": TASKS,
-        "keep": keep,
-        "out": out,
-        "near": TASKS - keep - out,
-        "r": LARGER / mm,
-        "wanted": WANTED / mm,
-    }
+    told = {"count": TASKS, "keep": keep, "out": out, "near": TASKS - keep - out}
+    lengths = {"passed": float(passed.min() / mm), "r": LARGER / mm, "wanted": WANTED / mm}
+    return told | lengths | {"right": nearest(guesses, 100 * keep / TASKS)}
 
 
 NARROW = np.array([0.5, 1.0])  # m: the obstacle of p8
@@ -263,12 +222,6 @@ def p8() -> dict[str, Any]:
     found = way_round(ARM, START, K1, NARROW, WANTED)
     S = np.nan if found is None else float(abs(np.diff(found, axis=0)).sum() / deg)
     proven = found is not None and bool(keeps(ARM, found[:-1], found[1:], NARROW, WANTED).all())
-    return {
-        "x": NARROW[0],
-        "y": NARROW[1],
-        "coarse": COARSE,
-        "right": "none found" if proven else "no way",
-        "S": S,
-        "wanted": WANTED / mm,
-        "direct": float(clearance(ARM, direct(), NARROW).min() / mm),
-    }
+    told = {"x": NARROW[0], "y": NARROW[1], "coarse": COARSE, "S": S, "wanted": WANTED / mm}
+    near = float(clearance(ARM, direct(), NARROW).min() / mm)
+    return told | {"direct": near, "right": "none found" if proven else "no way"}
