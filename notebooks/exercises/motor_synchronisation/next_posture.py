@@ -1,4 +1,4 @@
-"""Cases, form and law of exercise 1, the next posture; its words stand in the Markdown beside it."""
+"""Cases, form and law of exercise 1, the next posture; its words are in the Markdown file."""
 
 from typing import Any
 

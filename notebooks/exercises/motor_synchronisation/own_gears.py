@@ -20,24 +20,24 @@ LENGTHS = np.array([A + B, A + B, B])  # from each joint to the end of the stret
 COARSE = LENGTHS * STEP / 2 * deg  # what half a step without a gear moves that end
 TOGETHER = 0.01  # working times this near to each other, as a share, are one
 KEYS = ("gears", "frequencies")
+ENDS = tuple(f"{end}_{x}" for end in ("start", "goal") for x in "xyz")
 Fault = tuple[str, str]
-Drive = tuple[Floats, Floats]
+Drive = tuple[Floats, Floats]  # gears and frequencies
 
 
 @cache
-def turns_of(places: tuple[float, ...]) -> Floats:
-    """The turns of the three joints in degrees."""
-    ends = np.reshape(places, (2, 3))
-    return np.asarray(np.diff(station_postures(LOADER, ends), axis=0)[0] / deg)
+def postures(places: tuple[float, ...]) -> Floats:
+    """Both postures of a move, joint 1 the short way."""
+    return station_postures(LOADER, np.reshape(places, (2, 3)))
 
 
-def places(given: Mapping[str, Any]) -> tuple[float, ...]:
-    return tuple(float(given[f"{end}_{x}"]) for end in ("start", "goal") for x in "xyz")
+def move(numbers: Mapping[str, Any]) -> Floats:
+    """Both postures of a student's move."""
+    return postures(tuple(float(numbers[name]) for name in ENDS))
 
 
-def pulses_of(given: Mapping[str, Any], gears: Floats) -> Floats:
-    """The pulses of the move, without signs."""
-    q = station_postures(LOADER, np.reshape(places(given), (2, 3)))
+def pulses_of(q: Floats, gears: Floats) -> Floats:
+    """The pulses from one posture to the other, without signs."""
     return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
 
 
@@ -45,39 +45,31 @@ def given(who: Any) -> Numbers:
     """Two points on either side of the direction 180°, a greatest miss, a greatest frequency, and a
     time that leaves some room.
     """
-    d = dice("motor_synchronisation", who)
+    roll = dice("motor_synchronisation", who)
     while True:
-        side = d.choice([-1, 1])
-        start = np.array([-d.randrange(250, 560, 10), side * d.randrange(60, 260, 10)])
-        goal = np.array([-d.randrange(250, 560, 10), -side * d.randrange(60, 260, 10)])
-        heights = [d.randrange(50, 400, 10), d.randrange(50, 400, 10)]
-        miss, most = d.randrange(20, 42, 2) / 100 * mm, d.randrange(400, 820, 20)
+        side = roll.choice([-1, 1])
+        start = np.array([-roll.randrange(250, 560, 10), side * roll.randrange(60, 260, 10)])
+        goal = np.array([-roll.randrange(250, 560, 10), -side * roll.randrange(60, 260, 10)])
+        heights = [roll.randrange(50, 400, 10), roll.randrange(50, 400, 10)]
+        miss, most = roll.randrange(20, 42, 2) / 100 * mm, roll.randrange(400, 820, 20)
         ends = (*(start * mm), heights[0] * mm, *(goal * mm), heights[1] * mm)
-        ends = tuple(float(x) for x in ends)
-        if not (np.linalg.norm(np.reshape(ends, (2, 3)), axis=1) < 0.7).all():
+        places = tuple(float(x) for x in ends)
+        if not (np.linalg.norm(np.reshape(places, (2, 3)), axis=1) < 0.7).all():
             continue
-        turns = abs(turns_of(ends))
+        turns = abs(np.diff(postures(places), axis=0)[0] / deg)
         if (turns > 12).all() and np.ptp(np.sort(turns)[1:]) > 8:
             break
-    names = [f"{end}_{x}" for end in ("start", "goal") for x in "xyz"]
-    values: dict[str, Any] = dict(zip(names, ends, strict=True))
-    gear = int(np.ceil(COARSE.max() / miss - 1e-9))
-    needed = float(turns.max()) * gear / STEP / most
-    values |= {
-        "miss": miss,
-        "most": most,
-        "seconds": float(np.ceil(12 * needed) / 10),
-    }
-    units = {name: ("mm", mm) for name in [*names, "miss"]}
+    needed = float(turns.max()) * int(np.ceil(COARSE.max() / miss - 1e-9)) / STEP / most
+    values: dict[str, Any] = dict(zip(ENDS, places, strict=True))
+    values |= {"miss": miss, "most": most, "seconds": float(np.ceil(12 * needed) / 10)}
+    units = dict.fromkeys([*ENDS, "miss"], ("mm", mm))
     return Numbers(values, units | {"most": ("pulses/s", 1.0), "seconds": ("s", 1.0)})
 
 
-def form(answer: Any, given: Any) -> Drive:
+def form(answer: Any, numbers: Any) -> Drive:
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
-        raise ValueError(
-            f'wanted {{"gears": [three whole numbers], "frequencies": [three]}}, got '
-            f"{words(answer)}"
-        )
+        wanted = 'wanted {"gears": [three whole numbers], "frequencies": [three]}'
+        raise ValueError(f"{wanted}, got {words(answer)}")
     found = []
     for key in KEYS:
         try:
@@ -97,103 +89,77 @@ def form(answer: Any, given: Any) -> Drive:
     return gears, abs(omega)
 
 
-def close(values: Floats) -> bool:
-    return bool(values.max() <= (1 + TOGETHER) * values.min())
-
-
-def faults(answer: Drive, given: Any) -> list[Fault]:
-    gears, omega = answer
-    faults = []
-    miss, most, seconds = (float(given[key]) for key in ("miss", "most", "seconds"))
+def faults(drive: Drive, numbers: Any) -> list[Fault]:
+    gears, omega = drive
+    found = []
+    miss, most, seconds = (float(numbers[key]) for key in ("miss", "most", "seconds"))
     ends = COARSE / gears
-    coarse = np.flatnonzero(ends > miss * (1 + 1e-9))
-    if coarse.size:
+    if (ends > miss * (1 + 1e-9)).any():
         k = int(ends.argmax())
         moves, allowed = apart(ends[k] / mm, miss / mm, 2)
-        faults.append(
-            (
-                "too coarse",
-                f"Half a pulse of motor {k + 1} moves the end of the stretched arm by {moves} mm; "
-                f"allowed are {allowed} mm. Half a pulse turns the "
-                f"joint by 0.9° / gear, and the end is {LENGTHS[k] / mm:.0f} mm away from it.",
-            )
+        says = (
+            f"Half a pulse of motor {k + 1} moves the end of the stretched arm by {moves} mm; "
+            f"allowed are {allowed} mm. Half a pulse turns the joint by 0.9° / gear, and the end "
+            f"is {LENGTHS[k] / mm:.0f} mm away from it."
         )
+        found.append(("too coarse", says))
     fast = np.flatnonzero(omega > most * (1 + 1e-9))
     if fast.size:
         runs, allowed = apart(omega[fast[0]], most)
         says = f"Motor {fast[0] + 1} runs at {runs} pulses/s; allowed are {allowed}."
-        faults.append(("above the limit", says))
-    pulses = pulses_of(given, gears)
-    times = pulses / omega
-    if not close(times):
-        faults.append(apart_fault(given, gears, omega, pulses, times))
-    if times.max() > seconds * (1 + 1e-9):
-        faults.append(slow_fault(given, gears, omega, pulses, times))
-    return faults
+        found.append(("above the limit", says))
+    pulses = pulses_of(move(numbers), gears)
+    if not close(pulses / omega):
+        found.append(not_together(move(numbers), gears, omega, pulses))
+    if (pulses / omega).max() > seconds * (1 + 1e-9):
+        found.append(too_slow(gears, omega, pulses, most, seconds))
+    return found
 
 
-def apart_fault(
-    given: Any, gears: Floats, omega: Floats, pulses: Floats, times: Floats
-) -> Fault:
-    told = ", ".join(f"{t:.3f}" for t in times)
-    says = f"The motors need {told} s for {', '.join(f'{p:.0f}' for p in pulses)} pulses."
-    long = long_way(given, gears)
-    if close(long / omega):
-        return (
-            "the long way round",
-            f"{says} Your frequencies are for {long[0]:.0f} pulses of motor 1: from one side of "
-            "the direction 180° to the other the short way does not pass 0°.",
-        )
-    if close(pulses * omega):
-        return (
-            "equal products",
-            f"{says} The products of pulses and frequency are equal. A time is pulses divided by "
-            "frequency.",
-        )
-    if np.ptp(omega) < 1e-9:
-        return (
-            "one frequency for all",
-            f"{says} With one frequency for all, the motor with the most pulses stops last.",
-        )
-    turns = abs(turns_of(places(given)))
-    if close(turns / omega):
-        return (
-            "the gears left out",
-            f"{says} The frequencies are in proportion to the turns of the joints, not to the "
-            "pulses: the gears are left out.",
-        )
-    if close(turns / gears / omega):
-        return (
-            "divided by the gear",
-            f"{says} A gear of i : 1 asks for i times as many pulses, not for an i-th of them.",
-        )
-    return "not together", says
+def close(values: Floats) -> bool:
+    return bool(values.max() <= (1 + TOGETHER) * values.min())
 
 
-def long_way(given: Any, gears: Floats) -> Floats:
-    """The pulses without the short way."""
-    q = station_postures(LOADER, np.reshape(places(given), (2, 3)))
-    q[:, 0] = wrapped(q[:, 0])
-    return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
-
-
-def slow_fault(
-    given: Any, gears: Floats, omega: Floats, pulses: Floats, times: Floats
-) -> Fault:
-    most, seconds = float(given["most"]), float(given["seconds"])
-    best = float(pulses.max()) / most
-    takes, allowed = apart(times.max(), seconds)
-    says = f"The move takes {takes} s; allowed are {allowed} s."
-    if best <= seconds:
-        return (
-            "slower than the limit asks",
-            f"{says} These gears can keep the time, with higher frequencies.",
-        )
-    k = int(pulses.argmax())
-    return (
-        "geared too high",
-        f"{says} Even at {most:.0f} pulses/s motor {k + 1} takes longer than that: its gear of "
-        f"{gears[k]:.0f} : 1 is finer than asked.",
+def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fault:
+    """Why the motors do not stop at one time."""
+    times = ", ".join(f"{t:.3f}" for t in pulses / omega)
+    told = f"The motors need {times} s for {', '.join(f'{p:.0f}' for p in pulses)} pulses."
+    turns = abs(np.diff(q, axis=0)[0] / deg)
+    long = pulses_of(np.column_stack([wrapped(q[:, 0]), q[:, 1:]]), gears)
+    why = {
+        "the long way round": f"Your frequencies are for {long[0]:.0f} pulses of motor 1: from one "
+        "side of the direction 180° to the other the short way does not pass 0°.",
+        "equal products": "The products of pulses and frequency are equal. A time is pulses "
+        "divided by frequency.",
+        "one frequency for all": "With one frequency for all, the motor with the most pulses stops "
+        "last.",
+        "the gears left out": "The frequencies are in proportion to the turns of the joints, not "
+        "to the pulses: the gears are left out.",
+        "divided by the gear": "A gear of i : 1 asks for i times as many pulses, not for an i-th "
+        "of them.",
+    }
+    fits = (
+        close(long / omega),
+        close(pulses * omega),
+        np.ptp(omega) < 1e-9,
+        close(turns / omega),
+        close(turns / gears / omega),
     )
+    for name, true in zip(why, fits, strict=True):
+        if true:
+            return name, f"{told} {why[name]}"
+    return "not together", told
 
 
+def too_slow(gears: Floats, omega: Floats, pulses: Floats, most: float, seconds: float) -> Fault:
+    takes, allowed = apart((pulses / omega).max(), seconds)
+    says = f"The move takes {takes} s; allowed are {allowed} s."
+    if pulses.max() / most <= seconds:
+        says += " These gears can keep the time, with higher frequencies."
+        return "slower than the limit asks", says
+    k = int(pulses.argmax())
+    says += (
+        f" Even at {most:.0f} pulses/s motor {k + 1} takes longer than that: its gear of "
+        f"{gears[k]:.0f} : 1 is finer than asked."
+    )
+    return "geared too high", says
