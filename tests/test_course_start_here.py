@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from robokin import IRB140, deg, mm
-from robokin.course import check, solution
+from robokin.course import book, check, solution
 from robokin.course.questions import filled
-from robokin.course.start_here import PREDICTIONS
 
 ANSWER = [45, -17, -10, 0, 30, 0]  # degrees
 
@@ -83,7 +82,7 @@ def test_a_posture_that_is_missing_is_not_answered():
 
 def test_p1_left_becomes_right():
     """The key by a turn about z, without forward kinematics of the second posture."""
-    question, options, right = filled(PREDICTIONS["p1"])
+    question, options, right = filled(book.lab("start_here").predictions["p1"])
     x, y, z = place(np.array([40, -20, -10, 0, 30, 0]) * deg)
     for number in (x, y, z):
         assert f"{number:.0f}" in question

@@ -282,7 +282,7 @@ def test_a_folder_of_labs_is_found(place):
         predictions_md=PREDICTED,
         predictions_py="def p1():\n    return {'right': 'half', 'length': 0.5}\n",
     )
-    assert [*book.labs()][-1] == "two_links" and len(book.labs()) == 14
+    assert [*book.labs()] == [*book.numbered(book.OURS), "two_links"]
     assert [*book.lab("two_links").exercises] == ["2", "10"] and not book.lab("two_links").broken
     assert check("two_links.2", reach).holds
     assert "law of cosines" in hint("two_links.2") and "def reach" in shown("two_links.2")
@@ -344,6 +344,39 @@ How long is it?
 
 - `half` **0.5 m.** So long.
 - `whole` **1 m.** It is not {length} m. *twice as long:* a second case.
+"""
+
+
+RIGHTS = """\
+## Solution
+
+```python
+def my_test(program):
+    return program(3) == 6 and program(2) == 4
+```
+
+## Right programs
+
+**plain.**
+```python
+def twice(x):
+    return 2 * x
+```
+
+**by sums.** It adds.
+```python
+def twice(x):
+    return x + x
+```
+
+## Mistakes
+
+**one more.** It adds one.
+- `2 * x` → `2 * x + 1`
+
+**another sum.** It is no sum.
+- `x + x` → `x * x`
+- `return x` → `return 1`
 """
 
 
@@ -446,6 +479,16 @@ BROKEN = {
         CASES,
         ".md, line 32: wanted '**what is special.**' above the program",
     ),
+    "a right program that is no Python": (
+        altered(("return x + x", "return x +"), text=RIGHTS),
+        None,
+        ".md, line 26: 'by sums': no Python: invalid syntax",
+    ),
+    "a right program of another name": (
+        altered(("twice(x):\n    return x + x", "double(x):\n    return x + x"), text=RIGHTS),
+        None,
+        ".md, line 26: 'by sums': the program does not define twice",
+    ),
     "a value without its form": (
         altered(),
         "def faults(x, given):\n    return []\n",
@@ -527,18 +570,64 @@ def test_a_solution_without_a_result_is_told(change, says, place, monkeypatch):
     assert line.startswith(f"This cannot be judged: {where}") and says in line
 
 
+def test_a_test_to_write_is_read_from_a_file(place):
+    write(place / "mine", twice_md=HEAD.format(number=1) + RIGHTS)
+    assert check("mine.1", lambda program: program(3) == 6 and program(2) == 4).holds
+    verdict = check("mine.1", lambda program: program(2) == 4)
+    assert verdict.mistake == "accepts: another sum"
+    refused = check("mine.1", lambda program: program(2) == 4 and program.__code__.co_consts[1:])
+    assert refused.mistake == "another kind or shape"
+
+
+EMPTY = """\
+def f(x, low):
+    if low:
+        x = x + 1
+        x = x * 3
+    return x
+"""
+NOTHING = """\
+**not raised.** One.
+- `x = x + 1` → nothing
+
+**not tripled.** Two.
+- `x = x * 3` → nothing
+"""
+
+
+def test_two_mistakes_that_are_no_program_together_explain_nothing():
+    mine = exercise(EMPTY, lambda rng: [(k / 2, k % 3 > 0) for k in range(9)], NOTHING)
+    assert check(mine, lambda x, low: x * 3 if low else x).mistake == "not raised"
+    verdict = check(mine, lambda x, low: x + 7 if low else x)
+    assert not verdict.holds and verdict.case and "cannot be judged" not in repr(verdict)
+
+
+def test_results_that_cannot_be_compared_are_unlike():
+    mine = exercise("def f(n):\n    return n", lambda rng: [(n,) for n in range(9)])
+    mine.alike = lambda a, b: 1 / 0
+    mine.code["form"] = lambda result, case: result
+    mine.code["law"] = lambda case, yours, wanted: "should be another"
+    verdict = check(mine, lambda n: n + 1)
+    assert not verdict.holds and "cannot be judged" not in repr(verdict)
+
+
 def test_a_broken_line_of_a_solution_names_all_edits_that_no_longer_fit(place):
-    """And a right program of a test names those that fit none any more."""
+    """Of a test: those that fit none of its right programs."""
     text = altered(("l1**2 + l2**2\n", "l1 * l1 + l2 * l2\n"))
     write(place / "mine", reach_md=text, reach_py=CASES)
+    rights = RIGHTS.replace("return x + x", "return 2 * x")
+    write(place / "mine", twice_md=HEAD.format(number=2) + rights)
     lab = book.lab("mine")
     assert not lab.exercises
-    file = place / "mine" / "reach.md"
-    assert lab.broken["reach.md"].split("\n") == [
-        f"{file}, line {line}: 'one link squared': `{piece}` stands 0 times in the solution, "
-        "wanted once"
-        for line, piece in ((27, "l2**2"), (28, "l1**2"))
-    ]
+    for name, line, mistake, pieces in (
+        ("reach.md", 27, "one link squared", ("l2**2", "l1**2")),
+        ("twice.md", 36, "another sum", ("x + x", "return x")),
+    ):
+        assert lab.broken[name].split("\n") == [
+            f"{place / 'mine' / name}, line {line + k}: {mistake!r}: `{piece}` stands 0 times in "
+            "the solution, wanted once"
+            for k, piece in enumerate(pieces)
+        ]
 
 
 def test_an_empty_folder_is_told(place):
@@ -606,7 +695,25 @@ def test_a_prediction_that_is_there_twice_or_has_no_right_answer_is_told(place):
         predict("mine.p1")
 
 
-@pytest.mark.parametrize("name", ["predictions.py", "pictures.py", "objectives.md"])
+def test_a_text_of_a_prediction_that_cannot_be_filled_is_told(place):
+    facts = FACTS.replace("length", "size")
+    write(place / "mine", predictions_md=PREDICTED, predictions_py=facts)
+    with pytest.raises(BadFile, match="line 3: p1 cannot be filled: KeyError: 'length'"):
+        predict("mine.p1")
+
+
+def test_broken_pictures_are_told_where_they_are_drawn(place):
+    pictures = "def p1_view():\n    return 'half'\n"
+    write(place / "mine", predictions_md=PREDICTED, predictions_py=FACTS, pictures_py=pictures)
+    write(place / "other", predictions_md=PREDICTED, predictions_py=FACTS, pictures_py="x = 1 / 0")
+    assert predict("mine.p1").view() == "half" and "p>half" in predict("mine.p1").html
+    assert "0.5 m" in repr(predict("other.p1"))
+    told = f"{place / 'other' / 'pictures.py'}, line 1: ZeroDivisionError: division by zero"
+    with pytest.raises(BadFile, match=re.escape(told)):
+        _ = predict("other.p1").html
+
+
+@pytest.mark.parametrize("name", ["predictions.py", "objectives.md"])
 def test_a_broken_file_beside_exercises_leaves_them(name, place):
     write(
         place / "mine",
@@ -650,8 +757,7 @@ def sorted_out(values, low):
 """
 LATER = """\
 def scaled(x):
-    def half(y):
-        return y / share
+    half = lambda y: y / share
     share = 2
     return half(x) + x
 """

@@ -6,6 +6,7 @@ import ast
 import importlib
 import inspect
 import itertools
+import os
 import re
 import subprocess
 import sys
@@ -223,9 +224,16 @@ def test_the_version_stands_once():
     assert re.fullmatch(r"\d+\.\d+\.\d+", robokin.__version__)
 
 
-def test_the_checker_finds_nothing():
+@pytest.mark.parametrize("what", [[], ["--explicit-package-bases", "notebooks/exercises"]])
+def test_the_checker_finds_nothing(what):
     # Configured in pyproject.toml. Its cache (.mypy_cache) makes the second run quick.
-    run = subprocess.run([sys.executable, "-m", "mypy"], cwd=ROOT, text=True, capture_output=True)
+    run = subprocess.run(
+        [sys.executable, "-m", "mypy", *what],
+        cwd=ROOT,
+        env={**os.environ, "MYPYPATH": "notebooks"},
+        text=True,
+        capture_output=True,
+    )
     assert run.returncode == 0, run.stdout + run.stderr
 
 

@@ -2,7 +2,7 @@
 
     from robokin.course import check, hint, predict, progress, report, solution, variant
 
-Each lab has a file here with its exercises and predictions, and one in `solutions/`.
+What they ask and say of each lab stands in notebooks/exercises (`book` finds it).
 """
 
 import re
@@ -73,12 +73,13 @@ def exercise(
 ) -> Exercise:
     """An exercise of one's own: `check(exercise(...), answer)`.
 
-    solution  a Markdown file as those of the labs, with its Python file beside it; or a function
-              that is right, or its text
+    solution  a Markdown file (.md) as those of the labs, with its Python file beside it; or a
+              function that is right, or its text
     cases     generator of random numbers -> inputs of the function, each a tuple
     mistakes  in the form of the Markdown: a name, a sentence, edits of the solution
 
-    ValueError: a file that cannot be read, no function, an edit that does not fit.
+    A file is read anew at each call. ValueError: it cannot be read, no function, edits that do not
+    fit.
     """
     return own(solution, cases, mistakes)
 

@@ -14,7 +14,7 @@ import os
 import sys
 import textwrap
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, cached_property, partial
 from pathlib import Path
@@ -99,12 +99,11 @@ class Lab:
         """Read everything now."""
         _ = self.objectives, self.exercises, self.predictions
 
-    def given(self, who: Any) -> Any:
-        """The numbers of a student. ValueError: no exercise has numbers of one's own."""
-        for exercise in self.exercises.values():
-            if given := getattr(exercise, "given", None):
-                return given(who)
-        raise ValueError(f"lab: {self.folder.name} has no numbers of one's own")
+    @property
+    def given(self) -> Callable[[Any], Any] | None:
+        """Who -> this student's numbers; None: no exercise has numbers of one's own."""
+        found = (getattr(each, "given", None) for each in self.exercises.values())
+        return next(filter(None, found), None)
 
     def exercise(self, file: Path) -> Exercise:
         """The one that a Markdown file and the Python file beside it have. ValueError: none."""
@@ -130,8 +129,9 @@ class Lab:
     def _noted(self, name: str) -> Iterator[None]:
         try:
             yield
-        except ValueError as error:
-            self.broken[name] = f"{error}"
+        except Exception as error:  # a teacher's file may hold anything
+            known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
+            self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
 
 
 def _old(name: str, what: str) -> Any:
@@ -191,7 +191,7 @@ def numbered(place: Path) -> list[str]:
 @cache
 def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
     found: dict[str, Lab] = {}
-    for place in (ours, *map(Path, filter(None, elsewhere.split(os.pathsep)))):
+    for place in (ours, *(Path(each).resolve() for each in elsewhere.split(os.pathsep) if each)):
         folders = {each.name: each for each in place.glob("[!._]*") if each.is_dir()}
         first = [name for name in numbered(place) if name in folders]
         for name in dict.fromkeys([*first, *sorted(folders)]):

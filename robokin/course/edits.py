@@ -242,7 +242,7 @@ class Steps:
     quickly: each is made of statements that are compiled already, and begins after those that it
     has in common with the solution, with its own copies of all that a statement may change. What
     cannot be taken apart so is compiled anew for each: a solution that returns in more than one
-    place, or has a function inside that asks for what comes later.
+    place, or keeps a function, which may ask for what comes later.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
@@ -254,7 +254,9 @@ class Steps:
         self.before = run(solution[: lines[top.lineno - 1]], also)
         returns = [n for n in ast.walk(top) if isinstance(n, ast.Return)]
         alone = len({a for a, _ in self.spans}) == len(self.spans)  # one statement a line
-        self.plain = returns == top.body[-1:] and alone and not _asks_later(top.body)
+        late = (ast.Lambda, ast.GeneratorExp)
+        kept = any(isinstance(n, ast.Assign) and isinstance(n.value, late) for n in top.body)
+        self.plain = returns == top.body[-1:] and alone and not kept
         self.names: dict[Any, dict[str, Any]] = {}
 
     def program(self, variant: Variant) -> Callable[..., Any]:
@@ -302,17 +304,3 @@ CHANGEABLE = (np.ndarray, list, dict, set)
 def _step(text: str) -> Any:
     text = textwrap.dedent(text)
     return compile(re.sub(r"^return\b", "returned =", text), "<solution>", "exec")
-
-
-def _asks_later(body: Sequence[ast.stmt]) -> bool:
-    """Whether a function inside one of these statements asks for a name that a later one gives."""
-    later: set[str] = set()
-    for statement in reversed(body):
-        nodes = list(ast.walk(statement))
-        inner = (n for n in nodes if isinstance(n, (ast.Lambda, ast.FunctionDef, ast.GeneratorExp)))
-        asked = {n.id for each in inner for n in ast.walk(each) if isinstance(n, ast.Name)}
-        if asked & later:
-            return True
-        stored = (n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
-        later |= {n.id for n in stored}
-    return False

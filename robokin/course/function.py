@@ -59,7 +59,7 @@ class Function(Exercise):
         self.inputs = tuple(inspect.signature(self.right).parameters)
         wrong = edits.own(text.file, name, [self.solution], text.wrong())
         self.own = [variant for variant, _ in wrong]
-        self.same: Callable[[Any, Any], bool] = code.get("same", forms.same)
+        self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
 
     @cached_property
@@ -116,6 +116,12 @@ class Function(Exercise):
         good = round(wrong.count(None) / len(cases), 2)
         case = self._told(first, outcomes[first], wrong[first])
         return Verdict(name, mistake=mistake, says=says, case=case, points=min(good, 0.9))
+
+    def same(self, one: Any, other: Any) -> bool:
+        """Whether two results are one answer; those that cannot be compared are not."""
+        with contextlib.suppress(Exception):
+            return bool(self.alike(one, other))
+        return False
 
     def form(self, result: Any, case: Case, wanted: Any) -> Any:
         """A result in form. ValueError: it has another one."""
@@ -236,7 +242,7 @@ class Function(Exercise):
             return program()(*self.cases[k])
 
         for pair in edits.pairs(self.own):
-            program = cache(partial(self.steps.program, pair))  # made when it is asked
+            program = cache(partial(self.steps.program, pair))  # it may be no Python
             yield Candidate(pair.name, pair.says, partial(ran, program))
 
     def _slipped(self) -> Iterator[Candidate]:

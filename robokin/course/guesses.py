@@ -1,7 +1,11 @@
 """Guesses that arrive: what a student guesses in a page while a kernel lives is kept beside the
 notebook, in `.robokin/guesses.json`, and a report finds it there.
 
-    {"guesses": 1, "notebooks": {"03_irb140_motion.ipynb": {"irb140_motion.p1": [["b", time]]}}}
+    {"guesses": 1, "notebooks": {"03_irb140_motion.ipynb": {"irb140_motion.p1":
+        [["b: joint 3", time]]}}}
+
+A choice is a number, or a letter with the name of the option, which stays when options change
+places.
 
 A widget without a view, one for each kernel, hears the page (js/guesses.js) and tells it what came
 of a guess. Nothing of it is stored in the notebook.
@@ -31,7 +35,7 @@ if TYPE_CHECKING:
 FOLDER, FILE = ".robokin", "guesses.json"
 LARGE = 1_000_000  # bytes of a file of guesses; a student's has a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
-CHOICE = re.compile(r"[a-f]|[-+.eE0-9]{1,30}")
+CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
 ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook's file
 PATIENCE = 10  # seconds that another kernel may take to write
 
@@ -209,7 +213,7 @@ def _value(choice: str) -> str | float:
     try:
         return float(choice)  # 90 and 90.0 are the same guess
     except ValueError:
-        return choice
+        return choice.partition(":")[0]  # and so are "b" and "b: joint 3"
 
 
 # --- The file -------------------------------------------------------------------------------------

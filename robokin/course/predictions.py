@@ -36,8 +36,12 @@ def chosen(name: str, choice: str) -> str:
     unit = find(name, "predictions").unit
     if unit is not None:
         return with_unit(choice, unit) if NUMBER.fullmatch(choice) else choice
-    options = dict(zip(LETTERS, worked_out(name)[1], strict=False))
-    return f"{choice}) {options[choice].text}" if choice in options else choice
+    _, options, right = worked_out(name)
+    try:
+        at = judged(find(name, "predictions"), options, right, choice)
+    except ValueError:
+        return choice
+    return f"{LETTERS[at]}) {options[at].text}"
 
 
 def predict(name: str, choice: str | float | None = None) -> "Asked":
@@ -78,6 +82,7 @@ class Asked:
 
     def _data(self, option: Option) -> "PageAnswer":
         data: PageAnswer = {
+            "name": option.name,
             "text": option.text,
             "reason": option.reason,
             "confusion": option.confusion,
@@ -122,7 +127,7 @@ class Asked:
             lines.append(f"A number, in {self.unit}.")
         if self.at is not None:
             right = self.options[self.right]
-            lines.append(f"Your choice: {self.choice}.")
+            lines.append(f"Your choice: {str(self.choice).partition(':')[0]}.")
             if self.at == self.right:
                 lines.append(f"Right. {right.reason}")
             else:

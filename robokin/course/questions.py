@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from .._validate import number
-from .markdown import BadFile, one_line
+from .markdown import BadFile, one_line, why
 
 LETTERS = "abcdef"
 
@@ -71,14 +71,19 @@ def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
 
 
 def judged(prediction: Prediction, options: Sequence[Option], right: int, choice: Any) -> int:
-    """Which option a choice is, -1 for a number that is none of them. ValueError: neither a letter
-    of an option nor a number, as the prediction wants it.
+    """Which option a choice is, -1 for a number that is none of them: "b", or "b: joint 3", where
+    the name counts if an option has it, since options may have changed places. ValueError: neither
+    a letter of an option nor a number, as the prediction wants it.
     """
     if prediction.unit is None:
-        letters = LETTERS[: len(options)]
-        if not (isinstance(choice, str) and len(choice) == 1 and choice in letters):
+        letters = list(LETTERS[: len(options)])
+        letter, _, name = choice.partition(": ") if isinstance(choice, str) else ("", "", "")
+        names = [each.name for each in options]
+        if name and name in names:
+            return names.index(name)
+        if letter not in letters:
             raise ValueError(f"choice: wanted one of {', '.join(letters)}, got {choice!r}")
-        return letters.index(choice)
+        return letters.index(letter)
     given = number(choice, "choice")
     order = [right, *range(len(options))]
     near = (k for k in order if _near(given, float(options[k].text), prediction.within))
@@ -129,17 +134,22 @@ def prediction(
         told = "wanted answers with unlike names, and a confusion for each but the right one"
         raise BadFile(file, line, f"{number}: {told}")
 
-    def right(facts: Mapping[str, Any]) -> int:
-        if facts.get("right") not in names:
+    def facts() -> Mapping[str, Any]:
+        found: Mapping[str, Any] = code[number]()
+        try:
+            text.format(**found)
+        except Exception as error:
+            raise BadFile(file, line, f"{number} cannot be filled: {why(error)}") from None
+        if found.get("right") not in names:
             told = f"{number}(): wanted 'right' to be one of {', '.join(names)}"
-            raise BadFile(file, line, f"{told}, got {facts.get('right')!r}")
-        return names.index(facts["right"])
+            raise BadFile(file, line, f"{told}, got {found.get('right')!r}")
+        return found
 
     return number, Prediction(
         question=one_line(question),
         options=options,
-        facts=code[number],
-        right=right,
+        facts=facts,
+        right=lambda facts: names.index(facts["right"]),
         unit=unit,
         within=float(within) / 100 if within else 0.1,
         optional=bool(optional),

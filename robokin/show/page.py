@@ -300,10 +300,12 @@ class PageExplorer(TypedDict):
 
 
 class PageAnswer(TypedDict):
-    """An answer to a question: what it says, why it is right or not, the confusion behind a wrong
-    one and a second case that shows it; of a number to type its value.
+    """An answer to a question: its short name, which older notebooks do not have, what it says, why
+    it is right or not, the confusion behind a wrong one and a second case that shows it; of a
+    number to type its value.
     """
 
+    name: NotRequired[str]
     text: str
     reason: str
     confusion: str | None

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from robokin.course import book, check, solution
 from robokin.course.catch import Catch
-from robokin.course.exercises import Function
+from robokin.course.function import Function
 
 
 def timed(name, answer, **who):
@@ -41,7 +41,7 @@ def answers(name, exercise):
         made = [v for k, v in space.items() if callable(v) and k in CALLS[name]]
         yield from made
         if isinstance(exercise, Function):
-            yield from (mistake.program for mistake in exercise.mistakes)
+            yield from (exercise.steps.program(variant) for variant in exercise.own)
     else:
         yield from (v for k, v in space.items() if k in CALLS[name])
 

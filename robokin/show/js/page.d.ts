@@ -232,6 +232,7 @@ export interface PageExplorer {
 }
 
 export interface PageAnswer {
+  name?: string;
   text: string;
   reason: string;
   confusion: string | null;

@@ -101,7 +101,7 @@ function start(root, data) {
     for (const input of inputs) {
       input.disabled = true;
       if (data.unit !== null) input.value = choice;
-      else input.checked = input.value === choice;
+      else input.checked = input.value === LETTERS[at];
     }
     if (data.unit === null)
       rows.forEach((row, i) => {
@@ -147,7 +147,8 @@ function start(root, data) {
       tell(error) {
         if (error) return alone(`: ${error}.`);
         const first = memory.read().find(([name]) => name === data.name)?.[1] ?? chosen();
-        const counts = first === chosen() ? "" : ` Your first guess, ${first}, counts.`;
+        const same = judged(data, first) === judged(data, chosen());
+        const counts = same ? "" : ` Your first guess, ${first.split(":")[0]}, counts.`;
         kept.textContent = `${before}Kept for your report.${counts}`;
         copy.remove();
       },
@@ -165,7 +166,9 @@ function start(root, data) {
   /** @param {string} choice */
   const settle = choice => {
     open(choice);
-    memory.write([...memory.read(), [data.name, choice, new Date().toISOString()]]);
+    const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
+    const made = name ? `${choice}: ${name}` : choice; // the name stays if answers change places
+    memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
     offer();
   };
   function recall(times = 50) {
@@ -228,7 +231,7 @@ function start(root, data) {
 /** @type {(data: PageQuestion, choice: string) => boolean} */
 const valid = (data, choice) =>
   data.unit === null
-    ? choice !== "" && LETTERS.indexOf(choice) < data.options.length && LETTERS.includes(choice)
+    ? judged(data, choice) >= 0 && judged(data, choice) < data.options.length
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
@@ -238,7 +241,11 @@ const valid = (data, choice) =>
  * @param {string} choice
  */
 function judged(data, choice) {
-  if (data.unit === null) return LETTERS.indexOf(choice);
+  if (data.unit === null) {
+    const [letter, name] = choice.split(": "),
+      at = data.options.findIndex(option => name && option.name === name);
+    return at < 0 && letter ? LETTERS.indexOf(letter) : at;
+  }
   /** @type {(answer: PageAnswer) => boolean} */
   const near = ({value = NaN}) => Math.abs(+choice - value) <= data.within * Math.abs(value) + 1e-9;
   return near(data.options[data.right]) ? data.right : data.options.findIndex(near);
@@ -281,7 +288,7 @@ function line(made, own) {
   const lab = own.slice(0, own.indexOf(".") + 1);
   const said = made
     .filter(([name], k) => name.startsWith(lab) && made.findIndex(each => each[0] === name) === k)
-    .map(([name, choice]) => `${name.slice(lab.length)} ${choice}`);
+    .map(([name, choice]) => `${name.slice(lab.length)} ${choice.split(":")[0]}`);
   return `report(who, guesses="${said.join(", ")}")`;
 }
 

@@ -1,0 +1,59 @@
+"""The conditions of exercise 1 of start_here; its words stand in the Markdown beside it."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import IRB140, deg
+from robokin.course.exercises import words
+from robokin.course.function import Fault
+from robokin.course.slips import DEGREES
+
+from .shared import minus, place
+
+COUNT = 3
+HEIGHT = 600  # mm
+NEAR = 5  # mm: whole degrees are enough, since one degree of joint 2 is some 9 mm
+
+
+def form(answer: Any, given: Any) -> Any:
+    q = np.asarray(answer, dtype=float) if np.shape(answer) == (6,) else None
+    if q is None or not np.isfinite(q).all():
+        raise ValueError(f"wanted six angles in radians, got {words(answer)}")
+    return q
+
+
+def faults(q: Any, given: Any) -> list[Fault]:
+    if abs(q).max() > 4 * np.pi:  # two turns
+        return [("degrees for radians", DEGREES)]
+    found = missed(q)
+    if found and (abs(q / deg) <= abs(IRB140.limits).max()).all() and not missed(q / deg):
+        return [("`deg` twice", "These are the right angles, multiplied by `deg` twice.")]
+    return found
+
+
+def missed(q: Any) -> list[Fault]:
+    """The conditions that the posture q misses."""
+    found: list[Fault] = []
+    for k, (angle, (low, high)) in enumerate(zip(q, IRB140.limits, strict=True), 1):
+        if not low <= angle <= high:
+            says = (
+                f"Joint {k} is at {angle / deg:.0f}°, and its limits are {low / deg:.0f}° and "
+                f"{high / deg:.0f}°."
+            )
+            found.append(("past a limit", minus(says)))
+            break
+    x, y, z = place(q)
+    if abs(z - HEIGHT) > NEAR:
+        name = "too low" if z < HEIGHT else "too high"
+        says = f"The tool is at a height of {z:.0f} mm; {HEIGHT} mm are wanted. Joint 2 changes it."
+        found.append((name, says))
+    if x <= 0 or abs(x - y) > NEAR:
+        name = "x and y differ"
+        says = f"x is {x:.0f} mm and y is {y:.0f} mm; wanted are equal numbers, both positive."
+        if x > 0 and abs(x + y) <= NEAR:
+            name, says = "right for left", f"{says} To the left y is positive."
+        elif abs(x - y) <= NEAR:
+            name = "behind the arm"
+        found.append((name, minus(says)))
+    return found
