@@ -184,7 +184,7 @@ TIP_MISTAKES = (
     ),
     Mistake(
         "ahead taken as the base's x",
-        "The tip is put along the x axis of the base. That is right in the home posture alone.",
+        "The tip is put along the x axis of the base. It has to point along that axis, too.",
         ahead_at_home,
     ),
     *(

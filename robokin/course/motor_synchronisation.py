@@ -1653,8 +1653,8 @@ PREDICTIONS = {
         options=(
             Option(
                 "Longer still: a path with corners is a detour.",
-                "Corners say nothing about length. A straight line with a corner in it may be "
-                "shorter than a wide arc: {a:.0f} mm against {d:.0f}.",
+                "Corners say nothing about length. A path with corners may be shorter than a wide "
+                "arc: {a:.0f} mm against {d:.0f}.",
                 "a corner taken for a detour",
                 "Across a square the way along two sides has a corner. A circle round the square "
                 "has none, and is longer.",
@@ -1835,7 +1835,7 @@ PREDICTIONS = {
             Option(
                 "Only 4, 8, 12 and so on.",
                 "The winding that is on holds the magnet at one place of the turn, and a turn is "
-                "four steps. In {runs} runs the lost steps were {some}.",
+                "four steps. In {runs} runs the lost steps were 0, {some}.",
             ),
             Option(
                 "One or two: then it has caught up.",
