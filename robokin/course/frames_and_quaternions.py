@@ -1001,8 +1001,8 @@ LEAD_MISTAKES = (
     ),
     Mistake(
         "angles instead of quaternions",
-        "It leads roll, pitch and yaw on straight lines: where one alone changes, by less than half "
-        "a turn, that is right.",
+        "It leads roll, pitch and yaw on straight lines: where one alone changes, by less than "
+        "half a turn, that is right.",
         _of_angles,
     ),
     Mistake(
