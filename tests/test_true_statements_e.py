@@ -1,12 +1,11 @@
 """Statements that a second set of readers refuted, computed again in another way."""
 
 import re
-from itertools import pairwise
 
 import numpy as np
 import pytest
 from conftest import NOTEBOOKS
-from test_true_statements_b import ARM, DISTANCE, K1, Q0, asked, cells, direct, lever_distance
+from test_true_statements_b import ARM, DISTANCE, asked, cells, direct, lever_distance
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
 
@@ -26,7 +25,6 @@ from robokin import (
 )
 from robokin.course import book
 from robokin.course.obstacle_avoidance import sampled_tasks
-from robokin.jobs.obstacles import plan
 from robokin.jobs.steppers import Stepper, ramp, station_postures
 from robokin.jobs.visit_collect import Task, TaskError
 
@@ -523,23 +521,6 @@ def test_how_the_draw_keeps_its_distance_and_what_the_larger_circle_leaves():
         r"(\d+) of (\d+)\. In (\d+) a lever still comes", options[2].reason
     )
     assert kept + near == all_
-
-
-def test_from_value_to_value_of_the_distance():
-    words = flat("10", "control-look")
-    low, at, high, to, one, two = numbers(
-        r"From value to value S rises, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, but for one "
-        r"fall, from (\d+) to (\d+) mm",
-        words,
-    )
-    made = run_cells("10", "setup")
-    found = {}
-    for mms in (20, 50, 100, 140, 180, 220, 260, 300, 340, 380):
-        answer = plan(made["arm"], Q0, K1, (1.2, 1.3), mms * mm)
-        found[mms] = abs(np.diff(answer.path, axis=0)).sum() / deg
-    falls = [(a, b) for a, b in pairwise(found) if found[b] < found[a]]
-    assert falls == [(one, two)]
-    assert [round(found[at]), round(found[to])] == [low, high]
 
 
 def test_plan_tries_more_circles_than_control():
