@@ -7,12 +7,13 @@ import re
 import numpy as np
 import pytest
 
-import robokin.course.scara_kinematics as book
 from robokin import SCARA, ScaraPose, deg, follow, mm, scara_arm, within
-from robokin.course import check, solution, variant
+from robokin.course import book, check, solution, variant
 from robokin.course.questions import filled
 
 LEVERS = 0.2, 0.25
+LAB = book.lab("scara_kinematics")
+CIRCLE, FACTS = LAB.module("own_circle"), LAB.module("predictions")
 
 
 # --- 1 --------------------------------------------------------------------------------------------
@@ -50,8 +51,9 @@ def test_another_elbow_found_in_another_way_holds(answer):
 
 
 def test_every_listed_mistake_is_named():
-    for mistake in book.EXERCISES["1"].mistakes:
-        verdict = check("scara_kinematics.1", mistake.program)
+    exercise = LAB.exercises["1"]
+    for mistake in exercise.own:
+        verdict = check("scara_kinematics.1", exercise.steps.program(mistake))
         assert not verdict.holds and verdict.mistake == mistake.name, verdict
 
 
@@ -83,7 +85,7 @@ def test_a_stranger_is_refused_without_a_name():
 
 
 def _every_task():
-    return {tuple(n.values()): who for who in map(str, range(400)) for n in [book.given(who)]}
+    return {tuple(n.values()): who for who in map(str, range(400)) for n in [LAB.given(who)]}
 
 
 def test_every_student_can_solve_the_task():
@@ -136,7 +138,7 @@ def test_a_wrong_circle_gets_its_name(change, name):
 
 def test_the_task_is_the_one_that_the_lab_draws():
     numbers = variant("scara_kinematics", "Ada")
-    targets = book.own_circle(numbers, 0.3, 0.5)
+    targets = CIRCLE["own_circle"](numbers, 0.3, 0.5)
     centre = 0.3 * np.array([np.cos(numbers["bearing"]), np.sin(numbers["bearing"])])
     off = np.linalg.norm(targets.position[:, :2] - centre, axis=-1)
     assert np.allclose(off, numbers["radius"]) and (targets.position[:, 2] == 0.1).all()
@@ -150,7 +152,9 @@ def test_right_and_wrong_programs_are_what_their_names_say():
     rng = np.random.default_rng(4)
     limits = SCARA.limits
     q = rng.uniform(*limits.T, (40, 4))
-    for _, program in book.RIGHT_LIMITS:
+    exercise = LAB.exercises["3"]
+    for _, text in exercise.rights:
+        program = exercise.program(text)
         assert program(q, limits)
         for joint in range(4):
             for value in (limits[joint, 0] - 1e-3, limits[joint, 1] + 1e-3, np.nan):
@@ -237,7 +241,7 @@ def test_a_posture_far_turned_or_a_little_off_is_judged_as_it_is():
 
 
 def _right(name):
-    _, options, right = filled(book.PREDICTIONS[name])
+    _, options, right = filled(LAB.predictions[name])
     return options[right].text
 
 
@@ -260,7 +264,7 @@ def test_the_arcsine():
 
 
 def test_the_place_behind_the_arm():
-    rows = SCARA.ik(book.BEHIND)
+    rows = SCARA.ik(FACTS["BEHIND"])
     assert within(SCARA, rows).all(axis=-1).tolist() == [True, False]
     assert _right("p5").startswith("Elbow +1 alone")
 
@@ -279,7 +283,7 @@ def test_the_areas_by_a_grid():
         arm = scara_arm("other", 0.2202, *LEVERS, limits)
         ways = within(arm, arm.ik(grid)).all(axis=-1)
         found = 0.16 * ways[..., 0].sum(), 0.16 * ways.any(axis=-1).sum()
-        assert np.allclose(book._areas(a * deg, most * deg), found, rtol=2e-3)
+        assert np.allclose(FACTS["areas"](a * deg, most * deg), found, rtol=2e-3)
     assert _right("p7").startswith("Joint 2")
 
 

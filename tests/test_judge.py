@@ -7,6 +7,7 @@ import copy
 import json
 import os
 import random
+import re
 import subprocess
 import sys
 import time
@@ -22,6 +23,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from robokin import course
 from robokin.course import judge as judging
 from robokin.course import kernel, process, solution
+from robokin.course.__main__ import main
 from robokin.course.handed_in import Call, claims, handed_in
 from robokin.course.judge import Limits, Run, guesses, judge
 from robokin.course.process import _end_marked
@@ -554,3 +556,47 @@ def test_any_change_of_a_notebook_is_read_or_refused_with_a_reason(tmp_path):
         raw[dice.randrange(len(raw))] = dice.randrange(256)
         lab.write_bytes(raw[: dice.choice((len(raw), dice.randrange(len(raw))))])
         tried(lab)
+
+
+OWN = """# 1. Twice
+
+Objective 1. Twice a number
+
+## Solution
+
+```python
+def twice(x):
+    return 2 * x
+```
+"""
+
+
+def test_an_exercise_of_ones_own_is_judged_where_the_teacher_has_it(tmp_path, monkeypatch, capsys):
+    """What lies beside the student's notebook is none of the teacher's."""
+    (tmp_path / "handed").mkdir()
+    lab = stored(
+        tmp_path / "handed" / "Ada.ipynb",
+        "from robokin.course import check, exercise",
+        "def twice(x):\n    return x + x",
+        'check("doubles.1", twice)',
+        "check(exercise(twice, lambda rng: [(1,)]), twice)",
+    )
+    for folder, text in (("teacher", OWN), ("handed/exercises", OWN.replace("2 * x", "x"))):
+        place = tmp_path / folder / "doubles"
+        place.mkdir(parents=True)
+        (place / "twice.md").write_text(text)
+        (place / "twice.py").write_text("def cases(rng):\n    return [(1,), (2.5,), (-3,)]\n")
+    judged = judge(handed_in(lab), "Ada", QUICK)
+    told = "an exercise of one's own: not judged."
+    assert judged.exercises == () and f"doubles.1: {told}" in judged.remarks
+    assert [each for each in judged.remarks if each.endswith(told)][1:], "the one made in a cell"
+
+    monkeypatch.setenv("ROBOKIN_EXERCISES", "")  # and as it was, afterwards
+    given = ["summary", str(tmp_path / "handed"), "--to", str(tmp_path)]
+    assert main([*given, "--exercises", str(tmp_path / "teacher")]) == 0
+    table = (tmp_path / "summary.csv").read_text(encoding="utf-8-sig")
+    assert re.search("^Ada,doubles,Ada.ipynb,.*,holds,", table, re.M), table
+    assert main([*given, "--exercises", str(tmp_path / "nowhere")]) == 1
+    assert main([*given, "--exercises", str(tmp_path / "handed" / "exercises" / "doubles")]) == 1
+    errors = capsys.readouterr().err
+    assert "wanted a folder, got" in errors and "no lab of its own in" in errors

@@ -67,9 +67,13 @@ def mistakes(lab, name):
     return [
         (each, each.says)
         for exercise in find_exercises(lab)
-        for each in getattr(exercise, "mistakes", ())
+        for each in (*getattr(exercise, "mistakes", ()), *written(exercise))
         if getattr(each, "name", "") == name
     ]
+
+
+def written(exercise):
+    return exercise.text.wrong() if hasattr(exercise, "text") else []
 
 
 def find_exercises(lab):

@@ -1,6 +1,7 @@
 """python -m robokin.course COMMAND: what a course does with its labs as files."""
 
 import argparse
+import os
 import shutil
 import sys
 from collections import Counter
@@ -18,6 +19,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         if "to" in given:
             given.to.mkdir(parents=True, exist_ok=True)
+        if getattr(given, "exercises", None):
+            _add(given.exercises.resolve())
         return int(given.run(given))
     except OSError as error:
         print(error, file=sys.stderr)
@@ -80,6 +83,9 @@ def _parser() -> argparse.ArgumentParser:
     summary.add_argument("--no-points", action="store_true", help="leave the points out")
     for each in (export, report, summary):
         each.add_argument("--to", help="where (default: here)", **to)
+    for each in (report, summary):
+        own = "a folder of your own labs' exercises, each lab a folder in it"
+        each.add_argument("--exercises", metavar="FOLDER", type=Path, help=own)
 
     site = command(
         _site,
@@ -96,6 +102,25 @@ def _parser() -> argparse.ArgumentParser:
         help="without the notes for teachers, which have the answers of the oral questions",
     )
     return parser
+
+
+def _add(folder: Path) -> None:
+    """Let this process, and the kernels that it starts, know the labs in a folder. OSError: it is
+    none, or has none.
+    """
+    from .book import ELSEWHERE, labs
+
+    before = len(labs())
+    if not folder.is_dir():
+        raise NotADirectoryError(f"--exercises: wanted a folder, got {str(folder)!r}")
+    known = [os.environ[ELSEWHERE]] if os.environ.get(ELSEWHERE) else []
+    os.environ[ELSEWHERE] = os.pathsep.join([*known, str(folder)])
+    if len(labs()) == before:
+        raise FileNotFoundError(f"--exercises: no lab of its own in {str(folder)!r}")
+    for each in labs().values():
+        each.read()
+        for told in each.broken.values():
+            print(told, file=sys.stderr)
 
 
 def _copy(given: Any) -> int:

@@ -56,6 +56,7 @@ class HandedIn:
     choices  the last call of each prediction with a choice
     broken   the exercises that are checked in cells that cannot be read as Python: id -> reason
     guesses  the line of guesses that a page copies, as the last call of `report` has it
+    strange  what else it checks: exercises of one's own
     """
 
     path: Path
@@ -65,6 +66,7 @@ class HandedIn:
     choices: dict[str, Call]
     broken: dict[str, str]
     guesses: str = ""
+    strange: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -85,6 +87,7 @@ def handed_in(path: Path) -> HandedIn:
     choices: dict[str, Call] = {}
     broken: dict[str, str] = {}
     named: Counter[str] = Counter()
+    strange: dict[str, None] = {}
     guesses, room = "", ALL_CODE
     for k, cell in enumerate(notebook.cells):
         if cell.cell_type != "code" or not any(word in cell.source for word in CALLS):
@@ -106,6 +109,8 @@ def handed_in(path: Path) -> HandedIn:
                 guesses = call.answer or guesses
                 continue
             if not _known(call.name, "exercises" if what == "check" else "predictions"):
+                if what == "check":
+                    strange[call.name] = None
                 continue
             named[call.name.partition(".")[0]] += 1
             if what == "check":
@@ -116,7 +121,8 @@ def handed_in(path: Path) -> HandedIn:
     named.update(name.partition(".")[0] for name in broken)
     most = [slug for slug, _ in named.most_common()]
     most = most or [slug for slug in labs() if slug in path.stem.lower()]
-    return HandedIn(path, notebook, most[0] if most else None, checks, choices, broken, guesses)
+    lab_ = most[0] if most else None
+    return HandedIn(path, notebook, lab_, checks, choices, broken, guesses, tuple(strange))
 
 
 def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
@@ -257,13 +263,16 @@ def _call(node: ast.Call, cell: int) -> tuple[str, Call] | None:
     names = ("name", "answer", "who") if what == "check" else ("name", "choice")
     given = dict(zip(names, node.args, strict=False))
     given |= {str(each.arg): each.value for each in node.keywords if each.arg in names}
-    name = given.get("name")
-    if not (isinstance(name, ast.Constant) and isinstance(name.value, str)):
+    asked = given.get("name")
+    name = asked.value if isinstance(asked, ast.Constant) else None
+    if what == "check" and asked is not None and not isinstance(name, str):
+        name = ast.unparse(asked)[:60]  # an exercise of one's own
+    if not isinstance(name, str):
         return None
     answer, own = given.get(names[1]), given.get("who")
     return what, Call(
         cell,
-        name.value,
+        name,
         ast.unparse(answer) if answer else "",
         ast.unparse(own) if own else "",
     )

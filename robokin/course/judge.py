@@ -96,6 +96,7 @@ def judge(given: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     others = [name for name in given.checks if name not in names]
     if others:
         remarks.append(f"Of other labs, and left out here: {', '.join(others)}.")
+    remarks += [f"{name}: an exercise of one's own: not judged." for name in given.strange[:20]]
     made = guesses(given, remarks)
     return Judged(notebook, exercises, made, tuple(remarks))
 

@@ -49,9 +49,12 @@ def variant(lab: str, who: Any) -> Numbers:
     """The numbers of the student `who` (a name or a number) for the design exercise of a lab.
 
     The same on every machine; upper and lower case and spaces make no difference. ValueError: no
-    such lab, an empty name.
+    such lab, one without such an exercise, an empty name.
     """
-    made: Numbers = _lab(lab).given(who)
+    given = _lab(lab).given
+    if given is None:
+        raise ValueError(f"lab: {lab} has no numbers of one's own")
+    made: Numbers = given(who)
     return made
 
 

@@ -1,0 +1,36 @@
+"""What several exercises and predictions of scara kinematics use."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robokin import SCARA, deg, mm
+
+Floats = NDArray[np.float64]
+MINUS = str.maketrans("-", "\N{MINUS SIGN}")
+L0, L1, L2 = 220.2 * mm, 200 * mm, 250 * mm  # source 001, listing 4
+LOW, HIGH = SCARA.limits.T
+
+
+def place(q: Any) -> Floats:
+    """x, y of the tool, in metres: q (..., 4) -> (..., 2)."""
+    q1, both = q[..., 0], q[..., 0] + q[..., 1]
+    x, y = L1 * np.cos(q1) + L2 * np.cos(both), L1 * np.sin(q1) + L2 * np.sin(both)
+    return np.stack([x, y], axis=-1)
+
+
+def distance(q2: float) -> float:
+    """Of the tool from joint 1."""
+    return float(np.sqrt(L1**2 + L2**2 + 2 * L1 * L2 * np.cos(q2)))
+
+
+def corner(q2: float) -> float:
+    """The angle inside the triangle by the law of cosines: it has no sign."""
+    d = distance(q2)
+    return float(np.arccos(np.clip((L1**2 + d**2 - L2**2) / (2 * L1 * d), -1, 1)))
+
+
+def shown(x: float) -> str:
+    """An angle in degrees."""
+    return f"{round(x / deg, 1) + 0.0:.1f}°".translate(MINUS)
