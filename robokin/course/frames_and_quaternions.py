@@ -1001,8 +1001,8 @@ LEAD_MISTAKES = (
     ),
     Mistake(
         "angles instead of quaternions",
-        "It leads roll, pitch and yaw on straight lines: about one base axis that is right, about "
-        "an oblique one it is not.",
+        "It leads roll, pitch and yaw on straight lines: where one alone changes, by less than "
+        "half a turn, that is right.",
         _of_angles,
     ),
     Mistake(
@@ -1516,7 +1516,7 @@ PREDICTIONS = {
                 "So it is for skew axes, which have one common perpendicular. Parallel ones have "
                 "many.",
                 "the skew case for all cases",
-                "Shoulder and elbow of nearly every robot are parallel.",
+                "The IRB-140's shoulder and elbow axes are parallel.",
             ),
         ),
         facts=_free_facts,

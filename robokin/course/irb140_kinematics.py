@@ -184,7 +184,7 @@ TIP_MISTAKES = (
     ),
     Mistake(
         "ahead taken as the base's x",
-        "The tip is put along the x axis of the base. That is right in the home posture alone.",
+        "The tip is put along the base's x axis: right only while the tool points along it.",
         ahead_at_home,
     ),
     *(

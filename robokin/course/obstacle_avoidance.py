@@ -1618,8 +1618,8 @@ PREDICTIONS = {
             ),
             Option(
                 "A narrow rim, about 5 %.",
-                "The rim of a short motion is narrow. Here the arcs of A and K bulge by as much as "
-                "the quadrilateral is wide: {share:.0f} %.",
+                "The rim of a short motion is narrow. Here the curves of A and K bulge by 0.40 and "
+                "0.47 m: {share:.0f} %.",
                 "a short motion taken for all",
                 "Between 12 and 1 o'clock chord and arc are close; between 12 and 6 they are not.",
             ),
@@ -1816,8 +1816,8 @@ PREDICTIONS = {
             ),
             Option(
                 "About two thirds.",
-                "{keep} of {count}. In most tasks the levers stand in the way, and the circle "
-                "moves the gripper only.",
+                "{keep} of {count}. In {near} a lever still comes nearer: the circle moves the "
+                "gripper only.",
                 "the gripper's trouble taken for the arm's",
                 "Of the 47 tasks in which a lever sweeps the obstacle with r = 143 mm, none is "
                 "mended.",

@@ -1645,8 +1645,8 @@ EXERCISES = {
         ),
         rights=RIGHTS,
         promise="A right program holds both distances within 1e-9 m, gives the right elbow first, "
-        "and NaN four times out of reach. On the rim itself, and with the tip on the base, it may "
-        "give either.",
+        "and NaN four times out of reach. Nearer than a millimetre to a rim, and with the tip on "
+        "the base, it may give anything.",
         mistakes=CATCH_MISTAKES,
     ),
 }
