@@ -3,17 +3,17 @@
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robokin import mm
 from robokin.course.exercises import words
 from robokin.course.told import apart
 from robokin.course.variants import Numbers, dice
 
-Floats: TypeAlias = NDArray[np.float64]
+from .shared import Floats
+
 COUNT = 3  # both elbows, and the budget
 OUTPUTS = ("xr", "yr", "xl", "yl")
 BUDGET = 23
@@ -28,15 +28,11 @@ def given(who: Any) -> Numbers:
     x, y = (1 - 2 * roll.randrange(2)) * 0.05, (1 - 2 * roll.randrange(2)) * 0.05
     long, less = roll.randrange(60, 91, 5) / 100, roll.randrange(10, 31, 5) / 100
     l1, l2 = (long, long - less) if roll.randrange(2) else (long - less, long)
-    numbers = {
-        "base_x": round(x * roll.randrange(1, 5), 2),
-        "base_y": round(y * roll.randrange(1, 5), 2),
-        "l1": round(l1, 2),
-        "l2": round(l2, 2),
-        "budget": BUDGET,
-    }
-    units = {name: ("m", 1.0) for name in ("base_x", "base_y", "l1", "l2")}
-    return Numbers(numbers, units | {"budget": ("operations", 1)})
+    x, y = x * roll.randrange(1, 5), y * roll.randrange(1, 5)
+    numbers = {"base_x": x, "base_y": y, "l1": l1, "l2": l2}
+    numbers = {name: round(value, 2) for name, value in numbers.items()}
+    units = dict.fromkeys(numbers, ("m", 1.0)) | {"budget": ("operations", 1)}
+    return Numbers(numbers | {"budget": BUDGET}, units)
 
 
 def operations(program: str) -> int:

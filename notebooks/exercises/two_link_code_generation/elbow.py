@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from robokin import deg
 from robokin.course.exercises import words
 from robokin.course.told import apart, floats
 
-Floats: TypeAlias = NDArray[np.float64]
+from .shared import Floats
+
 Case: TypeAlias = tuple[Any, ...]
 ROUNDING = 1e-9  # of the reach
 NONE = np.array([np.nan, np.nan])
@@ -154,17 +153,9 @@ def polar(length: float, direction: float) -> Floats:
     return length * np.array([np.cos(direction), np.sin(direction)])
 
 
-def in_degrees(direction: float) -> float:
-    return direction / deg
-
-
 def strict_root(h2: float) -> float:
     """It raises an error below 0."""
     return math.sqrt(h2)
-
-
-def error() -> float:
-    raise ValueError("out of reach")
 
 
 def close(h2: float, d: float, l1: float, l2: float) -> float:

@@ -1,4 +1,4 @@
-"""What the right and wrong programs of exercise 3 use; its words stand in the Markdown beside it."""
+"""What the right and wrong programs of exercise 3 use; its words stand beside it."""
 
 from math import atan2, cos, hypot, inf, nan, sin, sqrt
 
