@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from matplotlib.path import Path as Outline
 
-import robokin.course.obstacle_avoidance as book
 from robokin import deg, three_lever
-from robokin.course import check, variant
+from robokin.course import book, check, variant
 from robokin.jobs.obstacles import along, clearance, way_round
 
 arm = three_lever(1.0)
+lever_distances = book.lab("obstacle_avoidance").module("shared")["distances"]
 
 
 def _sides(c):
@@ -204,7 +204,7 @@ def test_a_test_of_first_and_last_postures_is_not_enough():
         points = arm.points(path[rng.integers(2)])
         i = rng.integers(3)
         H = points[i] + rng.random() * (points[i + 1] - points[i]) + rng.normal(0, 0.2, 2)
-        least, ends = clearance(arm, path, H).min(), book._distances(path, H).min()
+        least, ends = clearance(arm, path, H).min(), lever_distances(path, H).min()
         if least > 0.06 and ends - least < 1e-6:
             tasks += [(path, H, least - 0.025, True), (path, H, least + 0.025, False)]
 
@@ -219,7 +219,7 @@ def test_the_distances_of_the_checks_are_those_of_the_package():
     from robokin.jobs.obstacles import distances
 
     q = np.random.default_rng(1).uniform(0, np.pi, (50, 3))
-    assert np.allclose(book._distances(q, [1.2, 1.3]), distances(arm, q, (1.2, 1.3)), atol=1e-12)
+    assert np.allclose(lever_distances(q, [1.2, 1.3]), distances(arm, q, (1.2, 1.3)), atol=1e-12)
 
 
 def test_a_test_with_one_easy_task_is_not_enough():

@@ -21,7 +21,6 @@ from robokin.arms.dexterity import velocity_ellipsoid
 from robokin.course import variant
 from robokin.course.book import find
 from robokin.course.book import lab as content
-from robokin.course.obstacle_avoidance import _path_form, sampled_tasks
 from robokin.course.questions import filled
 from robokin.jobs import redundancy
 from robokin.jobs.conveyor import serve, spaced
@@ -34,6 +33,7 @@ ARM = three_lever(1.0)
 K1 = np.array([1.9, 0.3])
 Q0 = ARM.family((1.2, 1.7), 118 * deg)
 DISTANCE = 1 / 7
+sampled_tasks = content("obstacle_avoidance").module("predictions")["sampled_tasks"]
 
 
 @functools.cache
@@ -523,12 +523,13 @@ def test_seven_samples_miss_the_valley():
 
 def test_which_angles_of_the_task_are_radians():
     given = variant("obstacle_avoidance", "your name")
+    path_form = content("obstacle_avoidance").module("past_a_bar")["form"]
     assert said("10", "task-2", r"`my_task\[\"start\"\]` holds (\w+), `my_task\[\"most\"\]` (\w+)")
     assert max(given["start"]) > 4 * np.pi > given["most"] and "held in radians" in repr(given)
     (most,) = said("10", "task-2", r"at most (\d+) postures")
-    assert len(_path_form(np.zeros((int(most), 3)), given)) == most
+    assert len(path_form(np.zeros((int(most), 3)), given)) == most
     with pytest.raises(ValueError, match=f"at most {most:.0f}"):
-        _path_form(np.zeros((int(most) + 1, 3)), given)
+        path_form(np.zeros((int(most) + 1, 3)), given)
 
 
 # --- 11 -------------------------------------------------------------------------------------------

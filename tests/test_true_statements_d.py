@@ -23,10 +23,11 @@ from test_true_statements_c import flat, mistakes, numbers, shown, view
 
 from robokin import deg, loader_arm, mm
 from robokin.course import book
-from robokin.course.obstacle_avoidance import _count, _star, sampled_tasks
 from robokin.jobs.obstacles import plan, via_path, way_round
 from robokin.jobs.steppers import Stepper, ramp, shortest_turn, station_postures, straight
 
+LAB_10 = book.lab("obstacle_avoidance")
+sampled_tasks = LAB_10.module("predictions")["sampled_tasks"]
 LOADER, PER_DEGREE, LIMIT = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40]), 500
 
 
@@ -120,8 +121,8 @@ def test_the_middle_of_a_star():
     assert "the middle of a five-pointed star drawn in one line is outside" in says
     middle = np.array([0.01, 0.02])
     for points, step, inside in ((5, 2, False), (8, 3, True)):
-        corners = np.array(_star(points, step))
-        assert (_count(corners, middle) % 2 == 1) == inside
+        corners = np.array(LAB_10.module("inside_outside")["star_of"](points, step))
+        assert LAB_10.exercises["1"].right(corners, middle) == inside
         seen = np.unwrap(np.arctan2(*(np.vstack([corners, corners[:1]]) - middle).T[::-1]))
         assert round(abs(seen[-1] - seen[0]) / (2 * np.pi)) % 2 == inside
 

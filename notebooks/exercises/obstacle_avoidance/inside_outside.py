@@ -1,0 +1,178 @@
+"""Cases, form and law of exercise 1 of obstacle avoidance; its words stand in the Markdown beside
+it, and its wrong programs use `count`, `turns` and the like, too.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from robokin.course.exercises import words
+
+from .shared import MINUS, Floats, count, crossing, drawing, sides, to_segment
+
+__all__ = ["count", "drawing"]
+Case = tuple[Floats, Floats]
+
+
+def star_of(points: int, step: int) -> list[tuple[float, float]]:
+    """A star with so many points, drawn in one line: from each point to the `step`-th next one."""
+    angles = 2 * np.pi * step / points * np.arange(points) + 0.1
+    return [(round(2 * float(np.cos(a)), 2), round(2 * float(np.sin(a)), 2)) for a in angles]
+
+
+def cases(rng: np.random.Generator) -> list[Case]:
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    diamond = [(0, -1), (1, 0), (0, 1), (-1, 0)]
+    drawn = [(0.8, 1.5), (1.75, 1.7), (1.85, 0.5), (0.9, 0.6)]  # one drawing: A, K, K1, A1
+    dent = [(0, 0), (4, 0), (4, 3), (2, 1)]  # a dent at the last corner
+    arrow = [(0, 0), (2, 1), (4, 0), (2, 4)]
+    bow = [(0, 0), (2, 2), (2, 0), (0, 2)]  # two of its sides cross
+    star = star_of(5, 2)  # drawn in one line: the shape goes twice round its middle
+    hook = [(0, 0), (5, 0), (5, 5), (1, 5), (1, 2), (3, 2)]
+    hook += [(3, 3), (2, 3), (2, 4), (4, 4), (4, 1), (0, 1)]
+    ring = star_of(8, 3)  # three times round the middle, twice round what is next to it
+    comb = [(0, 0), (6, 0), (6, 4), (5, 1), (4, 4), (3, 1), (2, 4), (1, 1)]
+    steep = [(0.9, 0.5), (0.85, -0.5), (1.3, 0.2), (0.75, 1.05)]
+    triangle = [(0, 0), (3, 0), (0, 2)]
+    pentagon = [(0, 0), (3, 0), (4, 2), (2, 1), (0, 3)]
+    tried: list[tuple[Any, Any]] = [
+        (square, (0.5, 0.5)),
+        (square, (1.5, 0.5)),
+        (square, (-0.5, 0.5)),
+        (square[::-1], (0.25, 0.75)),
+        (square, (1.1, 0.5)),
+        (square, (0.5, 1.5)),
+        (square, (-1, 0)),  # level with a side
+        (square, (-1, 1)),
+        (diamond, (0, 0)),  # level with corners
+        (diamond, (-2, 0)),
+        (diamond, (-2, 1)),
+        (diamond, (0.25, 0.5)),
+        (diamond, (0.7, 0.6)),
+        (diamond[::-1], (-0.75, -0.5)),
+        (drawn, (1.3, 1.1)),
+        (drawn, (0.5, 1.1)),
+        (drawn, (1.3, 2.0)),
+        (drawn[::-1], (1.3, 1.1)),
+        (dent, (3, 1)),
+        (dent, (2, 1.5)),
+        (dent, (1, 1)),
+        (dent[::-1], (1.5, 0.5)),
+        (arrow, (2, 0.5)),
+        (arrow, (2, 2)),
+        (arrow, (-1, 1)),
+        (arrow[1:] + arrow[:1], (2, 0.5)),
+        (bow, (1, 0.5)),
+        (bow, (0.5, 1)),
+        (bow, (1.75, 1.5)),
+        (bow, (1, 1.5)),
+        (comb, (0.4, 1.2)),
+        (comb, (1.8, 2)),
+        (comb, (3, 2)),
+        (comb, (0.5, 0.25)),
+        (comb, (4, 1)),
+        (steep, (1.03, 0.45)),
+        (steep, (0.8, 0.3)),
+        (triangle, (1, 1)),
+        (triangle, (2, 1)),
+        (triangle, (-1, 2)),
+        (pentagon, (3, 1.75)),
+        (pentagon, (0.5, 2)),
+        (pentagon, (3.2, 1)),
+        (dent, (1.5, 0.5)),  # in line with a side
+        (comb, (5.7, 2)),  # many crossings on one side of H, one on the other
+        (star, (0.1, 0.05)),  # two sides to the right: outside
+        (star, (1.5, 0.1)),
+        (star[::-1], (-0.1, 0.1)),
+        (star, (0.95, 0.9)),
+        (ring, (0.1, 0.05)),
+        (ring[::-1], (-0.05, 0.1)),
+        (ring, (0.9, 0.2)),
+        (ring, (1.7, 0.05)),
+        ([(y, x) for x, y in comb], (2, 3)),  # between two teeth, one above, one below
+        (hook, (3.5, 2.5)),  # outside, with sides in every direction
+        (hook, (1.5, 3)),
+        (hook[::-1], (2.5, 3.5)),
+    ]
+    found = [(np.array(c, dtype=float), np.array(h, dtype=float)) for c, h in tried]
+    while len(found) < 66:
+        corners = rng.uniform(0, 2, (4, 2)).round(2)
+        H = rng.uniform(corners.min(axis=0), corners.max(axis=0)).round(2)
+        gaps = [to_segment(P, Q, H) for P, Q in sides(corners)]
+        if min(gaps) > 0.02:
+            found.append((corners, H))
+    return found
+
+
+def form(result: Any, case: Case) -> bool:
+    if isinstance(result, str) or np.size(result) != 1:
+        raise ValueError(f"wanted True or False, got {words(result)}")
+    value = np.reshape(np.asarray(result), ()).item()
+    if value not in (0, 1):
+        raise ValueError(f"wanted True or False, got {words(result)}")
+    return bool(value)
+
+
+def law(case: Case, yours: bool, wanted: bool) -> str | None:
+    if yours == wanted:
+        return None
+    corners, H = case
+    crossed = count(corners, H)
+    some = "side" if crossed == 1 else "sides"
+    shape = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
+    line = (
+        f"should be {wanted}: a ray from ({H[0]:g}, {H[1]:g}) to the right crosses {crossed} "
+        f"{some} of {shape}"
+    )
+    return line.translate(MINUS)
+
+
+# --- For wrong programs
+
+
+def left_of(P: Any, Q: Any, H: Any) -> float:
+    """Above 0 where H is to the left of the line from P to Q."""
+    return float((Q[0] - P[0]) * (H[1] - P[1]) - (Q[1] - P[1]) * (H[0] - P[0]))
+
+
+def in_rubber_band(corners: Floats, H: Floats) -> bool:
+    """Whether H lies in the hull of the corners."""
+    angles = np.sort(np.arctan2(corners[:, 1] - H[1], corners[:, 0] - H[0]))
+    gaps = np.diff(np.append(angles, angles[0] + 2 * np.pi))
+    return bool(gaps.max() < np.pi)
+
+
+def seen(corners: Floats, H: Floats) -> Floats:
+    """The angles under which H sees the sides, as parts of a turn."""
+    places = np.array([complex(*(P - H)) for P in corners])
+    return np.asarray(np.angle(np.roll(places, -1) / places) / (2 * np.pi))
+
+
+def turns(corners: Floats, H: Floats) -> int:
+    """How often the shape goes round H, counter-clockwise."""
+    return round(float(seen(corners, H).sum()))
+
+
+def unsigned_turns(corners: Floats, H: Floats) -> float:
+    """The same where all angles count positive."""
+    return float(abs(seen(corners, H)).sum())
+
+
+def crossing_or_end(P: Any, Q: Any, y: float) -> float:
+    """x of the side PQ at the height y; of a level side its right end."""
+    return float(max(P[0], Q[0])) if P[1] == Q[1] else crossing(P, Q, y)
+
+
+def leftward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
+    """Turned so that a ray to the left goes to the right."""
+    return corners * [-1, 1], H * [-1, 1]
+
+
+def upward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
+    """The same for a ray upwards."""
+    return corners[:, ::-1], H[::-1]
+
+
+def downward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
+    """The same for a ray downwards."""
+    return leftward(*upward(corners, H))

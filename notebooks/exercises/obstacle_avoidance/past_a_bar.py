@@ -1,0 +1,202 @@
+"""Numbers, conditions and sentences of exercise 2 of obstacle avoidance; its words stand in
+the Markdown beside it.
+"""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.course.exercises import words
+from robokin.course.slips import DEGREES
+from robokin.course.told import apart, floats
+from robokin.course.variants import Numbers, dice, normalised
+from robokin.jobs.obstacles import along, clearance, way_round
+
+from .shared import ARM, Floats, direct, distances
+
+COUNT = 6
+KEPT = 0.1  # m: asked for in the exercise
+BETWEEN = 0.02  # m: between the points at which the bar is measured; KEPT is right to 0.5 mm
+UNITS = {
+    "start": ("° (gamma, beta, alpha)", 1.0),
+    "target": ("m", 1.0),
+    "bar": ("m, its two ends", 1.0),
+    "distance": ("mm", mm),
+    "most": ("° of movement S at most, held in radians", deg),
+}
+
+
+def given(who: Any) -> Numbers:
+    """A start, a target, and a bar in between, far enough out for the folded arm."""
+    return Numbers(dict(task(normalised(who))), UNITS)
+
+
+@cache
+def task(who: str) -> dict[str, Any]:
+    """The numbers of `given`: drawn until a fold keeps the distance and both ends do not do."""
+    roll = dice("obstacle_avoidance", who)
+    while True:
+        start = np.array([100 + 5 * roll.randrange(7), 110 + 5 * roll.randrange(7), 120.0])
+        start[2] += 5 * roll.randrange(5)
+        around, out = (10 + 5 * roll.randrange(5)) * deg, 1.8 + 0.1 * roll.randrange(6)
+        target = np.round([out * np.cos(around), out * np.sin(around)], 2)
+        straight = direct(start * deg, target)
+        if np.isnan(straight).any():
+            continue
+        A, K_ = ARM.points(along(straight, 0.3 + 0.1 * roll.randrange(4)))[2:]
+        first = np.round(A + (0.4 + 0.1 * roll.randrange(5)) * (K_ - A), 2)
+        far, angle = 1.2 + 0.05 * roll.randrange(19), (40 + 5 * roll.randrange(8)) * deg
+        bar = np.stack([first, np.round([far * np.cos(angle), far * np.sin(angle)], 2)])
+        places = points_of(bar)
+        room = [np.hypot(*places.T) - 1.1, np.hypot(*(places - target).T) - 0.15]
+        room += [distances(start[None] * deg, place).min() - 0.15 for place in places[::5]]
+        if np.hypot(*(bar[1] - bar[0])) < 0.4 or min(map(np.min, room)) < 0:
+            continue
+        least = cheapest(start * deg, target, places)
+        if least is None or ends_are_enough(start * deg, target, bar):
+            continue
+        return {
+            "start": tuple(start.tolist()),
+            "target": tuple(target.tolist()),
+            "bar": tuple(tuple(end.tolist()) for end in bar),
+            "distance": KEPT,
+            "most": (10 * np.ceil(least / deg / 10) + 30) * deg,
+        }
+
+
+def points_of(ends: Any) -> Floats:
+    """Points (m, 2) of a bar, with its ends."""
+    first, last = np.asarray(ends)
+    count = int(np.hypot(*(last - first)) / BETWEEN) + 2
+    points: Floats = first + np.linspace(0, 1, count)[:, None] * (last - first)
+    return points
+
+
+def ends_are_enough(q0: Floats, target: Floats, bar: Floats) -> bool:
+    """Whether a way round both ends of the bar keeps half of the distance from all of it."""
+    path = way_round(ARM, q0, target, bar, KEPT)
+    return path is not None and bool(clearance(ARM, path, points_of(bar)).min() > KEPT / 2)
+
+
+def cheapest(q0: Floats, target: Floats, places: Floats) -> float | None:
+    """The movement of the cheapest fold, swing, unfold of some; None: none of them keeps the
+    distance.
+    """
+    low, high = ARM.alpha_range(target)
+    if not low < high:
+        return None
+    folds = np.array([(b, a) for b in (45, 75, 105) for a in (45, 75, 105)]) * deg
+    paths = np.array(
+        [
+            [q0, [q0[0], *fold], [goal[0], *fold], goal]
+            for goal in ARM.family(target, np.linspace(low, high, 5)[::2])
+            for fold in folds
+        ]
+    )
+    S = abs(np.diff(paths, axis=1)).sum(axis=(1, 2))
+    far = np.ones(len(paths), dtype=bool)
+    shares = np.linspace(0, 1, 16)[:, None]
+    for k in range(3):
+        a, b = paths[:, k, None], paths[:, k + 1, None]
+        seen = (a + shares * (b - a)).reshape(-1, 3)
+        for place in places[::4]:
+            near = distances(seen, place).min(axis=-1).reshape(len(paths), -1)
+            far &= near.min(axis=-1) >= KEPT + 0.03
+            if not far.any():
+                return None
+    for path, cost in sorted(zip(paths[far], S[far], strict=True), key=lambda pair: pair[1]):
+        if clearance(ARM, path, places).min() >= KEPT:
+            return float(cost)
+    return None
+
+
+def form(answer: Any, given: Mapping[str, Any]) -> Floats:
+    """Postures (k, 3)."""
+    wanted = "wanted a path: two or more postures (gamma, beta, alpha), (k, 3) radians"
+    if isinstance(answer, (str, Mapping)):
+        raise ValueError(f"{wanted}, got {words(answer)}")
+    try:
+        path = floats([[x for x in row] for row in answer])
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {words(answer)}") from None
+    if path.ndim != 2 or path.shape[1:] != (3,) or len(path) < 2:
+        raise ValueError(f"{wanted}, got shape {path.shape}")
+    if not np.isfinite(path).all():
+        raise ValueError(f"{wanted}, got NaN in it")
+    if len(path) > 100:
+        raise ValueError(f"{wanted}, at most 100 of them, got {len(path)}")
+    return path
+
+
+def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Begins at the start; ends at the target; inside the limits; the distance from the ends of the
+    bar, and from what is between them; movement.
+    """
+    start = np.array(given["start"]) * deg
+    if abs(path).max() > 4 * np.pi:
+        return [("degrees for radians", DEGREES)] * COUNT
+    if abs(path).max() <= 2 * np.pi * deg:
+        return [
+            ("deg twice", "All angles are 6° and less; an angle of 120° is 120 * deg, once.")
+        ] * COUNT
+    found: list[tuple[str, str]] = []
+    if abs(path[0] - start).max() > 1e-4:
+        stands, got = apart(given["start"], path[0] / deg)
+        says = f"The path begins at ({got})°, the arm stands at ({stands})°."
+        if abs(path[-1] - start).max() <= 1e-4:
+            says += " There the path ends."
+        elif abs(path[0, ::-1] - start).max() <= 1e-4:
+            says += " These are its angles in the order alpha, beta, gamma."
+        found.append(("another start", says))
+    end = ARM.points(path[-1])[3]
+    miss = float(np.hypot(*(end - given["target"])))
+    if miss > 1 * mm:
+        says = f"The gripper ends at ({end[0]:.3f}, {end[1]:.3f}) m, {miss / mm:.0f} mm from "
+        found.append(("misses the target", says + f"the target {given['target']} m."))
+    if (path < -1e-6).any() or (path > np.pi + 1e-6).any():
+        i, j = np.argwhere((path < -1e-6) | (path > np.pi + 1e-6))[0]
+        name = ("gamma", "beta", "alpha")[j]
+        limit = 0.0 if path[i, j] < 0 else 180.0
+        is_at = apart(path[i, j] / deg, limit)[0]
+        says = f"Posture {i + 1}: {name} is {is_at}°, allowed are 0 to 180°."
+        found.append(("past a limit", says))
+    bar = points_of(given["bar"])
+    found += too_near(path, bar[[0, -1]], "the ends of the bar", given["distance"])
+    found += too_near(path, bar[1:-1], "the bar between its ends", given["distance"])
+    S = float(abs(np.diff(path, axis=0)).sum())
+    if S > given["most"] + 1e-9:
+        moved, most = apart(S / deg, given["most"] / deg)
+        says = f"S is {moved}°, at most {most}° are allowed."
+        found.append(("too much movement", says))
+    return found
+
+
+def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[tuple[str, str]]:
+    """What is said of a path that comes too near to these places of the bar."""
+    turn = abs(np.diff(path, axis=0)).sum()
+    if turn > 200:
+        return [("too much movement", "The joints turn round and round.")]
+    least = clearance(ARM, path, places)
+    if least.min() >= distance - 1e-5:
+        return []
+    part, lever = np.unravel_index(least.argmin(), least.shape)
+    near, wanted = apart(least.min() / mm, distance / mm, 0)
+    points = ARM.points(along(path, np.linspace(0, 1, 501)))[:, 3]
+    gripper = float(np.hypot(*(points[:, None] - places).T).min())
+    corners = min(float(distances(path, place).min()) for place in places)
+    says = (
+        f"Between postures {part + 1} and {part + 2} lever {('OB', 'BA', 'AK')[lever]} comes as "
+        f"near as {near} mm to {name}; wanted are {wanted} mm."
+    )
+    if corners >= distance:
+        says += f" Every posture of the path keeps {corners / mm:.0f} mm: look at the way between."
+        if gripper >= distance:
+            says += " The gripper keeps it on the way, a lever does not."
+        return [(f"{name}: too near between two postures", says)]
+    if gripper >= distance:
+        says += " The gripper keeps it, a lever does not."
+        return [(f"{name}: the gripper passes, a lever does not", says)]
+    return [(f"too near to {name}", says)]

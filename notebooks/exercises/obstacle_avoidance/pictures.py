@@ -1,0 +1,190 @@
+"""What opens after the choice, for each prediction of obstacle avoidance."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import mm
+from robokin.jobs.obstacles import along, in_quadrilateral, via_path
+from robokin.show import figure
+
+from .predictions import (
+    FAR,
+    H_LEVER,
+    P_LEVER,
+    PASSED,
+    Q_LEVER,
+    SAMPLED,
+    SEEN,
+    p3,
+    p5,
+    p6,
+    p7,
+    p8,
+    swept_by_last,
+)
+from .shared import ARM, K1, START, WANTED, Floats, direct, distances, drawing, sampled
+
+COLORS = ("#0072B2", "#D55E00", "#009E73")
+
+
+def draw(ax: Any, q: Floats, label: str, **style: Any) -> None:
+    points = ARM.points(q)
+    ax.plot(*points.T, marker="o", mfc="white", ms=5, lw=2, label=label, **style)
+
+
+def plane(ax: Any, low: tuple[float, float], high: tuple[float, float], title: str) -> None:
+    ax.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]), title=title)
+    ax.set(xlabel="x, m", ylabel="y, m")
+
+
+def p1_view() -> Any:
+    fig = figure(
+        "The same quadrilateral four times: as drawn, turned by a quarter, mirrored, and upside "
+        "down. The obstacle is in its middle each time, and the test finds it in the first only.",
+        height=2.9,
+    )
+    drawn = np.array([(-0.5, 0.4), (0.45, 0.6), (0.55, -0.6), (-0.4, -0.5)])
+    shapes = {
+        "as drawn": drawn,
+        "a quarter turn": drawn @ np.array([(0, 1), (-1, 0)]),
+        "mirrored": drawn * (-1, 1),
+        "upside down": drawn * (1, -1),
+    }
+    for ax, (name, corners) in zip(fig.subplots(1, 4), shapes.items(), strict=True):
+        ax.fill(*corners.T, facecolor="#CFE3F1")
+        for k, (label, dash) in enumerate((("AK", "-"), ("A1K1", ":"))):
+            side = corners[[0, 1]] if k == 0 else corners[[3, 2]]
+            ax.plot(*side.T, color=COLORS[k], ls=dash, lw=3, label=label)
+        says = drawing(corners, np.zeros(2))
+        ax.plot(0, 0, "X", color="black", ms=9)
+        ax.text(0, -0.3, "found" if says else "missed", ha="center")
+        ax.set(aspect="equal", title=name, xticks=[], yticks=[], xlim=(-0.8, 0.8), ylim=(-0.8, 0.8))
+    fig.axes[0].legend(loc="upper left", fontsize=8)
+    fig.tight_layout()
+    return fig
+
+
+STEP = 0.04  # m, of the points that are drawn
+GRID = np.stack(np.meshgrid(np.arange(-1.6, 3, STEP), np.arange(-1, 3, STEP)), axis=-1).reshape(
+    -1, 2
+)
+
+
+def p2_view() -> Any:
+    fig = figure(
+        "The area that lever AK sweeps in the longer motion, and the quadrilateral between its "
+        "first and its last place: most of the area lies outside.",
+        height=3.8,
+    )
+    ax = fig.subplots()
+    start, end = direct(FAR)
+    over = swept_by_last(start, end, GRID)
+    quad = in_quadrilateral(ARM, start, end, GRID)["AK"]
+    ax.plot(*GRID[over & ~quad].T, "s", ms=3.2, color="#E08A4A", label="swept, outside")
+    ax.plot(*GRID[over & quad].T, "s", ms=3.2, color="#A9CCE3", label="swept, inside")
+    corners = np.stack([*ARM.points(start)[2:], *ARM.points(end)[:1:-1]])
+    ax.fill(*corners.T, facecolor="none", edgecolor="black", ls="--", label="quadrilateral")
+    draw(ax, start, "before", color="black")
+    draw(ax, end, "after", color=COLORS[2])
+    plane(ax, (-1.6, -0.2), (3.6, 2.3), "Most of what AK sweeps lies outside the quadrilateral")
+    ax.legend(loc="upper right", fontsize=8)
+    fig.tight_layout()
+    return fig
+
+
+def p3_view() -> Any:
+    fig = figure(
+        "A lever from the origin to (1, 0) m. The obstacle lies beyond its end: the nearest place "
+        "of the lever is the end, half a metre away; the line through the lever is nearer.",
+        height=2.6,
+    )
+    ax = fig.subplots()
+    P, Q, H = P_LEVER, Q_LEVER, H_LEVER
+    ax.plot(*np.array([P, Q]).T, color=COLORS[0], lw=6, solid_capstyle="round")
+    ax.plot([1, 1.6], [0, 0], "--", color="0.6")
+    ax.plot(*H, "X", color="black", ms=10)
+    facts = p3()
+    for foot, name, color in ((Q, "end", COLORS[1]), ((H[0], 0), "line", "0.5")):
+        ax.annotate(
+            "", (foot[0], foot[1]), (H[0], H[1]), arrowprops={"arrowstyle": "<->", "color": color}
+        )
+        x, y = (np.array(foot) + H) / 2
+        side = "right" if name == "end" else "left"
+        ax.text(x, y, f"  {facts[name]:.0f} mm  ", color=color, ha=side, va="center")
+    plane(ax, (-0.1, -0.15), (1.8, 0.55), "Beyond the end of a lever its end is the nearest place")
+    fig.tight_layout()
+    return fig
+
+
+def p4_view() -> Any:
+    fig = figure(
+        "Distance of the nearest lever from the obstacle on the whole motion: a valley between "
+        "two of the seven dots reaches far below all of them.",
+        height=3.2,
+    )
+    ax = fig.subplots()
+    path, s = direct(FAR), np.linspace(0, 1, 601)
+    fine = distances(sampled(path, 601), SAMPLED).min(axis=-1)
+    ax.plot(100 * s, fine, color=COLORS[0], lw=2)
+    dots = distances(sampled(path, SEEN), SAMPLED).min(axis=-1)
+    ax.plot(100 * np.linspace(0, 1, SEEN), dots, "o", color="black", ms=7)
+    ax.axhspan(0, WANTED, color="0.88")
+    ax.set(xlabel="share of the motion, %", ylabel="nearest lever, m", ylim=(0, None))
+    ax.set_title("The valley lies between two of the samples")
+    fig.tight_layout()
+    return fig
+
+
+def p5_view() -> Any:
+    fig = figure(
+        "Sixty moments of the path through two via points. The gripper comes as near to the "
+        f"obstacle as {p5()['gripper']:.0f} mm, inside the circle; the lever AK passes "
+        "over it.",
+        height=4,
+    )
+    ax = fig.subplots()
+    path = via_path(ARM, START, K1, PASSED)
+    for q in along(path, np.linspace(0, 1, 60)):
+        ax.plot(*ARM.points(q).T, color="0.8", lw=0.6, zorder=0)
+    draw(ax, path[0], "start", color="black")
+    draw(ax, path[-1], "target", color=COLORS[2], ls=":")
+    ways = ARM.points(along(path, np.linspace(0, 1, 400)))[:, 3]
+    ax.plot(*ways.T, color=COLORS[0], lw=2, label="gripper")
+    angle = np.linspace(0, 2 * np.pi, 100)
+    ax.plot(PASSED[0] + WANTED * np.cos(angle), PASSED[1] + WANTED * np.sin(angle), color="0.4")
+    ax.plot(*PASSED, "X", color="black", ms=9, zorder=6)
+    plane(ax, (-1.2, -0.1), (2.9, 2.2), "The gripper goes round, lever AK goes over")
+    ax.legend(loc="upper right", fontsize=8)
+    fig.tight_layout()
+    return fig
+
+
+def p6_view() -> str:
+    facts = p6()
+    turns = ", ".join(
+        f"{name} {turn:.0f}°"
+        for name, turn in zip(("gamma", "beta", "alpha"), facts["turns"], strict=True)
+    )
+    return (
+        f"The wave arrives after {facts['count']} steps of 10°. Followed back, they turn {turns} "
+        f"(to and fro both counted): together {facts['sum']:.0f}°."
+    )
+
+
+def p7_view() -> str:
+    facts = p7()
+    return (
+        f"Of {facts['count']} tasks, with the circle of {facts['r']:.0f} mm: {facts['keep']} keep "
+        f"{facts['wanted']:.0f} mm, {facts['near']} come nearer, {facts['out']} out of "
+        f"reach.\nWith {WANTED / mm:.0f} mm a lever sweeps the obstacle in 47 tasks: none of "
+        f"these keeps it now; in 53 no lever does: {facts['keep']} of these keep it now."
+    )
+
+
+def p8_view() -> str:
+    facts = p8()
+    return (
+        f"The wave in steps of {facts['coarse']}°: no way found. Steps of 5°: a way with S = "
+        f"{facts['S']:.0f}°, proven on its whole length."
+    )

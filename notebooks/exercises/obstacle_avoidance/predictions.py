@@ -1,0 +1,295 @@
+"""The facts behind the predictions of obstacle avoidance.
+
+Objective 1: p1, p2. Objective 2: p3, p5, p6, p7. Objective 3: p4, p8.
+"""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robokin import deg, mm
+from robokin.jobs.obstacles import (
+    along,
+    clearance,
+    in_quadrilateral,
+    keeps,
+    via_path,
+    way_round,
+)
+
+from .shared import (
+    ARM,
+    K1,
+    START,
+    WANTED,
+    Floats,
+    L,
+    count,
+    direct,
+    distances,
+    drawing,
+    sampled,
+    to_segment,
+)
+
+
+def nearest(guesses: Mapping[str, float], value: float) -> str:
+    """The name of the guess that is nearest to a value."""
+    return min(guesses, key=lambda name: abs(guesses[name] - value))
+
+
+@cache
+def p1() -> dict[str, Any]:
+    rng, many = np.random.default_rng(5), 1500
+    before = rng.uniform(0, np.pi, (many, 3))
+    r, phi = rng.uniform(1.1, 2.9, many), rng.uniform(0, 120, many) * deg
+    targets = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
+    after = ARM.least(targets, before)[0]
+    inside = found = 0
+    for a, b in zip(ARM.points(before)[:, 2:], ARM.points(after)[:, 2:], strict=True):
+        corners = np.array([*a, *b[::-1]])
+        H = rng.uniform(corners.min(axis=0), corners.max(axis=0))
+        if count(corners, H) % 2 == 1:
+            inside += 1
+            found += drawing(corners, H)
+    own = own_found = 0
+    for start, target, H in sampled_tasks():
+        (A, K_), (A1, K1_) = ARM.points(direct(start, target))[:, 2:]
+        if count([A, K_, K1_, A1], H) % 2 == 1:
+            own += 1
+            own_found += drawing([A, K_, K1_, A1], H)
+    guesses = {"nearly all": 98, "half": 50, "few": 5, "a quarter": 25}
+    right = nearest(guesses, 100 * found / inside)
+    told = {"inside": inside, "found": found, "tasks": many, "own": own, "own_found": own_found}
+    return told | {"right": right}
+
+
+def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool_]:
+    """Which points (n, 2) lever AK passes over: they change sides beside its length."""
+    s = np.linspace(0, 1, 301)[:, None]
+    joints = ARM.points(start + s * (end - start))[:, :, None]
+    P, Q = joints[:, 2], joints[:, 3]
+    (dx, dy), (x, y) = np.moveaxis(Q - P, -1, 0), np.moveaxis(points - P, -1, 0)
+    left, share = dx * y - dy * x > 0, (dx * x + dy * y) / L**2
+    beside = (share >= 0) & (share <= 1)
+    over: NDArray[np.bool_] = ((left[1:] != left[:-1]) & beside[1:] & beside[:-1]).any(axis=0)
+    return over
+
+
+FAR = np.array([150, 120, 120]) * deg
+FINE_STEP = 0.02  # m: areas are counted on a grid
+
+
+@cache
+def p2() -> dict[str, Any]:
+    start, end = direct(FAR)
+    places = ARM.points(along(direct(FAR), np.linspace(0, 1, 201)))[:, 2:].reshape(-1, 2)
+    low, high = places.min(axis=0), places.max(axis=0)
+    fine = np.stack(np.meshgrid(*map(np.arange, low, high, (FINE_STEP,) * 2)), axis=-1)
+    fine = fine.reshape(-1, 2)
+    over = swept_by_last(start, end, fine)
+    quad = in_quadrilateral(ARM, start, end, fine)["AK"]
+    missed, area = over & ~quad, FINE_STEP**2
+    share = float(100 * missed.sum() / over.sum())
+    guesses = {"nothing": 0, "narrow rim": 5, "a third": 33, "most": 75}
+    return {
+        "right": nearest(guesses, share),
+        "turn": float(abs(end - start).sum() / deg),
+        "share": share,
+        "swept": float(over.sum() * area),
+        "missed": float(missed.sum() * area),
+        "false": float((quad & ~over).sum() * area),
+        "grid": FINE_STEP / mm,
+    }
+
+
+P_LEVER, Q_LEVER, H_LEVER = np.zeros(2), np.array([1.0, 0.0]), np.array([1.3, 0.4])
+
+
+def p3() -> dict[str, Any]:
+    P, Q, H = P_LEVER, Q_LEVER, H_LEVER
+    guesses = {
+        "end": float(np.hypot(*(H - Q)) / mm),
+        "line": abs(H[1]) / mm,
+        "start": float(np.hypot(*(H - P)) / mm),
+        "middle": float(np.hypot(*(H - (P + Q) / 2)) / mm),
+        "beside": (H[0] - Q[0]) / mm,
+        "sum": float(abs(H - Q).sum() / mm),
+        "square": float(((H - Q) ** 2).sum() / mm),
+    }
+    names = {name: f"to the {name}" for name in ("end", "line", "start", "middle")}
+    right = nearest(guesses, to_segment(P, Q, H) / mm)
+    return guesses | {"x": H[0], "y": H[1], "right": names.get(right, right)}
+
+
+SAMPLED = np.array([1.7, 1.0])  # m: the obstacle of p4
+SEEN = 7
+
+
+@cache
+def p4() -> dict[str, Any]:
+    path = direct(FAR)
+    seen = float(distances(sampled(path, SEEN), SAMPLED).min())
+    true = float(clearance(ARM, path, SAMPLED).min())
+    less = {"the nearest sample": 0, "a little less": 5, "a decimetre less": 100, "more": -50}
+    return {
+        "right": nearest(less, (seen - true) / mm),
+        "count": SEEN,
+        "x": SAMPLED[0],
+        "y": SAMPLED[1],
+        "seen": seen / mm,
+        "wanted": WANTED / mm,
+        "true": true / mm,
+        "less": (seen - true) / mm,
+    }
+
+
+PASSED = np.array([1.0, 1.5])  # m: the obstacle of p5
+ROUND = np.array([1.2, 1.3])  # m: that of section 6
+
+
+@cache
+def p5() -> dict[str, Any]:
+    path = via_path(ARM, START, K1, PASSED)
+    ways = ARM.points(along(path, np.linspace(0, 1, 2001)))[:, 3] - PASSED
+    least = clearance(ARM, path, PASSED).min(axis=0)
+    far = clearance(ARM, via_path(ARM, START, K1, (1.5, 1.0)), (1.5, 1.0))
+    right = "AK a little nearer"
+    if min(least) >= WANTED:
+        right = "all keep it"
+    elif least[2] <= 1 * mm:
+        right = "AK and BA over it" if least[1] <= 1 * mm else "AK over it"
+    return {
+        "right": right,
+        "far": float(far.min() / mm),
+        "other_x": ROUND[0],
+        "other_y": ROUND[1],
+        "x": PASSED[0],
+        "y": PASSED[1],
+        "r": WANTED / mm,
+        "gripper": float(np.hypot(*ways.T).min() / mm),
+        "BA": least[1] / mm,
+        "AK": least[2] / mm,
+    }
+
+
+@cache
+def p6() -> dict[str, Any]:
+    """The wave of section 6, and the way that it has come."""
+    size = 10 * deg
+    angles = np.arange(19) * size
+    cube = np.stack(np.meshgrid(angles, angles, angles, indexing="ij"), axis=-1)
+    open_ = distances(cube.reshape(-1, 3), ROUND).min(axis=-1).reshape(19, 19, 19) >= WANTED
+    steps = []
+    for j in range(3):
+        a = np.moveaxis(cube, j, 0)
+        steps.append(keeps(ARM, a[:-1], a[1:], ROUND, WANTED))
+    begin = tuple(np.round(START / size).astype(int).tolist())
+    goals = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
+    cells = np.round(goals / size).astype(int)
+    ends = keeps(ARM, cells * size, goals, ROUND, WANTED)
+    wanted = {tuple(cell) for cell in cells[ends].tolist()}
+    came: dict[Any, Any] = {begin: None}
+    front, steps_made, end = [begin], 0, None
+    while front and end is None:
+        later = []
+        for cell in front:
+            for j in range(3):
+                rest = cell[:j] + cell[j + 1 :]
+                for move in (-1, 1):
+                    at = cell[j] + move
+                    other = (*cell[:j], at, *cell[j + 1 :])
+                    if not 0 <= at < 19 or other in came or not open_[other]:
+                        continue
+                    if steps[j][(min(at, cell[j]), *rest)]:
+                        came[other] = cell
+                        later.append(other)
+        front, steps_made = later, steps_made + 1
+        end = next((cell for cell in front if cell in wanted), None)
+    way, at = [], end
+    while at is not None:
+        way.append(cube[at])
+        at = came[at]
+    path = np.array(way[::-1])
+    turns = abs(np.diff(path, axis=0)).sum(axis=0) / deg
+    net = (path[-1] - path[0]) / deg
+    most, straight = float(turns.max()), float(np.linalg.norm(net))
+    total, signed = float(turns.sum()), float(abs(net.sum()))
+    guesses = {"busiest joint": most, "straight distance": straight, "S": total}
+    right = nearest(guesses | {"gripper's direction": signed}, 10.0 * steps_made)
+    told = {"count": steps_made, "sum": total, "most": most, "straight": straight}
+    return told | {"net": signed, "turns": turns, "right": right}
+
+
+TASKS = 100
+LARGER = 0.25
+
+
+def sampled_tasks(many: int = TASKS) -> list[tuple[Floats, Floats, Floats]]:
+    """Start, target and an obstacle on lever AK somewhere on the direct way; start, target and
+    base keep L/7. The sample of section 7.
+    """
+    rng = np.random.default_rng(33)
+    tasks: list[tuple[Floats, Floats, Floats]] = []
+    while len(tasks) < many:
+        r, phi = rng.uniform(1.2, 2.8, 2), rng.uniform(0, 130, 2) * deg
+        P, target = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
+        if np.isnan(ARM.alpha_range(np.stack([P, target]))).any():
+            continue
+        start = ARM.family(P, rng.uniform(*ARM.alpha_range(P)))
+        A, K_ = ARM.points(along(direct(start, target), rng.random()))[2:]
+        H = A + rng.random() * (K_ - A)
+        near = distances(start[None], H).min()
+        if min(np.hypot(*H), np.hypot(*(target - H)), near) > WANTED:
+            tasks.append((start, target, H))
+    return tasks
+
+
+@cache
+def p7() -> dict[str, Any]:
+    keep = swept_ = out = 0
+    for start, target, H in sampled_tasks():
+        path = via_path(ARM, start, target, H, LARGER)
+        if np.isnan(path).any():
+            out += 1
+            continue
+        # samples suffice to say that it comes too near; `clearance` decides the others
+        if distances(sampled(path, 41), H).min() < WANTED:
+            swept_ += 1
+        else:
+            keep += bool(clearance(ARM, path, H).min() >= WANTED)
+    passed = clearance(ARM, via_path(ARM, START, K1, ROUND, LARGER), ROUND)
+    guesses = {"none": 0, "a quarter": 25, "two thirds": 65, "all": 100}
+    return {
+        "right": nearest(guesses, 100 * keep / TASKS),
+        "passed": float(passed.min() / mm),
+        "count": TASKS,
+        "keep": keep,
+        "out": out,
+        "near": TASKS - keep - out,
+        "r": LARGER / mm,
+        "wanted": WANTED / mm,
+    }
+
+
+NARROW = np.array([0.5, 1.0])  # m: the obstacle of p8
+COARSE = 15
+
+
+@cache
+def p8() -> dict[str, Any]:
+    found = way_round(ARM, START, K1, NARROW, WANTED)
+    S = np.nan if found is None else float(abs(np.diff(found, axis=0)).sum() / deg)
+    proven = found is not None and bool(keeps(ARM, found[:-1], found[1:], NARROW, WANTED).all())
+    return {
+        "x": NARROW[0],
+        "y": NARROW[1],
+        "coarse": COARSE,
+        "right": "none found" if proven else "no way",
+        "S": S,
+        "wanted": WANTED / mm,
+        "direct": float(clearance(ARM, direct(), NARROW).min() / mm),
+    }

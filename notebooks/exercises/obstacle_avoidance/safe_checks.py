@@ -1,0 +1,54 @@
+"""What the right and the wrong programs of exercise 3 of obstacle avoidance use."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.jobs.obstacles import keeps
+
+from .shared import ARM, Floats, L, distances, joints, sampled, to_segment
+
+__all__ = ["deg", "distances", "halved", "joints", "mm", "np", "proven", "sampled", "to_segment"]
+
+
+def proven(path: Any, H: Any, distance: float) -> bool:
+    path = np.asarray(path, dtype=float)
+    return bool(keeps(ARM, path[:-1], path[1:], H, distance).all())
+
+
+def halved(path: Any, H: Any, distance: float) -> bool:
+    """Parts are halved until the postures at their ends prove the distance, or break it."""
+    path = np.asarray(path, dtype=float)
+    parts = np.stack([path[:-1], path[1:]], axis=1)
+    for _ in range(30):
+        d = distances(parts.reshape(-1, 3), H).min(axis=-1).reshape(-1, 2)
+        if (d < distance).any():
+            return False
+        move = abs(parts[:, 1] - parts[:, 0]) @ np.array([3.0, 2.0, 1.0]) * L
+        parts = parts[(d.sum(axis=-1) - move) / 2 < distance]
+        if not len(parts):
+            return True
+        middle = parts.mean(axis=1)
+        parts = np.concatenate(
+            [np.stack([parts[:, 0], middle], 1), np.stack([middle, parts[:, 1]], 1)]
+        )
+    return False
+
+
+def ends_away(q: Floats, H: Any) -> Floats:
+    """Of H from the far ends of the levers: (n, 3)."""
+    gap = joints(q)[:, 1:] - H
+    return np.asarray(np.hypot(gap[..., 0], gap[..., 1]))
+
+
+class Late:
+    """A program that answers each time with what it found the time before."""
+
+    def __init__(self, first: bool) -> None:
+        self.found = first
+
+    def __call__(self, path: Any, H: Any, distance: float) -> bool:
+        before = self.found
+        self.found = bool(distances(sampled(path, 301), H).min() >= distance)
+        return before
