@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 import robokin.arms.catalogue as catalogue
-import robokin.course.frames_and_quaternions as lab_1
 import robokin.course.irb140_kinematics as lab_2
 import robokin.course.spherical_wrist as lab_6
 from robokin import (
@@ -90,7 +89,8 @@ def options(name):
 
 
 def test_transposing_inverts_the_rotation_alone():
-    (mistake,) = [each for each in lab_1.SEEN_MISTAKES if each.name == "transposed for inverse"]
+    wrong = find("frames_and_quaternions.1", "exercises").text.wrong()
+    (mistake,) = [each for each in wrong if each.name == "transposed for inverse"]
     assert "Transposing inverts the rotation R alone." in mistake.says
     pose = Transform(
         Quaternion.from_angle_axis(0.7, (1 / 3, 2 / 3, 2 / 3)), (0.1, 0.2, 0.3)
