@@ -8,12 +8,13 @@ from playwright.sync_api import expect
 
 import robokin.course.irb140_kinematics as lab
 from robokin import IRB140, Quaternion, Transform, deg, differentiate, mm, within
-from robokin.course import check, pose_explorer, variant
+from robokin.course import book, check, pose_explorer, variant
 from robokin.course.questions import filled
 
 TIP, POSE, DESIGN = (f"irb140_kinematics.{k}" for k in (1, 2, 3))
 X, Y, Z = np.eye(3)
 turned = Quaternion.from_angle_axis
+LAB = book.lab("irb140_kinematics")
 FOUR = Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm)
 
 
@@ -64,18 +65,22 @@ def test_right_tips_hold(right):
     assert verdict.holds, verdict
 
 
-@pytest.mark.parametrize("mistake", lab.TIP_MISTAKES, ids=lambda m: m.name)
+@pytest.mark.parametrize("mistake", LAB.exercises["1"].own, ids=lambda m: m.name)
 def test_a_wrong_tip_is_refused_and_named(mistake):
-    verdict = check(TIP, mistake.program)
+    verdict = check(TIP, LAB.exercises["1"].steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name and mistake.says in verdict.says
     assert "should" in verdict.case
 
 
+def gripper(length, turn):
+    return Transform(turned(turn, Z), length * Z)
+
+
 GENERAL = {
-    "order of a product": lambda q, length, turn: lab.gripper(length, turn) @ IRB140.fk(q),
-    "mm for m": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length * mm, turn),
-    "degrees for radians": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length, turn * deg),
-    "sign": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length, -turn),
+    "order of a product": lambda q, length, turn: gripper(length, turn) @ IRB140.fk(q),
+    "mm for m": lambda q, length, turn: IRB140.fk(q) @ gripper(length * mm, turn),
+    "degrees for radians": lambda q, length, turn: IRB140.fk(q) @ gripper(length, turn * deg),
+    "sign": lambda q, length, turn: IRB140.fk(q) @ gripper(length, -turn),
     "inverse for the thing": lambda q, length, turn: by_chain(q, length, turn).inverse(),
     "another kind or shape": lambda q, length, turn: by_chain(q, length, turn).translation,
 }
