@@ -6,6 +6,7 @@ from math import comb
 import numpy as np
 import pytest
 from conftest import NOTEBOOKS
+from robokin.course.obstacle_avoidance import sampled_tasks
 from test_true_statements_b import ARM, DISTANCE, asked, cells, direct, lever_distance
 from test_true_statements_b import run as run_cells
 from test_true_statements_c import flat, numbers, shown
@@ -25,7 +26,6 @@ from robokin import (
     spbu_arm,
 )
 from robokin.course import book
-from robokin.course.obstacle_avoidance import sampled_tasks
 from robokin.jobs.steppers import Stepper, ramp, station_postures
 from robokin.jobs.visit_collect import Task, TaskError
 
