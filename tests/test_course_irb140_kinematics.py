@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-import robokin.course.irb140_kinematics as lab
 from robokin import IRB140, Quaternion, Transform, deg, differentiate, mm, within
-from robokin.course import check, pose_explorer, variant
+from robokin.course import book, check, pose_explorer, variant
 from robokin.course.questions import filled
 
 TIP, POSE, DESIGN = (f"irb140_kinematics.{k}" for k in (1, 2, 3))
 X, Y, Z = np.eye(3)
 turned = Quaternion.from_angle_axis
+LAB = book.lab("irb140_kinematics")
+TARGET, FACTS = LAB.module("own_target"), LAB.module("predictions")
 FOUR = Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm)
 
 
@@ -64,18 +65,22 @@ def test_right_tips_hold(right):
     assert verdict.holds, verdict
 
 
-@pytest.mark.parametrize("mistake", lab.TIP_MISTAKES, ids=lambda m: m.name)
+@pytest.mark.parametrize("mistake", LAB.exercises["1"].own, ids=lambda m: m.name)
 def test_a_wrong_tip_is_refused_and_named(mistake):
-    verdict = check(TIP, mistake.program)
+    verdict = check(TIP, LAB.exercises["1"].steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name and mistake.says in verdict.says
     assert "should" in verdict.case
 
 
+def gripper(length, turn):
+    return Transform(turned(turn, Z), length * Z)
+
+
 GENERAL = {
-    "order of a product": lambda q, length, turn: lab.gripper(length, turn) @ IRB140.fk(q),
-    "mm for m": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length * mm, turn),
-    "degrees for radians": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length, turn * deg),
-    "sign": lambda q, length, turn: IRB140.fk(q) @ lab.gripper(length, -turn),
+    "order of a product": lambda q, length, turn: gripper(length, turn) @ IRB140.fk(q),
+    "mm for m": lambda q, length, turn: IRB140.fk(q) @ gripper(length * mm, turn),
+    "degrees for radians": lambda q, length, turn: IRB140.fk(q) @ gripper(length, turn * deg),
+    "sign": lambda q, length, turn: IRB140.fk(q) @ gripper(length, -turn),
     "inverse for the thing": lambda q, length, turn: by_chain(q, length, turn).inverse(),
     "another kind or shape": lambda q, length, turn: by_chain(q, length, turn).translation,
 }
@@ -164,7 +169,7 @@ def design(who, factor=1.1, height=None):
     numbers = variant("irb140_kinematics", who)
     p, best = np.linspace(0, 1, 801), []
     for z in (0.65, 0.7, 0.75, 0.8) if height is None else (height,):
-        rows = IRB140.ik(lab.target(numbers, p, z))
+        rows = IRB140.ik(TARGET["target"](numbers, p, z))
         for row, flags in enumerate(IRB140.branches.tolist()):
             q = np.unwrap(rows[:, row], axis=0)
             turns = q[:, :, None] + 2 * np.pi * np.arange(-2, 3)
@@ -242,7 +247,7 @@ def test_a_fault_tells_time_joint_and_number():
 
 
 def key(name):
-    return filled(lab.PREDICTIONS[name])[2]
+    return filled(LAB.predictions[name])[2]
 
 
 def jacobian(q, k, point=(0, 0, 0)):
@@ -254,7 +259,7 @@ def jacobian(q, k, point=(0, 0, 0)):
 
 def test_p1_by_the_axes():
     still = [k + 1 for k in range(6) if jacobian(np.zeros(6), k) < 1e-12]
-    assert still == [4, 6] and "joints 4 and 6" in filled(lab.PREDICTIONS["p1"])[1][key("p1")].text
+    assert still == [4, 6] and "joints 4 and 6" in filled(LAB.predictions["p1"])[1][key("p1")].text
 
 
 def test_p2_by_the_axes():
@@ -263,14 +268,14 @@ def test_p2_by_the_axes():
 
 
 def test_p3_by_the_plane_of_the_arm():
-    text = filled(lab.PREDICTIONS["p3"])[1][key("p3")].text
+    text = filled(LAB.predictions["p3"])[1][key("p3")].text
     q1 = float(text.rstrip("°").replace("−", "-")) * deg
     front = np.arctan2(-230.94, 400)
     assert abs(abs(q1 - front) - np.pi) < 1e-3
 
 
 def test_p4_by_half_turns():
-    text = filled(lab.PREDICTIONS["p4"])[1][key("p4")].text
+    text = filled(LAB.predictions["p4"])[1][key("p4")].text
     wrist = [float(x.strip("°").replace("−", "-")) for x in text.split(", ")]
     assert wrist == [25 - 180, -35, -50 + 180]
 
@@ -278,10 +283,10 @@ def test_p4_by_half_turns():
 def test_p5_by_the_distance_from_the_shoulder():
     for shoulder, end in ((0.07, "last"), (-0.07, "first")):
         xs = np.arange(250, 900)
-        poses = [lab.pull(x * mm) for x in xs]
+        poses = [FACTS["pull"](x * mm) for x in xs]
         centres = np.array([pose @ (0, 0, -0.065) for pose in poses])
         away = np.hypot(np.hypot(centres[:, 0], centres[:, 1]) - shoulder, centres[:, 2] - 0.352)
-        assert xs[np.argmax(away > 0.73)] == lab.PREDICTIONS["p5"].facts()[end]
+        assert xs[np.argmax(away > 0.73)] == LAB.predictions["p5"].facts()[end]
     assert key("p5") == 0
 
 
@@ -298,14 +303,14 @@ def test_p6_by_the_jacobian():
 
 
 def test_p7_by_the_limits_alone():
-    rows = IRB140.ik(lab.task_1()[2])[:, 0]
+    rows = IRB140.ik(FACTS["task_1"]()[2])[:, 0]
     low, high = IRB140.limits.T
     past = ((rows > high + 1e-9) | (rows < low - 1e-9)).any(axis=1)
     assert past[:673].all() and not past[673:].any() and key("p7") == 2
 
 
 def test_p8_by_the_size_of_a_turn():
-    facts = lab.PREDICTIONS["p8"].facts()
+    facts = LAB.predictions["p8"].facts()
     for name, step in (("coarse", 0.01), ("fine", 0.005)):
         assert facts[name] == pytest.approx(2 * np.pi / step, rel=1e-3)
     assert key("p8") == 2
@@ -316,7 +321,7 @@ def test_p9_by_the_law_of_cosines():
     angle = np.arccos((b**2 + d**2 - a**2) / (2 * b * d))
     assert angle > np.pi / 2 and key("p9") == 3
     chord = 2 * b * np.sin(angle - np.pi / 2)  # the elbow goes on a circle of the upper arm ...
-    facts = lab.PREDICTIONS["p9"].facts()
+    facts = LAB.predictions["p9"].facts()
     assert facts["obtuse"] == pytest.approx(angle / deg)
     assert facts["acute"] == pytest.approx(180 - angle / deg)
     # ... and the whole triangle with it: the wrist centre, d away, goes on a chord of its own

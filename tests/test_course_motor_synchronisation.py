@@ -8,14 +8,14 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from robokin import deg, loader_arm
-from robokin.course import check, solution, variant
-from robokin.course.motor_synchronisation import EXERCISES, PREDICTIONS
+from robokin.course import book, check, solution, variant
 from robokin.course.questions import filled
 from robokin.jobs.steppers import counts, frequencies, shortest_turn, station_postures
 
 A, B = 0.45, 0.3
 LOADER = loader_arm(A, B)
 TURN = 2 * math.pi
+LAB = book.lab("motor_synchronisation")
 
 
 def short(d):
@@ -185,8 +185,10 @@ def looking(rows):
 def test_a_test_has_to_look_at_every_row(rows, name):
     verdict = check("motor_synchronisation.3", looking(rows))
     test = looking(rows)
-    named = {m.name: m.program for m in EXERCISES["3"].mistakes}
-    assert test(named[name]) and all(test(program) for _, program in EXERCISES["3"].rights)
+    exercise = LAB.exercises["3"]
+    named = {name: text for name, _, text in exercise.wrongs}
+    accepted = [named[name], *(text for _, text in exercise.rights)]
+    assert all(test(exercise.program(text)) for text in accepted)
     assert not verdict.holds and verdict.mistake.startswith("accepts: ")
 
 
@@ -233,5 +235,5 @@ def test_lost_steps_come_in_fours_by_another_integration_too():
     answers = [lost(f) for f in (100, 150, 200)]
     assert answers == pytest.approx([4 * round(n / 4) for n in answers], abs=0.01)
     assert round(answers[0]) == 0 and all(4 < n < 49 for n in answers[1:])
-    options, right = filled(PREDICTIONS["p10"])[1:]
+    options, right = filled(LAB.predictions["p10"])[1:]
     assert options[right].text.startswith("Only 4, 8, 12")

@@ -5,8 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from robokin.course import check, solution, variant
-from robokin.course.two_link_code_generation import EXERCISES
+from robokin.course import book, check, solution, variant
 
 WHO = next(
     name
@@ -155,7 +154,8 @@ def test_a_test_of_elbows_has_to_look_at_all_four_numbers():
     exec(solution("two_link_code_generation.3"), space)
     whole = space["elbows_are_right"]
 
-    right = EXERCISES["3"].rights[0][1]
+    exercise = book.lab("two_link_code_generation").exercises["3"]
+    right = exercise.program(exercise.rights[0][1])
 
     def first_and_last(elbows):
         def mended(*case):

@@ -13,8 +13,6 @@ import numpy as np
 import pytest
 
 import robokin.arms.catalogue as catalogue
-import robokin.course.frames_and_quaternions as lab_1
-import robokin.course.irb140_kinematics as lab_2
 import robokin.course.spherical_wrist as lab_6
 from robokin import (
     IRB140,
@@ -36,6 +34,7 @@ from robokin import (
     trapezoidal,
     within,
 )
+from robokin.course import book
 from robokin.course.book import find
 from robokin.course.questions import filled
 from robokin.show import explorers
@@ -90,7 +89,8 @@ def options(name):
 
 
 def test_transposing_inverts_the_rotation_alone():
-    (mistake,) = [each for each in lab_1.SEEN_MISTAKES if each.name == "transposed for inverse"]
+    wrong = find("frames_and_quaternions.1", "exercises").text.wrong()
+    (mistake,) = [each for each in wrong if each.name == "transposed for inverse"]
     assert "Transposing inverts the rotation R alone." in mistake.says
     pose = Transform(
         Quaternion.from_angle_axis(0.7, (1 / 3, 2 / 3, 2 / 3)), (0.1, 0.2, 0.3)
@@ -119,10 +119,11 @@ def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump()
     program = "\n".join(line[4:] for line in lines if line.startswith("    "))
     task = sources("02")["yourturn-3"]
     assert "one continuous motion" in task and "one motion" in lines[0]
-    numbers, refused = lab_2.given("Ada Lovelace"), []
+    lab_2 = book.lab("irb140_kinematics").module("own_target")
+    numbers, refused = lab_2["given"]("Ada Lovelace"), []
 
     def my_target(t, total, height):
-        return lab_2.target(numbers, t / total, height)
+        return lab_2["target"](numbers, t / total, height)
 
     approved = 0
     for height in np.arange(400, 901, 50) * mm:
@@ -135,7 +136,7 @@ def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump()
             used = (abs(np.diff(q, axis=0)) * 2000 / IRB140.speed_limits).max()
             flags = tuple(IRB140.branches[row].tolist())
             design = {"height": height, "flags": flags, "duration": 1.1 * used / numbers["share"]}
-            faults = lab_2.design_faults(design, numbers)
+            faults = lab_2["faults"](design, numbers)
             fine = bool(names["stays"] and names["smooth"])
             assert fine == (not faults), (design, faults)
             approved += fine

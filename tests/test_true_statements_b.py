@@ -361,7 +361,7 @@ def test_how_many_stretches_prove_a_distance():
 def test_when_the_plan_stays():
     made = run("10", "setup", "drawing-tools", "lever-code", "whole-code", "control-code")
     control, H = made["control"], np.array([1.2, 1.3])
-    text = r"S rises from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, with one fall on the way, from "
+    text = r"value S rises, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, but for one fall, from "
     low, near, high, far, falls, to, stays = said(
         "10", "control-look", text + r"(\d+) to (\d+) mm.* At (\d+) mm the arm stays"
     )

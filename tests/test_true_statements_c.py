@@ -103,7 +103,7 @@ def test_where_a_and_d_lie():
 
 
 def test_how_the_average_of_two_rotations_shrinks():
-    assert r"by $\cos(\theta/2)$" in flat("01", "deeper")
+    assert r"by the factor $\cos(\theta/2)$" in flat("01", "deeper")
     rng = np.random.default_rng(3)
     for theta in (20, 90, 150):
         axis = rng.normal(size=3)

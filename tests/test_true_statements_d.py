@@ -23,7 +23,6 @@ from test_true_statements_c import flat, mistakes, numbers, shown, view
 
 from robokin import deg, loader_arm, mm
 from robokin.course import book
-from robokin.course.two_link_code_generation import _eliminated
 from robokin.jobs.obstacles import plan, via_path, way_round
 from robokin.jobs.steppers import Stepper, ramp, shortest_turn, station_postures, straight
 
@@ -260,17 +259,18 @@ def test_how_many_steps_are_lost_and_what_a_ramp_mends():
 
 
 def test_on_which_side_the_elbows_are_exchanged():
-    name = "divides by dx, and the side from the sign of the root"
-    said = mistakes("two_link_code_generation", name)
+    exercise = book.lab("two_link_code_generation").exercises["1"]
+    name = r"divides by dx, and the side from the (other )?sign of the root"
+    said = [each for each in exercise.own if re.fullmatch(name, each.name)]
     sides = []
-    for sign in (1, -1):
+    for each in said:
+        program = exercise.steps.program(each)
         for x in (1.0, -1.0):
-            h2, place, _ = _eliminated(0, sign, False)(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
-            elbow = place(np.sqrt(h2))
+            elbow = program(np.zeros(2), np.array([x, 0.5]), 1, 0.8, 1)
             if x * elbow[1] - 0.5 * elbow[0] > 0:  # to the left of the line to the tip
                 sides.append("right" if x > 0 else "left")
     assert sides == ["right", "left"]
-    assert [re.search(r"to its (\w+) the two", says)[1] for _, says in said] == sides
+    assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides
 
 
 def test_elbows_near_the_tip_the_ratio_and_the_lost_digits():
@@ -285,7 +285,9 @@ def test_elbows_near_the_tip_the_ratio_and_the_lost_digits():
     assert np.hypot(*elbow) == pytest.approx(from_base) and np.hypot(
         *(elbow - [d, 0])
     ) == pytest.approx(from_tip)
-    ((_, says),) = mistakes("two_link_code_generation", "the ratio of the links for a")
+    name = "the ratio of the links for a"
+    own = book.lab("two_link_code_generation").exercises["1"].own
+    (says,) = [each.says for each in own if each.name == name]
     assert says.startswith("With unequal links") and "only where the arm is stretched" in says
     for first, second in ((1.0, 1.0), (0.7, 1.0), (1.0, 0.4)):
         for d in np.linspace(abs(first - second) + 0.05, first + second, 9):

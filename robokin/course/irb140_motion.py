@@ -1786,8 +1786,8 @@ PREDICTIONS = {
         options=(
             Option(
                 "{half:.1f} rad/s²: finer samples see less of a change.",
-                "The speed changes by {change:.3f} rad/s from one interval to the next, however "
-                "short they are.",
+                "The speed changes by {change:.3f} rad/s from one interval to the next, and by no "
+                "less from a shorter one.",
                 "the change divided in two",
                 "Photograph a step of a staircase from nearer and nearer: it does not become "
                 "lower.",
@@ -1885,7 +1885,7 @@ PREDICTIONS = {
                 "Much more, {at_blend:.3f} rad/s²: smooth ends are paid for in the middle.",
                 "That is the quintic at the same blend, 0.1: it passes nearer to via then.",
                 "compared at the same blend",
-                "At the same blend any curve nearer to via has the sharper turn: compare what the "
+                "At the same blend the quintic has the greater acceleration: compare what the "
                 "task fixes, the distance.",
             ),
         ),

@@ -86,7 +86,8 @@ def with_fault(sound, fault):
         name = re.fullmatch(r"(\w+)=>", piece)
         part = rf"\(?\s*{name[1]}\s*\)?\s*=\s*>" if name else re.escape(piece)
         parts.append(rf"(?:,\s*)?{part}" if piece in ")]}" else part)
-    text = (sound / fault["file"]).read_text(encoding="utf-8")
+    file = sound / fault["file"]
+    text = file.read_text(encoding="utf-8") if file.is_file() else ""
     found = [place.span() for place in re.finditer(r"\s*".join(parts), text)]
     if len(found) != 1:
         return None

@@ -19,7 +19,7 @@ BEHIND, BEHIND_KO = 150.0, 2.0  # p5: degrees, m
 COARSE, FINE = 1.0, 0.1  # p7: degrees
 STAND, TARGET = np.array([60, 120, 120]) * deg, np.array([2.4, 0.4])  # p8
 RATE = 30.0  # p8: degrees per second, every motor
-TOURS, STOPS = 120, 5  # p9
+TOURS, STOPS, ROWS = 120, 5, 121  # p9
 RACED = 100  # p10
 
 
@@ -164,7 +164,7 @@ def p8() -> dict[str, Any]:
     return facts | {"right": below(gap, dict(zip(names, bounds, strict=True)))}
 
 
-def best_in_all(before: Any, tour: Any, count: int = 121) -> float:
+def best_in_all(before: Any, tour: Any, count: int = ROWS) -> float:
     """The least S of all tasks of a tour together, among `count` rows for each."""
     stages = ARM.family(tour[:, None], np.linspace(*ARM.alpha_range(tour), count, axis=-1))
     cost = abs(stages[0] - before).sum(axis=-1)
@@ -192,8 +192,9 @@ def losses() -> Any:
 def p9() -> dict[str, Any]:
     lost, tours = losses(), len(losses())
     count = int((lost > 0.05).sum())
-    facts: dict[str, Any] = {"tours": tours, "stops": STOPS, "count": count, "half": tours // 2}
+    facts: dict[str, Any] = {"tours": tours, "stops": STOPS, "rows": ROWS, "count": count}
     facts |= {"most": 100 * float(lost.max()), "small": int((lost > 0.01).sum())}
+    facts["half"] = tours // 2
     limits = {"none": 1, "few": 0.2 * tours, "half": 0.8 * tours, "nearly all": np.inf}
     return facts | {"right": below(count, limits)}
 

@@ -1,0 +1,44 @@
+"""What the right and the wrong programs of exercise 3 of frames and quaternions use."""
+
+import numpy as np
+
+from robokin import Quaternion, deg
+from robokin.course.told import floats
+
+from .shared import Floats, angle, arc, chord, unit, weighted
+
+__all__ = ["Quaternion", "angle", "arc", "chord", "deg", "floats", "np", "unit", "weighted"]
+
+
+def near(a: Floats, b: Floats) -> Floats:
+    """b with the sign that is nearer to a."""
+    return b if a @ b >= 0 else -b
+
+
+def times(a: Floats, b: Floats) -> Floats:
+    w, u = a[0] * b[0] - a[1:] @ b[1:], a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])
+    return np.array([w, *u])
+
+
+def conjugate(a: Floats) -> Floats:
+    turned: Floats = a * [1, -1, -1, -1]
+    return turned
+
+
+def power(q: Floats, s: float) -> Floats:
+    """The turn by s times the angle of q, the short way."""
+    q = q if q[0] >= 0 else -q
+    half, sine = np.arctan2(np.linalg.norm(q[1:]), q[0]), np.linalg.norm(q[1:])
+    if sine < 1e-15:
+        return np.array([1.0, 0, 0, 0])
+    return np.array([np.cos(s * half), *(np.sin(s * half) * q[1:] / sine)])
+
+
+def angles(q: Floats) -> Floats:
+    return np.array([float(x) for x in Quaternion(q).as_roll_pitch_yaw()])
+
+
+def of_angles(a: Floats, b: Floats, s: float) -> Floats:
+    """Roll, pitch and yaw on straight lines."""
+    roll, pitch, yaw = (1 - s) * angles(a) + s * angles(b)
+    return Quaternion.from_roll_pitch_yaw(roll, pitch, yaw).wxyz

@@ -1,0 +1,69 @@
+"""The conditions of exercise 2 of irb140 kinematics; its words stand in the Markdown beside it."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import IRB140, Transform, explain, within
+from robokin.course.exercises import words
+from robokin.course.function import Fault
+from robokin.course.slips import METRES
+
+COUNT = 1
+GOAL = {
+    "wanted": 4,
+    "holds": "Fulfilled: {count} ways exist.",
+    "open": "{count} ways exist, wanted are {wanted}.",
+}
+
+
+def form(answer: Any, given: Any) -> Transform:
+    """One pose."""
+    if isinstance(answer, Transform) and answer.shape == ():
+        return answer
+    hint = ""
+    with np.errstate(all="ignore"):
+        if np.shape(answer) == (6,):
+            hint = ": six numbers are a posture, IRB140.fk(q) is its pose"
+        elif np.shape(answer) == (3,):
+            hint = ": a place without an orientation"
+        elif np.shape(answer) == (4, 4):
+            hint = "; Transform.from_matrix makes one of it"
+    raise ValueError(f"Wanted one Transform, got {words(answer)}{hint}.")
+
+
+def faults(pose: Transform, given: Any) -> list[Fault]:
+    """Exactly four rows have to exist, and no two of them may be one posture."""
+    distance = float(np.linalg.norm(pose.translation))
+    if distance > 5:
+        far = f"Your place is {distance:.0f} m away from the base. {METRES}"
+        return [("mm for m", far)]
+    rows = IRB140.ik(pose)
+    exists = ~np.isnan(rows).any(axis=-1)
+    count = int(exists.sum())
+    if count == 0:
+        return [("no way: out of reach", f"No row of ik exists. {explain(IRB140, pose, 0)}")]
+    usable = int(within(IRB140, rows).all(axis=-1).sum())
+    if count == 8 and usable == 4:
+        says = (
+            "Four rows are inside the limits, but all eight exist. A row that is past a limit "
+            "counts here: it does reach the pose."
+        )
+        return [("limits counted", says)]
+    if count != 4:
+        inside = "none" if usable == 0 else f"{usable} of them"
+        says = (
+            f"{count} rows of ik exist, {inside} inside the limits. Which step of the inverse can "
+            "fail for one front and hold for the other?"
+        )
+        return [("all eight ways" if count == 8 else f"{count} ways", says)]
+    names = [
+        name for name, holds in IRB140.geometry.singularities(rows[exists]).items() if holds.any()
+    ]
+    if names:
+        says = (
+            f"Four rows exist, but at a singularity ({', '.join(names)}): rows there are the same "
+            "posture twice, or joints are free. Move the pose a little."
+        )
+        return [("rows twice: a singular pose", says)]
+    return []

@@ -1,0 +1,89 @@
+"""Cases, form and law of exercise 1 of irb140 kinematics; its words stand in the Markdown beside
+it, and its wrong programs use `X`, `Z`, `L4`, `LAST_TURN` and `longer`, too.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import IRB140, Quaternion, Transform, deg, mm
+from robokin.course.exercises import words
+from robokin.course.told import apart
+
+from .shared import L4, Floats, X, Y, Z, turned
+
+__all__ = ["L4", "LAST_TURN", "X", "cases", "form", "law", "longer", "same"]
+
+LAST_TURN = Transform(turned(90 * deg, Y))  # at the end of the chain
+
+
+def longer(q: Floats) -> Transform:
+    """The flange of an arm whose upper arm has 360 mm."""
+    more = IRB140.frames(q)[2].rotation @ (10 * mm * Z)
+    return Transform(translation=more) @ IRB140.fk(q)
+
+
+def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
+    """Home first, then one joint at a time, then anything inside the limits."""
+    home = np.zeros(6)
+    found: list[tuple[Any, ...]] = [
+        (home, 100 * mm, 0.0),
+        (home, 100 * mm, 90 * deg),
+        (home, 0.0, -30 * deg),
+        (home, 0.0, 0.0),
+    ]
+    for k in range(6):
+        q = np.zeros(6)
+        q[k] = (90, 45, -60, 90, 30, 45)[k] * deg
+        found.append((q, 150 * mm, 60 * deg))
+    low, high = IRB140.limits.T
+    for _ in range(14):
+        length, turn = float(rng.uniform(20, 300)) * mm, float(rng.uniform(-170, 170)) * deg
+        found.append((rng.uniform(low, high), length, turn))
+    return found
+
+
+def form(result: Any, case: tuple[Any, ...]) -> Transform:
+    """One pose."""
+    if isinstance(result, Transform) and result.shape == ():
+        return result
+    hint = ""
+    if isinstance(result, Transform):
+        hint = "; q is one posture (6,)"
+    elif isinstance(result, Quaternion):
+        hint = ": an orientation without a place"
+    elif np.shape(result) == (3,):
+        hint = ": a place without an orientation"
+    elif np.shape(result) == (4, 4):
+        hint = "; Transform.from_matrix makes one of it"
+    raise ValueError(f"Wanted one Transform, got {words(result)}{hint}.")
+
+
+def law(case: tuple[Any, ...], yours: Transform, wanted: Transform) -> str | None:
+    """Seen from the flange the tip is where the gripper has it."""
+    q, length, turn = case
+    seen = IRB140.fk(q).inverse() @ yours
+    if abs(seen.translation - [0, 0, length]).max() > 1e-7:
+        tip_at = in_mm(wanted.translation)
+        there, is_at = apart(np.array([0, 0, length]) / mm, seen.translation / mm)
+        return (
+            f"should be at {tip_at} mm: seen from the flange the tip is at ({there}) mm, yours is "
+            f"at ({is_at}) mm"
+        )
+    off = float(seen.rotation.angle_to(turned(turn, Z)))
+    if off > 1e-7:
+        return (
+            "stands in the right place, but not turned as it should be: seen from the flange by "
+            f"{turn / deg:.1f}° about z; yours is {apart(off / deg, 0)[0]}° away from that"
+        )
+    return None
+
+
+def in_mm(place: Any) -> str:
+    """A place in words."""
+    return "(" + ", ".join(f"{x / mm + 0.0:.1f}" for x in np.round(place, 9)) + ")"
+
+
+def same(a: Transform, b: Transform) -> bool:
+    """One and the same pose, rounding left out."""
+    return bool(np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-7))

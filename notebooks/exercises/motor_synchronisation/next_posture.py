@@ -1,0 +1,111 @@
+"""Cases, form and law of exercise 1, the next posture; its words are in the Markdown file."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.course.exercises import words
+from robokin.course.told import apart, floats
+from robokin.units import wrapped
+
+from .shared import LOADER, TURN, A, B, Floats
+
+# x, y, z in mm, and the angle of joint 1 before in degrees
+PLACES = (
+    "600 0 100 0, 600 200 100 0, 300 400 0 40, 0 500 200 10, -400 300 50 100, -400 -300 50 -100",
+    "400 -300 250 30, -500 -20 200 170, -500 20 200 -170, -500 -20 200 190, -500 20 200 -200",
+    "-300 -300 300 90, 300 300 300 -150, 500 100 100 700, 500 -100 100 -760, 0 0 400 130",
+    "0 0 600 -75, 4 3 500 60, -1 2 400 -100, 0 -400 0 0, 100 100 600 -20",  # above the base, beside
+    "80 60 700 0, 100 0 0 0, 60 -60 90 20, 700 400 100 0, 0 0 800 30, 149 0 0 0, 0 752 0 0",
+    "-151 0 0 150, 0 749 0 100",  # at the borders
+    "450 150 100 1400, -400 -250 80 -1700",  # four turns on
+)
+
+
+def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
+    rows = [np.array(row.split(), dtype=float) for row in ", ".join(PLACES).split(", ")]
+    found = [(row[:3] * mm, float(row[3] * deg)) for row in rows]
+    for _ in range(8):
+        place = rng.uniform(-1, 1, 3)
+        place *= rng.uniform(0.2, 0.7) / np.linalg.norm(place)
+        place[2] = abs(place[2])
+        found.append((place.round(3), float(rng.uniform(-200, 200) * deg)))
+    return found
+
+
+def form(result: Any, case: tuple[Any, ...]) -> Floats:
+    wanted = "wanted three angles alpha, gamma, beta in radians, or three NaN"
+    try:
+        values = floats(result)
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {words(result)}") from None
+    if values.size == 1 and np.isnan(values).all():
+        return np.full(3, np.nan)
+    if values.size != 3:
+        raise ValueError(f"{wanted}, got {words(result)}")
+    return values.reshape(3)
+
+
+def same(a: Floats, b: Floats) -> bool:
+    return np.allclose(a, b, rtol=0, atol=1e-6, equal_nan=True)
+
+
+def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
+    point, before = case
+    h = float(np.sqrt(point @ point))
+    if np.isnan(wanted).any():
+        if np.isnan(yours).all():
+            return None
+        side = "nearer than A \N{MINUS SIGN} B" if h < A else "farther than A + B"
+        return f"should be three NaN: h = {h / mm:.1f} mm is {side}"
+    # gamma and beta by the same arm, alpha as it is: whole turns count
+    off = abs(np.append(yours[:1] - wanted[:1], wrapped(yours[1:] - wanted[1:])))
+    if off.max() <= 1e-6:
+        return None
+    angles = zip("αγβ", wanted + 0.0, strict=True)
+    says = f"should be {', '.join(f'{name} = {x / deg:.2f}°' for name, x in angles)}"
+    if not off[0] <= 1e-6 and not (point[0] or point[1]):
+        return f"{says}: above the base joint 1 stays at {before / deg:.1f}°"
+    if np.isnan(yours).any():
+        return f"{says}: h = {h / mm:.1f} mm is in reach"
+    if off[0] > 1e-6 and abs(wrapped(yours[0] - wanted[0])) <= 1e-6:
+        turn, yours_turn = apart((wanted[0] - before) / deg, (yours[0] - before) / deg)
+        return f"{says}: a turn of {turn}° from {before / deg:.1f}°; yours is one of {yours_turn}°"
+    there = LOADER.fk(wrapped(yours)).translation
+    if np.linalg.norm(there - point) <= 1e-9:
+        return f"{says}; your angles reach the point in another posture"
+    got, asked = apart(there / mm, point / mm)
+    return f"{says}; your angles put the gripper at ({got}) mm, asked is ({asked}) mm"
+
+
+# --- For wrong programs ---------------------------------------------------------------------------
+
+
+def raised() -> float:
+    raise ValueError("out of reach")
+
+
+def by_size(d: float) -> float:
+    """The rest of a turn, always with one sign."""
+    return d if abs(d) <= np.pi else abs(d) - TURN
+
+
+def once(d: float) -> float:
+    """One turn at most taken off."""
+    return d - TURN if d > np.pi else d + TURN if d < -np.pi else d
+
+
+def cells(x: float, y: float) -> float:
+    """Table 1 as printed."""
+    if x == 0:
+        return float(np.sign(y) * np.pi / 2)
+    if x < 0 <= y:
+        return float(np.arctan(y / abs(x)) + np.pi / 2) if y else np.pi
+    return float(np.arctan(y / x) - (np.pi if x < 0 else 0))
+
+
+def at_gripper(h: float) -> float:
+    """The sine law with the angle at the gripper."""
+    beta = np.arccos((A**2 + B**2 - h**2) / (2 * A * B))
+    return float(np.arcsin(np.minimum(A * np.sin(beta) / h, 1)))

@@ -1,0 +1,165 @@
+"""Exercise 2: a student's own move, and what does not hold of its gears and frequencies."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.course.exercises import words
+from robokin.course.told import apart, floats
+from robokin.course.variants import Numbers, dice
+from robokin.jobs.steppers import counts, station_postures
+from robokin.units import wrapped
+
+from .shared import LOADER, STEP, A, B, Floats
+
+COUNT = 4
+LENGTHS = np.array([A + B, A + B, B])  # from each joint to the end of the stretched arm
+COARSE = LENGTHS * STEP / 2 * deg  # what half a step without a gear moves that end
+TOGETHER = 0.01  # working times this near to each other, as a share, are one
+KEYS = ("gears", "frequencies")
+ENDS = tuple(f"{end}_{x}" for end in ("start", "goal") for x in "xyz")
+Fault = tuple[str, str]
+Drive = tuple[Floats, Floats]  # gears and frequencies
+
+
+@cache
+def postures(places: tuple[float, ...]) -> Floats:
+    """Both postures of a move, joint 1 the short way."""
+    return station_postures(LOADER, np.reshape(places, (2, 3)))
+
+
+def move(numbers: Mapping[str, Any]) -> Floats:
+    """Both postures of a student's move."""
+    return postures(tuple(float(numbers[name]) for name in ENDS))
+
+
+def pulses_of(q: Floats, gears: Floats) -> Floats:
+    """The pulses from one posture to the other, without signs."""
+    return np.asarray(abs(np.diff(counts(q, gears / STEP), axis=0)[0]), dtype=float)
+
+
+def given(who: Any) -> Numbers:
+    """Two points on either side of the direction 180°, a greatest miss, a greatest frequency, and a
+    time that leaves some room.
+    """
+    roll = dice("motor_synchronisation", who)
+    while True:
+        side = roll.choice([-1, 1])
+        start = np.array([-roll.randrange(250, 560, 10), side * roll.randrange(60, 260, 10)])
+        goal = np.array([-roll.randrange(250, 560, 10), -side * roll.randrange(60, 260, 10)])
+        heights = [roll.randrange(50, 400, 10), roll.randrange(50, 400, 10)]
+        miss, most = roll.randrange(20, 42, 2) / 100 * mm, roll.randrange(400, 820, 20)
+        ends = (*(start * mm), heights[0] * mm, *(goal * mm), heights[1] * mm)
+        places = tuple(float(x) for x in ends)
+        if not (np.linalg.norm(np.reshape(places, (2, 3)), axis=1) < 0.7).all():
+            continue
+        turns = abs(np.diff(postures(places), axis=0)[0] / deg)
+        if (turns > 12).all() and np.ptp(np.sort(turns)[1:]) > 8:
+            break
+    needed = float(turns.max()) * int(np.ceil(COARSE.max() / miss - 1e-9)) / STEP / most
+    values: dict[str, Any] = dict(zip(ENDS, places, strict=True))
+    values |= {"miss": miss, "most": most, "seconds": float(np.ceil(12 * needed) / 10)}
+    units = dict.fromkeys([*ENDS, "miss"], ("mm", mm))
+    return Numbers(values, units | {"most": ("pulses/s", 1.0), "seconds": ("s", 1.0)})
+
+
+def form(answer: Any, numbers: Any) -> Drive:
+    if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
+        wanted = 'wanted {"gears": [three whole numbers], "frequencies": [three]}'
+        raise ValueError(f"{wanted}, got {words(answer)}")
+    found = []
+    for key in KEYS:
+        try:
+            values = floats(answer[key])
+        except (TypeError, ValueError):
+            values = np.empty(0)
+        if values.size == 1 and key == "gears":
+            values = np.full(3, float(values.reshape(())))
+        if values.size != 3 or not np.isfinite(values).all():
+            raise ValueError(f"{key}: wanted three numbers, got {words(answer[key])}")
+        found.append(values.reshape(3))
+    gears, omega = found
+    if (gears < 1).any() or (gears % 1).any() or (gears > 100_000).any():
+        raise ValueError(f"gears: wanted whole numbers from 1 up, got {words(gears)}")
+    if (omega == 0).any():
+        raise ValueError(f"frequencies: every motor has to move, got {words(omega)}")
+    return gears, abs(omega)
+
+
+def faults(drive: Drive, numbers: Any) -> list[Fault]:
+    gears, omega = drive
+    found = []
+    miss, most, seconds = (float(numbers[key]) for key in ("miss", "most", "seconds"))
+    ends = COARSE / gears
+    if (ends > miss * (1 + 1e-9)).any():
+        k = int(ends.argmax())
+        moves, allowed = apart(ends[k] / mm, miss / mm, 2)
+        says = (
+            f"Half a pulse of motor {k + 1} moves the end of the stretched arm by {moves} mm; "
+            f"allowed are {allowed} mm. Half a pulse turns the joint by 0.9° / gear, and the end "
+            f"is {LENGTHS[k] / mm:.0f} mm away from it."
+        )
+        found.append(("too coarse", says))
+    fast = np.flatnonzero(omega > most * (1 + 1e-9))
+    if fast.size:
+        runs, allowed = apart(omega[fast[0]], most)
+        says = f"Motor {fast[0] + 1} runs at {runs} pulses/s; allowed are {allowed}."
+        found.append(("above the limit", says))
+    pulses = pulses_of(move(numbers), gears)
+    if not close(pulses / omega):
+        found.append(not_together(move(numbers), gears, omega, pulses))
+    if (pulses / omega).max() > seconds * (1 + 1e-9):
+        found.append(too_slow(gears, omega, pulses, most, seconds))
+    return found
+
+
+def close(values: Floats) -> bool:
+    return bool(values.max() <= (1 + TOGETHER) * values.min())
+
+
+def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fault:
+    """Why the motors do not stop at one time."""
+    times = ", ".join(f"{t:.3f}" for t in pulses / omega)
+    told = f"The motors need {times} s for {', '.join(f'{p:.0f}' for p in pulses)} pulses."
+    turns = abs(np.diff(q, axis=0)[0] / deg)
+    long = pulses_of(np.column_stack([wrapped(q[:, 0]), q[:, 1:]]), gears)
+    why = {
+        "the long way round": f"Your frequencies are for {long[0]:.0f} pulses of motor 1: from one "
+        "side of the direction 180° to the other the short way does not pass 0°.",
+        "equal products": "The products of pulses and frequency are equal. A time is pulses "
+        "divided by frequency.",
+        "one frequency for all": "With one frequency for all, the motor with the most pulses stops "
+        "last.",
+        "the gears left out": "The frequencies are in proportion to the turns of the joints, not "
+        "to the pulses: the gears are left out.",
+        "divided by the gear": "A gear of i : 1 asks for i times as many pulses, not for an i-th "
+        "of them.",
+    }
+    fits = (
+        close(long / omega),
+        close(pulses * omega),
+        np.ptp(omega) < 1e-9,
+        close(turns / omega),
+        close(turns / gears / omega),
+    )
+    for name, true in zip(why, fits, strict=True):
+        if true:
+            return name, f"{told} {why[name]}"
+    return "not together", told
+
+
+def too_slow(gears: Floats, omega: Floats, pulses: Floats, most: float, seconds: float) -> Fault:
+    takes, allowed = apart((pulses / omega).max(), seconds)
+    says = f"The move takes {takes} s; allowed are {allowed} s."
+    if pulses.max() / most <= seconds:
+        says += " These gears can keep the time, with higher frequencies."
+        return "slower than the limit asks", says
+    k = int(pulses.argmax())
+    says += (
+        f" Even at {most:.0f} pulses/s motor {k + 1} takes longer than that: its gear of "
+        f"{gears[k]:.0f} : 1 is finer than asked."
+    )
+    return "geared too high", says

@@ -1,0 +1,156 @@
+"""What opens after each prediction."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.jobs.steppers import shortest_turn, station_postures
+from robokin.show import JOINT_STYLES, figure
+
+from .predictions import geared, missed, p1, p3, p4, p5, p6, p9, path, random_moves
+from .shared import LOADER
+
+
+def p1_view() -> Any:
+    facts = p1()
+    t = np.linspace(0, 4, 401)
+    points = np.stack([200 - 100 * t, 0 * t + facts["beside"], 0 * t + 300], axis=-1) * mm
+    alpha = station_postures(LOADER, points)[:, 0] / deg
+    says = (
+        f"Joint 1 over time. It turns by {facts['turned']:.0f} degrees, "
+        f"{np.ptp(alpha[150:251]):.0f} of them in the second in the middle, where the gripper "
+        "passes the vertical axis."
+    )
+    fig = figure(says, 6.4, 3.2)
+    ax = fig.subplots()
+    ax.plot(t, alpha, color=JOINT_STYLES[0]["color"], lw=2.4)
+    ax.set(xlabel="time, s", ylabel="α, °", yticks=range(0, 181, 45))
+    ax.set_title(f"Past the axis joint 1 turns with up to {facts['most']:.0f}°/s")
+    fig.tight_layout()
+    return fig
+
+
+def p2_view() -> Any:
+    told, at = [], 170.0
+    for to, stands in ((-170, "joint 1 stands"), (-60, "it stands")):
+        turn = float(shortest_turn(at * deg, to * deg)) / deg
+        told.append(f"From {at:.0f}°: the turn is {turn:+.0f}°, and {stands} at {at + turn:.0f}°.")
+        at += turn
+    return "\n".join(told)
+
+
+def p3_view() -> Any:
+    facts = p3()
+    lines = ("1: at the end of the whole arm", "2: the same lever, four times finer", "3: lever B")
+    return "\n".join(
+        f"Half a pulse of motor {line}: {facts[f'm{line[0]}']:.3f} mm at the gripper."
+        for line in lines
+    )
+
+
+def p4_view() -> Any:
+    slow = p4()["quarter"]
+    return (
+        f"Motor 1: 1200 pulses at 500 pulses/s take {1200 / 500:.1f} s.\n"
+        f"Motor 2: 300 pulses at {slow:.0f} pulses/s take {300 / slow:.1f} s.\nMotor 3 stands."
+    )
+
+
+def p5_view() -> Any:
+    a, d = p5()["a"], p5()["d"]
+    says = (
+        f"Seen from above: with the other gears path a is {a:.0f} mm long and cuts inside, path d "
+        f"is {d:.0f} mm long."
+    )
+    fig = figure(says, 5.4, 4.2)
+    ax = fig.subplots()
+    looks = ("#D55E00", "--"), ("#0072B2", "-")
+    for (name, move), (color, dash) in zip(geared().items(), looks, strict=True):
+        way = path(move)
+        ax.plot(way[:, 0], way[:, 1], dash, color=color, lw=2.2)
+        x, y, _ = way[500]
+        ax.text(x + 15, y, name, color=color, fontsize=14, fontweight="bold")
+    ax.plot(0, 0, "+", color="black", ms=12)
+    ax.set(xlabel="x, mm", ylabel="y, mm", aspect="equal")
+    ax.set_title(f"Seen from above: a {a:.0f} mm, d {d:.0f} mm")
+    fig.tight_layout()
+    return fig
+
+
+def p6_view() -> Any:
+    facts = p6()
+    return (
+        f"The controller counts {facts['counted']} pulses. The motor stands at "
+        f"{facts['stands']}: {facts['off']} short, as before the second move."
+    )
+
+
+def p7_view() -> Any:
+    off, _ = random_moves()
+    most = abs(off).max()
+    says = (
+        f"The miss of three motors over 10 000 random moves, each rounded by itself: it wanders, "
+        f"by up to {most:.0f} pulses."
+    )
+    fig = figure(says, 6.4, 3)
+    ax = fig.subplots()
+    for i, column in enumerate(off.T):
+        color = JOINT_STYLES[i]["color"]
+        ax.plot(column[::20], color=color, lw=1.4)
+        ax.text(505, column[-1], f"motor {i + 1}", color=color, va="center")
+    thousands = [f"{20 * k:,}".replace(",", " ") for k in range(0, 501, 100)]
+    ax.set(xlabel="moves", ylabel="miss, pulses", xlim=(0, 580))
+    ax.set_xticks(range(0, 501, 100), thousands)
+    ax.set_title(f"It wanders, by up to {most:.0f} pulses")
+    fig.tight_layout()
+    return fig
+
+
+def p8_view() -> Any:
+    away = np.linspace(-180, 180, 361)
+    says = (
+        "The torque over the angle from the rotor to the field. A magnet is pulled hardest at 90 "
+        "degrees and has one place of rest. Plain iron is not pulled at 90 degrees at all and "
+        "rests at 0 and at 180."
+    )
+    fig = figure(says, 6.4, 3.2)
+    ax = fig.subplots()
+    looks = ("magnet", 1, "#0072B2", "-"), ("plain iron", 2, "#D55E00", "--")
+    for name, factor, color, dash in looks:
+        ax.plot(away, np.sin(factor * away * deg), dash, color=color, lw=2.2, label=name)
+    ax.axvline(90, color="black", lw=1, ls=":")
+    ax.axhline(0, color="0.7", lw=0.8, zorder=0)
+    ax.legend(fontsize=9, loc="center left", bbox_to_anchor=(1, 0.5))
+    ax.set(xlabel="field ahead of the rotor, °", ylabel="torque, share of the greatest")
+    ax.set(xticks=range(-180, 181, 90), title="A quarter turn ahead pulls a magnet, not plain iron")
+    fig.tight_layout()
+    return fig
+
+
+def p9_view() -> Any:
+    facts = p9()
+    return (
+        f"Twelve half steps turn the field by 12 x 45° = {facts['field']:.0f}°, one turn and a "
+        f"half. The rotor goes 1/50 of that: {facts['rotor']:.1f}°, or twelve times 0.9°."
+    )
+
+
+def p10_view() -> Any:
+    rest, ramped = ({f: n for f, n in ways.items() if n} for ways in missed().values())
+    says = (
+        f"Steps lost of 48 over the frequency. From rest {min(rest.values())} to 48 are lost from "
+        f"{min(rest)} pulses per second on, with a ramp {min(ramped.values())} to "
+        f"{max(ramped.values())} from {min(ramped)} on, and always a multiple of 4."
+    )
+    fig = figure(says, 6.4, 3.2)
+    ax = fig.subplots()
+    for j, (name, ways) in enumerate(missed().items()):
+        look = {"color": JOINT_STYLES[j]["color"], "marker": "os"[j], "ms": 5}
+        ax.plot(list(ways), list(ways.values()), ls=("-", "--")[j], label=name, **look)
+    ax.legend(fontsize=9)
+    ax.set(xlabel="frequency, pulses/s", ylabel="steps lost of 48", yticks=range(0, 49, 8))
+    ax.set_title("Lost steps come in fours; a ramp loses fewer")
+    ax.grid(axis="y", lw=0.5)
+    fig.tight_layout()
+    return fig

@@ -1,0 +1,184 @@
+"""The facts behind the predictions. Objective 1: p1 and p2; 2: p3 to p7; 3: p8 to p10."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.jobs.steppers import (
+    Move,
+    Stepper,
+    counts,
+    energised,
+    frequencies,
+    joint_values,
+    phases,
+    ramp,
+    shortest_turn,
+    station_postures,
+    synchronised,
+    unsynchronised,
+)
+
+from .next_posture import by_size
+from .shared import GOAL, LOADER, PER_DEGREE, START, STEP, Floats
+
+
+def p1() -> dict[str, Any]:
+    """Past the vertical axis on a straight line."""
+    beside, speed = 20.0, 100.0  # mm, mm/s
+    ends = np.array([[200, beside, 300], [-200, beside, 300]]) * mm
+    turned = float(np.diff(station_postures(LOADER, ends), axis=0)[0, 0]) / deg
+    even, most = turned / 4, speed / beside / deg
+    return {
+        "beside": beside,
+        "speed": speed,
+        "turned": turned,
+        "even": even,
+        "most": most,
+        "end": speed * beside / (200**2 + beside**2) / deg,
+        "right": "fast in the middle" if most > 3 * even else "evenly",
+    }
+
+
+def p2() -> dict[str, Any]:
+    at = one_sided = 170.0
+    for to in (-170.0, -60.0):
+        at += float(shortest_turn(at * deg, to * deg)) / deg
+        one_sided += by_size((to - one_sided) * deg) / deg
+    return {
+        "at": at,
+        "back": -60.0,
+        "turns": at - 170,
+        "one": one_sided,
+        "right": "counted on",
+    }
+
+
+def p3() -> dict[str, Any]:
+    """How far half a pulse of each motor moves the gripper at the start."""
+    q = station_postures(LOADER, [START])[0]
+    moved = np.linalg.norm(LOADER.jacobian(q)[:3], axis=0) * 0.5 / PER_DEGREE * deg / mm
+    facts: dict[str, Any] = {f"m{i + 1}": float(x) for i, x in enumerate(moved)}
+    return facts | {"right": f"gear {int(moved.argmax()) + 1}"}
+
+
+def p4() -> dict[str, Any]:
+    pulses = np.array([1200, 300, 0])
+    return {
+        "quarter": float(frequencies(pulses)[1]),
+        "inverse": 500.0 * 1200 / 300,
+        "share": 500.0 * 300 / pulses.sum(),
+        "full": 500.0,
+        "third": 500 / 3,
+        "right": "a quarter",
+    }
+
+
+GEARED = np.array([40, 20, 20])  # pulses per degree of the other gears
+
+
+def geared() -> dict[str, Move]:
+    """The moves of the paths a and d with the other gears."""
+    stations = counts(station_postures(LOADER, [START, GOAL]), GEARED)
+    return {"a": unsynchronised(*stations), "d": synchronised(*stations)}
+
+
+def path(move: Move) -> Floats:
+    """The gripper's path in mm."""
+    q = joint_values(move(np.linspace(0, move.duration, 1001)), GEARED)
+    return np.asarray(LOADER.fk(q).translation / mm)
+
+
+@cache
+def p5() -> dict[str, Any]:
+    """How long both paths are with the other gears, in mm."""
+    a, d = (
+        float(np.linalg.norm(np.diff(path(move), axis=0), axis=1).sum())
+        for move in geared().values()
+    )
+    right = "longer" if a > 1.02 * d else "shorter" if a < 0.98 * d else "as long"
+    return {"a": a, "d": d, "line": float(np.linalg.norm(GOAL - START)) / mm, "right": right}
+
+
+def p6() -> dict[str, Any]:
+    lost, move, back = 32, 1000, 400  # a rotor slips by whole turns of the field
+    stands, counted = 0, 0
+    for pulses, missed in ((move, lost), (-back, 0)):
+        counted += pulses
+        stands += pulses - missed
+    off = counted - stands
+    return {
+        "lost": lost,
+        "left": move - lost,
+        "twice": 2 * lost,
+        "counted": counted,
+        "stands": stands,
+        "off": off,
+        "right": {lost: "short for good", 0: "errors cancel"}.get(off, "short every move"),
+    }
+
+
+@cache
+def random_moves() -> tuple[Floats, Floats]:
+    """How far three motors are off after each of 10 000 random moves (10 000, 3), in pulses:
+    rounded one by one, and by positions.
+    """
+    rng = np.random.default_rng(1)
+    walk = np.cumsum(rng.uniform(-20, 20, (10_001, 3)), axis=0)  # degrees
+    positions = counts(walk * deg, PER_DEGREE)
+    alone = positions[0] + np.cumsum(np.rint(np.diff(walk, axis=0) * PER_DEGREE), axis=0)
+    return alone - walk[1:] * PER_DEGREE, positions[1:] - walk[1:] * PER_DEGREE
+
+
+def p7() -> dict[str, Any]:
+    alone, counted = (float(abs(off).max()) for off in random_moves())
+    right = "below a pulse" if alone < 1.5 else "dozens" if alone < 200 else "thousands"
+    expected = float(np.sqrt(10_000 / 12))
+    return {"alone": alone, "counted": counted, "expected": expected, "right": right}
+
+
+def p8() -> dict[str, Any]:
+    """The torque of the next winding, 90° ahead, on a magnet and on plain iron."""
+    ahead = 90 * deg
+    magnet, iron = float(np.sin(ahead)), abs(round(float(np.sin(2 * ahead)), 9))
+    right = "cannot tell" if iron < 1e-6 < magnet else "as a magnet"
+    return {"magnet": magnet, "iron": iron, "right": right}
+
+
+def p9() -> dict[str, Any]:
+    rows = energised(phases("half-step", "unipolar"), np.ones(12))
+    field = float(np.unwrap(np.angle(rows @ np.exp(0.5j * np.pi * np.arange(4))))[-1]) / deg
+    return {
+        "rotor": field / 50,
+        "field": field,
+        "full": 12 * STEP,
+        "rows": 12 / 8 * STEP,
+        "right": "half steps",
+    }
+
+
+@cache
+def missed() -> dict[str, dict[int, int]]:
+    """Steps lost of 48 by the motor of the lab, over the frequency in pulses per second: from rest,
+    and with a ramp of 0.1 s from 40 on.
+    """
+    motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
+    tempos = range(60, 281, 10)
+    return {
+        "from rest": {f: motor.run(ramp(48, f, f, 0), ones).lost for f in tempos},
+        "with a ramp": {f: motor.run(ramp(48, 40, f, 0.1), ones).lost for f in tempos},
+    }
+
+
+def p10() -> dict[str, Any]:
+    found = sorted({n for ways in missed().values() for n in ways.values()} - {0})
+    return {
+        "some": ", ".join(map(str, found)),
+        "few": found[0],
+        "tempo": 160,
+        "lost": missed()["from rest"][160],
+        "runs": sum(map(len, missed().values())),
+        "right": "only fours" if np.gcd.reduce(found) == 4 else "any number",
+    }

@@ -1,0 +1,290 @@
+"""Numbers, form and faults of exercise 2: a program as text; its words stand beside it."""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from robokin import mm
+from robokin.course.exercises import words
+from robokin.course.told import apart
+from robokin.course.variants import Numbers, dice
+
+from .shared import Floats
+
+COUNT = 3  # both elbows, and the budget
+OUTPUTS = ("xr", "yr", "xl", "yl")
+BUDGET = 23
+NEARLY = 5 * mm  # a program whose elbows are off by less is told that it is nearly right
+SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+TIPS = np.array([(0.9, 0.4), (-0.5, 0.8), (0.2, -0.9), (-0.7, -0.6), (0.1, 1.1), (1.1, -0.1)])
+
+
+def given(who: Any) -> Numbers:
+    """An arm of one's own: its base, and two lengths that differ."""
+    roll = dice("two_link_code_generation", who)
+    x, y = (1 - 2 * roll.randrange(2)) * 0.05, (1 - 2 * roll.randrange(2)) * 0.05
+    long, less = roll.randrange(60, 91, 5) / 100, roll.randrange(10, 31, 5) / 100
+    l1, l2 = (long, long - less) if roll.randrange(2) else (long - less, long)
+    x, y = x * roll.randrange(1, 5), y * roll.randrange(1, 5)
+    numbers = {"base_x": x, "base_y": y, "l1": l1, "l2": l2}
+    numbers = {name: round(value, 2) for name, value in numbers.items()}
+    units = dict.fromkeys(numbers, ("m", 1.0)) | {"budget": ("operations", 1)}
+    return Numbers(numbers | {"budget": BUDGET}, units)
+
+
+def operations(program: str) -> int:
+    """Each + - * / **, each root, each change of sign; the minus of a constant is none."""
+    nodes = list(ast.walk(ast.parse(program)))
+    signs = [node.operand for node in nodes if isinstance(node, ast.UnaryOp)]
+    return sum(isinstance(node, (ast.BinOp, ast.Call)) for node in nodes) + sum(
+        not isinstance(operand, ast.Constant) for operand in signs
+    )
+
+
+def form(answer: Any, given: Any) -> str:
+    if isinstance(answer, (list, tuple)) and all(isinstance(line, str) for line in answer):
+        answer = "\n".join(answer)
+    if not isinstance(answer, str):
+        raise ValueError(
+            f"wanted the text of a program, lines such as 'dx = x3 - 0.2', got {words(answer)}"
+        )
+    lines = "\n".join(line.strip() for line in answer.replace(";", "\n").splitlines())
+    try:
+        tree = ast.parse(lines)
+    except (SyntaxError, ValueError) as error:
+        raise ValueError(f"this is not Python: {error}") from None
+    for node in tree.body:
+        plain = isinstance(node, ast.Assign) and len(node.targets) == 1
+        if not (plain and isinstance(node.targets[0], ast.Name)):  # type: ignore[attr-defined]
+            raise ValueError(f"wanted lines `name = expression` only, got: {ast.unparse(node)}")
+    values(lines, (0.5, 0.6))
+    missing = [name for name in OUTPUTS if not re.search(rf"^{name} *=", lines, re.M)]
+    if missing:
+        raise ValueError(f"the program never sets {', '.join(missing)}")
+    return lines
+
+
+def values(program: str, tip: Sequence[float]) -> dict[str, float]:
+    """All names after the program, run by hand: nothing but arithmetic and roots."""
+    known = {"x3": float(tip[0]), "y3": float(tip[1])}
+
+    def value(node: Any) -> float:
+        if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+            return float(node.value)
+        if isinstance(node, ast.Name):
+            if node.id not in known:
+                raise ValueError(f"{node.id} is used before it is set; x3 and y3 are given")
+            return known[node.id]
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
+            return -value(node.operand) if isinstance(node.op, ast.USub) else value(node.operand)
+        if isinstance(node, ast.BinOp) and type(node.op) in SIGNS:
+            a, b = np.float64(value(node.left)), np.float64(value(node.right))
+            with np.errstate(all="ignore"):
+                results = {"+": a + b, "-": a - b, "*": a * b, "/": a / b, "**": a**b}
+            return float(results[SIGNS[type(node.op)]])
+        if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:
+            if re.fullmatch(r"((math|np|numpy|sp)\.)?sqrt", ast.unparse(node.func)):
+                with np.errstate(all="ignore"):
+                    return float(np.sqrt(value(node.args[0])))
+        raise ValueError(f"wanted + - * / ** and sqrt alone, got: {ast.unparse(node)}")
+
+    for node in ast.parse(program).body:
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            known[node.targets[0].id] = value(node.value)
+    return known
+
+
+def in_reach(arm: Mapping[str, float]) -> Floats:
+    """Tips in reach, all round the base."""
+    low, high = abs(arm["l1"] - arm["l2"]), arm["l1"] + arm["l2"]
+    shares = np.linspace(0.15, 0.9, len(TIPS))
+    ways = TIPS / np.linalg.norm(TIPS, axis=-1, keepdims=True)
+    base = np.array([arm["base_x"], arm["base_y"]])
+    tips: Floats = base + (low + shares * (high - low))[:, None] * ways
+    return tips
+
+
+RIGHT = """
+dx = x3 - base_x; dy = y3 - base_y
+d2 = dx*dx + dy*dy
+K = (l1**2 - l2**2) / 2; a = 0.5 + K / d2
+L = l1**2; h = sqrt(L / d2 - a*a)
+px = base_x + a*dx; py = base_y + a*dy
+u = h*dy; v = h*dx
+xr = px + u; yr = py - v; xl = px - u; yl = py + v
+"""
+
+
+def lines(program: str) -> Iterator[list[str]]:
+    """The name and the expression of each line."""
+    return (line.strip().split(" = ") for line in re.split("[;\n]", program) if line)
+
+
+def written(arm: Mapping[str, float], tips: Floats, slip: str = "") -> Floats:
+    """The elbows (tips, 4) of a right program, or of one with these lines in it."""
+    known: dict[str, Any] = {**arm, "x3": tips[:, 0], "y3": tips[:, 1], "sqrt": np.sqrt}
+    instead = dict(lines(slip))
+    with np.errstate(all="ignore"):
+        for name, line in lines(RIGHT):
+            known[name] = eval(instead.get(name, line), known)
+    return np.stack([known[name] for name in OUTPUTS], axis=-1)
+
+
+SHARE = "a = 0.5 + K / d2 with K = (l1² − l2²) / 2."
+HEIGHT = "h = sqrt(l1² / d2 − a²), with d2 = dx² + dy²."
+WAY = "dx = x3 − base_x and dy = y3 − base_y"
+# a sentence, below it the mistakes of which it is said, and what the program has instead
+KNOWN = """
+xr, yr are the elbow on the right, seen from the base towards the tip.
+  the sides exchanged: xr = px - u; yr = py + v; xl = px + u; yl = py - v
+xr is the x of the right elbow.
+  x and y exchanged: xr = py - v; yr = px + u; xl = py + v; yl = px - u
+Both pairs are the right elbow: change the sign of h.
+  one elbow twice: xl = px + u; yl = py - v
+Both pairs are the left elbow: change the sign of h.
+  one elbow twice: xr = px - u; yr = py + v
+Your base is not the origin.
+  the base taken for the origin: dx = x3; dy = y3; px = a*dx; py = a*dy
+The elbows are counted from your base: add it.
+  the base not added at the end: px = a*dx; py = a*dy
+l1 is the link on the base.
+  the links exchanged: K = (l2**2 - l1**2) / 2; L = l2**2
+Your links differ: a is not 1/2.
+  equal links assumed: a = 0.5
+This is the arm of the lab, with its base and lengths: take your own.
+  the lab's arm: dx = x3 - 0.2; dy = y3 + 0.1; K = 0.255; L = 1; px = a*dx + 0.2; py = a*dy - 0.1
+"""
+SLIPS = f"""
+{SHARE}
+  K not halved: K = l1**2 - l2**2
+  K halved twice: K = (l1**2 - l2**2) / 4
+  the sign of K: K = (l2**2 - l1**2) / 2
+  a sum of squares in K: K = (l1**2 + l2**2) / 2
+  no squares in K: K = (l1 - l2) / 2
+  the square of the difference in K: K = (l1 - l2)**2 / 2
+  only l2² halved in K: K = l1**2 - l2**2 / 2
+  0.5 left out of a: a = K / d2
+  1 for 0.5 in a: a = 1 + K / d2
+  0.5 divided by d2, too: a = (0.5 + K) / d2
+  K not divided by d2: a = 0.5 + K
+  K times d2: a = 0.5 + K * d2
+  K divided by d, not by d2: a = 0.5 + K / sqrt(d2)
+  a minus in a: a = K / d2 - 0.5
+{HEIGHT}
+  a not squared: h = sqrt(L / d2 - a)
+  2 a for a²: h = sqrt(L / d2 - 2*a)
+  plus for minus under the root: h = sqrt(L / d2 + a*a)
+  a² − l1² / d2 under the root: h = sqrt(a*a - L / d2)
+  the root left out: h = L / d2 - a*a
+  l1² not divided by d2: h = sqrt(L - a*a)
+  a² divided by d2, too: h = sqrt((L - a*a) / d2)
+  l1² times d2: h = sqrt(L * d2 - a*a)
+  l1 for l1²: L = l1
+  l2² for l1²: L = l2**2
+With this h the step aside needs a way of length 1: divide h by d. {HEIGHT}
+  h in metres: h = sqrt(L - a*a*d2)
+{HEIGHT}
+  h halved: h = sqrt(L / d2 - a*a) / 2
+  h twice: h = sqrt(L / d2 - a*a) * 2
+  d for d2: d2 = sqrt(dx*dx + dy*dy)
+  minus for plus in d2: d2 = dx*dx - dy*dy
+  the square of the sum for d2: d2 = (dx + dy)**2
+  dx twice in d2: d2 = 2*dx*dx
+  dy twice in d2: d2 = 2*dy*dy
+{WAY}: the way goes from the base to the tip.
+  the way from the tip to the base: dx = base_x - x3; dy = base_y - y3
+{WAY}. A base below 0 is taken away all the same.
+  the base added to the tip: dx = x3 + base_x; dy = y3 + base_y
+dx = x3 − base_x: a base below 0 is taken away all the same.
+  the base added to x3: dx = x3 + base_x
+dy = y3 − base_y: a base below 0 is taken away all the same.
+  the base added to y3: dy = y3 + base_y
+{WAY}.
+  the base left out of dx and dy: dx = x3; dy = y3
+dx = x3 − base_x.
+  the base left out of dx: dx = x3
+dy = y3 − base_y.
+  the base left out of dy: dy = y3
+{WAY}.
+  base_x and base_y exchanged: dx = x3 - base_y; dy = y3 - base_x
+The foot is the base plus a times the way: px = base_x + a dx, py = base_y + a dy.
+  1/2 for a in the foot: px = base_x + dx / 2; py = base_y + dy / 2
+  no a in the foot: px = base_x + dx; py = base_y + dy
+  the foot counted from the tip: px = x3 + a*dx; py = y3 + a*dy
+  the foot on the other side of the base: px = base_x - a*dx; py = base_y - a*dy
+  dx and dy exchanged in the foot: px = base_x + a*dy; py = base_y + a*dx
+  dx for dy in the foot: py = base_y + a*dx
+Across the way is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left all signs change.
+  aside along the way: u = h*dx; v = h*dy
+  aside without the way: u = h; v = h
+  both signs alike: yr = py + v; yl = py - v
+  the sign in xl: xl = px + u
+  the sign in yl: yl = py - v
+  the sign in xr: xr = px - u
+  the sign in yr: yr = py + v
+"""
+
+
+def explained(
+    table: str, arm: Any, tips: Floats, found: Floats, most: int = 1, nan: bool = False
+) -> tuple[str, str] | None:
+    """Name and sentence of the mistake of a table that gives these elbows; of `most`, if for these
+    numbers several are one. `nan`: whether they may give a NaN, too.
+    """
+    fitting, says = [], ""
+    for line in table.strip().split("\n"):
+        name, _, step = line.strip().partition(": ")
+        if not line.startswith(" "):
+            says = line
+        elif np.allclose(found, written(arm, tips, step), rtol=0, atol=1e-6, equal_nan=nan):
+            fitting.append((name, says))
+    if not fitting:
+        return None
+    names, sentences = (list(dict.fromkeys(each)) for each in zip(*fitting[:most], strict=True))
+    return " or ".join(names), " Or: ".join(sentences)
+
+
+def slip(arm: Any, tips: Floats, found: Floats) -> tuple[str, str] | None:
+    """The same of what often happens, or of a slip in one step; None: it is right, or unknown."""
+    if named := explained(KNOWN, arm, tips, found):
+        return named
+    if np.allclose(found, written(arm, tips), rtol=0, atol=1e-6):
+        return None
+    if not np.isfinite(found).any():
+        return "NaN", "It gives NaN for every tip that was tried. In reach l1² / d2 is above a²."
+    return explained(SLIPS, arm, tips, found, most=2, nan=True)
+
+
+def faults(program: str, given: Any) -> list[tuple[str, str]]:
+    tips = in_reach(given)
+    found = np.array([[values(program, tip)[name] for name in OUTPUTS] for tip in tips])
+    right, named = written(given, tips), slip(given, tips, found)
+    most = float(abs(found - right).max())
+    if not named and 1e-6 < most < NEARLY:
+        says = f"Your elbows are off by up to {apart(most / mm, 0)[0]} mm; a micrometre is asked."
+        named = "nearly right", says + " A constant with more digits is nearer."
+    faults: list[tuple[str, str]] = []
+    for k, name in ((0, "right"), (2, "left")):
+        off = abs(found[:, k : k + 2] - right[:, k : k + 2]).max(axis=-1)
+        if not (off <= 1e-6).all():
+            n = int((~(off <= 1e-6)).argmax())
+            at, is_at = apart(right[n, k : k + 2], found[n, k : k + 2], 3)
+            says = (
+                f"For the tip ({tips[n, 0]:.4g}, {tips[n, 1]:.4g}) the {name} elbow is at ({at}); "
+                f"your program says ({is_at})."
+            )
+            why = f"{named[1]} " if named and not faults else ""
+            faults.append((named[0] if named else f"another {name} elbow", why + says))
+    count = operations(program)
+    if count > given["budget"]:
+        raw = count > 60
+        says = f"It has {count} operations, and {given['budget']} are allowed. " + (
+            "Take the common subexpressions out first."
+            if raw
+            else "What is computed twice? What is a constant of your arm?"
+        )
+        faults.append(("no temporaries" if raw else "too many operations", says))
+    return faults

@@ -1,0 +1,179 @@
+"""Cases, form and law of exercise 1, and what its wrong lines use; its words stand beside it."""
+
+import math
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from robokin.course.exercises import words
+from robokin.course.told import apart, floats
+
+from .shared import Floats
+
+Case: TypeAlias = tuple[Any, ...]
+ROUNDING = 1e-9  # of the reach
+NONE = np.array([np.nan, np.nan])
+
+
+@dataclass(frozen=True)
+class Place:
+    """An answer: a point, and whether the case has one. Where it has none, all points are one
+    mistake.
+    """
+
+    x: float
+    y: float
+    exists: bool
+
+    @property
+    def found(self) -> bool:
+        """Whether it is a point."""
+        return not math.isnan(self.x)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        return np.array([self.x, self.y])
+
+    def __repr__(self) -> str:
+        return words(np.array(self))
+
+
+def case(base: Any, tip: Any, l1: float, l2: float, side: int) -> Case:
+    return np.array(base, dtype=float), np.array(tip, dtype=float), l1, l2, side
+
+
+def cases(rng: np.random.Generator) -> list[Case]:
+    found = [
+        case([0, 0], [1.2, 0.7], 1.0, 0.8, +1),
+        case([0, 0], [1.2, 0.7], 1.0, 0.8, -1),
+        case([0.2, -0.1], [1.3, 0.6], 1.0, 0.7, +1),
+        case([0, 0], [0, 1.1], 1.0, 0.7, +1),  # straight up: dx = 0
+        case([0, 0], [0, 1.1], 1.0, 0.7, -1),
+        case([0, 0], [0, -1.1], 0.7, 1.0, +1),
+        case([0, 0], [-0.9, 0.3], 0.6, 0.9, +1),  # to the left of the base
+        case([0, 0], [-0.9, 0.3], 0.6, 0.9, -1),
+        case([0, 0], [-0.5, -0.8], 0.9, 0.5, +1),
+        case([0, 0], [1.1, 0], 1.0, 0.7, +1),  # level: dy = 0
+        case([0, 0], [-1.1, 0], 0.7, 1.0, -1),
+        case([-0.4, 0.3], [-0.4, 1.5], 0.8, 0.9, -1),
+        case([0, 0], [0.2, 0.4], 0.6, 1.0, +1),  # the line of the elbows is behind the base
+        case([0, 0], [1.2, 0.9], 0.8, 0.5, +1),  # beyond the outer edge
+        case([0, 0], [0.1, 0.1], 1.0, 0.7, -1),  # inside the inner one
+        case([0.5, -0.2], [-1.4, 0.9], 0.9, 0.9, -1),
+    ]
+    more, less = 1.7 * (1 + 1e-10), 0.3 * (1 - 1e-10)  # on the rim, and past it by rounding alone
+    for turn in (0.0, 0.7, 2.3, -2.9):  # stretched, and folded back
+        way = np.array([np.cos(turn), np.sin(turn)])
+        found.append(case([0.1, 0.2], np.array([0.1, 0.2]) + more * way, 1.0, 0.7, +1))
+        found.append(case([0, 0], less * way, 1.0, 0.7, -1))
+    found.append(case([0, 0], [1.699, 0.0], 1.0, 0.7, +1))  # 1 mm inside, 2 mm outside
+    found.append(case([0, 0], [0.0, 1.702], 1.0, 0.7, +1))
+    found.append(case([0, 0], [0.298, 0.0], 1.0, 0.7, +1))
+    found.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))  # 3 micrometres outside, inside
+    found.append(case([0, 0], [0, 1.7 * (1 - 2e-6)], 1.0, 0.7, +1))
+    found.append(case([0, 0], [1.7 * (1 + 1e-7), 0], 1.0, 0.7, +1))  # less than one outside
+    found.append(case([0, 0], [1.7e-3 * (1 + 1e-7), 0], 1e-3, 0.7e-3, +1))  # a small arm
+    found.append(case([0, 0], [0.1, 0.1], 0.7, 1.0, +1))  # too near, the second link longer
+    found.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
+    return found + [drawn(rng) for _ in range(44 - len(found))]
+
+
+def drawn(rng: np.random.Generator) -> Case:
+    base, l1, l2 = rng.uniform(-1, 1, 2), *rng.uniform(0.4, 1.2, 2)
+    turn, share = rng.uniform(-np.pi, np.pi), rng.uniform(0.1, 0.9)
+    d = abs(l1 - l2) + share * (l1 + l2 - abs(l1 - l2))
+    tip = base + d * np.array([np.cos(turn), np.sin(turn)])
+    side = int(1 - 2 * rng.integers(2))
+    return case(base.round(3), tip.round(3), round(l1, 3), round(l2, 3), side)
+
+
+def exists(case: Case) -> bool:
+    base, tip, l1, l2, _ = case
+    d, slack = float(np.hypot(*(tip - base))), ROUNDING * (l1 + l2)
+    return bool(abs(l1 - l2) - slack <= d <= l1 + l2 + slack)
+
+
+def form(result: Any, case: Case) -> Place:
+    wanted = "wanted one point [x, y], with NaN twice where there is none"
+    try:
+        values = np.squeeze(floats(result))
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {words(result)}") from None
+    if values.shape == () and np.isnan(values):
+        values = NONE
+    if values.shape == (3,) and values[2] == 0:
+        values = values[:2]
+    if values.shape != (2,):
+        raise ValueError(f"{wanted}, got {words(result)}")
+    if np.isnan(values).any():
+        values = NONE
+    return Place(float(values[0]), float(values[1]), exists(case))
+
+
+def law(case: Case, yours: Place, wanted: Place) -> str | None:
+    base, tip, l1, l2, side = case
+    d = float(np.hypot(*(tip - base)))
+    if not yours.exists:
+        if not yours.found:
+            return None
+        far = d > l1 + l2
+        is_at, rim = apart(d, l1 + l2 if far else abs(l1 - l2), 3)
+        return (
+            f"should be NaN twice: the tip is {is_at} m from the base, and the arm reaches "
+            f"{'out' if far else 'in'} to {rim} m"
+        )
+    mine = np.array(yours)
+    if np.linalg.norm(mine - np.array(wanted)) <= 1e-6:
+        return None
+    one, two = np.hypot(*(mine - base)), np.hypot(*(mine - tip))
+    name = "right" if side > 0 else "left"
+    says = f"should be {wanted}, {l1:.4g} m from the base and {l2:.4g} m from the tip"
+    if not yours.found:
+        return (
+            f"{says}; the tip is {d:.9g} m away, and the arm reaches from {abs(l1 - l2):.4g} m to "
+            f"{l1 + l2:.4g} m"
+        )
+    if abs(one - l1) < 1e-6 and abs(two - l2) < 1e-6:
+        return f"{says}, on the {name} of the way from base to tip; yours is on the other side"
+    (_, from_base), (_, from_tip) = apart(l1, one, 3), apart(l2, two, 3)
+    return f"{says}; yours is {from_base} m and {from_tip} m from them"
+
+
+def same(a: Place, b: Place) -> bool:
+    if a.exists != b.exists or a.found != b.found:
+        return False
+    near = np.allclose(np.array(a), np.array(b), rtol=0, atol=1e-6)
+    return not a.found or not a.exists or bool(near)
+
+
+# --- What wrong lines use -------------------------------------------------------------------------
+
+
+def polar(length: float, direction: float) -> Floats:
+    return length * np.array([np.cos(direction), np.sin(direction)])
+
+
+def strict_root(h2: float) -> float:
+    """It raises an error below 0."""
+    return math.sqrt(h2)
+
+
+def close(h2: float, d: float, l1: float, l2: float) -> float:
+    """The root, with np.isclose for the rim."""
+    if np.isclose(d, l1 + l2) or np.isclose(d, abs(l1 - l2)):
+        return 0.0
+    return float(np.sqrt(max(h2, 0))) if abs(l1 - l2) <= d <= l1 + l2 else math.nan
+
+
+def like(base: Any, elbow: Floats) -> Any:
+    """Written into an array made like the base."""
+    made = np.zeros_like(base)
+    made[:] = elbow
+    return made
+
+
+def angles(base: Floats, elbow: Floats, tip: Floats) -> Floats:
+    one, two = elbow - base, tip - elbow
+    q1 = np.arctan2(one[1], one[0])
+    q2 = np.remainder(np.arctan2(two[1], two[0]) - q1 + np.pi, 2 * np.pi) - np.pi
+    return np.array([q1, q2])

@@ -1,0 +1,125 @@
+"""What opens after the choice, for each prediction of two links and generated code."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, two_link
+from robokin.show import Sketch, animate
+
+from . import predictions as of
+from .shared import LONG, MINUS, SHORT, Floats
+
+TURNS = np.linspace(-np.pi, np.pi, 721)  # p8
+
+
+def p1_view() -> Any:
+    arm = two_link(LONG, SHORT)
+    t, tips = of.crossing()
+    rows = arm.ik(tips)
+    return animate(
+        arm,
+        t,
+        rows[:, 0],
+        points={
+            "tip": np.pad(tips, [(0, 0), (0, 1)]),
+            "other elbow": arm.frames(rows[:, 1])[..., 1].translation,
+        },
+        title=f"Past the base at 0.2 m: {of.p1()['times']} times the elbows meet",
+    )
+
+
+def p2_view() -> Any:
+    facts = of.p2()
+    base, tip = (0.0, 0.0), (facts["d"], 0.0)
+    elbows = [(facts["share"] * facts["d"], side * facts["h"] * facts["d"]) for side in (-1, 1)]
+    sketch = Sketch(
+        f"Both elbows of the folded arm: the line through them crosses the x axis at "
+        f"{elbows[0][0]:.2f} m, behind the base.",
+        title=f"The line of the elbows, {facts['at']:.2f} m behind the base",
+        unit="m",
+    )
+    for elbow, dashed in zip(elbows, (False, True), strict=True):
+        sketch.levers([base, elbow, tip], dashed=dashed)
+    sketch.length(elbows[1], elbows[0])
+    sketch.point(base, "base", away=(1, 1))
+    sketch.point(tip, "tip", away=(0, 1))
+    sketch.ax.margins(0.3)
+    return sketch
+
+
+def p3_view() -> str:
+    lines = ["Where is the elbow of the formula with the plus sign?"]
+    for name, tip in of.QUADRANTS.items():
+        sides = ["right" if of.on_right(*tip, k) else "left" for k in (0, 1)]
+        lines.append(
+            f"tip to the {name}: {sides[0]} with x2 eliminated, {sides[1]} with y2 eliminated"
+        )
+    return "\n".join(lines)
+
+
+def expanded(x3: float, y3: float) -> Floats:
+    """As `quadratic`, as SymPy writes it in section 4: not factored under the root."""
+    a, b = 4 * x3**2 + 4 * y3**2, -4 * x3**2 * y3 - 4 * y3**3
+    c = -4 * x3**2 + x3**4 + 2 * x3**2 * y3**2 + y3**4
+    y2 = (4 * x3**2 * y3 + 4 * y3**3 + math.sqrt(max(-4 * a * c + b**2, 0))) / (2 * a)
+    return np.array([(x3**2 + y3**2 - 2 * y3 * y2) / 2 / x3, y2])
+
+
+def p4_view() -> str:
+    lines = [
+        "Links of 1 m, tip at (x3, 1): how far is the computed elbow from the base? First by "
+        "`elbow_by_root` of the first cell, then by `root_code` of section 4, the same formula "
+        "with the root multiplied out."
+    ]
+    for x3 in (1e-3, 1e-6, 1e-9, 1e-12, 1e-300):
+        factored, multiplied = (np.hypot(*rule(x3, 1.0)) for rule in (of.quadratic, expanded))
+        lines.append(f"x3 = {x3:.0e} m: {factored:.6f} m, {multiplied:.6f} m")
+    return "\n".join(lines).translate(MINUS)
+
+
+def p5_view() -> str:
+    lines = ["Two links of 1 m, the tip inside the rim by"]
+    for gap in (1e-1, 1e-2, 1e-3, 1e-4):
+        _, q2 = two_link(1, 1).ik((2 - gap, 0))[0]
+        lines.append(f"{gap * 1e3:g} mm: q2 = {q2 / deg:.2f}\N{DEGREE SIGN}")
+    return "\n".join(lines)
+
+
+def p6_view() -> str:
+    f = of.p6()
+    return (
+        f"Both elbows: {f['both_plain']} operations as written, {f['both']} with temporaries.\n"
+        f"The right elbow alone: {f['one_plain']} as written, {f['one']} with temporaries."
+    )
+
+
+def p7_view() -> str:
+    lines = []
+    for name, cast in (("with (int)", int), ("without", float)):
+        values = of.listing(0.5, 0.7, 1, cast).items()
+        numbers = ", ".join(f"{key} = {value:.4g}" for key, value in values)
+        lines.append(f"{name}: {numbers.replace('nan', 'NaN')}")
+    return "\n".join(lines).translate(MINUS)
+
+
+def p8_view() -> Any:
+    arm = two_link(LONG, SHORT)
+    distances = np.array([1.6, 1.69, 1.7])
+    made, ours = [], []
+    for distance in distances:
+        turns = 0.9 * TURNS  # q1 stays within its limits
+        tips = distance * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
+        # on a circle joint 1 alone turns: smooth where ik rounds
+        first = arm.ik(tips[0])[arm.branch(+1)]
+        ours.append(first + np.outer(0.9 * (TURNS - TURNS[0]), [1, 0]))
+        made.append(np.where(of.under_root(*tips.T)[:, None] < 0, np.nan, ours[-1]))
+    return animate(
+        [arm, arm],
+        np.linspace(0, 8, len(TURNS)),
+        [np.array(made), np.array(ours)],
+        names=["generated code", "two_link"],
+        slider=("distance, m", distances),
+        title="Round the base: where the generated code has no answer",
+    )

@@ -1,0 +1,588 @@
+"""Statements that a second set of readers refuted, computed again in another way."""
+
+import re
+from math import comb
+
+import numpy as np
+import pytest
+from conftest import NOTEBOOKS
+from test_true_statements_b import ARM, DISTANCE, asked, cells, direct, lever_distance
+from test_true_statements_b import run as run_cells
+from test_true_statements_c import flat, numbers, shown
+
+from robokin import (
+    IRB140,
+    PUMA560,
+    SCARA,
+    Arm,
+    Quaternion,
+    Transform,
+    blend,
+    deg,
+    lin,
+    loader_arm,
+    mm,
+    spbu_arm,
+)
+from robokin.course import book
+from robokin.jobs.steppers import Stepper, ramp, station_postures
+from robokin.jobs.visit_collect import Task, TaskError
+
+LINE = book.lab("puma560_branches").module("predictions")
+LOADER = loader_arm(450 * mm, 300 * mm)
+LEVERS = book.lab("three_levers").module("predictions")
+sampled_tasks = book.lab("obstacle_avoidance").module("predictions")["sampled_tasks"]
+
+
+def about(axis, angle):
+    """A rotation by Rodrigues' formula."""
+    K = np.cross(np.eye(3), np.asarray(axis) / np.linalg.norm(axis))
+    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+
+
+def written(lab):
+    """What is said in a lab's files, in one line, whether they are Markdown or Python."""
+    (ours,) = [NOTEBOOKS / "exercises" / lab]
+    files = [*ours.glob("*.md"), *(ours.parents[2] / "robokin" / "course").glob(f"{lab}.py")]
+    text = " ".join(each.read_text(encoding="utf-8") for each in files)
+    return re.sub(r"\s+", " ", re.sub(r'"\s+"', "", text))
+
+
+def apart(R, S):
+    """The angle between two rotations."""
+    return np.arccos(np.clip((np.trace(R.T @ S) - 1) / 2, -1, 1))
+
+
+# --- 00 to 03 -------------------------------------------------------------------------------------
+
+
+def test_what_marks_a_number_to_change():
+    assert "**Look at** says where to look, `# try` what to change" in flat("00", "how")
+    for lab in range(13):
+        assert any("# try" in text for text in cells(f"{lab:02}").values()), lab
+
+
+def test_when_angles_may_go_straight():
+    says = "where one alone changes, by less than half a turn, that is right."
+    assert says in written("frames_and_quaternions")
+    rng = np.random.default_rng(1)
+
+    def turned(roll, pitch, yaw):
+        return about([0, 0, 1], yaw) @ about([0, 1, 0], pitch) @ about([1, 0, 0], roll)
+
+    def middle(one, two):
+        return turned(*(one + two) / 2)
+
+    for _ in range(30):
+        one = rng.uniform([-3, -1.5, -3], [3, 1.5, 3])
+        for k in range(3):
+            two = one.copy()
+            two[k] = rng.uniform(-1.5, 1.5) if k == 1 else one[k] + rng.uniform(-3.1, 3.1)
+            whole = apart(turned(*one), turned(*two))
+            half = middle(one, two)
+            assert apart(turned(*one), half) == pytest.approx(whole / 2, abs=1e-6)
+            assert apart(half, turned(*two)) == pytest.approx(whole / 2, abs=1e-6)
+    back = np.array([0, 0, 0.0]), np.array([np.pi, np.pi / 3, np.pi])  # 120 degrees about y
+    assert apart(turned(*back[1]), about([0, 1, 0], 2 * np.pi / 3)) < 1e-6
+    assert apart(middle(*back), about([0, 1, 0], np.pi / 3)) > 60 * deg
+
+
+def test_the_scalar_part_the_still_joint_and_the_parallel_axes():
+    assert "a point not square to the axis gets a scalar part" in flat("01", "two-signs")
+    u, q = np.array([1, 2, 2]) / 3, 0.4
+    for point in ([2.0, -1, 0], [0.3, 1, 2]):
+        length = np.linalg.norm(point)
+        way = Quaternion([0, *(np.array(point) / length)])
+        scalar = (Quaternion([np.cos(q), *(np.sin(q) * u)]) @ way).wxyz[0] * length
+        assert (abs(scalar) < 1e-12) == (abs(u @ point) < 1e-12)
+    assert "Each speed but joint 4's jumps" in flat("01", "line-look")
+    assert "q4 0%" in shown("01", "line-code") and "q5 0%" not in shown("01", "line-code")
+    _, options, _ = asked("frames_and_quaternions.p4")
+    assert any("The IRB-140's shoulder and elbow axes are parallel" in o.second for o in options)
+    for q in np.random.default_rng(2).uniform(-1, 1, (5, 6)):
+        frames = IRB140.frames(q).rotation.as_matrix()
+        turns = []
+        for k in (1, 2):
+            more = IRB140.fk(q + 1e-6 * np.eye(6)[k]).rotation.as_matrix()
+            W = (more - frames[-1]) @ frames[-1].T / 1e-6
+            turns.append([W[2, 1], W[0, 2], W[1, 0]])
+        assert np.linalg.norm(np.cross(*turns)) < 1e-5
+
+
+def test_where_ahead_is_the_base_s_x():
+    says = "The tip is put along the base's x axis: right only while the tool points along it."
+    assert says in written("irb140_kinematics")
+    assert flat("02", "short").count("Every angle but joint 3's comes from atan2.") == 1
+    for q, right in (([0, 30, 30, 0, 0, 25], True), ([0] * 6, True), ([0, 30, 0, 0, 0, 0], False)):
+        q = np.array(q) * deg
+        flange = IRB140.fk(q)
+        ahead = flange.rotation.as_matrix()[:, 2]
+        assert (np.linalg.norm(ahead - [1, 0, 0]) < 1e-9) == right
+        tip = (flange @ Transform(translation=[0, 0, 0.2])).translation
+        off = np.linalg.norm(tip - (flange.translation + [0.2, 0, 0]))
+        assert (off < 1e-9) == right
+
+
+def test_one_front_reaches_where_the_other_does_not():
+    assert "there is no triangle: this front does not reach." in flat("02", "triangle")
+    down = Quaternion.from_angle_axis(np.pi, [1, 0, 0])
+    fronts = set()
+    for x in np.linspace(0.3, 0.9, 61):
+        rows = np.isfinite(IRB140.ik(Transform(down, [x, 0, 0.5]))).all(axis=1)
+        fronts.add((rows[:4].any(), rows[4:].any()))
+    assert (True, False) in fronts
+
+
+def test_a_shorter_interval_sees_no_less_of_the_change():
+    _, options, _ = asked("irb140_motion.p5")
+    assert options[0].reason.endswith("and by no less from a shorter one.")
+    (said,) = numbers(r"changes by (\S+) rad/s", options[0].reason)
+    rows = [
+        line.split() for line in shown("03", "diff-halve").splitlines() if "speed jumps" in line
+    ]
+    changes = [float(row[4]) for row in rows]
+    assert changes == sorted(changes) and any(round(each, 3) == said for each in changes)
+    made = book.find("irb140_motion.p5", "predictions").facts()
+    assert made["change"] == pytest.approx(changes[1], abs=1e-5)
+    assert "What doubles at half the step belongs to the method" in flat("03", "short")
+    assert "At the same blend the quintic has the greater acceleration" in written("irb140_motion")
+    x = np.linspace(0, 1, 1001)  # of the corner; control points: shares of the way to via
+    peaks = []
+    for controls in ([0, 1, 0], [0, 0.4, 0.8, 0.8, 0.4, 0]):
+        n, bends = len(controls) - 1, np.diff(controls, 2)
+        weights = [comb(n - 2, k) * x**k * (1 - x) ** (n - 2 - k) for k in range(n - 1)]
+        peaks.append(abs(n * (n - 1) * bends @ weights).max())
+    assert peaks[1] > 1.2 * peaks[0]
+
+
+# --- 04 to 06 -------------------------------------------------------------------------------------
+
+
+def test_in_front_the_length_alone_stops_the_arm():
+    assert "In front nothing stops the arm outwards but its length." in flat("04", "zone")
+    low, high = SCARA.limits[:2].T
+    l1, l2 = 0.2, 0.25
+
+    def served(x, y):
+        for elbow in (1, -1):
+            q2 = elbow * np.arccos(np.clip((x * x + y * y - l1**2 - l2**2) / (2 * l1 * l2), -1, 1))
+            q1 = np.arctan2(y, x) - np.arctan2(l2 * np.sin(q2), l1 + l2 * np.cos(q2))
+            q = (np.array([q1, q2]) + np.pi) % (2 * np.pi) - np.pi
+            if ((low - 1e-9 <= q) & (q <= high + 1e-9)).all():
+                return True
+        return False
+
+    for r in np.linspace(0.3, l1 + l2, 31):
+        for phi in np.linspace(-90, 90, 37) * deg:
+            assert served(r * np.cos(phi), r * np.sin(phi)), (r, phi)
+    assert not served(-0.38, 0) and served(-0.36, 0)
+
+
+def test_how_far_a_short_second_lever_turns_the_first():
+    _, options, _ = asked("scara_kinematics.p3")
+    pattern = r"levers of (\d+) and (\d+) mm the first one turns by (\d+)°"
+    l1, l2, most = numbers(pattern, " ".join(each.second for each in options))
+    q2 = np.linspace(-np.pi, np.pi, 100001)
+    inner = np.arctan2(l2 * np.sin(q2), l1 + l2 * np.cos(q2))
+    assert round((2 * inner.max()) / deg) == most
+
+
+def test_the_slowest_tool_for_joint_speeds_of_length_one():
+    words = flat("04", "deeper-jacobian")
+    assert "How fast is the tool, at the least, for joint speeds of length 1 rad/s?" in words
+    q = np.array([0.3, 0.5])
+    J = 1e3 * np.array(
+        [
+            [-0.2 * np.sin(q[0]) - 0.25 * np.sin(q.sum()), -0.25 * np.sin(q.sum())],
+            [0.2 * np.cos(q[0]) + 0.25 * np.cos(q.sum()), 0.25 * np.cos(q.sum())],
+        ]
+    )
+    phi = np.linspace(0, np.pi, 100001)
+    speeds = np.hypot(*(J @ [np.cos(phi), np.sin(phi)]))
+    assert speeds.min() == pytest.approx(np.linalg.svd(J)[1][1])
+
+
+def test_where_the_quintic_asks_for_more():
+    assert "its peak in the corner is higher" in flat("05", "cost-look")
+    made, count = run_cells("05", "setup"), 4001
+    s = np.linspace(0, 1, count)
+    for share in (0.1, 0.268, 0.5):
+        most = {}
+        for corner in ("parabola", "quintic"):
+            poses = made["blend"](made["start"], made["via"], made["goal"], share, s, corner=corner)
+            q = np.unwrap(SCARA.ik(poses)[:, made["row"]], axis=0)
+            inside = abs(s[1:-1] - 0.5) < share - 2 / count
+            most[corner] = abs(np.diff(q, 2, axis=0))[inside].max(axis=0)
+        assert (most["quintic"] > 1.2 * most["parabola"]).all()
+
+
+def test_half_the_step_doubles_the_strokes_false_acceleration():
+    words = flat("05", "deeper-zones")
+    assert 'half the step doubles the stroke\'s "acceleration" at the corner' in words
+    made = run_cells("05", "setup")
+    found = []
+    for count in (1001, 2001, 4001):
+        poses = made["lin_lin"](made["start"], made["via"], made["goal"], np.linspace(0, 1, count))
+        q4 = SCARA.ik(poses)[:, made["row"], 3]
+        found.append(abs(np.diff(q4, 2)).max() * ((count - 1) / made["duration"]) ** 2)
+    assert found[1] / found[0] == pytest.approx(2) == found[2] / found[1]
+
+
+def test_what_a_path_asks_for():
+    words = flat("05", "short")
+    assert "paths ask a pose for its `lerp`, the Jacobian asks an arm for its links" in words
+
+    class Place:
+        def __init__(self, x):
+            self.x = np.asarray(x, dtype=float)
+
+        def lerp(self, goal, s):
+            return Place(self.x + np.asarray(s) * (goal.x - self.x))
+
+    assert lin(Place(1), Place(3), [0, 0.5]).x.tolist() == [1, 2]
+    assert blend(Place(0), Place(1), Place(4), 0.1, [0, 0.25, 1]).x.tolist() == [0, 0.5, 4]
+    q = np.array([0.3, 0.4, 0.5, 0.1])
+    bare = Arm("links alone", SCARA.geometry, SCARA.limits)
+    assert (bare.jacobian(q) == SCARA.jacobian(q)).all()
+
+
+def test_which_pairs_of_rows_become_one_in_the_hit():
+    assert "In the hit two of the four such pairs become one:" in flat("06", "drag-target-look")
+    made = run_cells("06", "setup")
+    arm = made["ITMO6R"]
+    hit = Transform(Quaternion.from_roll_pitch_yaw(0, np.pi / 2, 0), np.array([400, 0, 200]) * mm)
+    q = arm.ik(hit)
+    off = [abs(np.exp(1j * q[k]) - np.exp(1j * q[k + 1])).max() for k in (0, 2, 4, 6)]
+    assert [each < 1e-6 for each in off] == [False, True, True, False]
+
+
+def test_what_a_printed_rotation_has_to_pass_and_where_digits_go():
+    words = flat("06", "zyz-look")
+    assert "is what every printed rotation $M$ has to pass" in words
+    mirror = np.diag([1, 1, -1])
+    assert (mirror @ mirror.T == np.eye(3)).all() and np.linalg.det(mirror) < 0
+    assert "rounding leaves $\\phi$ few digits" in flat("06", "root-look")
+    rng, worst = np.random.default_rng(6), {}
+    for theta in (1e-9, 5e-14):
+        off = []
+        for phi in rng.uniform(-3, 3, 200):
+            psi = rng.uniform(-3, 3)
+            M = about([0, 0, 1], phi) @ about([0, 1, 0], theta) @ about([0, 0, 1], psi)
+            back = about([1, 0, 0], 0.7)
+            M = back.T @ (back @ M)  # as a matrix that comes out of a product
+            off.append(abs(np.exp(1j * np.arctan2(M[1, 2], M[0, 2])) - np.exp(1j * phi)))
+        worst[theta] = max(off)
+    assert worst[1e-9] < 1e-6 and 1e-4 < worst[5e-14] < 0.1
+    assert "in the line from joint 2 to the wrist centre" in flat("06", "position-look")
+
+
+# --- 07 -------------------------------------------------------------------------------------------
+
+
+def test_for_which_joint_the_followed_angles_decide():
+    words = flat("07", "choose-rule")
+    assert "One detail decides where joint 6, of 532°, winds past its limit:" in words
+    low, high = PUMA560.limits.T
+    assert ((high - low) / deg > 360).tolist() == [False] * 5 + [True]
+    assert round((high - low)[5] / deg) == 532
+    rng, kinds = np.random.default_rng(3), set()
+    while len(kinds) < 2:
+        walk = np.cumsum(rng.normal(0, 12, (60, 6)), axis=0) * deg
+        for j in range(6):
+            q = walk[:, j] - walk[0, j]
+            kept = ((low[j] <= q) & (q <= high[j])).all()
+            turns = 2 * np.pi * np.arange(-3, 4)[:, None]
+            some = ((low[j] <= q + turns) & (q + turns <= high[j])).any(axis=0).all()
+            assert some == (kept if j < 5 else True)
+            kinds.add(bool(some != kept))
+
+
+def test_which_rows_end_wound():
+    words = flat("07", "choose-look")
+    assert "pass a limit in between. Rows 4 to 6 end with a joint wound past it" in words
+    assert "(speeds in steps of 0.01 s)" in words
+    made = run_cells("07", "opening-setup")
+    low, high = PUMA560.limits.T
+    ends, wound = [], []
+    for k, q in enumerate(made["motions"]):
+        turns = 2 * np.pi * np.arange(-2, 3)[:, None, None]
+        fits = ((low <= q + turns) & (q + turns <= high)).any(axis=0).all(axis=-1)
+        past = ((q < low) | (q > high)).any(axis=-1)
+        if fits[0] and fits[-1] and past.any():
+            ends.append(k)
+            if past[-1]:
+                wound.append(k)
+    assert ends == [3, 4, 5, 6] and wound == [4, 5, 6]
+
+
+def test_the_worst_case_the_folded_arm_and_the_flat_ellipsoid():
+    words = flat("07", "near")
+    assert "arm stretched or folded" in words and "so divided, of length $\\sigma$" in words
+    q = np.array([10, 60, -93, 20, 30, 40]) * deg
+    J = PUMA560.jacobian(q)
+    J = np.vstack([J[:3] / PUMA560.reach, J[3:]])
+    (left,) = [np.linalg.eigh(J.T @ J)[1][:, 0]]
+    sigma = float(LINE["near"](q))
+    assert np.linalg.norm(J @ left) == pytest.approx(sigma)
+    assert (np.linalg.norm(J @ np.random.default_rng(1).normal(size=(6, 50)), axis=0) > sigma).any()
+    bent = np.arctan2(431.8, 20.3) / deg
+    for q3 in (-bent, 180 - bent):
+        assert abs(np.linalg.det(PUMA560.jacobian(np.array([0, 40, q3, 0, 50, 0]) * deg))) < 1e-12
+    assert "it goes flat, to 1 mm/s." in flat("07", "near-look")
+    steps = 1e-6 * np.eye(6)
+    q = np.array([0, 60, -87, 0, 0, 0]) * deg
+    A = (PUMA560.fk(q + steps).translation - PUMA560.fk(q - steps).translation).T / 2e-6
+    assert round(np.linalg.svd(A)[1][2] / mm) == 1
+
+
+def test_how_the_elbow_line_and_the_poses_are_drawn():
+    assert "ending where from shoulder to wrist centre $m$ is left to stretch" in flat(
+        "07", "cross"
+    )
+    upper, fore, d3 = 431.8, np.hypot(431.8, 20.3), 150.05
+    for m in (100, 10):
+        place = LINE["stretched"](m * mm).translation / mm - [0, 0, 671.83]
+        out = np.sqrt(place @ place - d3**2)
+        assert upper + fore - out == pytest.approx(m)
+    assert "We ask many poses that the arm can reach" in flat("07", "count")
+
+
+def test_postures_of_the_first_prediction_and_where_the_forearm_points():
+    _, options, _ = asked("puma560_branches.p1")
+    level = next(o for o in options if "parallel to the upper arm" in o.reason)
+    assert level.text.endswith("90") and "joint 3's" in options[0].reason
+    frames = PUMA560.frames(np.array([0, 0, -90, 0, 0, 0]) * deg)
+    shoulder, elbow, wrist = frames.translation[[1, 2, 4]]
+    upper, fore = elbow - shoulder, frames.translation[4] - frames.translation[3]
+    assert np.linalg.norm(np.cross(upper, fore)) < 1e-9
+    assert abs((wrist - elbow)[2] / mm) == pytest.approx(20.3)
+    words = written("puma560_branches")
+    assert "At q3 = 0 the line to the wrist centre stands at 87.3° to the upper arm" in words
+    for q3 in (0, -40):
+        places = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
+        angle = np.arctan2(*(places[4] - places[2])[[2, 0]]) / deg
+        assert angle == pytest.approx(q3 + 87.3, abs=0.02)
+    assert "At q2 = q3 = 0 the forearm points up" in words
+    for q2, up in ((0, 1), (90, 0)):
+        places = PUMA560.frames(np.array([0, q2, 0, 0, 0, 0]) * deg).translation
+        fore = places[4] - places[3]
+        assert fore[2] / np.linalg.norm(fore) == pytest.approx(up, abs=1e-9)
+
+
+def test_which_joints_of_two_rows_differ_depends_on_the_pose():
+    question, options, right = asked("puma560_branches.p3")
+    assert "for the flange's pose at the start of the line" in question
+    for q, differ in (
+        (PUMA560.ik(LINE["START"])[0], [2, 3, 4, 5, 6]),
+        (np.array([104.9, 65.5, -76.6, 0, 50.7, 20.3]) * deg, [2, 3, 5]),
+    ):
+        rows = PUMA560.ik(PUMA560.fk(q))
+        one = abs(np.exp(1j * rows) - np.exp(1j * q)).max(axis=1).argmin()
+        other = rows[{0: 2, 2: 0}[int(one)]]
+        off = abs(np.exp(1j * rows[one]) - np.exp(1j * other))
+        assert (np.flatnonzero(off > 1e-3) + 1).tolist() == differ
+    assert options[right].text.startswith("Joints 2 to 6")
+
+
+def test_which_poses_straight_behind_have_no_front_row():
+    _, options, _ = asked("puma560_branches.p4")
+    (far,) = numbers(r"^(\d+) mm straight behind axis 1", options[0].second)
+    for rho, allowed in ((300, True), (400, True), (far, False), (700, False)):
+        q1 = 180 - np.arcsin(150.05 / rho) / deg  # by either sign: front, the wrist centre behind
+        assert (q1 <= 160) == allowed
+
+
+def test_how_many_short_lines_stay():
+    _, options, _ = asked("puma560_branches.p7")
+    assert any(o.reason.startswith("Most short lines stay where") for o in options)
+    rng = np.random.default_rng(9)
+    ends = LINE["random_poses"](rng, (300,))
+    way = rng.normal(size=(300, 3))
+    way *= 20 * mm / np.linalg.norm(way, axis=1, keepdims=True)
+    other = Transform(ends.rotation, ends.translation + way)
+    rows = PUMA560.ik(lin(ends[:, None], other[:, None], np.linspace(0, 1, 21)))
+    rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]
+    followed = LINE["tracks"](rows)
+    rest = abs(followed[:, :, 0] - LINE["REST"]).sum(axis=-1)
+    fits = LINE["usable"](rows[:, 0])
+    pick = np.where(fits, rest, np.inf).argmin(axis=-1)
+    stay = LINE["serves"](followed)[np.arange(len(rows)), pick][fits.any(axis=-1)]
+    assert len(stay) > 60 and 0.9 < stay.mean()
+
+
+# --- 08 and 09 ------------------------------------------------------------------------------------
+
+
+def test_what_starts_gently_and_whose_speed_the_slider_is():
+    assert "`motion` starts and stops gently, so its greatest speed is 15/8" in flat("08", "able")
+    u = np.linspace(0, 1, 20001)
+    law = 10 * u**3 - 15 * u**4 + 6 * u**5
+    assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)
+    assert "the mean speed of joint 1," in flat("08", "time-look")
+    (most,) = numbers(r"greatest speed (\S+) °/s \(joint 1\)", shown("08", "time-player"))
+    assert most == pytest.approx(0.2 / deg * 15 / 8, abs=0.05)
+    assert "for its distance from the axis, with a sign (m)" in flat("08", "chain-formula")
+    q2 = -60 * deg
+    assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
+
+
+def test_where_the_other_elbow_is_past_its_limit():
+    assert "off the borders, with the elbow flag −1 joint 3 is past its limit" in flat(
+        "08", "rows-look"
+    )
+    arm, rng = spbu_arm(5, 4), np.random.default_rng(8)
+    low, high = arm.limits[2]
+    points = rng.uniform([-9, -9, 0], 9, (4000, 3))
+    d = np.linalg.norm(points, axis=1)
+    points = points[(d > 1.01) & (d < 8.99) & (np.hypot(*points[:, :2].T) > 0.01)]
+    q3 = arm.ik(points)[:, [1, 3], 2]
+    assert not ((low <= q3) & (q3 <= high)).any()
+    border = arm.ik([[1, 0, 0], [9, 0, 0]])[:, [1, 3], 2]
+    assert ((low - 1e-9 <= border) & (border <= high + 1e-9)).all()
+
+
+def test_how_many_reasons_of_one_kind_are_named():
+    assert "names what is wrong, ten of one kind at most" in flat("08", "deeper-command")
+    far = [[20 + k, 0, 0] for k in range(15)]
+    with pytest.raises(TaskError) as told:
+        Task(5, 4, T=-1, speeds=[0.2] * 3, p0=[2, 2, 1], points=far, kind="visit")
+    about_far = [each for each in told.value.faults if "too far" in each]
+    assert len(about_far) == 11 and len(told.value.faults) > 11
+
+
+def test_what_near_and_far_leave_of_alpha_and_where_gamma_is_past_its_limit():
+    said = written("three_levers")
+    (KO, low) = numbers(r"At (\S+) m alpha goes from (\S+)° to 180°, at 3 m", said)
+    assert np.arccos((5 - KO**2) / 4) / deg == pytest.approx(low, abs=0.05)
+    assert "Towards 1 m from the base it becomes right." in said
+    off = [abs(90 - (180 - np.arccos((KO - 1) / 2) / deg)) for KO in (1.5, 1.1, 1.01, 1.0001)]
+    assert (np.diff(off) < 0).all() and off[-1] < 0.01
+    (x,) = numbers(r"With K at \((\S+), 0\) m gamma is above 180° for every alpha", said)
+    for alpha in np.linspace(np.arccos((5 - x * x) / 4), np.pi, 201):
+        away = np.sqrt(2 - 2 * np.cos(alpha))  # BK, and the angle at O of the triangle O B K
+        at_O = np.arccos(np.clip((1 + x * x - away**2) / (2 * abs(x)), -1, 1))
+        assert at_O > 1e-3, "gamma is the direction of K and this angle"
+
+
+def test_against_what_greed_loses():
+    question, options, right = asked("three_levers.p9")
+    (rows,) = numbers(r"with (\d+) postures to choose from at each target", question)
+    assert rows == LEVERS["ROWS"] and options[right].text.startswith("In few")
+    rng = np.random.default_rng(4)
+    for _ in range(3):
+        r, phi = rng.uniform(1.3, 2.7, 3), rng.uniform(0, 120, 3) * deg
+        tour = np.stack([r * np.cos(phi), r * np.sin(phi)], axis=-1)
+        before = np.array([90, 120, 120]) * deg
+        best = [LEVERS["best_in_all"](before, tour, count) for count in (7, 13)]
+        family = [ARM.family(K, np.linspace(*ARM.alpha_range(K), 7)) for K in tour]
+        all_ways = min(
+            abs(np.diff([before, a, b, c], axis=0)).sum()
+            for a in family[0]
+            for b in family[1]
+            for c in family[2]
+        )
+        assert best[0] == pytest.approx(all_ways) and best[1] <= best[0] + 1e-12
+
+
+def test_what_planned_tasks_need_is_less_than_one_by_one():
+    _, options, right = asked("three_levers.p10")
+    said = options[2].reason
+    (each,) = numbers(r"under any rule; the least movement takes (\d+)° a task", said)
+    assert f"The least movement takes {each:.0f}° a task, since" in options[right].reason
+    text = flat("09", "race-look")
+    assert "ask for no search at all, only for a formula." in text
+
+
+# --- 10 -------------------------------------------------------------------------------------------
+
+
+def test_which_areas_and_curves_there_are():
+    assert "the two areas, one of BA and one of AK" in flat("10", "region-look")
+    assert "so A and K run on curves." in flat("10", "sweep-look")
+    path = direct(np.array([150, 120, 120]) * deg)
+    s = np.linspace(0, 1, 4001)[:, None]
+    points = ARM.points(path[0] + s * (path[1] - path[0]))
+    off = []
+    for place in (points[:, 2], points[:, 3]):
+        chord = place[-1] - place[0]
+        x, y = (place - place[0]).T
+        off.append(abs(chord[0] * y - chord[1] * x).max() / np.hypot(*chord))
+    _, options, _ = asked("obstacle_avoidance.p2")
+    assert numbers(r"curves of A and K bulge by (\S+) and (\S+) m:", options[1].reason) == [
+        pytest.approx(each, abs=0.005) for each in off
+    ]
+    A = points[:, 3]
+    a, b, c = A[0], A[2000], A[-1]
+    middle = np.linalg.solve(2 * np.array([b - a, c - a]), [b @ b - a @ a, c @ c - a @ a])
+    far = np.hypot(*(A - middle).T)
+    assert np.ptp(far) > 1e-3, "no arc of a circle"
+
+
+def test_how_the_draw_keeps_its_distance_and_what_the_larger_circle_leaves():
+    assert "all levers at the start and the gripper at the target keep" in flat("10", "often")
+    near_at_target = 0
+    for start, target, H in sampled_tasks():
+        end = direct(start, target)[1]
+        assert lever_distance(start, H) > DISTANCE and np.hypot(*(target - H)) > DISTANCE
+        near_at_target += lever_distance(end, H) < DISTANCE
+    assert near_at_target > 0
+    _, options, _ = asked("obstacle_avoidance.p7")
+    (kept, all_, near) = numbers(
+        r"(\d+) of (\d+)\. In (\d+) a lever still comes", options[2].reason
+    )
+    assert kept + near == all_
+
+
+def test_plan_tries_more_circles_than_control():
+    assert "It tries as `control` does, on more circles, the via points" in flat("10", "deeper-two")
+    assert "for r in (distance, 0.16, 0.20, 0.25)" in cells("10")["control-code"]
+    assert "r = 180 mm" in shown("10", "deeper-two-code")
+    assert "Six places side by side." in flat("10", "deeper-moving")
+    assert "a coarser search finds a way" in flat("10", "able")
+
+
+# --- 11 and 12 ------------------------------------------------------------------------------------
+
+
+def test_where_the_straight_line_makes_motors_turn_back():
+    assert "**Look at** c in its last third:" in flat("11", "paths-look")
+    start, goal = np.array([[600, -350, 50], [50, 250, 350]]) * mm
+    share = np.linspace(0, 1, 20001)
+    line = start + share[:, None] * (goal - start)
+    assert share[np.hypot(*line[:, :2].T).argmin()] > 2 / 3
+    n = np.unwrap(station_postures(LOADER, line), axis=0)
+    steps = np.diff(n, axis=0)
+    back = [np.flatnonzero(np.diff(np.sign(w[abs(w) > 1e-12]))) / len(w) for w in steps.T]
+    assert [len(each) for each in back] == [0, 1, 1] and min(back[1][0], back[2][0]) > 2 / 3
+
+
+def test_which_ways_are_long_and_which_losses_there_are():
+    assert "the plain difference arrives, at three the long way." in flat("11", "turn-look")
+    stands, directions = 150, np.array([-165, -120, -60, 0, 60, 120])
+    assert f"directions = np.array({directions.tolist()})" in cells("11")["turn-setup"]
+    assert sum(abs(directions - stands) > 180) == 3
+    motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
+    lost = {motor.run(ramp(48, f, f, 0), ones).lost for f in range(60, 281, 10)}
+    assert 0 in lost and not any(each % 4 for each in lost)
+    _, options, right = asked("motor_synchronisation.p10")
+    assert re.search(r"the lost steps were 0, \d+", options[right].reason)
+    assert "A path with corners may be shorter than a wide arc" in written("motor_synchronisation")
+
+
+def test_what_generated_c_holds_and_what_is_asked_near_a_rim():
+    assert "every variable in it is a double" in flat("12", "c-generate")
+    assert "2*t3" in shown("12", "c-generate") and "int " not in shown("12", "c-generate")
+    anything = "earer than a millimetre to a rim, and with the tip on the base,"
+    assert anything in flat("12", "your-turn-3") and anything in written("two_link_code_generation")
+
+
+def test_between_two_jumps_the_arm_leaves_the_tip():
+    assert "and between two jumps the arm leaves the marked tip." in flat("12", "casts-drag")
+    made = {"np": np}
+    exec(cells("12")["casts-code"], made)
+    for y in (1.1, 1.6, 2.1):
+        x = np.linspace(1.0, 3.5, 2001)
+        elbow = np.array([made["listing"](each, y, 2.5, int) for each in x])
+        up = np.sqrt(np.maximum(2.5**2 - elbow**2, 0))
+        miss = abs(np.hypot(x - elbow, y - up) - 2.5)
+        assert (miss > 1e-3).mean() > 0.9
