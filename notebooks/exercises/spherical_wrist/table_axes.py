@@ -65,7 +65,9 @@ class Axes:
         self.rows: Floats = np.concatenate(halves, axis=-1)
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Floats:
-        return self.rows if dtype is None else self.rows.astype(dtype)
+        """As they were returned: so slips of results change points and directions."""
+        both = np.stack([self.points, self.ways])
+        return both if dtype is None else both.astype(dtype)
 
     def __repr__(self) -> str:
         """Both arrays; of long ones the first rows, so that the line stays short."""
@@ -84,6 +86,8 @@ class Axes:
 
 def form(result: Any, case: tuple[Any, ...]) -> Axes:
     """Points and directions, from two arrays (n, 3) or from one."""
+    if isinstance(result, Axes):
+        return result
     n = len(case[0])
     wanted = f"wanted points and directions, two arrays ({n}, 3)"
     try:
