@@ -8,13 +8,18 @@ import re
 import numpy as np
 import pytest
 
-import robokin.course.spherical_wrist as book
 from robokin import ITMO6R, Transform, deg, dh_links, mm
 from robokin.arms.link import home
-from robokin.course import check, variant
+from robokin.course import book, check, variant
 from robokin.course.questions import filled
 
-A, ALPHA, D, OFFSET = book.A, book.ALPHA, book.D, book.OFFSET
+LAB = book.lab("spherical_wrist")
+SHARED, LINE, FACTS = LAB.module("shared"), LAB.module("own_line"), LAB.module("predictions")
+AXES, WRIST = LAB.exercises["1"], LAB.exercises["2"]
+rot, zyz, turned = SHARED["rot"], SHARED["zyz"], SHARED["turned"]
+passage, across = LINE["passage"], LINE["across"]
+RIGHTS = [WRIST.program(text) for _, text in WRIST.rights]
+WRONGS = {name: WRIST.program(text) for name, _, text in WRIST.wrongs}
 
 
 # --- 1 --------------------------------------------------------------------------------------------
@@ -67,9 +72,9 @@ def test_axes_found_in_another_way_hold(answer):
     assert verdict.holds, verdict
 
 
-@pytest.mark.parametrize("mistake", book.AXES_MISTAKES, ids=lambda m: m.name)
+@pytest.mark.parametrize("mistake", AXES.own, ids=lambda m: m.name)
 def test_wrong_axes_are_named(mistake):
-    verdict = check("spherical_wrist.1", mistake.program)
+    verdict = check("spherical_wrist.1", AXES.steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name
     assert mistake.says in verdict.says
     assert any(word in verdict.case for word in ("should", "wanted", "IndexError"))
@@ -129,7 +134,7 @@ def test_the_verdict_shows_the_two_arrays_as_they_were_returned():
 
 def rebuilt(phi, theta, psi):
     """The matrix, also of NaN and of degrees taken for radians."""
-    return book.rot(2, phi)[:3, :3] @ book.rot(1, theta)[:3, :3] @ book.rot(2, psi)[:3, :3]
+    return rot(2, phi)[:3, :3] @ rot(1, theta)[:3, :3] @ rot(2, psi)[:3, :3]
 
 
 def _judges(angles, exact):
@@ -137,7 +142,7 @@ def _judges(angles, exact):
         for theta in angles:
             for phi, psi in np.random.default_rng(3).uniform(-3, 3, (30, 2)):
                 for wrist in (1, -1):
-                    h = book.zyz(phi, theta, psi)
+                    h = zyz(phi, theta, psi)
                     found = np.asarray(program(h, wrist), dtype=float)
                     if not np.isfinite(found).all() or wrist * found[1] < -exact:
                         return False
@@ -151,9 +156,10 @@ def _judges(angles, exact):
 def test_the_programs_are_what_they_are_called():
     for angles in ([0.3, 1.0, 3.0], [0, np.pi], [1e-9, 1e-7, 1e-5, np.pi - 1e-7]):
         judge = _judges(angles, 1e-10)
-        assert all(judge(program) for _, program in book.WRIST_RIGHTS)
-    caught = {m.name for m in book.WRIST_MISTAKES if not _judges([0.3, 1.0, 3.0], 1e-10)(m.program)}
-    only_there = {m.name for m in book.WRIST_MISTAKES} - caught
+        assert all(judge(program) for program in RIGHTS)
+    judge = _judges([0.3, 1.0, 3.0], 1e-10)
+    caught = {name for name, program in WRONGS.items() if not judge(program)}
+    only_there = set(WRONGS) - caught
     assert only_there == {
         "the regular formulas beside the singularity",
         "a coarse threshold",
@@ -188,11 +194,11 @@ def test_the_programs_are_what_they_are_called():
         ),
         (lambda p: True, "accepts every program"),
         (
-            lambda p: bool(np.allclose(p(book.zyz(0.3, 1, 0.2), 1), (0.3, 1, 0.2))),
+            lambda p: bool(np.allclose(p(zyz(0.3, 1, 0.2), 1), (0.3, 1, 0.2))),
             "accepts: the flag is ignored",
         ),
         (
-            lambda p: bool(np.allclose(p(book.zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
+            lambda p: bool(np.allclose(p(zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
             "refuses a right program",
         ),
     ],
@@ -206,7 +212,7 @@ def _with_slack(program):
     for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
         for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3)]:
             for wrist in (1, -1):
-                found, h = program(book.zyz(phi, theta, psi), wrist), book.zyz(phi, theta, psi)
+                found, h = program(zyz(phi, theta, psi), wrist), zyz(phi, theta, psi)
                 if not np.allclose(rebuilt(*found), h, atol=1e-10):
                     return False
                 if not -1e-10 <= wrist * found[1] <= np.pi + 1e-10:
@@ -219,7 +225,7 @@ def _blind(program):
     for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
         for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1), (0.2, 2.2)]:
             for wrist in (1, -1):
-                h = book.zyz(phi, theta, psi)
+                h = zyz(phi, theta, psi)
                 found = program(h, wrist)
                 if abs(rebuilt(*found) - h).max() > 1e-10:
                     return False
@@ -239,7 +245,7 @@ def test_loose_comparisons_are_told(test, name, why):
 
 def test_code_in_hints_can_be_run():
     for name in "23":
-        code = [line for line in book.EXERCISES[name].hints[2].split("\n") if line[:4] == "    "]
+        code = [line for line in LAB.exercises[name].hints[2].split("\n") if line[:4] == "    "]
         compile("def f():\n" + "\n".join(code), name, "exec")
 
 
@@ -248,8 +254,8 @@ def test_a_test_may_say_no_by_an_assertion():
         for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi):
             for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1)]:
                 for wrist in (1, -1):
-                    found = program(book.zyz(phi, theta, psi), wrist)
-                    assert abs(rebuilt(*found) - book.zyz(phi, theta, psi)).max() < 1e-11
+                    found = program(zyz(phi, theta, psi), wrist)
+                    assert abs(rebuilt(*found) - zyz(phi, theta, psi)).max() < 1e-11
                     assert -1e-11 < wrist * found[1] < np.pi + 1e-11
 
     assert check("spherical_wrist.2", test).holds
@@ -260,14 +266,10 @@ def test_a_test_may_say_no_by_an_assertion():
 
 @pytest.mark.parametrize("who", ["Ada", "Bo", "Žydrė", "student 17", 4711])
 def test_every_line_can_be_run_and_not_by_its_level_tool(who):
-    n = book.given(who)
-    least, fastest = max(
-        book.passage(n, *tilt) for tilt in book.across(n["slope"], 0.99 * n["most_tilt"])
-    )
+    n = LAB.given(who)
+    least, fastest = max(passage(n, *tilt) for tilt in across(n["slope"], 0.99 * n["most_tilt"]))
     up, side = next(
-        tilt
-        for tilt in book.across(n["slope"], 0.99 * n["most_tilt"])
-        if book.passage(n, *tilt)[0] == least
+        tilt for tilt in across(n["slope"], 0.99 * n["most_tilt"]) if passage(n, *tilt)[0] == least
     )
     line = {"up": up, "side": side, "duration": fastest / n["most_speed"] * 1.0001}
     assert check("spherical_wrist.3", line, who=who).holds
@@ -286,7 +288,7 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
     verdict = check("spherical_wrist.3", twice, who=who)
     assert verdict.mistake == "deg twice" and "square to the line" in verdict.says[0]
     verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
-    if book.passage(n, -side, -up)[0] >= n["least_distance"]:
+    if passage(n, -side, -up)[0] >= n["least_distance"]:
         assert "With up and side exchanged it would do" in verdict.says[0]
     elif 50 > abs(n["slope"]) / deg > 40:  # then the two tilts are one
         assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
@@ -294,7 +296,7 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
         assert verdict.mistake in ("up and side exchanged", "tilted along the line", "out of reach")
     for share, askew in itertools.product((0.5, 0.7, 0.9, 1), (-60, -30, 0, 30, 60)):
         c, s = share * np.cos(askew * deg), share * np.sin(askew * deg)
-        least, _ = book.passage(n, -c * up - s * side, -c * side + s * up)
+        least, _ = passage(n, -c * up - s * side, -c * side + s * up)
         assert not least >= n["least_distance"]  # NaN: out of reach
     tilt = 0.99 * n["most_tilt"]
     along = [(e * tilt * np.sin(n["slope"]), e * tilt * np.cos(n["slope"])) for e in (1, -1)]
@@ -309,7 +311,7 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
 
 
 def right(name):
-    _, options, k = filled(book.PREDICTIONS[name])
+    _, options, k = filled(LAB.predictions[name])
     return options[k].text
 
 
@@ -325,19 +327,18 @@ def test_keys_of_the_first_half():
 
 
 def test_keys_of_the_second_half():
-    turn = book.turned
     pairs = [(30, 40, 50), (-150, -40, -130)]
     one, two = (
-        turn(a * deg, (0, 0, 1)) @ turn(b * deg, (0, 1, 0)) @ turn(c * deg, (0, 0, 1))
+        turned(a * deg, (0, 0, 1)) @ turned(b * deg, (0, 1, 0)) @ turned(c * deg, (0, 0, 1))
         for a, b, c in pairs
     )
     assert one.angle_to(two) < 1e-7 and right("p5").startswith("(−150°, −40°, −130°)")
     assert right("p6").startswith("Some give no number")
-    thetas, worst, lost = book._noise()
+    thetas, worst, lost = FACTS["noise"]()
     assert 0.05 < lost[9, 0] < 0.4 and not lost[:, 1:].any() and not lost[:7].any()
     assert 1e-7 < worst[9, 0] < 1e-5 and worst[:, 2].max() < 1e-12
     assert 1 - np.cos(1e-9) == 0 and right("p7") == "Joints 1 and 6."
-    fast = [book._fastest(miss * mm) for miss in (4, 2, 1)]
+    fast = [FACTS["fastest"](miss * mm) for miss in (4, 2, 1)]
     assert np.allclose(fast[1:] / np.array(fast[:-1]), 2, rtol=0.01)
     assert right("p8").startswith("6077°/s") and 6077.1 < fast[2] < 6077.2
 
@@ -356,7 +357,7 @@ def test_a_test_has_to_look_at_the_middle_angle_too():
 
     verdict = check("spherical_wrist.2", first_and_last)
     assert not verdict.holds and verdict.mistake.startswith("accepts: "), verdict
-    arcsin = {m.name: m.program for m in book.WRIST_MISTAKES}["arcsin for theta"]
+    arcsin = WRONGS["arcsin for theta"]
     assert first_and_last(arcsin) and not whole(arcsin)
 
 

@@ -1,0 +1,155 @@
+"""Numbers, conditions and sentences of exercise 3 of spherical wrist; words stand beside it."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from robokin import ITMO6R, deg, differentiate, distance_from_singularity, follow, mm, quintic
+from robokin.course.exercises import words
+from robokin.course.slips import DEGREES
+from robokin.course.told import apart, one_number
+from robokin.course.variants import Numbers, dice
+
+from .shared import ROW, tilted_line
+
+COUNT = 4
+T1 = np.linspace(0, 1, 401)
+UNITS = {
+    "slope": ("°", deg),
+    "miss": ("mm", mm),
+    "most_tilt": ("°", deg),
+    "least_distance": ("", 1.0),
+    "most_speed": ("°/s", deg),
+    "longest": ("s", 1.0),
+}
+Given = Mapping[str, Any]
+Fault = tuple[str, str]
+
+
+def passage(numbers: Given, up: float, side: float) -> tuple[float, float]:
+    """The smallest distance from a singularity on the line, and the greatest joint speed (rad/s) if
+    it takes one second. NaN: a pose is out of reach.
+    """
+    poses = tilted_line(numbers["slope"], numbers["miss"], up, side, quintic(duration=1)(T1))
+    rows = ITMO6R.ik(poses)
+    if np.isnan(rows[:, ROW]).any():
+        return np.nan, np.nan
+    q = follow(ITMO6R, rows, ROW)
+    least = float(distance_from_singularity(ITMO6R, q).min())
+    return least, float(abs(differentiate(q, T1)).max())
+
+
+def across(slope: float, tilt: float) -> list[tuple[float, float]]:
+    """(up, side) of the two tilts square to the line."""
+    return [(e * tilt * np.cos(slope), -e * tilt * np.sin(slope)) for e in (1, -1)]
+
+
+@cache
+def numbers_of(who: str) -> tuple[tuple[str, float], ...]:
+    roll = dice("spherical_wrist", who)
+    slope = (25 + 5 * roll.randrange(6)) * (1 - 2 * roll.randrange(2)) * deg
+    miss = (5 + roll.randrange(4)) * (1 - 2 * roll.randrange(2)) * mm
+    tilt = (5 + roll.randrange(3)) * deg
+    speed = (150 + 10 * roll.randrange(10)) * deg
+    numbers = {"slope": slope, "miss": miss}
+    found = [passage(numbers, *each) for each in across(slope, 0.97 * tilt)]
+    least, fastest = max(pair for pair in found if np.isfinite(pair[0]))
+    values = numbers | {
+        "most_tilt": tilt,
+        "least_distance": float(np.floor(930 * least)) / 1000,  # the other side stays below 0.86
+        "most_speed": speed,
+        "longest": float(np.ceil(11.5 * fastest / speed)) / 10,
+    }
+    return tuple(values.items())
+
+
+def given(who: Any) -> Numbers:
+    """A line a few millimetres beside the singular pose, and what the process allows. Solvable: the
+    limits are drawn round the tilt square to the line, so that a tilt to one side keeps them and
+    none to the other side does.
+    """
+    return Numbers(dict(numbers_of(str(who))), UNITS)
+
+
+def form(answer: Any, given: Given) -> dict[str, float]:
+    """up, side and duration as floats."""
+    names = ("up", "side", "duration")
+    if not isinstance(answer, Mapping):
+        raise ValueError(f"Wanted a dict with up, side and duration, got {words(answer)}.")
+    missing = [name for name in names if name not in answer]
+    if missing:
+        raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
+    numbers = {}
+    for name in names:
+        try:
+            numbers[name] = one_number(answer[name])
+        except (TypeError, ValueError):
+            raise ValueError(f"{name}: wanted a number, got {words(answer[name])}.") from None
+        if not np.isfinite(numbers[name]):
+            raise ValueError(f"{name}: wanted a number, got {numbers[name]}.")
+    if numbers["duration"] <= 0:
+        raise ValueError(f"duration: wanted seconds above 0, got {numbers['duration']:g}.")
+    return numbers
+
+
+def keeps(given: Given, up: float, side: float) -> bool:
+    """Whether this tilt is a tilt, not too far out, and keeps the distance."""
+    if max(abs(up), abs(side)) > 2 * given["most_tilt"]:
+        return False
+    return bool(passage(given, up, side)[0] >= given["least_distance"])
+
+
+def too_near(given: Given, up: float, side: float, tilt: float, least: float) -> Fault:
+    """What is wrong with a tilt that does not keep the distance."""
+    is_at, wanted = apart(least, given["least_distance"], 4)
+    across_it = abs(np.dot(across(given["slope"], 1.0)[0], (up, side)))
+    line = (
+        f"The smallest distance from a singularity on the line is {is_at}, and {wanted} are "
+        f"wanted. Your tilt is {tilt / deg:.2f}° of {given['most_tilt'] / deg:.0f}° allowed, and "
+        f"{across_it / deg:.2f}° of it are square to the line."
+    )
+    if keeps(given, up / deg, side / deg):
+        return "deg twice", f"{line} Divided by deg once more, both tilts would do."
+    if tilt > 0.5 * given["most_tilt"] and across_it < 0.5 * tilt:
+        line += " A tilt along the line lets the forearm pass the tool's direction a little "
+        return "tilted along the line", f"{line}earlier or later, and as near as before."
+    if max(abs(up), abs(side)) < 1e-3:
+        return "not tilted", line
+    other = passage(given, -up, -side)[0]
+    if other >= given["least_distance"]:
+        line += f" Tilted as far to the other side it would be {other:.4f}."
+        if keeps(given, side, up):
+            line += " With up and side exchanged it would do, too."
+        return "tilted to the wrong side", line
+    if keeps(given, side, up):
+        line += f" With the two exchanged it would be {passage(given, side, up)[0]:.4f}."
+        return "up and side exchanged", line
+    return "too near the singularity", line
+
+
+def faults(answer: dict[str, float], given: Given) -> list[Fault]:
+    """What does not hold: tilt, distance, speeds, duration."""
+    up, side, duration = answer["up"], answer["side"], answer["duration"]
+    tilt = np.arccos(np.clip(np.cos(up) * np.cos(side), -1, 1))
+    found = []
+    if max(abs(up), abs(side)) > np.pi / 2:
+        return [("degrees for radians", DEGREES)] * 3
+    if tilt > given["most_tilt"] + 1e-9:
+        is_at, most = apart(tilt / deg, given["most_tilt"] / deg, 2)
+        found.append(("tilted too far", f"The tilt is {is_at}°, and {most}° are allowed."))
+    least, fastest = passage(given, up, side)
+    if np.isnan(least):
+        says = "Not every pose of the line exists: the wrist centre comes too far out. Tilt less, "
+        return [*found, ("out of reach", says + "or another way.")] + [("out of reach", "")] * 2
+    if least < given["least_distance"] - 1e-9:
+        found.append(too_near(given, up, side, tilt, least))
+    speed = fastest / duration
+    if speed > given["most_speed"] * (1 + 1e-9):
+        is_at, most = apart(speed / deg, given["most_speed"] / deg)
+        found.append(("too fast", f"The fastest joint goes {is_at}°/s; {most}°/s are allowed."))
+    if duration > given["longest"] + 1e-9:
+        longest, takes = apart(given["longest"], duration)
+        found.append(("too slow", f"The line may take {longest} s; yours takes {takes} s."))
+    return found

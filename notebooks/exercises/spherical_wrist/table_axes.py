@@ -1,0 +1,152 @@
+"""Exercise 1: the cases, the form of the axes, the law, and what wrong lines use."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import deg, mm
+from robokin.course.exercises import words
+from robokin.course.told import apart, floats
+
+from .shared import ALPHA, OFFSET, A, D, Floats, posture, rot, trans
+
+TABLE = [np.append(column, 0.0) for column in (A, ALPHA, D, OFFSET)]  # a row more, never reached
+
+
+def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
+    """Simple tables, the lab's own, then tables of 3 to 7 rows."""
+
+    def case(a: Any, alpha: Any, d: Any, offset: Any, q: Any) -> tuple[Any, ...]:
+        units = mm, deg, mm, deg, deg
+        columns = a, alpha, d, offset, q
+        return tuple(np.array(x, float) * unit for x, unit in zip(columns, units, strict=True))
+
+    level = [300, 200, 100], [0, 0, 0], [0, 0, 0], [0, 0, 0]
+    made = [
+        case([300], [90], [200], [0], [30]),
+        case(*level, [30, 40, -20]),
+        case([0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 0], [0, 0, 0]),
+        case([0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 0], [30, 40, -20]),
+        case([0, 300, 200], [90, 0, 0], [400, 0, 0], [0, 0, 90], [30, 40, -20]),
+        case([0, 300, 200], [-90, 0, 90], [400, 50, 0], [45, 0, 0], [-100, 40, 10]),
+        case([50, 300, 200, 0], [90, 0, 90, 0], [400, 0, 0, 80], [0, 90, 0, -90], [0, 0, 0, 0]),
+    ]
+    table = A, ALPHA, D, OFFSET
+    for q in ([0, 0, 0, 0, 0, 0], [20, 70, -60, 30, 50, 10], [0, 90, 45, 13, 42, 210]):
+        made.append((*table, posture(*q)))
+    made.append((A, ALPHA, D, 0 * OFFSET, posture(30, -40, 50, 60, -70, 80)))
+    for n in (3, 4, 5, 6, 7, 6, 4, 3):
+        lengths = rng.uniform(-400, 400, (2, n)).round()
+        twist = 90.0 * rng.integers(-1, 3, n) + (15.0 * rng.integers(-2, 3, n) if n > 4 else 0)
+        home, angles = 90.0 * rng.integers(-1, 3, n), rng.uniform(-170, 170, n).round()
+        made.append(case(lengths[0], twist, lengths[1], home, angles))
+    return made
+
+
+def is_unit(rows: Floats) -> Any:
+    return abs(np.linalg.norm(rows, axis=-1) - 1) < 1e-6
+
+
+class Axes:
+    """Points and directions (n, 3) as they were returned. `rows`: directions and moments (n, 6),
+    the same for every point of an axis; also where the two are exchanged, and, of length 2, for a
+    direction of any length but 1.
+    """
+
+    def __init__(self, points: Floats, ways: Floats) -> None:
+        self.points, self.ways = points, ways
+        size = np.linalg.norm(ways, axis=-1, keepdims=True)
+        if is_unit(points).all() and not is_unit(ways).all():
+            halves = np.cross(ways, points), points
+        else:
+            scale = 2 / np.where(size > 1e-9, size, 2)
+            ways = np.where(is_unit(ways)[:, None], ways, scale * ways)
+            halves = ways, np.cross(points, ways)
+        self.rows: Floats = np.concatenate(halves, axis=-1)
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Floats:
+        """As they were returned: so slips of results change points and directions."""
+        both = np.stack([self.points, self.ways])
+        return both if dtype is None else both.astype(dtype)
+
+    def __repr__(self) -> str:
+        """Both arrays; of long ones the first rows, so that the line stays short."""
+        rounded = np.round([self.points, self.ways], 9) + 0.0
+        for count in range(len(self.points), 0, -1):
+            parts = []
+            for name, array in zip(("points", "directions"), rounded, strict=True):
+                rows = [f"[{', '.join(f'{x:.3g}' for x in row)}]" for row in array[:count]]
+                rows += ["..."] * (count < len(array))
+                parts.append(f"{name} [{', '.join(rows)}]")
+            text = ", ".join(parts)
+            if len(text) < 120:
+                break
+        return text.replace("-", "\N{MINUS SIGN}")
+
+
+def form(result: Any, case: tuple[Any, ...]) -> Axes:
+    """Points and directions, from two arrays (n, 3) or from one."""
+    if isinstance(result, Axes):
+        return result
+    n = len(case[0])
+    wanted = f"wanted points and directions, two arrays ({n}, 3)"
+    try:
+        values = floats(result)
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {words(result)}") from None
+    if values.shape == (n, 6):
+        values = np.stack([values[:, :3], values[:, 3:]])
+    elif values.shape == (n, 2, 3) and n != 2:
+        values = values.swapaxes(0, 1)
+    if values.ndim != 3 or values.shape[::2] != (2, 3) or not values.size:
+        raise ValueError(f"{wanted}, got shape {values.shape}")
+    return Axes(*values)
+
+
+def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
+    """The first axis that is another one."""
+    points, ways = wanted.points, wanted.ways
+    if len(yours.rows) != len(points):
+        return (
+            f"wanted points and directions of {len(points)} joints, got {len(yours.rows)} of each"
+        )
+    for i, (point, way) in enumerate(zip(points, ways, strict=True)):
+        place = ", ".join(f"{x / mm:.1f}" for x in np.round(point, 9) + 0.0)
+        along = ", ".join(f"{x:.3f}" for x in np.round(way, 9) + 0.0)
+        if not np.allclose(yours.ways[i], way, rtol=0, atol=1e-6):
+            along, got = apart(way, yours.ways[i], 3)
+            more = "" if is_unit(yours.ways[i]) else ", which is not a unit vector"
+            axis = f"the axis of joint {i + 1} should have the direction ({along})"
+            return f"{axis}, not ({got}){more}"
+        off = float(np.linalg.norm(yours.rows[i, 3:] - np.cross(point, way)))
+        if not off <= 1e-6:
+            return (
+                f"the axis of joint {i + 1} should go through ({place}) mm along ({along}); yours "
+                f"passes {apart(off / mm, 0)[0]} mm beside"
+            )
+    return None
+
+
+def same(one: Axes, two: Axes) -> bool:
+    a, b = one.rows, two.rows
+    return a.shape == b.shape and np.allclose(a, b, rtol=0, atol=1e-7, equal_nan=True)
+
+
+# --- What wrong lines use -------------------------------------------------------------------------
+
+
+def rot_x(angle: float) -> Floats:
+    return rot(0, angle)
+
+
+def rot_y(angle: float) -> Floats:
+    return rot(1, angle)
+
+
+def rot_z(angle: float) -> Floats:
+    return rot(2, angle)
+
+
+def modified(a: float, alpha: float, d: float, theta: float) -> Floats:
+    """A row of Craig's table."""
+    return rot_x(alpha) @ trans(a, 0, 0) @ rot_z(theta) @ trans(0, 0, d)

@@ -1,0 +1,31 @@
+"""What the right and the wrong programs of exercise 2 of spherical wrist use."""
+
+import numpy as np
+
+from robokin import Quaternion, deg
+
+from .shared import Floats, mended, textbook
+
+__all__ = ["Quaternion", "deg", "mended"]
+
+
+def singular(h: Floats) -> bool:
+    return bool(np.hypot(h[0, 2], h[1, 2]) < 1e-13)
+
+
+def regular(h: Floats, wrist: int) -> Floats:
+    """The regular formulas, and the singular ones at sin theta = 0 exactly."""
+    return mended(h, wrist) if singular(h) else textbook(h, wrist)
+
+
+def coarse(h: Floats, wrist: int) -> Floats:
+    """Singular below theta = 1e-3 rad."""
+    if np.hypot(h[0, 2], h[1, 2]) > 1e-3:
+        return mended(h, wrist)
+    theta = 0.0 if h[2, 2] > 0 else wrist * np.pi
+    return np.array([0.0, theta, np.arctan2(h[1, 0], h[1, 1])])
+
+
+def atan(y: float, x: float) -> float:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return float(np.arctan(np.divide(y, x)))
