@@ -76,12 +76,15 @@ def test_the_solution_keeps_the_law(name):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_every_mistake_runs_is_wrong_and_has_a_name_of_its_own(name):
-    """A name that an edit needs, and that is not there, shows itself as an error in each case."""
+    """A name that an edit needs, and that is not there, shows itself as an error. Other errors may
+    be the mistake itself: "s is not a column" fits a motion of as many samples as joints only.
+    """
     exercise = EXERCISES[name]
     for variant in exercise.own:
         got = outcomes(exercise, variant)
         raised = [o.says for o in got if o.name == "raises an error"]
-        assert len(raised) < len(got) / 2, (variant.name, raised[0])
+        assert len(raised) < len(got), (variant.name, raised[0])
+        assert not [says for says in raised if says.startswith("NameError")], variant.name
         wrong = [exercise.wrong(o, k) for k, o in enumerate(got)]
         assert any(wrong) and UNJUDGED not in wrong, variant
         first = next(k for k, sentence in enumerate(wrong) if sentence)
