@@ -9,14 +9,16 @@ import numpy as np
 import pytest
 from conftest import NOTEBOOKS
 
-import robokin.course.irb140_motion as book
 from robokin import IRB140, blend, deg, differentiate, mm, nearest, ptp
-from robokin.course import check
-from robokin.course.mistakes import Tools
+from robokin.course import book, check
 from robokin.course.questions import filled
 
 FUNCTIONS = ("1", "2")
-START, VIA, GOAL = book.START, book.VIA, book.GOAL
+LAB = book.lab("irb140_motion")
+SHARED, FACTS = LAB.module("shared"), LAB.module("predictions")
+START, VIA, GOAL, LEFT, RIGHT, ROW = (
+    SHARED[name] for name in ("START", "VIA", "GOAL", "LEFT", "RIGHT", "ROW")
+)
 NAN = float("nan")
 
 
@@ -79,9 +81,10 @@ def test_a_blend_found_in_another_way_holds(answer):
 
 
 def test_the_blend_of_the_document_that_the_task_names():
-    wanted = book.EXERCISES["1"].right(Tools(), 0.05, "parabola")
+    exercise = LAB.exercises["1"]
+    wanted = exercise.right(0.05, "parabola")
     assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
-    assert book.EXERCISES["1"].law((0.05, "parabola"), 0.06) == (
+    assert exercise.code["law"]((0.05, "parabola"), 0.06, wanted) == (
         "should be 0.06652: in the middle of the parabola the tool is then 50.0 mm from via; with "
         "0.06 it is 45.1 mm"
     )
@@ -174,9 +177,9 @@ def test_a_value_a_little_off_is_told_so():
 
 
 def test_the_right_motion_has_its_laws():
-    exercise = book.EXERCISES["2"]
-    for q0, q1, s in exercise.seeded():
-        end = exercise.right(Tools(), q0, q1, np.array([0.0, 1.0]))
+    exercise = LAB.exercises["2"]
+    for q0, q1, s in exercise.cases:
+        end = exercise.right(q0, q1, np.array([0.0, 1.0]))
         assert (end[0] == q0).all()
         pose, wanted = IRB140.fk(end[1]).as_matrix(), IRB140.fk(q1).as_matrix()
         assert np.allclose(pose, wanted, rtol=0, atol=1e-9)
@@ -186,7 +189,7 @@ def test_the_right_motion_has_its_laws():
             other = q1 + 2 * np.pi * k
             inside = (low <= other) & (other <= high)
             assert (~inside | (abs(other - q0) >= abs(end[1] - q0) - 1e-9)).all()
-        motion = exercise.right(Tools(), q0, q1, s)
+        motion = exercise.right(q0, q1, s)
         assert np.allclose(motion, ptp(q0, end[1], s), rtol=0, atol=1e-12)
 
 
@@ -195,8 +198,10 @@ def test_the_right_motion_has_its_laws():
 
 @pytest.mark.parametrize("number", FUNCTIONS)
 def test_every_listed_mistake_is_named(number):
-    for mistake in book.EXERCISES[number].mistakes:
-        verdict = check(f"irb140_motion.{number}", mistake.program)
+    exercise = LAB.exercises[number]
+    for mistake in exercise.own:
+        program = exercise.steps.program(mistake)
+        verdict = check(f"irb140_motion.{number}", program)
         assert not verdict.holds and verdict.points < 1
         assert verdict.mistake == mistake.name, verdict
         assert verdict.case and mistake.says in verdict.says
@@ -305,7 +310,7 @@ def test_a_fair_test_of_another_style_holds(test):
 
 
 def test_right_programs_keep_their_promise_and_wrong_ones_do_not():
-    exercise = book.EXERCISES["3"]
+    exercise = LAB.exercises["3"]
     rng = np.random.default_rng(2)
     for _ in range(5):
         t = rng.uniform(-5, 5) + np.cumsum(rng.uniform(0.002, 0.01, 400))
@@ -313,8 +318,8 @@ def test_right_programs_keep_their_promise_and_wrong_ones_do_not():
         phase, size = rng.uniform(0, 6, 6), np.minimum(10 / rate**3, 3)
         q = np.pi + size * np.sin(rate * t[:, None] + phase)
         v = size * rate * np.cos(rate * t[:, None] + phase)
-        for what, program in exercise.rights:
-            error = abs(program(_wrapped(q), t) - v)
+        for what, text in exercise.rights:
+            error = abs(exercise.program(text)(_wrapped(q), t) - v)
             assert error[1:-1].max() < 3e-4 and error.max() < 0.06, what
     for name in ("refuses every program", "accepts every program"):
         verdict = check("irb140_motion.3", lambda speeds, name=name: name.startswith("accepts"))
@@ -355,7 +360,7 @@ def test_differentiate_is_a_right_program_only_after_unwrapping():
     t = np.linspace(0, 2, 201)
     q = 3 + np.outer(t, np.arange(6))
     assert abs(differentiate(_wrapped(q), t)).max() > 100
-    assert re.search("unwrap", book.EXERCISES["3"].rights[0][0])
+    assert re.search("unwrap", LAB.exercises["3"].rights[0][0])
 
 
 # --- The predictions ------------------------------------------------------------------------------
@@ -365,7 +370,7 @@ CELLS = {cell["id"]: cell for cell in NOTEBOOK["cells"]}
 
 
 def _right(name):
-    _, options, right = filled(book.PREDICTIONS[name])
+    _, options, right = filled(LAB.predictions[name])
     return options[right].text
 
 
@@ -373,17 +378,15 @@ def _line_speeds(a, b, x, seconds):
     """Joint speeds at progress x of the line from a to b, by the Jacobian."""
     angle, axis = (b.rotation @ a.rotation.inverse()).as_angle_axis()
     twist = np.concatenate([b.translation - a.translation, angle * axis]) / seconds
-    return np.linalg.solve(IRB140.jacobian(IRB140.ik(a.lerp(b, x))[book.ROW]), twist)
+    return np.linalg.solve(IRB140.jacobian(IRB140.ik(a.lerp(b, x))[ROW]), twist)
 
 
 def test_the_keys_found_in_another_way():
-    speeds = abs(
-        np.array([_line_speeds(book.LEFT, book.RIGHT, x, 20) for x in np.arange(0, 1, 0.02)])
-    )
+    speeds = abs(np.array([_line_speeds(LEFT, RIGHT, x, 20) for x in np.arange(0, 1, 0.02)]))
     assert (speeds.max(axis=0) > 1.1 * speeds.min(axis=0)).all()
     assert _right("p1") == "None of them."
 
-    turns = abs(IRB140.ik(book.RIGHT)[book.ROW] - IRB140.ik(book.LEFT)[book.ROW])
+    turns = abs(IRB140.ik(RIGHT)[ROW] - IRB140.ik(LEFT)[ROW])
     least, line = (turns / IRB140.speed_limits).max(), 20 * (speeds / IRB140.speed_limits).max()
     assert _right("p2").startswith(f"{least:.2f} s") and least < 0.6 * line
 
@@ -403,16 +406,16 @@ def test_the_keys_found_in_another_way():
     found = []
     clock = np.linspace(0, 20, 4001)
     for b, corner in ((0.1, "parabola"), (0.1 / 0.75, "quintic"), (0.1, "quintic")):
-        rows = IRB140.ik(blend(START, VIA, GOAL, b, clock / 20, corner=corner))[:, book.ROW]
+        rows = IRB140.ik(blend(START, VIA, GOAL, b, clock / 20, corner=corner))[:, ROW]
         found.append(abs(np.diff(np.unwrap(rows[:, 2]), 2)).max() / 0.005**2)
     assert 1.1 < found[1] / found[0] < 1.13 and found[2] / found[0] > 1.5
     assert f"{found[1]:.2f}" in _right("p7")
 
     def at(t):
-        return IRB140.ik(book.LEFT.lerp(book.RIGHT, t / 20))[book.ROW]
+        return IRB140.ik(LEFT.lerp(RIGHT, t / 20))[ROW]
 
     def speed(t):
-        return _line_speeds(book.LEFT, book.RIGHT, t / 20, 20)
+        return _line_speeds(LEFT, RIGHT, t / 20, 20)
 
     exact = (speed(7 + 1e-4) - speed(7 - 1e-4)) / 2e-4
     errors = [
@@ -426,8 +429,8 @@ def test_the_keys_found_in_another_way():
     curve = (1 - x) ** 2 * a + 2 * x * (1 - x) * places[1] + x**2 * c
     assert _right("p9").startswith(f"{np.linalg.norm(curve - places[0]) / mm:.2f} mm")
 
-    far = book._pose(900, -100, 800, 45, [0, 1, 0])
-    hole = np.isnan(IRB140.ik(blend(START, far, GOAL, 0, book.S))[:, book.ROW]).any(axis=-1)
+    far = SHARED["pose"](900, -100, 800, 45, [0, 1, 0])
+    hole = np.isnan(IRB140.ik(blend(START, far, GOAL, 0, FACTS["S"]))[:, ROW]).any(axis=-1)
     assert _right("p10").startswith(f"{hole.argmax()}:")
 
 
@@ -448,5 +451,5 @@ def test_the_poses_are_those_of_the_lab():
     space = {}
     exec("".join(CELLS["setup"]["source"]).split("row =")[0], space)
     for name in ("start", "via", "goal", "left", "right"):
-        mine = getattr(book, name.upper()).as_matrix()
+        mine = SHARED[name.upper()].as_matrix()
         assert np.allclose(space[name].as_matrix(), mine, rtol=0, atol=1e-15)

@@ -328,6 +328,12 @@ def answer(question, choice, again=False):
     question.get_by_role("button", name="This is my guess").click()
 
 
+def kept_as(name, letters):
+    """How guesses made by hand are kept: with the names of the options."""
+    options = predict(name).options
+    return [f"{letter}: {options['abcd'.index(letter)].name}" for letter in letters]
+
+
 def told(question):
     return question.locator(".rk-asking > p")
 
@@ -375,7 +381,7 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     answer(one, "a")
     answer(two, "b")
     answer(other, "c")
-    assert made_in(page) == [[["b"]], [["a"]], []]
+    assert made_in(page) == [[kept_as(P1, "b")], [kept_as(P1, "a")], []]
     expect(told(two)).to_have_text("Python keeps it for your report as soon as it answers.")
     page.evaluate("() => { hear[0]({n: 1}); hear[1]({n: 1, error: 'the disk is full'}); }")
     expect(told(two)).to_have_text(KEPT)
@@ -384,7 +390,7 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     copies = [each.get_by_role("button", name="Copy my").count() for each in (one, two, other)]
     assert copies == [1, 0, 1], "where nobody keeps them"
     answer(two, "d", again=True)
-    assert made_in(page)[0] == [["b"], ["b", "d"]]
+    assert made_in(page)[0] == [kept_as(P1, "b"), kept_as(P1, "bd")]
     assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"
 
 
@@ -392,12 +398,12 @@ def test_where_nobody_knows_a_path_the_only_kernel_is_meant(page):
     (one,) = shown(page, None)  # Notebook 7 has no tabs; VS Code's model no context
     page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
     answer(one, "b")
-    assert made_in(page) == [[["b"]]]
+    assert made_in(page) == [[kept_as(P1, "b")]]
     (one,) = shown(page, "Path: a.ipynb")
     page.evaluate("() => { delete window.robokinGuesses; robokinHubs.clear(); }")
     page.evaluate(HUBS, [None])
     answer(one, "c")
-    assert made_in(page) == [[["c"]]]
+    assert made_in(page) == [[kept_as(P1, "c")]]
     page.evaluate(HUBS, [None])  # a second one
     answer(one, "d", again=True)
     assert made_in(page) == [[]] and "Run All Cells" in told(one).inner_text()
@@ -410,7 +416,8 @@ def test_a_kernel_that_comes_late_is_told_what_the_page_remembers(page):
     assert "Run All Cells" in told(one).inner_text()
     page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
     [[message]] = page.evaluate("sent")
-    assert [(name, choice) for name, choice, _ in message["guesses"]] == [(P1, "b"), (P1, "c")]
+    assert [name for name, _, _ in message["guesses"]] == [P1, P1]
+    assert [choice for _, choice, _ in message["guesses"]] == kept_as(P1, "bc")
     times = [datetime.fromisoformat(time) for _, _, time in message["guesses"]]
     assert times == sorted(times) and all(time.tzinfo for time in times)
 
@@ -522,8 +529,8 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     answer(asks.nth(0), "a", again=True)
     answer(asks.nth(2), "-290")
     says(asks.nth(2), KEPT)
-    assert chosen(lab) == {P1: ["b", "a"], TYPED: ["-290"]}
-    assert chosen(twin) == {P1: ["c"]} and chosen(other) == {OTHER: ["d"]}
+    assert chosen(lab) == {P1: kept_as(P1, "ba"), TYPED: ["-290"]}
+    assert chosen(twin) == {P1: kept_as(P1, "c")} and chosen(other) == {OTHER: kept_as(OTHER, "d")}
 
     to("twin.ipynb")
     page.locator(".jp-DirListing-item", has_text="twin.ipynb").click()
@@ -535,7 +542,7 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     current(page, "my twin.ipynb")
     answer(asks.nth(1), "b")
     says(asks.nth(1), KEPT)
-    assert chosen(folder / "my twin.ipynb") == {P1: ["c"], P2: ["b"]}
+    assert chosen(folder / "my twin.ipynb") == {P1: kept_as(P1, "c"), P2: kept_as(P2, "b")}
 
     to("lab.ipynb")
     page.get_by_role("menuitem", name="Kernel", exact=True).click()
@@ -555,7 +562,7 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     jupyter.open(page, "guessing/lab.ipynb")
     says(asks.nth(0), f"You guessed here before. {RUN}")
     kept = read_guesses(lab)
-    assert chosen(lab) == {P1: ["b", "a"], P2: ["c"], TYPED: ["-290"]}
+    assert chosen(lab) == {P1: kept_as(P1, "ba"), P2: kept_as(P2, "c"), TYPED: ["-290"]}
     times = [datetime.fromisoformat(t) for made in kept.values() for _, t in made]
     first = [datetime.fromisoformat(kept[name][0][1]) for name in (P1, TYPED, P2)]
     assert all(time.tzinfo for time in times) and first == sorted(first)

@@ -1,0 +1,151 @@
+"""What opens after the choice, for each prediction of irb140 motion."""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import IRB140, deg, differentiate, mm
+from robokin.show import animate, figure, plot_joints
+
+from .predictions import (
+    FROM,
+    LAWS,
+    TO,
+    T,
+    along,
+    clock,
+    corner_change,
+    errors,
+    joint_3,
+    joint_move,
+    misses,
+    p6,
+    p10,
+    sharp,
+    tool_acceleration,
+)
+from .shared import HIGH, LEFT, LOW, MINUS, RIGHT, D
+
+STYLES = ("--", "-", ":")
+
+
+def p1_view() -> Any:
+    title = "A straight line at constant speed asks for curved joint motion"
+    return plot_joints(IRB140, T, along(), differentiate(along(), T), title=title)
+
+
+def p2_view() -> Any:
+    title = "The same start and goal: straight in space, straight in the joints"
+    motions, names = [along(), joint_move()], ["LIN", "PTP"]
+    arms, targets = [IRB140, IRB140], [LEFT, RIGHT]
+    return animate(arms, T, motions, names=names, targets=targets, title=title)
+
+
+def p3_view() -> str:
+    lines = [
+        f"Values of joint 6 at which the arm stands the same, and the turn from {FROM:g}° to each:"
+    ]
+    for k in (-2, -1, 0, 1):
+        value = TO + 360 * k
+        inside = LOW[5] <= value * deg <= HIGH[5]
+        lines.append(f"{value:g}°: turn {value - FROM:+g}°, {'inside' if inside else 'outside'}")
+    return "\n".join(lines).translate(MINUS)
+
+
+def p4_view() -> Any:
+    fig = figure(
+        "Progress, speed and acceleration of three time laws over 20 s. The linear law starts and "
+        "ends at full speed, the trapezoidal law's acceleration jumps, the quintic law's does not; "
+        "its speed has the highest peak.",
+        height=3.4,
+    )
+    axes = fig.subplots(1, 3)
+    for (name, law), style in zip(LAWS.items(), STYLES, strict=True):
+        progress = law(T[-1])(T)
+        curves = progress, differentiate(progress, T), differentiate(progress, T, 2)
+        for ax, curve in zip(axes, curves, strict=True):
+            ax.plot(T, curve, style, label=name, linewidth=2)
+    labels = "progress s", "speed of s, 1/s", "acceleration of s, 1/s²"
+    for ax, label in zip(axes, labels, strict=True):
+        ax.set(title=label, xlabel="time t, s")
+    axes[0].legend()
+    fig.tight_layout()
+    return fig
+
+
+def p5_view() -> str:
+    lines = ["Joint 3 at t = 10 s, by differences of samples:"]
+    for step in (0.02, 0.01, 0.005):
+        change, a = corner_change(step)
+        twice = abs(differentiate(sharp(step), clock(step), 2)[:, 0]).max()
+        lines.append(
+            f"step {step:g} s: the speed changes by {change:.3f} rad/s; second differences "
+            f"{a:.1f} rad/s²; differentiate(q, t, 2) {twice:.1f} rad/s²"
+        )
+    lines.append(
+        "The change of the speed stays, the quotients do not: the first belongs to the robot's "
+        "motion, the others to the method. (differentiate spreads the change over two steps: half "
+        "the number.)"
+    )
+    return "\n".join(lines)
+
+
+def p6_view() -> str:
+    lines = ["The tool's acceleration in the middle of the corner:"]
+    facts = p6()
+    tried = [(0.1, facts["same"])]
+    tried += [(0.05, facts[name]) for name in ("same", "root", "twice", "four")]
+    for fraction, time in tried:
+        a = tool_acceleration(fraction, time)
+        lines.append(f"blend {fraction:.2f}, duration {time:.1f} s: {a:.2f} mm/s²")
+    return "\n".join(lines)
+
+
+def p7_view() -> str:
+    lines = ["Joint 3's greatest acceleration where both corners pass via at the same distance:"]
+    blends = np.array([0.05, 0.1, 0.15, 0.2])
+    found = zip(blends, joint_3(blends, "parabola"), joint_3(blends / 0.75, "quintic"), strict=True)
+    for b, parabola, quintic in found:
+        more = f"{100 * (quintic / parabola - 1):+.0f} %".translate(MINUS)
+        lines.append(
+            f"{b / 2 * D / mm:.1f} mm: parabola (blend {b:.2f}) {parabola:.4f} rad/s², quintic "
+            f"(blend {b / 0.75:.3f}) {quintic:.4f} rad/s², {more}"
+        )
+    return "\n".join(lines)
+
+
+def p8_view() -> Any:
+    steps = 10.0 ** np.arange(-8, 0.6, 0.25)
+    fig = figure(
+        "Error of three difference formulas against the step, both axes logarithmic. Each curve is "
+        "a V: the error falls with the step, until rounding makes it rise again.",
+        height=3.8,
+    )
+    ax = fig.subplots()
+    for (name, error), style in zip(errors(steps).items(), STYLES, strict=True):
+        ax.loglog(steps, error, style, linewidth=2, label=name)
+    ax.axvline(0.01, color="0.6", linewidth=1)
+    ax.set(
+        xlabel="step h, s",
+        ylabel="largest error of six joints, rad/s and rad/s²",
+        title="A step can be too small: left of the V the error is rounding",
+    )
+    ax.legend()
+    fig.tight_layout()
+    return fig
+
+
+def p9_view() -> str:
+    lines = ["Where the motion begins and ends, from start and goal:"]
+    for b in (0.5, 0.51, 0.55, 0.6):
+        begins, ends = misses(b)
+        lines.append(f"b = {b:.2f}: {begins:.2f} mm and {ends:.2f} mm")
+    return "\n".join(lines)
+
+
+def p10_view() -> str:
+    facts = p10()
+    return (
+        f"np.unwrap(q, axis=0): {facts['left']} of {facts['count']} samples usable\n"
+        f"follow: {facts['there']} of {facts['count']} samples usable"
+    )

@@ -1,0 +1,154 @@
+"""Cases, form and law of exercise 2 of irb140 motion; its words stand in the Markdown beside it,
+and its wrong programs use the helpers here, too.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from robokin import IRB140, deg, follow, lin, nearest, quintic
+from robokin.course.exercises import words
+from robokin.course.told import apart, floats
+from robokin.units import wrapped
+
+from .shared import HIGH, LOW, ROW, SLACK, TURN, Floats, into, short_end
+
+__all__ = ["IRB140", "ROW", "into", "nearest", "quintic", "short_end", "wrapped"]
+Case = tuple[Floats, Floats, Floats]
+HOME = [10.0, 20.0, -40.0, 5.0, 30.0, 15.0]
+
+
+def case(q0: Any, q1: Any, s: Any) -> Case:
+    return np.array(q0) * deg, np.array(q1) * deg, np.array(s, dtype=float)
+
+
+def one_joint(joint: int, start: float, goal: float, middle: float = 0.5) -> Case:
+    """A joint that moves alone, from start to goal in degrees."""
+    q0 = np.array([0, 0, 0, 0, 30, 0.0])
+    q1 = q0.copy()
+    q0[joint - 1], q1[joint - 1] = start, goal
+    return case(q0, q1, [0, middle, 1])
+
+
+def cases(rng: np.random.Generator) -> list[Case]:
+    six = np.linspace(0, 1, 6)
+    found = [
+        case(HOME, [40, 20, -40, 5, 30, 15], six),  # joint 1 alone, nothing to choose
+        case(HOME, [10, 20, -40, 5, 30, -170], six),  # joint 6 through 180
+        one_joint(6, 170, -170),  # the short way over 180
+        one_joint(6, -170, 170),
+        one_joint(1, 170, -170),  # outside: no short way
+        one_joint(1, -170, 170),
+        one_joint(4, 190, -175),  # joint 4: ±200
+        one_joint(4, 190, -150),
+        one_joint(4, -190, 150),
+        one_joint(3, -150, 150),  # joint 3: -230 to 50
+        one_joint(3, 20, 160),
+        case([3, 5, -220, 2, 30, 4], [8, 5, 40, 2, 35, 9], [0, 0.5, 1]),
+        one_joint(6, 350, -350),  # two turns
+        one_joint(6, -350, 350),
+        one_joint(6, 350, 60),  # 420 is outside
+        one_joint(6, -350, -60),
+        one_joint(6, 350, -300),
+        one_joint(6, 300, 20),  # 380 is inside
+        one_joint(6, -300, -20),
+        case(HOME, HOME, [0, 0.5, 1]),  # stays
+        case(HOME, [400, 380, 320, 365, 390, 375], [0, 0.5, 1]),  # all a turn on
+        one_joint(6, 380, -340, 0.3),  # stays, two turns on
+        one_joint(6, 350, -710),  # three turns
+        one_joint(6, -350, 710),
+        one_joint(4, -190, -565),  # -205 is outside
+        one_joint(4, 190, 565),
+        case(HOME, [-60, 50, -90, 170, -40, -100], [0.5]),
+        case(HOME, [-60, 50, -90, -170, -40, 120], [0.2, 0.25, 0.9]),
+        case([100, -30, -200, 190, 60, 370], [-160, 40, 170, -179, -60, 30], np.linspace(1, 0, 5)),
+    ]
+    while len(found) < 36:
+        q0 = rng.uniform(LOW, HIGH).round(2)
+        q1 = wrapped(rng.uniform(LOW, HIGH).round(2))
+        if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # a half turn: two short ways
+            found.append((q0, q1, rng.uniform(0, 1, 7).round(3)))
+    return found
+
+
+def form(result: Any, case: Case) -> Floats:
+    wanted = f"wanted joint values of shape ({len(case[2])}, 6)"
+    try:
+        values = floats(result)
+    except (TypeError, ValueError):
+        raise ValueError(f"{wanted}, got {words(result)}") from None
+    if values.ndim not in (1, 2) or 6 not in values.shape:
+        raise ValueError(f"{wanted}, got {values.shape}")
+    return values
+
+
+def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
+    q0, q1, s = case
+    if yours.shape != wanted.shape:
+        return f"should have the shape {wanted.shape}: a row for each s, six joints in it"
+    wrong = ~(abs(yours - wanted) <= 1e-6)
+    if not wrong.any():
+        return None
+    i = int(wrong.any(axis=0).argmax())
+    k = int(wrong[:, i].argmax())
+    ends = q0[i], short_end(q0, q1)[i], LOW[i], HIGH[i]
+    a, b, low, high = (round(float(x) / deg, 1) + 0.0 for x in ends)
+    at, is_at = apart(wanted[k, i] / deg, yours[k, i] / deg)
+    return (
+        f"joint {i + 1} should turn from {a:g}° to {b:g}° (its limits are {low:g}° and {high:g}°): "
+        f"at s = {s[k]:.3g} it should be at {at}°, and is at {is_at}°"
+    )
+
+
+def same(a: Floats, b: Floats) -> bool:
+    """Where something is wrapped, rounding decides between 180° and -180°."""
+    if a.shape != b.shape:
+        return False
+    at_180 = (abs(abs(a) - np.pi) < 1e-6) & (abs(abs(b) - np.pi) < 1e-6)
+    return bool(np.all(at_180 | np.isclose(a, b, rtol=0, atol=1e-6, equal_nan=True)))
+
+
+# --- What the wrong programs use ------------------------------------------------------------------
+
+
+def straight(q0: Floats, end: Floats, s: Floats) -> Floats:
+    motion: Floats = q0 + s[:, None] * (end - q0)
+    return motion
+
+
+def inside(q: Floats) -> Any:
+    return (q >= LOW - SLACK) & (q <= HIGH + SLACK)
+
+
+def one_turn_for_all(q0: Floats, q1: Floats) -> Floats:
+    ends = [q1 + k * TURN for k in (0, -1, 1, -2, 2)]
+    return min(ends, key=lambda end: float(abs(end - q0).sum()))
+
+
+def one_turn_inside(q0: Floats, q1: Floats) -> Floats:
+    """One number of turns for all joints, all of them inside."""
+    ends = [end for k in range(-4, 5) if inside(end := q1 + k * TURN).all()]
+    return min(ends, key=lambda end: float(abs(end - q0).sum()), default=q1)
+
+
+def floored(q0: Floats, q1: Floats) -> Floats:
+    return q1 + TURN * np.floor((q0 - q1) / TURN)
+
+
+def nearest_or_q1(q0: Floats, q1: Floats) -> Floats:
+    """The nearest values where they are inside, q1 elsewhere."""
+    near = wrapped(q1, q0)
+    return np.where(inside(near), near, q1)
+
+
+def pinned(q0: Floats, q1: Floats, s: Floats) -> Floats:
+    motion = straight(q0, short_end(q0, q1), s)
+    motion[0], motion[-1] = q0, short_end(q0, q1)
+    return motion
+
+
+def line(q0: Floats, q1: Floats, s: Floats, row: int | None = None) -> Floats:
+    """Straight in space."""
+    rows = IRB140.ik(lin(IRB140.fk(q0), IRB140.fk(q1), s))
+    first = abs(wrapped(rows[0] - q0)).sum(axis=-1)
+    return follow(IRB140, rows, int(first.argmin()) if row is None else row)
