@@ -13,8 +13,7 @@ from conftest import NOTEBOOKS
 from nbclient import NotebookClient
 
 from robokin import course
-from robokin.course import book, catch, check, hint, old, progress, solution
-from robokin.course.answers import run
+from robokin.course import book, catch, check, hint, progress, solution
 from robokin.course.catch import Catch
 from robokin.course.function import Function
 from robokin.course.predictions import shown
@@ -24,9 +23,8 @@ LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.labs()}
 EXERCISES = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).exercises]
 PREDICTIONS = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).predictions]
 KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
-OLD = [e for e in EXERCISES if KINDS[e] is old.Function]
-FUNCTIONS = [e for e in EXERCISES if KINDS[e] in (Function, old.Function)]
-CATCHES = [e for e in EXERCISES if issubclass(KINDS[e], (Catch, old.Catch))]
+FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
+CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
 every_lab = pytest.mark.parametrize("lab", book.labs())
 SMALL = "start_here"  # ten minutes: one exercise and one prediction
 
@@ -67,7 +65,7 @@ def test_every_objective_is_practised_and_stands_in_the_lab(lab, monkeypatch):
     numbers = set(range(1, len(made.objectives) + 1))
     assert {e.objective for e in made.exercises.values()} == numbers
     kinds = {type(e) for e in made.exercises.values()}
-    assert kinds - {Function, old.Function}, "one of another kind than a function"
+    assert kinds - {Function}, "one of another kind than a function"
     assert "not yet" in progress(lab) and all(f"{lab}.{n}" in progress(lab) for n in made.exercises)
     words = " ".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "markdown")
     plain = re.sub(r"[*\s]+", " ", words)
@@ -121,7 +119,7 @@ def zeros(value):
 def test_no_exercise_accepts_nothing(name):
     """Zeros, NaN, the input itself, an empty answer."""
     exercise = book.find(name, "exercises")
-    like = exercise.wanted[0] if name not in OLD else exercise.right_result(exercise.seeded()[0])
+    like = exercise.wanted[0]
     nothing = {
         "zeros": lambda *case: zeros(like),
         "nan": lambda *case: zeros(like) * np.nan,
@@ -160,11 +158,9 @@ def test_no_test_holds_by_a_trick(name, monkeypatch):
     """One that counts its calls, passes over errors, says nothing, or says it only now and then."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
-    wrongs = exercise.wrongs if KINDS[name] is Catch else exercise.mistakes
-    many = len(exercise.rights) + len(wrongs) + 1
+    many = len(exercise.rights) + len(exercise.wrongs) + 1
     dice = random.Random(1)
-    for kind in (catch, old):
-        monkeypatch.setattr(kind.random, "SystemRandom", lambda: dice)
+    monkeypatch.setattr(catch.random, "SystemRandom", lambda: dice)
     calls = []
 
     def counts(program):
@@ -192,42 +188,6 @@ def test_no_test_holds_by_a_trick(name, monkeypatch):
     assert check(name, silent).mistake == "returns None"
     assert check(name, lambda program: not right(program)).mistake == "True and False exchanged"
     assert check(name, right).holds
-
-
-def remembered(program):
-    """The program, which works out each case once. The cases have to stay alive: ids name them."""
-    results = {}
-
-    def again(*case):
-        key = tuple(map(id, case))
-        if key not in results:
-            try:
-                results[key] = program(*case), None
-            except Exception as error:
-                results[key] = None, error
-        result, error = results[key]
-        if error:
-            raise error
-        return result
-
-    return again
-
-
-@pytest.mark.parametrize("name", OLD)
-def test_every_two_mistakes_differ_on_a_case(name):
-    exercise = book.find(name, "exercises")
-    cases = exercise.seeded()
-    programs = [(mistake, remembered(mistake.program)) for mistake in exercise.mistakes]
-    for mistake in exercise.mistakes:
-        outcomes = [
-            exercise._formed(o, c) for o, c in zip(run(mistake.program, cases), cases, strict=True)
-        ]
-        wrong = [exercise._wrong(o, c) for o, c in zip(outcomes, cases, strict=True)]
-        assert any(wrong), f"{mistake.name} is right"
-        tried = list(zip(outcomes, wrong, cases, strict=True))
-        agreeing = [m for m, program in programs if exercise.agrees(program, tried)]
-        assert agreeing == [mistake]
-    assert len({mistake.name for mistake in exercise.mistakes}) >= 6
 
 
 @pytest.mark.parametrize("name", PREDICTIONS)

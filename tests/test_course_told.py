@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robokin import Transform
-from robokin.course import book, check, old
+from robokin.course import book, check
 from robokin.course.function import Function
 from robokin.course.told import apart, floats, one_number
 
@@ -54,7 +54,7 @@ FUNCTIONS = [
     f"{lab}.{n}"
     for lab in book.labs()
     for n, exercise in book.lab(lab).exercises.items()
-    if isinstance(exercise, (Function, old.Function))
+    if isinstance(exercise, Function)
 ]
 
 
@@ -63,18 +63,15 @@ def test_text_for_numbers_is_another_kind_of_answer(name):
     exercise = book.find(name, "exercises")
 
     def right(*case):
-        if isinstance(exercise, Function):
-            result = exercise.right(*case)
-            return exercise.form(result, case, result)
-        return exercise.right_result(case)
+        result = exercise.right(*case)
+        return exercise.form(result, case, result)
 
     def in_text(*case):
         result = right(*case)
         numbers = result.as_matrix() if isinstance(result, Transform) else np.asarray(result)
         return np.asarray(numbers, dtype=float).astype(str).tolist()
 
-    cases = exercise.cases if isinstance(exercise, Function) else exercise.seeded()
-    if not isinstance(right(*cases[0]), (str, bool)):
+    if not isinstance(right(*exercise.cases[0]), (str, bool)):
         assert check(name, in_text).mistake == "another kind or shape"
 
 

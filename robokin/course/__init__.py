@@ -5,10 +5,8 @@
 What they ask and say of each lab stands in notebooks/exercises (`book` finds it).
 """
 
-import re
 import textwrap
 from collections.abc import Callable
-from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 from .book import find, lab, own
@@ -111,16 +109,8 @@ def hint(name: str, n: int = 1) -> Note:
 
 def solution(name: str) -> Note:
     """A solution of an exercise, as text to read; it is not run. ValueError: no such exercise."""
-    found = find(name, "exercises")
-    slug, _, number = name.partition(".")
-    if isinstance(found, Exercise):
-        return Note(f"# --- {number}: {found.title}\n{found.solution.strip()}")
-    file = files(__package__).joinpath("solutions", f"{slug}.py")
-    if not file.is_file():
-        return Note("The solutions are not part of this copy: ask your teacher.")
-    text = file.read_text(encoding="utf-8")
-    there = re.search(rf"^# --- {number}: .*?(?=^# --- |\Z)", text, re.M | re.S)
-    return Note(there[0].strip() if there else "There is no solution here yet.")
+    found: Exercise = find(name, "exercises")
+    return Note(f"# --- {found.number}: {found.title}\n{found.solution.strip()}")
 
 
 def progress(name: str | None = None) -> Note:

@@ -52,16 +52,15 @@ class Lab:
     @cached_property
     def objectives(self) -> tuple[str, ...]:
         """What a student can do after the lab."""
-        found = tuple(_old(self.folder.name, "OBJECTIVES") or ())
         file = self.folder / "objectives.md"
         with self._noted(file.name):
-            found = markdown.objectives(markdown.read(file)) if file.is_file() else found
-        return found
+            return markdown.objectives(markdown.read(file)) if file.is_file() else ()
+        return ()
 
     @cached_property
     def exercises(self) -> Mapping[str, Exercise]:
         """By their numbers."""
-        found = dict(_old(self.folder.name, "EXERCISES"))
+        found: dict[str, Exercise] = {}
         files: dict[str, str] = {}
         for file in sorted(self.folder.glob("*.md")):
             if file.stem not in WORDS:
@@ -77,9 +76,9 @@ class Lab:
     @cached_property
     def predictions(self) -> Mapping[str, Prediction]:
         """By their numbers."""
-        found = dict(_old(self.folder.name, "PREDICTIONS"))
+        found: dict[str, Prediction] = {}
         file = self.folder / "predictions.md"
-        if not file.is_file() or (found and not file.with_suffix(".py").is_file()):
+        if not file.is_file():
             return found
         with self._noted(file.name):
             code = self.module("predictions")
@@ -132,15 +131,6 @@ class Lab:
         except Exception as error:  # a teacher's file may hold anything
             known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
             self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
-
-
-def _old(name: str, what: str) -> Any:
-    """What a lab has in Python still."""
-    if name not in numbered(OURS):
-        return {}
-    with contextlib.suppress(ModuleNotFoundError):
-        return getattr(importlib.import_module(f".{name}", __package__), what)
-    return {}
 
 
 def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:

@@ -96,7 +96,7 @@ def _near(x: float, value: float, within: float) -> bool:
 
 # --- As Markdown ----------------------------------------------------------------------------------
 
-HEAD = re.compile(r"(p\d+)(?:, a number in (\S+), within ([\d.]+) %)?(, optional)?")
+HEAD = re.compile(r"(p\d+)(?:, a number in (.+?), within ([\d.]+) %)?(, optional)?")
 ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?")
 
 
