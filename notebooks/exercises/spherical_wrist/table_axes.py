@@ -105,11 +105,9 @@ def form(result: Any, case: tuple[Any, ...]) -> Axes:
 
 def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
     """The first axis that is another one."""
-    points, ways = wanted.points, wanted.ways
-    if len(yours.rows) != len(points):
-        return (
-            f"wanted points and directions of {len(points)} joints, got {len(yours.rows)} of each"
-        )
+    points, ways, n = wanted.points, wanted.ways, len(wanted.points)
+    if len(yours.rows) != n:
+        return f"wanted points and directions of {n} joints, got {len(yours.rows)} of each"
     for i, (point, way) in enumerate(zip(points, ways, strict=True)):
         place = ", ".join(f"{x / mm:.1f}" for x in np.round(point, 9) + 0.0)
         along = ", ".join(f"{x:.3f}" for x in np.round(way, 9) + 0.0)
