@@ -2,6 +2,7 @@
 ROBOKIN_EXERCISES names. What is too slow to be asked at every check is asked here.
 """
 
+import contextlib
 import warnings
 from collections import Counter
 
@@ -11,6 +12,7 @@ import pytest
 from robokin.course import book
 from robokin.course.answers import Outcome
 from robokin.course.catch import Catch
+from robokin.course.edits import function_name
 from robokin.course.exercises import Exercise
 from robokin.course.function import Function
 
@@ -96,3 +98,26 @@ def test_every_program_of_a_test_is_made(name):
     assert exercise.promise and len(exercise.rights) >= 3
     for _, text in [*exercise.rights, *((n, text) for n, _, text in exercise.wrongs)]:
         assert callable(exercise.program(text))
+
+
+@pytest.mark.parametrize("name", CATCHES)
+def test_no_wrong_program_is_caught_for_a_name_that_is_missing(name):
+    """The test that the solution writes calls each; one that only raises would be caught, too."""
+    exercise, space = EXERCISES[name], {}
+    exec(compile(exercise.solution, name, "exec"), space)
+    test = space[function_name(name, 1, exercise.solution)]
+    for told, _, text in exercise.wrongs:
+        program, came = exercise.program(text), []
+
+        def recorded(*inputs, program=program, came=came):
+            try:
+                came.append(program(*inputs))
+            except Exception as error:
+                came.append(error)
+                raise
+            return came[-1]
+
+        with contextlib.suppress(Exception):
+            test(recorded)
+        missing = [each for each in came if isinstance(each, (NameError, ImportError))]
+        assert came and not missing, (told, missing[:1])
