@@ -297,6 +297,10 @@ def test_ids_of_the_package_cannot_be_taken(place):
     write(place / "scara_motion", reach_md=HEAD.format(number=1) + REACH, reach_py=CASES)
     assert book.lab("scara_motion").folder == book.OURS / "scara_motion"
     assert book.find("scara_motion.1", "exercises").task != "How far the tip is from the base."
+    [told] = book.lab("scara_motion").broken.values()
+    assert told == (
+        f"{place / 'scara_motion'}: not read, for {book.OURS / 'scara_motion'} has this name, too"
+    )
 
 
 def test_progress_has_what_belongs_to_no_objective(place):
@@ -742,6 +746,22 @@ def halvings(x, least):
 """
     mine = exercise(text, lambda rng: [(1.0, 0.1), (9.0, 0.3), (2.0, 0.001)])
     assert not check(mine, lambda x, least: 4).holds
+
+
+def test_a_teachers_mistake_that_never_ends_is_named(monkeypatch):
+    monkeypatch.setattr(answers, "SECONDS", 0.3)
+    text = """\
+def count(n):
+    k = 0
+    while k < n:
+        k = k + 1
+    return k
+"""
+    mistakes = "**one more.** It adds one.\n- `k + 1` → `k + 2`\n\n**stands.**\n- `k + 1` → `k + 0`"
+    mine = exercise(text, lambda rng: [(n,) for n in range(1, 20)], mistakes)
+    says = "A wrong program of this exercise, 'stands', does not come to an end."
+    verdict = check(mine, lambda n: n + n % 2)
+    assert verdict.mistake is None and verdict.says[0].endswith(says)
 
 
 # --- Wrong programs -------------------------------------------------------------------------------

@@ -128,6 +128,15 @@ def test_nothing_is_loaded_from_elsewhere(site, parsed):
         assert not re.search(r"@import|url\(['\"]?(https?:)?//", style.read_text()), style
 
 
+def test_the_exercises_are_there_as_they_are_written(site):
+    folder = NOTEBOOKS / "exercises"
+    files = [p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts]
+    copies = [p for p in (site / "exercises").rglob("*") if p.is_file()]
+    assert len(files) == len(copies) > 100
+    for file in files:
+        assert (site / "exercises" / file.relative_to(folder)).read_bytes() == file.read_bytes()
+
+
 @pytest.mark.parametrize("path", PATHS, ids=NAMES)
 def test_a_notebook_is_on_its_page_and_can_be_downloaded(path, site, parsed):
     name = path.relative_to(NOTEBOOKS).with_suffix("").as_posix()

@@ -185,7 +185,11 @@ def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
         folders = {each.name: each for each in place.glob("[!._]*") if each.is_dir()}
         first = [name for name in numbered(place) if name in folders]
         for name in dict.fromkeys([*first, *sorted(folders)]):
-            found.setdefault(name, Lab(folders[name]))  # nobody takes a name of ours
+            taken, here = found.get(name), folders[name]
+            if taken and taken.folder != here:  # nobody takes a name of ours
+                told = f"{here}: not read, for {taken.folder} has this name, too"
+                taken.broken[f"{here}"] = told
+            found.setdefault(name, Lab(here))
     return found
 
 

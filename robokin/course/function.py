@@ -61,6 +61,7 @@ class Function(Exercise):
         self.own = [variant for variant, _ in wrong]
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
+        self.trying = ""  # the mistake that is asked now
 
     @cached_property
     def cases(self) -> list[Case]:
@@ -109,7 +110,7 @@ class Function(Exercise):
         outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
         wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
         if len(wrong) == len(cases) and not any(wrong):
-            line = f"It holds in all {len(cases)} cases that were tried, edges among them."
+            line = f"It holds in all {len(cases)} cases that were tried."
             return Verdict(name, holds=True, says=(line,), points=1.0)
         first = next(k for k, sentence in enumerate(wrong) if sentence)
         mistake, says = self._explained(answer, outcomes, wrong, first)
@@ -167,7 +168,12 @@ class Function(Exercise):
         if unended(trouble):
             return trouble.name, ()
         ended = [o for o in outcomes if not unended(o)]
-        if found := self.named(ended, wrong, first):
+        [outcome] = run(partial(self.named, ended, wrong, first), [()])
+        if unended(outcome):
+            which = f"{self.trying!r}, " if self.trying else ""
+            told = f"A wrong program of this exercise, {which}does not come to an end."
+            return None, (f"The mistake is not recognised: look at the case. {told}",)
+        if found := outcome.result:
             names = list(dict.fromkeys(name for name, _ in found))[:2]
             says = [says for _, says in found if says][: len(names)]
             return " or ".join(names), tuple([" Or: ".join(says)] if says else [])
@@ -267,6 +273,7 @@ class Function(Exercise):
         if variant.change not in self.made:
             self.made[variant.change] = (self.steps.program(variant), {})
         program, results = self.made[variant.change]
+        self.trying = variant.name
         if k not in results:
             try:
                 results[k] = program(*self.cases[k])

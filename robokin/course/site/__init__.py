@@ -47,6 +47,8 @@ def build(folder: Path, teaching: bool = True) -> str:
         complaints = _run(source, made)
         for notebook in notebooks:  # to download, beside its page
             shutil.copyfile(notebook, made / notebook.relative_to(labs))
+        unwanted = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(labs / "exercises", made / "exercises", ignore=unwanted)
         _put(made, folder)
     return complaints
 
