@@ -117,6 +117,15 @@ def test_two_mistakes_at_once_are_named():
     assert verdict.mistake == "the stretched arm, and mm for m"
 
 
+def test_a_slip_that_undoes_a_mistake_of_its_name_explains_nothing():
+    text = "def kept(x):\n    x = 1.0 * x\n    return x if x < 5 else float('nan')\n"
+    mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
+    mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
+    assert check(mine, lambda x: x / 1000 if x < 5000 else np.nan).mistake == "mm for m"
+    verdict = check(mine, lambda x: x)  # the limit left out
+    assert not verdict.holds and verdict.mistake is None
+
+
 def book_text(markdown):
     return re.search("```python\n(.*?)```", markdown, re.S)[1]
 

@@ -257,8 +257,9 @@ class Function(Exercise):
 
         for one in self.own:
             for name, says, change in RESULTS:
-                told = f"{one.says} And: {says}"
-                yield Candidate(f"{one.name}, and {name}", told, partial(read, one, change))
+                if name != one.name:  # twice the same: what is left of it has another cause
+                    told = f"{one.says} And: {says}"
+                    yield Candidate(f"{one.name}, and {name}", told, partial(read, one, change))
 
     @cached_property
     def slips(self) -> list[Variant]:
