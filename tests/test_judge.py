@@ -25,7 +25,7 @@ from robokin.course import judge as judging
 from robokin.course import kernel, process, solution
 from robokin.course.__main__ import main
 from robokin.course.handed_in import Call, claims, handed_in
-from robokin.course.judge import Limits, Run, guesses, judge
+from robokin.course.judge import Limits, NotebookRun, guesses, judge_notebook
 from robokin.course.process import _end_marked
 
 QUICK = Limits(cell=12, answer=60, all=100)
@@ -49,7 +49,7 @@ def test_missing_raising_and_endless_answers(tmp_path):
         "import asyncio\nawait asyncio.sleep(0)\nprint('awaited')",
         "input('?')",
     )
-    judged = judge(handed_in(lab), "Ada", QUICK)
+    judged = judge_notebook(handed_in(lab), "Ada", QUICK)
     one, two, three = judged.exercises
     assert (one.state, one.mistake) == ("does not hold", "never ends")
     assert (two.state, two.points) == ("unanswered", 0)
@@ -114,7 +114,7 @@ def tricks(tmp_path_factory):
         'course.check("irb140_motion.2", np.sin)',
     )
     before = sorted(os.listdir(folder))
-    judged = judge(handed_in(lab), "Ada", QUICK)
+    judged = judge_notebook(handed_in(lab), "Ada", QUICK)
     assert sorted(os.listdir(folder)) == before, "something was left beside the notebook"
     return SimpleNamespace(judged=judged, cells=judged.notebook.cells)
 
@@ -191,7 +191,7 @@ def test_notebooks_judged_at_the_same_time_are_judged_the_same(tmp_path):
     ]
 
     def all_of(lab):
-        made = judge(handed_in(lab), None, QUICK)
+        made = judge_notebook(handed_in(lab), None, QUICK)
         printed = [[o.get("text") for o in c.outputs] for c in made.notebook.cells]
         return made.exercises, made.predictions, made.remarks, printed
 
@@ -224,7 +224,7 @@ def test_a_limit_counts_cpu_time_with_that_of_child_processes(tmp_path, monkeypa
         'check("irb140_motion.1", slow())',
         'check("irb140_motion.2", 1)',
     )
-    judged = judge(handed_in(lab), "Ada", Limits(cell=1, answer=0.5, all=30))
+    judged = judge_notebook(handed_in(lab), "Ada", Limits(cell=1, answer=0.5, all=30))
     one, two, three = judged.exercises
     assert [remark for remark in judged.remarks if "topped" in remark] == [
         "cell [3]: Stopped after 1 s."
@@ -246,7 +246,9 @@ def test_all_cells_have_a_time_and_a_memory_together(tmp_path):
         *[f"{spin}\nprint({k})" for k in range(7)],
         'check("irb140_motion.2", 1)',
     )
-    judged = judge(handed_in(lab), "Ada", Limits(cell=6, answer=6, all=6, memory=4 * 2**30))
+    judged = judge_notebook(
+        handed_in(lab), "Ada", Limits(cell=6, answer=6, all=6, memory=4 * 2**30)
+    )
     one, two, _ = judged.exercises
     late = "Not run: the 6 s for all cells were over."
     assert one.state == "does not hold" and (two.state, two.says) == ("failed", (late,))
@@ -268,7 +270,7 @@ def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch
         'check("irb140_motion.3", 1)',
     )
     begun = time.monotonic()
-    judged = judge(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=80))
+    judged = judge_notebook(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=80))
     assert time.monotonic() - begun < 500
     # the machine may be too slow for other cells as well: nothing else is sure
     assert {each.state for each in judged.exercises} == {"not judged"}
@@ -279,7 +281,7 @@ def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch
 
 
 def test_what_is_not_judged_contradicts_nothing(tmp_path):
-    run = Run(
+    run = NotebookRun(
         new_notebook(), {"irb140_motion.1": Call(3, "irb140_motion.1", "x", "")}, "Ada", QUICK
     )
     run.found["irb140_motion.1"] = {"error": "KeyboardInterrupt", "slow": True}
@@ -334,7 +336,7 @@ RIGHT = {"answered": True, "holds": True, "mistake": None, "says": [], "case": N
 )
 def test_an_answer_that_is_no_verdict_is_none(odd):
     call = Call(0, "irb140_motion.1", "x", "")
-    run = Run(new_notebook(), {call.name: call}, "Ada", QUICK)
+    run = NotebookRun(new_notebook(), {call.name: call}, "Ada", QUICK)
     run.found[call.name] = odd
     result = run.result(call.name, {})
     assert result.state == "failed" and result.points == 0
@@ -586,7 +588,7 @@ def test_an_exercise_of_ones_own_is_judged_where_the_teacher_has_it(tmp_path, mo
         place.mkdir(parents=True)
         (place / "twice.md").write_text(text)
         (place / "twice.py").write_text("def cases(rng):\n    return [(1,), (2.5,), (-3,)]\n")
-    judged = judge(handed_in(lab), "Ada", QUICK)
+    judged = judge_notebook(handed_in(lab), "Ada", QUICK)
     told = "an exercise of one's own: not judged."
     assert judged.exercises == () and f"doubles.1: {told}" in judged.remarks
     assert [each for each in judged.remarks if each.endswith(told)][1:], "the one made in a cell"

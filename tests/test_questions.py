@@ -5,7 +5,7 @@ import pytest
 from robokin.course import book
 from robokin.course.guesses import CHOICE
 from robokin.course.predictions import chosen
-from robokin.course.questions import LETTERS, filled, judged
+from robokin.course.questions import LETTERS, chosen_option, filled
 
 NAME = "puma560_branches.p3"
 
@@ -16,11 +16,13 @@ def test_a_name_counts_before_a_letter():
     for k, option in enumerate(options):
         for letter in LETTERS[: len(options)]:
             made = f"{letter}: {option.name}"
-            assert CHOICE.fullmatch(made) and judged(prediction, options, right, made) == k
+            assert CHOICE.fullmatch(made) and chosen_option(prediction, options, right, made) == k
             assert chosen(NAME, made) == f"{LETTERS[k]}) {option.text}"
-            assert judged(prediction, options, right, f"{letter}: gone") == LETTERS.index(letter)
-            assert judged(prediction, options, right, letter) == LETTERS.index(letter)
+            assert chosen_option(prediction, options, right, f"{letter}: gone") == LETTERS.index(
+                letter
+            )
+            assert chosen_option(prediction, options, right, letter) == LETTERS.index(letter)
     for wrong in ("z", "", ": ", "z: gone", 1, None):
         with pytest.raises(ValueError, match="choice: wanted one of a, b, c, d"):
-            judged(prediction, options, right, wrong)
+            chosen_option(prediction, options, right, wrong)
         assert not isinstance(wrong, str) or chosen(NAME, wrong) == wrong

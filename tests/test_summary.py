@@ -412,7 +412,7 @@ def test_notebooks_are_judged_side_by_side_and_in_any_order(tmp_path, monkeypatc
             if name == first:
                 ended.set()
 
-        monkeypatch.setattr(summary, "judge", stub(wait))
+        monkeypatch.setattr(summary, "judge_notebook", stub(wait))
         made = summary.summary(tmp_path)
         outcomes.append([(each.who, each.data["remarks"]) for each in made.entries])
     assert max(most) == 2
@@ -437,7 +437,7 @@ def test_where_the_newest_cannot_be_judged_the_older_one_counts(tmp_path, monkey
     for k, name in enumerate(("old", "dies", "turns", "odd")):
         path = notebook(tmp_path / name / f"{SLUG} Ada.ipynb", f'check("{SLUG}.1", ...)')
         os.utime(path, (1e9 + k, 1e9 + k))
-    monkeypatch.setattr(summary, "judge", stub(wait))
+    monkeypatch.setattr(summary, "judge_notebook", stub(wait))
     made = summary.summary(tmp_path)
     assert [each.file for each in made.entries] == [f"old/{SLUG} Ada.ipynb"]
     assert [left.reason.partition(":")[0] for left in made.left_out] == [
@@ -451,7 +451,7 @@ def test_where_the_newest_cannot_be_judged_the_older_one_counts(tmp_path, monkey
 def test_a_terminal_counts_on_one_line(tmp_path, monkeypatch, capsys):
     for who in ("a", "b\x1b[2J", "c"):
         notebook(tmp_path / "in" / who / f"{SLUG}.ipynb", f'check("{SLUG}.1", ...)')
-    monkeypatch.setattr(summary, "judge", stub())
+    monkeypatch.setattr(summary, "judge_notebook", stub())
     assert main(["summary", str(tmp_path / "in"), "--to", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 1 + 3 + 2 and "0 of 3 hold" in lines[1]

@@ -15,18 +15,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
-    given = _parser().parse_args(argv)
+    options = _parser().parse_args(argv)
     try:
-        if "to" in given:
-            given.to.mkdir(parents=True, exist_ok=True)
-        if getattr(given, "exercises", None):
-            _add(given.exercises.resolve())
-        return int(given.run(given))
+        if "to" in options:
+            options.to.mkdir(parents=True, exist_ok=True)
+        if getattr(options, "exercises", None):
+            _add(options.exercises.resolve())
+        return int(options.run(options))
     except OSError as error:
         print(error, file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
-        print(f"{error}; pip install 'robokin[{given.extra}]' brings it", file=sys.stderr)
+        print(f"{error}; pip install 'robokin[{options.extra}]' brings it", file=sys.stderr)
         return 1
 
 
@@ -123,13 +123,13 @@ def _add(folder: Path) -> None:
             print(told, file=sys.stderr)
 
 
-def _copy(given: Any) -> int:
+def _copy(options: Any) -> int:
     from .copies import copy
 
     try:
-        outcomes = copy(given.folder, given.source)
+        outcomes = copy(options.folder, options.source)
     except (OSError, ValueError) as error:
-        print(f"{given.folder}: {error}", file=sys.stderr)
+        print(f"{options.folder}: {error}", file=sys.stderr)
         return 1
     counts = Counter(outcome.what for outcome in outcomes)
     for outcome in outcomes:
@@ -139,25 +139,25 @@ def _copy(given: Any) -> int:
     same = counts["same"]
     news = [f"{counts[what]} {what}" for what in ("new", "replaced", "kept", "failed")]
     news = [each for each in news if not each.startswith("0 ")]
-    print(f"{given.folder}: {', '.join(news) or 'nothing new'}; {same} as they were")
+    print(f"{options.folder}: {', '.join(news) or 'nothing new'}; {same} as they were")
     return 1 if counts["failed"] else 0
 
 
-def _export(given: Any) -> int:
+def _export(options: Any) -> int:
     from .export import export
 
     def written(path: Path) -> Path:
-        page: Path = given.to / f"{path.stem}.html"
+        page: Path = options.to / f"{path.stem}.html"
         export(path, page)
         return page
 
-    return _each(given.labs, written)
+    return _each(options.labs, written)
 
 
-def _report(given: Any) -> int:
+def _report(options: Any) -> int:
     from .report_page import report
 
-    return _each(given.labs, lambda path: report(path, given.name, given.to))
+    return _each(options.labs, lambda path: report(path, options.name, options.to))
 
 
 def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
@@ -174,7 +174,7 @@ def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
     return 1 if failed else 0
 
 
-def _summary(given: Any) -> int:
+def _summary(options: Any) -> int:
     from .summary import summary
     from .summary_pages import is_ours, places, write
 
@@ -187,14 +187,14 @@ def _summary(given: Any) -> int:
         print(line, end="" if live else "\n", flush=True)
 
     try:
-        places(given.to)  # before notebooks run for minutes
-        made = summary(given.folder, tell=tell, ours=lambda path: is_ours(path, given.to))
+        places(options.to)  # before notebooks run for minutes
+        made = summary(options.folder, tell=tell, ours=lambda path: is_ours(path, options.to))
         if live:
             print()
         for each in made.left_out:
-            line = f"{given.folder}/{each.file}: {each.reason}"
+            line = f"{options.folder}/{each.file}: {each.reason}"
             print(line, file=sys.stderr if each.wrong else sys.stdout)
-        for path in write(made, given.to, not given.no_points):
+        for path in write(made, options.to, not options.no_points):
             print(path)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
@@ -202,16 +202,16 @@ def _summary(given: Any) -> int:
     return 1 if any(each.wrong for each in made.left_out) else 0
 
 
-def _site(given: Any) -> int:
+def _site(options: Any) -> int:
     from .site import build
 
     print("The site is being made; this takes half a minute.", flush=True)
     try:
-        complaints = build(given.folder, given.teaching)
+        complaints = build(options.folder, options.teaching)
     except (OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
-    print(given.folder / "index.html")
+    print(options.folder / "index.html")
     if complaints:
         print(complaints, file=sys.stderr)
     return 1 if complaints else 0

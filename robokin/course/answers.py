@@ -73,8 +73,8 @@ def is_stub(answer: Any) -> bool:
     if "RAISE_VARARGS" in kinds:
         names = [step.argval for step in steps if step.opname == "LOAD_GLOBAL"]
         return kinds <= QUIET | RAISING and names == ["NotImplementedError"]
-    given = [step.argval for step in steps if step.opname in ("LOAD_CONST", "RETURN_CONST")]
-    return kinds <= QUIET and given[-1] in (None, ...)
+    constants = [step.argval for step in steps if step.opname in ("LOAD_CONST", "RETURN_CONST")]
+    return kinds <= QUIET and constants[-1] in (None, ...)
 
 
 def unended(outcome: Outcome) -> bool:
@@ -116,17 +116,17 @@ def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Ou
 
 
 def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
-    given, printed = copy.deepcopy(case), io.StringIO()
+    inputs, printed = copy.deepcopy(case), io.StringIO()
     try:
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(io.StringIO()):
-            result = answer(*given)
+            result = answer(*inputs)
     except TimeUp:
         return NEVER
     except BaseException as error:  # also SystemExit and KeyboardInterrupt: nothing gets out
         return Outcome(
             name="raises an error", says=f"It raises {_told(error)}{_where(answer, error)}."
         )
-    if not all(map(equal, given, case)):
+    if not all(map(equal, inputs, case)):
         return Outcome(name="changes its input", says="It changes what it is given. Copy it first.")
     if result is None:
         text = " ".join(printed.getvalue().split())

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import edits
 from .answers import Outcome, is_stub, run
-from .exercises import Exercise, Verdict, unanswered, words
+from .exercises import Exercise, Verdict, in_words, unanswered
 from .markdown import BadFile, Text
 
 ASSERTS = "It raises AssertionError"  # as `answers.run` says it
@@ -47,7 +47,7 @@ class Catch(Exercise):
             raise BadFile(text.file, line - 1, "wanted '**what is special.**' above the program")
         self.rights = [(" ".join(filter(None, each[:2])), each.text(first)) for each, _ in right]
         programs = [program for _, program in self.rights]
-        self.promise = text.words("Promise")
+        self.promise = text.prose("Promise")
         self.wrongs = [
             (variant.name, variant.says, variant.text(base))
             for variant, base in edits.own(text.file, self.function, programs, text.wrong())
@@ -62,7 +62,7 @@ class Catch(Exercise):
         if is_stub(answer):
             return unanswered(name)
         if not callable(answer):
-            return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
+            return Verdict(name, says=(f"Wanted a function, got {in_words(answer)}.",))
         told = [*(what for what, _ in self.rights), *(n for n, _, _ in self.wrongs), RAISES[0]]
         outcomes = self._asked(answer)
         said = {k: _answer(outcome) for k, outcome in outcomes.items()}
@@ -173,5 +173,5 @@ def _trouble(outcome: Outcome, said: Any) -> tuple[str, str] | None:
         return None
     if outcome.name:
         return outcome.name, outcome.says
-    line = f"Your test has to return True or False; it returns {words(outcome.result)}."
+    line = f"Your test has to return True or False; it returns {in_words(outcome.result)}."
     return "another kind or shape", line

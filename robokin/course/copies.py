@@ -65,18 +65,18 @@ def copy(
     a full disk; then nothing is laid. What fails for one file is an `Outcome`.
     """
     labs = Path(source) if source is not None else Path(__file__).parents[2] / "notebooks"
-    given = {
+    files = {
         path.relative_to(labs).as_posix(): path
         for pattern in HANDED_OUT
         for path in labs.glob(pattern)
         if path.is_file() and not path.name.startswith(".")
     }
-    if not any(path.endswith(".ipynb") for path in given):
+    if not any(path.endswith(".ipynb") for path in files):
         more = "" if source else ": robokin is not installed from a clone; give --from FOLDER"
         raise ValueError(f"no labs in {labs}{more}")
     student = _Folder(_target(Path(folder), labs))
     with alone(student.own / "lock"):
-        return student.hand_out({p: given[p] for p in given if p not in FOR_TEACHERS})
+        return student.hand_out({p: files[p] for p in files if p not in FOR_TEACHERS})
 
 
 def digest(path: str, content: bytes) -> str:

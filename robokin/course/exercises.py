@@ -104,7 +104,7 @@ def numbers(value: Any) -> Any:
     return None
 
 
-def words(value: Any) -> str:
+def in_words(value: Any) -> str:
     """A value in one short line."""
     if isinstance(value, Transform) and not value.shape:
         angle, axis = value.rotation.as_angle_axis()
@@ -117,14 +117,14 @@ def words(value: Any) -> str:
         return f"{value:.6g}"
     if isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
         if not value.ndim:
-            return words(value.item())
+            return in_words(value.item())
         if value.size > 12:
             return f"an array of shape {value.shape}: [{_row(value.ravel()[:4])}, ...]"
         if value.ndim == 2:
             return "[" + ", ".join(f"[{_row(row)}]" for row in value) + "]"
         return f"[{_row(value)}]" if value.ndim == 1 else f"an array of shape {value.shape}"
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{k!r}: {words(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{k!r}: {in_words(v)}" for k, v in value.items()) + "}"
     if callable(value):
         return f"the function {getattr(value, '__name__', '?')}"
     with contextlib.suppress(Exception):

@@ -12,8 +12,8 @@ from ..arms.scara import ScaraPose
 from ..quaternion import Quaternion
 from ..transform import Transform
 from .answers import equal
+from .exercises import in_words
 from .exercises import numbers as as_numbers
-from .exercises import words
 from .told import floats, one_number
 
 
@@ -37,19 +37,20 @@ def like(result: Any, wanted: Any) -> Any:
         return truth(result)
     if isinstance(wanted, (str, Transform, Quaternion, ScaraPose)):
         if not isinstance(result, type(wanted)):
-            raise ValueError(f"wanted a {type(wanted).__name__}, got {words(result)}")
+            raise ValueError(f"wanted a {type(wanted).__name__}, got {in_words(result)}")
         return result
     if isinstance(wanted, Mapping):
         if not isinstance(result, Mapping) or result.keys() != wanted.keys():
             raise ValueError(
-                f"wanted a dict with {', '.join(map(repr, wanted))}, got {words(result)}"
+                f"wanted a dict with {', '.join(map(repr, wanted))}, got {in_words(result)}"
             )
         return {key: like(result[key], wanted[key]) for key in wanted}
     if np.asarray(wanted).dtype.kind == "b":
         made = np.asarray(result)
         if made.dtype.kind != "b" or made.shape != np.shape(wanted):
+            shape = np.shape(wanted)
             raise ValueError(
-                f"wanted True or False in an array of shape {np.shape(wanted)}, got {words(result)}"
+                f"wanted True or False in an array of shape {shape}, got {in_words(result)}"
             )
         return made
     return numbers(result, np.shape(wanted))
@@ -62,23 +63,23 @@ def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
     try:
         values = floats(result)
     except (TypeError, ValueError):
-        raise ValueError(f"wanted {what}, got {words(result)}") from None
+        raise ValueError(f"wanted {what}, got {in_words(result)}") from None
     if values.shape != shape and (values.size, shape) != (1, ()):
-        raise ValueError(f"wanted {what}, got {words(result)}")
+        raise ValueError(f"wanted {what}, got {in_words(result)}")
     return values.reshape(shape)
 
 
 def truth(result: Any, what: str = "") -> bool:
     """True or False. ValueError: something else. `what`: of what, in words."""
     if not isinstance(result, (bool, np.bool_)):
-        raise ValueError(f"wanted True or False{what and f' {what}'}, got {words(result)}")
+        raise ValueError(f"wanted True or False{what and f' {what}'}, got {in_words(result)}")
     return bool(result)
 
 
 def numbers_of(answer: Any, names: Sequence[str]) -> dict[str, float]:
     """A dict with a finite number under each name. ValueError: one is missing or none."""
     if not isinstance(answer, Mapping):
-        raise ValueError(f"Wanted a dict with {' and '.join(names)}, got {words(answer)}.")
+        raise ValueError(f"Wanted a dict with {' and '.join(names)}, got {in_words(answer)}.")
     missing = [name for name in names if name not in answer]
     if missing:
         raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
@@ -87,7 +88,7 @@ def numbers_of(answer: Any, names: Sequence[str]) -> dict[str, float]:
         try:
             found[name] = one_number(answer[name])
         except (TypeError, ValueError):
-            raise ValueError(f"{name}: wanted one number, got {words(answer[name])}.") from None
+            raise ValueError(f"{name}: wanted one number, got {in_words(answer[name])}.") from None
         if not np.isfinite(found[name]):
-            raise ValueError(f"{name}: wanted a finite number, got {words(answer[name])}.")
+            raise ValueError(f"{name}: wanted a finite number, got {in_words(answer[name])}.")
     return found

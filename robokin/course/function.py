@@ -13,7 +13,7 @@ import numpy as np
 from . import edits, forms
 from .answers import Outcome, equal, is_stub, run, unended
 from .edits import Variant
-from .exercises import Exercise, Verdict, has_nan, numbers, unanswered, words
+from .exercises import Exercise, Verdict, has_nan, in_words, numbers, unanswered
 from .markdown import BadFile, Text, why
 from .slips import INPUTS, RESULTS, fed
 
@@ -70,7 +70,7 @@ class Function(Exercise):
         [outcome] = run(partial(_drawn, draw), [(140,)])
         found: list[Case] = outcome.result or []
         if outcome.name or not (found and all(self._fits(case) for case in found)):
-            wanted = f"wanted tuples of {', '.join(self.inputs)}, got {words(outcome.result)}"
+            wanted = f"wanted tuples of {', '.join(self.inputs)}, got {in_words(outcome.result)}"
             code = getattr(draw, "__code__", None)
             file = code.co_filename if code and Path(code.co_filename).is_file() else self.text.file
             line = code.co_firstlineno if code else None
@@ -105,7 +105,7 @@ class Function(Exercise):
         if is_stub(answer):
             return unanswered(name)
         if not callable(answer):
-            return Verdict(name, says=(f"Wanted a function, got {words(answer)}.",))
+            return Verdict(name, says=(f"Wanted a function, got {in_words(answer)}.",))
         cases, _ = self.cases, self.wanted  # BadFile comes from here and from nowhere below
         outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
         wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
@@ -148,17 +148,17 @@ class Function(Exercise):
                 said: str | None = law(self.cases[k], outcome.result, self.wanted[k])
                 return said
             same = self.same(outcome.result, self.wanted[k])
-            return None if same else f"should be {words(self.wanted[k])}"
+            return None if same else f"should be {in_words(self.wanted[k])}"
         return "It cannot be judged."
 
     def _told(self, k: int, outcome: Outcome, law: str | None) -> str:
         lines = [f"  for {self._given(self.cases[k])}"]
         if outcome.name in (None, "another kind or shape"):
-            lines.append(f"  you return {words(outcome.result)}")
+            lines.append(f"  you return {in_words(outcome.result)}")
         return "\n".join([*lines, f"  {law}"])
 
     def _given(self, case: Case) -> str:
-        return ", ".join(f"{n} = {words(v)}" for n, v in zip(self.inputs, case, strict=True))
+        return ", ".join(f"{n} = {in_words(v)}" for n, v in zip(self.inputs, case, strict=True))
 
     def _explained(
         self, answer: Any, outcomes: list[Outcome], wrong: list[str | None], first: int
@@ -225,14 +225,14 @@ class Function(Exercise):
     def _alike(self, outcomes: list[Outcome]) -> Iterator[Candidate]:
         said = outcomes[0].result
         if not any(o.name for o in outcomes) and all(equal(o.result, said) for o in outcomes):
-            says = f"It answers {words(said)} to every case that was tried."
+            says = f"It answers {in_words(said)} to every case that was tried."
             yield Candidate("one answer to everything", says, lambda k: said)
 
     def _common(self) -> Iterator[Candidate]:
         def read(change: Callable[[Any], Any], k: int) -> Any:
             return change(self.wanted[k])
 
-        def given(i: int, change: Callable[[Any], Any], k: int) -> Any:
+        def changed(i: int, change: Callable[[Any], Any], k: int) -> Any:
             return self.right(*fed(self.cases[k], i, change))
 
         yield from map(self._candidate, self.slips)
@@ -241,7 +241,7 @@ class Function(Exercise):
         for name, says, change in INPUTS:
             for i, about in enumerate(self.inputs):
                 told = f"{says} It is about `{about}`."
-                yield Candidate(name, told, partial(given, i, change))
+                yield Candidate(name, told, partial(changed, i, change))
 
     def _pairs(self) -> Iterator[Candidate]:
         def ran(program: Callable[[], Any], k: int) -> Any:

@@ -27,7 +27,7 @@ from .._validate import short
 from .book import find, lab
 from .copies import alone, write
 from .predictions import worked_out
-from .questions import judged
+from .questions import chosen_option
 
 if TYPE_CHECKING:
     from .handed_in import HandedIn
@@ -129,7 +129,7 @@ class Guess:
     later: tuple[str, ...] = ()
 
 
-def guesses(given: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
+def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
     """What came of the predictions; nothing is run. Guesses kept by a kernel come first, then those
     in the line that a page copies, then the choice in the cell. `remarks` is told what could not be
     used.
@@ -138,22 +138,22 @@ def guesses(given: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess,
     pasted: dict[str, str] = {}
     remarks = [] if remarks is None else remarks
     try:
-        kept = read_guesses(given.path) or {}
+        kept = read_guesses(handed.path) or {}
     except ValueError as error:
         remarks.append(f"{error}.")
     try:
-        pasted = parse_line(given.guesses)
+        pasted = parse_line(handed.guesses)
     except ValueError as error:
         remarks.append(f"{error}.")
     made = []
-    for number in lab(given.lab).predictions if given.lab else ():
-        name = f"{given.lab}.{number}"
-        line, call = pasted.get(number), given.choices.get(name)
+    for number in lab(handed.lab).predictions if handed.lab else ():
+        name = f"{handed.lab}.{number}"
+        line, call = pasted.get(number), handed.choices.get(name)
         others = [line, _literal(call.answer) if call else None]
         timeless = [(choice, None) for choice in others if choice is not None]
         made.append(_guess(name, [*kept.get(name, ()), *timeless]))
-    if given.lab and not any(each.choice for each in made):
-        remarks += _beside(given.path, given.lab)
+    if handed.lab and not any(each.choice for each in made):
+        remarks += _beside(handed.path, handed.lab)
     return tuple(made)
 
 
@@ -201,7 +201,7 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
     prediction = find(name, "predictions")
     _, options, right = worked_out(name)
     try:
-        at = judged(prediction, options, right, float(choice) if prediction.unit else choice)
+        at = chosen_option(prediction, options, right, float(choice) if prediction.unit else choice)
     except (ValueError, TypeError):
         return guess
     if at == right:

@@ -95,12 +95,12 @@ def _shell() -> Any:
     return ipython.get_ipython() if ipython else None
 
 
-def _notebook(seen: Path | None, given: Any) -> Path:
+def _notebook(seen: Path | None, path: Any) -> Path:
     """The notebook's file. ValueError: there is none, or several may be it."""
-    if given is not None:
-        if not Path(given).is_file():
-            raise ValueError(f"there is no file {str(given)!r} in {str(Path.cwd())!r}.")
-        return Path(given).absolute()
+    if path is not None:
+        if not Path(path).is_file():
+            raise ValueError(f"there is no file {str(path)!r} in {str(Path.cwd())!r}.")
+        return Path(path).absolute()
     if seen is not None and seen.is_file():
         return seen.absolute()
     lab = _lab(source for source, _ in _ran)

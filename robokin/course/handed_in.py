@@ -131,9 +131,11 @@ def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     last = {(call.name, call.cell) for call in checks.values()}
-    said = [(name, k, word) for k, cell in enumerate(notebook.cells) for name, word in _said(cell)]
-    at_last = {name for name, k, _ in said if (name, k) in last}
-    for name, k, word in said:
+    claimed = [
+        (name, k, word) for k, cell in enumerate(notebook.cells) for name, word in _claimed(cell)
+    ]
+    at_last = {name for name, k, _ in claimed if (name, k) in last}
+    for name, k, word in claimed:
         if (name not in at_last or (name, k) in last) and found.get(name) != "holds":
             found[name] = word
     return found
@@ -180,8 +182,8 @@ def _cell(raw: Any, k: int) -> dict[str, Any]:
     made["metadata"] = {"jupyter": {"source_hidden": True}} if folded else {}
     if kind == "code":
         return made | {"execution_count": None, "outputs": list(_outputs(raw.get("outputs")))}
-    given = raw.get("attachments")
-    files = given.items() if isinstance(given, dict) else ()
+    attached = raw.get("attachments")
+    files = attached.items() if isinstance(attached, dict) else ()
     return made | {"attachments": {name: _texts(file) for name, file in files}}
 
 
@@ -216,7 +218,7 @@ def _texts(value: Any) -> dict[str, str]:
 # --- Its cells ------------------------------------------------------------------------------------
 
 
-def _said(cell: Any) -> Iterator[tuple[str, str]]:
+def _claimed(cell: Any) -> Iterator[tuple[str, str]]:
     for output in cell.get("outputs", ()):
         data = output.get("data", {})
         shown = re.sub("<[^<>]*>", "\n", str(data.get("text/html", "")))
@@ -261,15 +263,15 @@ def _call(node: ast.Call, cell: int) -> tuple[str, Call] | None:
     if what not in ("check", "predict"):
         return None
     names = ("name", "answer", "who") if what == "check" else ("name", "choice")
-    given = dict(zip(names, node.args, strict=False))
-    given |= {str(each.arg): each.value for each in node.keywords if each.arg in names}
-    asked = given.get("name")
+    arguments = dict(zip(names, node.args, strict=False))
+    arguments |= {str(each.arg): each.value for each in node.keywords if each.arg in names}
+    asked = arguments.get("name")
     name = asked.value if isinstance(asked, ast.Constant) else None
     if what == "check" and asked is not None and not isinstance(name, str):
         name = ast.unparse(asked)[:60]  # an exercise of one's own
     if not isinstance(name, str):
         return None
-    answer, own = given.get(names[1]), given.get("who")
+    answer, own = arguments.get(names[1]), arguments.get("who")
     return what, Call(
         cell,
         name,

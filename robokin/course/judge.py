@@ -77,31 +77,31 @@ class Judged:
     remarks: tuple[str, ...]
 
 
-def judge(given: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
+def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     """Run a notebook and judge its answers. For an exercise with numbers of one's own these are
     those of the student `who`; None: of the name that the notebook gives itself. Several threads
     may judge at the same time. OSError: no kernel starts.
     """
-    notebook = nbformat.from_dict(given.notebook)
-    names = _ids(given.lab, "exercises")
-    checks = {name: call for name, call in given.checks.items() if name in names}
+    notebook = nbformat.from_dict(handed.notebook)
+    names = _ids(handed.lab, "exercises")
+    checks = {name: call for name, call in handed.checks.items() if name in names}
     before = claims(notebook, checks)
-    run = Run(notebook, checks, who, limits)
+    run = NotebookRun(notebook, checks, who, limits)
     with tempfile.TemporaryDirectory(prefix="robokin", ignore_cleanup_errors=True) as folder:
         place = Path(folder, "lab")
-        _furnish(place, given)
+        _furnish(place, handed)
         _complete(lambda: run.all(place))
-    exercises = tuple(run.result(name, given.broken) for name in names)
+    exercises = tuple(run.result(name, handed.broken) for name in names)
     remarks = [*run.remarks, *_differences(exercises, before, claims(notebook, checks))]
-    others = [name for name in given.checks if name not in names]
+    others = [name for name in handed.checks if name not in names]
     if others:
         remarks.append(f"Of other labs, and left out here: {', '.join(others)}.")
-    remarks += [f"{name}: an exercise of one's own: not judged." for name in given.strange[:20]]
-    made = guesses(given, remarks)
+    remarks += [f"{name}: an exercise of one's own: not judged." for name in handed.strange[:20]]
+    made = guesses(handed, remarks)
     return Judged(notebook, exercises, made, tuple(remarks))
 
 
-class Run:
+class NotebookRun:
     """Cells that run, and what is found meanwhile. After `all`: outputs in the notebook, `result`
     and `remarks`.
     """
@@ -294,8 +294,8 @@ def _verdict(blank: Result, verdict: Any) -> Result:
     """A verdict from the kernel as a result. KeyError, TypeError, ValueError: it is none."""
     texts = {name: verdict[name] for name in ("mistake", "case")}
     says, points = verdict["says"], float(verdict["points"])
-    given = [*says, *(text for text in texts.values() if text is not None)]
-    if not (isinstance(says, list) and all(isinstance(text, str) for text in given)):
+    every = [*says, *(text for text in texts.values() if text is not None)]
+    if not (isinstance(says, list) and all(isinstance(text, str) for text in every)):
         raise TypeError("wanted texts")
     if not 0 <= points <= 1 or math.isnan(points):
         raise ValueError("wanted points from 0 to 1")
@@ -315,17 +315,17 @@ def _limited() -> bool:
     return sys.platform not in ("win32", "darwin")  # macOS takes the limit and does not keep it
 
 
-def _furnish(place: Path, given: HandedIn) -> None:
+def _furnish(place: Path, handed: HandedIn) -> None:
     """A folder with a copy of the notebook, of the folders that labs read from, and of the files
     beside it that it names. What cannot be copied is not there.
     """
     place.mkdir()
-    named = "\n".join(cell.source for cell in given.notebook.cells)
-    for each in given.path.parent.iterdir():
+    named = "\n".join(cell.source for cell in handed.notebook.cells)
+    for each in handed.path.parent.iterdir():
         with contextlib.suppress(OSError):
             if each.name in BESIDE and each.is_dir() and not each.is_symlink():
                 shutil.copytree(each, place / each.name, symlinks=True, ignore=_unwanted)
-            elif each == given.path or (
+            elif each == handed.path or (
                 each.name in named and each.is_file() and each.stat().st_size < LARGE
             ):
                 shutil.copyfile(each, place / each.name)

@@ -52,7 +52,7 @@ def judging(
     there is no verdict}.
     """
 
-    def judge(asked: dict[str, str]) -> dict[str, str]:
+    def verdict_of(asked: dict[str, str]) -> dict[str, str]:
         if "judge" not in asked:
             return {}
         request = json.loads(asked["judge"])
@@ -70,7 +70,7 @@ def judging(
             course._verdicts = kept
         return {"judge": found}
 
-    return judge
+    return verdict_of
 
 
 class Stream(OutStream):

@@ -47,7 +47,7 @@ class Text(NamedTuple):
             )
         return line + text.count("\n", 0, found.start(1)), found[1]
 
-    def words(self, part: str) -> str:
+    def prose(self, part: str) -> str:
         """The words of a section, on one line."""
         return one_line(self.parts.get(part, (0, ""))[1])
 
@@ -99,8 +99,8 @@ def exercise(file: str, text: str) -> Text:
         raise BadFile(file, 1, "wanted '# 1. TITLE', an empty line, 'Objective 1. TASK'")
     number, title, objective, task = found.groups()
     _, hints = rest.pop("Hints", (0, ""))
-    given = tuple(map(_hint, re.split(r"^\d\. ", hints, flags=re.M)[1:]))
-    return Text(file, number, title.strip(), int(objective), one_line(task), given, rest)
+    texts = tuple(map(_hint, re.split(r"^\d\. ", hints, flags=re.M)[1:]))
+    return Text(file, number, title.strip(), int(objective), one_line(task), texts, rest)
 
 
 def objectives(text: str) -> tuple[str, ...]:

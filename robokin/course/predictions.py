@@ -11,7 +11,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from .book import find
-from .questions import LETTERS, Option, Prediction, filled, judged
+from .questions import LETTERS, Option, Prediction, chosen_option, filled
 
 if TYPE_CHECKING:
     from ..show.page import PageAnswer, PageQuestion
@@ -38,7 +38,7 @@ def chosen(name: str, choice: str) -> str:
         return with_unit(choice, unit) if NUMBER.fullmatch(choice) else choice
     _, options, right = worked_out(name)
     try:
-        at = judged(find(name, "predictions"), options, right, choice)
+        at = chosen_option(find(name, "predictions"), options, right, choice)
     except ValueError:
         return choice
     return f"{LETTERS[at]}) {options[at].text}"
@@ -65,7 +65,7 @@ class Asked:
         self.unit, self.view = prediction.unit, prediction.view
         self.at = None
         if choice is not None:
-            self.at = judged(prediction, self.options, self.right, choice)
+            self.at = chosen_option(prediction, self.options, self.right, choice)
         self.data: PageQuestion = {
             "name": name,
             "title": f"Predict: {name}",

@@ -199,8 +199,8 @@ class Client(NotebookClient):
     `cut`: those cells.
     """
 
-    def __init__(self, *given: Any, cut: set[int], **more: Any) -> None:
-        super().__init__(*given, **more)
+    def __init__(self, *args: Any, cut: set[int], **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
         self.cut = cut
 
     def output(self, outs: Any, msg: Any, display_id: Any, cell_index: int) -> Any:

@@ -70,7 +70,9 @@ def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
     return prediction.question.format(**facts), options, prediction.right(facts)
 
 
-def judged(prediction: Prediction, options: Sequence[Option], right: int, choice: Any) -> int:
+def chosen_option(
+    prediction: Prediction, options: Sequence[Option], right: int, choice: Any
+) -> int:
     """Which option a choice is, -1 for a number that is none of them: "b", or "b: joint 3", where
     the name counts if an option has it, since options may have changed places. ValueError: neither
     a letter of an option nor a number, as the prediction wants it.
@@ -84,9 +86,9 @@ def judged(prediction: Prediction, options: Sequence[Option], right: int, choice
         if letter not in letters:
             raise ValueError(f"choice: wanted one of {', '.join(letters)}, got {choice!r}")
         return letters.index(letter)
-    given = number(choice, "choice")
+    typed = number(choice, "choice")
     order = [right, *range(len(options))]
-    near = (k for k in order if _near(given, float(options[k].text), prediction.within))
+    near = (k for k in order if _near(typed, float(options[k].text), prediction.within))
     return next(near, -1)
 
 

@@ -23,7 +23,7 @@ from .book import find, lab
 from .export import View, page
 from .handed_in import HandedIn, handed_in
 from .harmless import shortened
-from .judge import LIMITS, Judged, Limits, judge
+from .judge import LIMITS, Judged, Limits, judge_notebook
 from .predictions import chosen
 from .reported import DATA, counted, report_data
 from .texts import all_visible, visible
@@ -73,23 +73,23 @@ def report(path: Path, who: str, folder: Path, limits: Limits = LIMITS) -> Path:
     """
     if not who.strip():
         raise ValueError(f"name: wanted a name, got {who!r}")
-    given = handed_in(path)
+    handed = handed_in(path)
     to = folder / f"{safe(path.stem)}_{safe(who)}.html"
-    _refuse_to_overwrite(to, given, who)
-    judged = judge(given, who, limits)
-    write_page(to, page_of(told(given, who, judged), judged.notebook, path.parent))
+    _refuse_to_overwrite(to, handed, who)
+    judged = judge_notebook(handed, who, limits)
+    write_page(to, page_of(told(handed, who, judged), judged.notebook, path.parent))
     return to
 
 
-def told(given: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
+def told(handed: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
     """What a report says, as data."""
-    numbers = str(variant(given.lab, who)) if given.lab and lab(given.lab).given else ""
+    numbers = str(variant(handed.lab, who)) if handed.lab and lab(handed.lab).given else ""
     return {
         "report": 2,
         "who": who,
-        "lab": given.lab,
-        "title": given.title,
-        "file": os.fsencode(given.path.name).decode(errors="replace"),
+        "lab": handed.lab,
+        "title": handed.title,
+        "file": os.fsencode(handed.path.name).decode(errors="replace"),
         "made": datetime.now().astimezone().isoformat(timespec="seconds"),
         "robokin": __version__,
         "numbers": numbers,
@@ -138,7 +138,7 @@ def safe(text: str) -> str:
     return short.strip("_") or "lab"
 
 
-def _refuse_to_overwrite(to: Path, given: HandedIn, who: str) -> None:
+def _refuse_to_overwrite(to: Path, handed: HandedIn, who: str) -> None:
     """ValueError: something else stands there. Before a kernel runs for minutes."""
     if not to.parent.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(to.parent)!r}")
@@ -148,7 +148,7 @@ def _refuse_to_overwrite(to: Path, given: HandedIn, who: str) -> None:
         data = report_data(to.read_text(encoding="utf-8")) if to.is_file() else None
     except (ValueError, OSError):
         data = None
-    if data is None or normalised(data["who"]) != normalised(who) or data["lab"] != given.lab:
+    if data is None or normalised(data["who"]) != normalised(who) or data["lab"] != handed.lab:
         raise ValueError(f"{to} exists and is not this report; nothing is overwritten")
 
 
@@ -170,7 +170,7 @@ def _day(time: str) -> str:
     return f"{made.day} {made:%B %Y}"
 
 
-def _said(text: str) -> Markup:
+def _sentence(text: str) -> Markup:
     """Words as HTML; what stands between back-ticks is code."""
     words = str(Markup.escape(shortened(visible(text), WORDS)))
     return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", words))
@@ -182,5 +182,5 @@ PAGES = jinja2.Environment(
     trim_blocks=True,
     lstrip_blocks=True,
 )
-PAGES.filters |= {"said": _said, "day": _day, "title": exercise_title}
+PAGES.filters |= {"said": _sentence, "day": _day, "title": exercise_title}
 PAGES.globals |= {"chosen": chosen, "counted": counted}

@@ -26,7 +26,7 @@ import psutil
 
 from .book import labs
 from .handed_in import HandedIn, handed_in
-from .judge import LIMITS, Limits, judge
+from .judge import LIMITS, Limits, judge_notebook
 from .report_page import objectives, told
 from .reported import NAME, TEXT, counted, report_data, validated
 from .texts import visible
@@ -38,7 +38,7 @@ LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
 @dataclass(frozen=True)
 class Entry:
     """What one student handed in for one lab. `file`: below the folder, as a text; `data`:
-    validated, as in a report; `given`: a notebook that is still to be judged; `judged`: one that
+    validated, as in a report; `handed`: a notebook that is still to be judged; `judged`: one that
     was.
     """
 
@@ -47,7 +47,7 @@ class Entry:
     file: str
     when: datetime
     data: dict[str, Any]
-    given: HandedIn | None = None
+    handed: HandedIn | None = None
     judged: bool = False
 
     @property
@@ -128,7 +128,7 @@ def summary(
         except Exception as error:  # a file may have anything in it
             made.left_out.append(_left(inside, _reason(error), True))
     kernels = side_by_side(limits.memory)
-    if notebooks := sum(any(each.given for each in several) for several in found.values()):
+    if notebooks := sum(any(each.handed for each in several) for several in found.values()):
         tell(0, len(found), f"notebooks to judge: {notebooks}, {kernels} side by side")
     pool = ThreadPoolExecutor(kernels)
     try:
@@ -211,11 +211,11 @@ def _read(path: Path, inside: Path) -> Entry | str:
             return "a report of a notebook without exercises of robokin's"
         when = datetime.fromisoformat(data["made"])
         return Entry(data["who"], data["lab"], _shown(inside), when, data)
-    given = handed_in(path)
-    if given.lab is None:
+    handed = handed_in(path)
+    if handed.lab is None:
         return "a notebook without exercises of robokin's"
     when = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
-    return Entry(who_of(inside), given.lab, _shown(inside), when, {}, given)
+    return Entry(who_of(inside), handed.lab, _shown(inside), when, {}, handed)
 
 
 def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[LeftOut]]:
@@ -228,9 +228,11 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
     while several:
         entry = several.pop()
         try:
-            if entry.given:
-                data = validated(told(entry.given, entry.who, judge(entry.given, None, limits)))
-                entry = replace(entry, data=data, given=None, judged=True)
+            if entry.handed:
+                data = validated(
+                    told(entry.handed, entry.who, judge_notebook(entry.handed, None, limits))
+                )
+                entry = replace(entry, data=data, handed=None, judged=True)
         except Exception as error:  # what a student's code gave may be anything
             left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
             continue

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .answers import is_stub
-from .exercises import Exercise, Verdict, unanswered, words
+from .exercises import Exercise, Verdict, in_words, unanswered
 from .markdown import BadFile, Text
 
 
@@ -41,7 +41,7 @@ class Value(Exercise):
             line = 'Whose numbers? Give your name: check(..., who="your name").'
             return Verdict(name, says=(line,))
         given = self.given(who) if self.given else None
-        case = f"  your answer is {words(self.code.get('plain', lambda x: x)(answer))}"
+        case = f"  your answer is {in_words(self.code.get('plain', lambda x: x)(answer))}"
         try:
             formed = self.code["form"](answer, given)
         except Exception as error:

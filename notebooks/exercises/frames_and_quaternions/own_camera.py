@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from robokin import Quaternion, Transform, deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.slips import METRES
 from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice
@@ -54,7 +54,7 @@ def form(answer: Any, given: Any) -> Transform:
             raise ValueError(f"{wanted}. Your matrix is no pose: {error}") from None
     hint = ": a place without a turn" if shape == (3,) else ""
     hint = ": a matrix of a turn without a place" if shape == (3, 3) else hint
-    raise ValueError(f"{wanted}, got {words(answer)}{hint}.")
+    raise ValueError(f"{wanted}, got {in_words(answer)}{hint}.")
 
 
 def unit(vector: Floats) -> Floats:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import Quaternion, Transform, deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 
 from .shared import Floats, Z, rot, trans
@@ -58,10 +58,10 @@ def form(result: Any, case: Case) -> Floats:
     try:
         matrix = floats(result)
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(result)}") from None
+        raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if matrix.shape != (4, 4):
         more = ": the place alone, the turn is missing" if matrix.shape == (3,) else ""
-        raise ValueError(f"{wanted}, got {words(result)}{more}")
+        raise ValueError(f"{wanted}, got {in_words(result)}{more}")
     return matrix
 
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, Transform, explain, within
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.function import Fault
 from robokin.course.slips import METRES
 
@@ -29,7 +29,7 @@ def form(answer: Any, given: Any) -> Transform:
             hint = ": a place without an orientation"
         elif np.shape(answer) == (4, 4):
             hint = "; Transform.from_matrix makes one of it"
-    raise ValueError(f"Wanted one Transform, got {words(answer)}{hint}.")
+    raise ValueError(f"Wanted one Transform, got {in_words(answer)}{hint}.")
 
 
 def faults(pose: Transform, given: Any) -> list[Fault]:

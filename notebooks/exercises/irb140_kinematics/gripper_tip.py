@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, Quaternion, Transform, deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart
 
 from .shared import L4, Floats, X, Y, Z, turned
@@ -56,7 +56,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Transform:
         hint = ": a place without an orientation"
     elif np.shape(result) == (4, 4):
         hint = "; Transform.from_matrix makes one of it"
-    raise ValueError(f"Wanted one Transform, got {words(result)}{hint}.")
+    raise ValueError(f"Wanted one Transform, got {in_words(result)}{hint}.")
 
 
 def law(case: tuple[Any, ...], yours: Transform, wanted: Transform) -> str | None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, deg, explain, mm, within
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.function import Fault
 from robokin.course.slips import METRES
 from robokin.course.told import apart, one_number
@@ -55,13 +55,13 @@ def given(who: Any) -> Numbers:
 def form(answer: Any, given: Any) -> dict[str, Any]:
     """Height and duration as floats, flags as three of +1 and -1."""
     if not isinstance(answer, Mapping):
-        raise ValueError(f"Wanted a dict with height, flags and duration, got {words(answer)}.")
+        raise ValueError(f"Wanted a dict with height, flags and duration, got {in_words(answer)}.")
     missing = [key for key in ("height", "flags", "duration") if key not in answer]
     if missing:
         raise ValueError(f"Your dict has no {' and no '.join(repr(key) for key in missing)}.")
     flags = np.asarray(answer["flags"], dtype=object).ravel().tolist()
     if len(flags) != 3 or any(isinstance(x, bool) or x not in (1, -1) for x in flags):
-        got = words(answer["flags"])
+        got = in_words(answer["flags"])
         raise ValueError(f"flags: wanted three of +1 and -1, (+1, -1, +1), got {got}.")
     design: dict[str, Any] = {"flags": tuple(int(x) for x in flags)}
     for key, unit in (("height", "metres"), ("duration", "seconds")):
@@ -70,7 +70,7 @@ def form(answer: Any, given: Any) -> dict[str, Any]:
         except (TypeError, ValueError):
             value = np.nan
         if not np.isfinite(value) or (key == "duration" and value <= 0):
-            raise ValueError(f"{key}: wanted a number of {unit}, got {words(answer[key])}.")
+            raise ValueError(f"{key}: wanted a number of {unit}, got {in_words(answer[key])}.")
         design[key] = value
     return design
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from robokin import blend, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, one_number
 
 from .shared import GOAL, P1, START, VIA, D, length
@@ -32,7 +32,7 @@ def form(result: Any, case: tuple[float, str]) -> float:
     try:
         return one_number(result)
     except (TypeError, ValueError):
-        raise ValueError(f"wanted a number from 0 to 0.5, or NaN, got {words(result)}") from None
+        raise ValueError(f"wanted a number from 0 to 0.5, or NaN, got {in_words(result)}") from None
 
 
 def law(case: tuple[float, str], yours: float, wanted: float) -> str | None:

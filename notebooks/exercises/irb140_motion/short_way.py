@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, deg, follow, lin, nearest, quintic
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
@@ -76,7 +76,7 @@ def form(result: Any, case: Case) -> Floats:
     try:
         values = floats(result)
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(result)}") from None
+        raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if values.ndim not in (1, 2) or 6 not in values.shape:
         raise ValueError(f"{wanted}, got {values.shape}")
     return values

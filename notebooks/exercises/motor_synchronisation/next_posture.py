@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
@@ -39,11 +39,11 @@ def form(result: Any, case: tuple[Any, ...]) -> Floats:
     try:
         values = floats(result)
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(result)}") from None
+        raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if values.size == 1 and np.isnan(values).all():
         return np.full(3, np.nan)
     if values.size != 3:
-        raise ValueError(f"{wanted}, got {words(result)}")
+        raise ValueError(f"{wanted}, got {in_words(result)}")
     return values.reshape(3)
 
 

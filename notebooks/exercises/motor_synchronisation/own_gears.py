@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice
 from robokin.jobs.steppers import counts, station_postures
@@ -69,7 +69,7 @@ def given(who: Any) -> Numbers:
 def form(answer: Any, numbers: Any) -> Drive:
     if not isinstance(answer, Mapping) or not set(KEYS) <= set(answer):
         wanted = 'wanted {"gears": [three whole numbers], "frequencies": [three]}'
-        raise ValueError(f"{wanted}, got {words(answer)}")
+        raise ValueError(f"{wanted}, got {in_words(answer)}")
     found = []
     for key in KEYS:
         try:
@@ -79,13 +79,13 @@ def form(answer: Any, numbers: Any) -> Drive:
         if values.size == 1 and key == "gears":
             values = np.full(3, float(values.reshape(())))
         if values.size != 3 or not np.isfinite(values).all():
-            raise ValueError(f"{key}: wanted three numbers, got {words(answer[key])}")
+            raise ValueError(f"{key}: wanted three numbers, got {in_words(answer[key])}")
         found.append(values.reshape(3))
     gears, omega = found
     if (gears < 1).any() or (gears % 1).any() or (gears > 100_000).any():
-        raise ValueError(f"gears: wanted whole numbers from 1 up, got {words(gears)}")
+        raise ValueError(f"gears: wanted whole numbers from 1 up, got {in_words(gears)}")
     if (omega == 0).any():
-        raise ValueError(f"frequencies: every motor has to move, got {words(omega)}")
+        raise ValueError(f"frequencies: every motor has to move, got {in_words(omega)}")
     return gears, abs(omega)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 
 from .shared import MINUS, Floats, count, crossing, drawing, gap_to, sides
 
@@ -79,10 +79,10 @@ def cases(rng: np.random.Generator) -> list[Case]:
 
 def form(result: Any, case: Case) -> bool:
     if isinstance(result, str) or np.size(result) != 1:
-        raise ValueError(f"wanted True or False, got {words(result)}")
+        raise ValueError(f"wanted True or False, got {in_words(result)}")
     value = np.reshape(np.asarray(result), ()).item()
     if value not in (0, 1):
-        raise ValueError(f"wanted True or False, got {words(result)}")
+        raise ValueError(f"wanted True or False, got {in_words(result)}")
     return bool(value)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.slips import DEGREES
 from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice, normalised
@@ -117,11 +117,11 @@ def form(answer: Any, given: Mapping[str, Any]) -> Floats:
     """Postures (k, 3)."""
     wanted = "wanted a path: two or more postures (gamma, beta, alpha), (k, 3) radians"
     if isinstance(answer, (str, Mapping)):
-        raise ValueError(f"{wanted}, got {words(answer)}")
+        raise ValueError(f"{wanted}, got {in_words(answer)}")
     try:
         path = floats([[x for x in row] for row in answer])
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(answer)}") from None
+        raise ValueError(f"{wanted}, got {in_words(answer)}") from None
     if path.ndim != 2 or path.shape[1:] != (3,) or len(path) < 2:
         raise ValueError(f"{wanted}, got shape {path.shape}")
     if not np.isfinite(path).all():

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import PUMA560, Quaternion, Transform, deg, differentiate, lin, mm, quintic
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart
 from robokin.course.variants import Numbers, dice
 
@@ -101,19 +101,19 @@ def form(answer: Any, given: Any) -> tuple[int, float]:
     if not isinstance(answer, Mapping) or not {"row", "duration"} <= set(answer):
         raise ValueError(
             f'wanted {{"row": ..., "duration": ...}} with a row of ik and seconds, got '
-            f"{words(answer)}"
+            f"{in_words(answer)}"
         )
     row, duration = answer["row"], answer["duration"]
     if np.size(row) != 1 or isinstance(row, (str, bool)) or float(np.reshape(row, ())) % 1:
-        raise ValueError(f"row: wanted a whole number from 0 to 7, got {words(row)}")
+        raise ValueError(f"row: wanted a whole number from 0 to 7, got {in_words(row)}")
     row = int(np.reshape(row, ()))
     if not 0 <= row <= 7:
         raise ValueError(f"row: wanted a whole number from 0 to 7, got {row}")
     if np.size(duration) != 1 or isinstance(duration, (str, bool)):
-        raise ValueError(f"duration: wanted seconds, got {words(duration)}")
+        raise ValueError(f"duration: wanted seconds, got {in_words(duration)}")
     seconds = float(np.reshape(duration, ()))
     if not (np.isfinite(seconds) and seconds > 0):
-        raise ValueError(f"duration: wanted seconds above 0, got {words(seconds)}")
+        raise ValueError(f"duration: wanted seconds above 0, got {in_words(seconds)}")
     return row, seconds
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from robokin import PUMA560, deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 
 from .shared import FORE, HIGH, LOW, OFFSET, UPPER, Floats
 
@@ -60,11 +60,11 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 def form(result: Any, case: tuple[Any, ...]) -> str:
     parts = [result] if isinstance(result, str) else result
     if not isinstance(parts, (list, tuple, set)) or not all(isinstance(x, str) for x in parts):
-        raise ValueError(f'wanted three words, "RIGHTY ABOVE NOFLIP", got {words(result)}')
+        raise ValueError(f'wanted three words, "RIGHTY ABOVE NOFLIP", got {in_words(result)}')
     found = re.findall(r"[A-Z]+", " ".join(parts).upper())
     chosen = [[word for word in found if word in pair] for pair in PAIRS]
     if len(found) != 3 or any(len(some) != 1 for some in chosen):
-        raise ValueError(f"wanted one word of each pair, got {words(result)}")
+        raise ValueError(f"wanted one word of each pair, got {in_words(result)}")
     return " ".join(some[0] for some in chosen)
 
 

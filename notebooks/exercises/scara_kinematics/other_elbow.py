@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
@@ -42,9 +42,9 @@ def form(result: Any, case: tuple[Floats]) -> Floats:
     try:
         values = floats(result)
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(result)}") from None
+        raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if values.size != 4 or sum(n > 1 for n in values.shape) != 1:
-        raise ValueError(f"{wanted}, got {words(result)}")
+        raise ValueError(f"{wanted}, got {in_words(result)}")
     return values.ravel()
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from robokin import SCARA, ScaraPose, deg, explain, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.slips import DEGREES, METRES
 from robokin.course.told import apart, one_number
 from robokin.course.variants import Numbers, dice
@@ -47,7 +47,7 @@ def own_circle(given: Given, distance: float, angle: float) -> ScaraPose:
 def form(answer: Any, given: Given) -> dict[str, Any]:
     """Distance and angle as floats, the elbow as +1 or -1."""
     if not isinstance(answer, Mapping):
-        raise ValueError(f"Wanted a dict with distance, elbow and angle, got {words(answer)}.")
+        raise ValueError(f"Wanted a dict with distance, elbow and angle, got {in_words(answer)}.")
     missing = [key for key in ("distance", "elbow", "angle") if key not in answer]
     if missing:
         raise ValueError(f"Your dict has no {' and no '.join(repr(key) for key in missing)}.")
@@ -59,10 +59,10 @@ def form(answer: Any, given: Given) -> dict[str, Any]:
             value = np.nan
         if not np.isfinite(value):
             wanted = unit if key == "elbow" else f"a number of {unit}"
-            raise ValueError(f"{key}: wanted {wanted}, got {words(answer[key])}.")
+            raise ValueError(f"{key}: wanted {wanted}, got {in_words(answer[key])}.")
         design[key] = value
     if design["elbow"] not in (1, -1):
-        raise ValueError(f"elbow: wanted the flag +1 or -1, got {words(answer['elbow'])}.")
+        raise ValueError(f"elbow: wanted the flag +1 or -1, got {in_words(answer['elbow'])}.")
     return design
 
 

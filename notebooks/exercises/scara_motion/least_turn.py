@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from robokin import SCARA, ScaraPose, deg, mm, nearest
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
@@ -75,7 +75,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Floats:
         if values.shape == (4,):
             return values
     wanted = "wanted four joint values, q1 to q3 in radians and q4 in metres"
-    raise ValueError(f"{wanted}, got {words(result)}")
+    raise ValueError(f"{wanted}, got {in_words(result)}")
 
 
 def same(a: Floats, b: Floats) -> bool:

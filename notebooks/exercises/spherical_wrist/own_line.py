@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import ITMO6R, deg, differentiate, distance_from_singularity, follow, mm, quintic
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.slips import DEGREES
 from robokin.course.told import apart, one_number
 from robokin.course.variants import Numbers, dice
@@ -77,7 +77,7 @@ def form(answer: Any, given: Given) -> dict[str, float]:
     """up, side and duration as floats."""
     names = ("up", "side", "duration")
     if not isinstance(answer, Mapping):
-        raise ValueError(f"Wanted a dict with up, side and duration, got {words(answer)}.")
+        raise ValueError(f"Wanted a dict with up, side and duration, got {in_words(answer)}.")
     missing = [name for name in names if name not in answer]
     if missing:
         raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
@@ -86,7 +86,7 @@ def form(answer: Any, given: Given) -> dict[str, float]:
         try:
             numbers[name] = one_number(answer[name])
         except (TypeError, ValueError):
-            raise ValueError(f"{name}: wanted a number, got {words(answer[name])}.") from None
+            raise ValueError(f"{name}: wanted a number, got {in_words(answer[name])}.") from None
         if not np.isfinite(numbers[name]):
             raise ValueError(f"{name}: wanted a number, got {numbers[name]}.")
     if numbers["duration"] <= 0:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg, mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 
 from .shared import ALPHA, OFFSET, A, D, Floats, posture, rot, trans
@@ -93,7 +93,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Axes:
     try:
         values = floats(result)
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(result)}") from None
+        raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if values.shape == (n, 6):
         values = np.stack([values[:, :3], values[:, 3:]])
     elif values.shape == (n, 2, 3) and n != 2:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import IRB140, deg
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.function import Fault
 from robokin.course.slips import DEGREES
 
@@ -19,7 +19,7 @@ NEAR = 5  # mm: whole degrees are enough, since one degree of joint 2 is some 9 
 def form(answer: Any, given: Any) -> Any:
     q = np.asarray(answer, dtype=float) if np.shape(answer) == (6,) else None
     if q is None or not np.isfinite(q).all():
-        raise ValueError(f"wanted six angles in radians, got {words(answer)}")
+        raise ValueError(f"wanted six angles in radians, got {in_words(answer)}")
     return q
 
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robokin import deg
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.units import wrapped
 
@@ -76,7 +76,7 @@ def form(result: Any, case: Case) -> Any:
         q = np.empty(0)
     if q.size != 3 and not (q.size == 1 and np.isnan(q).all()):
         wanted = "wanted three angles (gamma, beta, alpha) in radians, or NaN"
-        raise ValueError(f"{wanted}, got {words(result)}")
+        raise ValueError(f"{wanted}, got {in_words(result)}")
     return np.full(3, np.nan) if np.isnan(q[:2]).any() else q  # [nan, nan, alpha] says it, too
 
 

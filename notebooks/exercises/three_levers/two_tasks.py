@@ -8,7 +8,7 @@ import numpy as np
 
 from robokin import deg
 from robokin.arms.branches import within
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.slips import DEGREES
 from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice
@@ -89,7 +89,7 @@ def form(answer: Any, given: Given) -> Any:
         if missing:
             raise ValueError(f"Your dict has no {' and no '.join(map(repr, missing))}.")
         answer = [answer[key] for key in NAMES]
-    wanted += words(answer)
+    wanted += in_words(answer)
     try:
         alphas = floats(answer).ravel()
     except (TypeError, ValueError):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from robokin import mm
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart
 from robokin.course.variants import Numbers, dice
 
@@ -49,7 +49,7 @@ def form(answer: Any, given: Any) -> str:
         answer = "\n".join(answer)
     if not isinstance(answer, str):
         raise ValueError(
-            f"wanted the text of a program, lines such as 'dx = x3 - 0.2', got {words(answer)}"
+            f"wanted the text of a program, lines such as 'dx = x3 - 0.2', got {in_words(answer)}"
         )
     lines = "\n".join(line.strip() for line in answer.replace(";", "\n").splitlines())
     try:

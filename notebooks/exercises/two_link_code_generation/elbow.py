@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 
 from .shared import Floats
@@ -35,7 +35,7 @@ class Place:
         return np.array([self.x, self.y])
 
     def __repr__(self) -> str:
-        return words(np.array(self))
+        return in_words(np.array(self))
 
 
 def case(base: Any, tip: Any, l1: float, l2: float, side: int) -> Case:
@@ -98,13 +98,13 @@ def form(result: Any, case: Case) -> Place:
     try:
         values = np.squeeze(floats(result))
     except (TypeError, ValueError):
-        raise ValueError(f"{wanted}, got {words(result)}") from None
+        raise ValueError(f"{wanted}, got {in_words(result)}") from None
     if values.shape == () and np.isnan(values):
         values = NONE
     if values.shape == (3,) and values[2] == 0:
         values = values[:2]
     if values.shape != (2,):
-        raise ValueError(f"{wanted}, got {words(result)}")
+        raise ValueError(f"{wanted}, got {in_words(result)}")
     if np.isnan(values).any():
         values = NONE
     return Place(float(values[0]), float(values[1]), exists(case))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from robokin.course import forms
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 
 from .shared import Floats, each_needs
@@ -57,7 +57,7 @@ def form(result: Any, case: Case) -> Floats:
     if values.shape == (n + 1,) and values[0] == 0:
         raise ValueError(f"{wanted}: the start has none; yours begins with 0 for it")
     if values.shape != (n,):
-        raise ValueError(f"{wanted}, got {words(result)}")
+        raise ValueError(f"{wanted}, got {in_words(result)}")
     return values
 
 

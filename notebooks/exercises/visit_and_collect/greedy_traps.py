@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.course.told import apart, floats
 from robokin.course.variants import Numbers, dice
 from robokin.jobs.visit_collect import Task, best_visit, collect, out_of_workspace, visit
@@ -69,7 +69,7 @@ def form(answer: Any, given: Any) -> Traps:
     answer = plain(answer)
     if not isinstance(answer, Mapping) or set(answer) != set(TASKS):
         wanted = 'Wanted {"visit": ..., "collect": ..., "worth": ...}'
-        raise ValueError(f"{wanted}, got {words(answer)}.")
+        raise ValueError(f"{wanted}, got {in_words(answer)}.")
     return {task: points_form(task, answer[task]) for task in TASKS}
 
 
@@ -84,7 +84,7 @@ def points_form(task: str, answer: Any) -> Floats | None:
     with suppress(TypeError, ValueError):
         points = floats(answer)
     if points.shape != (4, 3) or not np.isfinite(points).all():
-        raise ValueError(f"{wanted}, got {words(answer)}.")
+        raise ValueError(f"{wanted}, got {in_words(answer)}.")
     if abs(points).max() > 50:
         raise ValueError(f"{wanted}; yours are up to {abs(points).max():.4g} m away")
     return points

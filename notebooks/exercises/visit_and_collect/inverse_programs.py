@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from robokin.course.exercises import words
+from robokin.course.exercises import in_words
 from robokin.jobs.visit_collect import out_of_workspace, workspace
 
 from .shared import ARM, L1, L2, Floats
@@ -21,7 +21,7 @@ def refusal(inputs: tuple[Any, ...], result: Any) -> str:
     else:
         off = float(np.linalg.norm(ARM.fk(q).translation - p))
         why = f"inside the limits, with the tool {off:.1g} m from the point."
-    return f"The last point before its no: {words(p)} m. The answer: {words(q)} rad; {why}"
+    return f"The last point before its no: {in_words(p)} m. The answer: {in_words(q)} rad; {why}"
 
 
 def point(p: Any) -> Floats:
