@@ -40,6 +40,7 @@ BROWSERS = (
     "chrome",
     "msedge",
 )
+PATIENCE = 300  # seconds: how long a test waits for what has to come, on a machine of any load
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -59,10 +60,21 @@ def browser():
     if path is None:
         report = pytest.fail if os.environ.get("CI") else pytest.skip
         report(f"{NO_BROWSER}: looked for {', '.join(BROWSERS)}")
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import expect, sync_playwright
 
+    def patient(open_):
+        def opened(**options):
+            made = open_(**options)
+            made.set_default_timeout(1000 * PATIENCE)
+            return made
+
+        return opened
+
+    expect.set_options(timeout=1000 * PATIENCE)
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
+        chromium.new_context = patient(chromium.new_context)
+        chromium.new_page = patient(chromium.new_page)
         yield chromium
         chromium.close()
 
@@ -156,9 +168,9 @@ class JupyterLab:
             stderr=subprocess.STDOUT,
         )
         told = self.home / "runtime" / f"jpserver-{self.process.pid}.json"
-        until(lambda: self._ended() or told.exists(), 120, "JupyterLab did not say its address")
+        until(lambda: self._ended() or told.exists(), "JupyterLab did not say its address")
         self.url = json.loads(told.read_text())["url"].rstrip("/")
-        until(lambda: self.api("status") is not None, 120, "JupyterLab did not answer")
+        until(lambda: self.api("status") is not None, "JupyterLab did not answer")
         return self
 
     def __exit__(self, *_):
@@ -203,7 +215,7 @@ class JupyterLab:
         for session in self.api("sessions") or ():
             self.api(f"sessions/{session['id']}", "DELETE")
         page.goto(f"{self.url}/lab/tree/{name}?reset&token={self.token}")
-        page.locator(".jp-NotebookPanel .jp-MarkdownCell h1").first.wait_for(timeout=60_000)
+        page.locator(".jp-NotebookPanel .jp-MarkdownCell h1").first.wait_for()
 
     def run_all(self, page, name):
         """Run every cell of the open notebook and wait for the last one.
@@ -216,8 +228,8 @@ class JupyterLab:
         count = sum(
             cell["cell_type"] == "code" and bool("".join(cell["source"]).strip()) for cell in cells
         )
-        until(self._kernels_idle, 60, f"{name}: the kernel did not become idle", page)
-        page.get_by_text("| Idle").first.wait_for(timeout=30_000)
+        until(self._kernels_idle, f"{name}: the kernel did not become idle", page)
+        page.get_by_text("| Idle").first.wait_for()
         for menu, item in (("Edit", "Clear Outputs of All Cells"), ("Run", "Run All Cells")):
             page.get_by_role("menuitem", name=menu, exact=True).click()
             page.get_by_role("menuitem", name=item, exact=True).click()
@@ -234,7 +246,7 @@ class JupyterLab:
                 pytest.fail(f"{name}: {complaint.first.inner_text()[-1000:]}")
             return False
 
-        until(ended, 120, f"{name}: Run All did not end", page)
+        until(ended, f"{name}: Run All did not end", page)
 
     def _kernels_idle(self):
         kernels = [session["kernel"] for session in self.api("sessions") or ()]
@@ -243,14 +255,14 @@ class JupyterLab:
         )
 
 
-def until(true, seconds, complaint, page=None):
-    """Wait until `true()`; fail with `complaint` after so many seconds. With a page, its events go
-    on meanwhile.
+def until(true, complaint, page=None):
+    """Wait until `true()`; fail with `complaint` if it does not come. With a page, its events go on
+    meanwhile.
     """
-    end = time.monotonic() + seconds
+    end = time.monotonic() + PATIENCE
     while not true():
         if time.monotonic() > end:
-            pytest.fail(f"{complaint} within {seconds} s")
+            pytest.fail(f"{complaint} within {PATIENCE} s")
         page.wait_for_timeout(100) if page else time.sleep(0.1)
 
 

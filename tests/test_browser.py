@@ -143,7 +143,6 @@ def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
     players = page.locator(PLAYER)
     until(
         lambda: players.count() == _stored_players(lab),
-        30,
         f"{lab}: the players did not appear",
         page,
     )
@@ -165,12 +164,12 @@ def test_opening_a_lab_does_not_mark_it_changed(jupyter, page):
         notebook["metadata"]["language_info"]["version"] = platform.python_version()
         (jupyter.labs / name).write_text(json.dumps(notebook))
         jupyter.open(page, name)
-        page.get_by_text("| Idle").first.wait_for(timeout=60_000)
+        page.get_by_text("| Idle").first.wait_for()
         page.wait_for_timeout(1500)  # the widgets' and the language's word come after it
         assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class"), name
     page.locator(".jp-CodeCell .cm-content").first.click()
     page.keyboard.type("# mine")
-    until(lambda: "jp-mod-dirty" in tab.get_attribute("class"), 10, "a change is not seen", page)
+    until(lambda: "jp-mod-dirty" in tab.get_attribute("class"), "a change is not seen", page)
 
 
 def test_a_change_of_theme_leaves_no_canvas_blank(jupyter, page):
@@ -186,12 +185,9 @@ def test_a_change_of_theme_leaves_no_canvas_blank(jupyter, page):
             label = page.locator(".lm-Menu-itemLabel").get_by_text(item, exact=True)
             label.hover()
         label.click()
-        page.locator(f"body[data-jp-theme-light='{light}']").wait_for(
-            state="attached", timeout=20_000
-        )
+        page.locator(f"body[data-jp-theme-light='{light}']").wait_for(state="attached")
         until(
             lambda light=light: (_seen(player) == before) == (light == "true"),
-            10,
             f"the player does not follow {theme}",
             page,
         )
@@ -233,7 +229,7 @@ def test_a_trusted_notebook_plays_without_running(jupyter, page):
     jupyter.trust(name)
     jupyter.open(page, name)
     player = page.locator(PLAYER).first
-    player.locator("canvas").first.wait_for(timeout=30_000)
+    player.locator("canvas").first.wait_for()
     assert player.locator("img").count() == 0
     for slider in _sliders(player):
         _moves(page, player, slider)
@@ -247,9 +243,9 @@ def test_an_untrusted_notebook_shows_a_still_picture(jupyter, page):
     )
     for alt in stored:
         still = page.get_by_alt_text(html.unescape(alt), exact=True).first
-        still.wait_for(timeout=30_000)
+        still.wait_for()
         still.scroll_into_view_if_needed()
-        until(still.is_visible, 10, "the still picture is not visible", page)
+        until(still.is_visible, "the still picture is not visible", page)
         box = still.bounding_box()
         assert box["width"] > 300 and still.evaluate("image => image.naturalWidth") > 300
     assert stored and page.locator("canvas").count() == 0, "a script of an untrusted notebook ran"
@@ -268,7 +264,7 @@ def test_every_player_of_an_exported_lab_works_without_a_network(page, exported,
     for player in players.all():  # those behind a question, too
         if player.locator(":scope > .rk-ask").count():
             continue
-        player.locator("canvas").first.wait_for(timeout=10_000)
+        player.locator("canvas").first.wait_for()
         asleep = player.locator(".rk-asleep").count()  # without a kernel
         if player.locator(".rk-handle").count() and not asleep:
             _answers(page, player)
@@ -348,7 +344,7 @@ def _settled(page, player):
 
 
 def _sliders(player):
-    player.locator("canvas").first.wait_for(timeout=10_000)
+    player.locator("canvas").first.wait_for()
     sliders = player.locator("input[type=range]:not([inert] *)").all()
     assert sliders, "a player has at least its time"
     return sliders
@@ -402,7 +398,6 @@ def _answers(page, player):
             lambda before=before, words=words: (
                 _seen(player).pixels != before.pixels and player.inner_text() != words
             ),
-            10,
             "an explorer does not answer",
             page,
         )
@@ -413,7 +408,7 @@ def _plays(page, player):
     button = player.get_by_role("button", name=re.compile("play|pause", re.I)).first
     seen = _seen(player)
     button.click()
-    until(lambda: _seen(player).pixels != seen.pixels, 5, "play moves nothing", page)
+    until(lambda: _seen(player).pixels != seen.pixels, "play moves nothing", page)
     button.click()
     page.evaluate(NEXT_FRAME)
     seen = _seen(player)

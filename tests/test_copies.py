@@ -998,13 +998,13 @@ def test_a_copied_lab_is_alive_at_first_opening_and_not_marked_changed(
     jupyter.open(page, "student/00_start_here.ipynb")
     players = page.locator("div.robokin-player")
     player = players.filter(has=page.get_by_label("playing speed")).first
-    player.locator("canvas").first.wait_for(timeout=30_000)
+    player.locator("canvas").first.wait_for()
     button = player.get_by_role("button", name=re.compile("play", re.I)).first
     canvases = "e => [...e.querySelectorAll('canvas')].map(c => c.toDataURL()).join()"
     still = player.evaluate(canvases)
     button.click()
-    until(lambda: player.evaluate(canvases) != still, 10, "the player does not play", page)
-    page.get_by_text("| Idle").first.wait_for(timeout=60_000)
+    until(lambda: player.evaluate(canvases) != still, "the player does not play", page)
+    page.get_by_text("| Idle").first.wait_for()
     page.wait_for_timeout(1500)  # the language's word comes after it
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class")

@@ -302,7 +302,7 @@ def test_an_interrupt_of_the_reader_is_not_an_answer():
     for _ in range(30):  # wherever who asks is in that moment
         with pytest.raises(KeyboardInterrupt):
             check("made.1", interrupted)
-        until(lambda: _thread._count() == before, 10, "a thread is left")
+        until(lambda: _thread._count() == before, "a thread is left")
 
     def raises(height, angle):
         raise KeyboardInterrupt

@@ -9,7 +9,7 @@ import re
 import nbformat
 import numpy as np
 import pytest
-from conftest import NOTEBOOKS
+from conftest import NOTEBOOKS, PATIENCE
 from nbclient import NotebookClient
 
 from robokin import course
@@ -246,7 +246,7 @@ def test_in_a_kernel_an_endless_answer_is_told_and_the_kernel_lives():
             )
         ]
     )
-    NotebookClient(notebook, timeout=60, kernel_name="python3").execute()
+    NotebookClient(notebook, timeout=PATIENCE, kernel_name="python3").execute()
     told, alive, after = (cell["outputs"][0] for cell in notebook.cells[1:])
     assert "does not come to an end, or" in told["data"]["text/plain"]
     assert alive["text"] == "2\n"

@@ -976,7 +976,7 @@ def test_a_finger_on_a_handle_moves_it_and_beside_it_the_page(browser, opened):
         way = np.subtract(after.handles[name]["at"], before.handles[name]["at"])
         assert np.linalg.norm(way) > 8 or kind == "joint"
         swipe(100, 640, 0, -200)
-        shown.page.wait_for_function("scrollY > 50", timeout=5000)
+        shown.page.wait_for_function("scrollY > 50")
         assert shown.look().code == after.code, "scrolling moves something"
     context.close()
 
@@ -1357,7 +1357,7 @@ def test_a_trusted_notebook_is_alive_without_a_kernel_and_in_every_theme(jupyter
     shown = {}
     for i, kind in enumerate(CELLS, 1):
         cells.nth(i).scroll_into_view_if_needed()
-        cells.nth(i).locator(".rk canvas").first.wait_for(timeout=30_000)
+        cells.nth(i).locator(".rk canvas").first.wait_for()
         assert cells.nth(i).locator("img").count() == 0, "the still picture gives way"
         shown[kind] = cells.nth(i).locator(".rk")
     rk = shown["target"]
@@ -1401,7 +1401,6 @@ def test_a_trusted_notebook_is_alive_without_a_kernel_and_in_every_theme(jupyter
             lambda light=light: (
                 page.evaluate("document.body.dataset.jpThemeLight") == str(light).lower()
             ),
-            20,
             "the theme does not change",
             page,
         )
@@ -1418,7 +1417,7 @@ def test_an_untrusted_notebook_shows_stills_and_says_how_to_wake_them(jupyter, p
     for cell in page.locator(".jp-CodeCell").all()[1:]:
         cell.scroll_into_view_if_needed()
         image = cell.locator("img[alt]")
-        image.wait_for(timeout=20_000)
+        image.wait_for()
         assert image.is_visible() and image.evaluate("image => image.naturalWidth") > 300
         assert cell.get_by_text(STILL).is_visible()
     assert page.locator(".rk, canvas").count() == 0 and page.errors == []

@@ -7,7 +7,7 @@ import sys
 from html.parser import HTMLParser
 
 import pytest
-from conftest import NOTEBOOKS, ROOT
+from conftest import NOTEBOOKS, PATIENCE, ROOT
 
 from robokin.course.__main__ import main
 from robokin.course.export import export, mathml, read
@@ -89,7 +89,7 @@ def command(*words, cwd):
         cwd=cwd,
         text=True,
         capture_output=True,
-        timeout=120,
+        timeout=PATIENCE,
     )
 
 

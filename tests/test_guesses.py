@@ -479,14 +479,14 @@ PANEL = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 
 
 def says(question, text):
-    expect(told(question)).to_have_text(text, timeout=30_000)
+    expect(told(question)).to_have_text(text)
 
 
 def current(page, name):
     """Wait until the notebook with this name is the one in front."""
     tab = ".lm-TabBar-tab.lm-mod-current[data-type=document-title]"
-    page.locator(f"{tab}[title*='Path: guessing/{name}']").wait_for(timeout=30_000)
-    page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for(timeout=30_000)
+    page.locator(f"{tab}[title*='Path: guessing/{name}']").wait_for()
+    page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for()
 
 
 def run_all(jupyter, page, count):
@@ -494,11 +494,11 @@ def run_all(jupyter, page, count):
         opened = page.locator(".jp-NotebookPanel").count()
         return len(jupyter.api("sessions") or ()) == opened and jupyter._kernels_idle()
 
-    until(ready, 60, "the kernels did not become idle", page)
-    page.locator(".jp-StatusBar-Widget").get_by_text("| Idle").first.wait_for(timeout=30_000)
+    until(ready, "the kernels did not become idle", page)
+    page.locator(".jp-StatusBar-Widget").get_by_text("| Idle").first.wait_for()
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    expect(page.locator(f"{PANEL} .rk-ask")).to_have_count(count, timeout=60_000)
+    expect(page.locator(f"{PANEL} .rk-ask")).to_have_count(count)
 
 
 def test_guesses_arrive_from_jupyterlab(jupyter, page):
@@ -538,7 +538,7 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     page.keyboard.press("Control+a")
     page.keyboard.type("my twin.ipynb")
     page.keyboard.press("Enter")
-    until((folder / "my twin.ipynb").is_file, 20, "the notebook is not renamed", page)
+    until((folder / "my twin.ipynb").is_file, "the notebook is not renamed", page)
     current(page, "my twin.ipynb")
     answer(asks.nth(1), "b")
     says(asks.nth(1), KEPT)
@@ -548,7 +548,7 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     page.get_by_role("menuitem", name="Kernel", exact=True).click()
     page.get_by_role("menuitem", name="Restart Kernel").first.click()
     page.locator(".jp-Dialog .jp-mod-accept").click()
-    until(lambda: page.evaluate("robokinHubs.size") == 2, 20, "the old kernel's hub stays", page)
+    until(lambda: page.evaluate("robokinHubs.size") == 2, "the old kernel's hub stays", page)
     answer(asks.nth(1), "c")
     says(asks.nth(1), RUN)
     assert P2 not in chosen(lab)
@@ -557,7 +557,7 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
         says(question, f"You guessed here before. {KEPT}{more}")
     page.keyboard.press("Control+s")
     saved = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
-    until(lambda: "jp-mod-dirty" not in saved.get_attribute("class"), 20, "not saved", page)
+    until(lambda: "jp-mod-dirty" not in saved.get_attribute("class"), "not saved", page)
 
     jupyter.open(page, "guessing/lab.ipynb")
     says(asks.nth(0), f"You guessed here before. {RUN}")

@@ -14,7 +14,7 @@ from types import SimpleNamespace
 import nbformat
 import psutil
 import pytest
-from conftest import NOTEBOOKS, ROOT, until
+from conftest import NOTEBOOKS, PATIENCE, ROOT, until
 from jupyter_client.manager import KernelManager
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
@@ -224,7 +224,7 @@ class Kernel:
         self.manager.start_kernel(cwd=str(lab.parent), env=environment)
         self.client = self.manager.client()
         self.client.start_channels()
-        self.client.wait_for_ready(timeout=60)
+        self.client.wait_for_ready(timeout=PATIENCE)
 
     def __enter__(self):
         return self
@@ -238,7 +238,7 @@ class Kernel:
         asked, said = self.client.execute(source), ""
         while True:
             try:
-                message = self.client.get_iopub_msg(timeout=120)
+                message = self.client.get_iopub_msg(timeout=PATIENCE)
             except Empty:
                 pytest.fail(f"the kernel is silent after: {said}")
             content, kind = message["content"], message["msg_type"]
@@ -279,11 +279,11 @@ def test_a_session(tmp_path):
 
         def interrupt(text):
             if "Running" in text and not stopped:
-                until(lambda: len(kernel.others()) > 1, 60, "no kernel judges")
+                until(lambda: len(kernel.others()) > 1, "no kernel judges")
                 stopped.append(kernel.manager.interrupt_kernel())
 
         assert "Stopped: no report was written." in kernel.run(REPORT, interrupt)
-        until(lambda: not kernel.others(), 20, "something still judges")
+        until(lambda: not kernel.others(), "something still judges")
         assert page.read_bytes() == before and kernel.run("print(6 * 7)") == "42\n"
 
 
@@ -307,7 +307,7 @@ def test_the_commands_of_lab_00_work_where_it_says(tmp_path):
         env=environment,
         text=True,
         capture_output=True,
-        timeout=120,
+        timeout=PATIENCE,
     )
     assert run.returncode == 0, run.stderr
     data = report_data((labs / "00_start_here_Your_Name.html").read_text(encoding="utf-8"))
@@ -345,16 +345,16 @@ def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
     assert not list(lab.parent.glob("*.html"))
     page.keyboard.press("Control+s")
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
-    until(lambda: "jp-mod-dirty" not in tab.get_attribute("class"), 30, "it is not saved", page)
+    until(lambda: "jp-mod-dirty" not in tab.get_attribute("class"), "it is not saved", page)
     last.locator(".cm-content").click()
     page.keyboard.press("Shift+Enter")
     link = last.get_by_role("link", name="00_start_here_Zoë.html")
-    link.wait_for(timeout=120_000)
+    link.wait_for()
     assert "start_here.1: holds" in last.inner_text()
     assert "0 of 1 predictions made. Is a guess missing?" in last.inner_text()
     made = lab.parent / "00_start_here_Zoë.html"
     data = report_data(made.read_text(encoding="utf-8"))
     assert data["who"] == "Zoë" and data["exercises"][0]["state"] == "holds"
     link.click()  # JupyterLab opens the page beside the notebook
-    page.locator(".lm-TabBar-tab", has_text=made.name).first.wait_for(timeout=30_000)
+    page.locator(".lm-TabBar-tab", has_text=made.name).first.wait_for()
     page.close()

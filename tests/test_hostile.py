@@ -17,7 +17,7 @@ from types import SimpleNamespace
 
 import nbformat
 import pytest
-from conftest import NOTEBOOKS
+from conftest import NOTEBOOKS, until
 from nbformat.v4 import (
     new_code_cell,
     new_markdown_cell,
@@ -691,9 +691,8 @@ def alive(page, calls):
     awake = page.evaluate(AWAKE)
     assert len(awake) == len(calls) and all(awake)
     assert guess_all(page) == calls.count("prediction.ask")
-    page.wait_for_timeout(50)
+    until(lambda: all(page.evaluate(AWAKE)), "a view behind a prediction is dead", page)
     after = page.evaluate(AWAKE)
-    assert all(after), "a view behind a prediction is dead"
     return len(after) - len(awake)
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import PATIENCE
 
 DATA = Path(__file__).parent / "data"
 TASKS = Path(__file__).parents[1] / "notebooks" / "tasks"
@@ -179,7 +180,9 @@ def test_a_full_disk_is_said(tmp_path):
 def test_a_reader_that_leaves(tmp_path):
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(50)})
     line = f'"{sys.executable}" -m robokin.jobs tasks | head -1'
-    run = subprocess.run(line, shell=True, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    run = subprocess.run(
+        line, shell=True, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE
+    )
     assert run.stdout.startswith("INFO: Task t000.json") and "Traceback" not in run.stderr
     assert "Exception" not in run.stderr
     assert "50 files: 50 answered" in (tmp_path / "output.log").read_text()
@@ -197,7 +200,7 @@ def test_streams_that_are_closed(tmp_path):
             f'"{sys.executable}" -m robokin.jobs tasks {closed}',
             shell=True,
             cwd=tmp_path,
-            timeout=60,
+            timeout=PATIENCE,
             capture_output=True,
             text=True,
         )
@@ -218,7 +221,7 @@ def test_two_runs_in_one_folder(tmp_path):
     ) as first:
         first.stdout.readline()  # it is at work, and then waits for a reader of its output
         second = command("others", cwd=tmp_path)
-        out, err = first.communicate(timeout=60)
+        out, err = first.communicate(timeout=PATIENCE)
     assert second.returncode == 1 and "a.json: collected 1 of 2" in second.out
     assert second.err == "output.log cannot be written: another run is writing it\n"
     assert first.returncode == 0 and b"cannot" not in err
@@ -249,7 +252,7 @@ def test_things_that_are_no_files(tmp_path):
     (tasks / "gone.json").symlink_to("nowhere")
     (tasks / "loop.json").symlink_to("loop.json")
     (tasks / "null.json").symlink_to("/dev/zero")
-    run = command("tasks", cwd=tmp_path, timeout=60)
+    run = command("tasks", cwd=tmp_path, timeout=PATIENCE)
     assert run.returncode == 1 and "6 files: 1 answered, 5 skipped" in run.out
     for name, why in (
         ("folder", "is not a file but a folder"),
@@ -339,7 +342,7 @@ def test_large_files_are_told_and_answered_on_a_page(tmp_path):
         good=example(2, pi=points, T=1e9),
         greedy=example(3, pi=points[:10_001]),
     )
-    run = command(str(tasks), cwd=tmp_path, timeout=60)
+    run = command(str(tasks), cwd=tmp_path, timeout=PATIENCE)
     assert run.returncode == 1 and "3 files: 1 answered, 2 skipped" in run.out
     assert "good.json: collected 200000 of 200000 points" in run.out
     assert "\n\tand 199000 more points\n" in run.out

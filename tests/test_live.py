@@ -222,7 +222,7 @@ def test_it_is_awake_after_run_all_and_the_last_place_of_the_hand_is_the_one_sho
     quiet.get_by_role("menuitem", name="Restart Kernel").first.click()
     quiet.locator(".jp-Dialog .jp-mod-accept").click()
     asleep(quiet)
-    quiet.get_by_text("| Idle").first.wait_for(timeout=30_000)
+    quiet.get_by_text("| Idle").first.wait_for()
     quiet.locator(".jp-CodeCell").first.click(position={"x": 300, "y": 10})
     quiet.keyboard.press("Control+Enter")
     awake(quiet)
@@ -234,10 +234,10 @@ def test_it_is_awake_after_run_all_and_the_last_place_of_the_hand_is_the_one_sho
     quiet.locator(".jp-CodeCell .cm-content").first.click()
     quiet.keyboard.press("Control+s")
     tab = quiet.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
-    until(lambda: "jp-mod-dirty" not in tab.get_attribute("class"), 10, "not saved", quiet)
+    until(lambda: "jp-mod-dirty" not in tab.get_attribute("class"), "not saved", quiet)
     jupyter.open(quiet, NAME)
-    quiet.locator(".rk canvas").first.wait_for(timeout=30_000)
-    quiet.get_by_text("| Idle").first.wait_for(timeout=30_000)
+    quiet.locator(".rk canvas").first.wait_for()
+    quiet.get_by_text("| Idle").first.wait_for()
     asleep(quiet)
     assert quiet.locator(".rk-verdict").inner_text() != seen, "the run's picture, not the last one"
     assert quiet.get_by_text("Error displaying widget").count() == 0
@@ -269,13 +269,13 @@ def middle(tab, name):
 
 
 def awake(tab):
-    tab.locator(".robokin-player[data-awake]").wait_for(timeout=30_000)
+    tab.locator(".robokin-player[data-awake]").wait_for()
     assert tab.locator(".rk-asleep").is_hidden()
     assert tab.locator(".rk-handles[inert], .rk-side[inert]").count() == 0
 
 
 def asleep(tab):
-    tab.get_by_text(ASLEEP).wait_for(timeout=30_000)
+    tab.get_by_text(ASLEEP).wait_for()
     assert tab.locator(".robokin-player[data-awake]").count() == 0
     assert tab.locator(".rk-handles[inert]").count() == tab.locator(".rk-side[inert]").count() == 1
     pictures = tab.locator(".rk canvas").evaluate_all("all => all.map(c => c.toDataURL().length)")
@@ -293,7 +293,7 @@ def shows_what_python_says(tab):
         same, seen[0] = now == seen[0] and now[0] == now[1], now
         return same
 
-    until(rests, 15, "the answers do not come to rest", tab)
+    until(rests, "the answers do not come to rest", tab)
     tab.get_by_role("button", name="Copy as Python").click()
     space = {"arm": ARM}
     lines = tab.evaluate("window.copied").replace("\nplan(", "\nknown = plan(")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import test_explorers
 from axe_playwright_python.sync_playwright import Axe
+from conftest import until
 
 from robokin.jobs.steppers import Stepper, phases, ramp
 from robokin.show import motor_explorer
@@ -171,10 +172,10 @@ def test_a_hand_turns_the_rotor_and_the_pulses_go_on(opened):
     shown.page.keyboard.up("ArrowLeft")
     run = shown.rk.get_by_role("button", name="Run 48 pulses")
     run.click()
-    shown.page.wait_for_timeout(700)
+    sent = lambda: int(re.search(r"\d+", state.inner_text())[0])  # noqa: E731
+    until(lambda: sent() > 0, "no pulse is sent", shown.page)
     after = shown.look()
     assert after.pixels[0] != before.pixels[0] and "44" in after.says
-    assert int(re.search(r"\d+", state.inner_text())[0]) > 0
     shown.rk.get_by_role("button", name="Stop").click()
     shown.type("load torque", 30)  # more than 20 mN m
     shown.look()

@@ -17,7 +17,7 @@ import unicodedata
 import lab_sizes
 import nbformat
 import pytest
-from conftest import NOTEBOOKS, ROOT
+from conftest import NOTEBOOKS, PATIENCE, ROOT
 from PIL import Image
 
 # Not recursively: JupyterLab keeps checkpoints in a folder below.
@@ -311,7 +311,7 @@ def _execute(*paths):
         [sys.executable, ROOT / "tests" / "execute_notebooks.py", *paths],
         text=True,
         capture_output=True,
-        timeout=120,
+        timeout=PATIENCE,
     )
 
 

@@ -266,7 +266,7 @@ def test_in_jupyterlab_a_question_is_alive_and_keys_are_its_own(jupyter, page):
     cell = page.locator(".jp-CodeCell").filter(has_text='predict("irb140_motion.p1")')
     cell.scroll_into_view_if_needed()
     question = cell.locator(".rk-ask")
-    question.wait_for(timeout=30_000)
+    question.wait_for()
     beside = [cell.evaluate(NEIGHBOURS)]
     first = question.locator("input[type=radio]").first
     first.focus()
@@ -288,7 +288,7 @@ def test_in_jupyterlab_an_untrusted_question_says_how_to_answer(jupyter, page):
     jupyter.open(page, name)
     cell = page.locator(".jp-CodeCell").filter(has_text='predict("irb140_motion.p1")')
     cell.scroll_into_view_if_needed()
-    cell.get_by_text(ASLEEP).wait_for(timeout=30_000)
+    cell.get_by_text(ASLEEP).wait_for()
     text = cell.inner_text()
     assert "a) None of them." in text and "bent line" not in text
     assert cell.locator(".rk-ask").count() == 0 and page.errors == []

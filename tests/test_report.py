@@ -10,7 +10,7 @@ from html import unescape
 from types import SimpleNamespace
 
 import pytest
-from conftest import NOTEBOOKS
+from conftest import NOTEBOOKS, until
 from handed import cell, report_of, stored
 from nbformat.v4 import new_markdown_cell, new_notebook
 
@@ -130,8 +130,7 @@ def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
     arm = player.locator("canvas").first
     before = arm.screenshot()
     player.get_by_role("slider").first.fill("1.0")
-    page.wait_for_timeout(200)
-    assert arm.screenshot() != before, "the arm does not move"
+    until(lambda: arm.screenshot() != before, "the arm does not move", page)
     asking = page.locator("div.robokin-player", has_text="d) ").last
     assert asking.get_by_role("radio").count() >= 3, "what was not predicted can be"
     page.set_viewport_size({"width": 390, "height": 800})

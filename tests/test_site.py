@@ -303,7 +303,7 @@ def test_the_theme_reaches_the_arms(page, address):
 def test_search_finds(page, address):
     page.goto(f"{address}search.html?q=singularity")
     results = page.locator("#search-results li")
-    until(lambda: results.count() > 3, 10, "nothing is found", page)
+    until(lambda: results.count() > 3, "nothing is found", page)
     assert page.locator("#search-results a[href*='06_spherical_wrist']").count()
     page.goto(f"{address}search.html?q=nonsensical")
     page.locator("#search-results").get_by_text("did not match any documents").wait_for()

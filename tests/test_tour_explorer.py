@@ -237,7 +237,7 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     jupyter.open(page, "tours.ipynb")
     jupyter.run_all(page, "tours.ipynb")
     root = page.locator(".robokin-player[data-awake]")
-    root.wait_for(timeout=10_000)
+    root.wait_for()
     # from here on this very one: a view that JupyterLab makes anew has its first numbers again
     root.evaluate("root => root.setAttribute('data-held', '')")
     root = page.locator(".robokin-player[data-awake][data-held]")
