@@ -1,6 +1,4 @@
-"""Statements of labs 10 to 12 that fresh readers refuted in the second round, computed again in
-another way.
-"""
+"""Statements of labs 03 and 10 to 12 that fresh readers refuted, computed again in another way."""
 
 import re
 from itertools import pairwise
@@ -29,6 +27,26 @@ from robokin.jobs.steppers import Stepper, ramp, shortest_turn, station_postures
 LAB_10 = book.lab("obstacle_avoidance")
 sampled_tasks = LAB_10.module("predictions")["sampled_tasks"]
 LOADER, PER_DEGREE, LIMIT = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40]), 500
+
+
+# --- 03 -------------------------------------------------------------------------------------------
+
+
+def test_what_right_programs_promise_of_speeds():
+    """Sums of two swings, whose speeds, accelerations and their derivatives stay below 10."""
+    rng = np.random.default_rng(3)
+    exercise = book.find("irb140_motion.3", "exercises")
+    for count in [3, 3, 4, 5, 9, 40, 300]:
+        for shortest in (0.001, 0.0099):
+            t = rng.uniform(-9, 9) + rng.uniform(shortest, 0.01, count).cumsum()
+            rate, phase = rng.uniform(0.1, 2, (2, 6)), rng.uniform(0, 2 * np.pi, (2, 6))
+            swing = 4.9 / np.maximum(rate, rate**3)
+            q = sum(swing[k] * np.sin(rate[k] * t[:, None] + phase[k]) for k in (0, 1))
+            v = sum(swing[k] * rate[k] * np.cos(rate[k] * t[:, None] + phase[k]) for k in (0, 1))
+            for name, text in exercise.rights:
+                found = exercise.program(text)((q + np.pi) % (2 * np.pi) - np.pi, t)
+                error = abs(found - v)
+                assert (error < 0.1).all() and (error[1:-1] < 0.001).all(), name
 
 
 # --- 10 -------------------------------------------------------------------------------------------

@@ -19,7 +19,8 @@ UNITS = {
     **{f"{end}_{letter}": ("mm", mm) for end in ("start", "goal") for letter in "xyz"},
     "fastest": ("°/s", deg),
 }
-SHARES = quintic(1.0)(np.linspace(0, 1, 161))
+SAMPLES = 161  # to find a line; its speeds and limits are looked at in FINE
+FINE = 641
 LONGEST = 1.05  # times the least duration
 
 
@@ -35,11 +36,12 @@ class Judged:
     greatest joint speed in 1 s, and whether it is usable at the ends.
     """
 
-    def __init__(self, *items: tuple[str, float]) -> None:
-        self.q = tracks(PUMA560.ik(lin(*ends(dict(items)), SHARES)))
+    def __init__(self, samples: int, *items: tuple[str, float]) -> None:
+        shares = np.linspace(0, 1, samples)
+        self.q = tracks(PUMA560.ik(lin(*ends(dict(items)), quintic(1.0)(shares))))
         self.past = excess(self.q).max(axis=(1, 2))
         self.serves = serves(self.q)
-        speeds = differentiate(self.q, np.linspace(0, 1, len(SHARES)))
+        speeds = differentiate(self.q, shares)
         self.speed = abs(speeds).max(axis=(1, 2))
         self.at_start, self.at_goal = usable(self.q[:, 0]), usable(self.q[:, -1])
         self.near = near(self.q).min(axis=-1)
@@ -72,9 +74,9 @@ class Judged:
 judged_once = cache(Judged)
 
 
-def judged_line(numbers: Mapping[str, float]) -> Judged:
+def judged_line(numbers: Mapping[str, float], samples: int = FINE) -> Judged:
     """What is to be known of the line of these numbers."""
-    return judged_once(*((name, float(value)) for name, value in sorted(numbers.items())))
+    return judged_once(samples, *((name, float(value)) for name, value in sorted(numbers.items())))
 
 
 def given(who: Any) -> Numbers:
@@ -92,8 +94,10 @@ def given(who: Any) -> Numbers:
             "goal_z": roll.randrange(400, 1201, 10) * mm,
             "fastest": roll.randrange(30, 91, 5) * deg,
         }
-        reached = np.isfinite(PUMA560.ik(lin(*ends(numbers), SHARES[::8]))).all()
-        if reached and judged_line(numbers).fair():
+        reached = np.isfinite(
+            PUMA560.ik(lin(*ends(numbers), quintic(1.0)(np.linspace(0, 1, 21))))
+        ).all()
+        if reached and judged_line(numbers, SAMPLES).fair():
             return Numbers(numbers, UNITS)
 
 
@@ -138,9 +142,10 @@ def row_fault(line: Judged, row: int) -> tuple[str, str]:
     over = excess(line.q[row])
     sample, joint = (int(k) for k in np.argwhere(over > 1e-9)[0])
     most = over.max(axis=0)
+    since = 100 * sample / (len(over) - 1)
     says = (
-        f"On row {row} joint {joint + 1} is past its limit from {100 * sample / 160:.0f} % of the "
-        f"time on, by up to {most[joint] / deg:.0f}°."
+        f"On row {row} joint {joint + 1} is past its limit from {since:.0f} % of the time on, by "
+        f"up to {most[joint] / deg:.0f}°."
     )
     if line.at_start[row] and line.at_goal[row]:
         says += " At both ends the posture is usable: look at the angles that were followed."

@@ -142,7 +142,8 @@ def joint_3(q: Floats) -> Fault | None:
         f"Joint 3 runs from {low / deg:.1f}° to {high / deg:.1f}°; its limits are "
         f"±{HIGH[2] / deg:.0f}°, and it passes them by {apart(over / deg, 0)[0]}°."
     ).translate(MINUS)
-    if all(past(q + [0, 0, 2 * np.pi * k, 0])[2] > SLACK for k in (-2, -1, 1, 2)):
-        return "past a limit: joint 3", says
-    says += " A whole turn more or less at the start is the same pose, and fits."
-    return "joint 3 begins a whole turn off", says
+    for turns, name in ((1, "A whole turn"), (2, "Two whole turns")):
+        if any(past(q + [0, 0, 2 * np.pi * k, 0])[2] <= SLACK for k in (-turns, turns)):
+            says += f" {name} more or less at the start {'is' if turns == 1 else 'are'} the same "
+            return f"joint 3 begins {name.lower()} off", f"{says}pose, and fit{'s' * (turns == 1)}."
+    return "past a limit: joint 3", says

@@ -108,7 +108,7 @@ def p7_view() -> str:
 
 def p8_view() -> Any:
     fig = figure(
-        "Joint 3 along the circle for both elbows: two parallel curves; that of elbow −1 begins "
+        "Joint 3 along the circle for both elbows: that of elbow −1 begins "
         "higher and ends beyond 400°.",
         height=3.4,
     )

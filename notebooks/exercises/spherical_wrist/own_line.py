@@ -113,8 +113,9 @@ def too_near(given: Given, up: float, side: float, tilt: float, least: float) ->
     if keeps(given, up / deg, side / deg):
         return "deg twice", f"{line} Divided by deg once more, both tilts would do."
     if tilt > 0.5 * given["most_tilt"] and across_it < 0.5 * tilt:
-        line += " A tilt along the line lets the forearm pass the tool's direction a little "
-        return "tilted along the line", f"{line}earlier or later, and as near as before."
+        line += " The part along the line lets the forearm pass the tool's direction a little "
+        line += "earlier or later; only the part square to the line takes it off that direction."
+        return "tilted along the line", line
     if max(abs(up), abs(side)) < 1e-3:
         return "not tilted", line
     other = passage(given, -up, -side)[0]

@@ -114,10 +114,15 @@ def p6() -> dict[str, Any]:
     q, S = ARM.least(places, before)
     reached = np.isfinite(S)
     still = (abs(q - before)[reached] < 1e-6).sum(axis=-1)
-    rows = ARM.family(places[:, None], np.linspace(*ARM.alpha_range(places), 301, axis=-1))
-    squares = ((rows - before[:, None]) ** 2).sum(axis=-1)
-    best = np.where(np.isnan(squares), np.inf, squares).argmin(axis=-1)
-    change = abs(rows[np.arange(len(best)), best] - before)[reached]
+    low, high = least, most = ARM.alpha_range(places)
+    for _ in range(3):  # finer and finer
+        alphas = np.linspace(low, high, 301, axis=-1)
+        rows = ARM.family(places[:, None], alphas)
+        squares = ((rows - before[:, None]) ** 2).sum(axis=-1)
+        best = np.where(np.isnan(squares), np.inf, squares).argmin(axis=-1)[:, None]
+        middle, step = np.take_along_axis(alphas, best, 1)[:, 0], (high - low) / 300
+        low, high = np.maximum(middle - step, least), np.minimum(middle + step, most)
+    change = abs(np.take_along_axis(rows, best[..., None], 1)[:, 0] - before)[reached]
     shares = [float((still == k).mean()) for k in range(4)]
     facts: dict[str, Any] = {
         "count": int(reached.sum()),
@@ -125,7 +130,7 @@ def p6() -> dict[str, Any]:
         "none": 100 * shares[0],
     }
     facts |= {"two": int((still == 2).sum())}
-    facts |= {"squares": 100 * float((change > 0.05 * deg).all(axis=-1).mean())}
+    facts |= {"squares": 100 * float((change > 0.001 * deg).all(axis=-1).mean())}
     return facts | {"right": ("all three", "two", "one", "none")[int(np.argmax(shares))]}
 
 
