@@ -14,7 +14,6 @@ import pytest
 from machines import oracle
 
 from robokin import SCARA, deg, loader_arm, three_lever, within
-from robokin.jobs import obstacles
 from robokin.jobs.obstacles import (
     CIRCLES,
     LEVERS,
@@ -23,6 +22,7 @@ from robokin.jobs.obstacles import (
     Plan,
     along,
     clearance,
+    collision,
     distances,
     in_quadrilateral,
     keeps,
@@ -329,7 +329,7 @@ def test_long_paths_are_measured_in_portions(monkeypatch):
     rng = np.random.default_rng(13)
     path, H = rng.uniform(0, np.pi, (60, 3)), (0.9, 1.1)
     together, kept = clearance(ARM, path, H), keeps(ARM, path[:-1], path[1:], H, 0.1)
-    monkeypatch.setattr(obstacles, "PORTION", 7)
+    monkeypatch.setattr(collision, "PORTION", 7)
     np.testing.assert_allclose(clearance(ARM, path, H), together, rtol=0, atol=1.1e-6)
     np.testing.assert_array_equal(keeps(ARM, path[:-1], path[1:], H, 0.1), kept)
 
@@ -346,7 +346,7 @@ def test_work_without_end_is_refused(monkeypatch):
         ValueError, match=r"got 1 of 3e\+06 rad in all, which take 10\d{5} and more"
     ):
         clearance(ARM, [q, q + 1e6], (1.2, 1.3))
-    monkeypatch.setattr(obstacles, "WORK", 8)
+    monkeypatch.setattr(collision, "WORK", 8)
     assert keeps(ARM, many[:8], q, (2.9, 2.9), 0.5).all()
     for call in (
         lambda: keeps(ARM, many[:9], q, (2.9, 2.9), 0.5),

@@ -68,7 +68,11 @@ TESTS = {
     "robokin/motion/recording.py": ["recording", "plots"],
     "robokin/jobs/__main__.py": ["jobs_command"],
     "robokin/jobs/visit_collect.py": ["visit_collect", "jobs_command"],
-    "robokin/jobs/obstacles.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/arguments.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/collision.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/planner.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/posture_grid.py": ["obstacles", "moving", "live -k cube"],
+    "robokin/jobs/obstacles/ways.py": ["live -k other_ways"],
     "robokin/jobs/moving.py": ["moving"],
     "robokin/jobs/steppers.py": ["steppers", "loader"],
 }
