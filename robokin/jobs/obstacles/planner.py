@@ -31,12 +31,8 @@ def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floa
     not square to the line, and on either side (errata S3-m). ValueError: H in K or K1, where there
     is no line.
     """
-    K, K1, H, radius = (
-        read_point(K, "K"),
-        read_point(K1, "K1"),
-        read_point(H, "H"),
-        length(radius, "radius"),
-    )
+    K, K1, H = read_point(K, "K"), read_point(K1, "K1"), read_point(H, "H")
+    radius = length(radius, "radius")
     points: Floats = H + radius * _square(K, K1, H)
     return points
 
