@@ -1,7 +1,8 @@
 """robokin: the kinematics of robot arms, to read, run and drag.
 
 Metres and radians inside; `352 * mm` and `90 * deg` on the way in. Figures and players come from
-`robokin.show`.
+`robokin.show`. Arms have no masses and no forces; `robokin.jobs.steppers` integrates the torque on
+a motor's rotor.
 """
 
 from .arms import (

@@ -1,5 +1,5 @@
 """The examples in docstrings are true: each runs with NumPy as `np`, the public names of `robokin`
-and those of its own module, as in a notebook that began with them.
+and those of its own module or job, as in a notebook that began with them.
 """
 
 import doctest
@@ -45,6 +45,8 @@ def examples(name):
     """The examples in the docstring of a public name, and of its methods."""
     value = PUBLIC[name]
     module = value if inspect.ismodule(value) else inspect.getmodule(value)
+    if module.__package__ in JOBS:  # of a job that is a package, what one imports from it
+        module = PUBLIC[module.__package__]
     names = {key: item for key, item in vars(module).items() if key[0] != "_"} | NAMES
     finder = doctest.DocTestFinder(recurse=not inspect.ismodule(value), exclude_empty=True)
     return [test for test in finder.find(value, name, globs=names) if test.examples]

@@ -247,7 +247,18 @@ def test_ruff_finds_nothing(command):
     assert run.returncode == 0, run.stdout
 
 
-@pytest.mark.parametrize("package", ["robokin", "robokin.arms", "robokin.motion", "robokin.show"])
+PACKAGES = [
+    "robokin",
+    "robokin.arms",
+    "robokin.motion",
+    "robokin.show",
+    "robokin.jobs.obstacles",
+    "robokin.jobs.steppers",
+    "robokin.jobs.visit_collect",
+]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
 def test_public_names_are_listed_and_explained(package):
     module = importlib.import_module(package)
     assert len(module.__doc__) > 30 and len(set(module.__all__)) == len(module.__all__)

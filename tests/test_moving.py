@@ -13,7 +13,8 @@ from test_obstacles import ARM, KEPT, Q0, tasks
 
 from robokin import within
 from robokin.jobs.moving import TICKS, plan_moving
-from robokin.jobs.obstacles import STEP, _clearances, _keeps, clearance, locate, plan
+from robokin.jobs.obstacles import STEP, clearance, locate, plan
+from robokin.jobs.obstacles.collision import motion_clearances, motions_keep
 
 TASKS = int(os.environ.get("ROBOKIN_TASKS", 40))
 
@@ -42,13 +43,13 @@ def test_the_bound_beside_what_moves_is_a_bound_and_a_tight_one():
         b = a + turn * rng.uniform(-1, 1, (60, 3))
         H, v = rng.uniform(-3, 3, (2, 60, 2))
         places = np.stack([H, H + v])[:, None]  # one obstacle; each motion takes one second
-        bound = _clearances(ARM, a, b, places)
+        bound = motion_clearances(ARM, a, b, places)
         for k in range(60):
             sampled = least_on_the_way([a[k], b[k]], [0.0, 1.0], H[k], v[k], 20_001)[0]
             fast = (3 * abs(b[k] - a[k]).sum() + np.hypot(*v[k])) / 20_000
             assert -1e-12 <= sampled - bound[k].min() <= fast + 2.1e-6
             for distance in (bound[k].min() - 1e-5, bound[k].min() + fast + 1e-5):
-                kept = _keeps(
+                kept = motions_keep(
                     ARM, a[k, None], b[k, None], places[:, :, k, None], max(distance, 1e-4)
                 )
                 assert kept[0] == (distance < bound[k].min() and bound[k].min() > 1e-4)

@@ -14,7 +14,6 @@ import pytest
 from machines import oracle
 
 from robokin import SCARA, deg, loader_arm, three_lever, within
-from robokin.jobs import obstacles
 from robokin.jobs.obstacles import (
     CIRCLES,
     LEVERS,
@@ -23,6 +22,7 @@ from robokin.jobs.obstacles import (
     Plan,
     along,
     clearance,
+    collision,
     distances,
     in_quadrilateral,
     keeps,
@@ -32,6 +32,7 @@ from robokin.jobs.obstacles import (
     via_points,
     way_round,
 )
+from robokin.jobs.obstacles.ways import nearest_approach, unchecked_path
 
 CASES = oracle("planar_obstacle")["cases"]
 TASKS = int(os.environ.get("ROBOKIN_TASKS", 60))
@@ -329,7 +330,7 @@ def test_long_paths_are_measured_in_portions(monkeypatch):
     rng = np.random.default_rng(13)
     path, H = rng.uniform(0, np.pi, (60, 3)), (0.9, 1.1)
     together, kept = clearance(ARM, path, H), keeps(ARM, path[:-1], path[1:], H, 0.1)
-    monkeypatch.setattr(obstacles, "PORTION", 7)
+    monkeypatch.setattr(collision, "PORTION", 7)
     np.testing.assert_allclose(clearance(ARM, path, H), together, rtol=0, atol=1.1e-6)
     np.testing.assert_array_equal(keeps(ARM, path[:-1], path[1:], H, 0.1), kept)
 
@@ -346,7 +347,7 @@ def test_work_without_end_is_refused(monkeypatch):
         ValueError, match=r"got 1 of 3e\+06 rad in all, which take 10\d{5} and more"
     ):
         clearance(ARM, [q, q + 1e6], (1.2, 1.3))
-    monkeypatch.setattr(obstacles, "WORK", 8)
+    monkeypatch.setattr(collision, "WORK", 8)
     assert keeps(ARM, many[:8], q, (2.9, 2.9), 0.5).all()
     for call in (
         lambda: keeps(ARM, many[:9], q, (2.9, 2.9), 0.5),
@@ -934,3 +935,25 @@ def test_a_plan_of_parts_that_do_not_belong_together_is_refused(wrong):
         ValueError, match=f"^({'|'.join([*wrong, 'path', 'clearance', 'radius'])}): wanted"
     ):
         a_plan(**wrong)
+
+
+def test_a_way_that_nobody_has_checked_shows_where_the_levers_come_nearest():
+    rng, through = np.random.default_rng(31), 0
+    for _ in range(40):
+        q0, target, H = rng.uniform(0, np.pi, 3), rng.uniform(-1, 2.5, 2), rng.uniform(-1, 2, 2)
+        for way in ("direct", "via points"):
+            path = unchecked_path(ARM, way, q0, target, H, 0.1)
+            np.testing.assert_array_equal(path[0], q0)
+            if len(path) > 1:
+                np.testing.assert_allclose(ARM.points(path[-1])[3], target, atol=1e-9)
+            else:
+                assert way == "via points" or ARM.out_of_reach(target)
+            near = clearance(ARM, path, H) if len(path) > 1 else np.empty((0, 3))
+            lever, least, place = nearest_approach(ARM, path, near, H)
+            each = near.min(axis=0) if len(path) > 1 else distances(ARM, q0, H)
+            assert least == each[lever] == each.min()
+            # a point of the arm moves by no more than its reach times the turn between two samples
+            moved = 3 * abs(np.diff(path, axis=0)).sum() / 120
+            assert -1e-9 <= np.hypot(*(place - H)) - least <= moved + 2e-6
+            through += len(path) > 1
+    assert through > 20

@@ -17,7 +17,6 @@ from conftest import ROOT
 from machines import oracle
 
 from robokin import spbu_arm
-from robokin.jobs import visit_collect
 from robokin.jobs.visit_collect import (
     ABOVE_LIMIT,
     EXACT_LIMIT,
@@ -42,6 +41,7 @@ from robokin.jobs.visit_collect import (
     visit,
     workspace,
 )
+from robokin.jobs.visit_collect import task as task_module
 
 TASKS = ROOT / "notebooks" / "tasks"
 EXAMPLES = oracle("examples")["spbu"]
@@ -1028,7 +1028,7 @@ def test_an_inverse_that_is_off_is_found_out(k, monkeypatch):
             q[rows] += by
             return q
 
-        monkeypatch.setattr(visit_collect, "principal_postures", wrong)
+        monkeypatch.setattr(task_module, "principal_postures", wrong)
         return faults(given)
 
     assert off([0.5e-6, 0, 0], 3) == []  # 0.5e-6 of the reach

@@ -509,8 +509,8 @@ CALLS = {
     "redundancy.equal_angles": (redundancy.equal_angles, TASK_OF_LEVERS),
     "redundancy.random_choice": (redundancy.random_choice, dict(seed=1)),
     "redundancy.distance_rule": (redundancy.distance_rule, dict(obstacle=OBSTACLE)),
-    "redundancy.Run": (
-        redundancy.Run,
+    "redundancy.RaceResult": (
+        redundancy.RaceResult,
         dict(postures=PATH, turns=S, failed=np.zeros(3, dtype=bool), seconds=0.1),
     ),
     "steppers.out_of_reach": (steppers.out_of_reach, dict(arm=LOADER, point=STATIONS[0])),
@@ -546,7 +546,7 @@ CALLS = {
         STEPPER.start_frequency,
         dict(load=0.001, load_inertia=1e-7, pulses=8),
     ),
-    "steppers.Run": (steppers.Run, _fields(STEPPER.run([0.01], [1]))),
+    "steppers.RotorMotion": (steppers.RotorMotion, _fields(STEPPER.run([0.01], [1]))),
     "steppers.ramp": (steppers.ramp, dict(pulses=9, start=20.0, end=90.0, seconds=0.1)),
     "steppers.energised": (
         steppers.energised,
@@ -561,10 +561,10 @@ LENIENT = (
     "Extreme",
     "Maximum",
     "obstacles.Plan",
-    "redundancy.Run",
+    "redundancy.RaceResult",
     "visit_collect.faults",
     "conveyor.Trips",
-    "steppers.Run",
+    "steppers.RotorMotion",
 )
 
 # ---- The wrong things

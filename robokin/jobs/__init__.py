@@ -1,4 +1,6 @@
-"""Jobs: what an arm can get done in a given time. Import the module of the job, for instance
-`from robokin.jobs.visit_collect import read_task, visit`; `python -m robokin.jobs FOLDER` answers
-task files.
+"""Jobs: tasks for arms and their motors, and programs that solve them.
+
+Import the package of the job, for instance `from robokin.jobs.visit_collect import read_task`;
+`python -m robokin.jobs FOLDER` answers task files. All is kinematics except the rotor in
+`robokin.jobs.steppers`, whose torque is integrated.
 """

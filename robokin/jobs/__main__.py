@@ -77,10 +77,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         action="store_true",
         help="refuse moves on which the tool dips under the floor",
     )
-    given = parser.parse_args(argv)
+    arguments = parser.parse_args(argv)
     with outputs() as lost:
         try:
-            status = run(given.folder, given.above_floor)
+            status = run(arguments.folder, arguments.above_floor)
         except KeyboardInterrupt:
             end.error("stopped with Ctrl+C")
             return 130

@@ -94,19 +94,19 @@ def serve(
     """
     reach = _rising(offsets, "offsets", MOST)
     speed = positive(v, "v", "one positive speed in m/s")
-    places = _rising(window, "window", PLACES)
+    along = _rising(window, "window", PLACES)
     times = floats(ways, "ways")
-    if times.shape != places.shape or (times < 0).any():
-        wanted = f"{len(places)} times in s, one for each place of the window, none negative"
+    if times.shape != along.shape or (times < 0).any():
+        wanted = f"{len(along)} times in s, one for each place of the window, none negative"
         raise ValueError(f"ways: wanted {wanted}, got {short(ways)}")
-    span = float(places[-1] - places[0])
+    span = float(along[-1] - along[0])
     apart = span if pitch is None else number(pitch, "pitch")
     if apart < span * (1 - ROUNDING):
         raise ValueError(f"pitch: wanted at least the window's {span:g} m, got {apart:g} m")
     if not isinstance(first_come, (bool, np.bool_)):
         raise ValueError(f"first_come: wanted True or False, got {short(first_come)}")
     with np.errstate(over="ignore"):
-        delays, last = (places - places[0]) / speed, (reach[-1] + ARMS * apart) / speed
+        delays, last = (along - along[0]) / speed, (reach[-1] + ARMS * apart) / speed
     if not np.isfinite([*delays, last]).all():
         raise ValueError(f"v: wanted a speed at which the objects come, got {speed:g} m/s")
     left, done = np.arange(len(reach)), []

@@ -5,35 +5,36 @@ obstacle is at H + v t, the arm in its posture at t, and between two postures al
 evenly. The bound that proves a distance grows by what the obstacle moves meanwhile.
 """
 
-from typing import cast
+from typing import TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, Ints
+from .._arrays import ArrayLike, Floats
 from .._validate import instance, length, positive
 from ..arms.planar import ThreeLeverArm
 from ..units import deg, in_words
-from .obstacles import (
-    FARTHEST,
-    LEVERS,
+from .obstacles.arguments import FARTHEST, read_point, read_start
+from .obstacles.collision import LEVERS, lever_distances, motion_clearances, motions_keep
+from .obstacles.planner import Plan, no_plan
+from .obstacles.posture_grid import (
     MARGINS,
+    NEVER,
     STEP,
-    Plan,
-    _arrivals,
-    _axis,
-    _clearances,
-    _cut,
-    _distances,
-    _keeps,
-    _none,
-    _on,
-    _point,
-    _room,
-    _start,
+    arrivals,
+    at_start,
+    blocked,
+    grid_axes,
+    grid_postures,
+    grid_room,
+    shortcuts,
+    spread,
+    target_curve,
+    way_back,
 )
 
+Found: TypeAlias = tuple[str, str, Floats, Floats]  # the plan's way, words and path; its times
+
 TICKS = 120  # of STEP each: how far ahead is looked
-NEVER = 10_000  # steps: more than any way through the grid has
 
 
 def plan_moving(
@@ -60,8 +61,8 @@ def plan_moving(
     ahead, of 5 degrees / speed each. ValueError: a posture outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
-    start, K1 = _start(arm, posture, "posture"), _point(target, "target")
-    H, v = _point(obstacle, "obstacle"), _point(velocity, "velocity")
+    start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
+    H, v = read_point(obstacle, "obstacle"), read_point(velocity, "velocity")
     speed = positive(speed, "speed", "one positive speed in radians per second")
     distance = arm.lever / 7 if distance is None else length(distance, "distance")
     ahead = TICKS * STEP / speed
@@ -73,39 +74,31 @@ def plan_moving(
     ticks = np.linspace(0, ahead, TICKS + 1)
     unreached, now = arm.out_of_reach(K1), np.zeros(1)
     if unreached:
-        return _none(start, f"The target is out of reach: {unreached}."), now
+        return no_plan(start, f"The target is out of reach: {unreached}."), now
     goal, S = arm.least(K1, start)
-    near = _distances(arm, start, H)
+    near = lever_distances(arm, start, H)
     if near.min() < distance:
         words = f"At the start lever {LEVERS[near.argmin()]} is already {in_words(near.min())} "
-        return _none(start, f"{words}from the obstacle.", float(S)), now
-    waiting = _waiting(arm, start, goal, S / speed, ticks, H, v, distance)
-    searched = _search(arm, start, K1, ticks, speed, H, v, distance) if waiting is None else None
-    if waiting is not None:
-        path, times = waiting
-        way, words = "wait", f"The arm waits for {times[1]:.2f} s and goes directly then."
-        if times[1] == 0:
-            path, times = path[1:], times[1:]
-            way, words = "direct", "The way is direct: the obstacle is not in it at that time."
-    elif searched is not None:
-        path, times = searched
-        way, words = "search", f"Waiting does not do; a search finds a way of {times[-1]:.2f} s."
-    else:
+        return no_plan(start, f"{words}from the obstacle.", float(S)), now
+    found = _wait(arm, start, goal, S / speed, ticks, H, v, distance)
+    found = found or _search(arm, start, K1, ticks, speed, H, v, distance)
+    if found is None:
         words = f"Within {ticks[-1]:.2f} s neither waiting nor a search keeps"
-        return _none(start, f"{words} {in_words(distance)}.", float(S)), now
-    clear = _clearances(arm, path[:-1], path[1:], _places(H, v, times[:-1], times[1:]))
+        return no_plan(start, f"{words} {in_words(distance)}.", float(S)), now
+    way, words, path, times = found
+    clear = motion_clearances(arm, path[:-1], path[1:], _positions(H, v, times[:-1], times[1:]))
     return Plan(way, words, path, clear, float(S)), times
 
 
 # --- Private helpers ------------------------------------------------------------------------------
 
 
-def _places(H: Floats, v: Floats, begin: Floats, end: Floats) -> Floats:
+def _positions(H: Floats, v: Floats, begin: Floats, end: Floats) -> Floats:
     """The obstacle at the begin (n,) and the end (n,) of motions: (2, 1, n, 2)."""
     return (H + np.stack([begin, end])[..., None] * v)[:, None]
 
 
-def _waiting(
+def _wait(
     arm: ThreeLeverArm,
     start: Floats,
     goal: Floats,
@@ -114,21 +107,23 @@ def _waiting(
     H: Floats,
     v: Floats,
     distance: float,
-) -> tuple[Floats, Floats] | None:
-    """Path and times of the direct motion after the fewest ticks of waiting; None if it is never
-    free.
-    """
-    still = _keeps(
-        arm, np.tile(start, (TICKS, 1)), start, _places(H, v, ticks[:-1], ticks[1:]), distance
+) -> Found | None:
+    """The direct motion after the fewest ticks of waiting; None if it is never free."""
+    still = motions_keep(
+        arm, np.tile(start, (TICKS, 1)), start, _positions(H, v, ticks[:-1], ticks[1:]), distance
     )
     here = np.concatenate([[True], np.logical_and.accumulate(still)])
-    moves = _keeps(
-        arm, np.tile(start, (TICKS + 1, 1)), goal, _places(H, v, ticks, ticks + takes), distance
+    moves = motions_keep(
+        arm, np.tile(start, (TICKS + 1, 1)), goal, _positions(H, v, ticks, ticks + takes), distance
     )
     if not (here & moves).any():
         return None
     begin = ticks[(here & moves).argmax()]
-    return np.stack([start, start, goal]), np.array([0, begin, begin + takes])
+    if begin == 0:
+        words = "The way is direct: the obstacle is not in it at that time."
+        return "direct", words, np.stack([start, goal]), np.array([0, takes])
+    words = f"The arm waits for {begin:.2f} s and goes directly then."
+    return "wait", words, np.stack([start, start, goal]), np.array([0, begin, begin + takes])
 
 
 def _search(
@@ -140,56 +135,29 @@ def _search(
     H: Floats,
     v: Floats,
     distance: float,
-) -> tuple[Floats, Floats] | None:
-    low, high = arm.alpha_range(K1)
-    goals = arm.family(K1, np.linspace(low, high, int((high - low) / (1 * deg)) + 2))
-    axes = [_axis(value, *limits) for value, limits in zip(q0, arm.limits, strict=True)]
-    start = tuple(int(np.abs(axis - value).argmin()) for axis, value in zip(axes, q0, strict=True))
+) -> Found | None:
+    """A way through the grid of postures, the first that is found; None if there is none."""
+    goals = target_curve(arm, K1)
+    axes, start = grid_axes(arm, q0)
     size = [len(axis) for axis in axes]
     for margin in MARGINS:
-        waves = [cast(Ints, np.full(size, NEVER, dtype=np.int16))]  # all ticks' are kept: 2 bytes
-        waves[0][start] = 0
+        steps = [at_start(size, start)]  # all ticks' are kept: 2 bytes for each posture
         for tick in range(1, len(ticks)):
-            room = _room(arm, axes, (H + ticks[tick] * v)[None])
-            waves.append(_grown(waves[-1], room >= distance + margin * arm.lever))
-            if waves[-1].min() == NEVER:
+            room = grid_room(arm, axes, (H + ticks[tick] * v)[None])
+            steps.append(spread(steps[-1], blocked(room >= distance + margin * arm.lever, size)))
+            if steps[-1].min() == NEVER:
                 break
-            reached = np.where(waves[-1] < NEVER, waves[-1], -1)
-            nodes, numbers = (column[:60] for column in _arrivals(axes, goals, reached))
-            arrive = ticks[tick] + abs(_on(axes, nodes) - goals[numbers]).sum(axis=-1) / speed
-            places = _places(H, v, np.full(len(nodes), ticks[tick]), arrive)
-            good = _keeps(arm, _on(axes, nodes), goals[numbers], places, distance)
+            nodes, numbers = (column[:60] for column in arrivals(axes, goals, steps[-1]))
+            ends = grid_postures(axes, nodes)
+            arrive = ticks[tick] + abs(ends - goals[numbers]).sum(axis=-1) / speed
+            positions = _positions(H, v, np.full(len(nodes), ticks[tick]), arrive)
+            good = motions_keep(arm, ends, goals[numbers], positions, distance)
             for i in np.flatnonzero(good)[:3]:
-                back = _on(axes, _back(waves, tuple(nodes[i].tolist())))
+                back = grid_postures(axes, way_back(steps, tuple(nodes[i].tolist())))
                 path = np.concatenate([back, goals[numbers[i], None]])
                 times = np.append(ticks[: tick + 1], arrive[i])
-                kept = _cut(arm, path, (H + times[:, None] * v)[None], distance)
+                kept = shortcuts(arm, path, (H + times[:, None] * v)[None], distance)
                 if kept is not None:
-                    return path[kept], times[kept]
+                    words = f"Waiting does not do; a search finds a way of {arrive[i]:.2f} s."
+                    return "search", words, path[kept], times[kept]
     return None
-
-
-def _grown(steps: Ints, free: Bools) -> Ints:
-    """The fewest steps to every posture a tick later: one joint has gone one step, or none has."""
-    grown = steps.copy()
-    for axis in range(3):
-        new, old = np.moveaxis(grown, axis, 0), np.moveaxis(steps, axis, 0)
-        np.minimum(new[1:], old[:-1] + 1, out=new[1:])
-        np.minimum(new[:-1], old[1:] + 1, out=new[:-1])
-    grown[~free] = NEVER
-    return grown
-
-
-def _back(waves: list[Ints], node: tuple[int, ...]) -> Ints:
-    """The nodes (ticks, 3) of a way to the node at the last tick; of ways with as few steps any."""
-    back = [node]
-    for tick in range(len(waves) - 2, -1, -1):
-        steps = waves[tick]
-        for axis, step in ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1)):
-            k = node[axis] + step
-            other = (*node[:axis], k, *node[axis + 1 :])
-            if 0 <= k < steps.shape[axis] and steps[other] == waves[tick + 1][node] - abs(step):
-                node = other
-                break
-        back.append(node)
-    return np.array(back[::-1])

@@ -32,7 +32,7 @@ SLACK = 1e-9  # rad; past a limit by no more than this is rounding
 SAME = 1e-12  # of a lever's length; distances that differ by less are the same distance
 
 
-class Run(NamedTuple):
+class RaceResult(NamedTuple):
     """What a method made of n targets, one after the other.
 
     postures  (n, 3); NaN where the arm cannot reach the target, and stayed
@@ -49,10 +49,11 @@ class Run(NamedTuple):
 
 def race(
     methods: Mapping[str, Method], arm: ThreeLeverArm, targets: ArrayLike, start: ArrayLike
-) -> dict[str, Run]:
+) -> dict[str, RaceResult]:
     """Every method on the same targets (n, 2) in the same order, each task from the posture in
     which the last one ended, the first from `start` (3,). So that the sums of turns can be
-    compared, what a method does not reach is reached by the least movement. dict of name -> `Run`.
+    compared, what a method does not reach is reached by the least movement. dict of name ->
+    `RaceResult`.
     """
     instance(arm, ThreeLeverArm, "arm")
     targets, start = floats(targets, "targets", 2), floats(start, "start", 3)
@@ -75,7 +76,7 @@ def race(
             postures[i] = least_movement(arm, target, stand) if failed[i] else q
             if not np.isnan(postures[i]).any():
                 turns[i], stand = abs(postures[i] - stand).sum(), postures[i]
-        runs[name] = Run(postures, turns, np.array(failed), seconds / len(targets))
+        runs[name] = RaceResult(postures, turns, np.array(failed), seconds / len(targets))
     return runs
 
 

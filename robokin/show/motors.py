@@ -144,7 +144,7 @@ class MotorNumbers(TypedDict):
 
 
 class MotorRules(TypedDict):
-    """The constants of jobs/steppers.py by which a run is computed and judged."""
+    """The constants of jobs/steppers/rotor.py by which a run is computed and judged."""
 
     fine: list[float]
     settled: float

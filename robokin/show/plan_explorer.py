@@ -11,21 +11,12 @@ from typing import Any
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-from .._arrays import ArrayLike, Bools, Floats, Ints
+from .._arrays import ArrayLike, Bools, Floats
 from .._validate import floats, instance
 from ..arms.planar import ThreeLeverArm
-from ..jobs.obstacles import (
-    LEVERS,
-    Plan,
-    along,
-    clearance,
-    distances,
-    in_quadrilateral,
-    keeps,
-    plan,
-    swept,
-    via_path,
-)
+from ..jobs.obstacles import LEVERS, Plan, along, clearance, in_quadrilateral, plan, swept
+from ..jobs.obstacles.posture_grid import NEVER, coarse_search
+from ..jobs.obstacles.ways import nearest_approach, unchecked_path
 from ..units import deg, in_words, length_unit, mm
 from . import plots
 from .camera import VIEW, extent, project, scene_data
@@ -38,6 +29,7 @@ STEP = 12 * deg  # of the cube's postures
 MOMENTS = 41  # of a motion
 FORBIDDEN, AWAY = 255, 254  # in the cube: too near to the obstacle; free, and not reached
 WAYS = ("the plan", "two via points", "direct")
+UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names in `unchecked_path`
 TITLE = "From K to K1, past an obstacle H"
 MEANT = (
     "Drag K, K1 and H, or move them by arrow keys. The cube holds all postures in steps of 12° "
@@ -119,10 +111,9 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
     known = plan(arm, start, K1, H, distance)
     path, each = known.path, known.clearance
     if way != WAYS[0]:
-        path = _other(arm, way, start, K1, H, distance)
+        path = unchecked_path(arm, UNCHECKED[way], start, K1, H, distance)
         each = clearance(arm, path, H) if len(path) > 1 else each[:0]
-    each = each.min(axis=0) if len(path) > 1 else distances(arm, start, H)
-    lever, near = int(each.argmin()), float(each.min())
+    lever, near, place = nearest_approach(arm, path, each, H)
     verdict, kept = _verdict(known, way, path, lever, near, distance)
     by_points = way == WAYS[1] or (way == WAYS[0] and known.way == "via points")
     cube, most, curve = _cube(arm, start, K1, H, distance)
@@ -134,26 +125,12 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
         "path": path.tolist(),
         "moments": _moments(path).astype(np.float32),
         "via": arm.points(path[1:-1])[:, 3].tolist() if by_points else [],
-        "nearest": _nearest(arm, path, H, lever, near),
+        "nearest": [place.tolist(), f"{LEVERS[lever]} {near / mm:.0f} mm"],
         "direct": _direct(arm, start, K1, H) if question["sides"] else None,
         "cube": cube,
         "most": most,
         "curve": curve.astype(np.float32),
     }
-
-
-def _other(
-    arm: ThreeLeverArm, way: str, start: Floats, K1: Floats, H: Floats, distance: float
-) -> Floats:
-    """The direct motion, or that by K2 and K3, safe or not; the start alone where there is none."""
-    if way == WAYS[2]:
-        path = np.stack([start, arm.least(K1, start)[0]])
-    else:
-        try:
-            path = via_path(arm, start, K1, H, max(distance, arm.lever / 7))
-        except ValueError:  # H lies in K or K1
-            return start[None]
-    return start[None] if np.isnan(path).any() else path
 
 
 def _moments(path: Floats) -> Floats:
@@ -176,15 +153,6 @@ def _verdict(
     return f"{name[0].upper()}{name[1:]}: {S}, lever {LEVERS[lever]} {far}.", kept
 
 
-def _nearest(arm: ThreeLeverArm, path: Floats, H: Floats, i: int, near: float) -> list[Any]:
-    """Where lever i comes as near to H as the path says, as well as it is seen; in words."""
-    q = along(path, np.linspace(0, 1, 121)) if len(path) > 1 else path
-    k = distances(arm, q, H)[:, i].argmin()
-    P, Q = arm.points(q[k])[i : i + 2]
-    u = np.clip((H - P) @ (Q - P) / ((Q - P) @ (Q - P)), 0, 1)
-    return [(P + u * (Q - P)).tolist(), f"{LEVERS[i]} {near / mm:.0f} mm"]
-
-
 def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dict[str, Any] | None:
     goal = arm.least(target, start)[0]
     if np.isnan(goal).any():
@@ -205,79 +173,16 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
     }
 
 
-# --- The cube of postures -------------------------------------------------------------------------
-
-
 def _cube(
     arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[Any, int, Floats]:
-    """A wave from the start through the postures, as lab 10, section 6, has it: (n, n, n) steps,
-    how many lead to the target's curve (or all there are), and the curve (., 3).
+    """The `coarse_search` as the page draws it: the cube (n, n, n), how many steps lead to the
+    target's curve (or all there are), and the curve (., 3).
     """
-    axes = [np.arange(low, high + STEP / 2, STEP) for low, high in arm.limits]
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    room = distances(arm, grid, H).min(axis=-1)
-    free = room >= distance
-    low, high = arm.alpha_range(K1)
-    curve = np.empty((0, 3))
-    if not np.isnan(low):
-        curve = arm.family(K1, np.linspace(low, high, 31))
-    goals = np.zeros_like(free)
-    goals[tuple(np.round((curve - arm.limits[:, 0]) / STEP).astype(int).T)] = True
-    count = _wave(free, _proven(arm, grid, room, H, distance), _begin(grid, free, start), goals)
-    cube = np.where(count >= 0, np.minimum(count, AWAY - 1), np.where(free, AWAY, FORBIDDEN))
-    return cube.astype(np.uint8), max(int(count.max()), 0), curve
-
-
-def _begin(grid: Floats, free: Bools, start: Floats) -> tuple[int, ...] | None:
-    """The free posture of the grid nearest to the start."""
-    away = np.where(free, abs(grid - start).max(axis=-1), np.inf)
-    cell = tuple(int(i) for i in np.unravel_index(away.argmin(), away.shape))
-    return cell if away[cell] <= STEP else None
-
-
-def _proven(arm: ThreeLeverArm, grid: Floats, room: Floats, H: Floats, distance: float) -> Any:
-    """For each joint: which of its steps, from each posture to the next one, keep the distance."""
-    # how much arm a joint carries: no point of that moves farther than this times the turn
-    carried = np.cumsum(arm.levers[::-1])[::-1]
-    proven, asked = [], []
-    for joint in range(3):
-        (here, there), (q0, q1) = (
-            (x[:-1], x[1:]) for x in (np.moveaxis(each, joint, 0) for each in (room, grid))
-        )
-        proven.append((here + there - carried[joint] * STEP) / 2 >= distance)  # lab 10, section 4
-        open_ = ~proven[joint] & (here >= distance) & (there >= distance)
-        asked.append((open_, q0[open_], q1[open_]))
-    q0, q1 = (np.concatenate([each[k] for each in asked]) for k in (1, 2))
-    kept = np.split(
-        keeps(arm, q0, q1, H, distance), np.cumsum([len(each[1]) for each in asked[:2]])
-    )
-    for good, (open_, *_), answer in zip(proven, asked, kept, strict=True):
-        good[open_] = answer
-    return proven
-
-
-def _wave(free: Bools, proven: list[Bools], start: tuple[int, ...] | None, goals: Bools) -> Ints:
-    """Steps from the start to every posture, until the first goal is reached; -1 elsewhere."""
-    count = np.full(free.shape, -1)
-    if start is None:
-        return count
-    front, later = np.zeros_like(free), np.zeros_like(free)
-    front[start] = True
-    along_joint = [
-        (np.moveaxis(later, joint, 0), np.moveaxis(front, joint, 0), good)
-        for joint, good in enumerate(proven)
-    ]
-    for n in range(AWAY):
-        count[front] = n
-        if not front.any() or (front & goals).any():
-            break
-        later[:] = False
-        for to, of, good in along_joint:
-            to[1:] |= of[:-1] & good
-            to[:-1] |= of[1:] & good
-        np.logical_and(later, count < 0, out=front)
-    return count
+    steps, free, curve = coarse_search(arm, start, K1, H, distance, STEP)
+    reached = steps < NEVER
+    cube = np.where(reached, np.minimum(steps, AWAY - 1), np.where(free, AWAY, FORBIDDEN))
+    return cube.astype(np.uint8), int(steps.max(initial=0, where=reached)), curve
 
 
 # --- What the page gets ---------------------------------------------------------------------------

@@ -14,7 +14,6 @@ from .._arrays import Bools, Floats, Ints
 from .._validate import instance
 from ..arms import Arm, spbu_arm
 from ..jobs.visit_collect import (
-    UNDER,
     Result,
     Task,
     best_visit,
@@ -25,6 +24,7 @@ from ..jobs.visit_collect import (
     visit,
     workspace,
 )
+from ..jobs.visit_collect.arm import UNDER
 from ..units import deg, length_unit
 from . import plots
 from .camera import Mark, best_view, extent, scene_data

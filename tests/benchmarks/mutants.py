@@ -67,10 +67,19 @@ TESTS = {
     "robokin/motion/derivatives.py": ["derivatives", "recording"],
     "robokin/motion/recording.py": ["recording", "plots"],
     "robokin/jobs/__main__.py": ["jobs_command"],
-    "robokin/jobs/visit_collect.py": ["visit_collect", "jobs_command"],
-    "robokin/jobs/obstacles.py": ["obstacles", "moving"],
+    "robokin/jobs/visit_collect/arm.py": ["visit_collect", "jobs_command"],
+    "robokin/jobs/visit_collect/report_text.py": ["visit_collect", "jobs_command"],
+    "robokin/jobs/visit_collect/solver.py": ["visit_collect", "jobs_command"],
+    "robokin/jobs/visit_collect/task.py": ["visit_collect", "jobs_command"],
+    "robokin/jobs/obstacles/arguments.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/collision.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/planner.py": ["obstacles", "moving"],
+    "robokin/jobs/obstacles/posture_grid.py": ["posture_grid", "obstacles", "moving"],
+    "robokin/jobs/obstacles/ways.py": ["obstacles -k checked", "live -k other_ways"],
     "robokin/jobs/moving.py": ["moving"],
-    "robokin/jobs/steppers.py": ["steppers", "loader"],
+    "robokin/jobs/steppers/moves.py": ["steppers", "loader"],
+    "robokin/jobs/steppers/phase_table.py": ["steppers"],
+    "robokin/jobs/steppers/rotor.py": ["steppers"],
 }
 # After these, for every module; drawing is slow, and sees little of them.
 ALL = [

@@ -1,4 +1,4 @@
-// The rotor of a stepper motor, as jobs/steppers.py has it: the same law, the same steps of the
+// The rotor of a stepper motor, as steppers/rotor.py has it: the same law, the same steps of the
 // integration. test_motor_explorer.py holds the two together.
 
 /** @import {MotorNumbers, MotorRules, PageMotor} from "./page.js" */

@@ -1,0 +1,49 @@
+"""The three-lever arm beside a point obstacle H: what lies in its way, via points, clearance, and a
+way round.
+
+`plan` is the control system of source 003, figure 33; the other functions are its parts. Names are
+the document's:
+
+O, B, A, K    base, two joints and gripper of the arm before the motion; A1, K1 the same after it
+H             the obstacle, a point; the levers OB, BA, AK have no width
+K2, K3        via points for the gripper, on a circle about H
+path (k, 3)   postures q = (gamma, beta, alpha) in radians; between two of them every joint turns
+              evenly (PTP)
+S             the sum of the changes of all joint angles along a path, in radians
+
+Points are (2,), or (3,) with z = 0, in metres.
+"""
+
+from .collision import (
+    LEVERS,
+    TOLERANCE,
+    WORK,
+    clearance,
+    distances,
+    in_quadrilateral,
+    keeps,
+    locate,
+    swept,
+)
+from .planner import CIRCLES, Plan, along, plan, via_path, via_points
+from .posture_grid import STEP, way_round
+
+__all__ = [
+    "CIRCLES",
+    "LEVERS",
+    "STEP",
+    "TOLERANCE",
+    "WORK",
+    "Plan",
+    "along",
+    "clearance",
+    "distances",
+    "in_quadrilateral",
+    "keeps",
+    "locate",
+    "plan",
+    "swept",
+    "via_path",
+    "via_points",
+    "way_round",
+]

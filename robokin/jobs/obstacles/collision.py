@@ -1,0 +1,256 @@
+"""Where the obstacle lies, and how near the levers of the arm come to it."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..._arrays import ArrayLike, Bools, Floats, Ints
+from ..._validate import broadcast, instance, length, warn_if_degrees
+from ...arms.planar import ThreeLeverArm, two_link
+from .arguments import read_angles, read_obstacles, read_path, read_point, read_points, read_posture
+
+LEVERS = ("OB", "BA", "AK")
+TOLERANCE = 1e-6  # of a lever's length: a clearance is known as well as this
+CLOSE = 1e-9  # of a lever's length: `keeps` cannot tell distances apart that are nearer than this
+WORK = 1_000_000  # stretches of motions, or postures of a grid, that one call may look at: 1 s
+PORTION = 50_000  # stretches measured at a time, so that memory stays small
+
+
+# --- Where is the obstacle? -----------------------------------------------------------------------
+
+
+def in_quadrilateral(
+    arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike
+) -> dict[str, Bools]:
+    """Does H (..., 2) lie in the quadrilaterals between the levers before and after the motion from
+    q0 to q1?
+
+    dict: "AK" for A K K1 A1, "BA" for B A A1 B1, each bool (...). The document tests the first
+    only; its inequalities hold for its own drawing and fail for most others (errata S3-j, S3-k), so
+    here a ray from H counts the sides it crosses. Straight sides are not what the levers sweep: see
+    `swept`.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_points(H, "H")
+    warn_if_degrees(q0, "q0", posture=1)
+    warn_if_degrees(q1, "q1", posture=1)
+    (_, B, A, K), (_, B1, A1, K1) = arm.points(q0), arm.points(q1)
+    return {"BA": _inside(np.stack([B, A, A1, B1]), H), "AK": _inside(np.stack([A, K, K1, A1]), H)}
+
+
+def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dict[str, bool]:
+    """Which levers truly pass over H (2,) on the motion from q0 to q1? dict of lever -> bool."""
+    instance(arm, ThreeLeverArm, "arm")
+    q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_point(H, "H")
+    warn_if_degrees(q0, "q0", posture=1)
+    warn_if_degrees(q1, "q1", posture=1)
+    least = motion_clearances(arm, q0[None], q1[None], H[None, None])[0]
+    return dict(zip(LEVERS, (least <= 0).tolist(), strict=True))
+
+
+def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
+    """The places (2, 2) of an obstacle that two sensors, in the points P and Q, measure at these
+    distances, in metres; NaN where the circles do not meet.
+
+    The circles are the two arms that a two-link arm on P has to Q (`two_link`), and the obstacle
+    its elbow: row 0 lies right of the way from P to Q, row 1 left of it. A third distance tells
+    which. ValueError: P and Q in one point.
+    """
+    P, Q = read_point(P, "P"), read_point(Q, "Q")
+    if (P == Q).all():
+        raise ValueError(f"Q: wanted a point apart from P, got both at {P.tolist()}")
+    from_P, from_Q = length(from_P, "from_P"), length(from_Q, "from_Q")
+    q1 = two_link(from_P, from_Q, P).ik(Q)[:, :1]
+    return P + from_P * np.concatenate([np.cos(q1), np.sin(q1)], axis=-1)
+
+
+# --- How near does the arm come? ------------------------------------------------------------------
+
+
+def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
+    """The distances of H (..., 2) from the levers OB, BA, AK in the postures q (..., 3): (..., 3),
+    in metres.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    q, H = read_angles(q, "q", finite=False), read_points(H, "H")
+    warn_if_degrees(q, "q", posture=1)
+    shape = broadcast("q and H", q.shape[:-1], H.shape[:-1])
+    return lever_distances(arm, np.broadcast_to(q, (*shape, 3)), H)
+
+
+def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
+    """The least distance of every lever from H along a path (k, 3): (k - 1, 3), one row for every
+    part. H is one obstacle (2,), or several (m, 2): then the least over all of them.
+
+    Not a sample but a bound: the arm comes nowhere nearer, and at some place at most `TOLERANCE`
+    lever lengths farther; 0 where a lever passes over H. It is found by halving those stretches of
+    a part which could still hold a smaller distance. ValueError: a path that takes more than `WORK`
+    stretches.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    path, H = read_path(path), read_obstacles(H, "H")
+    warn_if_degrees(path, "path", posture=1)
+    return motion_clearances(arm, path[:-1], path[1:], H)
+
+
+def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance: float) -> Bools:
+    """Do all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2), on the
+    motions from postures a (..., 3) to b (..., 3)? bool (...).
+
+    As certain as `clearance` and quicker, since a motion is given up at the first stretch that is
+    too near. One that comes to the distance within 1e-9 of a lever's length may count as too near.
+    ValueError: motions that take more than `WORK` stretches.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    a, b = read_angles(a, "a"), read_angles(b, "b")
+    H, distance = read_obstacles(H, "H"), length(distance, "distance")
+    warn_if_degrees(a, "a", posture=1)
+    warn_if_degrees(b, "b", posture=1)
+    shape = broadcast("a and b", a.shape, b.shape)
+    a, b = (np.broadcast_to(q, shape).reshape(-1, 3) for q in (a, b))
+    return motions_keep(arm, a, b, H, distance).reshape(shape[:-1])
+
+
+# --- The same for arguments that are checked, and for obstacles that move -------------------------
+
+
+def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
+    """`distances` of postures q (..., 3) from H (..., 2)."""
+    q = np.broadcast_to(q, (*np.broadcast_shapes(q.shape[:-1], H.shape[:-1]), 3))
+    return np.moveaxis(_seen(arm, np.moveaxis(q, -1, 0), H)[0], 0, -1)
+
+
+def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Floats:
+    """The `clearance` of n motions from postures a (n, 3) to b (n, 3): (n, 3).
+
+    H is (m, 1, 2), m obstacles that stand; or (2, m, n, 2), where they are at the start and at the
+    end of each motion, between which they move evenly.
+    """
+    least, tolerance = np.full(a.shape, np.inf), TOLERANCE * arm.lever
+
+    def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
+        np.minimum.at(least, part, here.T)
+        nearer: Bools = np.any(bound < least[part].T - tolerance, axis=0)
+        return nearer
+
+    _measure(arm, a, b, H, halve)
+    return np.maximum(least - tolerance, 0)
+
+
+def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: float) -> Bools:
+    """`keeps` of n motions from postures a (n, 3) to b (n, 3): bool (n,). H as for
+    `motion_clearances`.
+    """
+    a, b = np.broadcast_arrays(a, b)
+    good = np.ones(len(a), dtype=bool)
+
+    def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
+        doubtful = bound < distance
+        # what cannot be told from touching the circle counts as too near
+        near = (here < distance) | (doubtful & (here - bound < CLOSE * arm.lever))
+        good[part[near.any(axis=0)]] = False
+        return good[part] & doubtful.any(axis=0)
+
+    _measure(arm, a, b, H, halve)
+    return good
+
+
+# --- Private helpers ------------------------------------------------------------------------------
+
+
+def _measure(
+    arm: ThreeLeverArm,
+    a: Floats,
+    b: Floats,
+    H: Floats,
+    halve: Callable[[Ints, Floats, Floats], Bools],
+) -> None:
+    """Measure stretches of the motions a -> b (n, 3), at first the whole motions, and halve those
+    of which `halve(part, here, bound)` says so: number of the motion (k,), distances of the levers
+    at an end of the stretch (3, k), and what they are at least on all of it. With several obstacles
+    every motion is measured beside each of them.
+    """
+    n, m = len(a), H.shape[-3]
+    H = np.broadcast_to(H, (2, m, n, 2)).reshape(2, -1, 2)
+    part, start, end = np.arange(n * m), np.zeros(n * m), np.ones(n * m)
+    work = len(part)
+    while len(part):
+        if work > WORK:
+            turn = abs(b - a).sum()
+            raise ValueError(
+                f"motions: wanted some of which at most {WORK} stretches have to be measured, got "
+                f"{len(a)} of {turn:.6g} rad in all, which take {work} and more"
+            )
+        now, later = slice(-PORTION, None), slice(None, -PORTION)
+        i, s, e = part[now], start[now], end[now]
+        motion = i % n
+        which = halve(motion, *_bounds(arm, a[motion].T, b[motion].T, np.stack([s, e]), H[:, i]))
+        i, s, e = i[which], s[which], e[which]
+        middle = (s + e) / 2
+        part = np.concatenate([part[later], i, i])
+        start = np.concatenate([start[later], s, middle])
+        end = np.concatenate([end[later], middle, e])
+        work += 2 * len(i)
+
+
+def _bounds(
+    arm: ThreeLeverArm, a: Floats, b: Floats, ends: Floats, H: Floats
+) -> tuple[Floats, Floats]:
+    """For stretches of the motions a -> b (3, n) between two `ends` (2, n), and an obstacle that
+    goes from H[0] to H[1] (2, n, 2) during the motion: the smaller of the distances (3, n) at the
+    ends, and lower bounds for all between.
+
+    Seen from a lever, the obstacle goes from one place to another, almost straight: it strays from
+    the line by at most an eighth of its greatest acceleration, the stretch being the unit of time.
+    The distance from a lever is a convex function along that line, and so it lies above its
+    tangents at both ends.
+    """
+    change, (OB, BA, _) = b - a, arm.levers
+    positions = H[0] + ends[..., None] * (H[1] - H[0])
+    d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], positions)
+    turn = change * (ends[1] - ends[0])
+    # a turning view of a place: omega^2 times its distance, and twice omega times its speed
+    omega, far = np.cumsum(turn, axis=0), np.sqrt((positions**2).sum(axis=-1).max(axis=0))
+    moved = np.sqrt(((positions[1] - positions[0]) ** 2).sum(axis=-1))
+    stray = far * omega**2 + 2 * abs(omega) * moved
+    stray[1] += OB * turn[1] ** 2
+    stray[2] += OB * (turn[1] + turn[2]) ** 2 + BA * turn[2] ** 2
+    x, y = along[:, 1] - along[:, 0], across[:, 1] - across[:, 0]
+    rise = (beyond * x[:, None] + across * y[:, None]) / np.where(d > 0, d, 1)
+    d0, d1, rise0, rise1 = d[:, 0], d[:, 1], rise[:, 0], rise[:, 1]
+    here = np.minimum(d0, d1)
+    inner = (rise0 < 0) & (rise1 > 0)  # the tangents meet between the ends
+    meet = (d0 * rise1 - d1 * rise0 + rise0 * rise1) / np.where(inner, rise1 - rise0, 1)
+    return here, np.maximum(np.where(inner, meet, here) - stray / 8, 0)
+
+
+def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """H (..., 2) seen from the levers OB, BA, AK in postures q (3, ...), four times (3, ...): its
+    distance from the lever, how far it lies along the lever from its start, how far past either of
+    its ends, and how far across.
+    """
+    direction = np.cumsum(q, axis=0)
+    direction[1] -= np.pi
+    direction[2] -= 2 * np.pi
+    c, s = np.cos(direction), np.sin(direction)
+    x, y = np.empty_like(c), np.empty_like(s)  # of H from the start of each lever
+    x[0], y[0] = H[..., 0], H[..., 1]
+    levers = arm.levers
+    for i in (1, 2):
+        x[i], y[i] = x[i - 1] - levers[i - 1] * c[i - 1], y[i - 1] - levers[i - 1] * s[i - 1]
+    along, across = c * x + s * y, c * y - s * x
+    beyond = along - np.clip(along, 0, levers.reshape(3, *(1,) * (along.ndim - 1)))
+    return np.sqrt(across**2 + beyond**2), along, beyond, across
+
+
+def _inside(corners: Floats, point: Floats) -> Bools:
+    """Even-odd rule: corners (n, 2), points (..., 2) -> bool (...). A point on a side is inside."""
+    crossings, on_side = np.zeros(point.shape[:-1]), np.zeros(point.shape[:-1], dtype=bool)
+    for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        x, y = point[..., 0], point[..., 1]
+        left = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)  # > 0: the point lies left of the side
+        crossings = crossings + ((y0 > y) != (y1 > y)) * ((left > 0) == (y1 > y0))
+        within = (x - x0) * (x - x1) + (y - y0) * (y - y1) <= 0
+        on_side = on_side | (within & (abs(left) <= 1e-12 * np.hypot(x1 - x0, y1 - y0)))
+    inside: Bools = (crossings % 2 == 1) | on_side
+    return inside

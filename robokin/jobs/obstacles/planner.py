@@ -1,0 +1,301 @@
+"""The control system of source 003: plans with the direct motion, two via points, or a search."""
+
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from ..._arrays import ArrayLike, Floats, frozen
+from ..._validate import choice, floats, instance, length, short, text
+from ...arms.planar import ThreeLeverArm
+from ...units import deg, in_words
+from .arguments import read_angles, read_obstacles, read_path, read_point, read_posture, read_start
+from .collision import LEVERS, TOLERANCE, lever_distances, motion_clearances
+from .posture_grid import STEP, way_round
+
+WAYS = ("direct", "via points", "wait", "search", "none")
+# The via points' circles about H, in lever lengths. On the document's own, 1/7, the way keeps less
+# than 1/7 from H; on a larger one it may keep that.
+CIRCLES = (1 / 7, 0.16, 0.18, 0.20, 0.225, 0.25)
+
+
+# --- The document's way round: two via points for the gripper -------------------------------------
+
+
+def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floats:
+    """The via points K2 and K3, (2, 2): on the circle about H, where the lines square to KH and to
+    K1H leave it on the side of the base. Source: 003, III.3.2, figure 26.
+
+    The printed formulas (40), (41) and table 6 swap two legs: their points lie on the circle, but
+    not square to the line, and on either side (errata S3-m). ValueError: H in K or K1, where there
+    is no line.
+    """
+    K, K1, H = read_point(K, "K"), read_point(K1, "K1"), read_point(H, "H")
+    radius = length(radius, "radius")
+    points: Floats = H + radius * _square(K, K1, H)
+    return points
+
+
+def via_path(
+    arm: ThreeLeverArm,
+    q0: ArrayLike,
+    target: ArrayLike,
+    H: ArrayLike,
+    radius: float | None = None,
+    limited: bool = True,
+) -> Floats:
+    """The path K - K2 - K3 - K1 with the least movement for each part: (4, 3), NaN from the first
+    point that is out of reach on. The radius is L/7 unless given. Source: 003, IV.
+
+    Passing K2 and K3 promises nothing about the way between them, nor about the levers (errata
+    S3-n): see `clearance`.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    q0, K1, H = read_posture(q0, "q0"), read_point(target, "target"), read_point(H, "H")
+    if not isinstance(limited, bool):
+        raise ValueError(f"limited: wanted True or False, got {short(limited)}")
+    radius = arm.lever / 7 if radius is None else length(radius, "radius")
+    (path,) = _via_paths(arm, q0, K1, H, np.array([radius]), limited)
+    return cast(Floats, path)
+
+
+# --- The control system ---------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What `plan` answers.
+
+    way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves
+    words      the answer in sentences
+    path       (k, 3) postures, the first being the start; (1, 3) if nothing was found: the arm
+               stays
+    clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on every part;
+               inf without one
+    least      S of the direct motion in radians, which no path can undercut; NaN if the target is
+               out of reach
+    radius     of the circle about the obstacle on which the via points lie, in metres; NaN if it is
+               not by via points that the plan goes
+
+    Arrays are read-only copies. ValueError: parts that do not belong together.
+    """
+
+    way: str
+    words: str
+    path: Floats
+    clearance: Floats
+    least: float
+    radius: float = np.nan
+
+    def __post_init__(self) -> None:
+        choice(self.way, "way", WAYS)
+        text(self.words, "words")
+        path = read_angles(self.path, "path")
+        if path.ndim != 2 or not len(path) or (len(path) > 1) != self.found:
+            wanted = "two or more postures (k, 3)" if self.found else "the start (1, 3)"
+            raise ValueError(f"path: wanted {wanted} of way {self.way!r}, got shape {path.shape}")
+        finite = self.clearance
+        with suppress(ValueError):  # inf is a distance here, and to `floats` it is none
+            finite = np.nan_to_num(finite, nan=np.nan, posinf=0.0)
+        known = floats(finite, "clearance", 3)
+        if known.shape != (len(path) - 1, 3) or (known < 0).any():
+            raise ValueError(
+                f"clearance: wanted distances ({len(path) - 1}, 3), got {short(self.clearance)}"
+            )
+        least = floats(self.least, "least", finite=False)
+        if least.ndim or least < 0:
+            raise ValueError(f"least: wanted one sum of changes, got {short(self.least)}")
+        radius = floats(self.radius, "radius", finite=False)
+        if radius.ndim or np.isnan(radius) == (self.way == "via points") or radius <= 0:
+            wanted = f"wanted one length with way 'via points' alone, here {self.way!r}"
+            raise ValueError(f"radius: {wanted}, got {short(self.radius)}")
+        object.__setattr__(self, "radius", float(radius))
+        object.__setattr__(self, "path", frozen(path))
+        object.__setattr__(self, "clearance", frozen(np.asarray(self.clearance, dtype=float)))
+        object.__setattr__(self, "least", float(least))
+
+    @property
+    def found(self) -> bool:
+        """Is there a path that keeps the clearance?"""
+        return self.way != "none"
+
+    @property
+    def cost(self) -> float:
+        """S of the path, in radians."""
+        return float(abs(np.diff(self.path, axis=0)).sum())
+
+    @property
+    def posture(self) -> Floats:
+        """The posture (3,) in which the arm stands afterwards: remembered for the next task."""
+        posture: Floats = self.path[-1]
+        return posture
+
+    @property
+    def via(self) -> Floats:
+        """The postures (k - 2, 3) between start and end."""
+        return self.path[1:-1]
+
+
+def plan(
+    arm: ThreeLeverArm,
+    posture: ArrayLike,
+    target: ArrayLike,
+    obstacle: ArrayLike | None = None,
+    distance: float | None = None,
+) -> Plan:
+    """The control system of source 003 (figure 33): from the remembered posture (3,) to the target,
+    past the obstacle.
+
+    All levers keep `distance` (metres; L/7 unless given) from the obstacle along the whole path, or
+    the plan says in words that none was found. Tried in this order: the direct motion with least
+    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, none smaller
+    than the distance or than L/7, of which the first that keeps the distance is taken; a search
+    among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside.
+
+    Of several obstacles (m, 2) all are kept clear of; the via points lie about the one that is in
+    the way first.
+    """
+    instance(arm, ThreeLeverArm, "arm")
+    start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
+    distance = arm.lever / 7 if distance is None else length(distance, "distance")
+    H = None if obstacle is None else read_obstacles(obstacle, "obstacle")
+    unreached = arm.out_of_reach(K1)
+    if unreached:
+        return no_plan(start, f"The target is out of reach: {unreached}.")
+    goal, S = arm.least(K1, start)
+    least = float(S)
+    direct = np.stack([start, goal])
+    if H is None:
+        far = np.full((1, 3), np.inf)
+        return Plan("direct", "The way is direct: no obstacle is given.", direct, far, least)
+    too_near = _too_near(arm, start, K1, H, distance)
+    if too_near:
+        hint = f"No path keeps {in_words(distance)}; a smaller distance may be asked for."
+        return no_plan(start, f"{too_near} {hint}", least)
+    clear = motion_clearances(arm, start[None], goal[None], H)
+    if clear.min() >= distance:
+        none = "the obstacle is not" if len(H) == 1 else "no obstacle is"
+        return Plan("direct", f"The way is direct: {none} in it.", direct, clear, least)
+    words = f"On the direct way {_nearest(arm, clear, H)}."
+    by_points, more = _by_via_points(arm, direct, K1, H, distance)
+    words += more
+    if by_points is not None:
+        path, clear, radius = by_points
+        return Plan("via points", words, path, clear, least, radius)
+    found = way_round(arm, start, K1, H[:, 0], distance)
+    if found is not None:
+        words += " A search among postures finds a way."
+        clear = motion_clearances(arm, found[:-1], found[1:], H)
+        return Plan("search", words, found, clear, least)
+    words += f" A search among postures in steps of {STEP / deg:.0f}° finds no way that keeps"
+    return no_plan(start, f"{words} {in_words(distance)}.", least)
+
+
+def along(path: ArrayLike, s: ArrayLike) -> Floats:
+    """Postures on a path (k, 3) at the shares s (...) of its S, from 0 to 1: (..., 3), for figures
+    and players. Before and after, the path's ends.
+    """
+    path, s = read_path(path), np.clip(floats(s, "s"), 0, 1)
+    S = np.concatenate([[0.0], abs(np.diff(path, axis=0)).sum(axis=-1).cumsum()])
+    return np.stack([np.interp(s * S[-1], S, path[:, i]) for i in range(3)], axis=-1)
+
+
+def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
+    """A plan that found no way; the words say why."""
+    return Plan("none", words, start[None], np.empty((0, 3)), least)
+
+
+# --- Private helpers ------------------------------------------------------------------------------
+
+
+def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> str:
+    """Why no path can keep the distance, in a sentence; "" if one could."""
+    O_H, K1_H = np.hypot(*H[:, 0].T), np.hypot(*(K1 - H[:, 0]).T)
+    q_H = lever_distances(arm, start, H)[:, 0]  # (m, 3)
+    if O_H.min() < distance:
+        name = _named(H, int(O_H.argmin())).capitalize()
+        return f"{name} lies on the base or {in_words(O_H.min())} beside it."
+    if q_H.min() < distance:
+        which, lever = np.unravel_index(q_H.argmin(), q_H.shape)
+        return (
+            f"At the start lever {LEVERS[lever]} is already {in_words(q_H.min())} from "
+            f"{_named(H, int(which))}."
+        )
+    if K1_H.min() < distance:
+        return f"The target lies {in_words(K1_H.min())} from {_named(H, int(K1_H.argmin()))}."
+    return ""
+
+
+def _by_via_points(
+    arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
+) -> tuple[tuple[Floats, Floats, float] | None, str]:
+    """The way by via points on the first circle that keeps the distance: its path, clearance and
+    radius, or None; and the words of the plan about it.
+    """
+    first = _in_the_way(arm, direct, H, distance)
+    radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
+    radii = np.unique(np.append(radii, max(distance, CIRCLES[0] * arm.lever)))
+    paths = _via_paths(arm, direct[0], K1, H[first, 0], radii)
+    reached = ~np.isnan(paths).any(axis=(1, 2))
+    if not reached.any():
+        return None, " The via points K2 and K3 are not both within reach."
+    paths, radii = paths[reached], radii[reached]
+    clears = motion_clearances(arm, paths[:, :-1].reshape(-1, 3), paths[:, 1:].reshape(-1, 3), H)
+    clears = clears.reshape(-1, 3, 3)
+    room = clears.min(axis=(1, 2))
+    best = int((room >= distance).argmax() if room.max() >= distance else room.argmax())
+    radius = float(radii[best])
+    circle = f"the via points K2 and K3, {in_words(radius)} from {_named(H, first)}"
+    if room[best] >= distance:
+        return (paths[best], clears[best], radius), f" T{circle[1:]}, lead round it."
+    return None, f" By {circle}, {_nearest(arm, clears[best], H)}."
+
+
+def _named(H: Floats, which: int) -> str:
+    return "the obstacle" if len(H) == 1 else f"obstacle {which + 1}"
+
+
+def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
+    least = clear.min(axis=0)
+    # two levers are equally near at the joint where they meet: the first is named
+    lever = LEVERS[(least <= least.min() + TOLERANCE * arm.lever).argmax()]
+    one = len(H) == 1
+    if not least.min():
+        return f"lever {lever} sweeps {'the' if one else 'an'} obstacle"
+    near = f"lever {lever} comes as near as {in_words(least.min())}"
+    return near if one else f"{near} to an obstacle"
+
+
+def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
+    """Of several obstacles the one that is in the way first, else the nearest. By samples: nothing
+    is promised with it.
+    """
+    near = lever_distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
+    first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])
+    return int(np.lexsort((near.min(axis=1), first))[0])
+
+
+def _square(K: Floats, K1: Floats, H: Floats) -> Floats:
+    """The directions (2, 2) from H to K2 and to K3."""
+    directions = []
+    for name, end in (("K", K), ("K1", K1)):
+        x, y = end - H
+        if np.hypot(x, y) == 0:
+            raise ValueError(f"H: wanted an obstacle apart from {name}, got both at {H.tolist()}")
+        square = np.array([-y, x]) / np.hypot(x, y)
+        directions.append(square * (-1.0 if square @ H > 0 else 1.0))
+    return np.stack(directions)
+
+
+def _via_paths(
+    arm: ThreeLeverArm, q0: Floats, K1: Floats, H: Floats, radii: Floats, limited: bool = True
+) -> Floats:
+    """`via_path` for each of the radii (r,): (r, 4, 3)."""
+    K2, K3 = np.moveaxis(H + radii[:, None, None] * _square(arm.points(q0)[3], K1, H), 1, 0)
+    path = [np.tile(q0, (len(radii), 1))]
+    for points in (K2, K3, np.tile(K1, (len(radii), 1))):
+        known = ~np.isnan(path[-1]).any(axis=-1, keepdims=True)
+        reached = arm.least(points, np.where(known, path[-1], q0), limited)[0]
+        path.append(np.where(known, reached, np.nan))
+    return np.stack(path, axis=1)

@@ -1,0 +1,41 @@
+"""Ways past an obstacle that nobody has checked, and where the levers come nearest on them."""
+
+import numpy as np
+
+from ..._arrays import Floats
+from ...arms.planar import ThreeLeverArm
+from .collision import lever_distances
+from .planner import along, via_path
+
+
+def unchecked_path(
+    arm: ThreeLeverArm, way: str, q0: Floats, K1: Floats, H: Floats, distance: float
+) -> Floats:
+    """The path (k, 3) from posture q0 to the target of the way "direct" or "via points", safe or
+    not; q0 alone, (1, 3), where there is none. The via points lie `distance` metres from the
+    obstacle H (2,), or L/7 if that is more.
+    """
+    if way == "direct":
+        path = np.stack([q0, arm.least(K1, q0)[0]])
+    else:
+        try:
+            path = via_path(arm, q0, K1, H, max(distance, arm.lever / 7))
+        except ValueError:  # H lies in K or K1
+            return q0[None]
+    return q0[None] if np.isnan(path).any() else path
+
+
+def nearest_approach(
+    arm: ThreeLeverArm, path: Floats, clearances: Floats, H: Floats
+) -> tuple[int, float, Floats]:
+    """The lever that comes nearest to H (2,) on the path (k, 3) whose `clearance` is (k - 1, 3),
+    its distance in metres, and the place (2,) on it where it does; of a path (1, 3) in its posture.
+    The place is sampled: for a figure.
+    """
+    each = clearances.min(axis=0) if len(path) > 1 else lever_distances(arm, path[0], H)
+    lever, near = int(each.argmin()), float(each.min())
+    q = along(path, np.linspace(0, 1, 121)) if len(path) > 1 else path
+    k = lever_distances(arm, q, H)[:, lever].argmin()
+    P, Q = arm.points(q[k])[lever : lever + 2]
+    share = np.clip((H - P) @ (Q - P) / ((Q - P) @ (Q - P)), 0, 1)
+    return lever, near, P + share * (Q - P)

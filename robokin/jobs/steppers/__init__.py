@@ -1,0 +1,60 @@
+"""Stepper motors: the pulses of a move, when each motor gets them, what they switch in its
+windings, and whether its rotor follows.
+
+The motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
+
+    arm = loader_arm(1.2, 1.0)
+    q = station_postures(arm, points)        # (stations, 3); `out_of_reach` says why one is NaN
+    n = counts(q, per_degree)                # (stations, 3) whole pulses: where the motors stand
+    move = synchronised(n[0], n[1])          # or unsynchronised, or straight
+    q_t = joint_values(move(t), per_degree)  # joint values at the times t, to draw
+    move.pulses()                            # for each motor: when, and in which direction
+    Stepper().run(times, signs).lost         # the steps that its rotor did not make
+
+A motor's position is counted in pulses from the joint's zero. Whole pulses are taken from these
+positions and never from the angle of a single move, so that no rounding adds up, however many moves
+there are.
+Source: 003, II.3 (the motors) and paper 1; errata S3-p to S3-t.
+"""
+
+from .moves import (
+    LIMIT,
+    Move,
+    counts,
+    frequencies,
+    joint_values,
+    out_of_reach,
+    shortest_turn,
+    station_postures,
+    straight,
+    synchronised,
+    unsynchronised,
+)
+from .phase_table import COLUMNS, energised, phases
+from .rotor import FASTEST, FINE, NEARLY, ROTORS, SETTLED, SLOWEST, RotorMotion, Stepper, ramp
+
+__all__ = [
+    "COLUMNS",
+    "FASTEST",
+    "FINE",
+    "LIMIT",
+    "NEARLY",
+    "ROTORS",
+    "SETTLED",
+    "SLOWEST",
+    "Move",
+    "RotorMotion",
+    "Stepper",
+    "counts",
+    "energised",
+    "frequencies",
+    "joint_values",
+    "out_of_reach",
+    "phases",
+    "ramp",
+    "shortest_turn",
+    "station_postures",
+    "straight",
+    "synchronised",
+    "unsynchronised",
+]

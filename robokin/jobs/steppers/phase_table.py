@@ -1,0 +1,81 @@
+"""Phase tables: what each pulse switches in the windings of a stepper motor."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+from ..._arrays import ArrayLike, Ints
+from ..._validate import choice, floats, short, whole
+from .moves import COUNTED
+
+DRIVES = ("wave", "two-phase", "half-step")
+_FEWEST = {"unipolar": 3, "bipolar": 2}
+_DOCUMENTS = {"unipolar": 4, "bipolar": 2}  # windings of the motors of tables 1 and 2
+COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "unipolar": ("half winding a1", "half winding b1", "half winding a2", "half winding b2"),
+        "bipolar": (
+            "winding 1, end a1",
+            "winding 1, end b1",
+            "winding 2, end a2",
+            "winding 2, end b2",
+        ),
+    }
+)
+
+
+def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
+    """The phase table, one row per pulse: (rows, columns) of 1, 0 and -1. Without `windings` it is
+    that of the document's motors, columns as in `COLUMNS[motor]`.
+
+    drive     "wave": one winding at a time; "two-phase": two neighbours, with more torque;
+              "half-step": by turns, half the angle per pulse, so twice the pulses per degree
+    motor     "unipolar": one column for each winding, 1 where it carries current. "bipolar": two
+              for each, 1 at its positive end, -1 at its negative end. The document names the
+              columns of both a1, b1, a2, b2 and means other wires (errata S3-t): with table 1's
+              names the first row of table 2 would be two opposite half windings that cancel.
+    windings  phases that are switched: 3 to 6 unipolar (of two the second pulls as much forwards as
+              backwards), 4 if None: two windings with a tap in the middle, four halves. 2 to 6
+              bipolar, 2 if None. Source: 003, II.3.1 ("two to six")
+
+    The field turns evenly, once in n rows unipolar and 2 n bipolar, and in twice as many half
+    steps. Source: 003, II.3.2, tables 1 and 2 (which shows only the +). Its appendices 3 and 4, the
+    two-phase drive of the unipolar motor and the half step, are not in the text: these rows follow
+    from the order of table 1.
+    """
+    choice(drive, "drive", DRIVES)
+    n = read_windings(motor, windings)
+    one = np.eye(n, dtype=np.int64)
+    if motor == "bipolar":
+        one = np.concatenate([one, -one])
+    two = one + np.roll(one, -1, axis=0)
+    rows = {"wave": one, "two-phase": two}.get(drive)
+    if rows is None:
+        rows = np.stack([one, two], axis=1).reshape(-1, n)
+    if motor == "bipolar":
+        rows = np.stack([rows, -rows], axis=-1).reshape(-1, 2 * n)
+    return rows
+
+
+def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
+    """What the windings carry before the first and after every pulse: table (rows, columns), signs
+    (pulses,) -> (pulses + 1, columns).
+
+    The first answer is the row number `row` of the table, counted on from the last row to the
+    first. A positive pulse takes the next row and a negative one the row before: the order is the
+    direction. Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
+    """
+    rows, signs = floats(table, "table"), floats(signs, "signs")
+    if rows.ndim != 2 or not len(rows):
+        raise ValueError(f"table: wanted rows as `phases` gives them, got shape {rows.shape}")
+    if signs.ndim != 1 or (abs(signs) != 1).any():
+        raise ValueError(f"signs: wanted +1 and -1 in an array (pulses,), got {short(signs)}")
+    steps = np.concatenate([[0], np.cumsum(signs)]).astype(np.int64)
+    return np.asarray(table)[(whole(row, "row", -COUNTED, COUNTED) + steps) % len(rows)]
+
+
+def read_windings(motor: str, windings: int | None) -> int:
+    """How many windings a motor has, its own or the document's."""
+    fewest = _FEWEST[choice(motor, "motor", tuple(COLUMNS))]
+    return whole(_DOCUMENTS[motor] if windings is None else windings, "windings", fewest, 6)

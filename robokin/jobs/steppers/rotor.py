@@ -1,0 +1,305 @@
+"""Rotors: the torques on one, and whether it follows its pulses."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..._arrays import ArrayLike, Floats, Ints, frozen
+from ..._validate import choice, floats, number, positive, short, whole
+from .moves import LIMIT
+from .phase_table import DRIVES, energised, phases, read_windings
+
+ROTORS = ("active", "passive")
+SETTLED = 8.0  # time constants that a rotor gets to come to rest
+NEARLY = 3.0  # time constants in which a current comes within 5 % of its value
+FINE = (0.1, 0.25)  # a step of the integration: of the mechanics' shortest time, and of `rise`
+INTEGRATED = 100_000  # steps of one run
+FASTEST = 1e9  # rad/s
+SLOWEST = 10  # pulses per second, where the search for a start frequency begins
+
+
+@dataclass(frozen=True)
+class Stepper:
+    """A stepper motor as a weight on a magnetic spring that every pulse moves on.
+
+    rotor     "active": a permanent magnet of two poles. "passive": soft iron with 2 n + 2 teeth
+              between 2 n poles; it knows no sign of a current, so it is unipolar
+    motor, windings, drive  as for `phases`
+    torque    of one winding at most, N m
+    inertia   of the rotor, kg m^2
+    damping   torque per speed, N m s
+    rise      time constant L/R of a winding's current, s; 0: at once
+
+    Each winding with the current i (1: full) pulls with torque * i * sin(psi - N theta), where
+    psi is its place in the ring of windings, theta the rotor's angle and N how often this comes
+    round in one turn of the rotor (`periods`): 1, or the number of teeth. A passive rotor has i^2
+    for i. The sum is one sine as well: torque * |pull| * sin(arg(pull) - N theta). ValueError:
+    numbers that are not positive, a passive bipolar motor. Source: 003, II.3.1 (active and passive
+    rotors); the sine is the usual first term, e.g. P. Acarnley, Stepping Motors, 2002, ch. 2 to 5.
+    """
+
+    rotor: str = "active"
+    motor: str = "unipolar"
+    windings: int = 4
+    drive: str = "wave"
+    torque: float = 0.02
+    inertia: float = 1e-6
+    damping: float = 6e-5
+    rise: float = 1e-3
+
+    def __post_init__(self) -> None:
+        choice(self.rotor, "rotor", ROTORS)
+        read_windings(self.motor, self.windings)
+        choice(self.drive, "drive", DRIVES)
+        for name in ("torque", "inertia", "damping"):
+            positive(getattr(self, name), name)
+        _not_negative(self.rise, "rise")
+        if self.rotor == "passive" and self.motor == "bipolar":
+            raise ValueError("motor: wanted 'unipolar' for a passive rotor, got 'bipolar'")
+
+    @property
+    def periods(self) -> int:
+        """How often the pull of a winding comes round in one turn of the rotor."""
+        return 1 if self.rotor == "active" else 2 * self.windings + 2
+
+    @property
+    def currents(self) -> Ints:
+        """(rows, windings): what each winding carries in each row of `phases`; 1, 0 or -1."""
+        table = phases(self.drive, self.motor, self.windings)
+        return table[:, ::2] if self.motor == "bipolar" else table
+
+    @property
+    def step(self) -> float:
+        """The angle of a step in rad: a full turn / (rows of the phase table * periods).
+
+        Source: 003, II.3.1: 1 to 9 degrees with a passive rotor, 10 and more with an active one.
+        """
+        return 2 * math.pi / (len(self.currents) * self.periods)
+
+    @property
+    def pulls(self) -> np.ndarray[tuple[int, ...], np.dtype[np.complex128]]:
+        """(rows,) complex: direction (in the ring) and strength (1: one winding) of each row."""
+        turn = (math.pi if self.motor == "bipolar" else 2 * math.pi) / self.windings
+        currents = self.currents if self.rotor == "active" else self.currents**2
+        pulls: np.ndarray[tuple[int, ...], np.dtype[np.complex128]] = currents @ np.exp(
+            1j * turn * np.arange(self.windings)
+        )
+        return pulls
+
+    @property
+    def holding_torque(self) -> float:
+        """The greatest load, N m, that the motor bears at rest in every row: torque * |pull|."""
+        return float(self.torque * abs(self.pulls).min())
+
+    @property
+    def starting_torque(self) -> float:
+        """The greatest load, N m, that it still takes from every row to the next, however slowly.
+
+        A load L bends row k by asin(L / s_k), s_k the strength; the next row takes over while both
+        angles and the step sum up to less than half a turn. So L is the distance from 0 to the line
+        between two neighbouring `pulls`. Source of the term: 003, II.3.1.
+        """
+        now, on = self.pulls, np.roll(self.pulls, -1) - self.pulls
+        share = np.clip(-(now.conj() * on).real / abs(on) ** 2, 0, 1)
+        return float(self.torque * abs(now + share * on).min())
+
+    @property
+    def commutation_frequency(self) -> float:
+        """The frequency, pulses per second, above which a winding's current comes no longer within
+        5 % of its value in one step; infinite where `rise` is 0. Source of the term: 003, II.3.1.
+        """
+        return 1 / (NEARLY * self.rise) if self.rise else math.inf
+
+    def start_frequency(
+        self, load: float = 0.0, load_inertia: float = 0.0, pulses: int = 48
+    ) -> float:
+        """The frequency, in whole pulses per second, at which the motor just follows from rest
+        without losing a step: one more, and it loses some. At most `LIMIT`; 0 if even `SLOWEST` is
+        too fast. Found by halving: far below it a motor with little damping may lose steps, too, by
+        resonance.
+
+        load, load_inertia  as for `run`. Source of the term: 003, II.3.1.
+        """
+        count = whole(pulses, "pulses", 1, INTEGRATED)
+        low, high = SLOWEST - 1, int(LIMIT) + 1
+        while high - low > 1:  # made at `low` (or too slow to ask), lost at `high`
+            middle = (low + high) // 2
+            times = np.arange(1, count + 1) / middle
+            lost = self.run(times, np.ones(count), load, load_inertia).lost
+            low, high = (low, middle) if lost else (middle, high)
+        return float(low if low >= SLOWEST else 0)
+
+    def run(
+        self, times: ArrayLike, signs: ArrayLike, load: float = 0.0, load_inertia: float = 0.0
+    ) -> "RotorMotion":
+        """What the rotor does with pulses: it rests in the table's first row, gets them, and comes
+        to rest again.
+
+        times, signs  (pulses,) s, not falling, from 0 on; +1 or -1: as of `Move.pulses`
+        load          N m, a weight on a drum: it pulls backwards, whatever the rotor does
+        load_inertia  kg m^2, beside the rotor's
+
+        Fourth order Runge-Kutta in equal steps from pulse to pulse; the page has the same
+        (js/rotor.js). ValueError: a run of more than `INTEGRATED` steps.
+        """
+        t, turns = floats(times, "times"), floats(signs, "signs")
+        if t.ndim != 1 or t.shape != turns.shape or (np.diff(t, prepend=0.0) < 0).any():
+            wanted = "wanted times (pulses,) that do not fall, from 0 on, and as many signs"
+            raise ValueError(f"times and signs: {wanted}, got {short(t)} and {short(turns)}")
+        rows = energised(np.arange(len(self.currents))[:, None], turns)[:, 0]  # or refuses
+        return _rotor_run(self, t, rows, turns, *_loaded(load, load_inertia))
+
+
+@dataclass(frozen=True, eq=False)
+class RotorMotion:
+    """What a rotor did: at the times `t` (k,) in s its angle was `angle` (k,) and should have been
+    `due` (k,), both in rad. `lost` is how many steps the angle is short of `due` in the end; of
+    pulses with the sign -1 lost steps count negative.
+
+    At rest it can stand only where the last row holds it. So the lost steps are always as many as
+    the phase table has rows, or twice as many, and so on.
+    """
+
+    t: Floats
+    angle: Floats
+    due: Floats
+    lost: int
+
+
+def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
+    """The times (pulses,) in s of pulses whose frequency rises evenly from `start` to `end`, in so
+    many seconds, stays there, and falls in the same way. A short move turns back before `end`.
+
+    Frequencies in pulses per second; `seconds` 0: `end` at once. Pulse k comes when k pulses are
+    due, the last one at the end: with start = end as in `Move.pulses`.
+    """
+    count = whole(pulses, "pulses", 1, INTEGRATED)
+    low, high = (
+        positive(x, name, "one positive number of pulses per second")
+        for x, name in ((start, "start"), (end, "end"))
+    )
+    rise = _not_negative(seconds, "seconds")
+    if low > high:
+        raise ValueError(f"start and end: wanted a frequency that rises, got {low:g} to {high:g}")
+    more = (high - low) / rise if rise > 0 else 0.0  # pulses per second, each second
+    low = low if more else high
+    top = min(high, math.sqrt(low**2 + more * count))
+    up = (top - low) / more if more else 0.0
+    done = (low + top) / 2 * up  # pulses in the ramp
+    duration = 2 * up + (count - 2 * done) / top
+    k = np.arange(1, count + 1)
+    ahead = np.minimum(k, count - k)  # from the start, or from the end
+    with np.errstate(divide="ignore", invalid="ignore"):
+        climbing = 2 * ahead / (low + np.sqrt(low**2 + 2 * more * ahead))
+    since = np.where(ahead < done, climbing, up + (ahead - done) / top)
+    return np.where(k <= count - k, since, duration - since)
+
+
+# ---- Private
+
+
+def _not_negative(value: float, name: str) -> float:
+    one = number(value, name)
+    if one < 0:
+        raise ValueError(f"{name}: wanted no negative number, got {short(value)}")
+    return one
+
+
+def _loaded(load: float, load_inertia: float) -> tuple[float, float]:
+    return number(load, "load"), _not_negative(load_inertia, "load_inertia")
+
+
+def _rotor_run(
+    motor: Stepper, times: Floats, rows: Ints, signs: Floats, load: float, load_inertia: float
+) -> RotorMotion:
+    """The run of checked arguments."""
+    table, periods = motor.currents.tolist(), motor.periods
+    sharp = 1 if motor.rotor == "active" else 2
+    turn = (math.pi if motor.motor == "bipolar" else 2 * math.pi) / motor.windings
+    across, along = ([f(turn * k) for k in range(motor.windings)] for f in (math.cos, math.sin))
+    torque, damping, inertia = motor.torque, motor.damping, motor.inertia + load_inertia
+    gaps, steps = _integration_steps(motor, times, load, inertia)
+
+    def pull(currents: list[float]) -> tuple[float, float]:
+        x = y = 0.0
+        for i, c, s in zip(currents, across, along, strict=True):
+            i = i**sharp
+            x += i * c
+            y += i * s
+        return x, y
+
+    def faster(x: float, y: float, theta: float, omega: float) -> float:
+        a = periods * theta
+        drag = damping * omega + load
+        return (torque * (y * math.cos(a) - x * math.sin(a)) - drag) / inertia
+
+    rest = _resting(motor, load)
+    theta, omega, time = rest[0], 0.0, 0.0
+    currents = [float(i) for i in table[0]]
+    t, angle, at = [0.0], [theta], [0]
+    for k, (row, n, gap) in enumerate(zip(rows, steps, gaps, strict=True)):
+        if not n:
+            continue
+        goal, h = table[row], gap / n
+        left = math.exp(-h / 2 / motor.rise) if motor.rise else 0.0
+        x0, y0 = pull(currents) if motor.rise else pull(goal)
+        for _ in range(int(n)):
+            currents = [g + (i - g) * left for i, g in zip(currents, goal, strict=True)]
+            x1, y1 = pull(currents)
+            currents = [g + (i - g) * left for i, g in zip(currents, goal, strict=True)]
+            x2, y2 = pull(currents)
+            a0 = faster(x0, y0, theta, omega)
+            w1 = omega + h / 2 * a0
+            a1 = faster(x1, y1, theta + h / 2 * omega, w1)
+            w2 = omega + h / 2 * a1
+            a2 = faster(x1, y1, theta + h / 2 * w1, w2)
+            w3 = omega + h * a2
+            a3 = faster(x2, y2, theta + h * w2, w3)
+            theta += h / 6 * (omega + 2 * w1 + 2 * w2 + w3)
+            omega += h / 6 * (a0 + 2 * a1 + 2 * a2 + a3)
+            x0, y0 = x2, y2
+            time += h
+            t.append(time)
+            angle.append(theta)
+            at.append(k)
+    sent = np.concatenate([[0.0], np.cumsum(signs)])
+    due = (rest[rows] + (sent - rows) * motor.step)[at]
+    lost = round((due[-1] - theta) / motor.step)
+    return RotorMotion(frozen(np.array(t)), frozen(np.array(angle)), frozen(due), lost)
+
+
+def _integration_steps(
+    motor: Stepper, times: Floats, load: float, inertia: float
+) -> tuple[Floats, Floats]:
+    """The seconds before each pulse and until the rotor has come to rest (pulses + 1,), and in how
+    many equal steps each is integrated; ValueError where that is too much work.
+    """
+    torque, damping = motor.torque, motor.damping
+    swing = math.sqrt(inertia / (motor.periods * torque * float(abs(motor.pulls).max())))
+    longest = min(FINE[0] * min(swing, inertia / damping), FINE[1] * motor.rise or math.inf)
+    settle = SETTLED * max(2 * inertia / damping, damping / inertia * swing * swing)
+    ends = [*times.tolist(), (float(times[-1]) if len(times) else 0.0) + settle]
+    gaps: Floats = np.diff(ends, prepend=0.0)
+    with np.errstate(all="ignore"):
+        steps = np.ceil(gaps / np.float64(longest))
+    if not steps.sum() <= INTEGRATED:
+        wanted = f"wanted a run of at most {INTEGRATED} steps of {longest:.3g} s"
+        raise ValueError(f"times: {wanted}, got one of {ends[-1]:.4g} s")
+    for name, value in (("load", load), ("torque", torque)):
+        if not abs(value) / damping <= FASTEST:
+            wanted = f"wanted one that turns the rotor at {FASTEST:g} rad/s at most"
+            got = f"got {value:.4g} N m at a damping of {damping:.4g} N m s"
+            raise ValueError(f"{name}: {wanted}, {got}")
+    return gaps, steps
+
+
+def _resting(motor: Stepper, load: float) -> Floats:
+    """(rows,) rad: where the rotor rests in each row under a load, the first row's within half a
+    period of 0 and the others after it. Where a row does not hold the load: where it pulls most.
+    """
+    pulls = motor.pulls
+    bent = np.arcsin(np.clip(load / (motor.torque * abs(pulls)), -1, 1))
+    ring = np.angle(pulls[0]) + 2 * np.pi / len(pulls) * np.arange(len(pulls))
+    angles: Floats = (ring - bent) / motor.periods
+    return angles

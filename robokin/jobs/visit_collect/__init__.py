@@ -1,0 +1,68 @@
+"""Visit and collect: how many points the three-joint arm of source 000 can serve in a given time.
+
+A task is a JSON file with exactly the document's keys:
+
+    L1, L2   lengths of the links, m        p0     where the tool starts, m: [x, y, z]
+    T        time allowed, s                pi     the points to serve, m: [[x, y, z], ...]
+    q'       greatest joint speeds, rad/s   task   "visit": go from point to point; "collect": bring
+             each back to p0
+
+    task = read_task("notebooks/tasks/example_3.json")
+    print(report(task, visit(task)))
+
+Everything is solved on the document's principal branch, row 0 of `spbu_arm(l1, l2).ik` (errata
+S0-d: a second solution may exist inside the same limits, and be nearer). A joint that is free at a
+point (joint 1 on axis 1, joint 2 as well where equal links are folded onto the origin) stays where
+it stands when the arm arrives; a start there takes the value of the first target that has one
+(errata S0-p).
+Source: 000, "Определение границ рабочей области", "Нахождение времени", appendix 1; errata S0.
+"""
+
+from .arm import (
+    lowest,
+    misfit,
+    out_of_workspace,
+    principal_postures,
+    travel_time,
+    workspace,
+)
+from .report_text import POINTS_SHOWN, report
+from .solver import (
+    ABOVE_LIMIT,
+    EXACT_LIMIT,
+    NEAREST_LIMIT,
+    Result,
+    answer,
+    best_visit,
+    collect,
+    itinerary,
+    visit,
+)
+from .task import FAULTS_SHOWN, KEYS, TASK_LIMIT, Task, TaskError, faults, read_task
+
+__all__ = [
+    "ABOVE_LIMIT",
+    "EXACT_LIMIT",
+    "FAULTS_SHOWN",
+    "KEYS",
+    "NEAREST_LIMIT",
+    "POINTS_SHOWN",
+    "TASK_LIMIT",
+    "Result",
+    "Task",
+    "TaskError",
+    "answer",
+    "best_visit",
+    "collect",
+    "faults",
+    "itinerary",
+    "lowest",
+    "misfit",
+    "out_of_workspace",
+    "principal_postures",
+    "read_task",
+    "report",
+    "travel_time",
+    "visit",
+    "workspace",
+]

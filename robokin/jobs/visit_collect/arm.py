@@ -1,0 +1,222 @@
+"""The arm of source 000: where it reaches, how long a move takes, and how low the tool comes."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..._arrays import ArrayLike, Bools, Floats, by_blocks, components
+from ..._validate import TWO_TURNS, broadcast, floats, length, short, warn_if_degrees
+from ...arms import spbu_arm, within
+from ...arms.geometry import FREE, ROUNDING
+
+SHORTEST, LONGEST = 1e-6, 1e6  # m; a link beyond these is a mistake of units
+UNDER = 1e-9  # of the reach: a tool no deeper under the floor than this is on it
+
+
+def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
+    """Which of the document's four conditions hold: points (..., 3) in metres -> bool (..., 4).
+
+    In this order: not beyond the stretched arm; not under the floor; not nearer to the origin than
+    l1 - l2 (where l1 > l2); the elbow not under the floor (where l1 < l2). A point past a border by
+    rounding (1e-12 of the reach) is on it (errata S0-l). A point is in the workspace if all four
+    hold; then the principal branch exists, inside the limits. Source: 000, "Определение границ
+    рабочей области"; its condition cos q2 >= 0 follows (errata S0-c, S0-s).
+    """
+    l1, l2 = _links(l1, l2)
+    x, y, z = components(floats(points, "points", 3))
+    slack = ROUNDING * (l1 + l2)
+    with np.errstate(over="ignore"):  # a point 1e308 m away is too far, and that is all
+        rho = np.hypot(x, y)
+        d = np.hypot(rho, z)
+        # The elbow is lowest on the floor behind the axis, l1 away: (rho + l1)^2 + z^2 >= l2^2, the
+        # last inequality of the document with its terms in another order.
+        from_elbow = np.hypot(rho + l1, z)
+    inner_sphere = (d >= l1 - l2 - slack) | (l1 <= l2)
+    inner_surface = (from_elbow >= l2 - slack) | (l1 >= l2)
+    return np.stack([d <= l1 + l2 + slack, z >= -slack, inner_sphere, inner_surface], axis=-1)
+
+
+def out_of_workspace(l1: float, l2: float, point: ArrayLike) -> list[str]:
+    """Why one point (3,) lies outside the workspace: a list of reasons in words, empty if it lies
+    inside.
+    """
+    l1, l2 = _links(l1, l2)
+    p = floats(point, "point", 3)
+    if p.ndim != 1:
+        raise ValueError(f"point: wanted one single point (3,), got {p.shape}")
+    holds = workspace(l1, l2, p)
+    return [
+        reason for reason, fine in zip(reasons_outside(l1, l2, p), holds, strict=True) if not fine
+    ]
+
+
+def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
+    """The principal branch for points (..., 3) -> q (..., 3): rad, NaN in a joint that is free, all
+    NaN out of reach.
+
+    On axis 1 joint 1 is free (errata S0-p), and with equal links folded onto the origin joint 2 as
+    well (S0-k).
+    """
+    l1, l2 = _links(l1, l2)
+    # -0.0 is 0: atan2 tells them apart, a point does not
+    p = floats(points, "points", 3) + 0.0
+    near = FREE * (l1 + l2)
+    with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`
+        q = np.array(spbu_arm(l1, l2).ik(p)[..., 0, :])
+        rho = np.hypot(p[..., 0], p[..., 1])
+        q[rho <= near, 0] = np.nan
+        q[np.hypot(rho, p[..., 2]) <= near, 1] = np.nan
+    return q
+
+
+def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
+    """How far the tool at q (..., 3) is from where it should be, points (..., 3): m, (...).
+    Infinite if a joint is past its limit, NaN if the posture does not exist.
+
+    It says what the printed program's seven checks mean to say: they have no absolute value, and
+    joint 1 is in none of them (errata S0-e).
+    """
+    arm = spbu_arm(*_links(l1, l2))
+    posture, p = floats(q, "q", 3, finite=False), floats(points, "points", 3)
+    broadcast("q and points", posture.shape, p.shape)
+    posture = with_free_joints(posture, 0.0)  # a free joint may take any value; 0 is one of them
+    with np.errstate(over="ignore"):
+        gap = np.linalg.norm(arm.fk(posture).translation - p, axis=-1)
+    return np.where(within(arm, posture).all(axis=-1) | np.isnan(gap), gap, np.inf)
+
+
+def travel_time(
+    q_from: ArrayLike, q_to: ArrayLike, speeds: ArrayLike, *, short_way: bool = False
+) -> Floats:
+    """The least time from posture to posture, s: q_from, q_to (..., 3) and greatest speeds (3,) ->
+    (...).
+
+    t = max over the joints of |difference| / speed: the slowest joint decides. A joint that is NaN
+    costs nothing: in q_to it is free and stays where it stands (errata S0-p), in q_from nobody has
+    said where it stands. Going on from a free joint, put in what it has kept: `itinerary` does. NaN
+    if every joint is NaN. `short_way` lets joint 1 take the shorter way round, as if it had no stop
+    at +-pi (errata S0-o).
+    Source: 000, "Нахождение времени". ValueError: wrong shapes, a speed that is not positive.
+    """
+    start, end = (
+        floats(q, name, 3, finite=False) for q, name in ((q_from, "q_from"), (q_to, "q_to"))
+    )
+    broadcast("q_from and q_to", start.shape, end.shape)
+    limits = floats(speeds, "speeds", 3)
+    if limits.ndim != 1 or not (limits > 0).all():
+        raise ValueError(f"speeds: wanted three positive numbers in rad/s, got {short(speeds)}")
+    for q, name in ((start, "q_from"), (end, "q_to")):
+        warn_if_degrees(q, name, posture=1)
+    return joint_travel_time(start, end, limits, short_way)
+
+
+def lowest(l1: float, l2: float, q_from: ArrayLike, q_to: ArrayLike) -> Floats:
+    """The least height of the tool, m, on the way from q_from to q_to (..., 3) with every joint
+    moving evenly: (...).
+
+    Between two points above the floor it can be negative where l1 > l2 (errata S0-u). Not a sample
+    but certain: the tool comes nowhere lower than this minus 1e-9 of the reach. A joint that is NaN
+    at one end is free and stands still; NaN if a posture does not exist. ValueError: a joint beyond
+    two turns.
+    """
+    l1, l2 = _links(l1, l2)
+    start, end = (
+        floats(q, name, 3, finite=False) for q, name in ((q_from, "q_from"), (q_to, "q_to"))
+    )
+    broadcast("q_from and q_to", start.shape, end.shape)
+    for q, name in ((start, "q_from"), (end, "q_to")):
+        if (abs(q) > TWO_TURNS).any():
+            greatest = np.nanmax(abs(q))
+            raise ValueError(f"{name}: wanted joints within two turns, got {greatest:.6g} rad")
+    return lowest_place(l1, l2, start, end, np.inf)
+
+
+# ---- The same for arguments that are checked
+
+
+def joint_travel_time(start: Floats, end: Floats, speeds: Floats, short_way: bool) -> Floats:
+    """`travel_time` of what has been checked."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        turn = abs(end - start)
+        if short_way:
+            turn[..., 0] = abs((turn[..., 0] + np.pi) % (2 * np.pi) - np.pi)
+        one, two, three = components(turn / speeds)
+        longest: Floats = np.fmax(np.fmax(one, two), three)
+    return longest
+
+
+def with_free_joints(q: Floats, here: Floats | float) -> Floats:
+    """Postures q (..., 3) with each free joint (NaN) as it is in the posture `here`. A posture that
+    does not exist has joint 3 missing as well, and stays.
+    """
+    return np.where(np.isnan(q) & ~np.isnan(q[..., 2:]), here, q)
+
+
+def lowest_place(l1: float, l2: float, start: Floats, end: Floats, below: float) -> Floats:
+    """`lowest` of what has been checked; what is not below the height `below` may be too great."""
+    start, end = np.broadcast_arrays(
+        with_free_joints(with_free_joints(start, end), 0.0),
+        with_free_joints(with_free_joints(end, start), 0.0),
+    )
+    moves = np.concatenate([start[..., 1:], end[..., 1:]], axis=-1).reshape(-1, 4)
+    z = by_blocks(lambda block: [_lowest_of_block(l1, l2, block, below)], moves)
+    return z.reshape(start.shape[:-1])
+
+
+def reasons_outside(l1: float, l2: float, point: Floats) -> tuple[str, ...]:
+    """What is wrong with one point (3,) if it is outside, one text for each of the four
+    conditions.
+    """
+    x, y, z = point.tolist()
+    rho, d = math.hypot(x, y), math.hypot(x, y, z)
+    return (
+        f"is too far: {d - l1 - l2:.4g} m beyond the stretched arm, l1 + l2 = {l1 + l2:.9g} m",
+        f"is under floor: z = {z:.9g} m",
+        f"is too close to origin: |p| = {d:.9g} m is less than l1 - l2 = {l1 - l2:.9g} m",
+        f"is too close to origin: |p|^2 = {d * d:.9g} m^2 is less than "
+        f"l2^2 - l1^2 - 2 l1 rho = {(l2 - l1) * (l2 + l1) - 2 * l1 * rho:.9g} m^2",
+    )
+
+
+# ---- Private
+
+
+def _links(l1: Any, l2: Any) -> tuple[float, float]:
+    l1, l2 = length(l1, "l1"), length(l2, "l2")
+    for name, value in (("l1", l1), ("l2", l2)):
+        if not SHORTEST <= value <= LONGEST:
+            wanted = f"a length from {SHORTEST:g} to {LONGEST:g} m"
+            raise ValueError(f"{name}: wanted {wanted}, got {value:g}")
+    return l1, l2
+
+
+@np.errstate(invalid="ignore")  # NaN of postures that do not exist
+def _lowest_of_block(l1: float, l2: float, moves: Sequence[Floats], below: float) -> Floats:
+    """`lowest_place` for moves: q2 and q3 at the start, q2 and q3 at the end, (n,) each.
+
+    Halves those stretches of a move which can still hold a lower place. With a = q2 and b = q2 + q3
+    the height is z = l1 cos a - l2 sin b, and a, b run evenly: a stretch of the share h hangs lower
+    than its lower end by at most z'' h^2 / 8, and z'' is known from its middle and from how fast it
+    can change.
+    """
+    a, q3, a_end, q3_end = moves
+    b, b_end = a + q3, a_end + q3_end
+    da, db = a_end - a, b_end - b
+    low, high = l1 * np.cos(a) - l2 * np.sin(b), l1 * np.cos(a_end) - l2 * np.sin(b_end)
+    least, change = np.minimum(low, high), l1 * abs(da) ** 3 + l2 * abs(db) ** 3
+    move, begin, share = np.arange(len(a)), np.zeros(len(a)), 1.0
+    while len(move):
+        middle = begin + share / 2
+        up = l1 * np.cos(a[move] + middle * da[move])
+        down = l2 * np.sin(b[move] + middle * db[move])
+        here = up - down
+        np.minimum.at(least, move, here)
+        bend = down * db[move] ** 2 - up * da[move] ** 2 + change[move] * share / 2
+        bound = np.minimum(low, high) - np.maximum(bend, 0) * share**2 / 8
+        on = bound < np.minimum(least[move], below) - UNDER * (l1 + l2)
+        move, begin = np.tile(move[on], 2), np.concatenate([begin[on], middle[on]])
+        low, high = (np.concatenate(ends) for ends in ((low[on], here[on]), (here[on], high[on])))
+        share /= 2
+    return least
