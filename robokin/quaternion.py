@@ -12,19 +12,18 @@ from typing import Any, Self, overload
 
 import numpy as np
 
-from ._arrays import ArrayLike, Floats, components, fixed, sealed, stack
+from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
 from ._validate import broadcast, floats, instance, shape_of, warn_if_degrees
 
 UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
-class Batch:
+class Batch(Sealed):
     """What values with a batch shape have in common: indexing, length and iteration over the batch
     only.
     """
 
-    __setattr__ = __delattr__ = fixed
     __array_ufunc__ = None  # so that `array @ value` is a TypeError and not an array of objects
 
     @property
@@ -44,7 +43,7 @@ class Batch:
         return (self[i] for i in range(len(self)))
 
 
-@dataclass(init=False, repr=False, eq=False)
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class Quaternion(Batch):
     """A rotation of any batch shape, as a unit quaternion `wxyz` of shape (..., 4).
 
@@ -61,7 +60,7 @@ class Quaternion(Batch):
 
     def __init__(self, wxyz: ArrayLike) -> None:
         value = floats(wxyz, "wxyz", 4)
-        object.__setattr__(self, "wxyz", sealed(unit(value, "wxyz", "unit quaternions")))
+        vars(self)["wxyz"] = sealed(unit(value, "wxyz", "unit quaternions"))
 
     @classmethod
     def _of(cls, wxyz: Floats) -> "Quaternion":
@@ -69,8 +68,7 @@ class Quaternion(Batch):
         pass.
         """
         self = object.__new__(cls)
-        wxyz.setflags(write=False)
-        self.__dict__["wxyz"] = wxyz
+        vars(self)["wxyz"] = sealed(wxyz)
         return self
 
     @classmethod

@@ -17,7 +17,7 @@ from .quaternion import Batch, Quaternion, rounded
 HERE = Quaternion.identity()
 
 
-@dataclass(init=False, repr=False, eq=False)
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class Transform(Batch):
     """A pose or a change of frame: first `rotation`, then `translation` (..., 3) in metres.
 
@@ -42,16 +42,14 @@ class Transform(Batch):
         shape = broadcast("rotation and translation", rotation.shape, place.shape[:-1])
         if rotation.shape != shape:
             rotation = Quaternion._of(np.broadcast_to(rotation.wxyz, (*shape, 4)))
-        object.__setattr__(self, "rotation", rotation)
         copy = np.broadcast_to(place, (*shape, 3)).copy()
-        object.__setattr__(self, "translation", sealed(copy))
+        vars(self).update(rotation=rotation, translation=sealed(copy))
 
     @classmethod
     def _of(cls, rotation: Quaternion, translation: Floats) -> "Transform":
         """From parts of one batch shape: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
-        translation.setflags(write=False)
-        self.__dict__["rotation"], self.__dict__["translation"] = rotation, translation
+        vars(self).update(rotation=rotation, translation=sealed(translation))
         return self
 
     @classmethod

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, Ints, by_blocks, fixed, frozen
+from .._arrays import ArrayLike, Bools, Floats, Ints, Sealed, by_blocks, frozen
 from .._validate import floats, short, text, warn_if_degrees
 from ..quaternion import Quaternion, cross, turned
 from ..transform import Transform
@@ -17,8 +17,8 @@ from .link import BASE, Frame, Link
 SCALARS = (int, float, np.number)
 
 
-@dataclass(init=False, repr=False, eq=False)
-class Arm:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class Arm(Sealed):
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 
     name           what a figure calls it
@@ -35,8 +35,6 @@ class Arm:
     limits: Floats
     speed_limits: Floats | None
 
-    __setattr__ = __delattr__ = fixed
-
     def __init__(
         self,
         name: str,
@@ -44,23 +42,22 @@ class Arm:
         limits: ArrayLike,
         speed_limits: ArrayLike | None = None,
     ) -> None:
-        object.__setattr__(self, "name", text(name, "name"))
+        text(name, "name")
         parts = self._geometry_has()
         if isinstance(geometry, type) or not all(hasattr(geometry, part) for part in parts):
             wanted = f"a geometry with {', '.join(parts)}"
             raise TypeError(f"geometry: wanted {wanted}, got {short(geometry)}")
-        object.__setattr__(self, "geometry", geometry)
-        n = len(self.links)
+        n = len(geometry.links)
         pairs = floats(limits, "limits", 2)
         if pairs.shape != (n, 2) or (pairs[:, 0] >= pairs[:, 1]).any():
             got = pairs.tolist() if pairs.size < 50 else f"shape {pairs.shape}"
             raise ValueError(f"limits: wanted {n} pairs (lowest, highest), got {got}")
-        object.__setattr__(self, "limits", frozen(pairs))
         speeds = None if speed_limits is None else floats(speed_limits, "speed_limits", n)
         if speeds is not None and (speeds.ndim != 1 or (speeds <= 0).any()):
             got = short(speeds.tolist())
             raise ValueError(f"speed_limits: wanted {n} positive numbers, got {got}")
-        object.__setattr__(self, "speed_limits", None if speeds is None else frozen(speeds))
+        vars(self).update(name=name, geometry=geometry, limits=frozen(pairs))
+        vars(self)["speed_limits"] = None if speeds is None else frozen(speeds)
 
     @staticmethod
     def _geometry_has() -> tuple[str, ...]:
@@ -171,6 +168,7 @@ class Arm:
         return f"Arm({self.name!r}, {len(self.links)} joints)"
 
 
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class ClosedFormArm(Arm):
     """An `Arm` with all solutions of its inverse in closed form: `ik`."""
 

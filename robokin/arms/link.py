@@ -1,12 +1,12 @@
 """Links: what a chain is made of."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, fixed, sealed
+from .._arrays import ArrayLike, Floats, Sealed, sealed
 from .._validate import broadcast, floats, instance
 from ..quaternion import Quaternion, along, half_angles, hamilton, spun, turned, unit
 from ..transform import Transform
@@ -18,13 +18,13 @@ HERE = Transform()
 BASE: Frame = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-@dataclass(init=False, eq=False)
-class Link:
-    """One joint between two fixed transforms: the frame after it is
+@dataclass(frozen=True, init=False, eq=False)
+class Link(Sealed):
+    """One joint between two constant transforms: the frame after it is
     `frame @ before @ motion @ after`.
 
     The motion is a turn about the unit vector `axis` or, if `prismatic`, a shift along it. A
-    Denavit-Hartenberg row has its fixed part after the joint; listing 1 of source 001 has it
+    Denavit-Hartenberg row has its constant part after the joint; listing 1 of source 001 has it
     before. ValueError: a batch of transforms, an axis that is not one unit vector.
     """
 
@@ -32,8 +32,7 @@ class Link:
     axis: Floats
     after: Transform
     prismatic: bool
-
-    __setattr__ = __delattr__ = fixed
+    _parts: "tuple[_Still, tuple[int | None, float], _Still]" = field(init=False, repr=False)
 
     def __init__(
         self,
@@ -48,20 +47,16 @@ class Link:
         direction = floats(axis, "axis", 3)
         if direction.ndim != 1:
             raise ValueError(f"axis: wanted one unit vector, got shape {direction.shape}")
-        object.__setattr__(self, "before", before)
         direction = sealed(unit(direction, "axis", "one unit vector"))
-        object.__setattr__(self, "axis", direction)
-        object.__setattr__(self, "after", after)
-        object.__setattr__(self, "prismatic", instance(prismatic, bool, "prismatic"))
-        object.__setattr__(
-            self, "_parts", (_Fixed.of(before), _coordinate(direction), _Fixed.of(after))
-        )
+        instance(prismatic, bool, "prismatic")
+        vars(self).update(before=before, axis=direction, after=after, prismatic=prismatic)
+        vars(self)["_parts"] = _Still.of(before), _coordinate(direction), _Still.of(after)
 
     def _carry(self, frame: Frame, q: Any) -> tuple[Frame, Frame]:
         """The joint's own frame and the frame after this link, from the frame before it and q (...)
         in radians, metres if prismatic; all frames on components (`BASE` to begin with).
         """
-        before, (axis, sign), after = self._parts  # type: ignore[attr-defined]
+        before, (axis, sign), after = self._parts
         joint = rotation, origin = before.step(frame)
         if self.prismatic:
             ahead = turned(rotation, self.axis.tolist())
@@ -119,9 +114,9 @@ def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
     return np.array(points), np.array(axes), Transform(Quaternion(frame[0]), frame[1])
 
 
-class _Fixed(NamedTuple):
-    """A fixed transform in as few steps as it takes: shifts (axis, length) along coordinate axes,
-    then a turn w, x, y, z about one of them or about any axis, or none.
+class _Still(NamedTuple):
+    """A constant transform in as few steps as it takes: shifts (axis, length) along coordinate
+    axes, then a turn w, x, y, z about one of them or about any axis, or none.
     """
 
     shifts: tuple[tuple[int, float], ...]
@@ -129,9 +124,9 @@ class _Fixed(NamedTuple):
     turn: tuple[float, ...]
 
     @classmethod
-    def of(cls, fixed: Transform) -> "_Fixed":
-        turn = tuple(fixed.rotation.wxyz.tolist())
-        shifts = tuple((k, x) for k, x in enumerate(fixed.translation.tolist()) if x)
+    def of(cls, transform: Transform) -> "_Still":
+        turn = tuple(transform.rotation.wxyz.tolist())
+        shifts = tuple((k, x) for k, x in enumerate(transform.translation.tolist()) if x)
         return cls(shifts, tuple(k for k in range(3) if turn[k + 1]), turn)
 
     def step(self, frame: Frame) -> Frame:

@@ -5,11 +5,12 @@
 plane needs.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, fixed, stack
+from .._arrays import ArrayLike, Bools, Floats, Sealed, stack
 from .._validate import broadcast, floats, length, positive, short, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
@@ -44,7 +45,8 @@ def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
     return ClosedFormArm("Two links", TwoLinkGeometry(l1, l2, base), limits)
 
 
-class TwoLinkGeometry:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class TwoLinkGeometry(Sealed):
     """Two links in the plane and their inverse (see `two_link`). Configuration flag: the sign of
     q2; at +1 link 2 turns counter-clockwise away from link 1, and the elbow lies to the right of
     the line from base to tip.
@@ -72,8 +74,6 @@ class TwoLinkGeometry:
             Link(after=Transform(translation=(l2, 0, 0))),
         )
         vars(self).update(l1=l1, l2=l2, reach=l1 + l2, base=tuple(place.tolist()), links=links)
-
-    __setattr__ = __delattr__ = fixed
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal
@@ -137,7 +137,8 @@ def three_lever(L: ArrayLike) -> "ThreeLeverArm":
     return ThreeLeverArm("Three levers", ThreeLeverGeometry(L), np.array([(0, 180)] * 3) * deg)
 
 
-class ThreeLeverGeometry:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class ThreeLeverGeometry(Sealed):
     """Three levers (see `three_lever`). No inverse: a family of postures cannot be listed row by
     row.
 
@@ -170,9 +171,8 @@ class ThreeLeverGeometry:
         vars(self).update(levers=(a, b, c), lever=lever, inner=abs(a - b) + c, reach=a + b + c)
         vars(self).update(links=links)
 
-    __setattr__ = __delattr__ = fixed
 
-
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class ThreeLeverArm(Arm):
     """An arm of three levers (see `three_lever`). It reaches a point K in a family of postures, one
     for every value of the free angle alpha: `family` takes the place of `ik`.
