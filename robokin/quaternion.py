@@ -16,6 +16,7 @@ from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
 from ._validate import broadcast, floats, instance, shape_of, warn_if_degrees
 
 UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
+UPRIGHT = 1e-14  # a pitch this near to +-90 degrees is +-90 degrees, rounded
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
@@ -170,14 +171,21 @@ class Quaternion(Batch):
         """The turns (...) in radians about the fixed x, then y, then z axis that make this rotation
         (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
 
-        At a pitch of +-90 degrees roll and yaw turn about the same line; roll is then zero.
+        At a pitch of +-90 degrees (up to the rounding of a few products) roll and yaw turn about the
+        same line; roll is then zero. Close to it each of them has few digits left, but together
+        they still make this rotation.
+        Source: Bernardes and Viollet 2022, PLoS ONE 17(11), e0276302.
         """
-        (xx, xy, _), (yx, yy, _), (zx, zy, zz) = self._rows()
-        level = np.hypot(xx, yx)
-        upright = level < 1e-9
-        roll = np.where(upright, 0.0, np.arctan2(zy, zz))
-        yaw = np.where(upright, np.arctan2(-xy, yy), np.arctan2(yx, xx))
-        return roll, np.arctan2(-zx, level), yaw
+        w, x, y, z = components(self.wxyz)
+        (xx, _, _), (yx, _, _), (zx, _, _) = self._rows()
+        # cosine and sine of (yaw - roll) / 2, which is lost at -90 degrees, and of (yaw + roll) / 2
+        c, s, cos, sin = w + y, z - x, w - y, z + x
+        up, down = np.hypot(cos, sin) < UPRIGHT, np.hypot(c, s) < UPRIGHT
+        cos, sin = np.where(up, c, cos), np.where(up, s, sin)
+        c, s = np.where(down, cos, c), np.where(down, sin, s)
+        roll = np.arctan2(sin * c - cos * s, cos * c + sin * s)
+        yaw = np.arctan2(sin * c + cos * s, cos * c - sin * s)
+        return roll, np.arctan2(-zx, np.hypot(xx, yx)), yaw
 
     def angle_to(self, other: "Quaternion") -> Floats:
         """The angle in [0, pi] of the turn from these rotations to `other`: (...) in radians.
