@@ -19,6 +19,7 @@ from ._arrays import Floats
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
+AXES = 30  # of an array that comes in; an answer may have two more, and NumPy broadcasts 32
 GREATEST = 10**8  # values in one array: more would fill the memory of a laptop
 
 
@@ -30,6 +31,8 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     Not a copy: who keeps the array makes one.
     """
     array = _numbers(value, name)
+    if array.ndim > AXES:
+        raise ValueError(f"{name}: wanted at most {AXES} axes, got {array.ndim}")
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     good = np.isfinite(array) if finite else ~np.isinf(array)
@@ -76,10 +79,11 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
 
 
 def shape_of(value: Any, name: str) -> tuple[int, ...]:
-    """`value`, if it is the shape of an array that NumPy can have; ValueError otherwise."""
-    good = isinstance(value, (tuple, list)) and len(value) < 60
-    if not (good and all(type(n) is int and n >= 0 for n in value)):
+    """`value`, if it is the shape of an array of at most 30 axes; ValueError otherwise."""
+    if not (isinstance(value, (tuple, list)) and all(type(n) is int and n >= 0 for n in value)):
         raise ValueError(f"{name}: wanted a tuple of whole numbers, got {short(value)}")
+    if len(value) > AXES:
+        raise ValueError(f"{name}: wanted at most {AXES} axes, got {len(value)}")
     if math.prod(value) > GREATEST:
         raise ValueError(
             f"{name}: wanted at most {GREATEST:g} values, got {short(math.prod(value))}"

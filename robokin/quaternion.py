@@ -13,7 +13,7 @@ from typing import Any, Self, overload
 import numpy as np
 
 from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
-from ._validate import broadcast, floats, instance, shape_of, warn_if_degrees
+from ._validate import AXES, broadcast, floats, instance, shape_of, warn_if_degrees
 
 UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
 UPRIGHT = 1e-14  # a pitch this near to +-90 degrees is +-90 degrees, rounded
@@ -171,8 +171,8 @@ class Quaternion(Batch):
         """The turns (...) in radians about the fixed x, then y, then z axis that make this rotation
         (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
 
-        At a pitch of +-90 degrees (up to the rounding of a few products) roll and yaw turn about the
-        same line; roll is then zero. Close to it each of them has few digits left, but together
+        At a pitch of +-90 degrees (up to the rounding of a few products) roll and yaw turn about
+        the same line; roll is then zero. Close to it each of them has few digits left, but together
         they still make this rotation.
         Source: Bernardes and Viollet 2022, PLoS ONE 17(11), e0276302.
         """
@@ -205,7 +205,10 @@ class Quaternion(Batch):
 
     def __getitem__(self, index: Any) -> "Quaternion":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        return Quaternion._of(self.wxyz[whole])
+        part = self.wxyz[whole]
+        if part.ndim > AXES + 2:
+            raise ValueError(f"index: wanted at most {AXES + 2} axes, got {part.ndim}")
+        return Quaternion._of(part)
 
     @overload
     def __matmul__(self, other: "Quaternion") -> "Quaternion": ...

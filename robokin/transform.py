@@ -86,7 +86,7 @@ class Transform(Batch):
 
     def __getitem__(self, index: Any) -> "Transform":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        return Transform._of(Quaternion._of(self.rotation.wxyz[whole]), self.translation[whole])
+        return Transform._of(self.rotation[index], self.translation[whole])
 
     @overload
     def __matmul__(self, other: "Transform") -> "Transform": ...

@@ -43,6 +43,7 @@ Z = (0, 0, 1)
 S = np.linspace(0, 1, 5)
 MIRROR = np.diag([1.0, 1, -1])
 LIMITS = [(-1, 1)] * 6
+MANY = (1,) * 33
 ONE = SimpleNamespace(links=(Link(),), target=Transform, reach=1.0)
 
 
@@ -217,6 +218,12 @@ WRONG = {
     "share before the start": (lambda: lin_lin(A, B, A, [-0.5, 0.5]), "-0.5"),
     "time for a share": (lambda: blend(A, B, A, 0.1, np.linspace(0, 20, 5)), "0 to 20"),
     "no shares": (lambda: lin(A, B, []), "empty"),
+    "shares of many axes": (lambda: lin(A, B, np.full(MANY, 0.5)), "s: wanted at most 30 axes.*33"),
+    "blends of many axes": (lambda: blend(A, B, A, np.full(MANY, 0.1), 0.5), "at most 30 axes"),
+    "joints of many axes": (lambda: IRB140.frames(np.zeros((*MANY, 6))), "q: .*30 axes, got 34"),
+    "levers of many axes": (lambda: three_lever(1).family((1, 1), np.ones(MANY)), "30 axes"),
+    "identities of many axes": (lambda: Transform.identity(MANY), "shape: .*at most 30.*33"),
+    "new axes": (lambda: B[(None,) * 33], "index: .*at most 32 axes.*34"),
     "no shares, blend": (lambda: blend(A, B, A, 0.1, []), "empty"),
     "no shares, ptp": (lambda: ptp([0], [1], []), "empty"),
     "NaN share": (lambda: ptp([0], [1], NAN), "nan"),
@@ -295,6 +302,7 @@ RIGHT = {
     "start equal to goal, lin": lambda: same(lin(A, A, S), A),
     "start equal to goal, ptp": lambda: (ptp(np.ones(6), np.ones(6), S) == 1).all(),
     "start equal to goal, blend": lambda: same(blend(B, B, B, 0.3, S), B),
+    "the smallest blend": lambda: same(blend(A, B, A, 5e-324, S), lin_lin(A, B, A, S)),
     "start equal to via": lambda: same(blend(A, A, B, 0.0, S), lin_lin(A, A, B, S)),
     "via and back": lambda: same(blend(A, B, A, 0.2, 1.0), A),
     "whole numbers": lambda: same(

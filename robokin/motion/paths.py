@@ -91,7 +91,9 @@ def blend(
     broadcast("fraction and s", b.shape, s.shape)
     # x runs from 0 to 1 across the corner and stands still outside: there the curve is at its first
     # or last control pose, and these run along the two lines. So one formula serves the whole path.
-    x = np.where(b > 0, np.clip((s - 0.5 + b) / np.where(b > 0, 2 * b, 1), 0, 1), s >= 0.5)
+    with np.errstate(over="ignore"):  # of a corner so short that it is passed in no time
+        across = (s - 0.5 + b) / np.where(b > 0, 2 * b, 1)
+    x = np.where(b > 0, np.clip(across, 0, 1), s >= 0.5)
     first = _pose(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
     last = _pose(via, "via").lerp(goal, np.maximum(2 * s - 1, 2 * b))
     if corner == "parabola":
