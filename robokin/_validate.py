@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ._arrays import Floats
+from ._arrays import Bools, Floats
 
 T = TypeVar("T")
 FLOAT = np.dtype(float)
@@ -76,6 +76,17 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
         wanted = f"from {low} to {high}" if high is not None else f"of at least {low}"
         raise ValueError(f"{name}: wanted a whole number {wanted}, got {short(value)}")
     return int(value)
+
+
+def bools(value: Any, name: str) -> Bools:
+    """`value` as an array of True and False; ValueError otherwise."""
+    try:
+        array = np.asarray(value)
+    except Exception:  # an object may offer itself as an array and fail in any way
+        array = np.array(0)
+    if array.dtype != bool or masked(value):
+        raise ValueError(f"{name}: wanted True or False, one or an array, got {short(value)}")
+    return array
 
 
 def shape_of(value: Any, name: str) -> tuple[int, ...]:

@@ -23,6 +23,7 @@ from robokin import (
     loader_arm,
     mm,
     spbu_arm,
+    spherical_wrist,
     three_lever,
     two_link,
 )
@@ -157,6 +158,59 @@ def test_dh_links_are_the_product_of_four_matrices():
     frame = Transform(Quaternion(frame[0]), frame[1])
     assert np.allclose(frame.as_matrix(), m, rtol=0, atol=1e-14)
     assert all(np.allclose(x.before.as_matrix(), np.eye(4)) for x in dh_links(a, alpha, d))
+
+
+@pytest.mark.parametrize("modified", [False, True])
+def test_a_table_with_shifts_in_both_forms_is_the_product_of_four_matrices(modified):
+    """Craig's form has Rot(x, alpha) Trans(a, 0, 0) of the link before, and ahead of the joint."""
+    a, alpha, d, theta, q = RNG.normal(size=(5, 6))
+    shifts = [False, True, False, True, True, False]
+    links = dh_links(a, alpha, d, theta, prismatic=shifts, modified=modified)
+    m = np.eye(4)
+    for i, link in enumerate(links):
+        assert link.prismatic is shifts[i]
+        turn, climb = theta[i] + q[i] * (not shifts[i]), d[i] + q[i] * shifts[i]
+        joint = rot("z", turn) @ shift(0, 0, climb)
+        way = rot("x", alpha[i]) @ shift(a[i], 0, 0)
+        m = m @ way @ joint if modified else m @ joint @ way
+    arm = Arm("table", SimpleNamespace(links=links, target=Transform, reach=1.0), [(-9, 9)] * 6)
+    assert np.allclose(arm.fk(q).as_matrix(), m, rtol=0, atol=1e-14)
+
+
+def test_the_table_of_a_scara_gives_scaras_forward_kinematics():
+    """Both turns of x by 180 degrees: the stroke goes down, and the tool's z axis points up."""
+    links = dh_links(
+        a=np.array([200, 250, 0, 0]) * mm,
+        alpha=np.array([0, 0, 180, 180]) * deg,
+        d=np.array([220.2, 0, 0, 0]) * mm,
+        prismatic=[False, False, False, True],
+    )
+    arm = Arm("table", SimpleNamespace(links=links, target=ScaraPose, reach=0.45), SCARA.limits)
+    q = random_joints(SCARA, RNG, (50,))
+    assert position_gap(arm.fk(q), SCARA.fk(q)).max() < 1e-15
+    assert rotation_gap(arm.fk(q), SCARA.fk(q)).max() < 1e-15
+    assert np.allclose(arm.jacobian(q), SCARA.jacobian(q), rtol=0, atol=1e-15)
+
+
+def test_craigs_table_of_the_puma_gives_its_forward_kinematics_and_inverse():
+    """Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA 560), with the
+    catalogue's lengths. Craig's joints 1 and 2 stand half a turn from the catalogue's (his axis 2
+    points the other way), and his base is at the shoulder; the flange is the same.
+    """
+    half = 180 * deg
+    links = dh_links(
+        alpha=np.array([0, -90, 0, -90, 90, -90]) * deg,
+        a=np.array([0, 0, 431.8, 20.3, 0, 0]) * mm,
+        d=np.array([671.83, 0, 150.05, 431.8, 0, 0]) * mm,
+        theta=[half, half, 0, 0, 0, 0],
+        modified=True,
+    )
+    arm = spherical_wrist("Craig's PUMA", links, PUMA560.limits)
+    q = random_joints(PUMA560, RNG, (50,))
+    assert position_gap(arm.fk(q), PUMA560.fk(q)).max() < 1e-15
+    assert rotation_gap(arm.fk(q), PUMA560.fk(q)).max() < 1e-14
+    pose = PUMA560.fk(q)
+    assert np.allclose(np.sin(arm.ik(pose)), np.sin(PUMA560.ik(pose)), rtol=0, atol=1e-9)
 
 
 def test_a_prismatic_joint_shifts_along_its_axis():

@@ -159,6 +159,15 @@ WRONG = {
     "link after a matrix": (lambda: Link(after=np.eye(4)), r"after.*\(4, 4\)"),
     "five links": (lambda: spherical_wrist("x", IRB140.links[:5], LIMITS), "six revolute links"),
     "limits of five": (lambda: spherical_wrist("x", IRB140.links, LIMITS[:5]), "wanted 6 pairs"),
+    "DH joints in words": (
+        lambda: dh_links([0, 1], 0, 0, prismatic=["no", "yes"]),
+        "prismatic: wanted True or False",
+    ),
+    "DH joints as numbers": (lambda: dh_links([0, 1], 0, 0, prismatic=[0, 1]), "got \\[0, 1\\]"),
+    "DH joints do not fit": (
+        lambda: dh_links([0, 1], 0, 0, prismatic=[True] * 3),
+        r"\(2,\).*\(3,\)",
+    ),
     "DH columns": (lambda: dh_links([0, 1], [0, 1, 2], 0), r"\(2,\).*\(3,\)"),
     "DH without upper arm": (lambda: itmo_arm(0.1, 0.0, 0.2, 0.2), "a2: wanted one positive"),
     "DH below the floor": (lambda: itmo_arm(-0.1, 0.1, 0.2, 0.2), "d1 and d6.*-0.1"),

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, Sealed, sealed
-from .._validate import broadcast, floats, instance
+from .._arrays import ArrayLike, Bools, Floats, Sealed, sealed
+from .._validate import bools, broadcast, floats, instance
 from ..quaternion import Quaternion, along, half_angles, hamilton, spun, turned, unit
 from ..transform import Transform
 
@@ -70,13 +70,22 @@ class Link(Sealed):
 
 
 def dh_links(
-    a: ArrayLike, alpha: ArrayLike, d: ArrayLike, theta: ArrayLike = 0.0
+    a: ArrayLike,
+    alpha: ArrayLike,
+    d: ArrayLike,
+    theta: ArrayLike = 0.0,
+    prismatic: bool | Sequence[bool] | Bools = False,
+    modified: bool = False,
 ) -> tuple[Link, ...]:
-    """Revolute links from a table of standard Denavit-Hartenberg parameters, each (n,): A = Rot(z,
-    theta + q) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha). Metres and radians; `theta` is the
-    offset of the joint.
+    """Links from a table of Denavit-Hartenberg parameters, each (n,), in metres and radians. A link
+    is A = Rot(z, theta) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha).
 
-    Source: 000, "Обзор источников"; 004, table 1. ValueError: columns that are not of one length.
+    prismatic  one or (n,) bool: q is added to `d` where it is True, to `theta` where it is False
+    modified   the table is in Craig's form: a row has a and alpha of the link before its joint, and
+               A = Rot(x, alpha) Trans(a, 0, 0) Rot(z, theta) Trans(0, 0, d)
+
+    Source: 000, "Обзор источников"; 004, table 1; Craig, Introduction to Robotics, section 3.5.
+    ValueError: columns that are not of one length, a `prismatic` that is not True or False.
 
     >>> from robokin import dh_links
     >>> len(dh_links(a=[0, 0.4], alpha=[0.5 * np.pi, 0], d=0))
@@ -84,14 +93,22 @@ def dh_links(
     """
     columns = {"a": a, "alpha": alpha, "d": d, "theta": theta}
     table = [floats(column, name) for name, column in columns.items()]
-    shape = broadcast("a, alpha, d and theta", *(column.shape for column in table))
+    shifting = bools(prismatic, "prismatic")
+    named = f"{', '.join(columns)} and prismatic"
+    shape = broadcast(named, *(column.shape for column in table), shifting.shape)
     if len(shape) != 1 or shape[0] > 100:
-        raise ValueError(f"a, alpha, d and theta: wanted columns (n,), got shape {shape}")
-    lengths, twists, offsets, angles = np.broadcast_arrays(*table)
-    turn = Transform(Quaternion.from_angle_axis(angles, (0, 0, 1)))
-    shift = np.stack([lengths, np.zeros_like(lengths), offsets], axis=-1)
-    rest = Transform(Quaternion.from_angle_axis(twists, (1, 0, 0)), shift)
-    return tuple(Link(before, after=after) for before, after in zip(turn, rest, strict=True))
+        raise ValueError(f"{named}: wanted columns (n,), got shape {shape}")
+    lengths, twists, offsets, angles = (np.broadcast_to(column, shape) for column in table)
+    turn, zero = Quaternion.from_angle_axis(angles, (0, 0, 1)), np.zeros(shape)
+    tilt = Quaternion.from_angle_axis(twists, (1, 0, 0))
+    if instance(modified, bool, "modified"):
+        before = Transform(tilt, np.stack([lengths, zero, zero], axis=-1)) @ Transform(turn)
+        after = Transform(translation=np.stack([zero, zero, offsets], axis=-1))
+    else:
+        before = Transform(turn)
+        after = Transform(tilt, np.stack([lengths, zero, offsets], axis=-1))
+    joints = zip(before, after, np.broadcast_to(shifting, shape).tolist(), strict=True)
+    return tuple(Link(start, after=end, prismatic=shifts) for start, end, shifts in joints)
 
 
 def chain(links: Iterable[Link]) -> tuple[Link, ...]:
