@@ -93,7 +93,7 @@ ROOTS = {
     **{name: lambda arm=arm: arm for name, arm in MACHINES.items()},
     "three_lever": lambda: three_lever(0.5),
     "three_lever, unequal": lambda: three_lever((0.5, 0.4, 0.3)),
-    "arm without an inverse": lambda: Arm("levers", three_lever(0.5).geometry, [(0, 1)] * 3),
+    "arm without an inverse": lambda: Arm("links", three_lever(0.5).links, [(0, 1)] * 3),
     "turning_base": lambda: turning_base(three_lever(0.5)),
     "Link": Link,
     "identity": Transform,

@@ -175,6 +175,7 @@ CALLS = {
             speed_limits=np.ones(3),
         ),
     ),
+    "Arm (links)": (Arm, dict(name="arm", geometry=LINKS, limits=LEVERS.limits)),
     "ClosedFormArm": (
         ClosedFormArm,
         dict(

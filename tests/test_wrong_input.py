@@ -147,6 +147,12 @@ WRONG = {
     "link without axis": (lambda: Link(axis=(0, 0, 0)), "axis.*length 0"),
     "link about a long axis": (lambda: Link(axis=(0, 0, 2)), "axis.*length 2"),
     "no geometry": (lambda: Arm("x", None, LIMITS), "geometry with links, target, reach, got None"),
+    "no links": (lambda: Arm("x", [], LIMITS), "links: wanted at least one Link, got none"),
+    "a pose among links": (lambda: Arm("x", [Link(), A], LIMITS), r"links\[1\]: wanted a Link"),
+    "links that stand still": (
+        lambda: Arm("x", [Link(after=Transform(translation=(0, 0, 1)))], LIMITS[:1]),
+        "links: wanted a flange that comes away from axis 1",
+    ),
     "links of another kind": (
         lambda: elbow_arm("x", 3, LIMITS[:3]),
         "links: wanted a tuple, got 3",
@@ -289,6 +295,7 @@ OF_ANOTHER_KIND = {
     "target to ik",
     "position to SCARA",
     "no geometry",
+    "a pose among links",
     "links of another kind",
     "one of the links",
     "link from a matrix",
