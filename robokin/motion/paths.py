@@ -44,8 +44,9 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     at s (...).
 
     Returns (..., n). Joint values are taken as they are: to turn the short way, choose q1 with
-    `nearest`. Source: 001, listing 8. A UserWarning where a joint stands beyond two turns: degrees
-    were likely meant. ValueError: s outside [0, 1], shapes that do not fit.
+    `nearest`. Source: 001, listing 8; 000, the motion along a straight line in the space Q. A
+    UserWarning where a joint stands beyond two turns: degrees were likely meant. ValueError: s
+    outside [0, 1], shapes that do not fit.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
