@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from .._arrays import Bools, Floats, Ints, Sealed
+from .._validate import floats
 from ..transform import Transform
 from ..units import in_words
 from .link import Link
@@ -135,6 +136,23 @@ def worst(gaps: dict[str, Any], what: str) -> Gap:
     """The border (name -> metres beyond it) that is passed the farthest."""
     kind = max(gaps, key=lambda name: float(gaps[name]))
     return Gap(kind, max(float(gaps[kind]), 0.0), what)
+
+
+def coordinates(point: Any) -> tuple[Floats, Floats, Floats]:
+    """x, y, z of points (..., 2) or (..., 3), or of Transforms."""
+    place = point.translation if isinstance(point, Transform) else floats(point, "point")
+    if place.ndim == 0 or place.shape[-1] not in (2, 3):
+        raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {place.shape}")
+    x, y = place[..., 0], place[..., 1]
+    return x, y, place[..., 2] if place.shape[-1] == 3 else 0 * x
+
+
+def one_point(point: Any) -> Any:
+    """The point, or ValueError: a batch of them."""
+    x = coordinates(point)[0]
+    if x.ndim:
+        raise ValueError(f"point: wanted one single point, got a batch of shape {x.shape}")
+    return point
 
 
 def distance(x: Floats, y: Floats) -> Floats:

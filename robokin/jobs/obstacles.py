@@ -23,7 +23,8 @@ import numpy as np
 
 from .._arrays import ArrayLike, Bools, Floats, Ints, frozen
 from .._validate import broadcast, choice, floats, instance, length, short, text, warn_if_degrees
-from ..arms.planar import ThreeLeverArm, two_link
+from ..arms.planar import ThreeLeverArm
+from ..arms.two_link import two_link
 from ..units import deg, in_words
 
 LEVERS = ("OB", "BA", "AK")
