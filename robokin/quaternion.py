@@ -74,7 +74,7 @@ class Quaternion(Batch):
 
     @classmethod
     def identity(cls, shape: tuple[int, ...] = ()) -> "Quaternion":
-        """No rotation, of the given batch shape."""
+        """No rotation, of this batch shape."""
         return cls._of(np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*shape_of(shape, "shape"), 4)))
 
     @classmethod

@@ -54,7 +54,7 @@ class Transform(Batch):
 
     @classmethod
     def identity(cls, shape: tuple[int, ...] = ()) -> "Transform":
-        """The frame itself, of the given batch shape."""
+        """The frame itself, of this batch shape."""
         place = np.broadcast_to(np.zeros(3), (*shape_of(shape, "shape"), 3))
         return cls._of(Quaternion.identity(shape), place)
 

@@ -179,7 +179,7 @@ class Arm(Sealed):
     if not TYPE_CHECKING:  # a type checker would take any name for an attribute
 
         def __getattr__(self, name):
-            """What is said of an inverse where there is none."""
+            """The error for a name that the arm does not have, and what to use for an inverse."""
             words = f"{type(self).__name__!r} object has no attribute {name!r}"
             if name in ("ik", "branch", "branches"):
                 kind = type(self)

@@ -189,7 +189,7 @@ class Wrist(NamedTuple):
 
     def at(self, rotation: Sequence[Any], origin: Sequence[Any]) -> tuple[Any, list[Any]]:
         """For a flange on components: the rows of the matrix of the wrist's own frame, and the
-        wrist centre. It lies at a fixed place in the flange: a step back.
+        wrist centre, which the flange carries with it: a step back.
         """
         rows = matrix_rows(hamilton(rotation, self.from_flange))
         cx, cy, cz = self.centre_from_flange
