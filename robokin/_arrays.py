@@ -1,4 +1,4 @@
-"""Arrays: what nobody may write, how the numbers lie in memory, and in what portions a batch is
+"""Arrays: which ones are read-only, how the numbers lie in memory, and in what portions a batch is
 worked on.
 
 NumPy works fastest on components: one array for all x, one for all y, each in one long run in
@@ -39,11 +39,14 @@ def frozen(array: Array) -> Array:
     return sealed(array.copy())
 
 
-def fixed(self: object, name: str, *_: object) -> None:
-    """In place of __setattr__ and __delattr__: what is built once and never changed. (A dataclass
-    that is `frozen` does the same, and takes 0.2 ms of every import to write it.)
+class Sealed:
+    """The base of a frozen dataclass that holds arrays, directly or in tuples. Its copies and what
+    comes out of a pickle are read-only, too; NumPy copies no flags.
     """
-    raise AttributeError(f"{type(self).__name__} cannot be changed: {name}")
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        _seal(tuple(state.values()))
+        vars(self).update(state)
 
 
 def components(array: Floats) -> tuple[Any, ...]:
@@ -96,3 +99,12 @@ def by_blocks(
                 out[i, ..., rows] = part
     assert out is not None
     return out
+
+
+def _seal(value: Any) -> None:
+    """Make an array read-only, or all arrays of a tuple."""
+    if isinstance(value, np.ndarray):
+        sealed(value)
+    elif isinstance(value, tuple):
+        for part in value:
+            _seal(part)

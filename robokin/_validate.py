@@ -14,11 +14,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ._arrays import Floats
+from ._arrays import Bools, Floats
 
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
+AXES = 30  # of an array that comes in; an answer may have two more, and NumPy broadcasts 32
 GREATEST = 10**8  # values in one array: more would fill the memory of a laptop
 
 
@@ -30,6 +31,8 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     Not a copy: who keeps the array makes one.
     """
     array = _numbers(value, name)
+    if array.ndim > AXES:
+        raise ValueError(f"{name}: wanted at most {AXES} axes, got {array.ndim}")
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     good = np.isfinite(array) if finite else ~np.isinf(array)
@@ -75,11 +78,23 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
     return int(value)
 
 
+def bools(value: Any, name: str) -> Bools:
+    """`value` as an array of True and False; ValueError otherwise."""
+    try:
+        array = np.asarray(value)
+    except Exception:  # an object may offer itself as an array and fail in any way
+        array = np.array(0)
+    if array.dtype != bool or masked(value):
+        raise ValueError(f"{name}: wanted True or False, one or an array, got {short(value)}")
+    return array
+
+
 def shape_of(value: Any, name: str) -> tuple[int, ...]:
-    """`value`, if it is the shape of an array that NumPy can have; ValueError otherwise."""
-    good = isinstance(value, (tuple, list)) and len(value) < 60
-    if not (good and all(type(n) is int and n >= 0 for n in value)):
+    """`value`, if it is the shape of an array of at most 30 axes; ValueError otherwise."""
+    if not (isinstance(value, (tuple, list)) and all(type(n) is int and n >= 0 for n in value)):
         raise ValueError(f"{name}: wanted a tuple of whole numbers, got {short(value)}")
+    if len(value) > AXES:
+        raise ValueError(f"{name}: wanted at most {AXES} axes, got {len(value)}")
     if math.prod(value) > GREATEST:
         raise ValueError(
             f"{name}: wanted at most {GREATEST:g} values, got {short(math.prod(value))}"

@@ -12,19 +12,19 @@ from typing import Any, Self, overload
 
 import numpy as np
 
-from ._arrays import ArrayLike, Floats, components, fixed, sealed, stack
-from ._validate import broadcast, floats, instance, shape_of, warn_if_degrees
+from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
+from ._validate import AXES, broadcast, floats, instance, shape_of, warn_if_degrees
 
 UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
+UPRIGHT = 1e-14  # a pitch this near to +-90 degrees is +-90 degrees, rounded
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
-class Batch:
+class Batch(Sealed):
     """What values with a batch shape have in common: indexing, length and iteration over the batch
     only.
     """
 
-    __setattr__ = __delattr__ = fixed
     __array_ufunc__ = None  # so that `array @ value` is a TypeError and not an array of objects
 
     @property
@@ -44,7 +44,7 @@ class Batch:
         return (self[i] for i in range(len(self)))
 
 
-@dataclass(init=False, repr=False, eq=False)
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class Quaternion(Batch):
     """A rotation of any batch shape, as a unit quaternion `wxyz` of shape (..., 4).
 
@@ -61,7 +61,7 @@ class Quaternion(Batch):
 
     def __init__(self, wxyz: ArrayLike) -> None:
         value = floats(wxyz, "wxyz", 4)
-        object.__setattr__(self, "wxyz", sealed(unit(value, "wxyz", "unit quaternions")))
+        vars(self)["wxyz"] = sealed(unit(value, "wxyz", "unit quaternions"))
 
     @classmethod
     def _of(cls, wxyz: Floats) -> "Quaternion":
@@ -69,13 +69,12 @@ class Quaternion(Batch):
         pass.
         """
         self = object.__new__(cls)
-        wxyz.setflags(write=False)
-        self.__dict__["wxyz"] = wxyz
+        vars(self)["wxyz"] = sealed(wxyz)
         return self
 
     @classmethod
     def identity(cls, shape: tuple[int, ...] = ()) -> "Quaternion":
-        """No rotation, of the given batch shape."""
+        """No rotation, of this batch shape."""
         return cls._of(np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*shape_of(shape, "shape"), 4)))
 
     @classmethod
@@ -172,14 +171,21 @@ class Quaternion(Batch):
         """The turns (...) in radians about the fixed x, then y, then z axis that make this rotation
         (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
 
-        At a pitch of +-90 degrees roll and yaw turn about the same line; roll is then zero.
+        At a pitch of +-90 degrees (up to the rounding of a few products) roll and yaw turn about
+        the same line; roll is then zero. Close to it each of them has few digits left, but together
+        they still make this rotation.
+        Source: Bernardes and Viollet 2022, PLoS ONE 17(11), e0276302.
         """
-        (xx, xy, _), (yx, yy, _), (zx, zy, zz) = self._rows()
-        level = np.hypot(xx, yx)
-        upright = level < 1e-9
-        roll = np.where(upright, 0.0, np.arctan2(zy, zz))
-        yaw = np.where(upright, np.arctan2(-xy, yy), np.arctan2(yx, xx))
-        return roll, np.arctan2(-zx, level), yaw
+        w, x, y, z = components(self.wxyz)
+        (xx, _, _), (yx, _, _), (zx, _, _) = self._rows()
+        # cosine and sine of (yaw - roll) / 2, which is lost at -90 degrees, and of (yaw + roll) / 2
+        c, s, cos, sin = w + y, z - x, w - y, z + x
+        up, down = np.hypot(cos, sin) < UPRIGHT, np.hypot(c, s) < UPRIGHT
+        cos, sin = np.where(up, c, cos), np.where(up, s, sin)
+        c, s = np.where(down, cos, c), np.where(down, sin, s)
+        roll = np.arctan2(sin * c - cos * s, cos * c + sin * s)
+        yaw = np.arctan2(sin * c + cos * s, cos * c - sin * s)
+        return roll, np.arctan2(-zx, np.hypot(xx, yx)), yaw
 
     def angle_to(self, other: "Quaternion") -> Floats:
         """The angle in [0, pi] of the turn from these rotations to `other`: (...) in radians.
@@ -199,7 +205,10 @@ class Quaternion(Batch):
 
     def __getitem__(self, index: Any) -> "Quaternion":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        return Quaternion._of(self.wxyz[whole])
+        part = self.wxyz[whole]
+        if part.ndim > AXES + 2:
+            raise ValueError(f"index: wanted at most {AXES + 2} axes, got {part.ndim}")
+        return Quaternion._of(part)
 
     @overload
     def __matmul__(self, other: "Quaternion") -> "Quaternion": ...

@@ -17,7 +17,7 @@ from .quaternion import Batch, Quaternion, rounded
 HERE = Quaternion.identity()
 
 
-@dataclass(init=False, repr=False, eq=False)
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class Transform(Batch):
     """A pose or a change of frame: first `rotation`, then `translation` (..., 3) in metres.
 
@@ -42,21 +42,19 @@ class Transform(Batch):
         shape = broadcast("rotation and translation", rotation.shape, place.shape[:-1])
         if rotation.shape != shape:
             rotation = Quaternion._of(np.broadcast_to(rotation.wxyz, (*shape, 4)))
-        object.__setattr__(self, "rotation", rotation)
         copy = np.broadcast_to(place, (*shape, 3)).copy()
-        object.__setattr__(self, "translation", sealed(copy))
+        vars(self).update(rotation=rotation, translation=sealed(copy))
 
     @classmethod
     def _of(cls, rotation: Quaternion, translation: Floats) -> "Transform":
         """From parts of one batch shape: nothing is checked, NaN rows pass."""
         self = object.__new__(cls)
-        translation.setflags(write=False)
-        self.__dict__["rotation"], self.__dict__["translation"] = rotation, translation
+        vars(self).update(rotation=rotation, translation=sealed(translation))
         return self
 
     @classmethod
     def identity(cls, shape: tuple[int, ...] = ()) -> "Transform":
-        """The frame itself, of the given batch shape."""
+        """The frame itself, of this batch shape."""
         place = np.broadcast_to(np.zeros(3), (*shape_of(shape, "shape"), 3))
         return cls._of(Quaternion.identity(shape), place)
 
@@ -88,7 +86,7 @@ class Transform(Batch):
 
     def __getitem__(self, index: Any) -> "Transform":
         whole = (*index, slice(None)) if isinstance(index, tuple) else (index, slice(None))
-        return Transform._of(Quaternion._of(self.rotation.wxyz[whole]), self.translation[whole])
+        return Transform._of(self.rotation[index], self.translation[whole])
 
     @overload
     def __matmul__(self, other: "Transform") -> "Transform": ...

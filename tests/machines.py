@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from robokin import IRB140, ITMO6R, PUMA560, SCARA, Transform
+from robokin import IRB140, ITMO6R, PUMA560, SCARA, Arm, Transform, dh_links
 
 SHAPES = [(), (1,), (3, 1, 2)]
 DATA = Path(__file__).parent / "data"
@@ -148,6 +148,24 @@ def scara_chain(q):
         @ shift(0, 0, -q[3])
     )
 
+
+#: No closed form of ours. Universal Robots, DH parameters for calculations of kinematics and
+#: dynamics: UR5 (CB3, series 3); a and d in m, alpha in rad.
+UR5_TABLE = np.array(
+    [
+        (0, 0.089159, np.pi / 2),
+        (-0.425, 0, 0),
+        (-0.39225, 0, 0),
+        (0, 0.10915, np.pi / 2),
+        (0, 0.09465, -np.pi / 2),
+        (0, 0.0823, 0),
+    ]
+)
+UR5 = Arm(
+    "UR5",
+    dh_links(a=UR5_TABLE[:, 0], d=UR5_TABLE[:, 1], alpha=UR5_TABLE[:, 2]),
+    [(-2 * np.pi, 2 * np.pi)] * 6,
+)
 
 MACHINES = [
     Machine(

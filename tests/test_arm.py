@@ -5,7 +5,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from machines import MACHINES, SHAPES, position_gap, random_joints, reach, rot, rotation_gap, shift
+from machines import (
+    MACHINES,
+    SHAPES,
+    UR5,
+    UR5_TABLE,
+    position_gap,
+    random_joints,
+    reach,
+    rot,
+    rotation_gap,
+    shift,
+)
 
 from robokin import (
     IRB140,
@@ -23,6 +34,7 @@ from robokin import (
     loader_arm,
     mm,
     spbu_arm,
+    spherical_wrist,
     three_lever,
     two_link,
 )
@@ -157,6 +169,126 @@ def test_dh_links_are_the_product_of_four_matrices():
     frame = Transform(Quaternion(frame[0]), frame[1])
     assert np.allclose(frame.as_matrix(), m, rtol=0, atol=1e-14)
     assert all(np.allclose(x.before.as_matrix(), np.eye(4)) for x in dh_links(a, alpha, d))
+
+
+@pytest.mark.parametrize("modified", [False, True])
+def test_a_table_with_shifts_in_both_forms_is_the_product_of_four_matrices(modified):
+    """Craig's form has Rot(x, alpha) Trans(a, 0, 0) of the link before, and ahead of the joint."""
+    a, alpha, d, theta, q = RNG.normal(size=(5, 6))
+    shifts = [False, True, False, True, True, False]
+    links = dh_links(a, alpha, d, theta, prismatic=shifts, modified=modified)
+    m = np.eye(4)
+    for i, link in enumerate(links):
+        assert link.prismatic is shifts[i]
+        turn, climb = theta[i] + q[i] * (not shifts[i]), d[i] + q[i] * shifts[i]
+        joint = rot("z", turn) @ shift(0, 0, climb)
+        way = rot("x", alpha[i]) @ shift(a[i], 0, 0)
+        m = m @ way @ joint if modified else m @ joint @ way
+    arm = Arm("table", SimpleNamespace(links=links, target=Transform, reach=1.0), [(-9, 9)] * 6)
+    assert np.allclose(arm.fk(q).as_matrix(), m, rtol=0, atol=1e-14)
+
+
+def test_the_table_of_a_scara_gives_scaras_forward_kinematics():
+    """Both turns of x by 180 degrees: the stroke goes down, and the tool's z axis points up."""
+    links = dh_links(
+        a=np.array([200, 250, 0, 0]) * mm,
+        alpha=np.array([0, 0, 180, 180]) * deg,
+        d=np.array([220.2, 0, 0, 0]) * mm,
+        prismatic=[False, False, False, True],
+    )
+    arm = Arm("table", SimpleNamespace(links=links, target=ScaraPose, reach=0.45), SCARA.limits)
+    q = random_joints(SCARA, RNG, (50,))
+    assert position_gap(arm.fk(q), SCARA.fk(q)).max() < 1e-15
+    assert rotation_gap(arm.fk(q), SCARA.fk(q)).max() < 1e-15
+    assert np.allclose(arm.jacobian(q), SCARA.jacobian(q), rtol=0, atol=1e-15)
+
+
+def test_craigs_table_of_the_puma_gives_its_forward_kinematics_and_inverse():
+    """Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA 560), with the
+    catalogue's lengths. Craig's joints 1 and 2 stand half a turn from the catalogue's (his axis 2
+    points the other way), and his base is at the shoulder; the flange is the same.
+    """
+    half = 180 * deg
+    links = dh_links(
+        alpha=np.array([0, -90, 0, -90, 90, -90]) * deg,
+        a=np.array([0, 0, 431.8, 20.3, 0, 0]) * mm,
+        d=np.array([671.83, 0, 150.05, 431.8, 0, 0]) * mm,
+        theta=[half, half, 0, 0, 0, 0],
+        modified=True,
+    )
+    arm = spherical_wrist("Craig's PUMA", links, PUMA560.limits)
+    q = random_joints(PUMA560, RNG, (50,))
+    assert position_gap(arm.fk(q), PUMA560.fk(q)).max() < 1e-15
+    assert rotation_gap(arm.fk(q), PUMA560.fk(q)).max() < 1e-14
+    pose = PUMA560.fk(q)
+    assert np.allclose(np.sin(arm.ik(pose)), np.sin(PUMA560.ik(pose)), rtol=0, atol=1e-9)
+
+
+def ur5_chain(q):
+    """The product of the six matrices, each written out (Universal Robots' convention)."""
+    m = np.eye(4)
+    for (a, d, alpha), angle in zip(UR5_TABLE, q, strict=True):
+        (c, s), (ca, sa) = (np.cos(angle), np.sin(angle)), (np.cos(alpha), np.sin(alpha))
+        m = m @ [
+            [c, -s * ca, s * sa, a * c],
+            [s, c * ca, -c * sa, a * s],
+            [0, sa, ca, d],
+            [0, 0, 0, 1],
+        ]
+    return m
+
+
+def test_an_arm_of_links_alone_has_forward_kinematics_and_a_jacobian():
+    q = RNG.uniform(-np.pi, np.pi, (40, 6))
+    flange, J, step = UR5.fk(q).as_matrix(), UR5.jacobian(q), 1e-6
+    assert np.allclose(flange, [ur5_chain(one) for one in q], rtol=0, atol=1e-14)
+    for j in range(6):
+        ahead, behind = (
+            np.array([ur5_chain(one + sign * step * np.eye(6)[j]) for one in q]) for sign in (1, -1)
+        )
+        change = (ahead - behind) / (2 * step)
+        assert np.allclose(J[:, :3, j], change[:, :3, 3], rtol=0, atol=1e-9)
+        spin = change[:, :3, :3] @ flange[:, :3, :3].mT
+        turns = np.stack([spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], axis=-1)
+        assert np.allclose(J[:, 3:, j], turns, rtol=0, atol=1e-9)
+
+
+def test_the_reach_of_links_alone_is_a_bound():
+    upright = Transform(Quaternion.from_angle_axis(90 * deg, (1, 0, 0)))
+    slide = Link(upright, after=Transform(translation=(0.1, 0, 0)), prismatic=True)
+    crooked = [Link(slide.after, (0.6, 0, 0.8), upright), slide, Link(after=slide.after), slide]
+    for links, limits in (
+        (IRB140.links, IRB140.limits),
+        (SCARA.links, SCARA.limits),
+        (UR5.links, UR5.limits),
+        (crooked, [(-3, 3), (-0.5, 0.2), (-3, 3), (0.1, 0.3)]),
+        ([slide] * 3, [(-0.5, 0.2)] * 3),
+        ([slide], [(-0.5, 0.2)]),
+    ):
+        arm = Arm("links", links, limits)
+        q = RNG.uniform(*arm.limits.T, (2000, len(arm.links)))
+        flange, joint = arm.fk(q).translation, links[0].before
+        beside = flange - joint.translation
+        if not links[0].prismatic:  # only what is beside the axis
+            axis = joint.rotation @ links[0].axis
+            beside = beside - (beside @ axis)[:, None] * axis
+        farthest = np.linalg.norm(beside, axis=-1).max()
+        assert 0.4 * arm.reach < farthest <= arm.reach + 1e-12
+    longer = dataclasses.replace(arm, limits=[(-0.9, 0.2)])
+    assert longer.reach == pytest.approx(1.0) and arm.reach == pytest.approx(0.6)
+
+
+def test_an_arm_without_an_inverse_says_what_it_can_do():
+    for arm, others in ((UR5, ""), (three_lever(0.4), "alpha_range, family, ")):
+        for name in ("ik", "branch", "branches"):
+            assert not hasattr(arm, name)
+            has = f"has no closed-form inverse, so no {name}; it has {others}fk, frames, jacobian"
+            with pytest.raises(AttributeError, match=f"{arm.name} {has}"):
+                getattr(arm, name)
+    with pytest.raises(AttributeError, match="'Arm' object has no attribute 'anything'"):
+        UR5.anything  # noqa: B018
+    with pytest.raises(TypeError, match="geometry with links, target, reach, branches.*Chain"):
+        type(IRB140)("no inverse", UR5.links, UR5.limits)
 
 
 def test_a_prismatic_joint_shifts_along_its_axis():

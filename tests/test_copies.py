@@ -938,7 +938,7 @@ def test_without_nbformat_it_says_what_to_install(school, monkeypatch, capsys):
     school.newer("one.ipynb", "second")
     monkeypatch.setitem(sys.modules, "nbformat", None)
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
-    assert "pip install 'robokin[labs]'" in capsys.readouterr().err
+    assert "pip install '.[labs]' at the top of a clone" in capsys.readouterr().err
     assert school.says("one.ipynb").endswith("first")
 
 

@@ -1,5 +1,7 @@
 """How near a singularity is: one measure with one length."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from machines import MACHINES, random_joints
@@ -9,6 +11,9 @@ from robokin import (
     ITMO6R,
     PUMA560,
     SCARA,
+    Arm,
+    Link,
+    Transform,
     distance_from_singularity,
     itmo_arm,
     scara_arm,
@@ -18,6 +23,7 @@ from robokin import (
     two_link,
 )
 from robokin.arms import total_length
+from robokin.arms.dexterity import spread
 
 RNG = np.random.default_rng(12)
 
@@ -95,6 +101,17 @@ def test_the_measure_does_not_depend_on_the_size_of_the_arm():
     a = singular_values(small, np.hstack([turns, stroke]))
     b = singular_values(large, np.hstack([turns, 7 * stroke]))
     assert np.allclose(a, b, rtol=1e-12, atol=0) and a.shape == (20, 4)
+
+
+def test_no_two_joints_of_a_spread_go_together():
+    count = 40
+    chain = SimpleNamespace(links=(Link(),) * count, target=Transform, reach=1.0)
+    shares = spread(Arm("many joints", chain, [(0, 1)] * count), 300)
+    assert shares.min() > 0 and shares.max() < 1
+    apart = abs(shares[:, :, None] - shares[:, None, :]).mean(axis=0)
+    assert apart[~np.eye(count, dtype=bool)].min() > 0.05
+    roots = np.sqrt([2, 3, 5, 7, 11, 13, 17])
+    assert (shares[:, :7] == np.arange(1, 301)[:, None] * roots % 1).all()
 
 
 def test_only_what_the_arm_is_asked_for_counts():

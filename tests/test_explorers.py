@@ -18,6 +18,7 @@ import pytest
 import test_browser
 from axe_playwright_python.sync_playwright import Axe
 from conftest import ROOT, until
+from machines import UR5
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
@@ -56,7 +57,7 @@ ELBOW = spbu_arm(500 * mm, 400 * mm)
 LOADER = loader_arm(1.2, 1.0)
 FLAT = two_link(0.5, 0.4)
 LEVERS = three_lever(0.3)
-JOINTS = (IRB140, PUMA560, SCARA, LOADER, ELBOW, FLAT, LEVERS)
+JOINTS = (IRB140, PUMA560, SCARA, LOADER, ELBOW, FLAT, LEVERS, UR5)
 TARGETS = (IRB140, PUMA560, ITMO6R, SCARA, LOADER, ELBOW, FLAT)
 START = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
@@ -732,7 +733,7 @@ def follows_the_pointer(shown, name, key, parts):
     return long
 
 
-@named((IRB140, SCARA, FLAT, LEVERS))
+@named((IRB140, SCARA, FLAT, LEVERS, UR5))
 def test_a_joint_follows_the_pointer_and_no_other_moves(opened, arm):
     shown, seen = opened(joint_explorer(arm), arm), 0
     ends = arm.limits / [[unit["size"]] for unit in shown.data["units"]]

@@ -216,7 +216,26 @@ def test_the_package_itself_needs_numpy_only():
 def test_show_without_its_extra_says_what_to_install():
     code = "import sys; sys.modules['matplotlib'] = None; import robokin, robokin.show"
     run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True)
-    assert re.search(r"ImportError: .*matplotlib.*robokin\[show\]", run.stderr), run.stderr
+    assert re.search(
+        r"ImportError: .*matplotlib.*'\.\[show\]' at the top of a clone", run.stderr
+    ), run.stderr
+
+
+def test_the_package_alone_goes_from_an_import_to_a_saved_page_in_eight_lines(tmp_path):
+    section = README.split("## The package alone\n")[1].split("\n## ")[0]
+    (code,) = re.findall(r"^```python\n(.*?)^```", section, re.M | re.S)
+    assert len([line for line in code.splitlines() if line]) == 8
+    subprocess.run([sys.executable, "-W", "error", "-c", code], cwd=tmp_path, check=True)
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "UR5" in page and "<script" in page and [*tmp_path.iterdir()] == [tmp_path / "page.html"]
+
+
+def test_nobody_is_told_to_install_robokin_from_an_index():
+    """Extras of pyproject.toml name the package; what people read names a clone."""
+    read = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
+    read += [*MODULES.values(), *(ROOT / "notebooks").glob("**/*.ipynb")]
+    for path in read:
+        assert not re.search(r"install ['\"`]*robokin", path.read_text(encoding="utf-8")), path
 
 
 def test_the_version_stands_once():

@@ -287,7 +287,24 @@ def test_upright_the_roll_is_zero_and_the_rotation_right(pitch):
         q = Quaternion.from_roll_pitch_yaw(*np.deg2rad([roll, pitch, yaw]))
         r, p, y = q.as_roll_pitch_yaw()
         assert r == 0 and np.rad2deg(p) == pytest.approx(pitch, abs=1e-6)
-        same(Quaternion.from_roll_pitch_yaw(r, p, y), scipy(q), 1e-9)
+        same(Quaternion.from_roll_pitch_yaw(r, p, y), scipy(q), 1e-15)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_roll_pitch_yaw_keep_their_digits_near_upright(sign):
+    """Roll and yaw are known the less the nearer the pitch is to a quarter turn, and what they make
+    together is known to the last digits all the way.
+    """
+    rng = np.random.default_rng(15)
+    for off in 10.0 ** np.arange(-17, 0.5, 0.25):
+        roll, yaw = rng.uniform(-np.pi, np.pi, (2, 50))
+        q = Quaternion.from_roll_pitch_yaw(roll, sign * (np.pi / 2 - off), yaw)
+        back = q.as_roll_pitch_yaw()
+        assert q.angle_to(Quaternion.from_roll_pitch_yaw(*back)).max() < 5e-14
+        if off >= 1e-13:
+            assert q.angle_to(Quaternion.from_roll_pitch_yaw(*back)).max() < 3e-15
+        if off >= 1e-6:
+            assert abs(np.array(back[::2]) - (roll, yaw)).max() < 1e-15 / off
 
 
 def test_degrees_for_radians_are_hinted_at_and_taken():

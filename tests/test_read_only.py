@@ -5,8 +5,13 @@ values of a lesson, in a process of its own and before anything was computed the
 changes nothing, and `ik` is right afterwards.
 """
 
+import copy
+import dataclasses
 import hashlib
+import importlib
 import json
+import pickle
+import pkgutil
 import subprocess
 import sys
 from functools import partial
@@ -22,9 +27,11 @@ from robokin import (
     ITMO6R,
     PUMA560,
     SCARA,
+    Arm,
     Link,
     Quaternion,
     ScaraPose,
+    TimeLaw,
     Transform,
     elbow_arm,
     follow,
@@ -40,9 +47,11 @@ from robokin import (
     spherical_wrist,
     three_lever,
     trapezoidal,
+    turning_base,
     two_link,
     within,
 )
+from robokin._arrays import Sealed
 from robokin.jobs import obstacles, steppers
 from robokin.jobs.visit_collect import KEYS, Task, itinerary, visit
 from robokin.motion import differentiate
@@ -84,6 +93,8 @@ ROOTS = {
     **{name: lambda arm=arm: arm for name, arm in MACHINES.items()},
     "three_lever": lambda: three_lever(0.5),
     "three_lever, unequal": lambda: three_lever((0.5, 0.4, 0.3)),
+    "arm without an inverse": lambda: Arm("links", three_lever(0.5).links, [(0, 1)] * 3),
+    "turning_base": lambda: turning_base(three_lever(0.5)),
     "Link": Link,
     "identity": Transform,
     "pose": lambda: Transform(A.rotation, (0.1, 0.2, 0.3)),
@@ -215,6 +226,62 @@ def test_what_comes_out_is_the_callers(name):
     before = first.copy()
     first[...] = 99
     np.testing.assert_array_equal(GIVES[name](), before)
+
+
+SEALED = ("robokin.quaternion", "robokin.transform", "robokin.arms", "robokin.motion")
+COPIES = {
+    "copy": copy.copy,
+    "deepcopy": copy.deepcopy,
+    "pickle": lambda value: pickle.loads(pickle.dumps(value)),
+}
+
+
+def sealed_classes():
+    """The dataclasses of these packages."""
+    found = {}
+    for module in pkgutil.walk_packages(robokin.__path__, "robokin."):
+        if module.name.startswith(SEALED):
+            for value in vars(importlib.import_module(module.name)).values():
+                if isinstance(value, type) and dataclasses.is_dataclass(value):
+                    found[value.__name__] = value
+    return list(found.values())
+
+
+def _values(value):
+    """A value and all values inside it."""
+    yield value
+    inside = value if isinstance(value, tuple) else vars(value).values() if _ours(value) else ()
+    for each in inside:
+        yield from _values(each)
+
+
+@pytest.fixture(scope="module")
+def examples():
+    """One value of each class, with what is worked out at the first use: class -> value."""
+    found = {}
+    for make in ROOTS.values():
+        for value in _values(make()):
+            found.setdefault(type(value), value)
+    for value in found.values():
+        dict(_seen(value))
+    return found
+
+
+@pytest.mark.parametrize("kind", sealed_classes(), ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("how", COPIES)
+def test_a_copy_is_sealed_too(examples, kind, how):
+    assert issubclass(kind, Sealed) and kind.__dataclass_params__.frozen
+    assert kind.__setattr__ is not kind.__mro__[1].__setattr__, "a frozen base seals only itself"
+    value = COPIES[how](examples[kind])
+    assert dict(_seen(value)) == dict(_seen(examples[kind]))
+    for name in [*vars(value), "another"]:
+        with pytest.raises(AttributeError):
+            setattr(value, name, 1)
+        with pytest.raises(AttributeError):
+            delattr(value, name)
+    arrays = [one for one in _values(value) if isinstance(one, np.ndarray)]
+    assert arrays or kind is TimeLaw
+    assert not any(array.flags.writeable for array in arrays)
 
 
 def test_the_attack_finds_what_can_be_written():

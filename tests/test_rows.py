@@ -1,7 +1,9 @@
 """Where each capability of the documents and each finding of the second reading is dealt with.
 
 The tables at the end of the companions have the 97 capabilities (S0-01 to S4-11), the file
-data/second_reading.csv the findings (A1 to H12). Every target exists.
+data/second_reading.csv the findings (A1 to H12). Every target exists; what a row calls by the
+document's own name stands in one of its places, and what it names in robokin cites the document, if
+it cites any.
 """
 
 import csv
@@ -34,12 +36,19 @@ def table(source):
     return [(row, *(part.strip() for part in rest.split(" | "))) for row, rest in lines]
 
 
-def has_section(path, section):
-    """Whether a notebook has it: "§3", "Deeper", "Your turn", or "" for the whole."""
-    if not section:
-        return True
+def section_text(path, section):
+    """All cells of a section: "§3", "Deeper", "Your turn", or "" for the whole notebook; "" if it
+    has none of that name.
+    """
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    text = "\n".join("".join(cell["source"]) for cell in cells)
     heading = rf"{section[1:]}\. " if section.startswith("§") else section
-    return re.search(rf"^## {heading}", prose(path), re.M) is not None
+    parts = re.split(r"^(?=## )", text, flags=re.M)
+    return "".join(part for part in parts if not section or re.match(f"## {heading}", part))
+
+
+def has_section(path, section):
+    return bool(section_text(path, section))
 
 
 def found(name):
@@ -70,15 +79,22 @@ def test_every_capability_of_a_document_has_its_place(source):
             continue
         links = re.findall(r"\[(\w+)(?: ([^\]]+))?\]\(([^)]+)\)", where)
         assert links, f"{row}: {where}"
+        texts = []
         for lab, section, target in links:
             path = COMPANIONS[f"00{source[1]}"]
             if lab != "here":
                 path = LABS[lab]
                 assert target.split("#")[0] == f"../{path.name}", f"{row}: {target}"
             assert has_section(path, section), f"{row}: {lab} {section}"
+            texts.append(section_text(path, section))
+        for term in re.findall(r"`([^`]+)`", what):
+            assert any(term in text for text in texts), f"{row}: {term} stands in none of {where}"
         assert names == "–" or "`" in names, f"{row}: {names}"
         for name in re.findall(r"`([^`]+)`", names):
-            assert found(name) is not None, f"{row}: {name}"
+            value = found(name)
+            assert value is not None, f"{row}: {name}"
+            cited = re.findall(r"Source: [^>]*", inspect.getdoc(value) or "")
+            assert not cited or f"00{source[1]}" in cited[0], f"{row}: {name} cites {cited}"
 
 
 def findings():

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from machines import UR5
 
 import robokin.show
 from robokin import (
@@ -812,13 +813,13 @@ def test_data_is_whole(arm):
     assert back["geometry"]["kind"] and back["geometry"]["reach"] == arm.reach
 
 
-def test_an_unknown_geometry(twin):
+class Own:
+    links, target, reach = IRB140.links, Transform, 1.0
+
+
+@pytest.mark.parametrize("arm", [Arm("Own", Own(), IRB140.limits), UR5], ids=lambda arm: arm.name)
+def test_an_unknown_geometry(twin, arm):
     """A page gets the chain and the limits: it can turn the joints, and ask for nothing."""
-
-    class Own:
-        links, target, reach = IRB140.links, Transform, 1.0
-
-    arm = Arm("Own", Own(), IRB140.limits)
     data = arm_data(arm)
     assert data["geometry"] == {"kind": None} and "branches" not in data
     q = np.random.default_rng(14).uniform(-1, 1, (20, 6))

@@ -175,6 +175,7 @@ CALLS = {
             speed_limits=np.ones(3),
         ),
     ),
+    "Arm (links)": (Arm, dict(name="arm", geometry=LINKS, limits=LEVERS.limits)),
     "ClosedFormArm": (
         ClosedFormArm,
         dict(
@@ -215,7 +216,14 @@ CALLS = {
     "ThreeLeverArm.out_of_reach": (LEVERS.out_of_reach, dict(point=POINT)),
     "dh_links": (
         dh_links,
-        dict(a=np.array([0, 0.3]), alpha=np.array([1.57, 0]), d=np.zeros(2), theta=np.zeros(2)),
+        dict(
+            a=np.array([0, 0.3]),
+            alpha=np.array([1.57, 0]),
+            d=np.zeros(2),
+            theta=np.zeros(2),
+            prismatic=[True, False],
+            modified=False,
+        ),
     ),
     "elbow_arm": (
         elbow_arm,

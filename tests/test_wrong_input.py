@@ -43,6 +43,7 @@ Z = (0, 0, 1)
 S = np.linspace(0, 1, 5)
 MIRROR = np.diag([1.0, 1, -1])
 LIMITS = [(-1, 1)] * 6
+MANY = (1,) * 33
 ONE = SimpleNamespace(links=(Link(),), target=Transform, reach=1.0)
 
 
@@ -146,6 +147,12 @@ WRONG = {
     "link without axis": (lambda: Link(axis=(0, 0, 0)), "axis.*length 0"),
     "link about a long axis": (lambda: Link(axis=(0, 0, 2)), "axis.*length 2"),
     "no geometry": (lambda: Arm("x", None, LIMITS), "geometry with links, target, reach, got None"),
+    "no links": (lambda: Arm("x", [], LIMITS), "links: wanted at least one Link, got none"),
+    "a pose among links": (lambda: Arm("x", [Link(), A], LIMITS), r"links\[1\]: wanted a Link"),
+    "links that stand still": (
+        lambda: Arm("x", [Link(after=Transform(translation=(0, 0, 1)))], LIMITS[:1]),
+        "links: wanted a flange that comes away from axis 1",
+    ),
     "links of another kind": (
         lambda: elbow_arm("x", 3, LIMITS[:3]),
         "links: wanted a tuple, got 3",
@@ -158,6 +165,15 @@ WRONG = {
     "link after a matrix": (lambda: Link(after=np.eye(4)), r"after.*\(4, 4\)"),
     "five links": (lambda: spherical_wrist("x", IRB140.links[:5], LIMITS), "six revolute links"),
     "limits of five": (lambda: spherical_wrist("x", IRB140.links, LIMITS[:5]), "wanted 6 pairs"),
+    "DH joints in words": (
+        lambda: dh_links([0, 1], 0, 0, prismatic=["no", "yes"]),
+        "prismatic: wanted True or False",
+    ),
+    "DH joints as numbers": (lambda: dh_links([0, 1], 0, 0, prismatic=[0, 1]), "got \\[0, 1\\]"),
+    "DH joints do not fit": (
+        lambda: dh_links([0, 1], 0, 0, prismatic=[True] * 3),
+        r"\(2,\).*\(3,\)",
+    ),
     "DH columns": (lambda: dh_links([0, 1], [0, 1, 2], 0), r"\(2,\).*\(3,\)"),
     "DH without upper arm": (lambda: itmo_arm(0.1, 0.0, 0.2, 0.2), "a2: wanted one positive"),
     "DH below the floor": (lambda: itmo_arm(-0.1, 0.1, 0.2, 0.2), "d1 and d6.*-0.1"),
@@ -217,6 +233,12 @@ WRONG = {
     "share before the start": (lambda: lin_lin(A, B, A, [-0.5, 0.5]), "-0.5"),
     "time for a share": (lambda: blend(A, B, A, 0.1, np.linspace(0, 20, 5)), "0 to 20"),
     "no shares": (lambda: lin(A, B, []), "empty"),
+    "shares of many axes": (lambda: lin(A, B, np.full(MANY, 0.5)), "s: wanted at most 30 axes.*33"),
+    "blends of many axes": (lambda: blend(A, B, A, np.full(MANY, 0.1), 0.5), "at most 30 axes"),
+    "joints of many axes": (lambda: IRB140.frames(np.zeros((*MANY, 6))), "q: .*30 axes, got 34"),
+    "levers of many axes": (lambda: three_lever(1).family((1, 1), np.ones(MANY)), "30 axes"),
+    "identities of many axes": (lambda: Transform.identity(MANY), "shape: .*at most 30.*33"),
+    "new axes": (lambda: B[(None,) * 33], "index: .*at most 32 axes.*34"),
     "no shares, blend": (lambda: blend(A, B, A, 0.1, []), "empty"),
     "no shares, ptp": (lambda: ptp([0], [1], []), "empty"),
     "NaN share": (lambda: ptp([0], [1], NAN), "nan"),
@@ -273,6 +295,7 @@ OF_ANOTHER_KIND = {
     "target to ik",
     "position to SCARA",
     "no geometry",
+    "a pose among links",
     "links of another kind",
     "one of the links",
     "link from a matrix",
@@ -295,6 +318,7 @@ RIGHT = {
     "start equal to goal, lin": lambda: same(lin(A, A, S), A),
     "start equal to goal, ptp": lambda: (ptp(np.ones(6), np.ones(6), S) == 1).all(),
     "start equal to goal, blend": lambda: same(blend(B, B, B, 0.3, S), B),
+    "the smallest blend": lambda: same(blend(A, B, A, 5e-324, S), lin_lin(A, B, A, S)),
     "start equal to via": lambda: same(blend(A, A, B, 0.0, S), lin_lin(A, A, B, S)),
     "via and back": lambda: same(blend(A, B, A, 0.2, 1.0), A),
     "whole numbers": lambda: same(

@@ -6,10 +6,11 @@ from .catalogue import IRB140, ITMO6R, PUMA560, SCARA, itmo_arm, loader_arm, spb
 from .dexterity import distance_from_singularity, singular_values, total_length
 from .elbow import elbow_arm
 from .link import Link, dh_links
-from .planar import ThreeLeverArm, three_lever, two_link
+from .planar import ThreeLeverArm, three_lever
 from .scara import ScaraPose, scara_arm
 from .spherical_wrist import spherical_wrist
 from .turning import turning_base
+from .two_link import two_link
 
 __all__ = [
     "IRB140",

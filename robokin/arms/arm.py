@@ -3,31 +3,42 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, Ints, by_blocks, fixed, frozen
+from .._arrays import ArrayLike, Bools, Floats, Ints, Sealed, by_blocks, frozen
 from .._validate import floats, short, text, warn_if_degrees
 from ..quaternion import Quaternion, cross, turned
 from ..transform import Transform
-from .geometry import ClosedForm, Geometry
-from .link import BASE, Frame, Link
+from .geometry import Chain, ClosedForm, Geometry
+from .link import BASE, Frame, Link, chain
 
 SCALARS = (int, float, np.number)
 
 
-@dataclass(init=False, repr=False, eq=False)
-class Arm:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class Arm(Sealed):
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 
     name           what a figure calls it
-    geometry       its links, and what follows from them: see `geometry.py`
+    geometry       its links, and what follows from them: see `geometry.py`; or a tuple of links,
+                   of which the arm makes a geometry without an inverse
     limits         (n, 2), lowest and highest value of each joint; read-only
     speed_limits   (n,), greatest speeds in rad/s or m/s, where known; read-only
 
     An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. ValueError: limits that do
-    not fit; TypeError: no geometry.
+    not fit, links that never move the flange away from axis 1; TypeError: neither geometry nor
+    links.
+
+    >>> from robokin import Arm, deg, dh_links, mm
+    >>> a, d = np.array([[0, -425, -392.25, 0, 0, 0], [89.159, 0, 0, 109.15, 94.65, 82.3]]) * mm
+    >>> alpha = np.array([90, 0, 0, 90, -90, 0]) * deg
+    >>> ur5 = Arm("UR5", dh_links(a, alpha, d), np.array([(-360, 360)] * 6) * deg)
+    >>> ur5.fk(np.array([0, -90, 90, 0, 0, 0]) * deg).translation.round(3) + 0.0
+    array([-0.392, -0.191,  0.42 ])
+    >>> ur5.jacobian(np.zeros(6)).shape, hasattr(ur5, "ik")
+    ((6, 6), False)
     """
 
     name: str
@@ -35,32 +46,27 @@ class Arm:
     limits: Floats
     speed_limits: Floats | None
 
-    __setattr__ = __delattr__ = fixed
-
     def __init__(
         self,
         name: str,
-        geometry: Geometry,
+        geometry: Geometry | Sequence[Link],
         limits: ArrayLike,
         speed_limits: ArrayLike | None = None,
     ) -> None:
-        object.__setattr__(self, "name", text(name, "name"))
+        text(name, "name")
+        geometry = _measured(geometry, limits)
         parts = self._geometry_has()
         if isinstance(geometry, type) or not all(hasattr(geometry, part) for part in parts):
             wanted = f"a geometry with {', '.join(parts)}"
             raise TypeError(f"geometry: wanted {wanted}, got {short(geometry)}")
-        object.__setattr__(self, "geometry", geometry)
-        n = len(self.links)
-        pairs = floats(limits, "limits", 2)
-        if pairs.shape != (n, 2) or (pairs[:, 0] >= pairs[:, 1]).any():
-            got = pairs.tolist() if pairs.size < 50 else f"shape {pairs.shape}"
-            raise ValueError(f"limits: wanted {n} pairs (lowest, highest), got {got}")
-        object.__setattr__(self, "limits", frozen(pairs))
+        n = len(geometry.links)
+        pairs = _pairs(limits, n)
         speeds = None if speed_limits is None else floats(speed_limits, "speed_limits", n)
         if speeds is not None and (speeds.ndim != 1 or (speeds <= 0).any()):
             got = short(speeds.tolist())
             raise ValueError(f"speed_limits: wanted {n} positive numbers, got {got}")
-        object.__setattr__(self, "speed_limits", None if speeds is None else frozen(speeds))
+        vars(self).update(name=name, geometry=geometry, limits=frozen(pairs))
+        vars(self)["speed_limits"] = None if speeds is None else frozen(speeds)
 
     @staticmethod
     def _geometry_has() -> tuple[str, ...]:
@@ -170,7 +176,20 @@ class Arm:
     def __repr__(self) -> str:
         return f"Arm({self.name!r}, {len(self.links)} joints)"
 
+    if not TYPE_CHECKING:  # a type checker would take any name for an attribute
 
+        def __getattr__(self, name):
+            """The error for a name that the arm does not have, and what to use for an inverse."""
+            words = f"{type(self).__name__!r} object has no attribute {name!r}"
+            if name in ("ik", "branch", "branches"):
+                kind = type(self)
+                own = (each for each in dir(kind) if each[0] != "_")
+                can = ", ".join(each for each in own if callable(getattr(kind, each)))
+                words = f"{self.name} has no closed-form inverse, so no {name}; it has {can}"
+            raise AttributeError(words, name=name, obj=self)
+
+
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class ClosedFormArm(Arm):
     """An `Arm` with all solutions of its inverse in closed form: `ik`."""
 
@@ -205,6 +224,24 @@ class ClosedFormArm(Arm):
         coincide the row is repeated. TypeError: another kind of thing.
         """
         return self.geometry.ik(pose)
+
+
+def _measured(geometry: Geometry | Sequence[Link], limits: ArrayLike) -> Geometry:
+    """The geometry of links alone, for these limits; another geometry as it is."""
+    links = geometry.links if isinstance(geometry, Chain) else geometry
+    if not isinstance(links, (tuple, list)) or hasattr(links, "links"):
+        return cast(Geometry, geometry)
+    links = chain(links)
+    return Chain.measured(links, _pairs(limits, len(links)))
+
+
+def _pairs(limits: ArrayLike, n: int) -> Floats:
+    """The limits (n, 2) of n joints; ValueError: they are not."""
+    pairs = floats(limits, "limits", 2)
+    if pairs.shape != (n, 2) or (pairs[:, 0] >= pairs[:, 1]).any():
+        got = pairs.tolist() if pairs.size < 50 else f"shape {pairs.shape}"
+        raise ValueError(f"limits: wanted {n} pairs (lowest, highest), got {got}")
+    return pairs
 
 
 def _transform(parts: Floats) -> Transform:

@@ -199,15 +199,15 @@ def _start(arm: Arm, track: Floats) -> Floats:
     against.
 
     A motion may begin in a singularity, as from the IRB-140's home pose: the free joints then look
-    ahead to the first sample that fixes them.
+    ahead to the first sample that determines them.
     """
     choose = _chooser(arm)
     exists = ~np.isnan(track).any(axis=-1)
     # each joint by another amount, so that no two shifts cancel
     elsewhere = track + np.arange(track.shape[-1])
-    fixed = np.isclose(choose(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
+    determined = np.isclose(choose(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
     begin = exists.argmax(axis=-1)
-    ahead = np.where(fixed.any(axis=-1), fixed.argmax(axis=-1), begin)
+    ahead = np.where(determined.any(axis=-1), determined.argmax(axis=-1), begin)
     first, later = (
         np.take_along_axis(track, i[..., None, None], axis=-2)[..., 0, :] for i in (begin, ahead)
     )

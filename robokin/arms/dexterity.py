@@ -1,5 +1,7 @@
 """How near a singularity is: the singular values of the Jacobian, with one length for all."""
 
+import itertools
+
 import numpy as np
 
 from .._arrays import ArrayLike, Floats, Ints
@@ -85,12 +87,22 @@ def movable(arm: Arm) -> Ints:
 
 def spread(arm: Arm, count: int, most: float = np.inf) -> Floats:
     """Postures (count, n) spread evenly between the limits, turns within +-`most` where limits let
-    them: Weyl's sequence of square roots.
+    them: Weyl's sequence of the square roots of primes.
     """
     low, high = arm.limits.T
     inner = ~arm.prismatic & (low < most) & (high > -most)
     low, high = (np.where(inner, np.clip(x, -most, most), x) for x in (low, high))
-    roots = np.sqrt([2, 3, 5, 7, 11, 13])[np.arange(len(arm.links)) % 6]
+    roots = np.sqrt(_primes(len(arm.links)))
     shares = (np.arange(1, count + 1)[:, None] * roots) % 1
     postures: Floats = low + shares * (high - low)
     return postures
+
+
+def _primes(count: int) -> list[int]:
+    found: list[int] = []
+    for number in itertools.count(2):
+        if len(found) == count:
+            break
+        if all(number % prime for prime in found):
+            found.append(number)
+    return found

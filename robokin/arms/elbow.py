@@ -6,12 +6,13 @@ centre.
 """
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from math import sqrt
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, by_blocks, fixed
+from .._arrays import ArrayLike, Bools, Floats, Sealed, by_blocks
 from .._validate import floats
 from ..transform import Transform
 from .arm import ClosedFormArm
@@ -37,7 +38,8 @@ def elbow_arm(
     return ClosedFormArm(name, ElbowGeometry(links), limits, speed_limits)
 
 
-class ElbowGeometry:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class ElbowGeometry(Sealed):
     """Three links that place a point, and their inverse (see `elbow_arm`).
 
     Configuration flags, +1 or -1: the point in front of or behind axis 1 (front is the side of +x
@@ -49,8 +51,8 @@ class ElbowGeometry:
     target = np.ndarray
     carried = "the point"
     links: tuple[Link, ...]
-    elbow: "Elbow"
-    reach: float
+    elbow: "Elbow" = field(init=False)
+    reach: float = field(init=False)
 
     @np.errstate(invalid="ignore")  # of lengths whose squares are none
     def __init__(self, links: Iterable[Link]) -> None:
@@ -60,8 +62,6 @@ class ElbowGeometry:
         points, axes, flange = home(links)
         elbow = Elbow.measured(points, axes, flange.translation, self.carried)
         vars(self).update(links=links, elbow=elbow, reach=elbow.reach)
-
-    __setattr__ = __delattr__ = fixed
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 4, 3)."""

@@ -7,12 +7,15 @@ and its inverse have in common, so that the two cannot disagree. Two protocols s
 How near is near stands here too, once for all geometries. Distances are shares of the arm's reach.
 """
 
+from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from .._arrays import Bools, Floats, Ints
+from .._arrays import Bools, Floats, Ints, Sealed
+from .._validate import floats
+from ..transform import Transform
 from ..units import in_words
 from .link import Link
 from .verdicts import SENTENCES
@@ -72,6 +75,33 @@ class ClosedForm(Geometry, Protocol):
         """
 
 
+@dataclass(frozen=True, eq=False)
+class Chain(Sealed):
+    """The geometry of links alone: no inverse, and a `reach` that no posture exceeds."""
+
+    links: tuple[Link, ...]
+    reach: float
+    target = Transform
+
+    @classmethod
+    def measured(cls, links: tuple[Link, ...], limits: Floats) -> "Chain":
+        """Of links and the limits of their joints (n, 2). The reach is the sum of the lengths and
+        strokes behind joint 1; what does not move against axis 1 counts by its distance from it.
+        ValueError: a flange that never comes away from axis 1.
+        """
+        first, *others = links
+        start = first.after @ others[0].before if others else first.after
+        shifts = [start, *(link.before for link in others[1:]), *(link.after for link in others)]
+        ways = np.stack([shift.translation for shift in shifts])
+        if not first.prismatic:
+            ways[0] -= (ways[0] @ first.axis) * first.axis
+        strokes = abs(limits[[link.prismatic for link in links]]).max(axis=-1, initial=0)
+        reach = float(np.linalg.norm(ways, axis=-1).sum() + strokes.sum())
+        if reach < 1e-9:
+            raise ValueError("links: wanted a flange that comes away from axis 1, got reach 0 m")
+        return cls(links, reach)
+
+
 class Gap(NamedTuple):
     """Why a row does not exist: which border is passed, and by how much.
 
@@ -106,6 +136,23 @@ def worst(gaps: dict[str, Any], what: str) -> Gap:
     """The border (name -> metres beyond it) that is passed the farthest."""
     kind = max(gaps, key=lambda name: float(gaps[name]))
     return Gap(kind, max(float(gaps[kind]), 0.0), what)
+
+
+def coordinates(point: Any) -> tuple[Floats, Floats, Floats]:
+    """x, y, z of points (..., 2) or (..., 3), or of Transforms."""
+    place = point.translation if isinstance(point, Transform) else floats(point, "point")
+    if place.ndim == 0 or place.shape[-1] not in (2, 3):
+        raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {place.shape}")
+    x, y = place[..., 0], place[..., 1]
+    return x, y, place[..., 2] if place.shape[-1] == 3 else 0 * x
+
+
+def one_point(point: Any) -> Any:
+    """The point, or ValueError: a batch of them."""
+    x = coordinates(point)[0]
+    if x.ndim:
+        raise ValueError(f"point: wanted one single point, got a batch of shape {x.shape}")
+    return point
 
 
 def distance(x: Floats, y: Floats) -> Floats:

@@ -1,13 +1,13 @@
 """Links: what a chain is made of."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, fixed, sealed
-from .._validate import broadcast, floats, instance
+from .._arrays import ArrayLike, Bools, Floats, Sealed, sealed
+from .._validate import bools, broadcast, floats, instance
 from ..quaternion import Quaternion, along, half_angles, hamilton, spun, turned, unit
 from ..transform import Transform
 
@@ -18,13 +18,13 @@ HERE = Transform()
 BASE: Frame = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-@dataclass(init=False, eq=False)
-class Link:
-    """One joint between two fixed transforms: the frame after it is
+@dataclass(frozen=True, init=False, eq=False)
+class Link(Sealed):
+    """One joint between two constant transforms: the frame after it is
     `frame @ before @ motion @ after`.
 
     The motion is a turn about the unit vector `axis` or, if `prismatic`, a shift along it. A
-    Denavit-Hartenberg row has its fixed part after the joint; listing 1 of source 001 has it
+    Denavit-Hartenberg row has its constant part after the joint; listing 1 of source 001 has it
     before. ValueError: a batch of transforms, an axis that is not one unit vector.
     """
 
@@ -32,8 +32,7 @@ class Link:
     axis: Floats
     after: Transform
     prismatic: bool
-
-    __setattr__ = __delattr__ = fixed
+    _parts: "tuple[_Still, tuple[int | None, float], _Still]" = field(init=False, repr=False)
 
     def __init__(
         self,
@@ -48,20 +47,16 @@ class Link:
         direction = floats(axis, "axis", 3)
         if direction.ndim != 1:
             raise ValueError(f"axis: wanted one unit vector, got shape {direction.shape}")
-        object.__setattr__(self, "before", before)
         direction = sealed(unit(direction, "axis", "one unit vector"))
-        object.__setattr__(self, "axis", direction)
-        object.__setattr__(self, "after", after)
-        object.__setattr__(self, "prismatic", instance(prismatic, bool, "prismatic"))
-        object.__setattr__(
-            self, "_parts", (_Fixed.of(before), _coordinate(direction), _Fixed.of(after))
-        )
+        instance(prismatic, bool, "prismatic")
+        vars(self).update(before=before, axis=direction, after=after, prismatic=prismatic)
+        vars(self)["_parts"] = _Still.of(before), _coordinate(direction), _Still.of(after)
 
     def _carry(self, frame: Frame, q: Any) -> tuple[Frame, Frame]:
         """The joint's own frame and the frame after this link, from the frame before it and q (...)
         in radians, metres if prismatic; all frames on components (`BASE` to begin with).
         """
-        before, (axis, sign), after = self._parts  # type: ignore[attr-defined]
+        before, (axis, sign), after = self._parts
         joint = rotation, origin = before.step(frame)
         if self.prismatic:
             ahead = turned(rotation, self.axis.tolist())
@@ -75,13 +70,22 @@ class Link:
 
 
 def dh_links(
-    a: ArrayLike, alpha: ArrayLike, d: ArrayLike, theta: ArrayLike = 0.0
+    a: ArrayLike,
+    alpha: ArrayLike,
+    d: ArrayLike,
+    theta: ArrayLike = 0.0,
+    prismatic: bool | Sequence[bool] | Bools = False,
+    modified: bool = False,
 ) -> tuple[Link, ...]:
-    """Revolute links from a table of standard Denavit-Hartenberg parameters, each (n,): A = Rot(z,
-    theta + q) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha). Metres and radians; `theta` is the
-    offset of the joint.
+    """Links from a table of Denavit-Hartenberg parameters, each (n,), in metres and radians. A link
+    is A = Rot(z, theta) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha).
 
-    Source: 000, "Обзор источников"; 004, table 1. ValueError: columns that are not of one length.
+    prismatic  one or (n,) bool: q is added to `d` where it is True, to `theta` where it is False
+    modified   the table is in Craig's form: a row has a and alpha of the link before its joint, and
+               A = Rot(x, alpha) Trans(a, 0, 0) Rot(z, theta) Trans(0, 0, d)
+
+    Source: 000, "Обзор источников"; 004, table 1; Craig, Introduction to Robotics, section 3.5.
+    ValueError: columns that are not of one length, a `prismatic` that is not True or False.
 
     >>> from robokin import dh_links
     >>> len(dh_links(a=[0, 0.4], alpha=[0.5 * np.pi, 0], d=0))
@@ -89,14 +93,22 @@ def dh_links(
     """
     columns = {"a": a, "alpha": alpha, "d": d, "theta": theta}
     table = [floats(column, name) for name, column in columns.items()]
-    shape = broadcast("a, alpha, d and theta", *(column.shape for column in table))
+    shifting = bools(prismatic, "prismatic")
+    named = f"{', '.join(columns)} and prismatic"
+    shape = broadcast(named, *(column.shape for column in table), shifting.shape)
     if len(shape) != 1 or shape[0] > 100:
-        raise ValueError(f"a, alpha, d and theta: wanted columns (n,), got shape {shape}")
-    lengths, twists, offsets, angles = np.broadcast_arrays(*table)
-    turn = Transform(Quaternion.from_angle_axis(angles, (0, 0, 1)))
-    shift = np.stack([lengths, np.zeros_like(lengths), offsets], axis=-1)
-    rest = Transform(Quaternion.from_angle_axis(twists, (1, 0, 0)), shift)
-    return tuple(Link(before, after=after) for before, after in zip(turn, rest, strict=True))
+        raise ValueError(f"{named}: wanted columns (n,), got shape {shape}")
+    lengths, twists, offsets, angles = (np.broadcast_to(column, shape) for column in table)
+    turn, zero = Quaternion.from_angle_axis(angles, (0, 0, 1)), np.zeros(shape)
+    tilt = Quaternion.from_angle_axis(twists, (1, 0, 0))
+    if instance(modified, bool, "modified"):
+        before = Transform(tilt, np.stack([lengths, zero, zero], axis=-1)) @ Transform(turn)
+        after = Transform(translation=np.stack([zero, zero, offsets], axis=-1))
+    else:
+        before = Transform(turn)
+        after = Transform(tilt, np.stack([lengths, zero, offsets], axis=-1))
+    joints = zip(before, after, np.broadcast_to(shifting, shape).tolist(), strict=True)
+    return tuple(Link(start, after=end, prismatic=shifts) for start, end, shifts in joints)
 
 
 def chain(links: Iterable[Link]) -> tuple[Link, ...]:
@@ -119,9 +131,9 @@ def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
     return np.array(points), np.array(axes), Transform(Quaternion(frame[0]), frame[1])
 
 
-class _Fixed(NamedTuple):
-    """A fixed transform in as few steps as it takes: shifts (axis, length) along coordinate axes,
-    then a turn w, x, y, z about one of them or about any axis, or none.
+class _Still(NamedTuple):
+    """A constant transform in as few steps as it takes: shifts (axis, length) along coordinate
+    axes, then a turn w, x, y, z about one of them or about any axis, or none.
     """
 
     shifts: tuple[tuple[int, float], ...]
@@ -129,9 +141,9 @@ class _Fixed(NamedTuple):
     turn: tuple[float, ...]
 
     @classmethod
-    def of(cls, fixed: Transform) -> "_Fixed":
-        turn = tuple(fixed.rotation.wxyz.tolist())
-        shifts = tuple((k, x) for k, x in enumerate(fixed.translation.tolist()) if x)
+    def of(cls, transform: Transform) -> "_Still":
+        turn = tuple(transform.rotation.wxyz.tolist())
+        shifts = tuple((k, x) for k, x in enumerate(transform.translation.tolist()) if x)
         return cls(shifts, tuple(k for k in range(3) if turn[k + 1]), turn)
 
     def step(self, frame: Frame) -> Frame:

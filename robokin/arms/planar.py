@@ -1,116 +1,24 @@
-"""Planar arms: all joints turn about z, and everything happens in the plane z = 0.
-
-`two_link` is the arm of source 002: two lengths, two elbows.
-`three_lever` is the arm of source 003: three levers OB, BA, AK, one joint more than a point of the
-plane needs.
+"""Three levers in the plane z = 0: the arm of source 003, OB, BA, AK, with one joint more than a
+point of the plane needs.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, fixed, stack
-from .._validate import broadcast, floats, length, positive, short, warn_if_degrees
+from .._arrays import ArrayLike, Floats, Sealed
+from .._validate import broadcast, floats, positive, short, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
-from ..units import deg, in_words, wrapped
-from .arm import Arm, ClosedFormArm
-from .geometry import FREE, ROUNDING, SINGULAR, Gap, distance, flags, two_levers, worst
+from ..units import deg, in_words
+from .arm import Arm
+from .geometry import ROUNDING, coordinates, distance, one_point
 from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
 MOST_ROWS = 2_000_000  # of a table: a second or two
 PORTION = 1000  # tasks looked at together where each has hundreds of postures to compare
-
-
-def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
-    """The planar arm of source 002: links of lengths l1 and l2 in metres on the point `base` (2,)
-    of the plane z = 0.
-
-    q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1 on. The document's
-    unknown (x2, y2) is the elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2),
-    points (..., 3) or Transforms, of which it takes the translation; a point off the plane z = 0 is
-    out of reach. Limits: one turn each; the document has none.
-
-    Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
-    is no point.
-
-    >>> from robokin import deg, two_link
-    >>> (two_link(0.3, 0.4).ik((0.3, 0.4)) / deg).round(1) + 0.0
-    array([[  0. ,  90. ],
-           [106.3, -90. ]])
-    """
-    limits = np.array([(-180, 180)] * 2) * deg
-    return ClosedFormArm("Two links", TwoLinkGeometry(l1, l2, base), limits)
-
-
-class TwoLinkGeometry:
-    """Two links in the plane and their inverse (see `two_link`). Configuration flag: the sign of
-    q2; at +1 link 2 turns counter-clockwise away from link 1, and the elbow lies to the right of
-    the line from base to tip.
-
-    The document's formula (2) holds for equal links on the origin, divides by x3, and changes sides
-    with the sign of x3 (errata S2-a, S2-d, S2-e). Here the triangle of base, elbow and tip is
-    solved by its half angles, for any lengths.
-    """
-
-    branches = flags(1)
-    target = np.ndarray
-    carried = "the target"
-    l1: float
-    l2: float
-    base: tuple[float, float]
-    reach: float
-    links: tuple[Link, ...]
-
-    def __init__(self, l1: float, l2: float, base: ArrayLike) -> None:
-        l1, l2, place = length(l1, "l1"), length(l2, "l2"), floats(base, "base", 2)
-        if place.ndim != 1:
-            raise ValueError(f"base: wanted one point (2,), got shape {place.shape}")
-        links = (
-            Link(Transform(translation=(*place, 0)), after=Transform(translation=(l1, 0, 0))),
-            Link(after=Transform(translation=(l2, 0, 0))),
-        )
-        vars(self).update(l1=l1, l2=l2, reach=l1 + l2, base=tuple(place.tolist()), links=links)
-
-    __setattr__ = __delattr__ = fixed
-
-    def ik(self, pose: Any) -> Floats:
-        """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal
-        links fold and bring the tip to the base, q1 is free, and 0.
-        """
-        x, y, d, off = self._way(pose)
-        ahead, turn, exists = two_levers(self.l1, self.l2, d)
-        exists = exists & (off <= ROUNDING * self.reach)
-        elbow = self.branches[:, 0]
-        q1 = np.arctan2(y, x)[..., None] - elbow * ahead[..., None]
-        q = wrapped(stack([q1, elbow * turn[..., None]])) + 0.0  # and no -0.0
-        return np.where(exists[..., None, None], q, np.nan)
-
-    def gap(self, pose: Any, row: int) -> Gap:
-        """Why one single pose has no `row`."""
-        _, _, d, off = self._way(_single(pose))
-        borders = {"stretched": d - (self.l1 + self.l2), "base": abs(self.l1 - self.l2) - d}
-        return worst(borders | {"plane": off}, self.carried)
-
-    def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., 2): dict of name -> bool (...), within 1e-6 rad."""
-        return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
-
-    def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Rows q (..., 2) with q1 as in `previous` where the tip stands on the base and leaves it
-        free.
-        """
-        equal = abs(self.l1 - self.l2) <= FREE * self.reach
-        free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
-        return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
-
-    def _way(self, pose: Any) -> tuple[Floats, Floats, Floats, Floats]:
-        """The way from base to tip: x, y, its length d, and how far the tip is off the plane."""
-        x, y, z = _plane(pose)
-        # -0.0 is 0: atan2 tells them apart, a point does not
-        x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0
-        return x, y, distance(x, y), abs(z)
 
 
 def three_lever(L: ArrayLike) -> "ThreeLeverArm":
@@ -137,7 +45,8 @@ def three_lever(L: ArrayLike) -> "ThreeLeverArm":
     return ThreeLeverArm("Three levers", ThreeLeverGeometry(L), np.array([(0, 180)] * 3) * deg)
 
 
-class ThreeLeverGeometry:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class ThreeLeverGeometry(Sealed):
     """Three levers (see `three_lever`). No inverse: a family of postures cannot be listed row by
     row.
 
@@ -170,9 +79,8 @@ class ThreeLeverGeometry:
         vars(self).update(levers=(a, b, c), lever=lever, inner=abs(a - b) + c, reach=a + b + c)
         vars(self).update(links=links)
 
-    __setattr__ = __delattr__ = fixed
 
-
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class ThreeLeverArm(Arm):
     """An arm of three levers (see `three_lever`). It reaches a point K in a family of postures, one
     for every value of the free angle alpha: `family` takes the place of `ik`.
@@ -248,7 +156,7 @@ class ThreeLeverArm(Arm):
         outside 0 to 180 degrees are dropped. ValueError: a step that would make more than two
         million rows. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001); errata S3-e.
         """
-        low = self.alpha_range(_single(point), limited=False)[0]
+        low = self.alpha_range(one_point(point), limited=False)[0]
         width = positive(step, "step", "one positive angle in radians")
         many = 0.0 if np.isnan(low) else (np.pi - low) / width + 1 + 1e-9
         if many > MOST_ROWS:
@@ -323,7 +231,7 @@ class ThreeLeverArm(Arm):
         """In words why one single point is not reached, "" if it is. Source: 003, III.1.2: L < KO <
         3 L.
         """
-        x, y, z = _plane(_single(point))
+        x, y, z = coordinates(one_point(point))
         (a, b, c), inner, reach = self.geometry.levers, self.geometry.inner, self.reach
         KO = float(distance(x, y))
         if abs(z) > ROUNDING * self.lever:
@@ -349,7 +257,7 @@ class ThreeLeverArm(Arm):
         """The distance KO and the direction phi of points (...); NaN where the point is out of
         reach.
         """
-        x, y, z = _plane(point)
+        x, y, z = coordinates(point)
         KO = distance(x, y)
         reached = (
             (KO > self.geometry.inner)
@@ -475,19 +383,3 @@ def _spare(a: Floats | float, b: Floats | float, c: Floats | float) -> Any:
     angles of a nearly flat triangle belong to one triangle, and the chain closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)
-
-
-def _plane(point: Any) -> tuple[Floats, Floats, Floats]:
-    """x, y, z of points (..., 2) or (..., 3), or of Transforms."""
-    place = point.translation if isinstance(point, Transform) else floats(point, "point")
-    if place.ndim == 0 or place.shape[-1] not in (2, 3):
-        raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {place.shape}")
-    x, y = place[..., 0], place[..., 1]
-    return x, y, place[..., 2] if place.shape[-1] == 3 else 0 * x
-
-
-def _single(point: Any) -> Any:
-    x = _plane(point)[0]
-    if x.ndim:
-        raise ValueError(f"point: wanted one single point, got a batch of shape {x.shape}")
-    return point

@@ -2,12 +2,12 @@
 form.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, components, fixed, sealed, stack
+from .._arrays import ArrayLike, Bools, Floats, Sealed, components, sealed, stack
 from .._validate import broadcast, floats, instance, length, number
 from ..quaternion import Batch, Quaternion, rounded
 from ..transform import Transform
@@ -19,7 +19,7 @@ from .link import Link
 X, Y, Z = np.eye(3)
 
 
-@dataclass(init=False, repr=False, eq=False)
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class ScaraPose(Batch):
     """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...)
     about the vertical. The arrays are read-only copies.
@@ -40,8 +40,7 @@ class ScaraPose(Batch):
         place, turn = floats(position, "position", 3), floats(angle, "angle")
         shape = broadcast("position and angle", place.shape[:-1], turn.shape)
         copies = np.broadcast_to(place, (*shape, 3)).copy(), np.broadcast_to(turn, shape).copy()
-        object.__setattr__(self, "position", sealed(copies[0]))
-        object.__setattr__(self, "angle", sealed(copies[1]))
+        vars(self).update(position=sealed(copies[0]), angle=sealed(copies[1]))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -89,7 +88,8 @@ def scara_arm(
     return ClosedFormArm(name, ScaraGeometry(height, upper, fore), limits, speed_limits)
 
 
-class ScaraGeometry:
+@dataclass(frozen=True, repr=False, eq=False)
+class ScaraGeometry(Sealed):
     """The links of a SCARA and their inverse (see `scara_arm`). Configuration flag: the sign of
     joint 2. Angles in [-pi, pi].
 
@@ -102,12 +102,12 @@ class ScaraGeometry:
     height: float
     upper: float
     fore: float
-    reach: float
-    links: tuple[Link, ...]
+    reach: float = field(init=False)
+    links: tuple[Link, ...] = field(init=False)
 
-    def __init__(self, height: float, upper: float, fore: float) -> None:
-        level = number(height, "height", "one number of metres")
-        upper, fore = length(upper, "upper"), length(fore, "fore")
+    def __post_init__(self) -> None:
+        level = number(self.height, "height", "one number of metres")
+        upper, fore = length(self.upper, "upper"), length(self.fore, "fore")
         links = (
             Link(Transform(translation=(0, 0, level)), Z),
             Link(Transform(translation=(upper, 0, 0)), Z),
@@ -115,8 +115,6 @@ class ScaraGeometry:
             Link(axis=-Z, prismatic=True),
         )
         vars(self).update(height=level, upper=upper, fore=fore, reach=upper + fore, links=links)
-
-    __setattr__ = __delattr__ = fixed
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: ScaraPose or Transform of shape (...) -> (..., 2, 4). A tilted

@@ -6,11 +6,12 @@ the tool with joints 4 to 6.
 """
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, by_blocks, fixed
+from .._arrays import ArrayLike, Bools, Floats, Sealed, by_blocks
 from .._validate import instance
 from ..quaternion import Quaternion, cross, hamilton, matrix_rows
 from ..transform import Transform
@@ -41,7 +42,8 @@ def spherical_wrist(
     return ClosedFormArm(name, SphericalWristGeometry(links), limits, speed_limits)
 
 
-class SphericalWristGeometry:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class SphericalWristGeometry(Sealed):
     """Six links with a spherical wrist, and their inverse (see `spherical_wrist`).
 
     Configuration flags, +1 or -1: the wrist centre in front of or behind axis 1 (front is the side
@@ -54,9 +56,9 @@ class SphericalWristGeometry:
     target = Transform
     carried = "the wrist centre"
     links: tuple[Link, ...]
-    elbow: Elbow
-    wrist: "Wrist"
-    reach: float
+    elbow: Elbow = field(init=False)
+    wrist: "Wrist" = field(init=False)
+    reach: float = field(init=False)
 
     @np.errstate(over="ignore", invalid="ignore")  # of lengths whose squares are none
     def __init__(self, links: Iterable[Link]) -> None:
@@ -67,8 +69,6 @@ class SphericalWristGeometry:
         wrist, centre = Wrist.measured(points[3:], axes[3:], flange)
         elbow = Elbow.measured(points[:3], axes[:3], centre, self.carried)
         vars(self).update(links=links, elbow=elbow, wrist=wrist, reach=elbow.reach)
-
-    __setattr__ = __delattr__ = fixed
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: Transform of shape (...) -> (..., 8, 6)."""
@@ -189,7 +189,7 @@ class Wrist(NamedTuple):
 
     def at(self, rotation: Sequence[Any], origin: Sequence[Any]) -> tuple[Any, list[Any]]:
         """For a flange on components: the rows of the matrix of the wrist's own frame, and the
-        wrist centre. It lies at a fixed place in the flange: a step back.
+        wrist centre, which the flange carries with it: a step back.
         """
         rows = matrix_rows(hamilton(rotation, self.from_flange))
         cx, cy, cz = self.centre_from_flange

@@ -5,9 +5,11 @@ which turns the plane of the levers about the vertical (II.2). That motor asks f
 its angle is a direction, and what is left is the planar arm.
 """
 
+from dataclasses import dataclass, field
+
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, fixed
+from .._arrays import ArrayLike, Floats, Sealed
 from .._validate import broadcast, floats, instance, warn_if_degrees
 from ..quaternion import Quaternion
 from ..transform import Transform
@@ -31,22 +33,22 @@ def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
     return TurningLeverArm(f"{arm.name} on a turning base", TurningLeverGeometry(arm), limits)
 
 
-class TurningLeverGeometry:
+@dataclass(frozen=True, repr=False, eq=False)
+class TurningLeverGeometry(Sealed):
     """The links of `turning_base`, and the arm `plane` that turns. No inverse, as there."""
 
     target = np.ndarray
     plane: ThreeLeverArm
-    reach: float
-    links: tuple[Link, ...]
+    reach: float = field(init=False)
+    links: tuple[Link, ...] = field(init=False)
 
-    def __init__(self, plane: ThreeLeverArm) -> None:
+    def __post_init__(self) -> None:
         upright = Transform(Quaternion.from_angle_axis(90 * deg, X))
-        links = (Link(), Link(upright), *plane.links[1:])
-        vars(self).update(plane=plane, reach=plane.reach, links=links)
-
-    __setattr__ = __delattr__ = fixed
+        links = (Link(), Link(upright), *self.plane.links[1:])
+        vars(self).update(reach=self.plane.reach, links=links)
 
 
+@dataclass(frozen=True, init=False, repr=False, eq=False)
 class TurningLeverArm(Arm):
     """An arm of three levers on a turning base (see `turning_base`). Points are (..., 3)."""
 

@@ -26,7 +26,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
-        print(f"{error}; pip install 'robokin[{options.extra}]' brings it", file=sys.stderr)
+        install = f"pip install '.[{options.extra}]' at the top of a clone of robokin brings it"
+        print(f"{error}; {install}", file=sys.stderr)
         return 1
 
 

@@ -6,14 +6,14 @@ from functools import partial
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, fixed
+from .._arrays import ArrayLike, Floats, Sealed
 from .._validate import floats, positive, short
 
 RAMP = "a number above 0 and at most 0.5"
 
 
-@dataclass(init=False, eq=False)
-class TimeLaw:
+@dataclass(frozen=True, eq=False)
+class TimeLaw(Sealed):
     """s(t) over `duration` seconds: 0 before the motion, 1 after it.
 
     `progress` maps t / duration, an array of numbers in [0, 1], to s of the same shape. A law can
@@ -24,13 +24,11 @@ class TimeLaw:
     duration: float
     progress: Callable[[Floats], Floats]
 
-    __setattr__ = __delattr__ = fixed
-
-    def __init__(self, duration: float, progress: Callable[[Floats], Floats]) -> None:
-        duration = positive(duration, "duration", "one positive number of seconds")
-        if not callable(progress):
-            raise TypeError(f"progress: wanted a function, got {short(progress)}")
-        vars(self).update(duration=duration, progress=progress)
+    def __post_init__(self) -> None:
+        duration = positive(self.duration, "duration", "one positive number of seconds")
+        if not callable(self.progress):
+            raise TypeError(f"progress: wanted a function, got {short(self.progress)}")
+        vars(self)["duration"] = duration
 
     def __call__(self, t: ArrayLike) -> Floats:
         """s at the times t (...) in seconds. ValueError: no times, not finite; a `progress` that

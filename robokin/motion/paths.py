@@ -44,8 +44,9 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     at s (...).
 
     Returns (..., n). Joint values are taken as they are: to turn the short way, choose q1 with
-    `nearest`. Source: 001, listing 8. A UserWarning where a joint stands beyond two turns: degrees
-    were likely meant. ValueError: s outside [0, 1], shapes that do not fit.
+    `nearest`. Source: 001, listing 8; 000, the motion along a straight line in the space Q. A
+    UserWarning where a joint stands beyond two turns: degrees were likely meant. ValueError: s
+    outside [0, 1], shapes that do not fit.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
@@ -91,7 +92,9 @@ def blend(
     broadcast("fraction and s", b.shape, s.shape)
     # x runs from 0 to 1 across the corner and stands still outside: there the curve is at its first
     # or last control pose, and these run along the two lines. So one formula serves the whole path.
-    x = np.where(b > 0, np.clip((s - 0.5 + b) / np.where(b > 0, 2 * b, 1), 0, 1), s >= 0.5)
+    with np.errstate(over="ignore"):  # of a corner so short that it is passed in no time
+        across = (s - 0.5 + b) / np.where(b > 0, 2 * b, 1)
+    x = np.where(b > 0, np.clip(across, 0, 1), s >= 0.5)
     first = _pose(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
     last = _pose(via, "via").lerp(goal, np.maximum(2 * s - 1, 2 * b))
     if corner == "parabola":

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Bools, Floats, Ints, fixed, frozen, sealed
+from .._arrays import ArrayLike, Bools, Floats, Ints, Sealed, frozen, sealed
 from .._validate import TWO_TURNS, floats, instance, short, warn_if_degrees
 from ..arms.arm import Arm
 from ..arms.branches import SLACK
@@ -24,8 +24,8 @@ FEW = 8  # fewer changes of the speed do not tell what is noise
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
 
-@dataclass(init=False, eq=False)
-class Jump:
+@dataclass(frozen=True, eq=False)
+class Jump(Sealed):
     """A place where joint values, or speeds, of one motion jump.
 
     motion         which motion of the batch, so that `recording.q[jump.motion]` is it; () if single
@@ -42,20 +42,6 @@ class Jump:
     before: Floats
     after: Floats
 
-    __setattr__ = __delattr__ = fixed
-
-    def __init__(
-        self,
-        motion: tuple[int, ...],
-        first: int,
-        last: int,
-        time: float,
-        before: Floats,
-        after: Floats,
-    ) -> None:
-        sides = {"before": before, "after": after}
-        vars(self).update(motion=motion, first=first, last=last, time=time, **sides)
-
     @property
     def by(self) -> Floats:
         """(n,) by how much each joint's value jumps; 0 for those that do not take part."""
@@ -71,8 +57,8 @@ class Extreme(NamedTuple):
     time: Floats
 
 
-@dataclass(init=False, repr=False, eq=False)
-class Recording:
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class Recording(Sealed):
     """Motions of one arm with n joints, N samples each; the leading axes are the batch. Made by
     `record`.
 
@@ -100,8 +86,6 @@ class Recording:
     gaps: Bools
     leaps: tuple[Jump, ...]
     jumps: tuple[Jump, ...]
-
-    __setattr__ = __delattr__ = fixed
 
     def __init__(
         self,

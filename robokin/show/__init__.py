@@ -11,7 +11,8 @@ try:
     from .sketch import Sketch
     from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:
-    raise ImportError(f"robokin.show: {error}; pip install 'robokin[show]' brings it") from error
+    install = "pip install '.[show]' at the top of a clone of robokin brings it"
+    raise ImportError(f"robokin.show: {error}; {install}") from error
 
 __all__ = [
     "JOINT_STYLES",

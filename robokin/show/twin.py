@@ -16,9 +16,10 @@ from ..arms.arm import Arm, ClosedFormArm
 from ..arms.dexterity import movable
 from ..arms.elbow import ElbowGeometry
 from ..arms.link import Link
-from ..arms.planar import ThreeLeverGeometry, TwoLinkGeometry
+from ..arms.planar import ThreeLeverGeometry
 from ..arms.scara import ScaraGeometry, ScaraPose
 from ..arms.spherical_wrist import FREE, NOISY, SphericalWristGeometry
+from ..arms.two_link import TwoLinkGeometry
 from ..arms.verdicts import SENTENCES
 from ..transform import Transform
 from ..units import deg, mm
@@ -123,7 +124,7 @@ class ScaraInverse(TypedDict):
 
 
 class TwoLinkInverse(TypedDict):
-    """`planar.TwoLinkGeometry`."""
+    """`two_link.TwoLinkGeometry`."""
 
     kind: Literal["two_link"]
     l1: float

@@ -34,7 +34,8 @@ def build(folder: Path, teaching: bool = True) -> str:
     """
     missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
     if missing:
-        raise ValueError(f"{', '.join(missing)}: not here; pip install 'robokin[site]' brings it")
+        install = "pip install '.[site]' at the top of a clone of robokin brings it"
+        raise ValueError(f"{', '.join(missing)}: not here; {install}")
     labs = Path(robokin.__file__).parents[1] / "notebooks"
     if not any(labs.glob("*.ipynb")):
         raise ValueError(f"{labs}: no labs; a site is made from a clone of robokin")

@@ -6,7 +6,8 @@ import numpy as np
 
 from ..._arrays import ArrayLike, Bools, Floats, Ints
 from ..._validate import broadcast, instance, length, warn_if_degrees
-from ...arms.planar import ThreeLeverArm, two_link
+from ...arms.planar import ThreeLeverArm
+from ...arms.two_link import two_link
 from .arguments import read_angles, read_obstacles, read_path, read_point, read_points, read_posture
 
 LEVERS = ("OB", "BA", "AK")

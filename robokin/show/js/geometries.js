@@ -1,5 +1,5 @@
 // The inverse kinematics and the singularities of every geometry (three levers: levers.js). As
-// arms/elbow.py, spherical_wrist.py, scara.py and planar.py, which are the reference.
+// arms/elbow.py, spherical_wrist.py, scara.py and two_link.py, which are the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
 // to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
