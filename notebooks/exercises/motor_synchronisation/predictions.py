@@ -111,7 +111,7 @@ def p6() -> dict[str, Any]:
     off = counted - stands
     return {
         "lost": lost,
-        "left": move - lost,
+        "sent": move,
         "twice": 2 * lost,
         "counted": counted,
         "stands": stands,

@@ -129,7 +129,7 @@ def p5() -> dict[str, Any]:
     elif least[2] <= 1 * mm:
         right = "AK and BA over it" if least[1] <= 1 * mm else "AK over it"
     told = {"x": PASSED[0], "y": PASSED[1], "other_x": ROUND[0], "other_y": ROUND[1]}
-    told |= {"far": far.min() / mm, "gripper": np.hypot(*ways.T).min() / mm, "r": WANTED / mm}
+    told |= {"far": far[:, 2].min() / mm, "gripper": np.hypot(*ways.T).min() / mm, "r": WANTED / mm}
     return told | {"BA": least[1] / mm, "AK": least[2] / mm, "right": right}
 
 

@@ -93,9 +93,9 @@ def faults(design: Given, given: Given) -> list[Fault]:
         return [("a negative distance", says)] * COUNT
     targets = own_circle(given, distance, angle)
     q = joints(design, given)
-    missing = np.isnan(q).any(axis=-1)
+    row = SCARA.branch(int(design["elbow"]))
+    missing = np.isnan(SCARA.ik(targets)[:, row]).any(axis=-1)
     if missing.any():
-        row = SCARA.branch(int(design["elbow"]))
         says = f"{missing.mean():.0%} of the circle is out of reach. "
         says += explain(SCARA, targets[int(missing.argmax())], row)
         return [("out of reach", says)] * COUNT

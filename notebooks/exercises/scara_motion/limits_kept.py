@@ -42,6 +42,7 @@ def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
         q[row] = np.nan
         found.append((q,))
     found.append((np.full((3, 4), np.nan),))
+    found.append((np.tile(HIGH + 0.1, (3, 1)),))  # no joint is inside
     for _ in range(12):
         ends = rng.uniform(LOW, HIGH, (2, 4))
         found.append((np.linspace(ends[0], ends[1], 25),))  # inside
