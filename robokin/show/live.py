@@ -8,6 +8,7 @@ kernel would miss.
 """
 
 import base64
+import json
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -15,6 +16,7 @@ import numpy as np
 
 from . import plots
 from .explorers import Explorer
+from .joiner import script
 from .page import inert
 
 Question: TypeAlias = dict[str, Any]
@@ -28,32 +30,6 @@ WORDS = {
     "restarted, run this cell again.",
     "failed": "Python could not answer: {error}.",
 }
-# The page side of the widget. It finds its view whichever comes first, and one that is shown twice.
-MODEL = """
-export default { initialize({ model }) {
-  const id = "PLACE", places = [];
-  const meet = root => {
-    if (places.includes(root)) return;
-    places.push(root);
-    const to = places.length - 1;
-    const send = (n, question) => model.send({ to, n, question });
-    root.dispatchEvent(new CustomEvent("robokin-wake", { detail: send }));
-  };
-  const hear = ({ to, n, answer }, buffers) =>
-    places[to]?.dispatchEvent(
-      new CustomEvent("robokin-answer", { detail: { n, answer, buffers } }));
-  const sleep = () => {
-    document.removeEventListener("robokin-asks", asks);
-    places.splice(0).forEach(root => root.dispatchEvent(new CustomEvent("robokin-sleep")));
-  };
-  const asks = ({ detail }) => { if (detail.id === id) meet(detail.root); };
-  document.querySelectorAll(`[data-player="${id}"][data-ready]`).forEach(meet);
-  document.addEventListener("robokin-asks", asks);
-  model.on("msg:custom", hear);
-  model.on("comm_live_update", sleep);
-  return sleep;
-} };
-"""
 
 
 class Live(Explorer):
@@ -138,7 +114,10 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
     if place in _awake:
         _awake.pop(place).close()
-    _awake[place] = unseen(MODEL.replace("PLACE", place), reply)
+    model = (
+        f"{script('waking')}\nexport default {{initialize: $waking.model({json.dumps(place)})}};"
+    )
+    _awake[place] = unseen(model, reply)
 
 
 def unseen(page: str, hear: Callable[[Any, Any, Any], None]) -> Any:

@@ -10,7 +10,7 @@ import os
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 from .._validate import short
-from .joiner import script
+from .joiner import script, style
 from .numbers import Packed, Scale
 from .palette import css
 from .twin import ArmData, PageLink
@@ -361,7 +361,7 @@ def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
     tag = f"script nonce={nonce}" if nonce else "script"
     return (
         f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
-        f"<style>{css()}</style>\n"
+        f"<style>{css()}{style(module)}\n</style>\n"
         f'<{tag}>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
     )
 

@@ -3,7 +3,7 @@
 import {
   clear,
   colors,
-  FONT,
+  font,
   hit,
   jointColor,
   number,
@@ -156,7 +156,7 @@ const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x 
  * @param {Column} column
  */
 function widest(g, {panels}) {
-  g.font = `11px ${FONT}`;
+  g.font = font(11);
   return Math.max(
     ...panels.flatMap(
       ({
@@ -331,7 +331,7 @@ function drawPanel(g, patterns, panel, x, [left, width], top, height, times, tic
 function noted(g, marks, x, [left, right, top]) {
   /** @type {Note[]} */
   const notes = [];
-  g.font = `600 11px ${FONT}`;
+  g.font = font(11, 600);
   for (const {time, text} of marks) {
     if (!text) continue;
     const w = g.measureText(text).width;
@@ -368,7 +368,7 @@ function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], n
   const limits = panel.limits ?? [],
     each = (right - left) / times.length,
     lines = panel.near.map(([j, side]) => ys[j](limits[side][j]));
-  g.font = `10px ${FONT}`;
+  g.font = font(10);
   panel.near.forEach(([j, side], k) => {
     const limit = limits[side][j],
       at = lines[k],

@@ -1,5 +1,5 @@
-// What asks the kernel. A view in the page is asleep until a kernel's model finds it (MODEL of
-// live.py): events on the view's place in the page carry what both say.
+// What asks the kernel. A view in the page is asleep until a kernel's model finds it
+// (waking.js): events on the view's place in the page carry what both say.
 
 import {element} from "./elements.js";
 
@@ -41,7 +41,7 @@ const SLOW = 100;
  */
 export function kernelOf(root, id, words, hear) {
   const says = element("p", {class: "rk-asleep", role: "status"});
-  root.firstElementChild?.append(element("style", {}, LOOK), says);
+  root.firstElementChild?.append(says);
   /** @type {?Port} */
   let port = null;
   /** @type {?Question} */
@@ -145,10 +145,3 @@ export function unpacked(answer, buffers = []) {
   );
   return {values, shape};
 }
-
-const LOOK = `
-.rk.rk.rk {
-  & .rk-asleep { margin: 4px 0 0; padding: 4px 8px; border-left: 3px solid var(--rk-rest);
-    color: var(--rk-soft); }
-  & [inert] { opacity: .5; }
-}`;

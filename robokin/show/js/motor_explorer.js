@@ -15,7 +15,7 @@ import {
   upright,
   words,
 } from "./canvas.js";
-import {pictures, STYLE} from "./controls.js";
+import {pictures} from "./controls.js";
 import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
 import {
@@ -31,7 +31,7 @@ import {
   startingTorque,
   stepOf,
 } from "./rotor.js";
-import {LOOK, menu, slider, table, tick} from "./stage.js";
+import {menu, slider, table, tick} from "./stage.js";
 import {degrees, plain, radians} from "./turns.js";
 
 /** @import {MotorControl, PageMotor, PageMotors} from "./page.js" */
@@ -50,27 +50,6 @@ export const explore = (id, data) => waiting(id).forEach(root => motorExplorer(r
 const SLOW = 20; // times slower than time, for a single pulse or a rotor that is let go
 const SHOWN = 8; // seconds that a run takes to show
 const LONG = 2; // seconds of the motor: longer no rotor is watched that does not come to rest
-
-const MORE = `
-.rk.rk.rk.rk-motor {
-  & .rk-shaft { height: clamp(300px, 40cqw, 380px); touch-action: pan-y; }
-  & .rk-state { margin: 6px 0 0; min-height: 1.4em; }
-  & .rk-slide { grid-template-columns: 6.2em minmax(60px, 1fr) 5em 3.4em; }
-  & .rk-lines { max-height: 292px; overflow: auto; margin-top: 8px; position: relative; }
-  & .rk-lines .rk-table { margin: 0; overflow: visible; }
-  & .rk-lines :is(th, td) { text-align: center; padding: 0 2px; }
-  & .rk-lines td { font-weight: 650; }
-  & .rk-run { height: 210px; }
-  & .rk-facts td { white-space: normal; }
-  & .rk-row button { width: auto; }
-  & .rk-beside { display: grid; grid-template-columns: minmax(0, 2fr) minmax(0, 3fr); gap: 0 18px;
-    align-items: start; }
-  @container (max-width: 600px) {
-    & .rk-beside { grid-template-columns: minmax(0, 1fr); }
-    & .rk-shaft { height: 330px; }
-  }
-  @media print { & .rk-lines { max-height: none; } }
-}`;
 
 /** @type {(list: number[]) => number} */
 const lastOf = list => list[list.length - 1];
@@ -289,7 +268,6 @@ function motorExplorer(root, data) {
   const frame = element(
     "div",
     {class: "rk rk-motor", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE + LOOK + MORE),
     element("div", {class: "rk-title"}, data.title),
     element(
       "div",

@@ -166,7 +166,6 @@ function planExplorer(stage, root, id, data) {
   stage.title.after(verdict);
   stage.below.append(stage.says);
   stage.frame.classList.add("rk-plan");
-  stage.frame.append(element("style", {}, LOOK));
 
   const stop = () => {
     time.playing = false;
@@ -595,27 +594,3 @@ function drawCube(
     );
   }
 }
-
-// A page has the looks of all its outputs: these are for this one.
-const LOOK = `
-.rk.rk.rk.rk-plan {
-  & .rk-views.rk-asked { grid-template-columns: minmax(0, 7fr) minmax(0, 5fr); gap: 4px 12px; }
-  & .rk-space { grid-row: 1 / span 2; }
-  & .rk-own { grid-column: 2; grid-row: 1; }
-  & .rk-side { grid-column: 2; }
-  & .rk-asked .rk-cube { height: clamp(200px, 22cqw, 220px); cursor: grab; touch-action: pan-y; }
-  & .rk-run { display: flex; gap: 8px; align-items: center; }
-  & .rk-run > div { flex: 1; }
-  & .rk-run .rk-slide { grid-template-columns: 4.8em minmax(60px, 1fr); }
-  & .rk-play { min-width: 4.6em; }
-  & .rk-mark { font-size: 11px; background: color-mix(in srgb, var(--rk-paper) 75%, transparent); }
-  @media (pointer: fine) {
-    & .rk-mark { width: 20px; height: 20px; margin: -10px 0 0 -10px; }
-  }
-  & .rk-verdict { margin: 0 0 4px; font-weight: 650; min-height: 1.4em; }
-  & .rk-verdict.rk-past { text-decoration: none; }
-  @container (max-width: 600px) {
-    & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr); }
-    & :is(.rk-space, .rk-own, .rk-side) { grid-column: 1; grid-row: auto; }
-  }
-}`;

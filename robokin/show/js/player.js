@@ -5,7 +5,7 @@ import {number, replaceStill, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {places, recording} from "./recordings.js";
-import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {orbit, pictures, sceneCanvas} from "./controls.js";
 import {clockRow, runningClock} from "./clock.js";
 import {choice, element, range, waiting} from "./elements.js";
 
@@ -118,7 +118,6 @@ function furniture(data, scene) {
   const frame = element(
     "div",
     {class: "rk", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE),
     element("div", {class: "rk-title"}, data.title),
     ...rows,
     element(

@@ -8,49 +8,6 @@ import {control, element, waiting} from "./elements.js";
 
 const COPY = {copy: "Copy my guesses for the report", copied: "Copied"};
 const LETTERS = "abcdef";
-const STYLE = `
-.rk.rk.rk.rk-ask { box-sizing: border-box; max-width: 860px; padding: 10px 14px;
-  border: 1px solid var(--rk-border); border-radius: 8px;
-  background: var(--rk-paper); color: var(--rk-ink);
-  font: 14px/1.4 system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sans-serif;
-  & fieldset { border: 0; margin: 0; padding: 0; min-width: 0; }
-  & > fieldset * { box-sizing: border-box; }
-  & legend { font-weight: 650; font-size: 15px; padding: 0; margin: 0 0 8px; white-space: normal; }
-  & .rk-option { display: flex; align-items: baseline; gap: 10px; padding: 7px 8px;
-    border-radius: 6px; cursor: pointer;
-    margin: 0; min-height: 36px; }
-  & .rk-option:hover { background: var(--rk-hover); }
-  & .rk-option input[type=radio] { margin: 0; accent-color: var(--rk-accent); width: 17px;
-    height: 17px; flex: none;
-    transform: translateY(3px); }
-  & .rk-option.rk-right { box-shadow: inset 4px 0 var(--rk-joint3); }
-  & .rk-option.rk-wrong { box-shadow: inset 4px 0 var(--rk-alarm); }
-  & .rk-option b { white-space: nowrap; }
-  & > fieldset input[type=number] { font: inherit; width: 9em; padding: 5px 8px;
-    color: var(--rk-ink); background: var(--rk-paper);
-    border: 1px solid var(--rk-rest); border-radius: 6px; }
-  & > .rk-asking { display: flex; flex-wrap: wrap; align-items: center; gap: 8px 12px;
-    margin-top: 8px; }
-  & > .rk-asking > p { margin: 0; }
-  & > .rk-asking > button { font: inherit; color: var(--rk-ink); background: var(--rk-button);
-    border: 1px solid var(--rk-rest);
-    border-radius: 6px; width: auto; height: auto; min-height: 36px; padding: 0 14px; margin: 0;
-    cursor: pointer; }
-  & > .rk-asking > button[hidden] { display: none; }
-  & > .rk-asking > button:hover { background: var(--rk-hover); }
-  & > .rk-asking > button:disabled { opacity: 0.5; cursor: default; }
-  & :focus-visible { outline: 3px solid var(--rk-accent); outline-offset: 2px; }
-  & .rk-answer > p { margin: 8px 0; max-width: 68ch; }
-  & > .rk-asking > textarea { flex: 1 1 20em; color: var(--rk-ink); background: var(--rk-paper); }
-  & .rk-answer > div { margin: 10px 0; overflow-x: auto; }
-  & .rk-answer > div > p { margin: 3px 0; }
-  & .rk-answer > div > img { max-width: 100%; height: auto; }
-  & code { font: 12.5px ui-monospace, Menlo, Consolas, monospace; background: var(--rk-button);
-    color: var(--rk-ink);
-    padding: 2px 5px; border-radius: 4px; }
-  @media print { & > .rk-asking { display: none; } }
-}`;
-
 /**
  * Fills every waiting place with this id.
  * @param {string} id
@@ -218,7 +175,6 @@ function start(root, data) {
     element(
       "div",
       {class: "rk rk-ask", role: "group", "aria-label": data.title},
-      element("style", {}, STYLE),
       element("fieldset", {}, element("legend", {}, ...coded(data.question)), ...rows),
       asking,
       answer,

@@ -4,7 +4,7 @@ import {dot, distance, frames, origin, plus, polyline, turned} from "./kinematic
 import {
   clear,
   colors,
-  FONT,
+  font,
   hit,
   jointColor,
   polygon,
@@ -692,7 +692,7 @@ function place(g, labels, taken, [left, top, width, height]) {
   /** @type {Box[]} */
   const done = [];
   for (const label of labels) {
-    g.font = `${label.weight || ""} 12px ${FONT}`;
+    g.font = font(12, label.weight);
     const w = g.measureText(label.text).width + 4,
       h = 16,
       [px, py] = label.at;

@@ -3,7 +3,7 @@
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
 import {sceneView} from "./scene.js";
-import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {orbit, pictures, sceneCanvas} from "./controls.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 
@@ -54,7 +54,6 @@ export function stageOf(root, data) {
   const frame = element(
     "div",
     {class: "rk", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE + LOOK),
     title,
     element(
       "div",
@@ -153,68 +152,6 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   g.lineWidth = 1.6;
   g.stroke();
 }
-
-export const LOOK = `
-.rk.rk.rk {
-  & .rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); align-items: start; }
-  & .rk-asked canvas { height: clamp(300px, 38cqw, 350px); }
-  & .rk-space { position: relative; }
-  & .rk-handles { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
-  & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px;
-    margin: -13px 0 0 -13px; padding: 0;
-    border: 2px solid var(--own, var(--rk-accent)); border-radius: 50%; font-size: 12px;
-    font-weight: 650; line-height: 1;
-    background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink);
-    pointer-events: auto;
-    touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
-  & .rk-handle:hover, & .rk-handle:active { background: var(--rk-paper); }
-  & .rk-handle:focus { z-index: 1; }
-  & .rk-free { border-style: double; border-width: 4px; background: transparent; }
-  & .rk-arc { width: 22px; height: 22px; margin: -11px 0 0 -11px; }
-  & .rk-outside { opacity: .55; }
-  & .rk-slide { display: grid; grid-template-columns: 4.8em minmax(60px, 1fr) 5.4em 2.2em;
-    gap: 6px; align-items: center; margin: 1px 0; }
-  & .rk-slide select { grid-column: 2 / -1; }
-  & .rk-slide input[type=number] { font: inherit; width: 100%; height: 24px; margin: 0;
-    padding: 0 2px; text-align: right;
-    color: var(--rk-ink); background: var(--rk-paper); border: 1px solid var(--rk-rest);
-    border-radius: 4px; }
-  & .rk-columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr));
-    gap: 0 18px; margin-top: 4px; }
-  & .rk-word, & .rk-choose { width: auto; }
-  & .rk-choose { height: 20px; padding: 0 6px; background: none; border-color: transparent;
-    white-space: nowrap; }
-  & .rk-table { margin-top: 4px; }
-  & .rk-asked .rk-table th:first-child, & .rk-many th:first-child { min-width: 0;
-    white-space: nowrap; }
-  & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
-  & .rk-many :is(th, td) { padding: 0 4px; line-height: 21px; }
-  & .rk-many thead th { white-space: normal; vertical-align: bottom; line-height: 1.15; }
-  & .rk-rows :is(td, th):nth-child(2) { text-align: left; }
-  & .rk-few :is(th, td) { padding: 1px 4px; }
-  & .rk-few td { min-width: 6.5em; text-align: left; }
-  & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen);
-    font-weight: 650; color: var(--rk-ink); }
-  & .rk-none > * { color: var(--rk-soft); }
-  & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
-  & .rk-says { margin: 4px 0 0; min-height: 2.8em; flex: 1 1 260px; }
-  & .rk-meant { margin: 4px 0 0; color: var(--rk-soft); font-size: 12px; }
-  @container (max-width: 600px) {
-    & .rk-asked, & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr); }
-    & .rk-asked canvas { height: 320px; }
-  }
-  @media (pointer: coarse) {
-    & .rk-handle { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
-    & .rk-arc { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
-    & .rk-slide input, & .rk-slide select, & .rk-choose { height: 32px; }
-  }
-  @media print {
-    & .rk-table { overflow: visible; }
-    & .rk-table :is(th, td) { font-size: 9.5px; padding: 1px 2px; white-space: normal; }
-    & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns,
-      & .rk-word { display: none; }
-  }
-}`;
 
 /**
  * A slider with its value to read and to type.

@@ -158,7 +158,6 @@ function tourExplorer(root, id, stage, data) {
   const end = () => heard.question.T;
   const clock = runningClock(parts, stage.frame, state, () => [0, end()], stage.changed);
   stage.frame.classList.add("rk-tour");
-  stage.frame.append(element("style", {}, LOOK));
 
   // --- what the hand holds
   /** @type {(on: boolean) => void} */
@@ -418,30 +417,3 @@ const inCode = ({l1, l2, T, kind, p0, points}) => {
     points: `[${points.map(list).join(", ")}]`,
   };
 };
-
-// A page has the looks of all its outputs: these are for this one.
-const LOOK = `
-.rk.rk.rk.rk-tour {
-  & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); }
-  & .rk-handle.rk-point { background: var(--rk-paper); }
-  & .rk-handle.rk-left { border-style: dashed; }
-  & .rk-handle.rk-served { background: var(--own); color: var(--rk-paper); }
-  & .rk-handle.rk-away { border-style: dotted; color: var(--rk-soft);
-    text-decoration: line-through; background: var(--rk-grid); }
-  & .rk-point::before, & .rk-point::after { position: absolute; left: -6px; right: -6px;
-    text-align: center; font-size: 11px;
-    text-shadow: 0 0 2px var(--rk-paper), 0 0 3px var(--rk-paper), 0 0 3px var(--rk-paper);
-    pointer-events: none; }
-  & .rk-point::before { content: attr(data-greedy); bottom: calc(100% + 3px);
-    color: var(--rk-joint2); }
-  & .rk-point::after { content: attr(data-best); top: calc(100% + 3px); color: var(--rk-joint1); }
-  & .rk-handles[inert] { opacity: 1; }
-  & .rk-tours tr > :nth-child(2) { white-space: normal; text-align: left; width: 99%; }
-  & .rk-many.rk-tours thead th { white-space: nowrap; }
-  & .rk-tours .rk-choose::before { content: ""; display: inline-block; width: 20px;
-    margin-right: 6px; vertical-align: middle;
-    border-top: 3px dashed var(--rk-joint2); }
-  & .rk-tours tr:nth-child(2) .rk-choose::before { border-top: 3px solid var(--rk-joint1); }
-  @container (max-width: 600px) { & .rk-views.rk-asked { grid-template-columns: minmax(0, 1fr); } }
-  @media print { & .rk-space .rk-handles { display: block; } }
-}`;
