@@ -24,9 +24,10 @@ import {menu, slider, stageOf, table} from "./stage.js";
 import {lengths, plain} from "./turns.js";
 
 /** @import {PageExplorer, PagePose, Scale, StartValues, With} from "./page.js" */
-/** @import {CurvesView, Panel} from "./curves.js" */
+/** @import {CurvesView} from "./curves.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {Handle} from "./handles.js" */
+/** @import {Panel} from "./panel.js" */
 /** @import {Stage} from "./stage.js" */
 
 /**

@@ -165,7 +165,6 @@ function planExplorer(stage, root, id, data) {
   );
   stage.title.after(verdict);
   stage.below.append(stage.says);
-  stage.frame.classList.add("rk-plan");
 
   const stop = () => {
     time.playing = false;

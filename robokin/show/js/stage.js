@@ -19,15 +19,18 @@ import {handleLayer} from "./handles.js";
  */
 /** @typedef {ReturnType<typeof stageOf>} Stage */
 /** @typedef {string | {text: string, past: boolean}} Cell  of a table; `past` a limit */
+/**
+ * What a frame shows of what has been `seen`.
+ * @template Seen
+ * @typedef {object} Picture
+ * @property {HTMLCanvasElement} canvas
+ * @property {(seen: Seen) => boolean} draw  whether there was room
+ * @property {() => Camera} camera  of the last picture
+ * @property {(on: boolean) => void} hold  told when a handle is taken, and when it is let go
+ */
 
 /**
- * The frame of an explorer: a scene with handles over it, a column of controls beside it, room
- * below.
- *
- * run(answer)  from now on `answer()` is asked for what is to be drawn, once for every picture in
- *              which something has changed; it returns the arms that scene.js shows
- * changed()    something has changed
- *
+ * The frame of an explorer whose picture is a scene of arms.
  * @param {HTMLElement} root
  * @param {PageExplorer} data
  */
@@ -37,72 +40,125 @@ export function stageOf(root, data) {
   const canvas = sceneCanvas(scene, data.alt),
     view = sceneView(canvas, scene),
     camera = () => view.cameras()[0];
-  const handles = handleLayer(canvas, camera, on => view.hold(on), changed);
-  const side = element("div", {class: "rk-side"}),
-    below = element("div", {class: "rk-below"});
-  const says = element("p", {class: "rk-says", role: "status"});
-  /** @type {Explored[]} */
-  let arms = [],
-    stale = true,
-    ask = () => {};
+  const stage = frameOf(root, data, {
+    canvas,
+    camera,
+    hold: view.hold,
+    /** @param {Explored[]} arms */
+    draw(arms) {
+      const room = view.draw(state.view, arms, "");
+      if (room)
+        drawAids(/** @type {Context} */ (canvas.getContext("2d")), camera(), arms[0], scene.size);
+      return room;
+    },
+  });
+  orbit(canvas, scene, state, stage.ask);
+  return {...stage, scene};
+}
+
+/**
+ * The frame of an explorer: a picture with handles over it, a column of controls beside it, room
+ * below.
+ *
+ * run(answer)  from now on `answer(now)` is asked for what is to be drawn, once for every picture
+ *              in which something has changed
+ * changed()    something has changed
+ * ask()        the same is to be drawn again
+ *
+ * @template Seen
+ * @param {HTMLElement} root
+ * @param {Pick<PageExplorer, "kind" | "title" | "meant">} data
+ * @param {Picture<Seen>} picture
+ */
+export function frameOf(root, data, picture) {
+  const {canvas, camera} = picture,
+    handles = handleLayer(canvas, camera, picture.hold, changed);
+  const parts = partsOf(data, canvas, handles.layer);
+  /** @type {Seen} */
+  let seen;
+  let stale = true,
+    drawn = () => {};
+  const ask = () => drawn();
   function changed() {
     stale = true;
     ask();
   }
-  const title = element("div", {class: "rk-title"}, data.title),
-    space = element("div", {class: "rk-space"}, canvas, handles.layer);
-  const frame = element(
-    "div",
-    {class: "rk", role: "group", "aria-label": data.title},
-    title,
-    element(
-      "div",
-      {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`},
-      space,
-      side,
-    ),
-    below,
-    element("p", {class: "rk-meant"}, data.meant),
-  );
-  replaceStill(root, frame, canvas);
+  replaceStill(root, parts.frame, canvas);
 
   return {
-    frame,
-    title,
-    space,
-    scene,
-    side,
-    below,
-    says,
+    ...parts,
     handles,
     camera,
     changed,
+    ask,
     /** @param {string} text */
     say(text) {
-      if (says.textContent !== text) says.textContent = text;
+      if (parts.says.textContent !== text) parts.says.textContent = text;
     },
     /**
-     * @param {() => Explored[]} answer
+     * @param {(now: number) => Seen} answer
      * @param {HTMLCanvasElement[]} [canvases]  others, drawn at the same time
-     * @param {() => void} [beside]  draws them
+     * @param {() => void} [draw]  draws them
      */
-    run(answer, canvases = [], beside = () => {}) {
-      ask = pictures(root, [canvas, ...canvases], () => {
+    run(answer, canvases = [], draw = () => {}) {
+      drawn = pictures(root, [canvas, ...canvases], now => {
         if (stale) {
           stale = false; // before: what moves by itself has changed again by then
-          arms = answer();
+          seen = answer(now);
         }
-        beside();
-        const room = view.draw(state.view, arms, "");
-        if (room) {
-          drawAids(/** @type {Context} */ (canvas.getContext("2d")), camera(), arms[0], scene.size);
-          handles.place();
-        }
+        draw();
+        const room = picture.draw(seen);
+        if (room) handles.place();
         return room;
       });
-      orbit(canvas, scene, state, ask);
     },
   };
+}
+
+/**
+ * The elements of a frame.
+ * @param {Pick<PageExplorer, "kind" | "title" | "meant">} data
+ * @param {HTMLCanvasElement} canvas
+ * @param {HTMLElement} layer  of handles
+ */
+function partsOf({kind, title: text, meant}, canvas, layer) {
+  const title = element("div", {class: "rk-title"}, text),
+    space = element("div", {class: "rk-space"}, canvas, layer);
+  const side = element("div", {class: "rk-side"}),
+    below = element("div", {class: "rk-below"});
+  const halves = kind === "motion" ? " rk-halves" : "";
+  const frame = element(
+    "div",
+    {class: `rk rk-${kind}`, role: "group", "aria-label": text},
+    title,
+    element("div", {class: `rk-views rk-asked${halves}`}, space, side),
+    below,
+    element("p", {class: "rk-meant"}, meant),
+  );
+  const says = element("p", {class: "rk-says", role: "status"});
+  return {frame, title, space, side, below, says};
+}
+
+/**
+ * Puts `more` behind `node`, all in a box of their own.
+ * @param {HTMLElement} node
+ * @param {...HTMLElement} more
+ */
+export function beside(node, ...more) {
+  const box = element("div", {});
+  node.replaceWith(box);
+  box.append(node, ...more);
+}
+
+/**
+ * A button with words.
+ * @param {string} text
+ * @param {() => void} act
+ */
+export function wordButton(text, act) {
+  const node = control("button", {type: "button", class: "rk-word"}, text);
+  node.addEventListener("click", act);
+  return node;
 }
 
 /**

@@ -9,7 +9,7 @@ import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {AXES} from "./scene.js";
+import {AXES} from "./triad.js";
 import {menu, slider, stageOf, table, tick} from "./stage.js";
 import {
   aboutAxis,

@@ -10,7 +10,7 @@ import {control, element, waiting} from "./elements.js";
 import {fill} from "./blanks.js";
 import {inScreen} from "./handles.js";
 import {kernelOf, unpacked} from "./live.js";
-import {menu, slider, stageOf, table} from "./stage.js";
+import {beside, menu, slider, stageOf, table, wordButton} from "./stage.js";
 import {plain} from "./turns.js";
 
 /** @import {PageExplorer, PageLink, With} from "./page.js" */
@@ -157,7 +157,6 @@ function tourExplorer(root, id, stage, data) {
   beside(stage.space, parts.row);
   const end = () => heard.question.T;
   const clock = runningClock(parts, stage.frame, state, () => [0, end()], stage.changed);
-  stage.frame.classList.add("rk-tour");
 
   // --- what the hand holds
   /** @type {(on: boolean) => void} */
@@ -284,17 +283,6 @@ function tourExplorer(root, id, stage, data) {
 
 /** @type {(state: Question) => Question} */
 const question = ({l1, l2, T, kind, p0, points, held}) => ({l1, l2, T, kind, p0, points, held});
-
-/**
- * Puts `more` behind `node`, all in a box of their own.
- * @param {HTMLElement} node
- * @param {...HTMLElement} more
- */
-function beside(node, ...more) {
-  const box = element("div", {});
-  node.replaceWith(box);
-  box.append(node, ...more);
-}
 
 /**
  * An answer with the tours and the table that are shown of it.
