@@ -25,7 +25,7 @@ from ..arms.scara import ScaraPose
 from ..motion.laws import quintic
 from ..motion.maximum import refined_maximum
 from ..motion.paths import blend
-from ..motion.recording import record
+from ..motion.recording import FEW, LEAP, record
 from ..quaternion import Quaternion
 from ..transform import Transform
 from ..units import deg, length_unit, mm
@@ -285,6 +285,7 @@ def motion_explorer(
         "corners": list(CORNERS),
         "branches": [_flags(arm, k) for k in range(len(usable))],
         "samples": SAMPLES,
+        "jumps": {"least": LEAP, "few": FEW},
         "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
         "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
     }

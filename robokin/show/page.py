@@ -160,7 +160,8 @@ class PageArm(Greatest, Flaws):
 
 
 class Page(TypedDict):
-    """Everything that a player draws. `decimals` are those of speeds and accelerations, `sampled`
+    """Everything that a player draws. `nothing`: the whole number of a `Packed` that stands for no
+    value. `decimals` are those of speeds and accelerations, `sampled`
     says of which samples the greatest are told, `ticks` is the scale of the time, `dashes` the
     dashes of the joints' lines.
     """
@@ -168,6 +169,7 @@ class Page(TypedDict):
     title: str
     summary: str
     alt: str
+    nothing: int
     times: list[float]
     ticks: Scale
     slider: Slider | None
@@ -233,6 +235,13 @@ class StartValues(TypedDict):
     row: int
 
 
+class JumpRules(TypedDict):
+    """The constants of motion/recording.py by which a jump of position is found."""
+
+    least: float
+    few: int
+
+
 class BranchTask(TypedDict):
     """An exercise: how many different postures have to reach the target; what it says then and
     before.
@@ -290,6 +299,8 @@ class PageExplorer(TypedDict):
     corners: NotRequired[list[Corner]]
     panels: NotRequired[list[str]]
     samples: NotRequired[int]
+    jumps: NotRequired[JumpRules]
+    forbidden: NotRequired[int]
     task: NotRequired[BranchTask]
     kinds: NotRequired[list[str]]
     tours: NotRequired[list[str]]

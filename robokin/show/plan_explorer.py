@@ -314,6 +314,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dic
         "scene": scene,
         "controls": [distance],
         "branches": list(WAYS),
+        "forbidden": FORBIDDEN,
         "words": dict(WORDS),
         "code": "from robokin.jobs.obstacles import plan\n# arm = three_lever(...)\n"
         "plan(arm, ({posture}), ({target}), ({obstacle}), {distance})\n",

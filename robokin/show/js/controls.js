@@ -58,6 +58,21 @@ export function orbit(canvas, scene, state, ask) {
 }
 
 /**
+ * Pressing and dragging on a canvas; `first` at the press.
+ * @param {HTMLCanvasElement} canvas
+ * @param {(event: PointerEvent, first: boolean) => void} take
+ */
+export function scrubbing(canvas, take) {
+  canvas.addEventListener("pointerdown", event => {
+    canvas.setPointerCapture(event.pointerId);
+    take(event, true);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (canvas.hasPointerCapture(event.pointerId)) take(event, false);
+  });
+}
+
+/**
  * When to draw: once before the next picture of the screen after `ask()`, after one of the canvases
  * has got another size, and after the theme has changed (then `colors` has the new ones). Nothing
  * while `root` is not in the page.

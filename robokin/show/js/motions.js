@@ -20,9 +20,9 @@ import {places, recording} from "./recordings.js";
 export function motionsOf(data) {
   const {unit, slider, times} = data;
   const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
-  const recordings = data.arms.map(arm => recording(arm, count, times.length, unit));
-  const targets = places(data.scene.targets, "pose"),
-    marks = places(data.scene.marks, "at");
+  const recordings = data.arms.map(arm => recording(arm, count, times.length, data));
+  const targets = places(data.scene.targets, "pose", data.nothing),
+    marks = places(data.scene.marks, "at", data.nothing);
   return {
     /** @param {number} motion */
     choose(motion) {

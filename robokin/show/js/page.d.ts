@@ -138,6 +138,7 @@ export interface Page {
   title: string;
   summary: string;
   alt: string;
+  nothing: number;
   times: number[];
   ticks: Scale;
   slider: Slider | null;
@@ -187,6 +188,11 @@ export interface StartValues {
   row: number;
 }
 
+export interface JumpRules {
+  least: number;
+  few: number;
+}
+
 export interface BranchTask {
   wanted: number;
   holds: string;
@@ -222,6 +228,8 @@ export interface PageExplorer {
   corners?: ("parabola" | "quintic")[];
   panels?: string[];
   samples?: number;
+  jumps?: JumpRules;
+  forbidden?: number;
   task?: BranchTask;
   kinds?: string[];
   tours?: string[];

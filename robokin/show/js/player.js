@@ -4,13 +4,12 @@ import {number, replaceStill, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {broken, motionsOf, tipOf} from "./motions.js";
-import {orbit, pictures, sceneCanvas} from "./controls.js";
+import {orbit, pictures, sceneCanvas, scrubbing} from "./controls.js";
 import {clockRow, runningClock} from "./clock.js";
 import {choice, element, range, waiting} from "./elements.js";
 
 /** @import {Page, PageArm, PageScene} from "./page.js" */
-/** @import {Clock} from "./clock.js" */
-/** @import {Column, CurvesView} from "./curves.js" */
+/** @import {Column} from "./curves.js" */
 /** @import {Moment, Track} from "./motions.js" */
 
 /** @typedef {ReturnType<typeof furniture>} Parts */
@@ -77,7 +76,13 @@ function start(root, data) {
     ask();
   });
   orbit(parts.scene, scene, state, ask);
-  scrubbing(parts.curves, overTime, clock);
+  /** @type {number | undefined} */
+  let held;
+  scrubbing(parts.curves, (event, first) => {
+    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, first ? undefined : held);
+    held = column;
+    clock.set(time);
+  });
   tell(parts, data, shown, state.value);
 }
 
@@ -259,31 +264,4 @@ function shownAt(column, {i, share}, gaps) {
     panel.now = panel.curves.map(curve =>
       share && !gaps.has(i) ? curve[i] + share * (curve[i + 1] - curve[i]) : curve[i],
     );
-}
-
-// --- Time ----------------------------------------------------------------------------------------
-
-/**
- * Pressing and dragging on the curves sets the time.
- * @param {HTMLCanvasElement} canvas
- * @param {CurvesView} overTime
- * @param {Clock} clock
- */
-function scrubbing(canvas, overTime, clock) {
-  /** @type {number | undefined} */
-  let held;
-  /** @param {PointerEvent} event */
-  const scrub = event => {
-    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, held);
-    held = column;
-    clock.set(time);
-  };
-  canvas.addEventListener("pointerdown", event => {
-    canvas.setPointerCapture(event.pointerId);
-    held = undefined;
-    scrub(event);
-  });
-  canvas.addEventListener("pointermove", event => {
-    if (canvas.hasPointerCapture(event.pointerId)) scrub(event);
-  });
 }
