@@ -5,6 +5,7 @@ import contextlib
 import json
 import os
 import re
+import shutil
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -15,7 +16,7 @@ from conftest import NODE, ROOT
 from javascript import HERE, NoNetwork, page_types, tool, tools
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
-from robokin.show import twin
+from robokin.show import page, twin
 
 PACKAGE = ROOT / "robokin"
 FOLDER = PACKAGE / "show" / "js"
@@ -75,7 +76,7 @@ def test_functions_and_files_are_short():
 
 # What stands in both because one rule does: the test of test_twin.py that compares both.
 TWINS = {("STEPS", 64): "test_greatest_values", ("MOST", 200): "test_greatest_values"}
-PLAIN = {*range(-1, 13), 0.5, 20, 100, 200, 400}  # as often chosen by chance as on purpose
+PLAIN = {*range(-1, 101), 0.5, 200, 400}  # as often chosen by chance as on purpose
 
 
 def numbers_of(path):
@@ -151,6 +152,41 @@ def test_no_type_says_nothing(path):
 def test_the_types_of_the_data_are_those_of_python():
     stored = (FOLDER / "page.d.ts").read_text(encoding="utf-8")
     assert stored == page_types(), "Run: python tests/javascript.py types"
+
+
+KEYS = {  # of one kind of page, and a script that takes it
+    "joint": ("rows: FactRow[];", "joint_explorer.js"),
+    "levers": ("target: PagePose;", "levers_explorer.js"),
+    "target": ("turning: number[];", "target_explorer.js"),
+    "motion": ("samples: number;", "blended.js"),
+    "plan": ("forbidden: number;", "plan_explorer.js"),
+    "tour": ("spare: number[][];", "tour_explorer.js"),
+}
+
+
+def test_a_key_changed_in_one_kind_of_page_is_refused(tmp_path):
+    """One page after the other: the scripts of that kind no longer fit, those of others do."""
+    for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
+        shutil.copy(path, tmp_path)
+    settings = json.loads((HERE / "tsconfig.json").read_text()) | {"include": ["."]}
+    (tmp_path / "tsconfig.json").write_text(json.dumps(settings))
+    types = page_types()
+    program = [NODE, tools() / "typescript" / "bin" / "tsc", "--project", tmp_path]
+    for kind, (key, script) in KEYS.items():
+        at = types.index(key, types.index(f"interface {kind.capitalize()}Page {{"))
+        (tmp_path / "page.d.ts").write_text(f"{types[:at]}un{types[at:]}")
+        done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True)
+        refused = set(re.findall(r"^(\w+\.js)\(", done.stdout, re.M))
+        assert script in refused and done.returncode, done.stdout
+        others = {f"{other}_explorer.js" for other in KEYS if other != kind}
+        assert not refused & others, (kind, refused)
+
+
+def test_no_key_of_an_explorers_page_is_optional():
+    """But for what `Live` adds."""
+    for table in get_args(page.PageExplorer):
+        live = page.LivePage.__optional_keys__ & {*table.__annotations__}
+        assert table.__optional_keys__ == live, table.__name__
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,7 @@ NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # else two tokens would b
 def script(name: str) -> str:
     """The module `name` of the folder js and all that it imports, each once and in its own scope,
     as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
-    `explorers.Explorer`. Without comments, which only people read, without blanks that code does
+    `explorer.Explorer`. Without comments, which only people read, without blanks that code does
     not need, and in few lines: in a notebook each costs ten bytes more. A line ends behind `;`,
     `,` or a brace only, so every statement of a module has to end with `;` or a brace.
 

@@ -1,6 +1,6 @@
 """Views that must ask a kernel: the page draws and is dragged, Python answers.
 
-A view is an `explorers.Explorer` whose script (`js/live.js`) sends questions, and the answer of the
+A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions, and the answer of the
 run that stored it: with that it is drawn before any kernel is there, and stays in a saved notebook,
 an exported page and on paper. Then it is asleep, and says so. A widget without a view of its own
 wakes it: its model alone finds the place in the page. So nothing is stored that a page without a
@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from . import plots
-from .explorers import Explorer
+from .explorer import Explorer
 from .joiner import script
 from .page import inert
 
@@ -36,7 +36,7 @@ class Live(Explorer):
     """An explorer that asks a kernel. Shows itself in a notebook; `save` writes it as a page, where
     it is asleep.
 
-    data    a `page.PageExplorer` without `first` and the words of this module
+    data    a `page.PlanPage` or `TourPage` without `first` and the words of this module
     still   as of every `Explorer`
     first   the question with which it opens; its answer is stored
     answer  question (what JSON holds) -> answer: a dict of what JSON holds and arrays of one of the

@@ -252,26 +252,11 @@ class BranchTask(TypedDict):
     open: str
 
 
-class PageExplorer(TypedDict):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers", "plan",
-    "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
-    every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
-    below.
-
-    joint   q, rows of numbers
-    levers  the point `target`, the posture q before it
-    target  target, turns in radians, the posture q before it, names of branches, heads of the
-            table, the unit of travel in radians; `task`, an exercise: how many different
-            postures have to reach the target (`wanted`), what it says then (`holds`) and before
-            (`open`)
-    plan    names of the ways as `branches`
-    motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
-    tour    names of kinds of tasks and of tours, the most points, places for those that are added
-
-    To plan and tour `live.Live` adds the question with which they open, and its `first` answer.
+class ExplorerPage(TypedDict):
+    """What every explorer is given. `words`: every sentence it says; `code`: the lines of Python
+    behind it, with blanks; `meant`: what stands below.
     """
 
-    kind: str
     title: str
     summary: str
     alt: str
@@ -281,33 +266,90 @@ class PageExplorer(TypedDict):
     controls: list[Control]
     words: dict[str, str]
     code: str
-    arm: NotRequired[ArmData]
-    units: NotRequired[list[PageUnit]]
-    dashes: NotRequired[list[list[float]]]
-    q: NotRequired[list[float]]
-    rows: NotRequired[list[FactRow]]
-    target: NotRequired[PagePose]
-    turns: NotRequired[list[float]]
-    branches: NotRequired[list[str]]
-    heads: NotRequired[list[str]]
-    turning: NotRequired[list[int]]  # the joints whose angles the column "travel" adds
-    start: NotRequired[PagePose]
-    via: NotRequired[PagePose]
-    goal: NotRequired[PagePose]
-    start_values: NotRequired[StartValues]
-    laws: NotRequired[list[Law]]
-    corners: NotRequired[list[Corner]]
-    panels: NotRequired[list[str]]
-    samples: NotRequired[int]
-    jumps: NotRequired[JumpRules]
-    forbidden: NotRequired[int]
-    task: NotRequired[BranchTask]
-    kinds: NotRequired[list[str]]
-    tours: NotRequired[list[str]]
-    most: NotRequired[int]
-    spare: NotRequired[list[list[float]]]
+
+
+class ArmPage(ExplorerPage):
+    """The same of an explorer of an arm (see `twin.arm_data`), and the units of its joints."""
+
+    arm: ArmData
+    units: list[PageUnit]
+
+
+class JointPage(ArmPage):
+    """The posture q, rows of numbers."""
+
+    kind: Literal["joint"]
+    q: list[float]
+    rows: list[FactRow]
+
+
+class LeversPage(ArmPage):
+    """The point `target`, the posture q before it."""
+
+    kind: Literal["levers"]
+    q: list[float]
+    target: PagePose
+
+
+class TargetPage(ArmPage):
+    """The target, its turns in radians, the posture q before it, names of branches, heads of the
+    table, the joints whose angles the column "travel" adds; `task`: of an exercise.
+    """
+
+    kind: Literal["target"]
+    q: list[float]
+    target: PagePose
+    turns: list[float]
+    branches: list[str]
+    heads: list[str]
+    turning: list[int]
+    task: BranchTask | None
+
+
+class MotionPage(ArmPage):
+    """The stations, how it opens, names of laws, corners, branches and panels, samples."""
+
+    kind: Literal["motion"]
+    dashes: list[list[float]]
+    start: PagePose
+    via: PagePose
+    goal: PagePose
+    start_values: StartValues
+    laws: list[Law]
+    corners: list[Corner]
+    branches: list[str]
+    panels: list[str]
+    samples: int
+    jumps: JumpRules
+
+
+class LivePage(ExplorerPage):
+    """What `live.Live` adds: the question with which an explorer opens, and its answer."""
+
     question: NotRequired[dict[str, Any]]
     first: NotRequired[dict[str, Any]]
+
+
+class PlanPage(LivePage):
+    """The arm, names of the ways as `branches`, the value of forbidden cells of the cube."""
+
+    kind: Literal["plan"]
+    arm: ArmData
+    branches: list[str]
+    forbidden: int
+
+
+class TourPage(LivePage):
+    """Names of kinds of tasks and of tours, the most points, places for those that are added."""
+
+    kind: Literal["tour"]
+    kinds: list[str]
+    tours: list[str]
+    most: int
+    spare: list[list[float]]
+
+
+PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage
 
 
 class PageAnswer(TypedDict):

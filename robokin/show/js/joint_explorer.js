@@ -1,5 +1,5 @@
 // The joint explorer: joints taken by the hand. What is said, and every number of the arm, comes
-// from Python (page.py: PageExplorer).
+// from Python (page.py: JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -11,13 +11,13 @@ import {alongCurve, gripOf} from "./handles.js";
 import {slider, stageOf, table, tick} from "./stage.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
-/** @import {PageExplorer, With} from "./page.js" */
+/** @import {JointPage} from "./page.js" */
 /** @import {Color, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {Stage} from "./stage.js" */
 
-/** @typedef {With<PageExplorer, "arm" | "units" | "q" | "rows">} JointExplorer */
+/** @typedef {JointPage} JointExplorer */
 
 /**
  * Fills every waiting place with this id.

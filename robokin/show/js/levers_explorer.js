@@ -1,6 +1,6 @@
 // The explorer of an arm that reaches a point in a family of postures: the point is taken by the
 // hand, the free angle chosen on the curve of what it costs, and levers of different lengths by
-// sliders. What is said, and every number of the arm, comes from Python (page.py: PageExplorer).
+// sliders. What is said, and every number of the arm, comes from Python (page.py: LeversPage).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
@@ -13,13 +13,13 @@ import {inScreen} from "./handles.js";
 import {slider, stageOf, wordButton} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 
-/** @import {PageExplorer, With} from "./page.js" */
+/** @import {LeversPage} from "./page.js" */
 /** @import {Pixel, Point} from "./canvas.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {ThreeLeverArm} from "./levers.js" */
 /** @import {Stage} from "./stage.js" */
 
-/** @typedef {With<PageExplorer, "arm" | "q" | "target"> & {arm: ThreeLeverArm}} LeversExplorer */
+/** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
 /**
  * What the free angle alpha costs: its range, where it is, the best one, and the cost `at` any.
  * @typedef {object} Costs

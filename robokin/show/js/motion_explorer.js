@@ -1,5 +1,5 @@
 // The motion explorer: a blended motion whose stations are taken by the hand. What is said, and
-// every number of the arm, comes from Python (page.py: PageExplorer).
+// every number of the arm, comes from Python (page.py: MotionPage).
 
 import {fill} from "./blanks.js";
 import {most, motionOf, nearDecimals, topsOf} from "./blended.js";
@@ -17,16 +17,13 @@ import {STATIONS, stationHandles} from "./station_handles.js";
 import {scale} from "./ticks.js";
 import {lengths, plain} from "./turns.js";
 
-/** @import {PageExplorer, PagePose, StartValues, With} from "./page.js" */
+/** @import {MotionPage, PagePose, StartValues} from "./page.js" */
 /** @import {Motion} from "./blended.js" */
 /** @import {CurvesView} from "./curves.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {Stage} from "./stage.js" */
 
-/**
- * @typedef {With<PageExplorer, "arm" | "units" | "dashes" | "start" | "via" | "goal" |
- *   "start_values" | "laws" | "corners" | "branches" | "panels" | "samples" | "jumps">} MotionData
- */
+/** @typedef {MotionPage} MotionData */
 /** @typedef {Record<(typeof STATIONS)[number], PagePose>} Stations */
 /** @typedef {Stations & StartValues & {time: number}} Asked  `time`: as a share of the duration */
 /**

@@ -14,18 +14,14 @@ import {cubeView, facesOf} from "./plan_cube.js";
 import {armAt} from "./plan_picture.js";
 import {menu, slider, stageOf, tick} from "./stage.js";
 
-/** @import {PageExplorer, With} from "./page.js" */
+/** @import {PlanPage, With} from "./page.js" */
 /** @import {Color, Point} from "./canvas.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {ThreeLeverArm} from "./levers.js" */
 /** @import {Values} from "./live.js" */
 /** @import {Stage} from "./stage.js" */
 
-/**
- * @typedef {With<PageExplorer, "arm" | "branches" | "forbidden" | "question" | "first"> &
- *   {arm: ThreeLeverArm}}
- *   PlanExplorer
- */
+/** @typedef {With<PlanPage, "question" | "first"> & {arm: ThreeLeverArm}} PlanExplorer */
 /**
  * What is asked; `way`: the number of one of `branches`, `sides`: whether quadrilaterals, too.
  * @typedef {object} Question

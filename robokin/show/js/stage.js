@@ -67,7 +67,7 @@ export function stageOf(root, data) {
  *
  * @template Seen
  * @param {HTMLElement} root
- * @param {Pick<PageExplorer, "kind" | "title" | "meant">} data
+ * @param {{kind: string, title: string, meant: string}} data
  * @param {Picture<Seen>} picture
  */
 export function frameOf(root, data, picture) {
@@ -117,7 +117,7 @@ export function frameOf(root, data, picture) {
 
 /**
  * The elements of a frame.
- * @param {Pick<PageExplorer, "kind" | "title" | "meant">} data
+ * @param {{kind: string, title: string, meant: string}} data
  * @param {HTMLCanvasElement} canvas
  * @param {HTMLElement} layer  of handles
  */

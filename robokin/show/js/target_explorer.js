@@ -1,5 +1,5 @@
 // The target explorer: a target taken by the hand, and all branches that reach it. What is said,
-// and every number of the arm, comes from Python (page.py: PageExplorer).
+// and every number of the arm, comes from Python (page.py: TargetPage).
 
 import {distance_from_singularity, matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
@@ -12,15 +12,12 @@ import {menu, slider, stageOf, table, tick} from "./stage.js";
 import {targetHandles} from "./target_handles.js";
 import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
 
-/** @import {ArmData, BranchTask, PageExplorer, With} from "./page.js" */
+/** @import {ArmData, BranchTask, TargetPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {ClosedFormArm} from "./kinematics.js" */
 /** @import {Stage} from "./stage.js" */
 
-/**
- * @typedef {With<PageExplorer, "arm" | "units" | "q" | "target" | "turns" | "branches" | "heads" |
- *   "turning"> & {arm: ClosedFormArm}} TargetExplorer
- */
+/** @typedef {TargetPage & {arm: ClosedFormArm}} TargetExplorer */
 /**
  * A target: `rotation` and its `turns` (roll, pitch, yaw) of a transform, `angle` of a ScaraPose.
  * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
@@ -191,7 +188,7 @@ function verdict(arm, words, q, inside, exists) {
 
 /**
  * Whether an exercise's task is fulfilled, in words.
- * @param {BranchTask | undefined} task
+ * @param {?BranchTask} task
  * @param {number[][]} rows
  * @param {boolean[]} exists
  */

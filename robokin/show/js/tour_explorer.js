@@ -14,17 +14,14 @@ import {beside, menu, slider, stageOf, table, wordButton} from "./stage.js";
 import {below, mark, toured} from "./tour_picture.js";
 import {plain} from "./turns.js";
 
-/** @import {PageExplorer, PageLink, With} from "./page.js" */
+/** @import {PageLink, TourPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {Values} from "./live.js" */
 /** @import {Stage} from "./stage.js" */
 /** @import {Tour} from "./tour_picture.js" */
 
-/**
- * @typedef {With<PageExplorer, "kinds" | "tours" | "most" | "spare" | "question" | "first">}
- *   TourExplorer
- */
+/** @typedef {With<TourPage, "question" | "first">} TourExplorer */
 /** @typedef {"greedy" | "best"} TourName */
 /**
  * What is asked: a task; `held`: whether the hand still moves it.
