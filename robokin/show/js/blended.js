@@ -39,6 +39,8 @@ export function motionOf(data, state) {
   const times = [0, bend, ...ramps.map(x => x * duration), duration - bend, duration];
   return {
     ...recorded,
+    // a rounded corner is none, however few samples tell of it
+    jumps: state.blend > 0 ? [] : recorded.jumps,
     t,
     q,
     tool,
