@@ -104,7 +104,7 @@ def _install(folder):
 
 
 PLAIN = {str: "string", float: "number", int: "number", bool: "boolean", Any: "unknown"}
-ALIASES = {"Scale": numbers.Scale, "Inverse": twin.Inverse}
+ALIASES = {"PageExplorer": page.PageExplorer, "Scale": numbers.Scale, "Inverse": twin.Inverse}
 PLAIN |= {type(None): "null"}
 
 

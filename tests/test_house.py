@@ -53,7 +53,7 @@ LAYERS = {
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
     "robokin.show": KINEMATICS,
-    "robokin.show.explorers": ("robokin",),
+    "robokin.show.explorer": ("robokin",),
     "robokin.show.plan_explorer": (*KINEMATICS, "robokin.jobs", "robokin.show"),
     "robokin.show.motors": (*KINEMATICS, "robokin.show", "robokin.jobs.steppers"),
     "robokin.course": ("robokin",),

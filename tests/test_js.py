@@ -1,17 +1,25 @@
 """The page's scripts: one form, types that hold, and types of the data that are Python's."""
 
+import ast
+import contextlib
+import json
 import os
 import re
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
 from typing import Literal, get_args
 
 import pytest
-from conftest import ROOT
-from javascript import NoNetwork, page_types, tool
+from conftest import NODE, ROOT
+from javascript import HERE, NoNetwork, page_types, tool, tools
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
-from robokin.show import twin
+from robokin.show import page, twin
 
-FOLDER = ROOT / "robokin" / "show" / "js"
+PACKAGE = ROOT / "robokin"
+FOLDER = PACKAGE / "show" / "js"
 SITE = ROOT / "robokin" / "course" / "site" / "static"
 SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
 
@@ -40,6 +48,76 @@ def test_the_types_hold():
 def test_no_line_is_longer_than_100_columns(path):
     lines = path.read_text(encoding="utf-8").splitlines()
     assert not [(i, line) for i, line in enumerate(lines, 1) if len(line) > 100]
+
+
+@cache
+def scanned():
+    """tests/js/scan.cjs of every script: its functions and the constants at its top."""
+    try:
+        command = [NODE, HERE / "scan.cjs", tools(), *SCRIPTS]
+    except NoNetwork as error:
+        pytest.skip(f"TypeScript is not installed: {error}")
+    done = subprocess.run(command, text=True, capture_output=True, check=True)
+    return {Path(path): found for path, found in json.loads(done.stdout).items()}
+
+
+def test_functions_and_files_are_short():
+    """A function has at most 60 lines, those inside it counted; a script at most 350."""
+    functions = [
+        (path.name, name, first, count)
+        for path, found in scanned().items()
+        for name, first, count in found["functions"]
+    ]
+    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, "it sees them"
+    assert not [each for each in functions if each[-1] > 60]
+    lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in SCRIPTS}
+    assert not {name: length for name, length in lengths.items() if length > 350}
+
+
+# What stands in both because one rule does: the test of test_twin.py that compares both.
+TWINS = {("STEPS", 64): "test_greatest_values", ("MOST", 200): "test_greatest_values"}
+PLAIN = {*range(-1, 101), 0.5, 200, 400}  # as often chosen by chance as on purpose
+
+
+def numbers_of(path):
+    """name -> value of the numbers that a module of Python names at its top."""
+    found = {}
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        pairs = []
+        if isinstance(node, ast.Assign):
+            pairs = [(target, node.value) for target in node.targets]
+        elif isinstance(node, ast.AnnAssign) and node.value:
+            pairs = [(node.target, node.value)]
+        for target, value in pairs:
+            several = isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple)
+            both = zip(target.elts, value.elts, strict=False) if several else [(target, value)]
+            for name, each in both:
+                with contextlib.suppress(ValueError):
+                    number = ast.literal_eval(each)
+                    if isinstance(name, ast.Name) and type(number) in (int, float):
+                        found[name.id] = number
+    return found
+
+
+def test_no_constant_is_typed_in_python_and_in_a_script():
+    """The page gets it from Python, or a test compares both: by its name, by its value."""
+    ours = [pair for path in PACKAGE.rglob("*.py") for pair in numbers_of(path).items()]
+    assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), "it sees them"
+    names, values = dict(ours), {value for _, value in ours}
+    twins = (ROOT / "tests" / "test_twin.py").read_text(encoding="utf-8")
+    for path, found in scanned().items():
+        for name, text in found["constants"]:
+            if not re.fullmatch(r"-?[\d.]+(?:e-?\d+)?", text):
+                continue
+            value = float(text)
+            if (name, value) in TWINS:
+                assert f"def {TWINS[name, value]}(" in twins
+                continue
+            assert names.get(name) != value, f"{path.name}: {name} stands in Python, too"
+            assert value in PLAIN or value not in values, f"{path.name}: {name} = {text}"
+        for value in {x for x in values if x not in PLAIN and abs(x) > 1000}:
+            loose = re.findall(rf"(?<![\w.])-?{abs(value):g}(?![\w.])", path.read_text())
+            assert not loose, f"{path.name}: {value}"
 
 
 def types_in(text):
@@ -74,6 +152,41 @@ def test_no_type_says_nothing(path):
 def test_the_types_of_the_data_are_those_of_python():
     stored = (FOLDER / "page.d.ts").read_text(encoding="utf-8")
     assert stored == page_types(), "Run: python tests/javascript.py types"
+
+
+KEYS = {  # of one kind of page, and a script that takes it
+    "joint": ("rows: FactRow[];", "joint_explorer.js"),
+    "levers": ("target: PagePose;", "levers_explorer.js"),
+    "target": ("turning: number[];", "target_explorer.js"),
+    "motion": ("samples: number;", "blended.js"),
+    "plan": ("forbidden: number;", "plan_explorer.js"),
+    "tour": ("spare: number[][];", "tour_explorer.js"),
+}
+
+
+def test_a_key_changed_in_one_kind_of_page_is_refused(tmp_path):
+    """One page after the other: the scripts of that kind no longer fit, those of others do."""
+    for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
+        shutil.copy(path, tmp_path)
+    settings = json.loads((HERE / "tsconfig.json").read_text()) | {"include": ["."]}
+    (tmp_path / "tsconfig.json").write_text(json.dumps(settings))
+    types = page_types()
+    program = [NODE, tools() / "typescript" / "bin" / "tsc", "--project", tmp_path]
+    for kind, (key, script) in KEYS.items():
+        at = types.index(key, types.index(f"interface {kind.capitalize()}Page {{"))
+        (tmp_path / "page.d.ts").write_text(f"{types[:at]}un{types[at:]}")
+        done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True)
+        refused = set(re.findall(r"^(\w+\.js)\(", done.stdout, re.M))
+        assert script in refused and done.returncode, done.stdout
+        others = {f"{other}_explorer.js" for other in KEYS if other != kind}
+        assert not refused & others, (kind, refused)
+
+
+def test_no_key_of_an_explorers_page_is_optional():
+    """But for what `Live` adds."""
+    for table in get_args(page.PageExplorer):
+        live = page.LivePage.__optional_keys__ & {*table.__annotations__}
+        assert table.__optional_keys__ == live, table.__name__
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,9 @@ from test_player import unpacked
 from robokin.show import JOINT_STYLES, joiner, page, palette
 from robokin.show.numbers import packed
 
-SCRIPTS = sorted((ROOT / "robokin" / "show" / "js").glob("*.js"))
+FOLDER = ROOT / "robokin" / "show" / "js"
+SCRIPTS = sorted(FOLDER.glob("*.js"))
+SHEETS = sorted(FOLDER.glob("*.css"))
 COLOUR = r"#[0-9A-Fa-f]{3,8}\b|rgba?\(|hsla?\("
 
 
@@ -24,6 +26,15 @@ def test_no_script_has_a_colour_of_its_own(path):
     assert not re.findall(COLOUR, text) and not re.findall(r'"(?:white|black)"', text)
 
 
+@pytest.mark.parametrize("path", SHEETS, ids=lambda path: path.name)
+def test_no_sheet_has_a_colour_of_its_own(path):
+    text = path.read_text(encoding="utf-8")
+    if path.name == "elements.css":
+        text = text.replace("#fff", "", 1)  # behind still pictures, whose colours are a figure's
+    assert not re.findall(COLOUR, text) and not re.findall(r"\b(?:white|black)\b(?!-)", text)
+    assert "font-family" not in text and path.with_suffix(".js").is_file(), "no module has it"
+
+
 def test_figures_take_their_colours_from_the_palette():
     for path in (ROOT / "robokin" / "show").glob("*.py"):
         if path.name != "palette.py":
@@ -34,8 +45,8 @@ def test_scripts_know_every_colour_and_no_other():
     text = (ROOT / "robokin/show/js/canvas.js").read_text(encoding="utf-8")
     listed = re.search(r"export const colors = \{(.*?)\};", text, re.S)[1]
     assert re.findall(r"(\w+): \"\"", listed) == [*palette.PAGE]
-    used = "".join(path.read_text(encoding="utf-8") for path in SCRIPTS)
-    assert set(re.findall(r"--rk-(\w+)", used)) <= set(palette.PAGE)
+    used = "".join(path.read_text(encoding="utf-8") for path in [*SCRIPTS, *SHEETS])
+    assert set(re.findall(r"--rk-(\w+)", used)) <= {*palette.PAGE, "font"}
     assert set(re.findall(r"\bcolors\.(\w+)", used)) <= set(palette.PAGE)
 
 
@@ -66,13 +77,19 @@ def modules(tmp_path, monkeypatch):
     (tmp_path / "js").mkdir()
     monkeypatch.setattr(joiner, "files", lambda _: tmp_path)
 
-    def write(**texts):
+    def write(sheets=(), **texts):
         for name, text in texts.items():
             (tmp_path / "js" / f"{name}.js").write_text(text)
+        for name, text in dict(sheets).items():
+            (tmp_path / "js" / f"{name}.css").write_text(text)
+        forget()
+
+    def forget():
         joiner.script.cache_clear()
+        joiner.style.cache_clear()
 
     yield write
-    joiner.script.cache_clear()
+    forget()
 
 
 def run(script, ending):
@@ -149,6 +166,47 @@ def test_an_import_of_another_form_is_refused_by_file_and_line(modules, text, me
     modules(base="export const a = 1;\n", top=f"// words\n{text}\n")
     with pytest.raises(ValueError, match=message):
         page.script("top")
+
+
+def test_a_sheet_follows_those_of_the_modules_that_its_own_imports(modules):
+    rules = ".a {\n  color: red;\n\n  & > .b:hover, & :is(p, q) { margin: 0 -1px; }\n}\n"
+    media = "@media (width > 1px) {\n  .c { width: calc(1px + 2px); }\n}"
+    modules(
+        {"top": f"/* a; */\n{rules}", "base": media, "other": ".no {}"},
+        base="export const one = 1;\n",
+        top='import {one} from "./base.js";\nexport const two = one;\n',
+        other="export const never = 1;\n",
+    )
+    assert joiner.style("top") == (
+        "@media (width>1px){.c{width:calc(1px + 2px)}}"
+        ".a{color:red;&>.b:hover,& :is(p,q){margin:0 -1px}}"
+    )
+    assert joiner.style("other") == ".no{}" and joiner.style("base").startswith("@media")
+
+
+def test_a_browser_reads_the_joined_sheets_as_it_reads_the_files(browser):
+    """All rules of all sheets, as Chromium writes them back."""
+    tab = browser.new_page()
+    tab.set_content("<style id=sheet></style>")
+    rules = """text => {
+        const sheet = document.getElementById("sheet");
+        sheet.textContent = text;
+        return [...sheet.sheet.cssRules].map(rule => rule.cssText.replace(/,\\s+/g, ","));
+    }"""
+    for name in ("motor_explorer", "tour_explorer", "plan_explorer", "prediction"):
+        text = joiner.style(name)
+        order = [path.stem for path in SHEETS if f"const ${path.stem} " in joiner.script(name)]
+        order.sort(key=lambda stem: joiner.script(name).index(f"const ${stem} "))
+        files = "\n".join((FOLDER / f"{stem}.css").read_text(encoding="utf-8") for stem in order)
+        assert tab.evaluate(rules, text) == tab.evaluate(rules, files) != []
+        assert max(map(len, text.splitlines())) < 400 and "/*" not in text
+    tab.close()
+
+
+def test_no_script_has_a_sheet_in_a_string():
+    for path in [*SCRIPTS, *(ROOT / "robokin" / "show").glob("*.py")]:
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"\{[^{}]*\b(?:padding|margin|display|border): ?[\w-]+;", text), path
 
 
 def test_a_player_has_the_modules_that_it_uses_and_no_words_for_people():

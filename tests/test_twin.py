@@ -51,6 +51,8 @@ from robokin.arms import dh_links, unwrapped
 from robokin.arms.elbow import elbow_arm
 from robokin.arms.geometry import ROUNDING
 from robokin.motion import refined_maximum
+from robokin.motion.recording import FEW, LEAP
+from robokin.show.numbers import scale
 from robokin.show.twin import arm_data
 
 SCRIPTS = Path(robokin.show.__file__).parent / "js"
@@ -79,7 +81,8 @@ SHARES = {"postures": 4000, "places": 3000, "singular": 1200, "border": 1200, "f
 every_arm = pytest.mark.parametrize("name", ARMS)
 
 PAGE = """async () => {
-  for (const name of ["kinematics", "geometries", "branches", "levers", "motion"])
+  const names = ["kinematics", "geometries", "branches", "levers", "motion", "recorded", "ticks"];
+  for (const name of names)
     Object.assign(window, await import(`/${name}.js`));
   window.f64 = text => new Float64Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
   window.b64 = numbers => {
@@ -650,6 +653,9 @@ def test_greatest_values(twin):
         assert np.isnan(got[0])
 
 
+RULES = f"{{least: {LEAP}, few: {FEW}}}"  # of jumps of position
+
+
 def test_jumps_of_position(twin):
     """Saw-teeth of all sizes on ramps, sines and noise, with holes, even and uneven: what `record`
     finds the page finds, joint by joint.
@@ -667,7 +673,7 @@ def test_jumps_of_position(twin):
         for leap in record(SCARA, t, q).leaps:
             want[leap.first] = leap.by != 0
         got = twin(
-            "return leaps(nested(a, 4), Array.from(b), arm.prismatic).flat();",
+            f"return leaps(nested(a, 4), Array.from(b), arm.prismatic, {RULES}).flat();",
             SCARA,
             np.where(np.isnan(q).any(axis=-1)[:, None], np.nan, q),
             t,
@@ -676,6 +682,63 @@ def test_jumps_of_position(twin):
         assert np.array_equal(got, want)
         found += want.sum()
     assert found > 150
+
+
+def test_recordings(twin):
+    """Corners, jumps and holes: the page finds the speeds, the accelerations, the breaks and the
+    jumps of the speed that `record` finds.
+    """
+    rng, corners, broken = np.random.default_rng(17), 0, 0
+    for k in range(60):
+        t = np.cumsum(rng.uniform(0.5 + 0.5 * (k % 2), 1.5 - 0.5 * (k % 2), 90)) * 0.02
+        q = rng.normal(size=4) * np.sin(rng.uniform(0, 4, 4) * t[:, None])
+        for _ in range(k % 4):
+            at = rng.uniform(t[8], t[-8])  # on a sample, and between two
+            at = t[rng.integers(8, 82)] if k % 3 else at
+            q += rng.normal(size=4) * (rng.random(4) < 0.5) * np.maximum(t - at, 0)[:, None]
+        if k % 5 == 0:
+            q[rng.integers(90) :, 1] += 0.8
+        if k % 7 == 0:
+            q[rng.integers(90, size=3)] = np.nan
+        ours = record(SCARA, t, q)
+        jumps = np.full((6, 3), np.nan)
+        for row, jump in zip(jumps, ours.jumps, strict=False):
+            row[:] = jump.first, jump.last, jump.time
+        want = np.concatenate([ours.v, ours.a], axis=1)
+        got = twin(
+            f"const all = record(nested(a, 4), Array.from(b), arm.prismatic, {RULES});"
+            "const told = all.jumps.flatMap(({first, last, time}) => [first, last, time]);"
+            "return [...all.v.flatMap((row, i) => [...row, ...all.a[i]]), ...all.gaps.map(Number),"
+            " ...Array.from({length: 18}, (_, i) => told[i] ?? NaN)];",
+            SCARA,
+            q,
+            t,
+            shape=(90 * 8 + 89 + 18,),
+        )
+        assert np.array_equal(got[720:809], ours.gaps)
+        assert np.allclose(got[809:].reshape(6, 3), jumps, rtol=1e-12, atol=0, equal_nan=True)
+        greatest = np.nanmax(abs(want), initial=1.0)
+        found = got[:720].reshape(90, 8)
+        assert np.allclose(found, want, rtol=0, atol=1e-9 * greatest, equal_nan=True)
+        corners, broken = corners + len(ours.jumps), broken + ours.gaps.sum()
+    assert corners > 40 and broken > 30
+
+
+def test_ticks(twin):
+    """The same scales as Python's, which are Matplotlib's: of all sizes, far from 0, of nothing."""
+    rng = np.random.default_rng(18)
+    low = rng.normal(size=600) * 10.0 ** rng.uniform(-4, 4, 600)
+    high = low + rng.uniform(0, 1, 600) * 10.0 ** rng.uniform(-5, 4, 600)
+    low[::9], high[::11] = 0, np.maximum(low[::11], 0)
+    high = np.maximum(low, high)
+    ends = np.concatenate([np.stack([low, high], axis=-1), [(0, 0), (0, 5), (-180, 180), (7, 7)]])
+    got = twin(
+        "return nested(a, 2).flatMap(([low, high]) => scale(low, high));",
+        None,
+        ends,
+        shape=(len(ends), 4),
+    )
+    close(got, np.array([scale(*pair) for pair in ends.tolist()]), 1e-12)
 
 
 # --- In words ------------------------------------------------------------------------------------

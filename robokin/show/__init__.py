@@ -2,7 +2,9 @@
 
 try:
     from .ellipsoid import plot_velocity_ellipsoid
-    from .explorers import Explorer, joint_explorer, motion_explorer, target_explorer
+    from .explorer import Explorer
+    from .explorers import joint_explorer, target_explorer
+    from .motion_explorer import motion_explorer
     from .motors import motor_explorer
     from .palette import JOINT_STYLES
     from .plan_explorer import plan_explorer

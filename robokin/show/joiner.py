@@ -1,4 +1,6 @@
-"""One script from modules of the folder js: an output has no files beside it to import from."""
+"""One script and one style sheet from modules of the folder js: an output has no files beside it to
+import from.
+"""
 
 import re
 from collections.abc import Iterator
@@ -16,6 +18,9 @@ REGULAR = re.compile(r"/(?![*/])(?:[^/\\\[\n]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/\w*")
 OTHER = re.compile(r"""[\w$]+|"(?:[^"\\\n]|\\[\s\S])*"|'(?:[^'\\\n]|\\[\s\S])*'|(?!/\*)[^"'`]""")
 VALUE = re.compile(r"""[\w$)\]}"'`]""")  # what ends in it is divided by a slash that follows
 NO_VALUES = {"return", "typeof", "case", "in", "delete", "void", "throw", "else", "do", "await"}
+CSS_BLANK = re.compile(r"\s*(?:/\*[\s\S]*?\*/\s*)+|\s+")
+CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # blanks beside it mean nothing
+CSS_LINE = re.compile(r"(.{160,}?[{};])(?!\})")
 NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # else two tokens would become another one
 
 
@@ -23,16 +28,32 @@ NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # else two tokens would b
 def script(name: str) -> str:
     """The module `name` of the folder js and all that it imports, each once and in its own scope,
     as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
-    `explorers.Explorer`. Without comments, which only people read, without blanks that code does
+    `explorer.Explorer`. Without comments, which only people read, without blanks that code does
     not need, and in few lines: in a notebook each costs ten bytes more. A line ends behind `;`,
     `,` or a brace only, so every statement of a module has to end with `;` or a brace.
 
     ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and
     `export function`, `const` or `class`; a comment or a literal that does not end.
     """
+    return "\n".join(_modules(name).values())
+
+
+@cache
+def style(name: str) -> str:
+    """The style sheets x.css of all modules x of `script(name)`, in the same order: the sheet of a
+    module follows those of what it imports. Without comments and blanks that it does not need.
+    """
+    sheets = [files(__package__).joinpath("js", f"{module}.css") for module in _modules(name)]
+    text = "\n".join(sheet.read_text(encoding="utf-8") for sheet in sheets if sheet.is_file())
+    text = CSS_SIGN.sub(r"\1\2", CSS_BLANK.sub(" ", text)).replace(";}", "}").strip()
+    return CSS_LINE.sub(r"\1\n", text)
+
+
+def _modules(name: str) -> dict[str, str]:
+    """The script of each module that `name` needs, itself the last."""
     modules: dict[str, str] = {}
     _add(modules, name, (), f"{name}.js")
-    return "\n".join(modules.values())
+    return modules
 
 
 def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: str) -> None:

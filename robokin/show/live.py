@@ -1,6 +1,6 @@
 """Views that must ask a kernel: the page draws and is dragged, Python answers.
 
-A view is an `explorers.Explorer` whose script (`js/live.js`) sends questions, and the answer of the
+A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions, and the answer of the
 run that stored it: with that it is drawn before any kernel is there, and stays in a saved notebook,
 an exported page and on paper. Then it is asleep, and says so. A widget without a view of its own
 wakes it: its model alone finds the place in the page. So nothing is stored that a page without a
@@ -8,13 +8,15 @@ kernel would miss.
 """
 
 import base64
+import json
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from . import plots
-from .explorers import Explorer
+from .explorer import Explorer
+from .joiner import script
 from .page import inert
 
 Question: TypeAlias = dict[str, Any]
@@ -28,39 +30,13 @@ WORDS = {
     "restarted, run this cell again.",
     "failed": "Python could not answer: {error}.",
 }
-# The page side of the widget. It finds its view whichever comes first, and one that is shown twice.
-MODEL = """
-export default { initialize({ model }) {
-  const id = "PLACE", places = [];
-  const meet = root => {
-    if (places.includes(root)) return;
-    places.push(root);
-    const to = places.length - 1;
-    const send = (n, question) => model.send({ to, n, question });
-    root.dispatchEvent(new CustomEvent("robokin-wake", { detail: send }));
-  };
-  const hear = ({ to, n, answer }, buffers) =>
-    places[to]?.dispatchEvent(
-      new CustomEvent("robokin-answer", { detail: { n, answer, buffers } }));
-  const sleep = () => {
-    document.removeEventListener("robokin-asks", asks);
-    places.splice(0).forEach(root => root.dispatchEvent(new CustomEvent("robokin-sleep")));
-  };
-  const asks = ({ detail }) => { if (detail.id === id) meet(detail.root); };
-  document.querySelectorAll(`[data-player="${id}"][data-ready]`).forEach(meet);
-  document.addEventListener("robokin-asks", asks);
-  model.on("msg:custom", hear);
-  model.on("comm_live_update", sleep);
-  return sleep;
-} };
-"""
 
 
 class Live(Explorer):
     """An explorer that asks a kernel. Shows itself in a notebook; `save` writes it as a page, where
     it is asleep.
 
-    data    a `page.PageExplorer` without `first` and the words of this module
+    data    a `page.PlanPage` or `TourPage` without `first` and the words of this module
     still   as of every `Explorer`
     first   the question with which it opens; its answer is stored
     answer  question (what JSON holds) -> answer: a dict of what JSON holds and arrays of one of the
@@ -138,7 +114,10 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
     if place in _awake:
         _awake.pop(place).close()
-    _awake[place] = unseen(MODEL.replace("PLACE", place), reply)
+    model = (
+        f"{script('waking')}\nexport default {{initialize: $waking.model({json.dumps(place)})}};"
+    )
+    _awake[place] = unseen(model, reply)
 
 
 def unseen(page: str, hear: Callable[[Any, Any, Any], None]) -> Any:

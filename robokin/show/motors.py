@@ -13,7 +13,7 @@ import numpy as np
 from .._validate import instance
 from ..jobs.steppers import FINE, LIMIT, NEARLY, ROTORS, SETTLED, SLOWEST, Stepper, phases
 from . import plots
-from .explorers import Explorer
+from .explorer import Explorer
 from .page import Control
 from .palette import FAINT, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
 

@@ -10,7 +10,7 @@ import os
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 from .._validate import short
-from .joiner import script
+from .joiner import script, style
 from .numbers import Packed, Scale
 from .palette import css
 from .twin import ArmData, PageLink
@@ -160,7 +160,8 @@ class PageArm(Greatest, Flaws):
 
 
 class Page(TypedDict):
-    """Everything that a player draws. `decimals` are those of speeds and accelerations, `sampled`
+    """Everything that a player draws. `nothing`: the whole number of a `Packed` that stands for no
+    value. `decimals` are those of speeds and accelerations, `sampled`
     says of which samples the greatest are told, `ticks` is the scale of the time, `dashes` the
     dashes of the joints' lines.
     """
@@ -168,6 +169,7 @@ class Page(TypedDict):
     title: str
     summary: str
     alt: str
+    nothing: int
     times: list[float]
     ticks: Scale
     slider: Slider | None
@@ -233,6 +235,13 @@ class StartValues(TypedDict):
     row: int
 
 
+class JumpRules(TypedDict):
+    """The constants of motion/recording.py by which a jump of position is found."""
+
+    least: float
+    few: int
+
+
 class BranchTask(TypedDict):
     """An exercise: how many different postures have to reach the target; what it says then and
     before.
@@ -243,26 +252,11 @@ class BranchTask(TypedDict):
     open: str
 
 
-class PageExplorer(TypedDict):
-    """Everything that an explorer is given. `kind`: "joint", "target", "motion", "levers", "plan",
-    "tour"; `arm`: see `twin.arm_data`; `units`: name, size and code of each joint's unit; `words`:
-    every sentence it says; `code`: the lines of Python behind it, with blanks; `meant`: what stands
-    below.
-
-    joint   q, rows of numbers
-    levers  the point `target`, the posture q before it
-    target  target, turns in radians, the posture q before it, names of branches, heads of the
-            table, the unit of travel in radians; `task`, an exercise: how many different
-            postures have to reach the target (`wanted`), what it says then (`holds`) and before
-            (`open`)
-    plan    names of the ways as `branches`
-    motion  start, via, goal, start_values, names of laws, corners, branches and panels, samples
-    tour    names of kinds of tasks and of tours, the most points, places for those that are added
-
-    To plan and tour `live.Live` adds the question with which they open, and its `first` answer.
+class ExplorerPage(TypedDict):
+    """What every explorer is given. `words`: every sentence it says; `code`: the lines of Python
+    behind it, with blanks; `meant`: what stands below.
     """
 
-    kind: str
     title: str
     summary: str
     alt: str
@@ -272,31 +266,90 @@ class PageExplorer(TypedDict):
     controls: list[Control]
     words: dict[str, str]
     code: str
-    arm: NotRequired[ArmData]
-    units: NotRequired[list[PageUnit]]
-    dashes: NotRequired[list[list[float]]]
-    q: NotRequired[list[float]]
-    rows: NotRequired[list[FactRow]]
-    target: NotRequired[PagePose]
-    turns: NotRequired[list[float]]
-    branches: NotRequired[list[str]]
-    heads: NotRequired[list[str]]
-    turning: NotRequired[list[int]]  # the joints whose angles the column "travel" adds
-    start: NotRequired[PagePose]
-    via: NotRequired[PagePose]
-    goal: NotRequired[PagePose]
-    start_values: NotRequired[StartValues]
-    laws: NotRequired[list[Law]]
-    corners: NotRequired[list[Corner]]
-    panels: NotRequired[list[str]]
-    samples: NotRequired[int]
-    task: NotRequired[BranchTask]
-    kinds: NotRequired[list[str]]
-    tours: NotRequired[list[str]]
-    most: NotRequired[int]
-    spare: NotRequired[list[list[float]]]
+
+
+class ArmPage(ExplorerPage):
+    """The same of an explorer of an arm (see `twin.arm_data`), and the units of its joints."""
+
+    arm: ArmData
+    units: list[PageUnit]
+
+
+class JointPage(ArmPage):
+    """The posture q, rows of numbers."""
+
+    kind: Literal["joint"]
+    q: list[float]
+    rows: list[FactRow]
+
+
+class LeversPage(ArmPage):
+    """The point `target`, the posture q before it."""
+
+    kind: Literal["levers"]
+    q: list[float]
+    target: PagePose
+
+
+class TargetPage(ArmPage):
+    """The target, its turns in radians, the posture q before it, names of branches, heads of the
+    table, the joints whose angles the column "travel" adds; `task`: of an exercise.
+    """
+
+    kind: Literal["target"]
+    q: list[float]
+    target: PagePose
+    turns: list[float]
+    branches: list[str]
+    heads: list[str]
+    turning: list[int]
+    task: BranchTask | None
+
+
+class MotionPage(ArmPage):
+    """The stations, how it opens, names of laws, corners, branches and panels, samples."""
+
+    kind: Literal["motion"]
+    dashes: list[list[float]]
+    start: PagePose
+    via: PagePose
+    goal: PagePose
+    start_values: StartValues
+    laws: list[Law]
+    corners: list[Corner]
+    branches: list[str]
+    panels: list[str]
+    samples: int
+    jumps: JumpRules
+
+
+class LivePage(ExplorerPage):
+    """What `live.Live` adds: the question with which an explorer opens, and its answer."""
+
     question: NotRequired[dict[str, Any]]
     first: NotRequired[dict[str, Any]]
+
+
+class PlanPage(LivePage):
+    """The arm, names of the ways as `branches`, the value of forbidden cells of the cube."""
+
+    kind: Literal["plan"]
+    arm: ArmData
+    branches: list[str]
+    forbidden: int
+
+
+class TourPage(LivePage):
+    """Names of kinds of tasks and of tours, the most points, places for those that are added."""
+
+    kind: Literal["tour"]
+    kinds: list[str]
+    tours: list[str]
+    most: int
+    spare: list[list[float]]
+
+
+PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage
 
 
 class PageAnswer(TypedDict):
@@ -361,7 +414,7 @@ def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
     tag = f"script nonce={nonce}" if nonce else "script"
     return (
         f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
-        f"<style>{css()}</style>\n"
+        f"<style>{css()}{style(module)}\n</style>\n"
         f'<{tag}>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
     )
 

@@ -1,7 +1,7 @@
 """Every colour of figures and pages, and the styles of the joints.
 
 A page gets the colours as CSS custom properties (`--rk-ink`, ...) of its root elements, in a light
-and in a dark set; its scripts read them from there. Figures are light.
+and in a dark set, and the font (`--rk-font`); its scripts read them from there. Figures are light.
 """
 
 from collections.abc import Mapping
@@ -31,6 +31,7 @@ INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
 REMARK, SCALE = "#5A6672", "#6B7681"
 PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
 
+FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # of pages
 # Pages: name -> (light, dark), six digits each.
 PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
@@ -82,8 +83,8 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 
 
 def css() -> str:
-    """The palette as CSS: light; dark where JupyterLab or a page that it exported says so, else
-    where the reader's system does; light again on paper.
+    """The palette and the font as CSS: light; dark where JupyterLab or a page that it exported
+    says so, else where the reader's system does; light again on paper.
     """
     light, dark = (
         ";".join(f"--rk-{name}:{pair[k]}" for name, pair in PAGE.items()) for k in (0, 1)
@@ -91,11 +92,8 @@ def css() -> str:
     dark = f"{dark};color-scheme:dark"
     roots = ":is(.robokin-player,.rk)"
     return (
-        f"{roots}{{{light};color-scheme:light}}\n"
+        f"{roots}{{--rk-font:{FONT};{light};color-scheme:light}}\n"
         f"@media screen{{[data-jp-theme-light=false] {roots}{{{dark}}}}}\n"
         "@media screen and (prefers-color-scheme:dark)"
         f"{{body:not([data-jp-theme-light]) {roots}{{{dark}}}}}\n"
-        ".robokin-player:not([data-ready]){background:var(--rk-paper);color:var(--rk-ink);"
-        "padding:10px;border-radius:8px}\n"
-        ".robokin-player>img{background:#fff}\n"
     )

@@ -19,11 +19,20 @@ from matplotlib.transforms import offset_copy
 from .._arrays import Bools, Floats, Ints
 from ..motion.recording import Jump, Recording
 from .palette import ALARM, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
+from .panel_words import (
+    PER,
+    beside_jump,
+    corner_words,
+    leap_words,
+    range_words,
+    space,
+    spike_words,
+    verdict,
+)
 from .scene import dense, number
 
 STRIP = 0.08  # height of the shaded strip beyond a limit, as a share of its panel
 WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleration", "acceleration")}
-PER = {"q": "", "v": "/s", "a": "/s²"}
 
 
 @dataclass
@@ -49,7 +58,7 @@ def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
     """
     beside = np.zeros(values.shape, dtype=bool)
     for jump in _jumps(recording, kind):
-        beside[_near(jump), jump.by != 0] = True
+        beside[beside_jump(jump), jump.by != 0] = True
     spikes = np.zeros_like(beside)
     size = np.where(np.isnan(values), 0.0, abs(values))
     for alike in (recording.arm.prismatic, ~recording.arm.prismatic):
@@ -108,10 +117,10 @@ def draw_panel(
                 t, marked, color=ALARM, linewidth=7, alpha=0.3, solid_capstyle="butt", zorder=1.5
             )
     said = [
-        *_verdict(recording, kind, joints, past),
-        *_leaps(recording, kind, joints, unit, size),
-        *_spikes(recording, kind, joints, spikes, values, unit),
-        *_corners(recording, kind, joints, unit, size, np.isnan(values)),
+        *verdict(recording, kind, joints, past),
+        *leap_words(recording, kind, joints, unit, size),
+        *spike_words(recording, kind, joints, spikes, values, unit),
+        *corner_words(recording, kind, joints, unit, size, np.isnan(values)),
     ]
     heading = ax.text(
         0.006,
@@ -126,7 +135,7 @@ def draw_panel(
         f"{remark}." if remark.startswith("q") else f"{remark[0].upper()}{remark[1:]}."
         for remark in said
     ]
-    words = _range_words(recording, kind, name, joints, unit_text, size)
+    words = range_words(recording, kind, name, joints, unit_text, size)
     return Panel(ax, heading, labels, [words, *facts])
 
 
@@ -225,131 +234,12 @@ def _band(
             beyond = np.clip(bound + outward * STRIP * (high - low), low, high)
             ax.axhspan(bound, beyond, color=color, alpha=0.22, linewidth=0, zorder=0)
             ax.axhline(bound, color=color, linewidth=0.9, zorder=1)
-            yield f"limit of q{joint + 1}: {number(bound)}{_space(unit)}{unit}", bound, outward
+            yield f"limit of q{joint + 1}: {number(bound)}{space(unit)}{unit}", bound, outward
 
 
 def _jumps(recording: Recording, kind: str) -> list[Jump]:
     """The jumps across which differences of this kind say nothing."""
     return [*recording.leaps, *(recording.jumps if kind == "a" else ())]
-
-
-def _near(jump: Jump) -> slice:
-    """The samples that differences across a jump reach, of whatever kind they are."""
-    return slice(max(jump.first - 2, 0), jump.last + 3)
-
-
-# --- What a panel says ----------------------------------------------------------------------------
-
-
-def _verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
-    """Samples past a limit, or that there are none, or the share of the speed limit."""
-    limits = recording.arm.speed_limits
-    if past.any():
-        what = {"q": "limit", "v": "speed limit"}[kind]
-        counts = past.sum(axis=0)
-        said: list[str] = []
-        for i in sorted(np.flatnonzero(counts), key=lambda i: -counts[i]):
-            rest = (
-                f"past its {what} in {counts[i]} of {len(past)} samples"
-                if not said
-                else f"in {counts[i]}"
-            )
-            said.append(f"joint {joints[i] + 1} {rest}")
-        either = np.any(past, axis=1).sum()
-        if either > counts.max():
-            said.append(f"one or another in {either}")
-        return [", ".join(said)]
-    if kind == "q":
-        if len(joints) == 1:
-            return [f"q{joints[0] + 1} inside its limits"]
-        if len(joints) == len(recording.arm.links):
-            return ["every joint inside its limits"]
-        return [f"{', '.join(f'q{j + 1}' for j in joints)} inside their limits"]
-    if kind == "v" and limits is not None:
-        share = np.nan_to_num(recording.greatest_speed.value[joints]) / limits[joints]
-        most = int(share.round(9).argmax())
-        who = f"q{joints[most] + 1}"
-        return [f"at most {number(100 * share[most], 2)} % of the speed limit ({who})"]
-    return []
-
-
-def _leaps(recording: Recording, kind: str, joints: Ints, unit: str, size: float) -> Iterator[str]:
-    """Jumps of position, joint by joint."""
-    for joint in joints if kind == "q" else ():
-        jumps = [jump for jump in recording.leaps if jump.by[joint]]
-        amounts = sorted(abs(jump.by[joint]) / size for jump in jumps)
-        if jumps:
-            alike = number(amounts[0]) == number(amounts[-1])
-            amount = f"{'' if alike else 'up to '}{number(amounts[-1])}{_space(unit)}{unit}"
-            yield f"q{joint + 1} jumps by {amount} at {_times(jumps)}"
-
-
-def _spikes(
-    recording: Recording, kind: str, joints: Ints, spikes: Bools, values: Floats, unit: str
-) -> Iterator[str]:
-    """What given values show at jumps instead of a speed or an acceleration."""
-    for jumps, what in (
-        (recording.leaps, f"{'angle jump' if unit == '°' else 'jump'} / step"),
-        (recording.jumps, "speed jump / step"),
-    ):
-        marked = [jump for jump in jumps if spikes[_near(jump)][:, jump.by[joints] != 0].any()]
-        if marked:
-            size = np.zeros_like(values)
-            for jump in marked:
-                part = _near(jump)
-                size[part] = np.where(spikes[part], abs(values[part]), 0.0)
-            where = np.unravel_index(size.round(6).argmax(), size.shape)
-            most = f"{number(size[where])} {unit}{PER[kind]} (q{joints[where[1]] + 1})"
-            yield f"spike at {_times(marked)}: {what}, up to {most}"
-            spikes = spikes & (size == 0)
-
-
-def _corners(
-    recording: Recording, kind: str, joints: Ints, unit: str, size: float, missing: Bools
-) -> Iterator[str]:
-    """Where the speed jumps and no acceleration is drawn."""
-    jumps = [
-        jump
-        for jump in (recording.jumps if kind == "a" else ())
-        if missing[jump.first : jump.last + 1][:, jump.by[joints] != 0].any()
-    ]
-    if jumps:
-        amounts = np.array([abs(jump.by[joints]) / size for jump in jumps])
-        most = amounts.max(axis=0).round(6)
-        i = int(most.argmax())
-        amount = f"{number(most[i])} {unit}/s (q{joints[i] + 1})"
-        yield f"none at {_times(jumps)}: the speed jumps, by up to {amount}"
-
-
-def _times(jumps: Sequence[Jump]) -> str:
-    if len(jumps) < 4:
-        return f"{' and '.join(number(jump.time) for jump in jumps)} s"
-    return f"{len(jumps)} places"
-
-
-def _range_words(
-    recording: Recording, kind: str, name: str, joints: Ints, unit: str, size: float
-) -> str:
-    """What the curves reach, in numbers that do not depend on the last bits."""
-    gap = _space(unit)
-    if kind == "q":
-        parts = []
-        for joint in joints:
-            reached = [recording.lowest.value[joint], recording.highest.value[joint]]
-            ends = [number((x / size).round(6).round(1), 4) for x in reached if not np.isnan(x)]
-            span = f"{' to '.join(dict.fromkeys(ends))}{gap}{unit}" if ends else "missing"
-            parts.append(f"q{joint + 1} {span}")
-        return f"{name.capitalize()}: {', '.join(parts)}."
-    extreme = recording.greatest_speed if kind == "v" else recording.greatest_acceleration
-    greatest = np.nan_to_num(extreme.value[joints] / size).round(6)
-    i = int(greatest.argmax())
-    return f"Greatest {name} {number(greatest[i], 3)}{gap}{unit}" + (
-        f" (q{joints[i] + 1})." if greatest[i] else "."
-    )
-
-
-def _space(unit: str) -> str:
-    return "" if unit == "°" else " "
 
 
 # --- Names, limits and the title ------------------------------------------------------------------

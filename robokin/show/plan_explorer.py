@@ -21,8 +21,8 @@ from ..units import deg, in_words, length_unit, mm
 from . import plots
 from .camera import VIEW, extent, project, scene_data
 from .live import Answer, Live, Question
-from .page import Control
-from .palette import ALARM, DASHES, INK, JOINT_STYLES, PALE, SOFT
+from .page import Control, PlanPage
+from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .twin import arm_data
 
 STEP = 12 * deg  # of the cube's postures
@@ -82,7 +82,7 @@ def plan_explorer(
     answer = _answer(arm, first)
     summary = f"{arm.name}, a target and an obstacle to be moved. {known.words} {answer['verdict']}"
     return Live(
-        _page(arm, first, known, summary),
+        dict(_page(arm, first, known, summary)),
         _picture(arm, first, answer, summary),
         first,
         lambda question: _answer(arm, question),
@@ -188,7 +188,7 @@ def _cube(
 # --- What the page gets ---------------------------------------------------------------------------
 
 
-def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dict[str, Any]:
+def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> PlanPage:
     size = extent(arm)
     name, unit = length_unit(size)
     marks = [
@@ -214,11 +214,10 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> dic
         "meant": MEANT,
         "arm": arm_data(arm),
         "unit": {"name": name, "size": unit, "code": name},
-        "units": [],
-        "dashes": DASHES,
         "scene": scene,
         "controls": [distance],
         "branches": list(WAYS),
+        "forbidden": FORBIDDEN,
         "words": dict(WORDS),
         "code": "from robokin.jobs.obstacles import plan\n# arm = three_lever(...)\n"
         "plan(arm, ({posture}), ({target}), ({obstacle}), {distance})\n",

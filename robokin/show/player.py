@@ -24,7 +24,7 @@ from ..units import deg, length_unit
 from . import arguments, findings, plots
 from .arguments import Targets
 from .camera import NOTHING_MORE, Around, Mark, chain, extent, flange, scene_data
-from .numbers import decimals, fewest, packed, rounded, scale, scales, thin, tidy
+from .numbers import NOTHING, decimals, fewest, packed, rounded, scale, scales, thin, tidy
 from .page import (
     Axis,
     Page,
@@ -219,6 +219,7 @@ def page_data(
         "title": title,
         "summary": summary,
         "alt": alt,
+        "nothing": NOTHING,
         "times": [tidy(x, 6) for x in t[kept]],
         "ticks": scale(t[0], t[-1]),
         "slider": slider,

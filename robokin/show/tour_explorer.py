@@ -30,7 +30,7 @@ from . import plots
 from .camera import Mark, best_view, extent, scene_data
 from .live import Answer, Live, Question
 from .numbers import rounded
-from .page import Control, PageExplorer, PageScene
+from .page import Control, PageScene, TourPage
 from .palette import INK, JOINT_STYLES
 from .scene import Scene
 from .twin import chain
@@ -92,7 +92,7 @@ def tour_explorer(task: Task) -> Live:
     reach = extent(arm) / size
     short = min(0.1 * reach, task.l1 / size, task.l2 / size)
     alt = f"An arm and {count} points to be moved. {' '.join([told['says'], *told['notes']])}"
-    data: PageExplorer = {
+    data: TourPage = {
         "kind": "tour",
         "title": "Which order? Move the points",
         "summary": alt,

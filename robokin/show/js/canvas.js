@@ -8,8 +8,6 @@
 /** @typedef {CanvasRenderingContext2D} Context */
 /** @typedef {keyof typeof colors} Color */
 
-export const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sans-serif";
-
 /** The colours of palette.py by their names, six digits each; `readColors` fills them in. */
 export const colors = {
   paper: "",
@@ -51,12 +49,18 @@ export const colors = {
   joint6: "",
 };
 
+let family = "sans-serif"; // of words; `readColors` reads it, too
+
 /** Reads the colours that the style sheet gives an element in .rk now. @param {Element} place */
 export function readColors(place) {
   const style = getComputedStyle(place);
+  family = style.getPropertyValue("--rk-font").trim();
   for (const name of /** @type {Color[]} */ (Object.keys(colors)))
     colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
 }
+
+/** A font for words on a canvas. @type {(size: number, weight?: string | number) => string} */
+export const font = (size, weight = "") => `${weight} ${size}px ${family}`;
 
 /** The colour of a joint. @param {number} j from 0 */
 export const jointColor = j => colors[/** @type {Color} */ (`joint${(j % 6) + 1}`)];
@@ -194,7 +198,7 @@ export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
  * @param {string | number} [weight]
  */
 export function words(g, text, x, y, color = colors.ink, size = 12, align = "left", weight = "") {
-  g.font = `${weight} ${size}px ${FONT}`;
+  g.font = font(size, weight);
   g.textAlign = align;
   g.lineWidth = 3.5;
   g.strokeStyle = clear(colors.paper, 0.9);

@@ -15,7 +15,10 @@ const TICKS = 400,
  */
 /** @typedef {ReturnType<typeof runningClock>} Clock */
 
-export function clockRow() {
+/**
+ * @param {?{play: string, pause: string}} [names]  what the button says; none: it has a sign
+ */
+export function clockRow(names = null) {
   const icon = element("span"),
     scrub = range("time", TICKS),
     time = element("span", {class: "rk-value"});
@@ -23,9 +26,10 @@ export function clockRow() {
     "playing speed",
     SPEEDS.map(each => `${each}\u00D7`),
   );
+  const kind = names ? "rk-word" : "rk-sign";
   const button = control(
     "button",
-    {type: "button", "aria-label": "play", title: "play or pause (Space)"},
+    {type: "button", class: kind, title: "play or pause (Space)"},
     icon,
   );
   speed.selectedIndex = SPEEDS.indexOf(1);
@@ -36,7 +40,7 @@ export function clockRow() {
     element("label", {class: "rk-long"}, scrub, time),
     element("label", {}, "playback", speed),
   );
-  return {icon, scrub, time, speed, button, row};
+  return {names, icon, scrub, time, speed, button, row};
 }
 
 /**
@@ -46,8 +50,9 @@ export function clockRow() {
  * @param {{time: number, playing: boolean}} state
  * @param {() => [number, number]} span  first and last time
  * @param {() => void} ask  to be drawn
+ * @param {() => number} [pace]  seconds of `state.time` in a second
  */
-export function runningClock(parts, frame, state, span, ask) {
+export function runningClock(parts, frame, state, span, ask, pace = () => 1) {
   let before = 0;
   /** @param {boolean} on */
   function run(on) {
@@ -55,10 +60,7 @@ export function runningClock(parts, frame, state, span, ask) {
     state.playing = on;
     if (on && state.time >= end) state.time = begin;
     before = performance.now();
-    parts.icon.innerHTML =
-      '<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true">' +
-      `<path d="${on ? PAUSE : PLAY}"/></svg>`;
-    parts.button.setAttribute("aria-label", on ? "pause" : "play");
+    tellPlaying(parts, on);
     if (on) ask();
   }
   /** @param {number} now */
@@ -67,10 +69,8 @@ export function runningClock(parts, frame, state, span, ask) {
     const end = span()[1];
     // The first stamp may lie before the click; and what was hidden for a while goes on where it
     // was.
-    state.time = Math.min(
-      end,
-      state.time + (Math.min(500, Math.max(0, now - before)) / 1000) * SPEEDS[+parts.speed.value],
-    );
+    const passed = Math.min(500, Math.max(0, now - before)) / 1000;
+    state.time = Math.min(end, state.time + passed * pace() * SPEEDS[+parts.speed.value]);
     before = Math.max(before, now);
     if (state.time >= end) run(false);
     else ask();
@@ -84,6 +84,7 @@ export function runningClock(parts, frame, state, span, ask) {
   }
   function tell() {
     const [begin, end] = span();
+    tellPlaying(parts, state.playing);
     parts.time.textContent = `${number(state.time, 2)} s`;
     parts.scrub.value = String(Math.round((state.time - begin) / ((end - begin) / TICKS || 1)));
     parts.scrub.setAttribute("aria-valuetext", parts.time.textContent);
@@ -104,4 +105,21 @@ export function runningClock(parts, frame, state, span, ask) {
   });
   run(false);
   return {pass, set, tell};
+}
+
+/**
+ * @param {ClockParts} parts
+ * @param {boolean} on
+ */
+function tellPlaying({names, icon, button}, on) {
+  const name = on ? "pause" : "play";
+  if (button.dataset.does === name) return;
+  button.dataset.does = name;
+  if (names) icon.textContent = names[name];
+  else {
+    icon.innerHTML =
+      '<svg width="14" height="14" viewBox="0 0 14 14" aria-hidden="true">' +
+      `<path d="${on ? PAUSE : PLAY}"/></svg>`;
+    button.setAttribute("aria-label", name);
+  }
 }

@@ -1,75 +1,9 @@
-// What surrounds the canvases: the style sheet, dragging the view, and when to draw again.
+// What surrounds the canvases: dragging the view, and when to draw again.
 
-import {colors, FONT, readColors} from "./canvas.js";
+import {colors, readColors} from "./canvas.js";
 import {control} from "./elements.js";
 
 /** @import {PageScene} from "./page.js" */
-
-/**
- * Colours are those of palette.py. JupyterLab styles tables, labels and buttons of its own:
- * .rk.rk.rk outdoes it.
- */
-export const STYLE = `
-.rk.rk.rk { box-sizing: border-box; background: var(--rk-paper); color: var(--rk-ink);
-  border: 1px solid var(--rk-border);
-  border-radius: 8px; padding: 10px 14px; font: 13px/1.4 ${FONT}; container-type: inline-size;
-  max-width: 1400px;
-  & * { box-sizing: border-box; }
-  & .rk-title { font-weight: 650; font-size: 15px; margin: 0 0 6px; }
-  & .rk-views { display: grid; grid-template-columns: minmax(0, 9fr) minmax(0, 10fr); gap: 8px; }
-  & .rk-views.rk-wide { grid-template-columns: minmax(0, 1fr); }
-  & canvas { display: block; width: 100%; height: clamp(380px, 48cqw, 450px); border-radius: 4px;
-    margin: 0; }
-  & .rk-wide .rk-curves { height: 300px; }
-  & .rk-scene { cursor: grab; touch-action: pan-y; }
-  & .rk-scene.rk-flat { cursor: default; }
-  & .rk-curves { cursor: crosshair; touch-action: pan-y; }
-  & .rk-row { display: flex; flex-wrap: wrap; align-items: center; gap: 6px 12px; margin-top: 8px; }
-  & .rk-row label { display: flex; align-items: center; gap: 8px; color: var(--rk-ink); margin: 0;
-    font: inherit; }
-  & .rk-row label.rk-long { flex: 1 1 240px; min-width: 0; }
-  & input[type=range] { flex: 1; min-width: 60px; width: 100%; margin: 0; height: 24px;
-    accent-color: var(--rk-accent);
-    cursor: pointer; }
-  & .rk-value { min-width: 4.6em; text-align: right; font-variant-numeric: tabular-nums;
-    white-space: nowrap; }
-  & button, & select { font: inherit; color: var(--rk-ink); background: var(--rk-button);
-    border: 1px solid var(--rk-rest);
-    border-radius: 6px; height: 30px; padding: 0 8px; margin: 0; cursor: pointer; }
-  & button { width: 42px; }
-  & button:hover, & select:hover { background: var(--rk-hover); }
-  & button svg { display: block; margin: auto; fill: currentColor; }
-  & :focus-visible { outline: 3px solid var(--rk-accent); outline-offset: 2px; }
-  & .rk-table { overflow-x: auto; margin-top: 10px; }
-  & table { border-collapse: collapse; width: 100%; margin: 0; font: inherit; color: var(--rk-ink);
-    border: 0;
-    table-layout: auto; }
-  & tr { background: none; border: 0; }
-  & th, & td { padding: 4px 5px; text-align: right; border: 0;
-    border-top: 1px solid var(--rk-grid); font-weight: 400;
-    font-variant-numeric: tabular-nums; white-space: nowrap; background: none; max-width: none;
-    line-height: 1.3; }
-  & thead th { border-top: 0; color: var(--rk-soft); }
-  & th:first-child { text-align: left; color: var(--rk-soft); white-space: normal;
-    min-width: 14.5em; padding-left: 0; }
-  & .rk-jump { color: var(--rk-alarm); }
-  & .rk-notes { margin: 6px 0 0; padding: 0; list-style: none; color: var(--rk-alarm);
-    min-height: 0; }
-  & .rk-notes li { margin: 2px 0; padding: 0; }
-  @container (max-width: 640px) {
-    & .rk-views { grid-template-columns: minmax(0, 1fr); }
-    & canvas, & .rk-wide .rk-curves { height: 340px; }
-    & th, & td { padding: 3px 4px; font-size: 11.5px; white-space: normal; }
-    & th:first-child { min-width: 6.5em; }
-  }
-  @media print {
-    & { border: 0; break-inside: avoid; }
-    & .rk-clock, & input { display: none; }
-    & .rk-row label.rk-long { flex: none; }
-    & .rk-value { min-width: 0; }
-    & select { appearance: none; background: none; border: 0; padding: 0; }
-  }
-}`;
 
 /**
  * @param {Pick<PageScene, "flat">} scene
@@ -120,6 +54,21 @@ export function orbit(canvas, scene, state, ask) {
     else if (event.key === "Home") reset();
     else return;
     event.preventDefault();
+  });
+}
+
+/**
+ * Pressing and dragging on a canvas; `first` at the press.
+ * @param {HTMLCanvasElement} canvas
+ * @param {(event: PointerEvent, first: boolean) => void} take
+ */
+export function scrubbing(canvas, take) {
+  canvas.addEventListener("pointerdown", event => {
+    canvas.setPointerCapture(event.pointerId);
+    take(event, true);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (canvas.hasPointerCapture(event.pointerId)) take(event, false);
   });
 }
 

@@ -1,44 +1,16 @@
 // The curves: columns of panels over one time axis.
 
-import {
-  clear,
-  colors,
-  FONT,
-  hit,
-  jointColor,
-  number,
-  polygon,
-  prepared,
-  spot,
-  stroke,
-  tiled,
-  upright,
-  words,
-} from "./canvas.js";
+import {colors, font, jointColor, number, prepared, stroke, tiled, words} from "./canvas.js";
+import {dashes, drawPanel} from "./panel.js";
 
-/** @import {Box, Context, Pixel} from "./canvas.js" */
+/** @import {Box, Context} from "./canvas.js" */
 /** @import {Scale} from "./page.js" */
+/** @import {Panel, Place, Times} from "./panel.js" */
 
-/**
- * @typedef {object} Panel
- * @property {string} label
- * @property {{unit: string, scale: Scale, joints: number[]}[]} axes
- * @property {Float64Array[]} curves  of each joint, over the times
- * @property {Set<number>} gaps  samples after which the lines break
- * @property {?number[][]} limits  [low, high], of each joint
- * @property {number[][]} near  [joint, 0 low or 1 high]: the limits to show
- * @property {Mark[]} marks
- * @property {number[]} now  of each joint
- * @property {string} [where]  in what size and theme it was when places for its words were found
- * @property {Note[]} [words]
- */
 /** @typedef {{title: string, panels: Panel[]}} Column  of panels over one time axis */
-/** @typedef {{time: number, text: string}} Mark  a broken line; a text is written beside it */
-/** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
-/** @typedef {ArrayLike<number>} Times  in s, rising */
-/** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
-/** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
+/** @typedef {{g: Context, patterns: number[][], times: Times, ticks: Scale, now: number}} Shown */
+/** @typedef {[left: number, width: number, t0: number, t1: number, x: number, y: number]} Span */
 
 /**
  * Draws columns of panels.
@@ -52,7 +24,7 @@ import {
  * @param {number[][]} patterns  the dashes of the joints' lines
  */
 export function curvesView(canvas, patterns) {
-  /** @type {[left: number, width: number, t0: number, t1: number, x: number, y: number][]} */
+  /** @type {Span[]} */
   let spans = [];
 
   /**
@@ -64,67 +36,17 @@ export function curvesView(canvas, patterns) {
   function draw(columns, times, ticks, now) {
     const ready = prepared(canvas);
     if (!ready) return;
-    const [g, w, h] = ready;
-    const t0 = times[0],
-      t1 = times[times.length - 1];
-    spans = [];
-    const [across, rows] = tiled(columns.length, w);
-    columns.forEach((column, c) => {
-      const width = w / across,
-        height = h / rows,
-        titled = columns.length > 1;
-      const left = (c % across) * width,
-        above = Math.floor(c / across) * height;
-      const right = column.panels.some(p => p.axes.length > 1) ? 46 : 16;
-      const room = Math.max(48, 14 + widest(g, column));
-      /** @type {[number, number]} */
-      const area = [left + room, width - room - right];
-      const below = legend(
-        g,
-        patterns,
+    const [g, w, h] = ready,
+      [across, rows] = tiled(columns.length, w),
+      [width, height] = [w / across, h / rows];
+    spans = columns.map((column, c) =>
+      drawColumn(
+        {g, patterns, times, ticks, now},
         column,
-        left + room,
-        width - room - right,
-        above + (titled ? 36 : 14),
-      );
-      if (titled) words(g, column.title, left + room, above + 14, colors.ink, 13, "left", "600");
-      const bottom = above + height - 24,
-        count = column.panels.length,
-        tall = (bottom - below) / count;
-      /** @type {Place} */
-      const x = t => area[0] + (area[1] * (t - t0)) / (t1 - t0);
-      spans.push([area[0], area[1], t0, t1, left, above]);
-      column.panels.forEach((panel, k) => {
-        const top = below + k * tall + 26;
-        drawPanel(
-          g,
-          patterns,
-          panel,
-          x,
-          area,
-          top,
-          below + (k + 1) * tall - top - 4,
-          times,
-          ticks,
-          now,
-        );
-      });
-      const [first, step, n, decimals] = ticks;
-      for (let i = 0; i < n; i++) {
-        const t = first + i * step;
-        if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
-        const unit = t + step > t1 + 1e-9 ? " s" : "";
-        words(
-          g,
-          number(t, decimals) + unit,
-          x(t) + (unit ? 4 : 0),
-          bottom + 16,
-          colors.soft,
-          11,
-          "center",
-        );
-      }
-    });
+        [(c % across) * width, Math.floor(c / across) * height, width, height],
+        columns.length > 1,
+      ),
+    );
   }
 
   /**
@@ -145,10 +67,54 @@ export function curvesView(canvas, patterns) {
   return {draw, timeAt};
 }
 
-/** Joint colours fit for words. @type {(color: string) => string} */
-const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
-/** @type {(patterns: number[][], j: number, width: number) => number[]} */
-const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
+/**
+ * One column in its box.
+ * @param {Shown} shown
+ * @param {Column} column
+ * @param {Box} box
+ * @param {boolean} titled
+ * @returns {Span}
+ */
+function drawColumn({g, patterns, times, ticks, now}, column, box, titled) {
+  const [left, above, width, height] = box,
+    {panels, title} = column,
+    t0 = times[0],
+    t1 = times[times.length - 1];
+  const right = panels.some(p => p.axes.length > 1) ? 46 : 16,
+    room = Math.max(48, 14 + widest(g, column)),
+    inner = left + room,
+    wide = width - room - right;
+  const below = legend(g, patterns, column, inner, wide, above + (titled ? 36 : 14));
+  if (titled) words(g, title, inner, above + 14, colors.ink, 13, "left", "600");
+  const bottom = above + height - 24,
+    tall = (bottom - below) / panels.length;
+  /** @type {Place} */
+  const x = t => inner + (wide * (t - t0)) / (t1 - t0);
+  panels.forEach((panel, k) => {
+    const top = below + k * tall + 26,
+      end = top + (below + (k + 1) * tall - top - 4);
+    drawPanel({g, patterns, times, x, sides: [inner, inner + wide, top, end]}, panel, ticks, now);
+  });
+  tellTimes(g, ticks, [t0, t1], x, bottom + 16);
+  return [inner, wide, t0, t1, left, above];
+}
+
+/**
+ * The numbers below a column; the last one has the unit.
+ * @param {Context} g
+ * @param {Scale} ticks
+ * @param {[first: number, last: number]} span
+ * @param {Place} x
+ * @param {number} y
+ */
+function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
+  for (let i = 0; i < count; i++) {
+    const t = first + i * step;
+    if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
+    const unit = t + step > t1 + 1e-9 ? " s" : "";
+    words(g, number(t, decimals) + unit, x(t) + (unit ? 4 : 0), y, colors.soft, 11, "center");
+  }
+}
 
 /**
  * How wide the numbers beside the panels are.
@@ -156,7 +122,7 @@ const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x 
  * @param {Column} column
  */
 function widest(g, {panels}) {
-  g.font = `11px ${FONT}`;
+  g.font = font(11);
   return Math.max(
     ...panels.flatMap(
       ({
@@ -203,261 +169,4 @@ function legend(g, patterns, column, left, width, y) {
     words(g, `q${j + 1}`, x + long + 4, row, colors.ink, 12);
   }
   return y + 16 * (rows - 1) + 2;
-}
-
-/**
- * @param {Context} g
- * @param {number[][]} patterns
- * @param {Panel} panel
- * @param {Place} x
- * @param {[left: number, width: number]} area
- * @param {number} top
- * @param {number} height
- * @param {Times} times
- * @param {Scale} ticks
- * @param {number} now
- */
-function drawPanel(g, patterns, panel, x, [left, width], top, height, times, ticks, now) {
-  const right = left + width,
-    bottom = top + height,
-    limits = panel.limits ?? [];
-  /** @type {Place[]} */
-  const ys = [];
-  /** @type {string[]} */
-  const units = [];
-  const scales = panel.axes.map(({scale: [low, step, count], unit, joints}) => {
-    /** @type {Place} */
-    const y = v => bottom - (height * (v - low)) / (step * (count - 1));
-    for (const j of joints) {
-      ys[j] = y;
-      units[j] = unit;
-    }
-    return y;
-  });
-  words(g, panel.label, left - 40, top - 8, colors.ink, 12, "left", "600");
-  g.save();
-  g.beginPath();
-  g.rect(left, top - 1, width, height + 2);
-  g.clip();
-  const [low, step, count] = panel.axes[0].scale;
-  for (let i = 0; i < count; i++) {
-    const y = scales[0](low + i * step);
-    stroke(
-      g,
-      [
-        [left, y],
-        [right, y],
-      ],
-      Math.abs(low + i * step) < step / 9 ? colors.line : colors.grid,
-      1,
-    );
-  }
-  for (let i = 0; i < ticks[2]; i++)
-    upright(g, x(ticks[0] + i * ticks[1]), top, bottom, colors.grid, 1);
-  for (const [j, side] of panel.near)
-    band(g, ys[j](limits[side][j]), side ? 1 : -1, left, right, jointColor(j));
-  for (const {time} of panel.marks) upright(g, x(time), top, bottom, colors.alarm, 1.2, [3, 3]);
-  ys.forEach((y, j) => curve(g, patterns, panel, j, times, x, y));
-  g.restore();
-  g.lineWidth = 1;
-  g.strokeStyle = colors.rim;
-  g.strokeRect(left, top, width, height);
-  panel.axes.forEach(({scale: [low, step, count, decimals], unit, joints}, k) => {
-    const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft;
-    for (let i = 0; i < count; i++) {
-      const y = scales[k](low + i * step) + 4;
-      words(
-        g,
-        number(low + i * step, decimals),
-        k ? right + 6 : left - 6,
-        y,
-        color,
-        11,
-        k ? "left" : "right",
-      );
-    }
-    if (k)
-      words(
-        g,
-        `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`,
-        right + 42,
-        top - 8,
-        color,
-        12,
-        "right",
-        "600",
-      );
-  });
-  // The places of words are looked for once in a size and a theme, not in every picture.
-  const where = [left, top, width, height, colors.ink].join();
-  if (panel.where !== where) {
-    /** @type {Sides} */
-    const rect = [left, right, top, bottom];
-    const notes = noted(g, panel.marks, x, rect);
-    panel.where = where;
-    panel.words = [...notes, ...limitWords(g, panel, ys, units, times, x, rect, notes)];
-  }
-  for (const [text, [px, py, , h], color, size, weight] of panel.words ?? [])
-    words(g, text, px, py + h - 2, color, size, "left", weight);
-  upright(g, x(now), top, bottom, colors.ink, 1.4);
-  ys.forEach((y, j) => {
-    const at = y(panel.now[j]);
-    if (at > top - 3 && at < bottom + 3) spot(g, [x(now), at], 4, jointColor(j));
-  });
-  for (const {time, text} of panel.marks)
-    if (text)
-      for (const [y, tip] of [
-        [top, top + 7],
-        [bottom, bottom - 7],
-      ])
-        polygon(
-          g,
-          [
-            [x(time) - 5, y],
-            [x(time) + 5, y],
-            [x(time), tip],
-          ],
-          colors.alarm,
-        );
-}
-
-/**
- * The words of the marks, in at most three lines.
- * @param {Context} g
- * @param {Mark[]} marks
- * @param {Place} x
- * @param {Sides} sides
- */
-function noted(g, marks, x, [left, right, top]) {
-  /** @type {Note[]} */
-  const notes = [];
-  g.font = `600 11px ${FONT}`;
-  for (const {time, text} of marks) {
-    if (!text) continue;
-    const w = g.measureText(text).width;
-    const px = x(time) + w + 12 > right ? Math.max(left + 3, x(time) - 6 - w) : x(time) + 6;
-    const place = [0, 1, 2]
-      .map(k => /** @type {Box} */ ([px, top + 14 * k + 4, w, 12]))
-      .find(
-        place =>
-          !hit(
-            place,
-            notes.map(note => note[1]),
-          ),
-      );
-    if (place) notes.push([text, place, colors.alarm, 11, "600"]);
-  }
-  return notes;
-}
-
-/**
- * The words of the limits, as above: beside their lines, off other words and, nearly, off the
- * curves. At most three; where there is no such place, the band alone has to do.
- * @param {Context} g
- * @param {Panel} panel
- * @param {Place[]} ys  of each joint
- * @param {string[]} units  of each joint
- * @param {Times} times
- * @param {Place} x
- * @param {Sides} sides
- * @param {Note[]} notes
- */
-function limitWords(g, panel, ys, units, times, x, [left, right, top, bottom], notes) {
-  /** @type {Note[]} */
-  const found = [];
-  const limits = panel.limits ?? [],
-    each = (right - left) / times.length,
-    lines = panel.near.map(([j, side]) => ys[j](limits[side][j]));
-  g.font = `10px ${FONT}`;
-  panel.near.forEach(([j, side], k) => {
-    const limit = limits[side][j],
-      at = lines[k],
-      unit = units[j];
-    const value = number(limit, +!Number.isInteger(limit)),
-      gap = unit[0] === "\u00B0" ? "" : " ";
-    const text = `q${j + 1} limit ${value}${gap}${unit}`;
-    const w = g.measureText(text).width,
-      taken = [...notes, ...found].map(([, place]) => place);
-    /** @type {?Box} */
-    let best = null;
-    let least = 16; // pixels of curves that the words may cover
-    for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
-      if (y < top + 1 || y + 11 > bottom - 1) continue;
-      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length;
-      /** @type {number[]} */
-      const beside = [];
-      panel.curves.forEach((curve, i) => {
-        const on = ys[i];
-        curve.forEach((v, k) => {
-          if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[k]));
-        });
-      });
-      for (let px = left + 5; px + w + 5 < right; px += 6) {
-        if (hit([px - 4, y, w + 8, 11], taken)) continue;
-        const cost = each * beside.filter(cx => cx > px - 3 && cx < px + w + 3).length + crossed;
-        if (cost < least) [best, least] = [[px, y, w, 11], cost];
-      }
-    }
-    if (best && found.length < 3) found.push([text, best, shade(jointColor(j)), 10]);
-  });
-  return found;
-}
-
-/**
- * The near side of what lies beyond a limit, a strip above (side 1) or below it.
- * @param {Context} g
- * @param {number} at
- * @param {number} side  1 or -1
- * @param {number} left
- * @param {number} right
- * @param {string} color
- */
-function band(g, at, side, left, right, color) {
-  const fade = g.createLinearGradient(0, at, 0, at - 12 * side);
-  fade.addColorStop(0, clear(color, 0.35));
-  fade.addColorStop(1, clear(color, 0.05));
-  g.fillStyle = fade;
-  g.fillRect(left, at, right - left, -12 * side);
-  stroke(
-    g,
-    [
-      [left, at],
-      [right, at],
-    ],
-    color,
-    1,
-  );
-}
-
-/**
- * @param {Context} g
- * @param {number[][]} patterns
- * @param {Panel} panel
- * @param {number} j
- * @param {Times} times
- * @param {Place} x
- * @param {Place} y
- */
-function curve(g, patterns, panel, j, times, x, y) {
-  const color = jointColor(j);
-  /** @type {(?Pixel)[]} */
-  const points = [];
-  /** @type {(?Pixel)[]} */
-  const beyond = [];
-  panel.curves[j].forEach((value, i) => {
-    /** @type {?Pixel} */
-    const p = Number.isNaN(value) ? null : [x(times[i]), y(value)];
-    const over =
-      p && panel.limits && (value < panel.limits[0][j] - 1e-3 || value > panel.limits[1][j] + 1e-3);
-    points.push(p);
-    beyond.push(over ? p : null);
-    if (panel.gaps.has(i)) {
-      points.push(null);
-      beyond.push(null);
-    }
-  });
-  if (beyond.some(p => p)) stroke(g, beyond, clear(colors.alarm, 0.35), 7);
-  g.lineCap = "butt";
-  stroke(g, points, color, 2, dashes(patterns, j, 2));
-  g.lineCap = "round";
 }

@@ -6,15 +6,16 @@
 
 import {matrix, origin, product, wrapped} from "./kinematics.js";
 import {distance2, nowhere} from "./rows.js";
+import {SIGNS, twoLevers, worst} from "./two_levers.js";
 
 /**
- * @import {ArmData, ElbowData, ElbowInverse, Inverse, PagePose, ScaraInverse, Tolerances,
+ * @import {ArmData, ElbowData, ElbowInverse, Inverse, PagePose, ScaraInverse,
  *   TwoLinkInverse, WristInverse} from "./page.js"
  */
+/** @import {Gap} from "./two_levers.js" */
 /** @import {ArmOf, ClosedFormArm, ScaraPose, TransformPose} from "./kinematics.js" */
 
 /** @typedef {[number, number]} Pair  cosine and sine of one angle */
-/** @typedef {{kind: string, metres: number}} Gap  which border is passed, and how far */
 /** @typedef {Object<string, boolean>} Held  which singularities hold */
 /** @typedef {{q: number[], plane: Pair, ahead: Pair}} ElbowRow */
 /**
@@ -28,8 +29,6 @@ import {distance2, nowhere} from "./rows.js";
  *   gap(arm: ClosedFormArm & ArmOf<G>, pose: PagePose, row: number): Gap,
  * }} Geometry
  */
-
-const SIGNS = [1, -1];
 
 /**
  * The pair (cosine, sine) of an angle, turned on by that of a constant angle.
@@ -45,38 +44,6 @@ const onward = ([cosine, sine], [c, s]) =>
  * @param {number} q
  */
 const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
-
-/**
- * The triangle of two levers whose ends are d apart, by half angles: see `two_levers`. null: none.
- * @param {number} upper
- * @param {number} fore
- * @param {number} d
- * @param {Tolerances} tolerances
- */
-function twoLevers(upper, fore, d, {ROUNDING}) {
-  const slack = ROUNDING * (upper + fore),
-    fold = d - Math.abs(upper - fore);
-  let stretch = upper + fore - d;
-  if (!(stretch >= -slack && fold >= -slack)) return null;
-  stretch = Math.max(stretch, 0);
-  const around = upper + fore + d;
-  const short = Math.max(d - (upper - fore), 0),
-    long = Math.max(d + (upper - fore), 0);
-  return {
-    ahead: 2 * Math.atan2(Math.sqrt(stretch * short), Math.sqrt(around * long)),
-    turn: 2 * Math.atan2(Math.sqrt(stretch * around), Math.sqrt(short * long)),
-  };
-}
-
-/**
- * The border (name -> metres beyond it) that is passed the farthest.
- * @param {Object<string, number>} borders
- * @returns {Gap}
- */
-function worst(borders) {
-  const [kind, metres] = Object.entries(borders).reduce((a, b) => (b[1] > a[1] ? b : a));
-  return {kind, metres: Math.max(metres, 0)};
-}
 
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 

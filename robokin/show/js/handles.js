@@ -34,6 +34,15 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
  */
 /** @typedef {ReturnType<typeof handleLayer>} HandleLayer */
 
+/** @typedef {Handle & {node: HTMLElement, shift: Pixel}} Shown  `shift`: to make room */
+/**
+ * What the buttons of a layer tell it.
+ * @typedef {object} Hand
+ * @property {() => Camera} camera  of the last picture
+ * @property {(id: ?string) => void} hold  which handle is taken; null: it is let go
+ * @property {() => void} changed  something has moved
+ */
+
 /**
  * A layer of handles over a canvas.
  * @param {HTMLElement} canvas
@@ -43,98 +52,110 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
  */
 export function handleLayer(canvas, camera, hold, changed) {
   const layer = element("div", {class: "rk-handles"});
-  /** @type {(Handle & {node: HTMLElement, shift: Pixel})[]} */
+  /** @type {Shown[]} */
   let handles = [];
   /** @type {?string} */
   let held = null;
-
-  /** @param {Handle} handle */
-  function button(handle) {
-    const node = control(
-      "button",
-      {type: "button", class: `rk-handle ${handle.look}`, "data-handle": handle.id},
-      handle.mark || "",
-    );
-    if (handle.color) node.style.setProperty("--own", `var(--rk-${handle.color})`);
-    let from = [0, 0];
-    /** @type {?Drag} */
-    let move = null;
-    node.addEventListener("pointerdown", event => {
-      event.preventDefault(); // no text is selected, no scrolling begins
-      node.focus();
-      node.setPointerCapture(event.pointerId);
-      [from, move] = [[event.clientX, event.clientY], handle.grab(camera())];
-      held = handle.id;
-      hold(true);
-    });
-    node.addEventListener("pointermove", event => {
-      if (!move) return;
-      move(event.clientX - from[0], event.clientY - from[1]);
-      changed();
-    });
-    const drop = () => {
-      if (!move) return;
-      move = held = null;
-      hold(false);
-      changed();
-    };
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
-      node.addEventListener(end, drop);
-    node.addEventListener("keydown", event => {
-      const way = STEPS[event.key];
-      if (event.key === "Home") handle.home();
-      else if (way) handle.step(...way, event.shiftKey);
-      else return;
-      event.preventDefault();
-      event.stopPropagation();
-      changed();
-    });
-    return node;
-  }
+  /** @type {Hand} */
+  const hand = {
+    camera,
+    changed,
+    hold(id) {
+      held = id;
+      hold(id !== null);
+    },
+  };
 
   return {
     layer,
     /** @param {Handle[]} next */
     set(next) {
-      handles = next.map(handle => ({...handle, node: button(handle), shift: [0, 0]}));
+      handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
     /** To be called behind every picture. */
     place() {
-      const seen = camera(),
-        {to} = seen,
-        w = canvas.clientWidth,
-        h = canvas.clientHeight;
       /** @type {Pixel[]} */
       const taken = [];
-      const room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
       // The one that is held keeps its way to its place, so that it stays under the pointer; the
       // others make room.
-      for (const handle of [...handles].sort(
-        (a, b) => Number(b.id === held) - Number(a.id === held),
-      )) {
-        const {node, name, at, value, shift} = handle,
-          p = at(seen),
-          place = to(p);
-        node.hidden = !p.every(Number.isFinite);
-        const [x, y] =
-          handle.id === held
-            ? [place[0] + shift[0], place[1] + shift[1]]
-            : apart(place, taken, room);
-        handle.shift = [x - place[0], y - place[1]];
-        taken.push([x, y]);
-        // One that has left the scene waits at its edge, and can still be taken.
-        const [left, top] = [
-          Math.min(Math.max(x, NEAR), w - NEAR),
-          Math.min(Math.max(y, NEAR), h - NEAR),
-        ];
-        node.classList.toggle("rk-outside", left !== x || top !== y);
-        node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-        const says = `${name}, ${value()}`;
-        if (node.getAttribute("aria-label") !== says) node.setAttribute("aria-label", says);
-      }
+      const first = [...handles].sort((a, b) => Number(b.id === held) - Number(a.id === held));
+      for (const handle of first)
+        taken.push(placed(handle, camera(), handle.id === held ? null : taken, canvas));
     },
   };
+}
+
+/**
+ * @param {Handle} handle
+ * @param {Hand} hand
+ */
+function button(handle, {camera, hold, changed}) {
+  const node = control(
+    "button",
+    {type: "button", class: `rk-handle ${handle.look}`, "data-handle": handle.id},
+    handle.mark || "",
+  );
+  if (handle.color) node.style.setProperty("--own", `var(--rk-${handle.color})`);
+  let from = [0, 0];
+  /** @type {?Drag} */
+  let move = null;
+  node.addEventListener("pointerdown", event => {
+    event.preventDefault(); // no text is selected, no scrolling begins
+    node.focus();
+    node.setPointerCapture(event.pointerId);
+    [from, move] = [[event.clientX, event.clientY], handle.grab(camera())];
+    hold(handle.id);
+  });
+  node.addEventListener("pointermove", event => {
+    if (!move) return;
+    move(event.clientX - from[0], event.clientY - from[1]);
+    changed();
+  });
+  const drop = () => {
+    if (!move) return;
+    move = null;
+    hold(null);
+    changed();
+  };
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+    node.addEventListener(end, drop);
+  node.addEventListener("keydown", event => {
+    const way = STEPS[event.key];
+    if (event.key === "Home") handle.home();
+    else if (way) handle.step(...way, event.shiftKey);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+    changed();
+  });
+  return node;
+}
+
+/**
+ * Puts a button where its handle is; one that has left the scene waits at its edge, and can still
+ * be taken.
+ * @param {Shown} handle
+ * @param {Camera} camera
+ * @param {?Pixel[]} taken  the places to keep away from; null: it is held
+ * @param {HTMLElement} canvas
+ */
+function placed(handle, camera, taken, canvas) {
+  const {node, name, at, value, shift} = handle,
+    p = at(camera),
+    place = camera.to(p),
+    room = matchMedia("(pointer: coarse)").matches ? 40 : 25;
+  node.hidden = !p.every(Number.isFinite);
+  /** @type {Pixel} */
+  const [x, y] = taken ? apart(place, taken, room) : [place[0] + shift[0], place[1] + shift[1]];
+  handle.shift = [x - place[0], y - place[1]];
+  const left = Math.min(Math.max(x, NEAR), canvas.clientWidth - NEAR),
+    top = Math.min(Math.max(y, NEAR), canvas.clientHeight - NEAR);
+  node.classList.toggle("rk-outside", left !== x || top !== y);
+  node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+  const says = `${name}, ${value()}`;
+  if (node.getAttribute("aria-label") !== says) node.setAttribute("aria-label", says);
+  return /** @type {Pixel} */ ([x, y]);
 }
 
 /** @type {Object<string, [number, number]>} */

@@ -1,5 +1,5 @@
 // The joint explorer: joints taken by the hand. What is said, and every number of the arm, comes
-// from Python (page.py: PageExplorer).
+// from Python (page.py: JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -11,13 +11,13 @@ import {alongCurve, gripOf} from "./handles.js";
 import {slider, stageOf, table, tick} from "./stage.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
-/** @import {PageExplorer, With} from "./page.js" */
+/** @import {JointPage} from "./page.js" */
 /** @import {Color, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 /** @import {Handle} from "./handles.js" */
 /** @import {Stage} from "./stage.js" */
 
-/** @typedef {With<PageExplorer, "arm" | "units" | "q" | "rows">} JointExplorer */
+/** @typedef {JointPage} JointExplorer */
 
 /**
  * Fills every waiting place with this id.
@@ -26,6 +26,8 @@ import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
  */
 export const explore = (id, data) =>
   waiting(id).forEach(root => jointExplorer(stageOf(root, data), data));
+
+/** @typedef {{q: number[]}} State */
 
 /**
  * A slider for each joint and a handle on it.
@@ -36,11 +38,9 @@ function jointExplorer(stage, data) {
   const {arm, words, units} = data,
     state = {q: [...data.q]},
     sizes = units.map(unit => unit.size);
-  /** @type {(j: number, value: number) => number} */
-  const limited = (j, value) => Math.min(Math.max(value, arm.limits[j][0]), arm.limits[j][1]);
   const sliders = data.controls.map((spec, j) =>
     slider(spec, value => {
-      state.q[j] = limited(j, value * sizes[j]);
+      state.q[j] = limited(arm.limits[j], value * sizes[j]);
       stage.changed();
     }),
   );
@@ -50,84 +50,21 @@ function jointExplorer(stage, data) {
     data.rows.map(row => row.heads.length),
   );
   const more = tick(words.ellipsoid, stage.changed),
-    axes = tick(words.axes, stage.changed, true);
+    axes = tick(words.axes, stage.changed, true),
+    copy = copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)}));
   stage.side.append(
     ...sliders.map(s => s.row),
-    element(
-      "div",
-      {class: "rk-row"},
-      more.row,
-      axes.row,
-      copyButton(words, () => fill(data.code, {q: inUnits(units, state.q)})),
-    ),
+    element("div", {class: "rk-row"}, more.row, axes.row, copy),
     stage.says,
   );
   stage.below.append(numbers.node);
-
-  stage.handles.set(
-    arm.chain.map(
-      /** @returns {Handle} */ (link, j) => {
-        const step = data.controls[j].step * sizes[j];
-        /** @type {(camera: Camera, value: number) => Point} */
-        const place = (camera, value) =>
-          gripOf(
-            arm.chain,
-            state.q.map((x, k) => (k === j ? value : x)),
-            j,
-            camera,
-          );
-        return {
-          id: `q${j + 1}`,
-          name: fill(words.takeJoint, {joint: j + 1}),
-          look: "rk-joint",
-          mark: String(j + 1),
-          color: /** @type {Color} */ (`joint${(j % 6) + 1}`),
-          at: camera => place(camera, state.q[j]),
-          value: () => `${number(state.q[j] / sizes[j], 1)} ${units[j].name}`,
-          grab(camera) {
-            const to = alongCurve(
-              camera,
-              value => place(camera, value),
-              state.q[j],
-              link.prismatic ? 1e-3 : 0.01,
-            );
-            return (dx, dy) => {
-              state.q[j] = limited(j, to(dx, dy));
-            };
-          },
-          step(right, up, big) {
-            state.q[j] = limited(j, state.q[j] + (right + up) * step * (big ? 10 : 1));
-          },
-          home() {
-            state.q[j] = data.q[j];
-          },
-        };
-      },
-    ),
-  );
+  stage.handles.set(arm.chain.map((_, j) => jointHandle(data, state, j)));
 
   stage.run(() => {
-    const q = state.q,
-      flange = fk(arm.chain, q),
-      place = origin(flange),
-      rotation = quaternion(flange);
+    const {q} = state;
     sliders.forEach((s, j) => s.set(q[j] / sizes[j]));
-    /** @type {Record<string, number[]>} */
-    const facts = {
-      place: place.map(x => x / data.unit.size),
-      turns: rollPitchYaw(flange).map(degrees),
-      rotation: rotation[0] < 0 ? rotation.map(x => -x) : rotation,
-      near: [distance_from_singularity(arm, q)],
-    };
-    numbers.set(
-      data.rows.map(({fact, heads, decimals}) =>
-        facts[fact].map((x, k) => `${heads[k]} ${number(x, decimals)}`.trim()),
-      ),
-    );
-    const held = Object.entries(arm.geometry.kind ? singularities(arm, q) : {})
-      .filter(([, holds]) => holds)
-      .map(([name]) => fill(words.singularity, {name}));
-    stage.say(held.length ? fill(words.singular, {names: held.join(words.and)}) : words.regular);
+    numbers.set(cells(data, q));
+    stage.say(singular(data, q));
     return [
       {
         name: arm.name,
@@ -139,4 +76,81 @@ function jointExplorer(stage, data) {
       },
     ];
   });
+}
+
+/** @type {(limits: number[], value: number) => number} */
+const limited = ([low, high], value) => Math.min(Math.max(value, low), high);
+
+/**
+ * A ring on joint j.
+ * @param {JointExplorer} data
+ * @param {State} state
+ * @param {number} j
+ * @returns {Handle}
+ */
+function jointHandle({arm, words, units, controls, q: home}, state, j) {
+  const {size, name} = units[j],
+    step = controls[j].step * size,
+    small = arm.chain[j].prismatic ? 1e-3 : 0.01;
+  /** @type {(value: number) => void} */
+  const set = value => {
+    state.q[j] = limited(arm.limits[j], value);
+  };
+  /** @type {(camera: Camera, value: number) => Point} */
+  const place = (camera, value) =>
+    gripOf(
+      arm.chain,
+      state.q.map((x, k) => (k === j ? value : x)),
+      j,
+      camera,
+    );
+  return {
+    id: `q${j + 1}`,
+    name: fill(words.takeJoint, {joint: j + 1}),
+    look: "rk-joint",
+    mark: String(j + 1),
+    color: /** @type {Color} */ (`joint${(j % 6) + 1}`),
+    at: camera => place(camera, state.q[j]),
+    value: () => `${number(state.q[j] / size, 1)} ${name}`,
+    grab(camera) {
+      const to = alongCurve(camera, value => place(camera, value), state.q[j], small);
+      return (dx, dy) => set(to(dx, dy));
+    },
+    step: (right, up, big) => set(state.q[j] + (right + up) * step * (big ? 10 : 1)),
+    home() {
+      state.q[j] = home[j];
+    },
+  };
+}
+
+/**
+ * The flange in numbers.
+ * @param {JointExplorer} data
+ * @param {number[]} q
+ */
+function cells({arm, unit, rows}, q) {
+  const flange = fk(arm.chain, q),
+    rotation = quaternion(flange);
+  /** @type {Record<string, number[]>} */
+  const facts = {
+    place: origin(flange).map(x => x / unit.size),
+    turns: rollPitchYaw(flange).map(degrees),
+    rotation: rotation[0] < 0 ? rotation.map(x => -x) : rotation,
+    near: [distance_from_singularity(arm, q)],
+  };
+  return rows.map(({fact, heads, decimals}) =>
+    facts[fact].map((x, k) => `${heads[k]} ${number(x, decimals)}`.trim()),
+  );
+}
+
+/**
+ * The singularities that hold, in words.
+ * @param {JointExplorer} data
+ * @param {number[]} q
+ */
+function singular({arm, words}, q) {
+  const names = Object.entries(arm.geometry.kind ? singularities(arm, q) : {})
+    .filter(([, holds]) => holds)
+    .map(([name]) => fill(words.singularity, {name}));
+  return names.length ? fill(words.singular, {names: names.join(words.and)}) : words.regular;
 }

@@ -1,23 +1,25 @@
 // The explorer of an arm that reaches a point in a family of postures: the point is taken by the
 // hand, the free angle chosen on the curve of what it costs, and levers of different lengths by
-// sliders. What is said, and every number of the arm, comes from Python (page.py: PageExplorer).
+// sliders. What is said, and every number of the arm, comes from Python (page.py: LeversPage).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
 import {fill} from "./blanks.js";
 import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
 import {copyButton} from "./copy.js";
-import {control, element, waiting} from "./elements.js";
+import {scrubbing} from "./controls.js";
+import {element, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
-import {slider, stageOf} from "./stage.js";
+import {slider, stageOf, wordButton} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
 
-/** @import {PageExplorer, With} from "./page.js" */
-/** @import {Pixel} from "./canvas.js" */
+/** @import {LeversPage} from "./page.js" */
+/** @import {Pixel, Point} from "./canvas.js" */
+/** @import {Handle} from "./handles.js" */
 /** @import {ThreeLeverArm} from "./levers.js" */
 /** @import {Stage} from "./stage.js" */
 
-/** @typedef {With<PageExplorer, "arm" | "q" | "target"> & {arm: ThreeLeverArm}} LeversExplorer */
+/** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
 /**
  * What the free angle alpha costs: its range, where it is, the best one, and the cost `at` any.
  * @typedef {object} Costs
@@ -37,158 +39,64 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
 /**
+ * What the reader has set: the point, the posture before it, the free angle, the arm.
+ * @typedef {object} State
+ * @property {Point} place
+ * @property {number[]} before
+ * @property {number} alpha
+ * @property {ThreeLeverArm} arm
+ */
+
+/**
  * @param {Stage} stage
  * @param {LeversExplorer} data
  */
 function leversExplorer(stage, data) {
-  const {words: says, unit} = data,
-    home = [...data.target.place];
-  /** @type {ThreeLeverArm} */
-  let arm = data.arm;
-  const state = {place: [...home], before: [...data.q], alpha: data.q[2]};
-  const sliders = data.controls.map((spec, k) =>
-    slider(spec, value => {
-      if (k < 2) state.place[k] = value * unit.size;
-      else if (k === 2) state.alpha = radians(value);
-      else
-        arm = withLevers(
-          arm,
-          arm.geometry.levers.map((old, i) => (i === k - 3 ? value * unit.size : old)),
-        );
-      stage.changed();
-    }),
-  );
-  /** @type {(q: number[]) => number} */
-  const cost = q => q.reduce((sum, x, j) => sum + Math.abs(x - state.before[j]), 0);
+  const {words: says} = data,
+    home = data.target.place;
+  /** @type {State} */
+  const state = {place: [...home], before: [...data.q], alpha: data.q[2], arm: data.arm};
+  const sliders = slidersOf(stage, data, state),
+    canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": says.costs});
+  /** @type {ReturnType<typeof drawCosts>} */
+  let shown = null;
   /** @type {(text: string, act: () => void) => HTMLElement} */
-  const button = (text, act) => {
-    const node = control("button", {type: "button", class: "rk-word"}, text);
-    node.addEventListener("click", () => {
+  const button = (text, act) =>
+    wordButton(text, () => {
       act();
       stage.changed();
     });
-    return node;
-  };
-  const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": says.costs});
-  /** @type {ReturnType<typeof drawCosts>} */
-  let shown = null;
   stage.side.append(
-    ...sliders.map(s => s.row),
+    ...sliders.rows,
     element(
       "div",
       {class: "rk-row"},
       button(says.least, () => {
-        state.alpha = least(arm, state, state.before)[2];
+        state.alpha = least(state.arm, state, state.before)[2];
       }),
       button(says.begin, () => {
-        if (shown) state.before = family(arm, state, state.alpha);
+        if (shown) state.before = family(state.arm, state, state.alpha);
       }),
-      copyButton(says, () =>
-        fill(data.code, {
-          ...inCode({place: state.place}, unit),
-          alpha: plain(degrees(state.alpha), 3),
-          levers: lengths(arm.geometry.levers, {size: 1}).join(", "),
-        }),
-      ),
+      copyButton(says, () => pythonOf(data, state)),
     ),
     canvas,
     stage.says,
   );
-  /** @type {(event: PointerEvent) => void} */
-  const pick = event => {
+  scrubbing(canvas, event => {
     if (shown) state.alpha = shown.alphaAt(event.offsetX);
     stage.changed();
-  };
-  canvas.addEventListener("pointerdown", event => {
-    canvas.setPointerCapture(event.pointerId);
-    pick(event);
   });
-  canvas.addEventListener("pointermove", event => {
-    if (canvas.hasPointerCapture(event.pointerId)) pick(event);
-  });
-
-  const fine = 5e-3;
-  stage.handles.set([
-    {
-      id: "free",
-      name: says.takeFree,
-      look: "rk-free",
-      at: () => state.place,
-      value: () =>
-        `${state.place
-          .slice(0, 2)
-          .map(x => number(x / unit.size, 1))
-          .join(", ")} ${unit.name}`,
-      grab(camera) {
-        const from = state.place,
-          to = inScreen(camera, from);
-        return (dx, dy) => {
-          state.place = [...to(dx, dy).slice(0, 2), 0];
-        };
-      },
-      step(right, up, big) {
-        state.place = plus(state.place, [right, up, 0], fine * (big ? 10 : 1));
-      },
-      home() {
-        state.place = [...home];
-      },
-    },
-  ]);
+  stage.handles.set([pointHandle(data, state, home)]);
 
   /** @type {?Costs} */
   let costs = null;
   stage.run(
     () => {
-      const [low, high] = alpha_range(arm, state),
-        exists = !Number.isNaN(low);
-      if (exists) state.alpha = Math.min(Math.max(state.alpha, low), high);
-      const q = exists ? family(arm, state, state.alpha) : state.before;
-      /** @type {(x: number) => number} */
-      const inUnit = x => x / unit.size;
-      const values = [
-        ...state.place.slice(0, 2).map(inUnit),
-        degrees(state.alpha),
-        ...arm.geometry.levers.map(inUnit),
-      ];
-      sliders.forEach((each, k) => each.set(values[k]));
-      const best = exists ? least(arm, state, state.before) : null;
-      costs = best
-        ? {
-            low,
-            high,
-            alpha: state.alpha,
-            best: best[2],
-            at: alpha => cost(family(arm, state, alpha)),
-          }
-        : null;
-      stage.say(
-        best
-          ? fill(says.costSays, {
-              gamma: number(degrees(q[0]), 1),
-              beta: number(degrees(q[1]), 1),
-              alpha: number(degrees(q[2]), 1),
-              S: number(degrees(cost(q)), 1),
-              best: number(degrees(best[2]), 1),
-              least: number(degrees(cost(best)), 1),
-            })
-          : says.outside,
-      );
+      costs = costsOf(state);
+      sliders.tell();
+      stage.say(costs ? told(says, state, costs) : says.outside);
       stage.scene.marks = [{name: says.target, at: state.place, radius: 0}];
-      const ghosts = exists
-        ? [0, 1, 2, 3, 4].map(k => ({
-            q: family(arm, state, low + ((high - low) * k) / 4),
-            past: false,
-          }))
-        : [];
-      return [
-        {
-          name: arm.name,
-          chain: arm.chain,
-          q,
-          faded: !exists,
-          ghosts: [...ghosts, {q: state.before, past: true}],
-        },
-      ];
+      return [armOf(state, costs)];
     },
     [canvas],
     () => {
@@ -196,6 +104,146 @@ function leversExplorer(stage, data) {
     },
   );
 }
+
+/**
+ * Sliders of the point, of alpha and, of unequal levers, of their lengths.
+ * @param {Stage} stage
+ * @param {LeversExplorer} data
+ * @param {State} state
+ */
+function slidersOf(stage, {unit, controls}, state) {
+  /** @type {(x: number) => number} */
+  const inUnit = x => x / unit.size;
+  const sliders = controls.map((spec, k) =>
+    slider(spec, value => {
+      const levers = [...state.arm.geometry.levers];
+      if (k < 2) state.place[k] = value * unit.size;
+      else if (k === 2) state.alpha = radians(value);
+      else {
+        levers[k - 3] = value * unit.size;
+        state.arm = withLevers(state.arm, levers);
+      }
+      stage.changed();
+    }),
+  );
+  return {
+    rows: sliders.map(each => each.row),
+    tell() {
+      const {place, alpha, arm} = state;
+      const values = [
+        ...place.slice(0, 2).map(inUnit),
+        degrees(alpha),
+        ...arm.geometry.levers.map(inUnit),
+      ];
+      sliders.forEach((each, k) => each.set(values[k]));
+    },
+  };
+}
+
+/**
+ * What alpha costs at the point, with alpha brought into its range; null: no posture reaches it.
+ * @param {State} state
+ * @returns {?Costs}
+ */
+function costsOf(state) {
+  const {arm, before} = state,
+    [low, high] = alpha_range(arm, state);
+  if (Number.isNaN(low)) return null;
+  state.alpha = Math.min(Math.max(state.alpha, low), high);
+  return {
+    low,
+    high,
+    alpha: state.alpha,
+    best: least(arm, state, before)[2],
+    at: alpha => travel(family(arm, state, alpha), before),
+  };
+}
+
+/** @type {(q: number[], from: number[]) => number} */
+const travel = (q, from) => q.reduce((sum, x, j) => sum + Math.abs(x - from[j]), 0);
+
+/**
+ * @param {LeversExplorer["words"]} says
+ * @param {State} state
+ * @param {Costs} costs
+ */
+function told(says, state, {alpha, best, at}) {
+  /** @type {(angle: number) => string} */
+  const text = angle => number(degrees(angle), 1);
+  const [gamma, beta, last] = family(state.arm, state, alpha).map(text);
+  return fill(says.costSays, {
+    gamma,
+    beta,
+    alpha: last,
+    S: text(at(alpha)),
+    best: text(best),
+    least: text(travel(least(state.arm, state, state.before), state.before)),
+  });
+}
+
+/**
+ * The arm with some postures that reach the point, too, and the posture before.
+ * @param {State} state
+ * @param {?Costs} costs
+ */
+function armOf({arm, before, place}, costs) {
+  /** @type {(alpha: number) => number[]} */
+  const posture = alpha => family(arm, {place}, alpha);
+  const alphas = costs
+    ? [0, 1, 2, 3, 4].map(k => costs.low + ((costs.high - costs.low) * k) / 4)
+    : [];
+  return {
+    name: arm.name,
+    chain: arm.chain,
+    q: costs ? posture(costs.alpha) : before,
+    faded: !costs,
+    ghosts: [...alphas.map(alpha => ({q: posture(alpha), past: false})), {q: before, past: true}],
+  };
+}
+
+/**
+ * @param {LeversExplorer} data
+ * @param {State} state
+ * @param {Point} home
+ * @returns {Handle}
+ */
+function pointHandle({words, unit}, state, home) {
+  const fine = 5e-3;
+  return {
+    id: "free",
+    name: words.takeFree,
+    look: "rk-free",
+    at: () => state.place,
+    value() {
+      const [x, y] = state.place.map(each => number(each / unit.size, 1));
+      return `${x}, ${y} ${unit.name}`;
+    },
+    grab(camera) {
+      const to = inScreen(camera, state.place);
+      return (dx, dy) => {
+        state.place = [...to(dx, dy).slice(0, 2), 0];
+      };
+    },
+    step(right, up, big) {
+      state.place = plus(state.place, [right, up, 0], fine * (big ? 10 : 1));
+    },
+    home() {
+      state.place = [...home];
+    },
+  };
+}
+
+/**
+ * The lines of Python that find the same posture.
+ * @param {LeversExplorer} data
+ * @param {State} state
+ */
+const pythonOf = ({code, unit}, {place, alpha, arm}) =>
+  fill(code, {
+    ...inCode({place}, unit),
+    alpha: plain(degrees(alpha), 3),
+    levers: lengths(arm.geometry.levers, {size: 1}).join(", "),
+  });
 
 /**
  * The sum S of the angles' changes over the free angle.

@@ -1,5 +1,5 @@
-// What asks the kernel. A view in the page is asleep until a kernel's model finds it (MODEL of
-// live.py): events on the view's place in the page carry what both say.
+// What asks the kernel. A view in the page is asleep until a kernel's model finds it
+// (waking.js): events on the view's place in the page carry what both say.
 
 import {element} from "./elements.js";
 
@@ -40,82 +40,115 @@ const SLOW = 100;
  * @returns {{ask: (question: Question) => void}}
  */
 export function kernelOf(root, id, words, hear) {
-  const says = element("p", {class: "rk-asleep", role: "status"});
-  root.firstElementChild?.append(element("style", {}, LOOK), says);
-  /** @type {?Port} */
-  let port = null;
-  /** @type {?Question} */
-  let wanted = null;
-  let sent = 0,
-    timer = 0,
-    slow = false;
-  /** @type {Map<number, {question: Question, at: number}>} */
-  const questions = new Map();
-
-  /** @type {(awake: boolean, sentence?: string) => void} */
-  function stir(awake, sentence = "") {
-    root.toggleAttribute("data-awake", awake);
-    const parts = /** @type {NodeListOf<HTMLElement>} */ (
-      root.querySelectorAll(".rk-handles, .rk-side")
-    );
-    for (const part of parts) part.inert = !awake;
-    says.textContent = sentence;
-    says.hidden = !sentence;
-  }
-  /** Takes back what has no answer yet: the newest of it is asked again. */
-  function takeBack() {
-    clearTimeout(timer);
-    wanted ??= [...questions.values()].at(-1)?.question ?? null;
-    questions.clear();
-  }
-  function sleep() {
-    takeBack();
-    port = null;
-    stir(false, words.asleep);
-  }
-  function pump() {
-    while (port && wanted && questions.size < (slow ? 1 : UNDER_WAY)) {
-      const question = wanted;
-      [wanted, sent] = [null, sent + 1];
-      questions.set(sent, {question, at: performance.now()});
-      root.dataset.asked = String(sent);
-      try {
-        port(sent, question);
-      } catch {
-        // its kernel is gone
-        return sleep();
-      }
-    }
-    clearTimeout(timer);
-    if (questions.size) timer = setTimeout(() => stir(false, words.waiting), PATIENCE);
-  }
-  root.addEventListener("robokin-wake", event => {
-    takeBack();
-    port = /** @type {CustomEvent<Port>} */ (event).detail;
-    stir(true);
-    pump();
-  });
-  root.addEventListener("robokin-sleep", sleep);
+  /** @type {Questions<Question>} */
+  const questions = new Questions(root, words);
+  root.addEventListener("robokin-wake", event =>
+    questions.wake(/** @type {CustomEvent<Port>} */ (event).detail),
+  );
+  root.addEventListener("robokin-sleep", () => questions.sleep());
   root.addEventListener("robokin-answer", event => {
     const {n, answer, buffers} = /** @type {CustomEvent<Arrived>} */ (event).detail,
-      about = questions.get(n);
-    if (!port || !about) return;
-    const {question, at} = about;
-    slow = performance.now() - at > SLOW;
-    for (const k of questions.keys()) if (k <= n) questions.delete(k);
-    stir(true, answer.error ? words.failed.replace("{error}", answer.error) : "");
-    if (!answer.error) hear(/** @type {Answer} */ (unpacked(answer, buffers)), question);
+      about = questions.answered(n);
+    if (!about) return;
+    questions.stir(true, answer.error ? words.failed.replace("{error}", answer.error) : "");
+    if (!answer.error) hear(/** @type {Answer} */ (unpacked(answer, buffers)), about.question);
     root.dataset.answered = String(n);
-    pump();
+    questions.send();
   });
-  sleep();
+  questions.sleep();
   document.dispatchEvent(new CustomEvent("robokin-asks", {detail: {id, root}}));
-  return {
-    ask(question) {
-      wanted = question;
-      pump();
-    },
-  };
+  return {ask: question => questions.ask(question)};
+}
+
+/**
+ * The questions of a view: the one that waits, those under way, and the port to the kernel.
+ * @template Question
+ */
+class Questions {
+  /**
+   * @param {HTMLElement} root
+   * @param {Record<string, string>} words
+   */
+  constructor(root, words) {
+    this.root = root;
+    this.words = words;
+    this.says = element("p", {class: "rk-asleep", role: "status"});
+    root.firstElementChild?.append(this.says);
+    /** @type {?Port} */
+    this.port = null;
+    /** @type {?Question} */
+    this.wanted = null;
+    /** @type {Map<number, {question: Question, at: number}>} */
+    this.underWay = new Map();
+    this.sent = 0;
+    this.timer = 0;
+    this.slow = false;
+  }
+
+  /** Shows whether the view is awake. @type {(awake: boolean, sentence?: string) => void} */
+  stir(awake, sentence = "") {
+    this.root.toggleAttribute("data-awake", awake);
+    const parts = /** @type {NodeListOf<HTMLElement>} */ (
+      this.root.querySelectorAll(".rk-handles, .rk-side")
+    );
+    for (const part of parts) part.inert = !awake;
+    this.says.textContent = sentence;
+    this.says.hidden = !sentence;
+  }
+
+  /** Takes back what has no answer yet: the newest of it is asked again. */
+  takeBack() {
+    clearTimeout(this.timer);
+    this.wanted ??= [...this.underWay.values()].at(-1)?.question ?? null;
+    this.underWay.clear();
+  }
+
+  /** @param {Port} port */
+  wake(port) {
+    this.takeBack();
+    this.port = port;
+    this.stir(true);
+    this.send();
+  }
+
+  sleep() {
+    this.takeBack();
+    this.port = null;
+    this.stir(false, this.words.asleep);
+  }
+
+  /** @param {Question} question */
+  ask(question) {
+    this.wanted = question;
+    this.send();
+  }
+
+  send() {
+    while (this.port && this.wanted && this.underWay.size < (this.slow ? 1 : UNDER_WAY)) {
+      const question = this.wanted;
+      [this.wanted, this.sent] = [null, this.sent + 1];
+      this.underWay.set(this.sent, {question, at: performance.now()});
+      this.root.dataset.asked = String(this.sent);
+      try {
+        this.port(this.sent, question);
+      } catch {
+        // its kernel is gone
+        return this.sleep();
+      }
+    }
+    clearTimeout(this.timer);
+    if (this.underWay.size)
+      this.timer = setTimeout(() => this.stir(false, this.words.waiting), PATIENCE);
+  }
+
+  /** The question that answer n is of, if one waits for it. @param {number} n */
+  answered(n) {
+    const about = this.underWay.get(n);
+    if (!this.port || !about) return null;
+    this.slow = performance.now() - about.at > SLOW;
+    for (const k of this.underWay.keys()) if (k <= n) this.underWay.delete(k);
+    return about;
+  }
 }
 
 const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float32: Float32Array};
@@ -145,10 +178,3 @@ export function unpacked(answer, buffers = []) {
   );
   return {values, shape};
 }
-
-const LOOK = `
-.rk.rk.rk {
-  & .rk-asleep { margin: 4px 0 0; padding: 4px 8px; border-left: 3px solid var(--rk-rest);
-    color: var(--rk-soft); }
-  & [inert] { opacity: .5; }
-}`;

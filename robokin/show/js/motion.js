@@ -1,12 +1,10 @@
-// Paths, time laws, derivatives, jumps. As motion/paths.py, laws.py, derivatives.py, recording.py.
+// Paths, time laws, derivatives. As motion/paths.py, laws.py, derivatives.py, maximum.py.
 
 import {slerp} from "./kinematics.js";
 
 /** @import {PagePose} from "./page.js" */
 
-const LEAP = 0.002, // rad or m
-  FEW = 8,
-  STEPS = 64,
+const STEPS = 64,
   MOST = 200;
 
 /**
@@ -185,65 +183,4 @@ export function refinedMaximum(quantity, low, high, decimals) {
     stretches.sort(([a, from], [b, to]) => a - b || from - to);
   }
   return NaN;
-}
-
-/**
- * Which joints jump in position between each sample and the next, as `record` says.
- * @param {number[][]} q  (samples, n), NaN where there is no posture
- * @param {number[]} t  seconds, rising
- * @param {boolean[]} prismatic
- * @returns {boolean[][]}  (samples - 1, n)
- */
-export function leaps(q, t, prismatic) {
-  const columns = prismatic.map((shifts, j) => {
-    const steps = q.slice(1).map((row, i) => row[j] - q[i][j]);
-    const speeds = steps.map((step, i) => step / (t[i + 1] - t[i]));
-    const changes = speeds.slice(1).map((speed, i) => Math.abs(speed - speeds[i]));
-    const sorted = changes.filter(Number.isFinite).sort((a, b) => a - b);
-    const noise = sorted.length < FEW ? 0 : 10 * sorted[Math.floor(sorted.length / 4)];
-    /** @type {(i: number, left: number, right: number) => boolean} */
-    const stands = (i, left, right) =>
-      outside(speeds, i, left, right) > Math.max(LEAP / (t[i + 1] - t[i]), noise);
-    /** @type {(i: number) => boolean} */
-    const turnsBack = i => speeds[i] * speeds[i + 1] < 0 && stands(i, 1, 2) && stands(i + 1, 2, 1);
-    return steps.map(
-      (step, i) =>
-        (Math.abs(step) > Math.PI && !shifts) ||
-        stands(i, 1, 1) ||
-        turnsBack(i) ||
-        turnsBack(i - 1),
-    );
-  });
-  return q.slice(1).map((_, i) => columns.map(column => column[i]));
-}
-
-/**
- * How far a speed lies outside of those `left` before and `right` after it; 0 where that may be a
- * quick motion.
- * @param {number[]} speeds
- * @param {number} i
- * @param {number} left
- * @param {number} right
- */
-function outside(speeds, i, left, right) {
-  const places = [
-    [i - left, -1],
-    [i + right, 1],
-  ].filter(([k]) => Number.isFinite(speeds[k]));
-  const beside = places.map(([k]) => speeds[k]);
-  const [low, high] = [Math.min(...beside), Math.max(...beside)];
-  const out = Math.max(speeds[i] - high, low - speeds[i]);
-  let near = high - low,
-    far = near;
-  for (const [k, side] of places) {
-    const on = [1, 2].map(m => Math.abs(speeds[k + m * side] - speeds[k])).filter(Number.isFinite);
-    if (!on.length) continue;
-    near = Math.max(near, Math.min(...on));
-    far = Math.max(far, ...on);
-  }
-  const both = places.length === 2,
-    times = Math.abs(speeds[i]) / Math.max(...beside.map(Math.abs));
-  const alone = both && out > 8 * far,
-    crowd = out > 8 * near && times > (both ? 3 : 10);
-  return alone || crowd ? out : 0;
 }

@@ -4,6 +4,8 @@
 /** T with these of its optional keys there. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
 
+export type PageExplorer = JointPage | LeversPage | TargetPage | MotionPage | PlanPage | TourPage;
+
 export type Scale = [number, number, number, number];
 
 export type Inverse =
@@ -138,6 +140,7 @@ export interface Page {
   title: string;
   summary: string;
   alt: string;
+  nothing: number;
   times: number[];
   ticks: Scale;
   slider: Slider | null;
@@ -187,14 +190,18 @@ export interface StartValues {
   row: number;
 }
 
+export interface JumpRules {
+  least: number;
+  few: number;
+}
+
 export interface BranchTask {
   wanted: number;
   holds: string;
   open: string;
 }
 
-export interface PageExplorer {
-  kind: string;
+export interface ExplorerPage {
   title: string;
   summary: string;
   alt: string;
@@ -204,31 +211,153 @@ export interface PageExplorer {
   controls: Control[];
   words: Record<string, string>;
   code: string;
-  arm?: ArmData;
-  units?: PageUnit[];
-  dashes?: number[][];
-  q?: number[];
-  rows?: FactRow[];
-  target?: PagePose;
-  turns?: number[];
-  branches?: string[];
-  heads?: string[];
-  turning?: number[];
-  start?: PagePose;
-  via?: PagePose;
-  goal?: PagePose;
-  start_values?: StartValues;
-  laws?: ("quintic" | "trapezoidal" | "linear")[];
-  corners?: ("parabola" | "quintic")[];
-  panels?: string[];
-  samples?: number;
-  task?: BranchTask;
-  kinds?: string[];
-  tours?: string[];
-  most?: number;
-  spare?: number[][];
+}
+
+export interface ArmPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+}
+
+export interface JointPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "joint";
+  q: number[];
+  rows: FactRow[];
+}
+
+export interface LeversPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "levers";
+  q: number[];
+  target: PagePose;
+}
+
+export interface TargetPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "target";
+  q: number[];
+  target: PagePose;
+  turns: number[];
+  branches: string[];
+  heads: string[];
+  turning: number[];
+  task: BranchTask | null;
+}
+
+export interface MotionPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  arm: ArmData;
+  units: PageUnit[];
+  kind: "motion";
+  dashes: number[][];
+  start: PagePose;
+  via: PagePose;
+  goal: PagePose;
+  start_values: StartValues;
+  laws: ("quintic" | "trapezoidal" | "linear")[];
+  corners: ("parabola" | "quintic")[];
+  branches: string[];
+  panels: string[];
+  samples: number;
+  jumps: JumpRules;
+}
+
+export interface LivePage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
   question?: Record<string, unknown>;
   first?: Record<string, unknown>;
+}
+
+export interface PlanPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  question?: Record<string, unknown>;
+  first?: Record<string, unknown>;
+  kind: "plan";
+  arm: ArmData;
+  branches: string[];
+  forbidden: number;
+}
+
+export interface TourPage {
+  title: string;
+  summary: string;
+  alt: string;
+  meant: string;
+  unit: PageUnit;
+  scene: PageScene;
+  controls: Control[];
+  words: Record<string, string>;
+  code: string;
+  question?: Record<string, unknown>;
+  first?: Record<string, unknown>;
+  kind: "tour";
+  kinds: string[];
+  tours: string[];
+  most: number;
+  spare: number[][];
 }
 
 export interface PageAnswer {

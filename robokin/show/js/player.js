@@ -1,23 +1,18 @@
 // The player: recorded motions of arms in space beside their curves. page.py says what it gets.
 
-import {fk, origin} from "./kinematics.js";
 import {number, replaceStill, tiled} from "./canvas.js";
 import {sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
-import {places, recording} from "./recordings.js";
-import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {broken, motionsOf, tipOf} from "./motions.js";
+import {orbit, pictures, sceneCanvas, scrubbing} from "./controls.js";
 import {clockRow, runningClock} from "./clock.js";
 import {choice, element, range, waiting} from "./elements.js";
 
-/** @import {Page, PageArm, PageScene, Unit} from "./page.js" */
-/** @import {Clock} from "./clock.js" */
-/** @import {Point} from "./canvas.js" */
-/** @import {Column, CurvesView, Panel} from "./curves.js" */
-/** @import {Recording} from "./recordings.js" */
+/** @import {Page, PageArm, PageScene} from "./page.js" */
+/** @import {Column} from "./curves.js" */
+/** @import {Moment, Track} from "./motions.js" */
 
 /** @typedef {ReturnType<typeof furniture>} Parts */
-/** @typedef {ReturnType<typeof armIn>} Track  an arm in one motion */
-/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the way to the next */
 
 /**
  * Fills every waiting place with this id.
@@ -81,7 +76,13 @@ function start(root, data) {
     ask();
   });
   orbit(parts.scene, scene, state, ask);
-  scrubbing(parts.curves, overTime, clock);
+  /** @type {number | undefined} */
+  let held;
+  scrubbing(parts.curves, (event, first) => {
+    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, first ? undefined : held);
+    held = column;
+    clock.set(time);
+  });
   tell(parts, data, shown, state.value);
 }
 
@@ -118,7 +119,6 @@ function furniture(data, scene) {
   const frame = element(
     "div",
     {class: "rk", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE),
     element("div", {class: "rk-title"}, data.title),
     ...rows,
     element(
@@ -162,7 +162,7 @@ function sized({scene, curves}, inSpace, arms, count) {
  * @param {number} value  of the slider
  */
 function tell(parts, data, {arms, motion}, value) {
-  const {slider, unit} = data;
+  const {slider} = data;
   /** @type {(arm: {name: string}) => string} */
   const whose = arm => (data.arms.length > 1 ? `${arm.name}: ` : "");
   const near = arms
@@ -176,44 +176,7 @@ function tell(parts, data, {arms, motion}, value) {
     element("th", {scope: "col"}, near),
     ...Array.from({length: most}, (_, j) => element("th", {scope: "col"}, `joint ${j + 1}`)),
   );
-  const body = data.arms.flatMap(arm => {
-    const units = [...new Set(arm.chain.map(link => (link.prismatic ? unit.name : "\u00B0")))];
-    /** @type {(time: string) => string} */
-    const per = time => units.map(u => `${u}/${time}`).join(" or ");
-    /**
-     * @param {string} name
-     * @param {string} time
-     * @param {boolean} limited
-     * @param {(j: number) => HTMLElement} cell
-     */
-    const line = (name, time, limited, cell) =>
-      element(
-        "tr",
-        {},
-        element(
-          "th",
-          {scope: "row"},
-          `${whose(arm)}${name}, ${per(time)}${limited ? " (of limit)" : ""}`,
-        ),
-        ...arm.chain.map((_, j) => cell(j)),
-      );
-    return [
-      line("greatest speed", "s", !!arm.share, j =>
-        element(
-          "td",
-          {},
-          number(arm.speed[motion][j], data.decimals[0]) +
-            (arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : ""),
-        ),
-      ),
-      line("greatest acceleration", "s\u00B2", false, j => {
-        const most = arm.acceleration[motion][j];
-        return typeof most === "string"
-          ? element("td", {class: "rk-jump"}, most)
-          : element("td", {}, number(most, data.decimals[1]));
-      }),
-    ];
-  });
+  const body = data.arms.flatMap(arm => lines(data, arm, whose(arm), motion));
   parts.table.replaceChildren(
     element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)),
   );
@@ -227,104 +190,39 @@ function tell(parts, data, {arms, motion}, value) {
   parts.slider?.setAttribute("aria-valuetext", parts.value.textContent);
 }
 
-// --- Motions -------------------------------------------------------------------------------------
-
 /**
- * choose(motion): everything that changes with slider and switch; around(motion, moment): targets
- * and marks then.
+ * The rows of an arm in the table.
  * @param {Page} data
- */
-function motionsOf(data) {
-  const {unit, slider, times} = data;
-  const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
-  const recordings = data.arms.map(arm => recording(arm, count, times.length, unit));
-  const targets = places(data.scene.targets, "pose"),
-    marks = places(data.scene.marks, "at");
-  return {
-    /** @param {number} motion */
-    choose(motion) {
-      const arms = data.arms.map((arm, k) => armIn(motion, arm, recordings[k], times.length, unit));
-      const columns = data.arms.map((arm, k) => ({
-        title: arm.name,
-        panels: data.panels.map((_, order) =>
-          panelOf(data, k, order, motion, recordings[k], arms[k].gaps),
-        ),
-      }));
-      return {motion, arms, columns};
-    },
-    /** @type {(motion: number, moment: Moment) => Pick<PageScene, "targets" | "marks">} */
-    around: (motion, {i, share}) => ({
-      targets: targets(motion, i, share),
-      marks: marks(motion, i, share),
-    }),
-  };
-}
-
-/**
- * @param {number} motion
  * @param {PageArm} arm
- * @param {Recording} recorded
- * @param {number} samples
- * @param {Unit} unit
- */
-function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
-  const breaks = new Set(gaps[motion]),
-    near = via && via[motion];
-  const trace = Array.from({length: samples}, (_, i) => tipOf(chain, recorded.q(motion, i)));
-  return {
-    name,
-    chain,
-    gaps: breaks,
-    places: trace,
-    trace: broken(trace, breaks),
-    /** @type {(i: number, share: number) => number[]} */
-    q: (i, share) => recorded.q(motion, i, share),
-    near: near && {
-      place: near.slice(1),
-      text: `${number(near[0], unit.size < 1 ? 1 : 3)} ${unit.name}`,
-    },
-  };
-}
-
-/** Where the tool is. @type {(chain: PageArm["chain"], q: number[]) => ?Point} */
-const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(fk(chain, q)) : null);
-/** @type {(places: (?Point)[], gaps: Set<number>) => (?Point)[]} */
-const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? [p, null] : [p]));
-
-/**
- * @param {Page} data
- * @param {number} k  which arm
- * @param {number} order  0: joint values, 1: speeds, 2: accelerations
+ * @param {string} whose
  * @param {number} motion
- * @param {Recording} recorded
- * @param {Set<number>} gaps
- * @returns {Panel}
  */
-function panelOf(data, k, order, motion, recorded, gaps) {
-  const {label, own, axes, near} = data.panels[order],
-    arm = data.arms[k];
-  return {
-    label: label + (own && data.slider ? `   (scale follows ${data.slider.label})` : ""),
-    axes: Object.entries(axes).map(([kind, {unit, scales, of}]) => ({
-      unit,
-      scale: scales[of ? of[motion] : 0],
-      joints: arm.chain.flatMap((link, j) => (link.prismatic === (kind === "shift") ? [j] : [])),
-    })),
-    curves: recorded.quantity(order, motion),
-    gaps,
-    limits:
-      order === 0
-        ? arm.limits
-        : order === 1 && arm.speedLimits
-          ? [arm.speedLimits.map(x => -x), arm.speedLimits]
-          : null,
-    near: near[k],
-    marks: [
-      ...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
-      ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""})),
-    ],
-    now: [],
+function lines({unit, decimals}, arm, whose, motion) {
+  const units = [...new Set(arm.chain.map(link => (link.prismatic ? unit.name : "\u00B0")))];
+  /**
+   * @param {string} name
+   * @param {string} time
+   * @param {boolean} limited
+   * @param {(j: number) => HTMLElement} cell
+   */
+  const line = (name, time, limited, cell) => {
+    const per = units.map(u => `${u}/${time}`).join(" or "),
+      text = `${whose}${name}, ${per}${limited ? " (of limit)" : ""}`;
+    const cells = arm.chain.map((_, j) => cell(j));
+    return element("tr", {}, element("th", {scope: "row"}, text), ...cells);
   };
+  return [
+    line("greatest speed", "s", !!arm.share, j => {
+      const share = arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : "";
+      return element("td", {}, number(arm.speed[motion][j], decimals[0]) + share);
+    }),
+    line("greatest acceleration", "s\u00B2", false, j => {
+      const most = arm.acceleration[motion][j];
+      return typeof most === "string"
+        ? element("td", {class: "rk-jump"}, most)
+        : element("td", {}, number(most, decimals[1]));
+    }),
+  ];
 }
 
 // --- A moment ------------------------------------------------------------------------------------
@@ -366,31 +264,4 @@ function shownAt(column, {i, share}, gaps) {
     panel.now = panel.curves.map(curve =>
       share && !gaps.has(i) ? curve[i] + share * (curve[i + 1] - curve[i]) : curve[i],
     );
-}
-
-// --- Time ----------------------------------------------------------------------------------------
-
-/**
- * Pressing and dragging on the curves sets the time.
- * @param {HTMLCanvasElement} canvas
- * @param {CurvesView} overTime
- * @param {Clock} clock
- */
-function scrubbing(canvas, overTime, clock) {
-  /** @type {number | undefined} */
-  let held;
-  /** @param {PointerEvent} event */
-  const scrub = event => {
-    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, held);
-    held = column;
-    clock.set(time);
-  };
-  canvas.addEventListener("pointerdown", event => {
-    canvas.setPointerCapture(event.pointerId);
-    held = undefined;
-    scrub(event);
-  });
-  canvas.addEventListener("pointermove", event => {
-    if (canvas.hasPointerCapture(event.pointerId)) scrub(event);
-  });
 }

@@ -8,97 +8,85 @@ import {control, element, waiting} from "./elements.js";
 
 const COPY = {copy: "Copy my guesses for the report", copied: "Copied"};
 const LETTERS = "abcdef";
-const STYLE = `
-.rk.rk.rk.rk-ask { box-sizing: border-box; max-width: 860px; padding: 10px 14px;
-  border: 1px solid var(--rk-border); border-radius: 8px;
-  background: var(--rk-paper); color: var(--rk-ink);
-  font: 14px/1.4 system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', sans-serif;
-  & fieldset { border: 0; margin: 0; padding: 0; min-width: 0; }
-  & > fieldset * { box-sizing: border-box; }
-  & legend { font-weight: 650; font-size: 15px; padding: 0; margin: 0 0 8px; white-space: normal; }
-  & .rk-option { display: flex; align-items: baseline; gap: 10px; padding: 7px 8px;
-    border-radius: 6px; cursor: pointer;
-    margin: 0; min-height: 36px; }
-  & .rk-option:hover { background: var(--rk-hover); }
-  & .rk-option input[type=radio] { margin: 0; accent-color: var(--rk-accent); width: 17px;
-    height: 17px; flex: none;
-    transform: translateY(3px); }
-  & .rk-option.rk-right { box-shadow: inset 4px 0 var(--rk-joint3); }
-  & .rk-option.rk-wrong { box-shadow: inset 4px 0 var(--rk-alarm); }
-  & .rk-option b { white-space: nowrap; }
-  & > fieldset input[type=number] { font: inherit; width: 9em; padding: 5px 8px;
-    color: var(--rk-ink); background: var(--rk-paper);
-    border: 1px solid var(--rk-rest); border-radius: 6px; }
-  & > .rk-asking { display: flex; flex-wrap: wrap; align-items: center; gap: 8px 12px;
-    margin-top: 8px; }
-  & > .rk-asking > p { margin: 0; }
-  & > .rk-asking > button { font: inherit; color: var(--rk-ink); background: var(--rk-button);
-    border: 1px solid var(--rk-rest);
-    border-radius: 6px; width: auto; height: auto; min-height: 36px; padding: 0 14px; margin: 0;
-    cursor: pointer; }
-  & > .rk-asking > button[hidden] { display: none; }
-  & > .rk-asking > button:hover { background: var(--rk-hover); }
-  & > .rk-asking > button:disabled { opacity: 0.5; cursor: default; }
-  & :focus-visible { outline: 3px solid var(--rk-accent); outline-offset: 2px; }
-  & .rk-answer > p { margin: 8px 0; max-width: 68ch; }
-  & > .rk-asking > textarea { flex: 1 1 20em; color: var(--rk-ink); background: var(--rk-paper); }
-  & .rk-answer > div { margin: 10px 0; overflow-x: auto; }
-  & .rk-answer > div > p { margin: 3px 0; }
-  & .rk-answer > div > img { max-width: 100%; height: auto; }
-  & code { font: 12.5px ui-monospace, Menlo, Consolas, monospace; background: var(--rk-button);
-    color: var(--rk-ink);
-    padding: 2px 5px; border-radius: 4px; }
-  @media print { & > .rk-asking { display: none; } }
-}`;
 
 /**
  * Fills every waiting place with this id.
  * @param {string} id
  * @param {PageQuestion} data
  */
-export const ask = (id, data) => waiting(id).forEach(root => start(root, data));
+export const ask = (id, data) => waiting(id).forEach(root => new Prediction(root, data));
 
-/**
- * A question in `root`.
- * @param {HTMLElement} root
- * @param {PageQuestion} data
- */
-function start(root, data) {
-  const memory = memoryOf(root);
-  const group = `rk${Math.random()}`; // a question may stand in a page twice
-  const kept = element("p", {role: "status"});
-  const answer = element("div", {class: "rk-answer", "aria-live": "polite"});
-  const guess = control("button", {type: "button", disabled: ""}, "This is my guess");
-  const again = control("button", {type: "button", hidden: ""}, "Ask me again");
-  const clear = control("button", {type: "button", hidden: ""}, "Clear");
-  const copy = copyButton(COPY, () => line(memory.read(), data.name));
-  copy.classList.add("rk-copy");
-  const asking = element("div", {class: "rk-asking"}, guess, again, clear, kept);
-  const inputs =
-    data.unit === null
-      ? data.options.map((_, i) =>
-          control("input", {type: "radio", name: group, value: LETTERS[i]}),
-        )
-      : [control("input", {type: "number", step: "any", "aria-label": `your guess, ${data.unit}`})];
-  const rows =
-    data.unit === null
-      ? data.options.map(({text}, i) =>
-          element(
-            "label",
-            {class: "rk-option"},
-            inputs[i],
-            element("span", {}, ...coded(`${LETTERS[i]}) ${text}`)),
-          ),
-        )
-      : [element("label", {class: "rk-option"}, inputs[0], element("span", {}, data.unit))];
-  const chosen = () =>
-    (data.unit === null ? inputs.find(input => input.checked)?.value : inputs[0].value) ?? "";
+/** A question in `root`. */
+class Prediction {
+  /**
+   * @param {HTMLElement} root
+   * @param {PageQuestion} data
+   */
+  constructor(root, data) {
+    this.root = root;
+    this.data = data;
+    this.memory = memoryOf(root);
+    this.kept = element("p", {role: "status"});
+    this.answer = element("div", {class: "rk-answer", "aria-live": "polite"});
+    this.guess = control("button", {type: "button", disabled: ""}, "This is my guess");
+    this.again = control("button", {type: "button", hidden: ""}, "Ask me again");
+    this.clear = control("button", {type: "button", hidden: ""}, "Clear");
+    this.copy = copyButton(COPY, () => line(this.memory.read(), data.name));
+    this.copy.classList.add("rk-copy");
+    const parts = [this.guess, this.again, this.clear, this.kept];
+    this.asking = element("div", {class: "rk-asking"}, ...parts);
+    this.inputs = inputsOf(data);
+    this.rows = rowsOf(data, this.inputs);
+    root.replaceChildren(
+      element(
+        "div",
+        {class: "rk rk-ask", role: "group", "aria-label": data.title},
+        element("fieldset", {}, element("legend", {}, ...coded(data.question)), ...this.rows),
+        this.asking,
+        this.answer,
+      ),
+    );
+    this.listen();
+    if (data.choice === null) this.recall();
+    else this.open(data.choice);
+  }
+
+  chosen() {
+    const {data, inputs} = this;
+    const [first] = data.unit === null ? inputs.filter(input => input.checked) : inputs;
+    return first?.value ?? "";
+  }
+
+  listen() {
+    const {data, inputs, guess, again, clear} = this;
+    for (const input of inputs)
+      input.addEventListener("input", () => {
+        guess.disabled = !valid(data, this.chosen());
+      });
+    guess.addEventListener("click", () => this.settle(this.chosen()));
+    this.root.addEventListener("keydown", event => {
+      const {tagName} = /** @type {Element} */ (event.target);
+      if (event.key !== "Enter" || tagName !== "INPUT") return;
+      if (!valid(data, this.chosen()) || inputs[0].disabled) return;
+      event.preventDefault();
+      this.settle(this.chosen());
+    });
+    again.addEventListener("click", () => this.close());
+    clear.addEventListener("click", () => {
+      this.memory.write(this.memory.read().filter(([name]) => name !== data.name));
+      this.close();
+    });
+    this.root.addEventListener("robokin-keeps", () => {
+      if (!again.hidden) this.offer();
+    });
+  }
 
   /** @param {string} choice */
-  function open(choice) {
-    const at = judged(data, choice),
+  open(choice) {
+    const {data, rows} = this,
+      at = judged(data, choice),
       right = data.options[data.right];
-    for (const input of inputs) {
+    for (const input of this.inputs) {
       input.disabled = true;
       if (data.unit !== null) input.value = choice;
       else input.checked = input.value === LETTERS[at];
@@ -110,122 +98,110 @@ function start(root, data) {
         row.classList.toggle("rk-wrong", i === at && at !== data.right);
         if (marks.length) row.append(element("b", {}, `\u2190 ${marks.join(", ")}`));
       });
-    answer.replaceChildren(
+    this.answer.replaceChildren(
       ...told(data, at, right).map(text => element("p", {}, ...coded(text))),
       ...(data.view ? [view(data.view)] : []),
     );
-    guess.hidden = true;
-    again.hidden = data.choice !== null;
+    this.guess.hidden = true;
+    this.again.hidden = data.choice !== null;
   }
-  function close() {
+
+  close() {
+    const {inputs, guess, again, clear} = this;
     for (const input of inputs) [input.disabled, input.checked] = [false, false];
-    if (data.unit !== null) inputs[0].value = "";
-    for (const row of rows) {
+    if (this.data.unit !== null) inputs[0].value = "";
+    for (const row of this.rows) {
       row.classList.remove("rk-right", "rk-wrong");
       row.querySelector("b")?.remove();
     }
-    answer.replaceChildren();
-    kept.textContent = "";
+    this.answer.replaceChildren();
+    this.kept.textContent = "";
     [guess.hidden, guess.disabled, again.hidden, clear.hidden] = [false, true, true, true];
+    inputs[0].focus();
   }
 
   /** Offers what this page remembers to the kernel of its notebook, and says what came of it. */
-  function offer() {
-    const before = clear.hidden ? "" : "You guessed here before. ";
-    /** @type {(why: string) => void} */
-    const alone = why => {
-      const where = memory.lasts() ? "in this browser" : "on this page";
-      kept.textContent = `${before}Kept ${where} only${why}`;
-      const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
-      for (const each of others) each.remove(); // one in a page
-      asking.append(copy);
-    };
+  offer() {
+    const {data, memory, kept} = this;
+    const before = this.clear.hidden ? "" : "You guessed here before. ";
     /** @type {Offer} */
     const offered = {
       path: memory.path(),
       guesses: memory.read(),
-      tell(error) {
-        if (error) return alone(`: ${error}.`);
-        const first = memory.read().find(([name]) => name === data.name)?.[1] ?? chosen();
-        const same = judged(data, first) === judged(data, chosen());
+      tell: error => {
+        if (error) return this.alone(before, `: ${error}.`);
+        const first = memory.read().find(([name]) => name === data.name)?.[1] ?? this.chosen();
+        const same = judged(data, first) === judged(data, this.chosen());
         const counts = same ? "" : ` Your first guess, ${first.split(":")[0]}, counts.`;
         kept.textContent = `${before}Kept for your report.${counts}`;
-        copy.remove();
+        this.copy.remove();
       },
     };
     kept.textContent = `${before}Python keeps it for your report as soon as it answers.`;
     const event = new CustomEvent("robokin-guess", {cancelable: true, detail: offered});
     if (!document.dispatchEvent(event)) return;
-    alone(
+    this.alone(
+      before,
       memory.panel
         ? ". Run > Run All Cells, and it is kept for your report."
         : ". For your report, copy your guesses into the lab's last cell.",
     );
   }
 
+  /** No kernel keeps it. @type {(before: string, why: string) => void} */
+  alone(before, why) {
+    const {memory} = this,
+      where = memory.lasts() ? "in this browser" : "on this page";
+    this.kept.textContent = `${before}Kept ${where} only${why}`;
+    const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
+    for (const each of others) each.remove(); // one in a page
+    this.asking.append(this.copy);
+  }
+
   /** @param {string} choice */
-  const settle = choice => {
-    open(choice);
+  settle(choice) {
+    const {data, memory} = this;
+    this.open(choice);
     const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
     const made = name ? `${choice}: ${name}` : choice; // the name stays if answers change places
     memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
-    offer();
-  };
-  function recall(times = 50) {
+    this.offer();
+    this.again.focus();
+  }
+
+  /** Opens the answer that was chosen before, if this page remembers one. */
+  recall(times = 50) {
+    const {data, memory} = this;
     if (memory.path() === "" && times) {
-      setTimeout(recall, 100, times - 1); // JupyterLab names the notebook a moment later
+      setTimeout(() => this.recall(times - 1), 100); // JupyterLab names the notebook a moment later
       return;
     }
     const [, before] = memory.read().findLast(([name]) => name === data.name) ?? [];
-    if (guess.hidden || before === undefined || !valid(data, before)) return;
-    open(before);
-    clear.hidden = false;
-    offer();
+    if (this.guess.hidden || before === undefined || !valid(data, before)) return;
+    this.open(before);
+    this.clear.hidden = false;
+    this.offer();
   }
-  for (const input of inputs)
-    input.addEventListener("input", () => {
-      guess.disabled = !valid(data, chosen());
-    });
-  guess.addEventListener("click", () => {
-    settle(chosen());
-    again.focus();
-  });
-  root.addEventListener("keydown", event => {
-    if (
-      event.key !== "Enter" ||
-      /** @type {Element} */ (event.target).tagName !== "INPUT" ||
-      !valid(data, chosen()) ||
-      inputs[0].disabled
-    )
-      return;
-    event.preventDefault();
-    settle(chosen());
-    again.focus();
-  });
-  again.addEventListener("click", () => {
-    close();
-    inputs[0].focus();
-  });
-  clear.addEventListener("click", () => {
-    memory.write(memory.read().filter(([name]) => name !== data.name));
-    close();
-    inputs[0].focus();
-  });
-  root.addEventListener("robokin-keeps", () => {
-    if (!again.hidden) offer();
-  });
-  root.replaceChildren(
-    element(
-      "div",
-      {class: "rk rk-ask", role: "group", "aria-label": data.title},
-      element("style", {}, STYLE),
-      element("fieldset", {}, element("legend", {}, ...coded(data.question)), ...rows),
-      asking,
-      answer,
-    ),
+}
+
+/** A box for each answer, or one for a number. @param {PageQuestion} data */
+function inputsOf({unit, options}) {
+  if (unit !== null)
+    return [control("input", {type: "number", step: "any", "aria-label": `your guess, ${unit}`})];
+  const name = `rk${Math.random()}`; // a question may stand in a page twice
+  return options.map((_, i) => control("input", {type: "radio", name, value: LETTERS[i]}));
+}
+
+/**
+ * @param {PageQuestion} data
+ * @param {HTMLInputElement[]} inputs
+ */
+function rowsOf({unit, options}, inputs) {
+  const texts =
+    unit === null ? options.map(({text}, i) => coded(`${LETTERS[i]}) ${text}`)) : [[unit]];
+  return inputs.map((input, i) =>
+    element("label", {class: "rk-option"}, input, element("span", {}, ...texts[i])),
   );
-  if (data.choice === null) recall();
-  else open(data.choice);
 }
 
 /** @type {(data: PageQuestion, choice: string) => boolean} */

@@ -3,7 +3,7 @@
 
 import {number} from "./canvas.js";
 
-/** @import {Packed, PageArm, PageWay, Unit} from "./page.js" */
+/** @import {Packed, Page, PageArm, PageWay} from "./page.js" */
 
 /**
  * What may move, and what there is to read behind its name: a PageTarget or a PageMark.
@@ -19,8 +19,6 @@ import {number} from "./canvas.js";
  * @property {(motion: number, sample: number, share?: number) => number[]} q
  */
 
-const NOTHING = -32768;
-
 /**
  * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN
  * for no value.
@@ -28,9 +26,10 @@ const NOTHING = -32768;
  * @param {number} motions
  * @param {number} columns
  * @param {number} samples
+ * @param {number} nothing  the whole number for no value
  * @returns {Float64Array}
  */
-export function unpacked({steps, data}, motions, columns, samples) {
+export function unpacked({steps, data}, motions, columns, samples, nothing) {
   const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)),
     values = new Float64Array(motions * columns * samples);
   let at = 0,
@@ -50,7 +49,7 @@ export function unpacked({steps, data}, motions, columns, samples) {
         } while (byte > 127);
         slope += folded & 1 ? -(folded + 1) / 2 : folded / 2;
         whole += slope;
-        values[to++] = whole === NOTHING ? NaN : whole * step;
+        values[to++] = whole === nothing ? NaN : whole * step;
       }
     }
   return values;
@@ -63,13 +62,13 @@ export function unpacked({steps, data}, motions, columns, samples) {
  * @param {Pick<PageArm, "chain" | "motion">} arm
  * @param {number} motions
  * @param {number} samples
- * @param {Unit} unit
+ * @param {Pick<Page, "unit" | "nothing">} page
  * @returns {Recording}
  */
-export function recording(arm, motions, samples, unit) {
+export function recording(arm, motions, samples, {unit, nothing}) {
   const joints = arm.chain.length,
     inner = arm.chain.map(link => (link.prismatic ? unit.size : Math.PI / 180));
-  const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples));
+  const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples, nothing));
   /** @type {(motion: number, j: number) => number} */
   const row = (motion, j) => (motion * joints + j) * samples;
   return {
@@ -86,13 +85,14 @@ export function recording(arm, motions, samples, unit) {
  * @template {Moving} T
  * @param {T[]} things
  * @param {"pose"|"at"} key
+ * @param {number} nothing  the whole number for no value
  * @returns {AtMoment<T[]>}
  */
-export function places(things, key) {
+export function places(things, key, nothing) {
   const columns = key === "pose" ? 12 : 3;
   const where = things.map(({way, reading, decimals = 0, ...thing}) => {
-    const at = way && numbers(way, columns),
-      read = reading && numbers(reading, 1);
+    const at = way && numbers(way, columns, nothing),
+      read = reading && numbers(reading, 1, nothing);
     /** @type {AtMoment<?T>} */
     return (motion, i, share) => {
       const now = at && at(motion, i, share),
@@ -110,11 +110,12 @@ export function places(things, key) {
  * A PageWay -> (motion, sample, share) -> its columns.
  * @param {PageWay} way
  * @param {number} columns
+ * @param {number} nothing
  * @returns {AtMoment<number[]>}
  */
-function numbers(way, columns) {
+function numbers(way, columns, nothing) {
   const {motions, samples} = way,
-    values = unpacked(way, motions, columns, samples);
+    values = unpacked(way, motions, columns, samples, nothing);
   return (motion, i, share) => {
     const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
     return Array.from({length: columns}, (_, k) =>

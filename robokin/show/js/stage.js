@@ -3,7 +3,7 @@
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
 import {sceneView} from "./scene.js";
-import {orbit, pictures, sceneCanvas, STYLE} from "./controls.js";
+import {orbit, pictures, sceneCanvas} from "./controls.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 
@@ -19,15 +19,18 @@ import {handleLayer} from "./handles.js";
  */
 /** @typedef {ReturnType<typeof stageOf>} Stage */
 /** @typedef {string | {text: string, past: boolean}} Cell  of a table; `past` a limit */
+/**
+ * What a frame shows of what has been `seen`.
+ * @template Seen
+ * @typedef {object} Picture
+ * @property {HTMLCanvasElement} canvas
+ * @property {(seen: Seen) => boolean} draw  whether there was room
+ * @property {() => Camera} camera  of the last picture
+ * @property {(on: boolean) => void} hold  told when a handle is taken, and when it is let go
+ */
 
 /**
- * The frame of an explorer: a scene with handles over it, a column of controls beside it, room
- * below.
- *
- * run(answer)  from now on `answer()` is asked for what is to be drawn, once for every picture in
- *              which something has changed; it returns the arms that scene.js shows
- * changed()    something has changed
- *
+ * The frame of an explorer whose picture is a scene of arms.
  * @param {HTMLElement} root
  * @param {PageExplorer} data
  */
@@ -37,73 +40,125 @@ export function stageOf(root, data) {
   const canvas = sceneCanvas(scene, data.alt),
     view = sceneView(canvas, scene),
     camera = () => view.cameras()[0];
-  const handles = handleLayer(canvas, camera, on => view.hold(on), changed);
-  const side = element("div", {class: "rk-side"}),
-    below = element("div", {class: "rk-below"});
-  const says = element("p", {class: "rk-says", role: "status"});
-  /** @type {Explored[]} */
-  let arms = [],
-    stale = true,
-    ask = () => {};
+  const stage = frameOf(root, data, {
+    canvas,
+    camera,
+    hold: view.hold,
+    /** @param {Explored[]} arms */
+    draw(arms) {
+      const room = view.draw(state.view, arms, "");
+      if (room)
+        drawAids(/** @type {Context} */ (canvas.getContext("2d")), camera(), arms[0], scene.size);
+      return room;
+    },
+  });
+  orbit(canvas, scene, state, stage.ask);
+  return {...stage, scene};
+}
+
+/**
+ * The frame of an explorer: a picture with handles over it, a column of controls beside it, room
+ * below.
+ *
+ * run(answer)  from now on `answer(now)` is asked for what is to be drawn, once for every picture
+ *              in which something has changed
+ * changed()    something has changed
+ * ask()        the same is to be drawn again
+ *
+ * @template Seen
+ * @param {HTMLElement} root
+ * @param {{kind: string, title: string, meant: string}} data
+ * @param {Picture<Seen>} picture
+ */
+export function frameOf(root, data, picture) {
+  const {canvas, camera} = picture,
+    handles = handleLayer(canvas, camera, picture.hold, changed);
+  const parts = partsOf(data, canvas, handles.layer);
+  /** @type {Seen} */
+  let seen;
+  let stale = true,
+    drawn = () => {};
+  const ask = () => drawn();
   function changed() {
     stale = true;
     ask();
   }
-  const title = element("div", {class: "rk-title"}, data.title),
-    space = element("div", {class: "rk-space"}, canvas, handles.layer);
-  const frame = element(
-    "div",
-    {class: "rk", role: "group", "aria-label": data.title},
-    element("style", {}, STYLE + LOOK),
-    title,
-    element(
-      "div",
-      {class: `rk-views rk-asked${data.kind === "motion" ? " rk-halves" : ""}`},
-      space,
-      side,
-    ),
-    below,
-    element("p", {class: "rk-meant"}, data.meant),
-  );
-  replaceStill(root, frame, canvas);
+  replaceStill(root, parts.frame, canvas);
 
   return {
-    frame,
-    title,
-    space,
-    scene,
-    side,
-    below,
-    says,
+    ...parts,
     handles,
     camera,
     changed,
+    ask,
     /** @param {string} text */
     say(text) {
-      if (says.textContent !== text) says.textContent = text;
+      if (parts.says.textContent !== text) parts.says.textContent = text;
     },
     /**
-     * @param {() => Explored[]} answer
+     * @param {(now: number) => Seen} answer
      * @param {HTMLCanvasElement[]} [canvases]  others, drawn at the same time
-     * @param {() => void} [beside]  draws them
+     * @param {() => void} [draw]  draws them
      */
-    run(answer, canvases = [], beside = () => {}) {
-      ask = pictures(root, [canvas, ...canvases], () => {
+    run(answer, canvases = [], draw = () => {}) {
+      drawn = pictures(root, [canvas, ...canvases], now => {
         if (stale) {
           stale = false; // before: what moves by itself has changed again by then
-          arms = answer();
+          seen = answer(now);
         }
-        beside();
-        const room = view.draw(state.view, arms, "");
-        if (room) {
-          drawAids(/** @type {Context} */ (canvas.getContext("2d")), camera(), arms[0], scene.size);
-          handles.place();
-        }
+        draw();
+        const room = picture.draw(seen);
+        if (room) handles.place();
         return room;
       });
-      orbit(canvas, scene, state, ask);
     },
   };
+}
+
+/**
+ * The elements of a frame.
+ * @param {{kind: string, title: string, meant: string}} data
+ * @param {HTMLCanvasElement} canvas
+ * @param {HTMLElement} layer  of handles
+ */
+function partsOf({kind, title: text, meant}, canvas, layer) {
+  const title = element("div", {class: "rk-title"}, text),
+    space = element("div", {class: "rk-space"}, canvas, layer);
+  const side = element("div", {class: "rk-side"}),
+    below = element("div", {class: "rk-below"});
+  const halves = kind === "motion" ? " rk-halves" : "";
+  const frame = element(
+    "div",
+    {class: `rk rk-${kind}`, role: "group", "aria-label": text},
+    title,
+    element("div", {class: `rk-views rk-asked${halves}`}, space, side),
+    below,
+    element("p", {class: "rk-meant"}, meant),
+  );
+  const says = element("p", {class: "rk-says", role: "status"});
+  return {frame, title, space, side, below, says};
+}
+
+/**
+ * Puts `more` behind `node`, all in a box of their own.
+ * @param {HTMLElement} node
+ * @param {...HTMLElement} more
+ */
+export function beside(node, ...more) {
+  const box = element("div", {});
+  node.replaceWith(box);
+  box.append(node, ...more);
+}
+
+/**
+ * A button with words.
+ * @param {string} text
+ * @param {() => void} act
+ */
+export function wordButton(text, act) {
+  const node = control("button", {type: "button", class: "rk-word"}, text);
+  node.addEventListener("click", act);
+  return node;
 }
 
 /**
@@ -153,68 +208,6 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
   g.lineWidth = 1.6;
   g.stroke();
 }
-
-export const LOOK = `
-.rk.rk.rk {
-  & .rk-asked { grid-template-columns: minmax(0, 1fr) minmax(290px, 38%); align-items: start; }
-  & .rk-asked canvas { height: clamp(300px, 38cqw, 350px); }
-  & .rk-space { position: relative; }
-  & .rk-handles { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
-  & .rk-handle { position: absolute; left: 0; top: 0; width: 26px; height: 26px;
-    margin: -13px 0 0 -13px; padding: 0;
-    border: 2px solid var(--own, var(--rk-accent)); border-radius: 50%; font-size: 12px;
-    font-weight: 650; line-height: 1;
-    background: color-mix(in srgb, var(--rk-paper) 55%, transparent); color: var(--rk-ink);
-    pointer-events: auto;
-    touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
-  & .rk-handle:hover, & .rk-handle:active { background: var(--rk-paper); }
-  & .rk-handle:focus { z-index: 1; }
-  & .rk-free { border-style: double; border-width: 4px; background: transparent; }
-  & .rk-arc { width: 22px; height: 22px; margin: -11px 0 0 -11px; }
-  & .rk-outside { opacity: .55; }
-  & .rk-slide { display: grid; grid-template-columns: 4.8em minmax(60px, 1fr) 5.4em 2.2em;
-    gap: 6px; align-items: center; margin: 1px 0; }
-  & .rk-slide select { grid-column: 2 / -1; }
-  & .rk-slide input[type=number] { font: inherit; width: 100%; height: 24px; margin: 0;
-    padding: 0 2px; text-align: right;
-    color: var(--rk-ink); background: var(--rk-paper); border: 1px solid var(--rk-rest);
-    border-radius: 4px; }
-  & .rk-columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(240px, 1fr));
-    gap: 0 18px; margin-top: 4px; }
-  & .rk-word, & .rk-choose { width: auto; }
-  & .rk-choose { height: 20px; padding: 0 6px; background: none; border-color: transparent;
-    white-space: nowrap; }
-  & .rk-table { margin-top: 4px; }
-  & .rk-asked .rk-table th:first-child, & .rk-many th:first-child { min-width: 0;
-    white-space: nowrap; }
-  & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); }
-  & .rk-many :is(th, td) { padding: 0 4px; line-height: 21px; }
-  & .rk-many thead th { white-space: normal; vertical-align: bottom; line-height: 1.15; }
-  & .rk-rows :is(td, th):nth-child(2) { text-align: left; }
-  & .rk-few :is(th, td) { padding: 1px 4px; }
-  & .rk-few td { min-width: 6.5em; text-align: left; }
-  & tr[aria-current=true] > *, & tr[aria-current=true] .rk-choose { background: var(--rk-chosen);
-    font-weight: 650; color: var(--rk-ink); }
-  & .rk-none > * { color: var(--rk-soft); }
-  & .rk-past { color: var(--rk-alarm); text-decoration: underline 2px; text-underline-offset: 3px; }
-  & .rk-says { margin: 4px 0 0; min-height: 2.8em; flex: 1 1 260px; }
-  & .rk-meant { margin: 4px 0 0; color: var(--rk-soft); font-size: 12px; }
-  @container (max-width: 600px) {
-    & .rk-asked, & .rk-asked.rk-halves { grid-template-columns: minmax(0, 1fr); }
-    & .rk-asked canvas { height: 320px; }
-  }
-  @media (pointer: coarse) {
-    & .rk-handle { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
-    & .rk-arc { width: 44px; height: 44px; margin: -22px 0 0 -22px; }
-    & .rk-slide input, & .rk-slide select, & .rk-choose { height: 32px; }
-  }
-  @media print {
-    & .rk-table { overflow: visible; }
-    & .rk-table :is(th, td) { font-size: 9.5px; padding: 1px 2px; white-space: normal; }
-    & .rk-handles, & .rk-side :is(.rk-slide, .rk-row), & .rk-meant, & .rk-columns,
-      & .rk-word { display: none; }
-  }
-}`;
 
 /**
  * A slider with its value to read and to type.

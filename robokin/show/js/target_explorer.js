@@ -1,38 +1,23 @@
 // The target explorer: a target taken by the hand, and all branches that reach it. What is said,
-// and every number of the arm, comes from Python (page.py: PageExplorer).
+// and every number of the arm, comes from Python (page.py: TargetPage).
 
-import {distance_from_singularity, matrix, plus, product, wrapped} from "./kinematics.js";
+import {distance_from_singularity, matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
 import {explain, nearest, representative, within} from "./branches.js";
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
-import {alongCurve, inScreen, reachOf} from "./handles.js";
-import {AXES} from "./scene.js";
 import {menu, slider, stageOf, table, tick} from "./stage.js";
-import {
-  aboutAxis,
-  ellipsoidOf,
-  degrees,
-  inCode,
-  normal,
-  radians,
-  rollPitchYaw,
-  rotationOf,
-} from "./turns.js";
+import {targetHandles} from "./target_handles.js";
+import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
 
-/** @import {ArmData, BranchTask, PageExplorer, With} from "./page.js" */
+/** @import {ArmData, BranchTask, TargetPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
-/** @import {Camera} from "./camera.js" */
-/** @import {Handle} from "./handles.js" */
 /** @import {ClosedFormArm} from "./kinematics.js" */
 /** @import {Stage} from "./stage.js" */
 
-/**
- * @typedef {With<PageExplorer, "arm" | "units" | "q" | "target" | "turns" | "branches" | "heads" |
- *   "turning"> & {arm: ClosedFormArm}} TargetExplorer
- */
+/** @typedef {TargetPage & {arm: ClosedFormArm}} TargetExplorer */
 /**
  * A target: `rotation` and its `turns` (roll, pitch, yaw) of a transform, `angle` of a ScaraPose.
  * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
@@ -57,111 +42,59 @@ export const explore = (id, data) =>
  * @param {TargetExplorer} data
  */
 function targetExplorer(stage, data) {
-  const {arm, words, unit} = data,
-    oriented = arm.target === "Transform",
-    sizes = data.units.map(u => u.size);
+  const {arm, words, unit} = data;
   /** @type {Target} */
   const home = {...data.target, turns: data.turns};
   /** @type {State} */
   const state = {...structuredClone(home), q: [...data.q], wanted: -1, chosen: 0};
-  if (oriented) state.rotation = rotationOf(state.turns);
+  if (arm.target === "Transform") state.rotation = rotationOf(state.turns);
 
-  const sliders = data.controls.map((spec, k) =>
-    slider(spec, value => {
-      if (k < 3) state.place[k] = value * unit.size;
-      else if (oriented) {
-        state.turns[k - 3] = radians(value);
-        state.rotation = rotationOf(state.turns);
-      } else state.angle = radians(value);
-      stage.changed();
-    }),
-  );
-  const choice = menu(words.branch, [words.nearest, ...data.branches], k => {
-    state.wanted = k - 1;
+  /** @type {(k: number) => void} */
+  const want = k => {
+    state.wanted = k;
     stage.changed();
-  });
+  };
+  const sliders = slidersOf(stage, data, state),
+    choice = menu(words.branch, [words.nearest, ...data.branches], k => want(k - 1));
   const more = tick(words.ellipsoid, stage.changed),
-    axes = tick(words.axes, stage.changed);
+    axes = tick(words.axes, stage.changed),
+    copy = copyButton(words, () => fill(data.code, {...inCode(state, unit), row: state.chosen}));
   stage.side.append(
     ...sliders.map(s => s.row),
     choice.row,
-    element(
-      "div",
-      {class: "rk-row"},
-      more.row,
-      axes.row,
-      copyButton(words, () => fill(data.code, {...inCode(state, unit), row: state.chosen})),
-    ),
+    element("div", {class: "rk-row"}, more.row, axes.row, copy),
     stage.says,
   );
   const rows = table(
     data.branches,
     data.heads,
     data.heads.slice(1).map(() => 1),
-    k => {
-      state.wanted = k;
-      stage.changed();
-    },
+    want,
   );
   stage.below.append(rows.node);
-
-  /** @type {(axis: number[], angle: number) => void} */
-  const turnBy = (axis, angle) => {
-    const {rotation} = /** @type {With<State, "rotation">} */ (state);
-    state.rotation = normal(product(aboutAxis(axis, angle), rotation));
-    state.turns = rollPitchYaw(matrix(state.rotation));
-  };
-  stage.handles.set(targetHandles(stage, state, home, data, turnBy));
+  stage.handles.set(targetHandles(stage, state, home, data));
 
   stage.run(() => {
-    const last = state.q;
-    const found = ik(arm, state).map(row => {
-      const near = nearest(arm, [row], last);
-      return within(arm, near).every(Boolean) ? near : representative(arm, near);
-    });
-    const exists = found.map(q => q.every(Number.isFinite)),
-      inside = found.map(q => within(arm, q));
-    const usable = found.map((_, k) => exists[k] && inside[k].every(Boolean));
-    const travel = found.map(q =>
-      data.turning.reduce((sum, j) => sum + Math.abs(q[j] - last[j]), 0),
-    );
-    const among = usable.some(Boolean) ? usable : exists;
-    const shortest = travel.reduce(
-      (best, x, k) => (among[k] && (best < 0 || x < travel[best]) ? k : best),
-      -1,
-    );
-    const chosen = state.wanted >= 0 ? state.wanted : Math.max(shortest, 0);
+    const found = foundAt(data, state),
+      {exists, usable, chosen} = found;
     state.chosen = chosen;
-    if (exists[chosen]) state.q = found[chosen];
-
+    if (exists[chosen]) state.q = found.rows[chosen];
     sliders.forEach((s, k) =>
       s.set(k < 3 ? state.place[k] / unit.size : degrees(state.angle ?? state.turns[k - 3])),
     );
     choice.set(state.wanted + 1);
-    rows.set(
-      found.map((q, k) => [
-        verdict(arm, words, q, inside[k], exists[k]),
-        ...q.map((x, j) =>
-          exists[k] ? {text: number(x / sizes[j], 1), past: !inside[k][j]} : words.none,
-        ),
-        exists[k] ? number(distance_from_singularity(arm, q), 3) : words.none,
-        exists[k] ? number(degrees(travel[k]), 1) : words.none,
-      ]),
-      exists[chosen] ? chosen : -1,
-      exists,
-    );
-    stage.say(told(data.task, found, exists) + summary(arm, words, state, usable, chosen));
-
-    const asked = state.rotation ? matrix(state.rotation, state.place) : null;
-    stage.scene.targets = asked ? [{name: words.target, pose: asked}] : [];
-    stage.scene.marks = asked ? [] : [{name: words.target, at: state.place, radius: 0}];
+    rows.set(cells(data, found), exists[chosen] ? chosen : -1, exists);
+    stage.say(told(data.task, found.rows, exists) + summary(arm, words, state, usable, chosen));
+    markTarget(stage, state, words.target);
     return [
       {
         name: arm.name,
         chain: arm.chain,
         q: state.q,
         faded: !exists[chosen],
-        ghosts: found.flatMap((q, k) => (exists[k] && k !== chosen ? [{q, past: !usable[k]}] : [])),
+        ghosts: found.rows.flatMap((q, k) =>
+          exists[k] && k !== chosen ? [{q, past: !usable[k]}] : [],
+        ),
         axes: axes.on(),
         ellipsoid: more.on() && ellipsoidOf(arm, state.q),
       },
@@ -170,135 +103,73 @@ function targetExplorer(stage, data) {
 }
 
 /**
- * What can be taken of a target: its place, freely or along its axes; its turns about them.
+ * @param {Stage} stage
+ * @param {TargetExplorer} data
+ * @param {State} state
+ */
+const slidersOf = (stage, {arm, controls, unit}, state) =>
+  controls.map((spec, k) =>
+    slider(spec, value => {
+      if (k < 3) state.place[k] = value * unit.size;
+      else if (arm.target === "Transform") {
+        state.turns[k - 3] = radians(value);
+        state.rotation = rotationOf(state.turns);
+      } else state.angle = radians(value);
+      stage.changed();
+    }),
+  );
+
+/** @typedef {ReturnType<typeof foundAt>} Found */
+
+/**
+ * Every branch at the target: its row, whether it exists, which of its joints are inside their
+ * limits, its travel from the last posture; and the branch that is to be shown.
+ * @param {TargetExplorer} data
+ * @param {State} state
+ */
+function foundAt({arm, turning}, state) {
+  const last = state.q;
+  const rows = ik(arm, state).map(row => {
+    const near = nearest(arm, [row], last);
+    return within(arm, near).every(Boolean) ? near : representative(arm, near);
+  });
+  const exists = rows.map(q => q.every(Number.isFinite)),
+    inside = rows.map(q => within(arm, q)),
+    usable = rows.map((_, k) => exists[k] && inside[k].every(Boolean));
+  const travel = rows.map(q => turning.reduce((sum, j) => sum + Math.abs(q[j] - last[j]), 0));
+  const among = usable.some(Boolean) ? usable : exists;
+  const shortest = travel.reduce(
+    (best, x, k) => (among[k] && (best < 0 || x < travel[best]) ? k : best),
+    -1,
+  );
+  const chosen = state.wanted >= 0 ? state.wanted : Math.max(shortest, 0);
+  return {rows, exists, inside, usable, travel, chosen};
+}
+
+/**
+ * The cells of the table.
+ * @param {TargetExplorer} data
+ * @param {Found} found
+ */
+const cells = ({arm, words, units}, {rows, exists, inside, travel}) =>
+  rows.map((q, k) => [
+    verdict(arm, words, q, inside[k], exists[k]),
+    ...q.map((x, j) =>
+      exists[k] ? {text: number(x / units[j].size, 1), past: !inside[k][j]} : words.none,
+    ),
+    exists[k] ? number(distance_from_singularity(arm, q), 3) : words.none,
+    exists[k] ? number(degrees(travel[k]), 1) : words.none,
+  ]);
+
+/**
+ * Puts the target into the scene: a frame, or a point.
  * @param {Stage} stage
  * @param {State} state
- * @param {Target} home
- * @param {TargetExplorer} data
- * @param {(axis: number[], angle: number) => void} turnBy
+ * @param {string} name
  */
-function targetHandles(stage, state, home, data, turnBy) {
-  const {arm, words, unit} = data,
-    size = data.scene.size,
-    oriented = arm.target === "Transform";
-  const fine = 5e-3 * (unit.size < 1 ? 1 : size / 2);
-  /** @type {(k: number) => number[]} */
-  const axis = k => {
-    const axes = state.rotation ? matrix(state.rotation) : null;
-    return [0, 1, 2].map(i => (axes ? axes[4 * i + k] : Number(i === k)));
-  };
-  const value = () => `${state.place.map(x => number(x / unit.size, 1)).join(", ")} ${unit.name}`;
-  const flat = data.scene.flat;
-  /** @type {(camera: Camera, x: number, a: number[], b: number[]) => Point} */
-  const rim = (camera, x, a, b) =>
-    plus(plus(state.place, a, reachOf(camera) * Math.cos(x)), b, reachOf(camera) * Math.sin(x));
-  /** @type {(place: Point) => Point} */
-  const kept = place => place.map((x, k) => (k === flat ? state.place[k] : x));
-  /** @type {Handle[]} */
-  const handles = [
-    {
-      id: "free",
-      name: words.takeFree,
-      look: "rk-free",
-      at: () => state.place,
-      value,
-      grab(camera) {
-        const to = inScreen(camera, state.place);
-        return (dx, dy) => {
-          state.place = kept(to(dx, dy));
-        };
-      },
-      step(right, up, big) {
-        const camera = stage.camera(),
-          by = fine * camera.scale * (big ? 10 : 1);
-        state.place = kept(plus(state.place, camera.across(right * by, -up * by)));
-      },
-      home() {
-        state.place = [...home.place];
-      },
-    },
-  ];
-  for (const k of [0, 1, 2].filter(k => k !== flat))
-    handles.push({
-      id: AXES[k],
-      name: fill(words.takeAlong, {axis: AXES[k]}),
-      look: "rk-arrow",
-      mark: AXES[k],
-      color: AXES[k],
-      at: camera => plus(state.place, axis(k), reachOf(camera)),
-      value,
-      grab(camera) {
-        const from = state.place,
-          way = axis(k),
-          r = reachOf(camera);
-        const to = alongCurve(camera, x => plus(from, way, x + r), 0, fine);
-        return (dx, dy) => {
-          state.place = plus(from, way, to(dx, dy));
-        };
-      },
-      step(right, up, big) {
-        state.place = plus(state.place, axis(k), (right + up) * fine * (big ? 10 : 1));
-      },
-      home() {
-        state.place = [...home.place];
-      },
-    });
-  if (oriented)
-    for (const k of [0, 1, 2])
-      handles.push({
-        id: `turn ${AXES[k]}`,
-        name: fill(words.takeTurn, {axis: AXES[k]}),
-        look: "rk-arc",
-        mark: "\u21BB",
-        color: AXES[k],
-        at: camera => rim(camera, Math.PI / 4, axis((k + 1) % 3), axis((k + 2) % 3)),
-        value: () => `${state.turns.map(x => number(degrees(x), 1)).join(", ")} \u00B0`,
-        grab(camera) {
-          const [from, about] = [state.rotation, axis(k)];
-          const [a, b] = [axis((k + 1) % 3), axis((k + 2) % 3)];
-          const to = alongCurve(camera, x => rim(camera, x + Math.PI / 4, a, b), 0, 0.02);
-          return (dx, dy) => {
-            state.rotation = from;
-            turnBy(about, to(dx, dy));
-          };
-        },
-        step(right, up, big) {
-          turnBy(axis(k), (right + up) * radians(big ? 10 : 1));
-        },
-        home() {
-          [state.turns, state.rotation] = [[...home.turns], rotationOf(home.turns)];
-        },
-      });
-  if (arm.target === "ScaraPose") {
-    const turned = /** @type {With<State, "angle">} */ (state);
-    handles.push({
-      id: "angle",
-      name: words.takeAngle,
-      look: "rk-arc",
-      mark: "\u21BB",
-      color: "z",
-      at: camera => rim(camera, turned.angle, [1, 0, 0], [0, 1, 0]),
-      value: () => `${number(degrees(turned.angle), 1)} \u00B0`,
-      grab(camera) {
-        const to = alongCurve(
-          camera,
-          x => rim(camera, x, [1, 0, 0], [0, 1, 0]),
-          turned.angle,
-          0.02,
-        );
-        return (dx, dy) => {
-          turned.angle = to(dx, dy);
-        };
-      },
-      step(right, up, big) {
-        turned.angle += (right + up) * radians(big ? 10 : 1);
-      },
-      home() {
-        state.angle = home.angle;
-      },
-    });
-  }
-  return handles;
+function markTarget({scene}, {rotation, place}, name) {
+  scene.targets = rotation ? [{name, pose: matrix(rotation, place)}] : [];
+  scene.marks = rotation ? [] : [{name, at: place, radius: 0}];
 }
 
 /**
@@ -317,7 +188,7 @@ function verdict(arm, words, q, inside, exists) {
 
 /**
  * Whether an exercise's task is fulfilled, in words.
- * @param {BranchTask | undefined} task
+ * @param {?BranchTask} task
  * @param {number[][]} rows
  * @param {boolean[]} exists
  */

@@ -1,0 +1,251 @@
+"""What every explorer of an arm has: its page, its words, its code, its still picture."""
+
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+import robokin
+
+from .._arrays import Floats
+from .._validate import instance
+from ..arms.arm import Arm, ClosedFormArm
+from ..arms.scara import ScaraPose
+from ..transform import Transform
+from ..units import deg, length_unit, mm
+from . import plots
+from .arguments import named_targets
+from .camera import VIEW, arm_points, common_plane, extent, scene_data
+from .numbers import tidy
+from .page import ArmPage, Control, PagePose, PageScene, PageUnit
+from .player import Output
+from .scene import Scene
+from .twin import KINDS, arm_data
+
+Pose: TypeAlias = Transform | ScaraPose
+
+NEAREST = "nearest"
+TURNS = "Roll, pitch and yaw turn about the base's x, then y, then z axis."
+TAKE = "Take hold of a ring and drag it, or move the sliders. "
+WORDS: Mapping[str, str] = {
+    "target": "target",
+    "branch": "branch",
+    "nearest": NEAREST,
+    "none": "\N{EN DASH}",
+    "and": " and ",
+    "singularity": "{name} singularity",
+    "singular": "Singular: {names}.",
+    "regular": "Not singular.",
+    "missingRow": "does not exist",
+    "past": "past limit: {joints}",
+    "usable": "usable",
+    "usableSingular": "usable, singular",
+    "oneUsable": "1 of {all} branches is usable. {why}",
+    "someUsable": "{count} of {all} branches are usable. {why}",
+    "noneUsable": "No branch is usable. {why}",
+    "ellipsoid": "ellipsoid of tool velocities, free to turn",
+    "axes": "joint axes",
+    "copy": "Copy as Python",
+    "copied": "Copied",
+    "takeJoint": "joint {joint}",
+    "takeFree": "target, in the plane of the screen",
+    "takeAlong": "target along its {axis} axis",
+    "takeTurn": "target about its {axis} axis",
+    "takeAngle": "angle of the tool",
+    "takeStation": "{name}, in the plane of the screen",
+    "takeVia": "via along the base's {axis} axis",
+    "law": "time law",
+    "corner": "corner",
+    "time": "time",
+    "costs": "The sum S of the angles' changes over the free angle alpha.",
+    "costTitle": "S, the sum of the angles' changes",
+    "costAxis": "free angle alpha",
+    "costSays": "gamma {gamma}°, beta {beta}°, alpha {alpha}°: S = {S}°. Least at alpha = {best}°: "
+    "{least}°.",
+    "outside": "No posture reaches this point.",
+    "least": "Least S",
+    "begin": "Begin here",
+    "curves": "Curves over time: joint values, speeds, accelerations. The greatest values stand in "
+    "the table.",
+    "speed": "greatest speed, per s",
+    "acceleration": "greatest acceleration, per s²",
+    "sampled": "{what}, of {samples} samples",
+    "near": "The path passes via at {distance}.",
+    "missingSamples": "No solution in {none} of {all} samples.",
+    "pastSamples": "q{joint} is past its limit in {past} of {all} samples.",
+    "fastSamples": "q{joint} is past its speed limit in {past} of {all} samples.",
+    "jump": "The speed jumps at {time} s: there is no acceleration there.",
+}
+
+
+class Explorer(Output):
+    """An arm in a page that answers to the hand. Shows itself in a notebook; `save` writes it as a
+    page.
+
+    data    what the page is given, as JSON takes it: a `page.PageExplorer`
+    still   the figure that stands in its place until the script runs, in print and in an untrusted
+            notebook
+    """
+
+    @property
+    def call(self) -> str:  # type: ignore[override]
+        """The script that shows it."""
+        return f"{self.data['kind']}_explorer.explore"
+
+
+def inverted(arm: ClosedFormArm) -> None:
+    """TypeError: not an arm with an inverse, or one whose inverse no page knows."""
+    kind = type(instance(arm, ClosedFormArm, "arm").geometry)
+    if kind not in KINDS:
+        raise TypeError(
+            f"arm: {kind.__name__} has no inverse for pages; see KINDS in robokin/show/twin.py"
+        )
+
+
+# --- Poses ----------------------------------------------------------------------------------------
+
+
+def as_transform(pose: Pose) -> Transform:
+    """The flange at a pose."""
+    return pose.as_transform() if isinstance(pose, ScaraPose) else pose
+
+
+def pose_data(pose: Pose) -> PagePose:
+    """As the scripts take a pose."""
+    if isinstance(pose, ScaraPose):
+        return {"place": pose.position.tolist(), "angle": float(pose.angle)}
+    return {"place": pose.translation.tolist(), "rotation": pose.rotation.wxyz.tolist()}
+
+
+def flags(arm: ClosedFormArm, k: int) -> str:
+    """The name of branch k."""
+    flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
+    return f"{k}: {flags}"
+
+
+# --- What the page gets ---------------------------------------------------------------------------
+
+
+def arm_page(
+    arm: Arm,
+    title: str,
+    summary: str,
+    controls: list[Control],
+    opening: Floats,
+    posed: Mapping[str, Transform] | None = None,
+    *,
+    meant: str,
+    code: str,
+) -> ArmPage:
+    """What the pages of all explorers of an arm have: the postures with which it opens (k, n), the
+    targets in its scene.
+    """
+    name, size = length_unit(extent(arm))
+    return {
+        "title": title,
+        "summary": summary,
+        "alt": summary,
+        "arm": arm_data(arm),
+        "unit": {"name": name, "size": size, "code": name},
+        "units": units(arm),
+        "scene": _scene(arm, posed or {}, opening),
+        "controls": controls,
+        "words": dict(WORDS),
+        "meant": meant,
+        "code": code,
+    }
+
+
+def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
+    """A scene that holds the postures it opens with (k, n) and those near them, in space above the
+    floor. The page shrinks the picture for what leaves it.
+    """
+    flat = common_plane([arm]) is not None
+    turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
+    step = np.concatenate([np.diag(turn), -np.diag(turn)])
+    near = (opening[:, None] + step).reshape(-1, len(turn))
+    postures = np.concatenate([opening, near])
+    above = arm_points(arm, postures)[..., 2].min(axis=-1) > -0.01 * extent(arm)
+    scene = scene_data([arm], [postures[above][None]], named_targets(posed), [], extent(arm))
+    scene["grows"] = True
+    if not flat:
+        scene["view"] = list(VIEW)
+    return scene
+
+
+def control(
+    name: str, unit: str, low: float, high: float, step: float, decimals: int = 1
+) -> Control:
+    """A slider; metres have three decimals."""
+    decimals = decimals if unit != "m" else 3
+    ends = [float(np.round(x, 9)) for x in (low, high)]
+    return {
+        "name": name,
+        "unit": unit,
+        "low": ends[0],
+        "high": ends[1],
+        "step": step,
+        "decimals": decimals,
+    }
+
+
+def units(arm: Arm) -> list[PageUnit]:
+    """Name, size and code of each joint's unit."""
+    name, size = length_unit(extent(arm))
+    shift: PageUnit = {"name": name, "size": size, "code": "mm" if size == mm else "1"}
+    turn: PageUnit = {"name": "°", "size": deg, "code": "deg"}
+    return [shift if link.prismatic else turn for link in arm.links]
+
+
+def sizes(arm: Arm) -> Floats:
+    """Sizes (n,) of the joints' units."""
+    return np.array([unit["size"] for unit in units(arm)])
+
+
+def number(value: float, decimals: int) -> str:
+    """With so many decimals and a real minus sign."""
+    return f"{tidy(value, decimals):.{decimals}f}".replace("-", "\N{MINUS SIGN}")
+
+
+# --- In code --------------------------------------------------------------------------------------
+
+
+def code_name(arm: Arm) -> str:
+    """What the package calls this very arm, or `arm`."""
+    return next((name for name in robokin.__all__ if getattr(robokin, name) is arm), "arm")
+
+
+def imports(arm: Arm, *more: str) -> str:
+    """The lines of Python that import an arm and `more` names."""
+    names = {"deg", "mm", *more, *({code_name(arm)} - {"arm"})}
+    own = "" if code_name(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
+    return (
+        f"{own}import numpy as np\nimport robokin\nfrom robokin import {', '.join(sorted(names))}\n"
+    )
+
+
+# --- The still picture ----------------------------------------------------------------------------
+
+
+def picture(
+    alt: str,
+    arm: Arm,
+    q: Floats,
+    others: Sequence[Floats] = (),
+    targets: Mapping[str, Transform] | None = None,
+    frames: Sequence[Transform] = (),
+) -> plots.Figure:
+    """One posture, strongly, and others faintly."""
+    fig = plots.figure(alt, width=6.4, height=4.5)
+    scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
+    scene.base()
+    for other in others:
+        scene.arm(arm, other, "between")
+    scene.arm(arm, q, "last")
+    for frame in frames:
+        scene.triad(frame, length=0.08 * extent(arm))
+    scene.triad(arm.fk(q), width=2.4)
+    for name, pose in (targets or {}).items():
+        scene.triad(pose, name)
+    scene.finish()
+    return fig

@@ -1,0 +1,118 @@
+// A blended motion, with all that is drawn and said of it.
+
+import {follow, onward} from "./branches.js";
+import {ik, singularities} from "./geometries.js";
+import {fk, origin, plus} from "./kinematics.js";
+import {blend, linear, quintic, refinedMaximum, trapezoidal} from "./motion.js";
+import {peaks, timeOf} from "./peaks.js";
+import {record} from "./recorded.js";
+
+/** @import {PagePose} from "./page.js" */
+/** @import {Asked, MotionData} from "./motion_explorer.js" */
+
+/** @typedef {ReturnType<typeof motionOf>} Motion */
+
+const LAWS = {quintic, trapezoidal, linear};
+
+/**
+ * The motion for what is asked: what `record` tells of it, times, joint values, the tool's places,
+ * how near it passes via; after which samples its curves break, the pose at a time, and the times
+ * at which an acceleration may jump.
+ * @param {MotionData} data
+ * @param {Asked} state
+ */
+export function motionOf(data, state) {
+  const {arm, laws, corners, samples} = data,
+    {duration} = state;
+  const law = LAWS[laws[state.law]](duration);
+  const t = Array.from({length: samples}, (_, i) => (duration * i) / (samples - 1));
+  /** @type {(x: number) => PagePose} */
+  const poseAt = x =>
+    blend(state.start, state.via, state.goal, state.blend, law(x), corners[state.corner]);
+  const rows = t.map(x => ik(arm, poseAt(x))),
+    q = follow(arm, rows, state.row),
+    recorded = record(q, t, arm.prismatic, data.jumps),
+    {missing} = recorded;
+  const tool = q.map((row, i) => (missing[i] ? null : origin(fk(arm.chain, row))));
+  const bend = timeOf(law, duration, 0.5 - state.blend),
+    ramps = laws[state.law] === "trapezoidal" ? [0.25, 0.75] : [];
+  const times = [0, bend, ...ramps.map(x => x * duration), duration - bend, duration];
+  return {
+    ...recorded,
+    // a rounded corner is none, however few samples tell of it
+    jumps: state.blend > 0 ? [] : recorded.jumps,
+    t,
+    q,
+    tool,
+    gaps: new Set(recorded.gaps.flatMap((gap, i) => (gap ? [i] : []))),
+    near: passing(data, state.via, poseAt, t, missing),
+    poseAt,
+    times: times.sort((x, y) => x - y),
+  };
+}
+
+/**
+ * The greatest speeds and accelerations between the samples, too; null where the motion is broken
+ * or passes a singularity, or one of them does not stand.
+ * @param {MotionData} data
+ * @param {Motion} motion
+ * @param {number[][]} sampled
+ */
+export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
+  if (gaps.size || missing[0]) return null;
+  const step = t[1];
+  // where joints are free, it is a choice how they stand
+  /** @type {(x: number) => number[]} */
+  const posture = x => {
+    const near = q[Math.min(Math.round(x / step), samples - 1)],
+      row = onward(arm, ik(arm, poseAt(x)), near);
+    return Object.values(singularities(arm, row)).some(Boolean) ? row.map(() => NaN) : row;
+  };
+  return peaks(
+    posture,
+    times,
+    units.map(({size}) => size),
+    sampled,
+  );
+}
+
+/** The greatest value, NaN where there is none. @type {(rows: number[][], j: number) => number} */
+export const most = (rows, j) =>
+  rows.reduce(
+    (best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])),
+    NaN,
+  );
+
+/** @type {(unit: {size: number}) => number} */
+export const nearDecimals = unit => (unit.size < 1 ? 1 : 3);
+
+/**
+ * How near the path passes the via station, in the shown unit: between the samples, too. Infinity
+ * where there is no path.
+ * @param {MotionData} data
+ * @param {PagePose} via
+ * @param {(x: number) => PagePose} poseAt
+ * @param {number[]} t
+ * @param {boolean[]} missing
+ */
+function passing({unit}, via, poseAt, t, missing) {
+  /** @type {(place: number[], from: number[]) => number} */
+  const apart = (place, from) => Math.hypot(...plus(place, from, -1)) / unit.size;
+  const places = t.map(x => poseAt(x).place),
+    far = places.map(place => apart(place, via.place));
+  const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
+  let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
+  // only on steps this long the path may come nearer than at the samples
+  for (const i of steps.filter(
+    k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
+  )) {
+    const away = -refinedMaximum(
+      x => -apart(poseAt(x).place, via.place),
+      t[i - 1],
+      t[i],
+      nearDecimals(unit),
+    );
+    if (away < least) least = away;
+  }
+  return least;
+}

@@ -1,0 +1,112 @@
+// Words on a panel of curves: what its marks and limits say, where they cover least.
+
+import {colors, font, hit, jointColor, number} from "./canvas.js";
+
+/** @import {Box, Context} from "./canvas.js" */
+/** @import {Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
+
+/** Joint colours fit for words. @type {(color: string) => string} */
+export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
+
+/**
+ * The words of a panel, in a size and a theme: looked for once, not in every picture.
+ * @param {Context} g
+ * @param {Panel} panel
+ * @param {Place[]} ys  of each joint
+ * @param {Times} times
+ * @param {Place} x
+ * @param {Sides} sides
+ */
+export function panelWords(g, panel, ys, times, x, sides) {
+  const where = [...sides, colors.ink].join();
+  if (panel.where !== where) {
+    const notes = noted(g, panel.marks, x, sides);
+    panel.where = where;
+    panel.words = [...notes, ...limitWords(g, panel, ys, times, x, sides, notes)];
+  }
+  return panel.words ?? [];
+}
+
+/**
+ * The words of the marks, in at most three lines.
+ * @param {Context} g
+ * @param {Mark[]} marks
+ * @param {Place} x
+ * @param {Sides} sides
+ */
+function noted(g, marks, x, [left, right, top]) {
+  /** @type {Note[]} */
+  const notes = [];
+  g.font = font(11, 600);
+  for (const {time, text} of marks) {
+    if (!text) continue;
+    const w = g.measureText(text).width;
+    const px = x(time) + w + 12 > right ? Math.max(left + 3, x(time) - 6 - w) : x(time) + 6;
+    const place = [0, 1, 2]
+      .map(k => /** @type {Box} */ ([px, top + 14 * k + 4, w, 12]))
+      .find(
+        place =>
+          !hit(
+            place,
+            notes.map(note => note[1]),
+          ),
+      );
+    if (place) notes.push([text, place, colors.alarm, 11, "600"]);
+  }
+  return notes;
+}
+
+/**
+ * The words of the limits, as above: beside their lines, off other words and, nearly, off the
+ * curves. At most three; where there is no such place, the band alone has to do.
+ * @param {Context} g
+ * @param {Panel} panel
+ * @param {Place[]} ys  of each joint
+ * @param {Times} times
+ * @param {Place} x
+ * @param {Sides} sides
+ * @param {Note[]} notes
+ */
+function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
+  /** @type {Note[]} */
+  const found = [];
+  const limits = panel.limits ?? [],
+    each = (right - left) / times.length,
+    lines = panel.near.map(([j, side]) => ys[j](limits[side][j]));
+  g.font = font(10);
+  panel.near.forEach(([j, side], k) => {
+    const limit = limits[side][j],
+      at = lines[k],
+      unit = unitOf(panel, j);
+    const value = number(limit, +!Number.isInteger(limit)),
+      gap = unit[0] === "\u00B0" ? "" : " ";
+    const text = `q${j + 1} limit ${value}${gap}${unit}`;
+    const w = g.measureText(text).width,
+      taken = [...notes, ...found].map(([, place]) => place);
+    /** @type {?Box} */
+    let best = null;
+    let least = 16; // pixels of curves that the words may cover
+    for (const y of side ? [at - 13, at + 2] : [at + 2, at - 13]) {
+      if (y < top + 1 || y + 11 > bottom - 1) continue;
+      const crossed = 20 * lines.filter(line => line > y && line < y + 11).length;
+      /** @type {number[]} */
+      const beside = [];
+      panel.curves.forEach((curve, i) => {
+        const on = ys[i];
+        curve.forEach((v, k) => {
+          if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[k]));
+        });
+      });
+      for (let px = left + 5; px + w + 5 < right; px += 6) {
+        if (hit([px - 4, y, w + 8, 11], taken)) continue;
+        const cost = each * beside.filter(cx => cx > px - 3 && cx < px + w + 3).length + crossed;
+        if (cost < least) [best, least] = [[px, y, w, 11], cost];
+      }
+    }
+    if (best && found.length < 3) found.push([text, best, shade(jointColor(j)), 10]);
+  });
+  return found;
+}
+
+/** @type {(panel: Panel, j: number) => string} */
+const unitOf = ({axes}, j) => axes.find(({joints}) => joints.includes(j))?.unit ?? "";

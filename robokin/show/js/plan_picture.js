@@ -1,0 +1,122 @@
+// A plan in the picture of its explorer, in the plane of the arm.
+
+import {clear, colors, polygon, spot, stroke, words} from "./canvas.js";
+import {polyline} from "./kinematics.js";
+
+/** @import {PageLink} from "./page.js" */
+/** @import {Pixel} from "./canvas.js" */
+/** @import {ThreeLeverArm} from "./levers.js" */
+/** @import {Now, Shown, State} from "./plan_explorer.js" */
+/** @import {Draw} from "./scene.js" */
+
+/**
+ * The arm at its moment of the motion, with what is drawn below and above it.
+ * @param {ThreeLeverArm} arm
+ * @param {State} state
+ * @param {Now} now
+ */
+export function armAt({name, chain}, state, {shown, moment}) {
+  const {moments} = shown,
+    k = Math.round(moment),
+    end = {q: moments[moments.length - 1], past: true};
+  return {
+    name,
+    chain,
+    q: k > 0 ? moments[k] : state.q,
+    ghosts: k > 0 ? [end, {q: state.q, past: false}] : [end],
+    under: drawBelow(chain, shown, state),
+    over: drawAbove(shown, state),
+  };
+}
+
+/**
+ * The room about H, the quadrilaterals, what the levers sweep, the gripper's path.
+ * @type {(chain: PageLink[], shown: Shown, state: State) => Draw}
+ */
+const drawBelow =
+  (chain, {kept, direct, moments}, state) =>
+  (g, {to, scale}) => {
+    const postures = moments.map(q => polyline(chain, q));
+    const [x, y] = to(state.obstacle);
+    g.beginPath();
+    g.arc(x, y, state.distance * scale, 0, 2 * Math.PI);
+    g.fillStyle = clear(colors.ghost, 0.25);
+    g.fill();
+    g.strokeStyle = colors.ghost;
+    g.lineWidth = 1;
+    g.stroke();
+    /** @type {(points: number[][]) => Pixel[]} */
+    const flat = points => points.map(([x, y]) => to([x, y, 0]));
+    direct?.quadrilaterals.forEach((corners, k) => {
+      const color = [colors.joint3, colors.joint2][k],
+        points = flat(corners);
+      polygon(g, points, clear(color, 0.12), color, 1.2);
+      words(g, ["AK", "BA"][k], mean(points, 0), mean(points, 1), color, 12, "center", "600");
+    });
+    const color = kept ? colors.accent : colors.alarm;
+    stroke(
+      g,
+      postures.flatMap(points => [...points.map(to), null]),
+      clear(color, 0.3),
+      1,
+    );
+    stroke(
+      g,
+      postures.map(points => to(points[points.length - 1])),
+      color,
+      2,
+    );
+  };
+
+/** @type {(points: Pixel[], k: number) => number} */
+const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
+
+/**
+ * The obstacle, via points, and how near the levers come.
+ * @type {(shown: Shown, state: State) => Draw}
+ */
+const drawAbove =
+  ({via, nearest: [at, text], kept}, state) =>
+  (g, {to}) => {
+    const [x, y] = to(state.obstacle),
+      p = to([...at, 0]),
+      far = Math.hypot(p[0] - x, p[1] - y);
+    for (const side of [-1, 1])
+      stroke(
+        g,
+        [
+          [x - 6, y - 6 * side],
+          [x + 6, y + 6 * side],
+        ],
+        colors.alarm,
+        3.5,
+      );
+    if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
+    spot(g, p, 3.5, colors.near);
+    // where it is swept, to the left: the tool's frame points to the right
+    const left = p[0] <= x + 1;
+    words(
+      g,
+      text,
+      p[0] + (left ? -16 : 9),
+      p[1] + (far > 3 ? (p[1] < y ? -8 : 17) : 34),
+      kept ? colors.near : colors.alarm,
+      12.5,
+      left ? "right" : "left",
+      "600",
+    );
+    via.forEach((point, k) => {
+      const place = to([...point, 0]);
+      spot(g, place, 4, colors.path);
+      words(
+        g,
+        `K${k + 2}`,
+        place[0] - 8,
+        place[1] + (k ? 15 : -5),
+        colors.path,
+        12,
+        "right",
+        "600",
+      );
+    });
+  };

@@ -1,0 +1,57 @@
+// The page's side of the widget that wakes a view (live.py): its model alone, without a view of its
+// own. It finds its view whichever of the two comes first, and one that is shown twice.
+
+/** @import {Arrived} from "./live.js" */
+
+/**
+ * @typedef {object} Model
+ * @property {(content: {to: number, n: number, question: unknown}) => void} send  `to`: a place
+ * @property {Hear} on
+ */
+/**
+ * @typedef {{
+ *   (name: "msg:custom", call: (content: Reply, buffers: Arrived["buffers"]) => void): void,
+ *   (name: "comm_live_update", call: () => void): void,
+ * }} Hear
+ */
+/** @typedef {{to: number} & Omit<Arrived, "buffers">} Reply */
+
+/**
+ * What the widget of the view `id` does with its model; it returns its end.
+ * @param {string} id
+ * @returns {(given: {model: Model}) => () => void}
+ */
+export const model =
+  id =>
+  ({model}) => {
+    /** @type {HTMLElement[]} */
+    const places = [];
+    /** @param {HTMLElement} root */
+    function meet(root) {
+      if (places.includes(root)) return;
+      places.push(root);
+      const to = places.length - 1;
+      /** @type {(n: number, question: unknown) => void} */
+      const send = (n, question) => model.send({to, n, question});
+      root.dispatchEvent(new CustomEvent("robokin-wake", {detail: send}));
+    }
+    function sleep() {
+      document.removeEventListener("robokin-asks", asks);
+      for (const root of places.splice(0)) root.dispatchEvent(new CustomEvent("robokin-sleep"));
+    }
+    /** @param {Event} event */
+    function asks(event) {
+      const {detail} = /** @type {CustomEvent<{id: string, root: HTMLElement}>} */ (event);
+      if (detail.id === id) meet(detail.root);
+    }
+    const views = /** @type {NodeListOf<HTMLElement>} */ (
+      document.querySelectorAll(`[data-player="${id}"][data-ready]`)
+    );
+    views.forEach(meet);
+    document.addEventListener("robokin-asks", asks);
+    model.on("msg:custom", ({to, n, answer}, buffers) =>
+      places[to]?.dispatchEvent(new CustomEvent("robokin-answer", {detail: {n, answer, buffers}})),
+    );
+    model.on("comm_live_update", sleep);
+    return sleep;
+  };

@@ -1,0 +1,173 @@
+"""The explorer of a blended motion: its stations taken by the hand."""
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from .._arrays import Floats
+from .._validate import instance, whole
+from ..arms.arm import Arm, ClosedFormArm
+from ..arms.branches import follow, unwrapped
+from ..arms.scara import ScaraPose
+from ..motion.laws import quintic
+from ..motion.maximum import refined_maximum
+from ..motion.paths import blend
+from ..motion.recording import FEW, LEAP, record
+from ..transform import Transform
+from ..units import length_unit, mm
+from .arguments import named_targets
+from .camera import extent
+from .explorer import (
+    TAKE,
+    WORDS,
+    Explorer,
+    Pose,
+    arm_page,
+    as_transform,
+    code_name,
+    control,
+    flags,
+    imports,
+    inverted,
+    number,
+    pose_data,
+    sizes,
+    units,
+)
+from .page import Corner, Law, MotionPage
+from .palette import DASHES
+from .player import still_picture
+
+SAMPLES = 241  # of a motion: enough for its speeds, few enough to follow a hand
+LAWS: Sequence[Law] = ("quintic", "trapezoidal", "linear")
+CORNERS: Sequence[Corner] = ("parabola", "quintic")
+
+
+def motion_explorer(
+    arm: ClosedFormArm, start: Pose, via: Pose, goal: Pose, row: int | None = None
+) -> "Explorer":
+    """A blended motion past `via`: start, via and goal to take by rings and arrows, sliders for the
+    via point, the blend and the duration, menus for the time law, the corner and the branch; arm,
+    curves and numbers follow. A click on a curve puts the clock there. It opens on branch `row`, or
+    on the first with the most usable samples.
+
+    Poses are what `arm.ik` takes (Transform, or ScaraPose for a SCARA), one of each. ValueError: a
+    batch of poses, no such row. TypeError: other poses, an arm without `ik`.
+    """
+    inverted(arm)
+    kind = ScaraPose if arm.target is ScaraPose else Transform
+    stations = {"start": start, "via": via, "goal": goal}
+    for name, pose in stations.items():
+        if instance(pose, kind, name).shape:
+            raise ValueError(f"{name}: wanted one single pose, got a batch of shape {pose.shape}")
+    unit, size = length_unit(extent(arm))
+    law = quintic(5.0)
+    t = np.linspace(0, law.duration, SAMPLES)
+    rows = arm.ik(blend(start, via, goal, 0.1, law(t)))
+    motions = [follow(arm, rows, k) for k in range(len(arm.branches))]
+    usable = [(record(arm, t, q).excess <= 0).all(axis=-1).sum() for q in motions]
+    row = int(np.argmax(usable)) if row is None else whole(row, "row", 0, len(usable) - 1)
+    most = float(np.ceil(1.05 * extent(arm) / (50 * mm)) * 50 * mm / size)
+    step = 1 if size == mm else 0.001
+    controls = [control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
+    controls.append(control("blend", "", 0, 0.5, 0.01, 3))
+    controls.append(control("duration", "s", 0.5, 20, 0.5, 2))
+    posed = {name: as_transform(pose) for name, pose in stations.items()}
+    through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
+    speed, j, of = _fastest(arm, lambda x: blend(start, via, goal, 0.1, law(x)), t, motions[row])
+    summary = (
+        f"{arm.name} on a blended motion past a via point that can be moved, 5 s, blend 0.1, "
+        f"branch {flags(arm, row)}: greatest speed{of} {number(speed, 1)} "
+        f"{units(arm)[j]['name']}/s (joint {j + 1})."
+    )
+    page = arm_page(
+        arm,
+        f"{arm.name}: a blended motion",
+        summary,
+        controls,
+        through,
+        posed,
+        meant=TAKE + "Start and goal move, too. A click on a curve sets the clock.",
+        code=_motion_code(arm, stations),
+    )
+    data: MotionPage = {
+        "kind": "motion",
+        **page,
+        "dashes": DASHES,
+        "start": pose_data(start),
+        "via": pose_data(via),
+        "goal": pose_data(goal),
+        "start_values": {"blend": 0.1, "duration": 5.0, "law": 0, "corner": 0, "row": row},
+        "laws": list(LAWS),
+        "corners": list(CORNERS),
+        "branches": [flags(arm, k) for k in range(len(usable))],
+        "samples": SAMPLES,
+        "jumps": {"least": LEAP, "few": FEW},
+        "panels": ["joint values q", "speeds q\N{PRIME}", "accelerations q\N{DOUBLE PRIME}"],
+        "words": {**WORDS, "near": WORDS["near"].replace("}", f"}} {unit}")},
+    }
+    still = still_picture(
+        [arm.name],
+        [(arm, motions[row])],
+        named_targets(posed),
+        [],
+        data["scene"],
+        data["title"],
+        summary,
+    )
+    return Explorer(data, still)
+
+
+def _fastest(
+    arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
+) -> tuple[float, int, str]:
+    """The greatest speed on a motion with the samples q (samples, n), in the joint's unit, and the
+    joint. In words what it is the greatest of: "" is between the samples, too, where the motion is
+    whole and passes no singularity.
+    """
+    scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
+
+    def speeds(x: Floats) -> Floats:
+        x = np.clip(x, h, t[-1] - h)
+        ends, near = [], q[np.rint(x / t[1]).astype(int)]
+        for side in (-h, h):
+            rows = unwrapped(arm, arm.ik(pose(x + side)), near[:, None])
+            travel = np.nan_to_num(abs(rows - near[:, None]).sum(axis=-1), nan=np.inf)
+            ends.append(rows[np.arange(len(x)), travel.argmin(axis=-1)])
+        per_second: Floats = abs(ends[1] - ends[0]) / (2 * h * scale)
+        return per_second
+
+    singular = any(holds.any() for holds in arm.geometry.singularities(q).values())
+    if not (singular or track.gaps.any()):
+        try:
+            tops = [
+                refined_maximum(lambda x: speeds(x).max(axis=-1), *ends, 1)
+                for ends in pairwise(t[::20])
+            ]
+            best = max(tops)
+            return best.value, int(speeds(np.array([best.at]))[0].argmax()), ""
+        except ValueError:  # beside a singularity none stands
+            pass
+    sampled = np.nan_to_num(track.greatest_speed.value) / scale
+    return float(sampled.max()), int(sampled.argmax()), f" of {SAMPLES} samples"
+
+
+def _motion_code(arm: Arm, stations: Mapping[str, Pose]) -> str:
+    lines = [imports(arm)]
+    for name, pose in stations.items():
+        if isinstance(pose, ScaraPose):
+            lines.append(f"{name} = robokin.ScaraPose(({{{name}}}), {float(pose.angle)!r})")
+        else:
+            wxyz = ", ".join(map(repr, pose.rotation.wxyz.tolist()))
+            turn = f"robokin.Quaternion(({wxyz}))"
+            lines.append(f"{name} = robokin.Transform({turn}, ({{{name}}}))")
+    return "\n".join(
+        [
+            *lines,
+            "law = robokin.{law}({duration})",
+            "t = np.linspace(0, law.duration, 2001)",
+            'poses = robokin.blend(start, via, goal, {blend}, law(t), corner="{corner}")',
+            f"q = robokin.follow({code_name(arm)}, {code_name(arm)}.ik(poses), {{row}})",
+        ]
+    )
