@@ -7,6 +7,7 @@ import contextlib
 import html
 import json
 import os
+from collections.abc import Callable
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 from .._validate import short
@@ -439,20 +440,27 @@ def write_page(path: str | os.PathLike[str], page: str) -> None:
     """Write a whole page, which begins with its doctype: wholly or not at all. ValueError: not a
     .html file, or one that is there and was not written here.
     """
-    name = _file(path)
+    doctype, _, rest = page.partition("\n")
+    write(path, ".html", lambda: f"{doctype}\n{MARK}\n{rest}".encode())
+
+
+def write(path: str | os.PathLike[str], ending: str, content: Callable[[], bytes]) -> None:
+    """Write a file that holds MARK near its beginning: wholly or not at all. ValueError: its name
+    has another ending, or a file is there that was not written here.
+    """
+    name = _file(path, ending)
     if os.path.lexists(name) and not _ours(name):
         raise ValueError(
             f"path: {short(name)} exists and is not a saved player; nothing is overwritten"
         )
-    doctype, _, rest = page.partition("\n")
-    _write(name, f"{doctype}\n{MARK}\n{rest}".encode())
+    _write(name, content())
 
 
-def _file(path: Any) -> str:
-    """`path` as a name that ends in .html."""
+def _file(path: Any, ending: str) -> str:
+    """`path` as a name with this ending."""
     name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
-    if not isinstance(name, str) or os.path.splitext(name)[1] != ".html" or "\0" in name:
-        raise ValueError(f"path: wanted a name that ends in .html, got {short(path)}")
+    if not isinstance(name, str) or os.path.splitext(name)[1] != ending or "\0" in name:
+        raise ValueError(f"path: wanted a name that ends in {ending}, got {short(path)}")
     folder = os.path.dirname(name) or os.curdir
     if not os.path.isdir(folder):
         raise ValueError(f"path: wanted a folder that exists, got {short(folder)}")
@@ -464,12 +472,12 @@ def _ours(name: str) -> bool:
     if os.path.islink(name) or not os.path.isfile(name):
         return False
     with open(name, "rb") as file:
-        return MARK.encode() in file.read(200)
+        return MARK.encode() in file.read(1000)  # a GIF begins with its colours
 
 
 def _write(name: str, content: bytes) -> None:
     """Beside it first, so that a reader, or a full disk, never sees half of it."""
-    beside = os.path.join(os.path.dirname(name), f".{os.urandom(8).hex()}.html.part")
+    beside = os.path.join(os.path.dirname(name), f".{os.urandom(8).hex()}.part")
     try:
         with open(beside, "xb") as file:
             file.write(content)

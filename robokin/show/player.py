@@ -24,6 +24,7 @@ from ..units import deg, length_unit
 from . import arguments, findings, plots
 from .arguments import Targets
 from .camera import NOTHING_MORE, Around, Mark, chain, extent, flange, scene_data
+from .film import Film
 from .numbers import NOTHING, decimals, fewest, packed, rounded, scale, scales, thin, tidy
 from .page import (
     Axis,
@@ -38,8 +39,9 @@ from .page import (
     output,
     save,
     still_image,
+    write,
 )
-from .palette import DASHES, INK, SOFT
+from .palette import DASHES, INK
 from .panels import near_limits
 from .scene import Scene
 
@@ -116,7 +118,8 @@ def animate(
     data = page_data(names, tracks, named, marks, sliding, switching, title, solid, around)
     motions = [(track.arm, track.q[0]) for track in tracks]
     still = still_picture(names, motions, named, marks, data["scene"], title, data["alt"], around)
-    return Player(data, still)
+    film = Film(tracks[0].t, motions, named, marks, data["scene"], title, around)
+    return Player(data, still, film)
 
 
 class Output:
@@ -166,6 +169,21 @@ class Output:
 
 class Player(Output):
     """An arm and its curves, animated by the browser: see `animate`. `data` is a `page.Page`."""
+
+    def __init__(self, data: Any, still: plots.Figure, film: Film) -> None:
+        super().__init__(data, still)
+        self.film = film
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write one self-contained page (.html), or the scene without the curves as an animated
+        picture (.gif: 640 pixels, at most 12 frames a second and 120 frames; of a slider or menu
+        the first value). ValueError: another name, a file that is there and not a saved player, a
+        picture of more than 3 MB.
+        """
+        if str(path).endswith(".gif"):
+            write(path, ".gif", self.film.gif)
+        else:
+            super().save(path)
 
 
 # --- What the page gets ---------------------------------------------------------------------------
@@ -335,10 +353,7 @@ def still_picture(
             centre = places[0, -1] if places.ndim > 1 else places
             if not np.isfinite(centre).all():
                 continue
-            if radius:
-                scene.ball(centre, radius)
-            else:
-                scene.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
+            scene.mark(centre, radius)
             if name in around.readings:
                 value = around.readings[name][0, -1]
                 scene.label(f"{name}: {value:.{fewest(around.readings[name])}f}", centre)

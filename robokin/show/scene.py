@@ -185,6 +185,15 @@ class Scene:
         x, y = self.project(centre)
         self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0))
 
+    def mark(self, centre: Floats, radius: float) -> None:
+        """A point (3,), or with a radius a ball; nothing where it is NaN."""
+        if not np.isfinite(centre).all():
+            return
+        if radius:
+            self.ball(centre, radius)
+        else:
+            self.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
+
     def faces(self, polygons: Sequence[Floats]) -> None:
         """Polygons (k, 3) behind the arms, the farther ones first."""
         (ca, ce), (sa, se) = np.cos(self.view), np.sin(self.view)

@@ -1,0 +1,124 @@
+"""A player as a film: its scene, without the curves, as an animated GIF."""
+
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from .._arrays import Floats, Ints
+from ..arms.arm import Arm
+from ..transform import Transform
+from . import plots
+from .camera import Around, Mark, flange
+from .page import MARK, PageScene
+from .scene import Scene
+
+WIDTH = 640  # pixels
+RATE, FRAMES = 12, 120  # at most so many frames a second, and in all
+BYTES = 3_000_000  # what one may send by mail
+COLOURS = 64
+TRACED = 1001  # points of a tool's path
+
+
+class Film:
+    """The first motion of a player: with slider or switch the one that it opens with. What stands
+    still is drawn once; only arms, targets and points that move are drawn for each frame.
+    """
+
+    def __init__(
+        self,
+        t: Floats,
+        motions: Sequence[tuple[Arm, Floats]],
+        targets: Mapping[str, Transform],
+        marks: Sequence[Mark],
+        page: PageScene,
+        title: str,
+        around: Around,
+    ) -> None:
+        self.t, self.motions, self.targets, self.marks = t, motions, targets, marks
+        self.page, self.title, self.around = page, title, around
+
+    def gif(self) -> bytes:
+        """The film, which repeats for ever. ValueError: it would take more than 3 MB."""
+        seconds = float(self.t[-1] - self.t[0])
+        count = max(2, min(FRAMES, int(seconds * RATE) + 1))
+        times = np.linspace(self.t[0], self.t[-1], count)
+        at = np.interp(times, self.t, np.arange(len(self.t))).round().astype(int)
+        shown = [Image.fromarray(frame) for frame in self._frames(at)]
+        palette = shown[0].quantize(COLOURS, dither=Image.Dither.NONE)
+        first, *others = (
+            frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in shown
+        )
+        ends = np.round(100 * seconds / (count - 1) * np.arange(count)).astype(int)  # whole 1/100 s
+        lasts = [*(10 * np.maximum(np.diff(ends), 2)), 1000]  # ms; the last one stays
+        file = io.BytesIO()
+        more: Any = {"append_images": others, "duration": lasts, "comment": MARK.encode()}
+        first.save(file, "GIF", save_all=True, loop=0, **more)
+        size = file.tell()
+        if size > BYTES:
+            raise ValueError(
+                f"path: wanted a film of at most {BYTES / 1e6:.0f} MB, got {size / 1e6:.1f} MB; "
+                "show a shorter motion or fewer arms, or save a .html page"
+            )
+        return file.getvalue()
+
+    def _frames(self, at: Ints) -> Iterator[Floats]:
+        """The pictures (height, width, 3) at these samples."""
+        count = 1 if self.around.bases is not None else len(self.motions)
+        figure = plots.figure(self.title, width=4.5 * count if count > 1 else 6.4, height=4.5)
+        figure.set_dpi(WIDTH / figure.get_figwidth())
+        figure.text(0.016, 0.985, self.title, fontweight="bold", va="top", parse_math=False)
+        bases = self.around.places(len(self.motions))
+        scenes = []
+        for k in range(count):
+            scene = Scene(
+                figure.add_axes((k / count, 0, 1 / count, 0.93)), self.page["size"], like=self.page
+            )
+            own = range(len(self.motions)) if count == 1 else [k]
+            scenes.append((scene, own))
+            self._still(scene, [(*self.motions[i], bases[i]) for i in own])
+        canvas: Any = figure.canvas
+        canvas.draw()
+        behind = canvas.copy_from_bbox(figure.bbox)
+        for sample in at:
+            canvas.restore_region(behind)
+            for scene, own in scenes:
+                before = list(scene.ax.get_children())
+                self._moving(scene, [(*self.motions[i], bases[i]) for i in own], sample)
+                new = [each for each in scene.ax.get_children() if each not in before]
+                for artist in sorted(new, key=lambda each: each.get_zorder()):
+                    scene.ax.draw_artist(artist)
+                    artist.remove()
+            yield np.array(canvas.buffer_rgba())[..., :3]
+
+    def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
+        """What does not move: feet, paths of the tools, targets and points that stand."""
+        scene.faces(self.around.faces)
+        for arm, q, base in arms:
+            scene.base(base)
+            some = np.linspace(0, len(q) - 1, min(len(q), TRACED)).astype(int)
+            scene.trace(flange(arm, q[some]).translation + base)
+        for name, pose in self.targets.items():
+            if not pose.shape:
+                scene.triad(pose, name)
+        for name, places, radius in self.marks:
+            if places.ndim == 1:
+                scene.mark(places, radius)
+                scene.label(name, places) if name else None
+        scene.finish()
+
+    def _moving(
+        self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]], sample: int
+    ) -> None:
+        """What moves, at one sample."""
+        for arm, q, base in arms:
+            scene.arm(arm, q[sample], "last", base)
+            scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
+        for pose in self.targets.values():
+            if pose.shape:
+                scene.triad(pose[0, min(sample, pose.shape[1] - 1)])
+        for _, places, radius in self.marks:
+            if places.ndim > 1:
+                scene.mark(places[0, min(sample, places.shape[1] - 1)], radius)

@@ -1,0 +1,81 @@
+"""A player saved as an animated picture: its frames are the motion."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from robokin import IRB140, SCARA, Transform, deg
+from robokin.show import animate, film, joint_explorer
+
+T = np.linspace(0, 4, 401)
+WAY = np.linspace(0, 1, 401)[:, None] * np.array([90, 30, -40, 60, 50, 20]) * deg
+
+
+def frames(player, path):
+    """The pictures of a saved film, and how long each lasts in ms."""
+    player.save(path)
+    with Image.open(path) as picture:
+        found, lasts = [], []
+        for k in range(picture.n_frames):
+            picture.seek(k)
+            found.append(np.array(picture.convert("RGB")))
+            lasts.append(picture.info["duration"])
+    return np.array(found), lasts
+
+
+def alike(one, other):
+    """Up to the colours of single pixels: each film has a palette of its own."""
+    return (abs(one.astype(int) - other).max(axis=-1) > 40).mean() < 2e-3
+
+
+def test_the_frames_are_the_motion_in_its_time(tmp_path):
+    """Run backwards, the same pictures come backwards; where the arm stands they are the same."""
+    there, lasts = frames(animate(IRB140, T, WAY), tmp_path / "there.gif")
+    assert there.shape[1:] == (450, 640, 3) and len(there) == 4 * film.RATE + 1
+    assert sum(lasts[:-1]) == 4000 and min(lasts) > 1000 / film.RATE - 10
+    back, _ = frames(animate(IRB140, T, WAY[::-1]), tmp_path / "back.gif")
+    assert all(map(alike, there, back[::-1]))
+    assert not any(map(alike, there[:-4], there[4:]))
+    uneven = np.concatenate([T[:201], 2 + 3 * (T[201:] - 2)])  # the second half three times as slow
+    slow, _ = frames(animate(IRB140, uneven, WAY), tmp_path / "slow.gif")
+    assert alike(slow[len(slow) // 4], there[len(there) // 2])
+
+
+def test_a_long_motion_has_fewer_frames_a_second(tmp_path):
+    found, lasts = frames(animate(IRB140, 5 * T, WAY), tmp_path / "long.gif")
+    assert len(found) == film.FRAMES and sum(lasts[:-1]) == 20_000
+    assert (tmp_path / "long.gif").stat().st_size < film.BYTES
+
+
+def test_two_arms_targets_and_points_move_and_what_is_not_there_is_not_drawn(tmp_path):
+    moving = Transform(translation=np.column_stack([WAY[:, 0] / 3, WAY[:, 1], 0.3 + 0 * T]))
+    ball = np.column_stack([0.3 + 0 * T, WAY[:, 0] / 5, 0.2 + 0 * T])
+    q = np.column_stack([WAY[:, :3], 0.05 + 0 * T])
+    around = {"targets": {"goal": moving}, "circles": [(ball, 0.05)]}
+    both, _ = frames(animate([SCARA, SCARA], T, [q, q[::-1]], **around), tmp_path / "both.gif")
+    assert len(both) == 49 and not alike(both[0], both[-1])
+    still = np.repeat(q[:1], len(T), axis=0)
+    moved, _ = frames(animate(SCARA, T, still, **around), tmp_path / "moved.gif")
+    assert not alike(moved[0], moved[-1])
+    gone = np.where(T[:, None] > 2, np.nan, WAY)
+    found, _ = frames(animate(IRB140, T, gone), tmp_path / "gone.gif")
+    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # the arm, and a few words
+    assert dark[-1] < dark[:20].min() / 3
+
+
+def test_what_is_not_ours_stays_and_what_is_too_large_is_refused(tmp_path, monkeypatch):
+    player = animate(IRB140, T, WAY)
+    mine = tmp_path / "mine.gif"
+    Image.new("RGB", (4, 4)).save(mine)
+    before = mine.read_bytes()
+    with pytest.raises(ValueError, match="not a saved player; nothing is overwritten"):
+        player.save(mine)
+    assert mine.read_bytes() == before
+    player.save(tmp_path / "again.gif")
+    player.save(tmp_path / "again.gif")
+    monkeypatch.setattr(film, "BYTES", 50_000)
+    with pytest.raises(ValueError, match=r"wanted a film of at most 0 MB, got 0\.\d MB"):
+        player.save(tmp_path / "large.gif")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["again.gif", "mine.gif"]
+    with pytest.raises(ValueError, match="wanted a name that ends in .html"):
+        joint_explorer(IRB140).save(tmp_path / "explorer.gif")
