@@ -374,7 +374,7 @@ def test_without_threads_the_page_is_told_and_the_verdicts_are_the_same(monkeypa
 
     monkeypatch.setattr(_thread, "start_new_thread", none)
     assert [check("made.1", answer) for answer in tried] == before
-    assert told == [True, False] * len(tried)
+    assert told == [True, False] * (len(told) // 2) and len(told) >= 2 * len(tried)
 
 
 def test_a_time_limit_leaves_nothing_behind(monkeypatch):

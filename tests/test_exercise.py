@@ -768,9 +768,10 @@ def count(n):
 """
     mistakes = "**one more.** It adds one.\n- `k + 1` → `k + 2`\n\n**stands.**\n- `k + 1` → `k + 0`"
     mine = exercise(text, lambda rng: [(n,) for n in range(1, 20)], mistakes)
-    says = "A wrong program of this exercise, 'stands', does not come to an end."
-    verdict = check(mine, lambda n: n + n % 2)
-    assert verdict.mistake is None and verdict.says[0].endswith(says)
+    assert check(mine, lambda n: n + n % 2).mistake == "one more"
+    verdict = check(mine, lambda n: n // 3)
+    told = "(Of this exercise's mistakes 'stands' never ends.)"
+    assert verdict.mistake is None and verdict.says[0].endswith(told)
 
 
 # --- Wrong programs -------------------------------------------------------------------------------

@@ -493,6 +493,7 @@ def test_data_that_are_no_page_are_refused(change):
         "title": "a",
         "summary": "",
         "alt": "",
+        "nothing": -32768,
         "times": [0, 1.5],
         "ticks": [0, 1.0, 2, 0],
         "slider": None,

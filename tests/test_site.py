@@ -443,7 +443,7 @@ def test_no_file_outside_is_taken_away(tmp_path):
 def test_what_is_missing_is_named(tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(making, "find_spec", lambda name: None)
-        with pytest.raises(ValueError, match=r"sphinx.*pip install 'robokin\[site\]'"):
+        with pytest.raises(ValueError, match=r"sphinx.*pip install '\.\[site\]'"):
             making.build(tmp_path / "site")
     with monkeypatch.context() as patch:
         patch.setattr(making.robokin, "__file__", str(tmp_path / "robokin" / "__init__.py"))

@@ -95,7 +95,7 @@ def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):
         "student 29/report.html": ("student 29", "a report that cannot be read"),
         "student 3/03_irb140_motion.ipynb": ("student 3", "not a notebook"),
         "student 5/other.HTML": ("student 5", "a page that is no report"),
-        "student 6/notes.ipynb": ("student 6", "a notebook without exercises of robokin's"),
+        "student 6/notes.ipynb": ("student 6", f"a notebook without a known exercise. {book.MORE}"),
     }
     rows = table_in(tmp_path)
     assert len(drawn) == 29 and len(rows) == 29 + len(left_out)

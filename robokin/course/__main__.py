@@ -116,12 +116,12 @@ def _add(folder: Path) -> None:
         raise NotADirectoryError(f"--exercises: wanted a folder, got {str(folder)!r}")
     known = [os.environ[ELSEWHERE]] if os.environ.get(ELSEWHERE) else []
     os.environ[ELSEWHERE] = os.pathsep.join([*known, str(folder)])
-    if len(labs()) == before:
-        raise FileNotFoundError(f"--exercises: no lab of its own in {str(folder)!r}")
     for each in labs().values():
         each.read()
         for told in each.broken.values():
             print(told, file=sys.stderr)
+    if len(labs()) == before:
+        raise FileNotFoundError(f"--exercises: no lab of its own in {str(folder)!r}")
 
 
 def _copy(options: Any) -> int:

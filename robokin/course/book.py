@@ -32,6 +32,7 @@ from .value import Value
 OURS = Path(__file__).parents[2] / "notebooks" / "exercises"
 ELSEWHERE = "ROBOKIN_EXERCISES"
 WORDS = ("objectives", "predictions")  # Markdown that is no exercise
+MORE = "Labs of your own: ROBOKIN_EXERCISES=FOLDER, or --exercises FOLDER, makes them known."
 DEFAULTS = ("form", "law", "same")  # what a notebook calls so by chance is no part of an exercise
 
 
@@ -153,6 +154,8 @@ def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
     if not isinstance(solution, str):
         try:
             names = {k: v for k, v in solution.__globals__.items() if k not in DEFAULTS}
+            if solution.__name__ == "<lambda>":
+                raise ValueError("solution: wanted a function made by def, got a lambda")
             solution = inspect.getsource(solution)
         except (AttributeError, OSError, TypeError):
             raise ValueError(f"solution: wanted a function or its text, got {solution!r}") from None
@@ -212,15 +215,17 @@ def titled(name: str) -> str:
 
 
 def find(name: Any, what: str) -> Any:
-    """The exercise or prediction with an id. `what`: "exercises" or "predictions". ValueError: none
-    such, or one that cannot be read.
+    """The exercise or prediction with an id; an exercise is its own. `what`: "exercises" or
+    "predictions". ValueError: none such, or one that cannot be read.
     """
+    if isinstance(name, Exercise):
+        return name
     slug, dot, number = str(name).partition(".")
     known = labs()
     if known and (slug not in known or not dot):
         raise ValueError(
             f'id: wanted a lab and a number, "{next(iter(known))}.1", of {", ".join(known)}; got '
-            f"{name!r}"
+            f"{name!r}. {MORE}"
         )
     entries, broken = getattr(lab(slug), what), lab(slug).broken
     if number not in entries:

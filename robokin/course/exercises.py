@@ -15,6 +15,8 @@ from ..units import deg, mm
 from .answers import TROUBLE
 from .markdown import Text
 
+EMPTY = "Nothing here yet: write your answer into the cell above and run both again."
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -40,7 +42,9 @@ class Verdict:
         return self.holds
 
     def __repr__(self) -> str:
-        word = "holds" if self.holds else "does not hold" if self.answered else "not answered yet"
+        word = "holds" if self.holds else "does not hold" if self.answered else "not judged"
+        if self.says == (EMPTY,):
+            word = "not answered yet"
         lines = [f"{self.exercise}: {word}."]
         if self.case:
             lines += self.case.split("\n")
@@ -80,8 +84,7 @@ class Exercise(ABC):
 
 def unanswered(name: str) -> Verdict:
     """The friendly line."""
-    says = "Nothing here yet: write your answer into the cell above and run both again."
-    return Verdict(name, answered=False, says=(says,))
+    return Verdict(name, answered=False, says=(EMPTY,))
 
 
 # --- In words -------------------------------------------------------------------------------------

@@ -62,6 +62,7 @@ class Function(Exercise):
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
         self.trying = ""  # the mistake that is asked now
+        self.endless: list[str] = []  # mistakes that did not come to an end, and are asked no more
 
     @cached_property
     def cases(self) -> list[Case]:
@@ -168,12 +169,7 @@ class Function(Exercise):
         if unended(trouble):
             return trouble.name, ()
         ended = [o for o in outcomes if not unended(o)]
-        [outcome] = run(partial(self.named, ended, wrong, first), [()])
-        if unended(outcome):
-            which = f"{self.trying!r}, " if self.trying else ""
-            told = f"A wrong program of this exercise, {which}does not come to an end."
-            return None, (f"The mistake is not recognised: look at the case. {told}",)
-        if found := outcome.result:
+        if found := self._named_in_time(ended, wrong, first):
             names = list(dict.fromkeys(name for name, _ in found))[:2]
             says = [says for _, says in found if says][: len(names)]
             return " or ".join(names), tuple([" Or: ".join(says)] if says else [])
@@ -186,9 +182,26 @@ class Function(Exercise):
                 return "nearly right", (off,)
             if unused := self._unused(answer, outcomes)[:2]:
                 told = " or ".join(f"`{each}`" for each in unused)
-                names = [f"{each} is not used" for each in unused]
-                return " and ".join(names), (f"The result stays the same when {told} changes.",)
-        return None, ("The mistake is not recognised: look at the case.",)
+                unlike = [f"{each} is not used" for each in unused]
+                return " and ".join(unlike), (f"The result stays the same when {told} changes.",)
+        told = "The mistake is not recognised: look at the case."
+        if self.endless:
+            which = ", ".join(map(repr, self.endless))
+            told += f" (Of this exercise's mistakes {which} never ends.)"
+        return None, (told,)
+
+    def _named_in_time(
+        self, outcomes: list[Outcome], wrong: list[str | None], first: int
+    ) -> list[Fault]:
+        """`named`, without the mistakes that never end."""
+        while True:
+            self.trying = ""
+            [outcome] = run(partial(self.named, outcomes, wrong, first), [()])
+            if not (unended(outcome) and self.trying):
+                found: list[Fault] = outcome.result or []
+                return found
+            self.endless.append(self.trying)
+            self.own = [each for each in self.own if each.name != self.trying]
 
     # --- What explains a wrong answer
 
@@ -247,6 +260,7 @@ class Function(Exercise):
         def ran(program: Callable[[], Any], k: int) -> Any:
             return program()(*self.cases[k])
 
+        self.trying = ""
         for pair in edits.pairs(self.own):
             program = cache(partial(self.steps.program, pair))  # it may be no Python
             yield Candidate(pair.name, pair.says, partial(ran, program))

@@ -26,7 +26,7 @@ from .book import lab, labs
 from .texts import ALL_BUT_HALVES, all_visible
 
 NONE = "your name"  # what the labs have where the student's name should stand
-CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet)\.")
+CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet|not judged)\.")
 CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")  # in what is no Python
 SIZE = 20_000_000  # bytes of a notebook
 CODE = 100_000  # characters of a cell that is read as Python

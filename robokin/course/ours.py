@@ -50,7 +50,8 @@ FIGURE = re.compile(
     r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})">\s*'
 )
 VERDICT = re.compile(
-    r'<div role="status" style="[^"]*"><b>(\w+\.\w+): (holds|does not hold|not answered yet)\.</b>'
+    r'<div role="status" style="[^"]*"><b>(\w+\.\w+): '
+    r"(holds|does not hold|not answered yet|not judged)\.</b>"
     r'((?:<div style="padding-left:[02]em">[^<>]*</div>)*)</div>'
 )
 LINE = re.compile(r'<div style="padding-left:([02])em">([^<>]*)</div>')
@@ -156,7 +157,7 @@ def _verdict(name: str, word: str, lines: str) -> Markup:
         ("  " if indent == "2" else "") + visible(html.unescape(line))
         for indent, line in LINE.findall(lines)
     ]
-    made = Verdict(name, word != "not answered yet", word == "holds", says=tuple(says))
+    made = Verdict(name, word in ("holds", "does not hold"), word == "holds", says=tuple(says))
     return Markup(made._repr_html_())
 
 

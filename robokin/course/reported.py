@@ -13,7 +13,7 @@ from datetime import datetime
 from typing import Any
 
 from .._validate import short
-from .book import find, lab, labs
+from .book import MORE, find, lab, labs
 from .texts import visible
 from .variants import normalised
 
@@ -50,7 +50,7 @@ def validated(data: Any) -> dict[str, Any]:
         raise ValueError("its data are not those of a report that this robokin knows")
     old, slug = data["report"] == 1, data.get("lab")
     if slug is not None and not (isinstance(slug, str) and slug in labs()):
-        raise ValueError(f"lab: wanted one of robokin's, got {short(slug)}")
+        raise ValueError(f"lab: wanted a known one, got {short(slug)}. {MORE}")
     who = _text(data, "who", TEXT)
     if len(who) > NAME:
         raise ValueError(f"who: wanted at most {NAME} characters, got {len(who)}")

@@ -24,7 +24,7 @@ from typing import Any
 
 import psutil
 
-from .book import labs
+from .book import MORE, labs
 from .handed_in import HandedIn, handed_in
 from .judge import LIMITS, Limits, judge_notebook
 from .report_page import objectives, told
@@ -208,12 +208,12 @@ def _read(path: Path, inside: Path) -> Entry | str:
         if data is None:
             return "a page that is no report"
         if data["lab"] is None:
-            return "a report of a notebook without exercises of robokin's"
+            return f"a report of a notebook without a known exercise. {MORE}"
         when = datetime.fromisoformat(data["made"])
         return Entry(data["who"], data["lab"], _shown(inside), when, data)
     handed = handed_in(path)
     if handed.lab is None:
-        return "a notebook without exercises of robokin's"
+        return f"a notebook without a known exercise. {MORE}"
     when = datetime.fromtimestamp(path.stat().st_mtime).astimezone()
     return Entry(who_of(inside), handed.lab, _shown(inside), when, {}, handed)
 

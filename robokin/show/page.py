@@ -162,9 +162,8 @@ class PageArm(Greatest, Flaws):
 
 class Page(TypedDict):
     """Everything that a player draws. `nothing`: the whole number of a `Packed` that stands for no
-    value. `decimals` are those of speeds and accelerations, `sampled`
-    says of which samples the greatest are told, `ticks` is the scale of the time, `dashes` the
-    dashes of the joints' lines.
+    value. `decimals` are those of speeds and accelerations, `sampled` says of which samples the
+    greatest are told, `ticks` is the scale of the time, `dashes` the dashes of the joints' lines.
     """
 
     title: str
