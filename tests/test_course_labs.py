@@ -17,7 +17,7 @@ from robokin.course import book, catch, check, hint, progress, solution
 from robokin.course.catch import Catch
 from robokin.course.function import Function
 from robokin.course.predictions import shown
-from robokin.course.questions import filled, judged
+from robokin.course.questions import chosen_option, filled
 
 LABS = {name: next(NOTEBOOKS.glob(f"*_{name}.ipynb")) for name in book.labs()}
 EXERCISES = [f"{lab}.{n}" for lab in book.labs() for n in book.lab(lab).exercises]
@@ -211,7 +211,7 @@ def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
     assert not re.search(r"[{}$\\]", said), "a blank that is not filled, or a formula"
     for k, option in enumerate(options):
         if typed:  # the number of each confusion is told from all others
-            assert judged(prediction, options, right, float(option.text)) == k
+            assert chosen_option(prediction, options, right, float(option.text)) == k
     assert shown(prediction.view()), "a view that shows nothing"
 
 
