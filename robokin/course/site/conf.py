@@ -85,7 +85,7 @@ def _own_name(app: Any, docname: str, source: list[str]) -> None:
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
     up = "../" * docname.count("/")
     source[0] = re.sub(
-        r"\]\((?:\.\./)+(robokin/[\w/]+)\.py\)",
+        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # a module of a job: its package
         lambda link: f"]({up}api/{link[1].replace('/', '.')}.rst)",
         source[0],
     )
