@@ -338,7 +338,7 @@ CALLS = {
         "names",
         "bases",
     ),
-    "Player": (figures.Player, dict(data=PLAYER.data, still=PLAYER.still)),
+    "Player": (figures.Player, dict(data=PLAYER.data, still=PLAYER.still, film=PLAYER.film)),
     "Explorer": (figures.Explorer, dict(data=EXPLORER.data, still=EXPLORER.still)),
     "Output.save": (lambda path: PLAYER.save(path), dict(path=PAGE)),
     "Output.save (explorer)": (lambda path: EXPLORER.save(path), dict(path=PAGE)),

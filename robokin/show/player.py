@@ -172,7 +172,7 @@ class Player(Output):
 
     def __init__(self, data: Any, still: plots.Figure, film: Film) -> None:
         super().__init__(data, still)
-        self.film = film
+        self.film = instance(film, Film, "film")
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page (.html), or the scene without the curves as an animated
@@ -180,7 +180,8 @@ class Player(Output):
         the first value). ValueError: another name, a file that is there and not a saved player, a
         picture of more than 3 MB.
         """
-        if str(path).endswith(".gif"):
+        name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else ""
+        if isinstance(name, str) and os.path.splitext(name)[1] == ".gif":
             write(path, ".gif", self.film.gif)
         else:
             super().save(path)
