@@ -36,7 +36,7 @@ from robokin import (
 from robokin.course import book
 from robokin.course.book import find
 from robokin.course.questions import filled
-from robokin.show import explorers
+from robokin.show import explorers, motion_explorer
 
 NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
 X, Y, Z = np.eye(3)
@@ -300,7 +300,7 @@ def test_the_explorer_shows_the_numbers_of_the_table():
     text = sources("03")["effect-look"]
     g, _ = run("03", "setup")
     path = g["start"], g["via"], g["goal"], 0.1
-    explorer = explorers.motion_explorer(IRB140, *path[:3], g["row"])
+    explorer = motion_explorer(IRB140, *path[:3], g["row"])
     assert explorer.data["start_values"]["duration"] == number(r"It opens with (\d+) s", text)
     assert explorer.data["laws"][explorer.data["start_values"]["law"]] == "quintic"
     assert explorer.data["samples"] == number(r"in (\d+) samples", text)
