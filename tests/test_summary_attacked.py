@@ -218,7 +218,10 @@ BROKEN = {  # file name -> what is in it, and a word of the reason
     "empty.html": ("", "no report"),
     "page.html": ("<p>Hello</p>", "no report"),
     "utf16.html": (page(GOOD).encode("utf-16"), "no report"),
-    "no lab.html": (GOOD | {"lab": None, "exercises": [], "predictions": []}, "without a known exercise"),
+    "no lab.html": (
+        GOOD | {"lab": None, "exercises": [], "predictions": []},
+        "without a known exercise",
+    ),
     "cut.html": (page(GOOD).partition('"predictions"')[0], "cannot be read"),
     "words.html": (page("nothing"), "Expecting value"),
     "list.html": (page("[]"), "not those of a report"),
