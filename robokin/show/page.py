@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 from .._validate import short
-from .joiner import script, style
+from .joiner import compressed, script, style
 from .numbers import Packed, Scale
 from .palette import css
 from .twin import ArmData, PageLink
@@ -411,11 +411,14 @@ def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
     "player.play". `nonce`: of a page whose policy lets no other script run.
     """
     module, _ = call.split(".")
+    key, bytes_of_script = compressed(module)
     tag = f"script nonce={nonce}" if nonce else "script"
     return (
         f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
-        f"<style>{css()}{style(module)}\n</style>\n"
-        f'<{tag}>(() => {{\n{script(module)}\n${call}("{name}", {text});\n}})();</script>\n'
+        f"<style>{css()}{style('elements')}\n</style>\n"
+        f"<{tag}>(() => {{\n{script('loader')}\n"
+        f'$loader.start("{name}", "{key}", "{bytes_of_script}", ${module} => {{\n'
+        f'${call}("{name}", {text});\n}});\n}})();</script>\n'
     )
 
 
