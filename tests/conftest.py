@@ -255,6 +255,11 @@ class JupyterLab:
         )
 
 
+def awake(page):
+    """Wait until every view in the page has unpacked its script and started."""
+    page.wait_for_function("!document.querySelector('.robokin-player:not([data-ready])')")
+
+
 def until(true, complaint, page=None):
     """Wait until `true()`; fail with `complaint` if it does not come. With a page, its events go on
     meanwhile.

@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 import nbformat
 import numpy as np
 import pytest
-from conftest import NOTEBOOKS, until
+from conftest import NOTEBOOKS, awake, until
 
 from robokin import IRB140, Transform, deg, mm, ptp
 from robokin.show import animate
@@ -255,6 +255,7 @@ def test_an_untrusted_notebook_shows_a_still_picture(jupyter, page):
 @pytest.mark.parametrize("lab", [*LABS, *COMPANIONS])
 def test_every_player_of_an_exported_lab_works_without_a_network(page, exported, lab):
     page.goto(exported[lab].as_uri())
+    awake(page)
     players = page.locator(PLAYER)
     assert players.count() == _stored_players(lab)
     assert players.count() > 0 or lab in COMPANIONS
@@ -287,6 +288,7 @@ def test_a_saved_player_asks_for_nothing(page, saved):
     requests = []
     page.on("request", lambda request: requests.append(request.url))
     page.goto(saved.as_uri())
+    awake(page)
     player = page.locator(PLAYER)
     for slider in _sliders(player):
         _moves(page, player, slider)
@@ -303,6 +305,7 @@ def test_a_saved_player_asks_for_nothing(page, saved):
 
 def test_the_keyboard_reaches_every_control(page, saved):
     page.goto(saved.as_uri())
+    awake(page)
     controls = page.locator(PLAYER).locator("button, input, select, .rk-scene")
     assert controls.count() == 6  # view, play, time, speed, slider, switch
     reached = set()

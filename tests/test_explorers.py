@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import test_browser
 from axe_playwright_python.sync_playwright import Axe
-from conftest import ROOT, until
+from conftest import ROOT, awake, until
 from machines import UR5
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
@@ -210,6 +210,7 @@ def opened(context, tmp_path):
         path = tmp_path / f"{len(pages)}.html"
         explorer.save(path)
         page.goto(path.as_uri())
+        awake(page)
         return Open(page, explorer, arm)
 
     yield made

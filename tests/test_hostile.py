@@ -17,7 +17,7 @@ from types import SimpleNamespace
 
 import nbformat
 import pytest
-from conftest import NOTEBOOKS, until
+from conftest import NOTEBOOKS, awake, until
 from nbformat.v4 import (
     new_code_cell,
     new_markdown_cell,
@@ -705,7 +705,7 @@ def test_a_report_lives_as_a_file(browser, stored_report):
     for name in SAMPLE:
         report, calls = stored_report(name)
         page.goto(report.as_uri())
-        page.locator(".robokin-player[data-ready]").last.wait_for()
+        awake(page)
         views += alive(page, calls)
         kinds |= {*calls}
         assert complaints == [], name
@@ -727,7 +727,7 @@ def test_a_report_lives_on_a_server(browser, stored_report):
     for name in ("03", "09"):
         report, calls = stored_report(name)
         page.goto(f"http://127.0.0.1:{server.server_port}/{report.name}")
-        page.locator(".robokin-player[data-ready]").last.wait_for()
+        awake(page)
         assert alive(page, calls) == 1, "one view that moves"
     context.close()
     server.shutdown()

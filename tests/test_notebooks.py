@@ -13,12 +13,15 @@ import subprocess
 import sys
 import tokenize
 import unicodedata
+import zlib
 
 import lab_sizes
 import nbformat
 import pytest
 from conftest import NOTEBOOKS, PATIENCE, ROOT
 from PIL import Image
+
+from robokin.show import joiner
 
 # Not recursively: JupyterLab keeps checkpoints in a folder below.
 LABS = sorted(NOTEBOOKS.glob("*.ipynb"))
@@ -91,6 +94,19 @@ def test_no_warning_is_stored(code):
 
 def test_the_file_is_small(path):
     assert path.stat().st_size < 1_000_000
+
+
+def test_stored_scripts_are_those_of_today(path):
+    """nbval compares their keys, not their bytes, which depend on the zlib that compressed them."""
+    text = json.dumps(json.loads(path.read_text(encoding="utf-8")), ensure_ascii=False)
+    form = r"\$loader\.start\(\W*[0-9a-f]{12}\W+([0-9a-f]{12})\W+?([A-Za-z0-9+/=]+)\W+\$(\w+) =>"
+    found = set(re.findall(form, text))
+    assert len(found) > 0 or '"robokin-player' not in text
+    for key, script, module in found:
+        wanted, today = joiner.compressed(module)
+        assert key == wanted, module
+        unpacked = [zlib.decompress(base64.b64decode(one)) for one in (script, today)]
+        assert unpacked[0] == unpacked[1], module
 
 
 def test_no_state_of_a_session_is_stored(path):

@@ -1,7 +1,9 @@
 """The page: its colours stand once, its script is joined from modules, its numbers come back."""
 
+import base64
 import re
 import subprocess
+import zlib
 
 import numpy as np
 import pytest
@@ -87,6 +89,7 @@ def modules(tmp_path, monkeypatch):
     def forget():
         joiner.script.cache_clear()
         joiner.style.cache_clear()
+        joiner.compressed.cache_clear()
 
     yield write
     forget()
@@ -139,6 +142,41 @@ def test_comments_go_and_code_stays(modules, code, value):
     assert plain == value or value is None and "// " in plain
     modules(top=f"{text}export const all = () => found;\n")
     assert run(page.script("top"), "$top.all()") == plain
+
+
+def test_a_compressed_script_adds_its_sheets_and_returns_its_module(modules):
+    modules({"base": "b { margin: 0 }"}, base="export const one = 1;\n")
+    key, text = joiner.compressed("base")
+    code = zlib.decompress(base64.b64decode(text)).decode()
+    document = "const sheets = [], document = {createElement: () => ({}), "
+    document += "head: {append: sheet => sheets.push(sheet.textContent)}};"
+    head = f"{document}\nconst found = (() => {{{code}}})();"
+    assert run(head, "[found.one, sheets]") == '[1,["b{margin:0}"]]'
+    modules({"base": "b { margin: 1px }"}, base="export const one = 1;\n")
+    assert joiner.compressed("base")[0] != key, "another text has another key"
+
+
+def test_views_of_one_kind_share_one_script(browser):
+    pages = [
+        page.output("guesses.line", name, "0", "<p>still</p>") for name in ("a" * 12, "b" * 12)
+    ]
+    tab = browser.new_page()
+    called = "globalThis.called = [];"
+    pages = [re.sub(r"\$guesses\.line\((.*)\);", r"called.push([\1, $guesses]);", p) for p in pages]
+    tab.set_content(f"<script>{called}</script>{pages[0]}{pages[1]}")
+    tab.wait_for_function("called.length == 2")
+    assert tab.evaluate("called[0][2] === called[1][2] && robokinScripts.size == 1")
+    tab.close()
+
+
+def test_a_browser_that_cannot_unpack_a_script_keeps_the_still_and_says_so(browser):
+    tab = browser.new_page()
+    tab.set_content(
+        "<script>delete globalThis.DecompressionStream</script>"
+        + page.output("player.play", "a" * 12, "{}", "<p>still</p>")
+    )
+    tab.get_by_text("open it in a browser of 2023 or later").wait_for()
+    tab.close()
 
 
 def test_a_literal_that_does_not_end_is_refused_by_file_and_line(modules):

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from conftest import until
+from conftest import awake, until
 from matplotlib.patches import Circle, Polygon
 from matplotlib.text import Text
 
@@ -931,6 +931,7 @@ def page(browser):
 def show(page, player, tmp_path):
     player.save(tmp_path / "player.html")
     page.goto((tmp_path / "player.html").as_uri())
+    awake(page)
     page.get_by_role("button", name="play").wait_for()
     return page
 
@@ -1114,6 +1115,7 @@ def test_without_scripts_the_picture_stays(browser, blended, tmp_path):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((tmp_path / "player.html").as_uri())
+    awake(page)
     box = page.get_by_role("img", name="IRB-140 in the first and the last posture").bounding_box()
     assert box["width"] > 400 and box["height"] > 200
     context.close()
@@ -1263,6 +1265,7 @@ def test_canvases_have_at_most_two_device_pixels_per_pixel(browser, blended, tmp
     blended.save(tmp_path / "player.html")
     page = browser.new_page(viewport={"width": 900, "height": 900}, device_scale_factor=3)
     page.goto((tmp_path / "player.html").as_uri())
+    awake(page)
     for selector in (".rk-scene", ".rk-curves"):
         ink(page, selector)
         assert page.evaluate(
@@ -1370,7 +1373,9 @@ def test_a_floor_hides_what_dips_below_it(page):
 def test_who_is_quicker_than_the_first_picture_gets_its_colours(page, blended):
     """Asked for in the very task that made the player, before any canvas has told its size."""
     page.set_content(
-        f"{blended.html}<script>document.querySelector('input')"
-        ".dispatchEvent(new Event('input'));</script>"
+        "<script>new MutationObserver((_, watch) => {const input = document.querySelector('input');"
+        "if (input) {watch.disconnect(); input.dispatchEvent(new Event('input'));}})"
+        f".observe(document, {{childList: true, subtree: true}});</script>{blended.html}"
     )
+    awake(page)
     assert ink(page, ".rk-curves") and page.evaluate(PAINTED, ".rk-curves") > 5000

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import test_browser
 from axe_playwright_python.sync_playwright import Axe
+from conftest import awake
 from playwright.sync_api import expect
 
 from robokin import IRB140, deg
@@ -68,6 +69,8 @@ def opened(browser, tmp_path):
         path = tmp_path / ("one.html" if within else f"{len(contexts)}.html")
         asked.save(path)
         page.goto(path.as_uri())
+        if options.get("java_script_enabled", True):
+            awake(page)
         return page
 
     yield made
@@ -301,6 +304,7 @@ def test_an_exported_lab_asks_on_a_phone(browser, exported, lab):
     page = context.new_page()
     page.route(re.compile("^https?:"), lambda route: route.abort())
     page.goto(exported[lab].as_uri())
+    awake(page)
     questions = page.locator(".rk-ask")
     questions.first.wait_for()
     assert questions.count() == len(book.lab(lab[3:]).predictions)

@@ -15,7 +15,7 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import NOTEBOOKS, until
+from conftest import NOTEBOOKS, awake, until
 from test_browser import NEXT_FRAME, PLAYER, _opens, _seen
 from test_export import FETCHED, formulas
 
@@ -233,6 +233,7 @@ def _foreign(url, address):
 def test_a_page_at_three_widths(page, address, name):
     page.set_viewport_size({"width": WIDTHS[0], "height": 900})
     page.goto(f"{address}{name}.html")
+    awake(page)
     assert page.locator(PLAYER).count() == page.locator(f"{PLAYER}[data-ready]").count()
     for width in WIDTHS:
         page.set_viewport_size({"width": width, "height": 900})

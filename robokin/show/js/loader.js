@@ -29,7 +29,7 @@ export function start(id, key, packed, show) {
 }
 
 /** @param {string} packed */
-function unpacked(packed) {
+async function unpacked(packed) {
   const bytes = Uint8Array.from(atob(packed), c => c.charCodeAt(0)),
     stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).text();
