@@ -1115,7 +1115,6 @@ def test_without_scripts_the_picture_stays(browser, blended, tmp_path):
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((tmp_path / "player.html").as_uri())
-    awake(page)
     box = page.get_by_role("img", name="IRB-140 in the first and the last posture").bounding_box()
     assert box["width"] > 400 and box["height"] > 200
     context.close()
