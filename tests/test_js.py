@@ -24,13 +24,18 @@ SITE = ROOT / "robokin" / "course" / "site" / "static"
 SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
 
 
+def not_installed(error):
+    """Without a network a test is skipped; in CI it fails."""
+    report = pytest.fail if os.environ.get("CI") else pytest.skip
+    report(f"Prettier and TypeScript are not installed, and there is no network: {error}")
+
+
 def run(name, *arguments):
     """What a tool says, "" if it finds nothing."""
     try:
         done = tool(name, *arguments)
     except NoNetwork as error:
-        report = pytest.fail if os.environ.get("CI") else pytest.skip
-        report(f"Prettier and TypeScript are not installed, and there is no network: {error}")
+        not_installed(error)
     return done.stdout + done.stderr if done.returncode else ""
 
 
@@ -56,7 +61,7 @@ def scanned():
     try:
         command = [NODE, HERE / "scan.cjs", tools(), *SCRIPTS]
     except NoNetwork as error:
-        pytest.skip(f"TypeScript is not installed: {error}")
+        not_installed(error)
     done = subprocess.run(command, text=True, capture_output=True, check=True)
     return {Path(path): found for path, found in json.loads(done.stdout).items()}
 

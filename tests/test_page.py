@@ -157,25 +157,38 @@ def test_a_compressed_script_adds_its_sheets_and_returns_its_module(modules):
 
 
 def test_views_of_one_kind_share_one_script(browser):
+    pages = [page.output("prediction.ask", k * 12, "0", "<p>words</p>") for k in "ab"]
+    called = "globalThis.called = [];"
     pages = [
-        page.output("guesses.line", name, "0", "<p>still</p>") for name in ("a" * 12, "b" * 12)
+        re.sub(r"\$prediction\.ask\((.*)\);", r"called.push([\1, $prediction]);", one)
+        for one in pages
     ]
     tab = browser.new_page()
-    called = "globalThis.called = [];"
-    pages = [re.sub(r"\$guesses\.line\((.*)\);", r"called.push([\1, $guesses]);", p) for p in pages]
     tab.set_content(f"<script>{called}</script>{pages[0]}{pages[1]}")
     tab.wait_for_function("called.length == 2")
-    assert tab.evaluate("called[0][2] === called[1][2] && robokinScripts.size == 1")
+    assert tab.evaluate("called.map(([id]) => id[0]).join('')") == "ab"
+    assert tab.evaluate("called.map(([, , module]) => typeof module.ask)") == ["function"] * 2
+    assert tab.evaluate("called[0][2] === called[1][2]")
     tab.close()
 
 
-def test_a_browser_that_cannot_unpack_a_script_keeps_the_still_and_says_so(browser):
+@pytest.mark.parametrize(
+    ("call", "still"),
+    [
+        ("player.play", page.still_image(b"", "an arm")),
+        ("prediction.ask", "<p>Which joint is the fastest?</p><p>a) joint 1</p><p>Run this.</p>"),
+    ],
+)
+def test_a_browser_that_cannot_unpack_keeps_the_still_and_says_why(browser, call, still):
     tab = browser.new_page()
     tab.set_content(
         "<script>delete globalThis.DecompressionStream</script>"
-        + page.output("player.play", "a" * 12, "{}", "<p>still</p>")
+        + page.output(call, "a" * 12, "{}", still)
     )
-    tab.get_by_text("open it in a browser of 2023 or later").wait_for()
+    tab.get_by_text("This view needs a browser from 2023 or later.").wait_for()
+    place = tab.locator(".robokin-player")
+    assert place.locator("p").all_inner_texts()[:-1] == re.findall("<p>(.*?)</p>", still)[:-1]
+    assert place.locator("img").count() == still.count("<img")
     tab.close()
 
 

@@ -122,7 +122,7 @@ def test_a_tour_under_the_floor_is_named_with_its_depth():
 
 def test_what_is_stored_is_small_and_says_what_is_seen():
     explorer = tour_explorer(CIRCLE)
-    assert len(explorer.html) < 90_000
+    assert len(explorer.html) < 57_000
     assert "Greed loses 2 points" in explorer.data["alt"] and explorer.data["alt"] in explorer.html
     assert explorer.still.alt == explorer.data["alt"]
 
@@ -145,7 +145,7 @@ def test_it_opens_with_any_task(task):
         assert least <= value <= most
     added = asked(l1=task.l1, l2=task.l2, p0=task.p0.tolist(), points=explorer.data["spare"])
     assert sum(answered(added, SPEEDS)["reached"]) >= 10, "points that are added can be served"
-    assert len(explorer.html) < 90_000
+    assert len(explorer.html) < 57_000
 
 
 # --- What the page shows --------------------------------------------------------------------------

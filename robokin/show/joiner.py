@@ -44,9 +44,9 @@ def script(name: str) -> str:
 
 @cache
 def compressed(name: str) -> tuple[str, str]:
-    """The script of the module `name` and its style sheets, as `loader.js` takes them: a key that
-    belongs to these bytes, and one script compressed (zlib, base64) that adds the sheets to the
-    page and returns what the module exports.
+    """The script of the module `name` as `loader.js` takes it: its key, a hash of its text, and the
+    script itself, compressed by zlib, in base64. The script adds the style sheets of `name` to
+    the page and returns what the module exports.
     """
     sheet = json.dumps(style(name), ensure_ascii=False)
     text = (
@@ -54,7 +54,7 @@ def compressed(name: str) -> tuple[str, str]:
         f"sheet.textContent = {sheet};\ndocument.head.append(sheet);\n"
         f"{script(name)}\nreturn ${name};"
     ).encode()
-    # The key is of the text: another zlib may compress it to other bytes.
+    # A hash of the text: another zlib compresses the same text to other bytes.
     return hashlib.sha256(text).hexdigest()[:12], base64.b64encode(zlib.compress(text, 9)).decode()
 
 

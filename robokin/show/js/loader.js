@@ -1,7 +1,5 @@
-// Starts a view: unpacks its script, which an output stores compressed, and runs it. Views of one
-// kind share one script, so that a page unpacks it once.
-
-import {element} from "./elements.js";
+// Starts a view: unpacks its script, which the output stores compressed, and runs it. All views of
+// one kind share one script, so a page unpacks it only once.
 
 /** @typedef {HTMLScriptElement & {exported?: unknown}} Exporting */
 
@@ -16,16 +14,10 @@ const scripts = (Object(globalThis).robokinScripts ??= new Map());
  * @param {(module: T) => void} show
  */
 export function start(id, key, packed, show) {
-  const nonce = document.currentScript?.nonce ?? "";
-  if (!scripts.has(key))
-    scripts.set(
-      key,
-      unpacked(packed).then(text => run(text, nonce)),
-    );
-  scripts
-    .get(key)
-    ?.then(module => show(/** @type {T} */ (module)))
-    .catch(error => explain(id, error));
+  const nonce = document.currentScript?.nonce ?? "",
+    script = scripts.get(key) ?? unpacked(packed).then(text => run(text, nonce));
+  scripts.set(key, script);
+  script.then(module => show(/** @type {T} */ (module))).catch(error => explain(id, error));
 }
 
 /** @param {string} packed */
@@ -36,13 +28,13 @@ async function unpacked(packed) {
 }
 
 /**
- * What a script returns. It runs as an element of the page, because the policy of a report allows
- * no other code.
+ * Runs a script and gives what it returns. The script has to be an element of the page, because the
+ * policy of a report allows no other code.
  * @param {string} text
  * @param {string} nonce
  */
 function run(text, nonce) {
-  const script = /** @type {Exporting} */ (element("script"));
+  const script = /** @type {Exporting} */ (document.createElement("script"));
   script.nonce = nonce;
   script.textContent = `document.currentScript.exported = (() => {${text}})();`;
   document.head.append(script);
@@ -51,15 +43,18 @@ function run(text, nonce) {
 }
 
 /**
- * The still stays, and says why.
+ * The still of the view stays; its last line says why.
  * @param {string} id
  * @param {unknown} error
  */
 function explain(id, error) {
-  const old = typeof DecompressionStream === "undefined";
-  for (const root of document.querySelectorAll(`[data-player="${id}"]:not([data-ready]) > p`))
-    root.textContent = old
-      ? "A still picture. To see it move, open it in a browser of 2023 or later."
-      : `A still picture: its script failed (${error}).`;
-  if (!old) console.error(error);
+  console.error(error);
+  const reason =
+    typeof DecompressionStream === "undefined"
+      ? "This view needs a browser from 2023 or later."
+      : `The script of this view failed: ${error}.`;
+  const lines = document.querySelectorAll(
+    `[data-player="${id}"]:not([data-ready]) > p:last-of-type`,
+  );
+  for (const line of lines) line.textContent = reason;
 }
