@@ -14,7 +14,7 @@ from types import SimpleNamespace
 import nbformat
 import pytest
 import test_browser
-from conftest import until
+from conftest import awake, until
 from playwright.sync_api import expect
 
 from robokin.course import guesses as hub
@@ -437,6 +437,7 @@ def test_one_button_copies_all_guesses_of_a_page_and_pages_do_not_mix(page, tmp_
         "{value: {writeText: async text => { window.copied = text; }}});"
     )
     page.goto(ada.as_uri())
+    awake(page)
     one, two, typed, other = page.locator(".rk-ask").all()
     for question, choice in ((typed, "-290"), (one, "b"), (other, "d"), (two, "c")):
         answer(question, choice)
@@ -448,12 +449,15 @@ def test_one_button_copies_all_guesses_of_a_page_and_pages_do_not_mix(page, tmp_
     assert page.evaluate("copied") == f'report(who, guesses="{line}")'
     assert parse_line(line)
     page.goto(bob.as_uri())
+    awake(page)
     assert page.locator(".rk-answer p").count() == 0, "another page's guesses"
     page.goto(ada.as_uri())
+    awake(page)
     assert page.get_by_text("You guessed here before.").count() == 4 and button.count() == 1
     one.get_by_role("button", name="Clear").click()
     two.get_by_role("button", name="Ask me again").click()
     page.goto(ada.as_uri())
+    awake(page)
     assert page.get_by_text("You guessed here before.").count() == 3
     assert "You guessed here before." in told(two).inner_text()
 
@@ -465,6 +469,7 @@ def test_where_the_clipboard_is_forbidden_the_line_is_there_to_be_selected(page,
         "document.execCommand = () => false;"
     )
     page.goto(path.as_uri())
+    awake(page)
     answer(page.locator(".rk-ask"), "b")
     for _ in range(2):
         page.get_by_role("button", name="Copy my guesses").click()

@@ -1051,6 +1051,7 @@ def test_dragging_turns_the_arm_and_sets_the_time(page, blended, tmp_path):
 
 def test_two_copies_of_one_player_do_not_disturb_each_other(page, blended, tmp_path):
     page.set_content(blended.html + blended.html)
+    awake(page)
     assert page.get_by_role("button", name="play").count() == 2
     page.get_by_label("blend", exact=True).nth(1).fill("3")
     ink(page, ".rk-scene")

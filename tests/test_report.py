@@ -10,7 +10,7 @@ from html import unescape
 from types import SimpleNamespace
 
 import pytest
-from conftest import NOTEBOOKS, until
+from conftest import NOTEBOOKS, awake, until
 from handed import cell, report_of, stored
 from nbformat.v4 import new_markdown_cell, new_notebook
 
@@ -120,6 +120,7 @@ def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
     page.on("pageerror", lambda error: complaints.append(str(error)))
     page.on("request", lambda request: asked.append(request.url))
     page.goto(hostile.page.as_uri())
+    awake(page)
     [formula] = page.locator("math mfrac").all()
     assert formula.bounding_box()["height"] > 15
     assert "It is $\\nonsense$." in page.locator("main").inner_text(), "as it was typed"

@@ -16,7 +16,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import NOTEBOOKS, awake, until
-from test_browser import NEXT_FRAME, PLAYER, _opens, _seen
+from test_browser import NEXT_FRAME, PLAYER, _opens, _seen, _settled
 from test_export import FETCHED, formulas
 
 from robokin.course import site as making
@@ -258,6 +258,7 @@ def _too_wide(page):
 def test_an_arm_is_dragged(page, address, lab):
     page.set_viewport_size({"width": 1366, "height": 900})
     page.goto(f"{address}{lab}.html")
+    awake(page)
     players = [one for one in page.locator(PLAYER).all() if one.locator("canvas").count()]
     assert players
     held = page.locator(f"{PLAYER} .rk-handle:not([inert] *)")  # what asks a kernel is inert here
@@ -282,8 +283,12 @@ def test_an_arm_is_dragged(page, address, lab):
 
 def test_the_theme_reaches_the_arms(page, address):
     page.goto(f"{address}index.html")
+    awake(page)
     player = page.locator(PLAYER).first
-    seen, paper = _seen(player).pixels, "e => getComputedStyle(e).getPropertyValue('--rk-paper')"
+    seen, paper = (
+        _settled(page, player).pixels,
+        "e => getComputedStyle(e).getPropertyValue('--rk-paper')",
+    )
     light, looks = player.evaluate(paper), set()
     for _ in range(3):
         page.locator(".theme-toggle:visible").first.click()
@@ -319,6 +324,7 @@ def test_it_opens_from_a_folder(page, site):
 @pytest.mark.parametrize("name", ["index", "00_start_here"])
 def test_who_cannot_see_it_can_use_it(page, address, name):
     page.goto(f"{address}{name}.html")
+    awake(page)
     found = {
         rule["id"]: [node["html"][:160] for node in rule["nodes"]]
         for rule in Axe().run(page).response["violations"]
