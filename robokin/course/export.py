@@ -23,7 +23,7 @@ from nbconvert.filters import Highlight2HTML, ansi2html
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 
 from .._validate import short
-from ..show.page import write_page
+from ..show.saving import write_page
 from .harmless import (
     INLINE,
     clean,

@@ -109,7 +109,7 @@ class Asked:
         """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
         that is there and not ours.
         """
-        from ..show.page import save
+        from ..show.saving import save
 
         save(path, self.data["title"], self.html)
 

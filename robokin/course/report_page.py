@@ -17,8 +17,9 @@ import jinja2
 from markupsafe import Markup
 
 from .. import __version__
-from ..show.page import inert, write_page
+from ..show.page import inert
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
+from ..show.saving import write_page
 from .book import find, lab
 from .export import View, page
 from .handed_in import HandedIn, handed_in

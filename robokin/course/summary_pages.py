@@ -21,8 +21,8 @@ from typing import Any
 import jinja2
 from markupsafe import Markup, escape
 
-from ..show.page import write_page
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
+from ..show.saving import write_page
 from .book import find, lab, labs, titled
 from .predictions import chosen, worked_out
 from .report_page import exercise_title, safe

@@ -12,7 +12,8 @@ from ..arms.arm import Arm
 from ..transform import Transform
 from . import plots
 from .camera import Around, Mark, flange
-from .page import MARK, PageScene
+from .page import PageScene
+from .saving import MARK
 from .scene import Scene
 
 WIDTH = 640  # pixels

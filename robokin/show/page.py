@@ -1,22 +1,17 @@
-"""What a page draws: the description of its data (an explorer's arm: `twin.arm_data`; numbers in
-few bytes: `numbers.Packed`); its HTML with the script that draws it, and saving it.
+"""The data of a page, and the HTML with the script that draws it. An explorer's arm is described in
+`twin`, what a scene shows besides arms in `things`; `saving` writes pages to files.
 """
 
 import base64
-import contextlib
 import html
 import json
-import os
-from collections.abc import Callable
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
-from .._validate import short
 from .joiner import compressed, script, style
 from .numbers import Packed, Scale
 from .palette import css
 from .twin import ArmData, PageLink
 
-MARK = "<!-- robokin player -->"  # what tells our own saved files from others'
 STILL = (
     "A still picture. To see it move: run all cells (Run > Run All Cells), or trust the notebook "
     "(Ctrl+Shift+C, then Trust Notebook)."
@@ -420,71 +415,3 @@ def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
         f'$loader.start("{name}", "{key}", "{bytes_of_script}", ${module} => {{\n'
         f'${call}("{name}", {text});\n}});\n}})();</script>\n'
     )
-
-
-def save(path: str | os.PathLike[str], title: str, body: str) -> None:
-    """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
-    that is there and not a saved player.
-    """
-    head = (
-        '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width">\n'
-        '<meta name="color-scheme" content="light dark">\n'
-        f"<title>{html.escape(title)}</title>\n"
-    )
-    body = (
-        f'<body style="max-width:1200px;margin:16px auto;padding:0 8px">\n{body}</body>\n</html>\n'
-    )
-    write_page(path, head + body)
-
-
-def write_page(path: str | os.PathLike[str], page: str) -> None:
-    """Write a whole page, which begins with its doctype: wholly or not at all. ValueError: not a
-    .html file, or one that is there and was not written here.
-    """
-    doctype, _, rest = page.partition("\n")
-    write(path, ".html", lambda: f"{doctype}\n{MARK}\n{rest}".encode())
-
-
-def write(path: str | os.PathLike[str], ending: str, content: Callable[[], bytes]) -> None:
-    """Write a file that holds MARK near its beginning: wholly or not at all. ValueError: its name
-    has another ending, or a file is there that was not written here.
-    """
-    name = _file(path, ending)
-    if os.path.lexists(name) and not _ours(name):
-        raise ValueError(
-            f"path: {short(name)} exists and is not a saved player; nothing is overwritten"
-        )
-    _write(name, content())
-
-
-def _file(path: Any, ending: str) -> str:
-    """`path` as a name with this ending."""
-    name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
-    if not isinstance(name, str) or os.path.splitext(name)[1] != ending or "\0" in name:
-        raise ValueError(f"path: wanted a name that ends in {ending}, got {short(path)}")
-    folder = os.path.dirname(name) or os.curdir
-    if not os.path.isdir(folder):
-        raise ValueError(f"path: wanted a folder that exists, got {short(folder)}")
-    return name
-
-
-def _ours(name: str) -> bool:
-    """Whether a saved player lies there: itself, and not a link to it."""
-    if os.path.islink(name) or not os.path.isfile(name):
-        return False
-    with open(name, "rb") as file:
-        return MARK.encode() in file.read(1000)  # a GIF begins with its colours
-
-
-def _write(name: str, content: bytes) -> None:
-    """Beside it first, so that a reader, or a full disk, never sees half of it."""
-    beside = os.path.join(os.path.dirname(name), f".{os.urandom(8).hex()}.part")
-    try:
-        with open(beside, "xb") as file:
-            file.write(content)
-        os.replace(beside, name)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.remove(beside)
-        raise

@@ -37,12 +37,11 @@ from .page import (
     Unit,
     inert,
     output,
-    save,
     still_image,
-    write,
 )
 from .palette import DASHES, INK
 from .panels import near_limits
+from .saving import save, write
 from .scene import Scene
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
