@@ -3,7 +3,7 @@ and with PyPI's Node:
 
     python tests/javascript.py prettier --write robokin/show/js
     python tests/javascript.py tsc
-    python tests/javascript.py types    # writes robokin/show/js/page.d.ts
+    python tests/javascript.py types    # writes page.d.ts and kinds.js in robokin/show/js
 
 npm lays them, once for each lock file, into the user's cache, so that nothing of them stands in
 the tree.
@@ -22,7 +22,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints, is
 
 from conftest import NODE, ROOT
 
-from robokin.show import motors, numbers, page, twin
+from robokin.show import motors, numbers, page, things, twin
 
 HERE = ROOT / "tests" / "js"
 PROGRAMS = {
@@ -63,17 +63,45 @@ def tool(name, *arguments):
     return subprocess.run(command, cwd=ROOT, text=True, capture_output=True)
 
 
+def written():
+    """The scripts that are written from Python: path -> text."""
+    js = ROOT / "robokin/show/js"
+    return {js / "page.d.ts": page_types(), js / "kinds.js": kinds()}
+
+
+def kinds():
+    """js/kinds.js: the scripts of the kinds of `things.PageThing`."""
+    names = [get_args(get_type_hints(table)["kind"])[0] for table in KINDS]
+    return "\n".join(
+        [
+            "// Written by `python tests/javascript.py types` from PageThing of things/__init__.py.",
+            "",
+            *[f'import {{{name}}} from "./{name}.js";' for name in sorted(names)],
+            "",
+            "/** The kinds of things, in the order in which they are drawn. */",
+            f"export const kinds = {{{', '.join(names)}}};",
+            "",
+        ]
+    )
+
+
 def page_types():
     """js/page.d.ts: the TypedDicts of what pages are given, as TypeScript has them."""
     tables = {
         name: table
-        for module in (numbers, page, twin, motors)
+        for module in (
+            numbers,
+            *[sys.modules[table.__module__] for table in KINDS],
+            page,
+            twin,
+            motors,
+        )
         for name, table in vars(module).items()
         if is_typeddict(table)
     }
     parts = [
         "// Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,",
-        "// numbers.py and motors.py, which say what everything is. Change those.",
+        "// numbers.py, motors.py and things/, which say what everything is. Change those.",
         "",
         "/** T with these of its optional keys there. */",
         "export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;",
@@ -105,6 +133,8 @@ def _install(folder):
 
 PLAIN = {str: "string", float: "number", int: "number", bool: "boolean", Any: "unknown"}
 ALIASES = {"PageExplorer": page.PageExplorer, "Scale": numbers.Scale, "Inverse": twin.Inverse}
+ALIASES |= {"PageThing": things.PageThing}
+KINDS = get_args(things.PageThing)
 PLAIN |= {type(None): "null"}
 
 
@@ -135,7 +165,8 @@ def _typed(kind, alias=True):
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["types"]:
-        (ROOT / "robokin/show/js/page.d.ts").write_text(page_types(), encoding="utf-8")
+        for path, text in written().items():
+            path.write_text(text, encoding="utf-8")
         sys.exit()
     run = tool(*sys.argv[1:])
     sys.stdout.write(run.stdout)

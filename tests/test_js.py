@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 import pytest
 from conftest import NODE, ROOT
-from javascript import HERE, NoNetwork, page_types, tool, tools
+from javascript import HERE, NoNetwork, page_types, tool, tools, written
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
 from robokin.show import page, twin
@@ -155,8 +155,9 @@ def test_no_type_says_nothing(path):
 
 
 def test_the_types_of_the_data_are_those_of_python():
-    stored = (FOLDER / "page.d.ts").read_text(encoding="utf-8")
-    assert stored == page_types(), "Run: python tests/javascript.py types"
+    for path, text in written().items():
+        stored = path.read_text(encoding="utf-8")
+        assert stored == text, f"{path.name}: run python tests/javascript.py types"
 
 
 KEYS = {  # of one kind of page, and a script that takes it

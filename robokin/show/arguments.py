@@ -1,26 +1,24 @@
 """What a caller gives a figure or a player, looked at before anything is drawn."""
 
-import itertools
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats
-from .._validate import floats, instance, length, short, text
+from .._arrays import Floats
+from .._validate import floats, instance, length, short
 from ..arms.arm import Arm
 from ..motion.derivatives import rising
 from ..motion.recording import Jump, Recording, record
 from ..transform import Transform
-from .camera import HORIZON, Mark
+from .checks import in_sight, plain, several
 from .numbers import tidy
 from .page import Slider, Switch
+from .things import Faces, Mark, Target, Thing
+from .things.thing import as_place, as_reading
 
 Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
-
-LONGEST = 2000  # letters of a title or a name
 
 
 def named_targets(targets: Targets) -> dict[str, Transform]:
@@ -53,44 +51,6 @@ def posed(targets: Targets) -> dict[str, Transform]:
     for name, pose in named.items():
         in_sight(instance(pose, Transform, f"target {name}").translation, f"target {name}")
     return named
-
-
-def in_sight(lengths: Floats, name: str) -> Floats:
-    """Lengths (...) in metres, if a figure can hold them; ValueError otherwise. NaN passes."""
-    if (abs(lengths) > HORIZON).any():
-        raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
-    return lengths
-
-
-def several(
-    value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
-) -> list[Any]:
-    """What is in `value`, if it is a list or the like; else the error, which says that `what` was
-    wanted. ValueError: more of them than there is room for in a figure.
-    """
-    alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
-    if alone or not isinstance(value, Iterable):
-        raise error(f"{name}: wanted {what}, got {short(value)}")
-    found = list(itertools.islice(value, most + 1))
-    if len(found) > most:
-        raise ValueError(f"{name}: wanted at most {most}, got more")
-    return found
-
-
-def yes(value: Any, name: str) -> bool:
-    """True or False. ValueError: anything else."""
-    if not isinstance(value, (bool, np.bool_)):
-        raise ValueError(f"{name}: wanted True or False, got {short(value)}")
-    return bool(value)
-
-
-def plain(value: Any, name: str) -> str:
-    """`value`, if it is words for a figure or a page; ValueError otherwise. Half characters (lone
-    surrogates), which no file can hold, are replaced by the sign for what cannot be shown.
-    """
-    if len(text(value, name)) > LONGEST:
-        raise ValueError(f"{name}: wanted at most {LONGEST} letters, got {len(value)}")
-    return str(value).encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 # --- What a player is given -----------------------------------------------------------------------
@@ -193,68 +153,49 @@ def switch(value: Any) -> Switch | None:
     return {"label": label, "values": [plain(word, "switch") for word in values]}
 
 
-def targets_over_time(targets: Targets, lead: tuple[int, ...], count: int) -> dict[str, Transform]:
-    """As `named_targets`, but a target may move: of shape (samples,), (*lead, samples) or
-    (*lead, 1), which becomes (motions or 1, samples or 1). NaN where it is not there.
+def things(
+    targets: Targets, points: Any, circles: Any, faces: Any, readings: Any, more: Any
+) -> list[Thing]:
+    """The things that the arguments of `animate` describe, and `more` of any kind. TypeError: one
+    of them is not a `Thing`.
     """
-    found = posed(targets)
-    for name, pose in found.items():
-        if pose.shape:
-            moving = _moving(pose.shape, lead, count, f"target {name}")
-            found[name] = pose[tuple(np.indices(pose.shape).reshape(-1, *moving))]
-        floats(pose.translation, f"target {name}", finite=not pose.shape)
+    polygons = Faces(faces)
+    found: list[Thing] = [Target(pose, name) for name, pose in posed(targets).items()]
+    found += _marks(points, circles, readings)
+    found += [polygons] if polygons.corners else []
+    given = several(more, "things", "a list of things", error=TypeError)
+    return found + [instance(one, Thing, "things") for one in given]  # type: ignore[type-abstract]
+
+
+def bases(value: Any, count: int) -> Floats | None:
+    """Where `count` arms stand in one space: (count, 2)."""
+    if value is None:
+        return None
+    found = in_sight(floats(value, "bases"), "bases")
+    if count < 2 or found.shape != (count, 2):
+        wanted = f"x and y for each of several arms, ({max(count, 2)}, 2)"
+        raise ValueError(f"bases: wanted {wanted}, got {short(value)}")
     return found
 
 
-def marks(points: Any, circles: Any, lead: tuple[int, ...], count: int) -> list[Mark]:
-    """Points are circles without a radius. What moves is of shape (motions or 1, samples or 1,
-    3).
-    """
-    found = [(name, _place(p, "points", lead, count), 0.0) for name, p in _named(points, "points")]
+def _marks(points: Any, circles: Any, readings: Any) -> list[Mark]:
+    """Points are circles without a radius."""
+    if not isinstance(readings, Mapping):
+        raise ValueError(f"readings: wanted a dict name -> numbers, got {short(readings)}")
+    read = {}
+    for name, given in several(readings.items(), "readings", "a dict name -> numbers"):
+        read[name] = as_reading(given, f"reading {name}")
+    found = [
+        Mark(as_place(at, "points"), name, reading=read.get(name))
+        for name, at in _named(points, "points")
+    ]
     for name, circle in _named(circles, "circles"):
         if not isinstance(circle, (list, tuple)) or len(circle) != 2:
             raise ValueError(f"circles: wanted (centre, radius), got {short(circle)}")
-        radius = in_sight(np.array(length(circle[1], "radius")), "radius")
-        found.append((name, _place(circle[0], "circles", lead, count), float(radius)))
-    return found
-
-
-def standing(bases: Any, count: int) -> Floats | None:
-    """Where `count` arms stand in one space: (count, 2)."""
-    if bases is None:
-        return None
-    found = in_sight(floats(bases, "bases"), "bases")
-    if count < 2 or found.shape != (count, 2):
-        wanted = f"x and y for each of several arms, ({max(count, 2)}, 2)"
-        raise ValueError(f"bases: wanted {wanted}, got {short(bases)}")
-    return found
-
-
-def polygons(faces: Any) -> list[Floats]:
-    """The corners (k, 3) of each face."""
-    found = []
-    for face in several(faces, "faces", "a list of polygons"):
-        corners = in_sight(floats(face, "faces", 3), "faces")
-        if corners.ndim != 2 or not 3 <= len(corners) <= 100:
-            raise ValueError(f"faces: wanted 3 to 100 corners (x, y, z), got {short(face)}")
-        found.append(corners)
-    return found
-
-
-def readings(
-    values: Any, marks: Sequence[Mark], lead: tuple[int, ...], count: int
-) -> dict[str, Floats]:
-    """Name of a mark -> numbers (motions or 1, samples or 1)."""
-    if not isinstance(values, Mapping):
-        raise ValueError(f"readings: wanted a dict name -> numbers, got {short(values)}")
-    found = {}
-    for name, given in several(values.items(), "readings", "a dict name -> numbers"):
-        if name not in [mark[0] for mark in marks]:
-            raise ValueError(f"readings: wanted names of points or circles, got {short(name)}")
-        numbers = floats(given, f"reading {name}", finite=False)
-        found[name] = numbers.reshape(*_moving(numbers.shape, lead, count, f"reading {name}"))
-        if (abs(found[name]) > HORIZON).any():
-            raise ValueError(f"reading {name}: wanted numbers up to {HORIZON:g}")
+        at = as_place(circle[0], "circles")
+        found.append(Mark(at, name, length(circle[1], "radius"), read.get(name)))
+    for name in read.keys() - {mark.name for mark in found}:
+        raise ValueError(f"readings: wanted names of points or circles, got {short(name)}")
     return found
 
 
@@ -263,25 +204,3 @@ def _named(places: Any, name: str) -> list[tuple[str, Any]]:
     if isinstance(places, Mapping):
         return [(plain(str(k), name), v) for k, v in several(places.items(), name, what)]
     return [("", value) for value in several(places, name, what, most=1000)]
-
-
-def _place(point: ArrayLike, name: str, lead: tuple[int, ...], count: int) -> Floats:
-    """(3,), or (motions or 1, samples or 1, 3) of one that moves."""
-    place = floats(point, name, finite=False)
-    if place.ndim > 1 and place.shape[-1] == 3:
-        return in_sight(place.reshape(*_moving(place.shape[:-1], lead, count, name, (3,)), 3), name)
-    if place.shape not in ((2,), (3,)):
-        raise ValueError(f"{name}: wanted places (x, y, z), got shape {place.shape}")
-    floats(place, name)
-    return in_sight(np.append(place, [0.0] * (3 - len(place))), name)
-
-
-def _moving(
-    shape: tuple[int, ...], lead: tuple[int, ...], count: int, name: str, last: tuple[int, ...] = ()
-) -> tuple[int, int]:
-    """(motions or 1, samples or 1) of leading axes and samples; `last` is for the words alone."""
-    wanted = dict.fromkeys([(count,), (*lead, count), (*lead, 1)])
-    if shape not in wanted:
-        shapes = " or ".join(str((*one, *last)) for one in wanted)
-        raise ValueError(f"{name}: wanted shape {shapes}, got {(*shape, *last)}")
-    return math.prod(shape[:-1]), shape[-1]

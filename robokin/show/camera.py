@@ -1,11 +1,10 @@
-"""What a camera must see of arms, targets and marks, and where it stands: for figures and pages.
+"""What a camera must see of arms and things, and where it stands: for figures and pages.
 
 `project` gives metres on the picture. Pixels come of them in `scene.Scene._fit` and matplotlib, in
 a page in `js/camera.js`.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -17,36 +16,16 @@ from ..arms.dexterity import total_length
 from ..arms.link import Link
 from ..transform import Transform
 from ..units import deg, wrapped
-from .numbers import TIE, fewest, packed, rounded, series_step, tidy
-from .page import PageMark, PageScene, PageTarget, PageWay
+from .checks import HORIZON
+from .numbers import TIE, rounded, series_step, tidy
+from .page import PageScene
+from .things import Thing
 from .twin import PageLink
 
 View: TypeAlias = tuple[float, float]
-# name, place (3,) or places (motions or 1, samples or 1, 3), radius: 0 for a point
-Mark: TypeAlias = tuple[str, Floats, float]
 
 VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
-SPECK, HORIZON = 1e-3, 1e9  # metres
-
-
-@dataclass(frozen=True)
-class Around:
-    """What a player's space may hold besides: arms that stand in one picture at `bases` (arms, 2),
-    None: each in its own; polygons (k, 3); numbers (motions or 1, samples or 1) behind the names of
-    marks.
-    """
-
-    bases: Floats | None = None
-    faces: Sequence[Floats] = ()
-    readings: Mapping[str, Floats] = field(default_factory=dict)
-
-    def places(self, count: int) -> Floats:
-        """Where the arms stand: (count, 3)."""
-        flat = np.zeros((count, 2)) if self.bases is None else self.bases
-        return np.column_stack([flat, np.zeros(count)])
-
-
-NOTHING_MORE = Around()
+SPECK = 1e-3  # metres: the smallest arm that a picture shows
 # the views straight at the planes x = 0, y = 0 and z = 0
 STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
@@ -110,40 +89,34 @@ def is_flat(arm: Arm, q: Floats) -> bool:
 def scene_data(
     arms: Sequence[Arm],
     postures: Sequence[Floats],
-    targets: Mapping[str, Transform],
-    marks: Sequence[Mark],
+    things: Sequence[Thing],
     size: float,
     kept: Ints | None = None,
+    *,
     solid: bool = False,
-    around: Around = NOTHING_MORE,
+    grows: bool = False,
+    bases: Floats | None = None,
 ) -> PageScene:
-    """Where the camera stands, what it has to see, the floor and what lies in the space. `kept` as
-    in `stations`. A `solid` floor is at height 0.
+    """Where the camera stands, what it has to see, the floor and the things in the space. `kept`
+    are the samples that the page gets of things that move. A `solid` floor is at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
-    bases = around.places(len(arms))
+    feet = standing(bases, len(arms))
     parts = [
         arm_points(arm, q).reshape(-1, 3) + base
-        for arm, q, base in zip(arms, postures, bases, strict=True)
+        for arm, q, base in zip(arms, postures, feet, strict=True)
     ]
     tools = [
         Transform(translation=base) @ flange(arm, q)
-        for arm, q, base in zip(arms, postures, bases, strict=True)
+        for arm, q, base in zip(arms, postures, feet, strict=True)
     ]
-    tips = [
-        (pose[..., None] @ (0.13 * size * np.eye(3))).reshape(-1, 3)
-        for pose in (*tools, *targets.values())
-    ]
-    parts += [pose.translation.reshape(-1, 3) for pose in targets.values()]
-    parts += [
-        (places[..., None, :] + radius * sign * np.eye(3)).reshape(-1, 3)
-        for _, places, radius in marks
-        for sign in (1, -1)
-    ]
-    parts += around.faces
+    axis = 0.13 * size
+    tips = [(pose[..., None] @ (axis * np.eye(3))).reshape(-1, 3) for pose in tools]
+    tips += [thing.seen(axis) for thing in things]
+    parts += [thing.seen(0.0) for thing in things]  # the axes of frames do not widen the floor
     across = [k for k in range(3) if k != (2 if flat is None else flat)]
-    feet = [foot * np.eye(3)[k] + base for base in bases for k in across]
-    seen = np.concatenate([*feet, *parts])
+    rings = [foot * np.eye(3)[k] + base for base in feet for k in across]
+    seen = np.concatenate([*rings, *parts])
     low, high = np.nanmin(seen, axis=0), np.nanmax(seen, axis=0)
     step = series_step(max(*(high - low)[across], size / 3) * (1 + TIE) / 8)
     low[across] = np.floor(low[across] / step + 0.1) * step
@@ -151,57 +124,24 @@ def scene_data(
     sunk = flat is None and not solid and low[2] < -0.01 * size
     low[2] = min(low[2], 0.0) if sunk else 0.0
     places = np.concatenate([pose.translation.reshape(-1, 3) for pose in tools])
-    scene: PageScene = {
+    return {
         "size": tidy(size, 4),
         "flat": flat,
         "grid": tidy(step, 6),
         "seen": outermost(np.concatenate([seen, *tips])),
         "floor": [rounded(low, 4), rounded(high, 4)],
-        "view": rounded(best_view(places - bases.mean(axis=0), flat), 4),
-        "targets": stations(targets, kept),
-        "marks": list(_drawn(marks, kept, around.readings)),
+        "view": rounded(best_view(places - feet.mean(axis=0), flat), 4),
+        "grows": grows,
+        "solid": solid,
+        "bases": None if bases is None else [rounded(base, 4) for base in feet],
+        "things": [thing.page(kept) for thing in things],
     }
-    if solid:
-        scene["solid"] = True
-    if around.bases is not None:
-        scene["bases"] = [rounded(base, 4) for base in bases]
-    if around.faces:
-        scene["faces"] = [[rounded(corner, 4) for corner in face] for face in around.faces]
-    return scene
 
 
-def stations(targets: Mapping[str, Transform], kept: Ints | None = None) -> list[PageTarget]:
-    """Targets as the page gets them; `kept` are the samples that it gets of those that move."""
-    found: list[PageTarget] = []
-    for name, pose in targets.items():
-        rows = pose.as_matrix()[..., :3, :].reshape(*pose.shape, 12)
-        if pose.shape:
-            found.append({"name": name, "way": _way(rows, kept)})
-        else:
-            found.append({"name": name, "pose": rounded(rows)})
-    return found
-
-
-def _drawn(
-    marks: Iterable[Mark], kept: Ints | None, readings: Mapping[str, Floats]
-) -> Iterator[PageMark]:
-    for name, places, radius in marks:
-        mark: PageMark = {"name": name, "radius": radius}
-        if places.ndim > 1:
-            mark["way"] = _way(places, kept)
-        else:
-            mark["at"] = rounded(places)
-        if name in readings:
-            mark["reading"] = _way(readings[name][..., None], kept)
-            mark["decimals"] = fewest(readings[name])
-        yield mark
-
-
-def _way(rows: Floats, kept: Ints | None) -> PageWay:
-    """Rows (motions or 1, samples or 1, k) of what moves."""
-    if rows.shape[1] > 1:
-        rows = rows[:, kept]
-    return {**packed(rows, 8000), "motions": len(rows), "samples": rows.shape[1]}
+def standing(bases: Floats | None, count: int) -> Floats:
+    """Where `count` arms stand: (count, 3). Without `bases`, each at the origin."""
+    flat = np.zeros((count, 2)) if bases is None else bases
+    return np.column_stack([flat, np.zeros(count)])
 
 
 def outermost(points: Floats) -> list[list[float]]:

@@ -14,12 +14,12 @@ from ..arms.scara import ScaraPose
 from ..transform import Transform
 from ..units import deg, length_unit, mm
 from . import plots
-from .arguments import named_targets
 from .camera import VIEW, arm_points, common_plane, extent, scene_data
 from .numbers import tidy
 from .page import ArmPage, Control, PagePose, PageScene, PageUnit
 from .player import Output
 from .scene import Scene
+from .things import Target
 from .twin import KINDS, arm_data
 
 Pose: TypeAlias = Transform | ScaraPose
@@ -166,18 +166,18 @@ def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageSce
     near = (opening[:, None] + step).reshape(-1, len(turn))
     postures = np.concatenate([opening, near])
     above = arm_points(arm, postures)[..., 2].min(axis=-1) > -0.01 * extent(arm)
-    scene = scene_data([arm], [postures[above][None]], named_targets(posed), [], extent(arm))
-    scene["grows"] = True
+    things = [Target(pose, name) for name, pose in posed.items()]
+    scene = scene_data([arm], [postures[above][None]], things, extent(arm), grows=True)
     if not flat:
         scene["view"] = list(VIEW)
     return scene
 
 
 def control(
-    name: str, unit: str, low: float, high: float, step: float, decimals: int = 1
+    name: str, unit: str, low: float, high: float, step: float, decimals: int | None = None
 ) -> Control:
-    """A slider; metres have three decimals."""
-    decimals = decimals if unit != "m" else 3
+    """A slider. By default a value has one decimal, in metres three."""
+    default = 3 if unit == "m" else 1
     ends = [float(np.round(x, 9)) for x in (low, high)]
     return {
         "name": name,
@@ -185,7 +185,7 @@ def control(
         "low": ends[0],
         "high": ends[1],
         "step": step,
-        "decimals": decimals,
+        "decimals": default if decimals is None else decimals,
     }
 
 

@@ -1,7 +1,7 @@
 """A player as a film: its scene, without the curves, as an animated GIF."""
 
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,10 +11,11 @@ from .._arrays import Floats, Ints
 from ..arms.arm import Arm
 from ..transform import Transform
 from . import plots
-from .camera import Around, Mark, flange
+from .camera import flange, standing
 from .page import PageScene
 from .saving import MARK
 from .scene import Scene
+from .things import Thing
 
 WIDTH = 640  # pixels
 RATE, FRAMES = 12, 120  # at most so many frames a second, and in all
@@ -25,21 +26,20 @@ TRACED = 1001  # points of a tool's path
 
 class Film:
     """The first motion of a player: with slider or switch the one that it opens with. What stands
-    still is drawn once; only arms, targets and points that move are drawn for each frame.
+    still is drawn once; only arms and things that move are drawn for each frame.
     """
 
     def __init__(
         self,
         t: Floats,
         motions: Sequence[tuple[Arm, Floats]],
-        targets: Mapping[str, Transform],
-        marks: Sequence[Mark],
+        things: Sequence[Thing],
         page: PageScene,
         title: str,
-        around: Around,
+        bases: Floats | None,
     ) -> None:
-        self.t, self.motions, self.targets, self.marks = t, motions, targets, marks
-        self.page, self.title, self.around = page, title, around
+        self.t, self.motions, self.things = t, motions, things
+        self.page, self.title, self.bases = page, title, bases
 
     def gif(self) -> bytes:
         """The film, which repeats for ever. ValueError: it would take more than 3 MB."""
@@ -67,11 +67,11 @@ class Film:
 
     def _frames(self, at: Ints) -> Iterator[Floats]:
         """The pictures (height, width, 3) at these samples."""
-        count = 1 if self.around.bases is not None else len(self.motions)
+        count = 1 if self.bases is not None else len(self.motions)
         figure = plots.figure(self.title, width=4.5 * count if count > 1 else 6.4, height=4.5)
         figure.set_dpi(WIDTH / figure.get_figwidth())
         figure.text(0.016, 0.985, self.title, fontweight="bold", va="top", parse_math=False)
-        bases = self.around.places(len(self.motions))
+        feet = standing(self.bases, len(self.motions))
         scenes = []
         for k in range(count):
             scene = Scene(
@@ -79,7 +79,7 @@ class Film:
             )
             own = range(len(self.motions)) if count == 1 else [k]
             scenes.append((scene, own))
-            self._still(scene, [(*self.motions[i], bases[i]) for i in own])
+            self._still(scene, [(*self.motions[i], feet[i]) for i in own])
         canvas: Any = figure.canvas
         canvas.draw()
         behind = canvas.copy_from_bbox(figure.bbox)
@@ -87,7 +87,7 @@ class Film:
             canvas.restore_region(behind)
             for scene, own in scenes:
                 before = list(scene.ax.get_children())
-                self._moving(scene, [(*self.motions[i], bases[i]) for i in own], sample)
+                self._moving(scene, [(*self.motions[i], feet[i]) for i in own], sample)
                 new = [each for each in scene.ax.get_children() if each not in before]
                 for artist in sorted(new, key=lambda each: each.get_zorder()):
                     scene.ax.draw_artist(artist)
@@ -95,19 +95,14 @@ class Film:
             yield np.array(canvas.buffer_rgba())[..., :3]
 
     def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
-        """What does not move: feet, paths of the tools, targets and points that stand."""
-        scene.faces(self.around.faces)
+        """What does not move: feet, paths of the tools, things that stand still."""
         for arm, q, base in arms:
             scene.base(base)
             some = np.linspace(0, len(q) - 1, min(len(q), TRACED)).astype(int)
             scene.trace(flange(arm, q[some]).translation + base)
-        for name, pose in self.targets.items():
-            if not pose.shape:
-                scene.triad(pose, name)
-        for name, places, radius in self.marks:
-            if places.ndim == 1:
-                scene.mark(places, radius)
-                scene.label(name, places) if name else None
+        for thing in self.things:
+            if not thing.moves:
+                thing.draw(scene, None)
         scene.finish()
 
     def _moving(
@@ -117,9 +112,6 @@ class Film:
         for arm, q, base in arms:
             scene.arm(arm, q[sample], "last", base)
             scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
-        for pose in self.targets.values():
-            if pose.shape:
-                scene.triad(pose[0, min(sample, pose.shape[1] - 1)])
-        for _, places, radius in self.marks:
-            if places.ndim > 1:
-                scene.mark(places[0, min(sample, places.shape[1] - 1)], radius)
+        for thing in self.things:
+            if thing.moves:
+                thing.draw(scene, sample)

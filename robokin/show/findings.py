@@ -10,7 +10,6 @@ import numpy as np
 from .._arrays import Floats, Ints
 from ..arms.arm import Arm
 from ..motion.recording import Recording
-from ..transform import Transform
 from ..units import mm
 from .camera import flange
 from .numbers import TIE, rounded, tidy
@@ -52,15 +51,14 @@ def sampled(t: Floats) -> str:
     )
 
 
-def closest(arm: Arm, q: Floats, via: Transform, unit: float) -> list[list[float] | None]:
+def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] | None]:
     """For every motion [smallest distance from the via point in the length unit, x, y, z of that
-    place in metres].
+    place in metres]. `via` is that point: (motions or 1, 1, 3).
 
     The path is the polyline through all samples; NaN interrupts it. None where there is no path.
     """
-    place = via.translation  # (3,), or (motions, 1, 3) where each has its own
-    path = flange(arm, q).translation - place
-    place = np.broadcast_to(place, (len(path), 1, 3))[:, 0]
+    path = flange(arm, q).translation - via
+    place = np.broadcast_to(via, (len(path), 1, 3))[:, 0]
     side = np.diff(path, axis=1)
     length = (side**2).sum(axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -142,7 +140,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
     return {"gaps": told(gaps), "jumps": told(jumps), "leaps": told(leaps), "notes": told(notes)}
 
 
-def words(
+def summary_and_alt(
     arms: Sequence[PageArm],
     t: Floats,
     targets: Iterable[str],

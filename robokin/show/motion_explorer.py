@@ -16,7 +16,6 @@ from ..motion.paths import blend
 from ..motion.recording import FEW, LEAP, record
 from ..transform import Transform
 from ..units import length_unit, mm
-from .arguments import named_targets
 from .camera import extent
 from .explorer import (
     TAKE,
@@ -38,6 +37,7 @@ from .explorer import (
 from .page import Corner, Law, MotionPage
 from .palette import DASHES
 from .player import still_picture
+from .things import Target
 
 SAMPLES = 241  # of a motion: enough for its speeds, few enough to follow a hand
 LAWS: Sequence[Law] = ("quintic", "trapezoidal", "linear")
@@ -110,8 +110,7 @@ def motion_explorer(
     still = still_picture(
         [arm.name],
         [(arm, motions[row])],
-        named_targets(posed),
-        [],
+        [Target(pose, name) for name, pose in posed.items()],
         data["scene"],
         data["title"],
         summary,

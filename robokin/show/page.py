@@ -10,6 +10,7 @@ from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 from .joiner import compressed, script, style
 from .numbers import Packed, Scale
 from .palette import css
+from .things import PageThing
 from .twin import ArmData, PageLink
 
 STILL = (
@@ -47,42 +48,12 @@ class Switch(TypedDict):
     values: list[str]
 
 
-class PageWay(Packed):
-    """What moves: places (columns x, y, z) or poses (12 columns), for each motion or one for all,
-    for each sample or one for all.
-    """
-
-    motions: int
-    samples: int
-
-
-class PageTarget(TypedDict):
-    """A pose to mark: `pose` where it stands still, else `way`."""
-
-    name: str
-    pose: NotRequired[list[float]]
-    way: NotRequired[PageWay]
-
-
-class PageMark(TypedDict):
-    """A point (radius 0) or a ball: `at` where it stands still, else `way`. `reading`: a number to
-    write behind its name, with so many decimals.
-    """
-
-    name: str
-    radius: float
-    reading: NotRequired[PageWay]
-    decimals: NotRequired[int]
-    at: NotRequired[list[float]]
-    way: NotRequired[PageWay]
-
-
 class PageScene(TypedDict):
     """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
     floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
-    camera. With `grows` the picture shrinks where an arm or a target leaves it; a floor that is
-    `solid` hides what dips below it. With `bases`, where they stand, all arms are in one picture.
-    `faces`: polygons, their corners.
+    camera. With `grows` the picture shrinks where an arm or a thing leaves it; a floor that is
+    `solid` hides what dips below it. With `bases` all arms stand there in one picture; None gives
+    each its own.
     """
 
     size: float
@@ -91,12 +62,10 @@ class PageScene(TypedDict):
     seen: list[list[float]]
     floor: list[list[float]]
     view: list[float]
-    targets: list[PageTarget]
-    marks: list[PageMark]
-    grows: NotRequired[bool]
-    solid: NotRequired[bool]
-    bases: NotRequired[list[list[float]]]
-    faces: NotRequired[list[list[list[float]]]]
+    grows: bool
+    solid: bool
+    bases: list[list[float]] | None
+    things: list[PageThing]
 
 
 class Axis(TypedDict):

@@ -20,9 +20,11 @@ from ..jobs.obstacles.ways import nearest_approach, unchecked_path
 from ..units import deg, in_words, length_unit, mm
 from . import plots
 from .camera import VIEW, extent, project, scene_data
+from .explorer import control
 from .live import Answer, Live, Question
-from .page import Control, PlanPage
+from .page import PlanPage
 from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
+from .things import Mark
 from .twin import arm_data
 
 STEP = 12 * deg  # of the cube's postures
@@ -191,21 +193,10 @@ def _cube(
 def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> PlanPage:
     size = extent(arm)
     name, unit = length_unit(size)
-    marks = [
-        ("", np.array([*first[key], 0.0]), radius)
-        for key, radius in (("target", 0.0), ("obstacle", first["distance"]))
-    ]
-    scene = scene_data([arm], [_moments(np.array(known.path))[None]], {}, marks, size)
-    scene["grows"], scene["marks"] = True, []
+    marks = [Mark(first["target"]), Mark(first["obstacle"], radius=first["distance"])]
+    scene = scene_data([arm], [_moments(np.array(known.path))[None]], marks, size, grows=True)
+    scene["things"] = []  # the page makes them
     L = arm.lever
-    distance: Control = {
-        "name": "distance",
-        "unit": "mm",
-        "low": 20 * L,
-        "high": 400 * L,
-        "step": L,
-        "decimals": 1,
-    }
     return {
         "kind": "plan",
         "title": TITLE,
@@ -215,7 +206,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
         "arm": arm_data(arm),
         "unit": {"name": name, "size": unit, "code": name},
         "scene": scene,
-        "controls": [distance],
+        "controls": [control("distance", "mm", 20 * L, 400 * L, L)],
         "branches": list(WAYS),
         "forbidden": FORBIDDEN,
         "words": dict(WORDS),

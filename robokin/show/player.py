@@ -23,9 +23,10 @@ from ..transform import Transform
 from ..units import deg, length_unit
 from . import arguments, findings, plots
 from .arguments import Targets
-from .camera import NOTHING_MORE, Around, Mark, chain, extent, flange, scene_data
+from .camera import chain, extent, flange, scene_data, standing
+from .checks import plain, yes
 from .film import Film
-from .numbers import NOTHING, decimals, fewest, packed, rounded, scale, scales, thin, tidy
+from .numbers import NOTHING, decimals, packed, rounded, scale, scales, thin, tidy
 from .page import (
     Axis,
     Page,
@@ -43,6 +44,7 @@ from .palette import DASHES, INK
 from .panels import near_limits
 from .saving import save, write
 from .scene import Scene
+from .things import Target, Thing
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
 # Steps of the greatest joint value, speed, acceleration: the joint values also pose the arm.
@@ -66,6 +68,7 @@ def animate(
     bases: ArrayLike | None = None,
     faces: Iterable[ArrayLike] = (),
     readings: Mapping[str, ArrayLike] = NO_READINGS,
+    things: Iterable[Thing] = (),
 ) -> "Player":
     """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end
     of a cell.
@@ -91,6 +94,7 @@ def animate(
     faces    polygons to draw behind the arms, such as a belt: corners (k, 3), m
     readings numbers that change, to write behind the names of points: a dict name -> (samples,),
              or with the leading axes of q; a whole number stays until the next sample has another
+    things   anything else to draw, of the kinds in `robokin.show.things` or of your own
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, where it depends on slider and switch alone, (..., 1,
@@ -105,19 +109,16 @@ def animate(
     lead = tuple(len(control["values"]) for control in (switching, sliding) if control)
     tracks, names = arguments.tracks(arm, t, q, lead, names)
     count = len(tracks[0].t)
-    named = arguments.targets_over_time(targets, lead, count)
-    marks = arguments.marks(points, circles, lead, count)
-    title = " and ".join(dict.fromkeys(names)) if title is None else arguments.plain(title, "title")
-    solid = arguments.yes(floor, "floor")
-    around = Around(
-        arguments.standing(bases, len(tracks)),
-        arguments.polygons(faces),
-        arguments.readings(readings, marks, lead, count),
-    )
-    data = page_data(names, tracks, named, marks, sliding, switching, title, solid, around)
+    drawn = arguments.things(targets, points, circles, faces, readings, things)
+    for thing in drawn:
+        thing.fit(lead, count)
+    title = " and ".join(dict.fromkeys(names)) if title is None else plain(title, "title")
+    solid = yes(floor, "floor")
+    stands = arguments.bases(bases, len(tracks))
+    data = page_data(names, tracks, drawn, sliding, switching, title, solid, stands)
     motions = [(track.arm, track.q[0]) for track in tracks]
-    still = still_picture(names, motions, named, marks, data["scene"], title, data["alt"], around)
-    film = Film(tracks[0].t, motions, named, marks, data["scene"], title, around)
+    still = still_picture(names, motions, drawn, data["scene"], title, data["alt"], stands)
+    film = Film(tracks[0].t, motions, drawn, data["scene"], title, stands)
     return Player(data, still, film)
 
 
@@ -192,13 +193,12 @@ class Player(Output):
 def page_data(
     names: Sequence[str],
     tracks: Sequence[Recording],
-    targets: Mapping[str, Transform],
-    marks: Sequence[Mark],
+    things: Sequence[Thing],
     slider: Slider | None,
     switch: Switch | None,
     title: str,
     solid: bool,
-    around: Around,
+    bases: Floats | None,
 ) -> Page:
     """What the page draws."""
     arms, t = [track.arm for track in tracks], tracks[0].t
@@ -210,10 +210,11 @@ def page_data(
     curves = [
         [x / u for x in (track.q, track.v, track.a)] for track, u in zip(tracks, units, strict=True)
     ]
-    places = [decimals([c[k] for c in curves]) for k in (1, 2)]
+    digits = [decimals([c[k] for c in curves]) for k in (1, 2)]
+    targets = {thing.name: thing.way.rows for thing in things if isinstance(thing, Target)}
     via = targets.get("via")
-    if around.bases is not None or via is not None and via.shape and via.shape[1] > 1:
-        via = None  # one that moves is at no place to pass
+    if bases is not None or via is not None and via.shape[1] > 1:
+        via = None  # a target that moves with time is at no one place
     drawn: list[PageArm] = [
         {
             "name": name,
@@ -224,15 +225,15 @@ def page_data(
                 packed(x[:, kept], finest, (arm.prismatic, ~arm.prismatic))
                 for x, finest in zip(curve, FINEST, strict=True)
             ],
-            "via": None if via is None else findings.closest(arm, track.q, via, length),
-            **findings.greatest(track, u, unit["name"], places),
+            "via": None if via is None else findings.closest(arm, track.q, via[..., 3::4], length),
+            **findings.greatest(track, u, unit["name"], digits),
             **findings.flaws(track, kept, u, unit["name"]),
         }
         for arm, name, track, curve, u in zip(arms, names, tracks, curves, units, strict=True)
     ]
     postures = [track.q[:, kept] for track in tracks]
-    scene = scene_data(arms, postures, targets, marks, size, kept, solid, around)
-    summary, alt = findings.words(drawn, t, targets, unit, slider, switch)
+    scene = scene_data(arms, postures, things, size, kept, solid=solid, bases=bases)
+    summary, alt = findings.summary_and_alt(drawn, t, targets, unit, slider, switch)
     return {
         "title": title,
         "summary": summary,
@@ -246,7 +247,7 @@ def page_data(
         "dashes": DASHES,
         "scene": scene,
         "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
-        "decimals": places,
+        "decimals": digits,
         "sampled": findings.sampled(t),
         "arms": drawn,
     }
@@ -318,18 +319,17 @@ def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int
 def still_picture(
     names: Sequence[str],
     motions: Sequence[tuple[Arm, Floats]],
-    targets: Mapping[str, Transform],
-    marks: Sequence[Mark],
+    things: Sequence[Thing],
     scene_page: PageScene,
     title: str,
     alt: str,
-    around: Around = NOTHING_MORE,
+    bases: Floats | None = None,
 ) -> plots.Figure:
     """The first and the last posture of each arm with the path of its tool; what moves stands where
     it is at last.
     """
-    count = 1 if around.bases is not None else len(motions)
-    height = 4.5 if around.bases is None else 3.4
+    count = 1 if bases is not None else len(motions)
+    height = 4.5 if bases is None else 3.4
     figure = plots.figure(alt, width=4.5 * count if count > 1 else 6.4, height=height)
     figure.text(
         0.016,
@@ -340,25 +340,14 @@ def still_picture(
         va="top",
         parse_math=False,
     )
-    bases = around.places(len(motions))
+    feet = standing(bases, len(motions))
     for k in range(count):
         ax = figure.add_axes((k / count, 0, 1 / count, 0.93))
         scene = Scene(ax, size=scene_page["size"], like=scene_page)
-        scene.faces(around.faces)
         for i in range(len(motions)) if count == 1 else [k]:
-            _still_arm(scene, *motions[i], bases[i])
-        for name, pose in targets.items():
-            scene.triad(pose[0, -1] if pose.shape else pose, name)
-        for name, places, radius in marks:
-            centre = places[0, -1] if places.ndim > 1 else places
-            if not np.isfinite(centre).all():
-                continue
-            scene.mark(centre, radius)
-            if name in around.readings:
-                value = around.readings[name][0, -1]
-                scene.label(f"{name}: {value:.{fewest(around.readings[name])}f}", centre)
-            elif name:
-                scene.label(name, centre)
+            _still_arm(scene, *motions[i], feet[i])
+        for thing in things:
+            thing.draw(scene, -1)
         scene.finish()
         if count > 1:
             ax.text(

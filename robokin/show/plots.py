@@ -25,8 +25,9 @@ from ..arms.arm import Arm
 from ..motion.recording import Recording, record
 from ..transform import Transform
 from ..units import deg, length_unit, mm
-from .arguments import Targets, in_sight, named_targets, plain, several
+from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
+from .checks import in_sight, plain, several
 from .palette import FAINT, INK, JOINT_STYLES, SCALE, SOFT
 from .panels import draw_panel, lay_out, without_spikes
 from .scene import Scene, number

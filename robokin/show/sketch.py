@@ -13,7 +13,7 @@ import numpy as np
 from .._arrays import ArrayLike, Floats
 from .._validate import choice, floats, positive
 from ..units import mm
-from .arguments import in_sight, plain, several
+from .checks import in_sight, plain, several
 from .palette import INK, JOINT_STYLES, REMARK
 from .plots import Figure, figure
 

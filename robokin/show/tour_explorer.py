@@ -27,12 +27,14 @@ from ..jobs.visit_collect import (
 from ..jobs.visit_collect.arm import UNDER
 from ..units import deg, length_unit
 from . import plots
-from .camera import Mark, best_view, extent, scene_data
+from .camera import best_view, extent, scene_data
+from .explorer import control
 from .live import Answer, Live, Question
 from .numbers import rounded
-from .page import Control, PageScene, TourPage
+from .page import PageScene, TourPage
 from .palette import INK, JOINT_STYLES
 from .scene import Scene
+from .things import Mark
 from .twin import chain
 
 MOST = 12  # points: the page stays legible, and the best order is there in some 10 ms
@@ -100,9 +102,9 @@ def tour_explorer(task: Task) -> Live:
         "unit": {"name": name, "size": size, "code": name},
         "scene": _scene(arm, task),
         "controls": [
-            _control("L1", name, short, reach, 0.1 * length),
-            _control("L2", name, short, reach, 0.1 * length),
-            _control("T", "s", 0, max(10, np.ceil(task.T / 2.5) * 10), 0.1),
+            control("L1", name, short, reach, 0.1 * length, 2),
+            control("L2", name, short, reach, 0.1 * length, 2),
+            control("T", "s", 0, max(10, np.ceil(task.T / 2.5) * 10), 0.1, 2),
         ],
         "words": WORDS,
         "kinds": list(KINDS),
@@ -241,23 +243,11 @@ def _scene(arm: Arm, task: Task) -> PageScene:
     ring = np.arange(0, 360, 30) * deg
     out = max(1.2 * np.hypot(*places.T[:2]).max(), 0.65 * extent(arm))
     around = out * np.stack([np.cos(ring), np.sin(ring), 0 * ring], axis=-1)
-    marks: list[Mark] = [("", p, 0.0) for p in (*around, *places)]
-    scene = scene_data([arm], [task.q[None, :1]], {}, marks, extent(arm), solid=True)
-    scene["marks"], scene["grows"] = [], True
+    marks = [Mark(p) for p in (*around, *places)]
+    scene = scene_data([arm], [task.q[None, :1]], marks, extent(arm), solid=True, grows=True)
+    scene["things"] = []  # the page makes them
     scene["view"] = rounded([best_view(places, None)[0], 40 * deg], 4)
     return scene
-
-
-def _control(name: str, unit: str, low: float, high: float, step: float) -> Control:
-    ends = [float(np.round(x, 3)) for x in (low, high)]
-    return {
-        "name": name,
-        "unit": unit,
-        "low": ends[0],
-        "high": ends[1],
-        "step": step,
-        "decimals": 2,
-    }
 
 
 def _spare(task: Task) -> Floats:

@@ -12,6 +12,7 @@ import {element, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
 import {slider, stageOf, wordButton} from "./stage.js";
 import {degrees, inCode, lengths, plain, radians} from "./turns.js";
+import {point} from "./mark.js";
 
 /** @import {LeversPage} from "./page.js" */
 /** @import {Pixel, Point} from "./canvas.js" */
@@ -95,7 +96,7 @@ function leversExplorer(stage, data) {
       costs = costsOf(state);
       sliders.tell();
       stage.say(costs ? told(says, state, costs) : says.outside);
-      stage.scene.marks = [{name: says.target, at: state.place, radius: 0}];
+      stage.scene.things = [point(says.target, state.place)];
       return [armOf(state, costs)];
     },
     [canvas],

@@ -16,6 +16,7 @@ import {menu, slider, stageOf, table} from "./stage.js";
 import {STATIONS, stationHandles} from "./station_handles.js";
 import {scale} from "./ticks.js";
 import {lengths, plain} from "./turns.js";
+import {frame} from "./target.js";
 
 /** @import {MotionPage, PagePose, StartValues} from "./page.js" */
 /** @import {Motion} from "./blended.js" */
@@ -84,7 +85,7 @@ function motionExplorer(stage, data) {
       drawn = [[{title: arm.name, panels}], t, ticks, state.time * state.duration];
       numbers.tell(motion.tops(held()));
       stage.say([nearWords(data, found.near), ...notes(data, found)].join(" "));
-      stage.scene.targets = STATIONS.map(name => ({name, pose: poseOf(state[name])}));
+      stage.scene.things = STATIONS.map(name => frame(name, poseOf(state[name])));
       return [armAt(data, found, i)];
     },
     [canvas],

@@ -2,9 +2,9 @@
 
 import {number} from "./canvas.js";
 import {fk, origin} from "./kinematics.js";
-import {places, recording} from "./recordings.js";
+import {recording, thingsAt} from "./recordings.js";
 
-/** @import {Page, PageArm, PageScene, Unit} from "./page.js" */
+/** @import {Page, PageArm, Unit} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
 /** @import {Panel} from "./panel.js" */
 /** @import {Recording} from "./recordings.js" */
@@ -13,16 +13,14 @@ import {places, recording} from "./recordings.js";
 /** @typedef {{i: number, share: number}} Moment  a sample, and the share of the way to the next */
 
 /**
- * choose(motion): everything that changes with slider and switch; around(motion, moment): targets
- * and marks then.
+ * choose(motion): everything that changes with slider and switch; things(motion, sample, share):
+ * the things that are there then.
  * @param {Page} data
  */
 export function motionsOf(data) {
   const {unit, slider, times} = data;
   const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
   const recordings = data.arms.map(arm => recording(arm, count, times.length, data));
-  const targets = places(data.scene.targets, "pose", data.nothing),
-    marks = places(data.scene.marks, "at", data.nothing);
   return {
     /** @param {number} motion */
     choose(motion) {
@@ -35,11 +33,7 @@ export function motionsOf(data) {
       }));
       return {motion, arms, columns};
     },
-    /** @type {(motion: number, moment: Moment) => Pick<PageScene, "targets" | "marks">} */
-    around: (motion, {i, share}) => ({
-      targets: targets(motion, i, share),
-      marks: marks(motion, i, share),
-    }),
+    things: thingsAt(data.scene.things, data.nothing),
   };
 }
 

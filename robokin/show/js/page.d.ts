@@ -1,5 +1,5 @@
 // Written by `python tests/javascript.py types` from the TypedDicts of page.py, twin.py,
-// numbers.py and motors.py, which say what everything is. Change those.
+// numbers.py, motors.py and things/, which say what everything is. Change those.
 
 /** T with these of its optional keys there. */
 export type With<T, K extends keyof T> = T & Required<Pick<T, K>>;
@@ -11,9 +11,45 @@ export type Scale = [number, number, number, number];
 export type Inverse =
   ElbowInverse | WristInverse | ScaraInverse | TwoLinkInverse | ThreeLeverInverse | NoInverse;
 
+export type PageThing = PageFaces | PageMark | PageTarget;
+
 export interface Packed {
   steps: (number | number[])[];
   data: string;
+}
+
+export interface PageFaces {
+  kind: "faces";
+  corners: number[][][];
+}
+
+export interface PageReading {
+  steps: (number | number[])[];
+  data: string;
+  motions: number;
+  samples: number;
+  decimals: number;
+}
+
+export interface PageWay {
+  steps: (number | number[])[];
+  data: string;
+  motions: number;
+  samples: number;
+}
+
+export interface PageMark {
+  kind: "mark";
+  name: string;
+  radius: number;
+  at: number[] | PageWay;
+  reading: PageReading | null;
+}
+
+export interface PageTarget {
+  kind: "target";
+  name: string;
+  pose: number[] | PageWay;
 }
 
 export interface ArmData {
@@ -57,28 +93,6 @@ export interface Switch {
   values: string[];
 }
 
-export interface PageWay {
-  steps: (number | number[])[];
-  data: string;
-  motions: number;
-  samples: number;
-}
-
-export interface PageTarget {
-  name: string;
-  pose?: number[];
-  way?: PageWay;
-}
-
-export interface PageMark {
-  name: string;
-  radius: number;
-  reading?: PageWay;
-  decimals?: number;
-  at?: number[];
-  way?: PageWay;
-}
-
 export interface PageScene {
   size: number;
   flat: number | null;
@@ -86,12 +100,10 @@ export interface PageScene {
   seen: number[][];
   floor: number[][];
   view: number[];
-  targets: PageTarget[];
-  marks: PageMark[];
-  grows?: boolean;
-  solid?: boolean;
-  bases?: number[][];
-  faces?: number[][][];
+  grows: boolean;
+  solid: boolean;
+  bases: number[][] | null;
+  things: PageThing[];
 }
 
 export interface Axis {

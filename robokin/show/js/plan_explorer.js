@@ -13,6 +13,7 @@ import {kernelOf, unpacked} from "./live.js";
 import {cubeView, facesOf} from "./plan_cube.js";
 import {armAt} from "./plan_picture.js";
 import {menu, slider, stageOf, tick} from "./stage.js";
+import {point} from "./mark.js";
 
 /** @import {PlanPage, With} from "./page.js" */
 /** @import {Color, Point} from "./canvas.js" */
@@ -123,7 +124,7 @@ function planExplorer(stage, root, id, data) {
       times.tell();
       const {words, direct} = now.shown;
       stage.say([state.way ? "" : words, direct?.says || ""].join(" ").trim());
-      stage.scene.marks = [state.target, state.obstacle].map(at => ({name: "", at, radius: 0}));
+      stage.scene.things = [state.target, state.obstacle].map(at => point("", at));
       return [armAt(arm, state, now)];
     },
     [cube.canvas],

@@ -1,14 +1,14 @@
 // The player: recorded motions of arms in space beside their curves. page.py says what it gets.
 
 import {number, replaceStill, tiled} from "./canvas.js";
-import {sceneView} from "./scene.js";
+import {sceneOf, sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {broken, motionsOf, tipOf} from "./motions.js";
 import {orbit, pictures, sceneCanvas, scrubbing} from "./controls.js";
 import {clockRow, runningClock} from "./clock.js";
 import {choice, element, range, waiting} from "./elements.js";
 
-/** @import {Page, PageArm, PageScene} from "./page.js" */
+/** @import {Page, PageArm} from "./page.js" */
 /** @import {Column} from "./curves.js" */
 /** @import {Moment, Track} from "./motions.js" */
 
@@ -27,8 +27,8 @@ export const play = (id, data) => waiting(id).forEach(root => start(root, data))
  * @param {Page} data
  */
 function start(root, data) {
-  const scene = {...data.scene, unit: data.unit},
-    parts = furniture(data, scene);
+  const scene = sceneOf(data),
+    parts = furniture(data);
   const inSpace = sceneView(parts.scene, scene),
     overTime = curvesView(parts.curves, data.dashes);
   const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
@@ -48,7 +48,7 @@ function start(root, data) {
     const moment = momentAt(data.times, state.time),
       arms = shown.arms.map(arm => armAt(arm, moment));
     shown.columns.forEach((column, k) => shownAt(column, moment, shown.arms[k].gaps));
-    Object.assign(scene, motions.around(shown.motion, moment));
+    scene.things = motions.things(shown.motion, moment.i, moment.share);
     clock.tell();
     const room = inSpace.draw(state.view, arms, `t = ${number(state.time, 2)} s`);
     overTime.draw(shown.columns, data.times, data.ticks, state.time);
@@ -88,14 +88,11 @@ function start(root, data) {
 
 // --- What is on the page -------------------------------------------------------------------------
 
-/**
- * @param {Page} data
- * @param {PageScene} scene
- */
-function furniture(data, scene) {
+/** @param {Page} data */
+function furniture(data) {
   const {slider, switch: menu} = data;
   const parts = {
-    scene: sceneCanvas(scene, data.alt),
+    scene: sceneCanvas(data.scene, data.alt),
     curves: element("canvas", {
       class: "rk-curves",
       role: "img",

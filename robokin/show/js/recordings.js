@@ -3,11 +3,16 @@
 
 import {number} from "./canvas.js";
 
-/** @import {Packed, Page, PageArm, PageWay} from "./page.js" */
+/** @import {Packed, Page, PageArm, PageReading, PageThing, PageWay} from "./page.js" */
 
 /**
- * What may move, and what there is to read behind its name: a PageTarget or a PageMark.
- * @typedef {{name: string, way?: PageWay, reading?: PageWay, decimals?: number}} Moving
+ * @template V
+ * @typedef {V extends PageReading ? string : V extends PageWay ? number[] : V} NowValue
+ */
+/**
+ * A thing at a moment: its ways are numbers, its readings are text.
+ * @template T
+ * @typedef {{[K in keyof T]: NowValue<T[K]>}} Now
  */
 /**
  * @template T
@@ -75,51 +80,62 @@ export function recording(arm, motions, samples, {unit, nothing}) {
     quantity: (k, motion) =>
       inner.map((_, j) => all[k].subarray(row(motion, j), row(motion, j) + samples)),
     q: (motion, i, share = 0) =>
-      inner.map((size, j) => size * between(all[0], row(motion, j) + i, share)),
+      inner.map((size, j) => size * interpolate(all[0], row(motion, j) + i, share)),
   };
 }
 
 /**
- * Targets or marks that may move -> (motion, sample, share) -> those that are there, with their
- * `pose` or `at`, and behind their name what there is to read.
- * @template {Moving} T
- * @param {T[]} things
- * @param {"pose"|"at"} key
+ * Things that may move -> (motion, sample, share) -> those that are there.
+ * @param {PageThing[]} things
  * @param {number} nothing  the whole number for no value
- * @returns {AtMoment<T[]>}
+ * @returns {AtMoment<Now<PageThing>[]>}
  */
-export function places(things, key, nothing) {
-  const columns = key === "pose" ? 12 : 3;
-  const where = things.map(({way, reading, decimals = 0, ...thing}) => {
-    const at = way && numbers(way, columns, nothing),
-      read = reading && numbers(reading, 1, nothing);
-    /** @type {AtMoment<?T>} */
-    return (motion, i, share) => {
-      const now = at && at(motion, i, share),
-        [value] = read ? read(motion, i, 0) : [NaN];
-      if (now && now.some(Number.isNaN)) return null;
-      const name = Number.isNaN(value) ? thing.name : `${thing.name}: ${number(value, decimals)}`;
-      return /** @type {T} */ ({...thing, name, ...(now && {[key]: now})});
-    };
-  });
+export function thingsAt(things, nothing) {
+  const all = things.map(thing =>
+    Object.entries(thing).map(
+      /** @returns {[string, AtMoment<unknown>]} */
+      ([key, value]) => [key, valueAt(value, nothing)],
+    ),
+  );
   return (motion, i, share) =>
-    where.map(one => one(motion, i, share)).filter(thing => thing !== null);
+    all
+      .map(thing => thing.map(([key, at]) => [key, at(motion, i, share)]))
+      .filter(thing => !thing.some(([, now]) => Array.isArray(now) && now.some(Number.isNaN)))
+      .map(thing => Object.fromEntries(thing));
+}
+
+/**
+ * A value of a thing. A reading waits for its next sample, a way goes there evenly.
+ * @param {unknown} value
+ * @param {number} nothing
+ * @returns {AtMoment<unknown>}
+ */
+function valueAt(value, nothing) {
+  if (!(value instanceof Object && "samples" in value)) return () => value;
+  const at = numbers(/** @type {PageWay} */ (value), nothing);
+  if (!("decimals" in value)) return at;
+  const {decimals} = /** @type {PageReading} */ (value);
+  return (motion, i) => {
+    const [now] = at(motion, i, 0);
+    return Number.isNaN(now) ? "" : number(now, decimals);
+  };
 }
 
 /**
  * A PageWay -> (motion, sample, share) -> its columns.
  * @param {PageWay} way
- * @param {number} columns
  * @param {number} nothing
  * @returns {AtMoment<number[]>}
  */
-function numbers(way, columns, nothing) {
+function numbers(way, nothing) {
   const {motions, samples} = way,
-    values = unpacked(way, motions, columns, samples, nothing);
+    count = [...atob(way.data)].filter(c => c < "\x80").length, // each number ends with such a byte
+    columns = count / motions / samples;
+  const values = unpacked(way, motions, columns, samples, nothing);
   return (motion, i, share) => {
     const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
     return Array.from({length: columns}, (_, k) =>
-      between(values, first + k * samples, samples > 1 ? share : 0),
+      interpolate(values, first + k * samples, samples > 1 ? share : 0),
     );
   };
 }
@@ -130,5 +146,5 @@ function numbers(way, columns, nothing) {
  * @param {number} i
  * @param {number} share
  */
-const between = (values, i, share) =>
+const interpolate = (values, i, share) =>
   share ? values[i] + share * (values[i + 1] - values[i]) : values[i];

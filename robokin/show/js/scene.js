@@ -1,24 +1,22 @@
-// The scene: arms, targets and marks in space, above a floor.
+// The scene: arms and things in space, above a floor.
 
 import {drawFlange, drawRods, drawShadow, drawStood, stood} from "./arm_picture.js";
 import {camera} from "./camera.js";
 import {clear, colors, polygon, prepared, stroke, tiled, words} from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
+import {kinds} from "./kinds.js";
 import {placeLabels} from "./labels.js";
-import {drawBalls, drawFaces, drawPlaces, drawRoute} from "./things.js";
 import {compass} from "./triad.js";
 
-/** @import {PageLink, PageMark, PageScene, PageTarget, Unit, With} from "./page.js" */
+/** @import {PageLink, PageScene, PageThing, Unit} from "./page.js" */
 /** @import {Box, Context, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
+/** @import {Label} from "./labels.js" */
+/** @import {Now} from "./recordings.js" */
 
-/** @typedef {PageScene & {unit: Unit}} SceneData  a scene, and the unit of the page */
 /**
- * The same at the moment of a picture: all that moves has its place.
- * @typedef {Omit<SceneData, "targets" | "marks"> & {
- *   targets: With<PageTarget, "pose">[],
- *   marks: With<PageMark, "at">[],
- * }} Scene
+ * A scene at the moment of a picture, and the unit of the page.
+ * @typedef {Omit<PageScene, "things"> & {things: Now<PageThing>[], unit: Unit}} Scene
  */
 /** @typedef {(g: Context, cam: Camera) => void} Draw */
 /**
@@ -39,6 +37,31 @@ import {compass} from "./triad.js";
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  what stands still */
 /** @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen  on what, how seen, what */
+/** @typedef {{labels: Label[], taken: Pixel[]}} Labels  to write, and what they keep off */
+/**
+ * How a kind of thing is drawn. T is its data on the page; a script gets all of its kind together.
+ *
+ * seen   points that a scene which grows has to hold
+ * below  draws what lies below the arms
+ * above  draws what lies above them, and adds labels
+ *
+ * @template T
+ * @typedef {{
+ *   seen(thing: Now<T>): Point[],
+ *   below(pen: Pen, things: Now<T>[]): void,
+ *   above(pen: Pen & Pick<Shown, "near">, things: Now<T>[], labels: Labels): void,
+ * }} Kind
+ */
+
+/** @type {Record<string, Kind<PageThing>>} */
+const KINDS = kinds;
+
+/**
+ * The scene of a page, before there is any thing in it.
+ * @param {{scene: PageScene, unit: Unit}} page
+ * @returns {Scene}
+ */
+export const sceneOf = ({scene, unit}) => ({...scene, things: [], unit});
 
 /**
  * Draws arms in space.
@@ -53,8 +76,7 @@ import {compass} from "./triad.js";
  * height(count, width)      how high a canvas of this width is well filled by so many arms
  *
  * @param {HTMLCanvasElement} canvas
- * @param {SceneData} scene  `targets` and `marks` may be exchanged between two pictures; in each
- *   all have a `pose` or `at`
+ * @param {Scene} scene  `things` may be exchanged between two pictures
  */
 export function sceneView(canvas, scene) {
   const space = surroundings(scene);
@@ -67,7 +89,6 @@ export function sceneView(canvas, scene) {
     const ready = prepared(canvas);
     if (!ready) return false;
     const [g, w, h] = ready,
-      now = /** @type {Scene} */ (scene),
       pictures = scene.bases ? [arms] : arms.map(arm => [arm]);
     const [columns, rows] = tiled(pictures.length, w),
       cw = w / columns,
@@ -75,9 +96,9 @@ export function sceneView(canvas, scene) {
     cameras = pictures.map((shown, i) => {
       /** @type {Box} */
       const cell = [(i % columns) * cw, Math.floor(i / columns) * ch, cw, ch];
-      const corners = scene.grows ? [...space.corners, ...reached(now, shown[0])] : space.corners;
+      const corners = scene.grows ? [...space.corners, ...reached(scene, shown[0])] : space.corners;
       const cam = (held && cameras[i]) || camera(view, corners, inside(cell));
-      drawCell({g, cam, scene: now, space}, shown, cell, pictures.length > 1);
+      drawCell({g, cam, scene, space}, shown, cell, pictures.length > 1);
       return cam;
     });
     const grid = +(scene.grid / scene.unit.size).toPrecision(6);
@@ -116,7 +137,7 @@ const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(
 /**
  * What stands still: the axes of the grid, a point of the floor, what the camera has to see:
  * everything and its shadow. The rest of the floor may leave the picture.
- * @param {PageScene} scene
+ * @param {Scene} scene
  */
 function surroundings({flat, floor: [low], seen}) {
   const normal = flat ?? 2,
@@ -144,10 +165,8 @@ function reached(scene, arm) {
     const joints = [];
     return [...frames(arm.chain, q, joints), ...joints];
   });
-  return [
-    ...[...all, ...scene.targets.map(target => target.pose)].map(origin),
-    ...scene.marks.map(mark => mark.at),
-  ].filter(p => p.every(Number.isFinite));
+  const things = scene.things.flatMap(thing => KINDS[thing.kind].seen(thing));
+  return [...all.map(origin), ...things].filter(p => p.every(Number.isFinite));
 }
 
 /**
@@ -190,16 +209,20 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   for (const one of sunk) drawRods(one);
   if (sunk.length) drawFloor(pen, true);
   if (pen.space.spatial) all.forEach(drawShadow);
-  drawFaces(pen);
-  drawBalls(pen);
-  drawRoute(pen);
+  const groups = Object.entries(KINDS).map(
+    /** @returns {[Kind<PageThing>, Now<PageThing>[]]} */
+    ([kind, script]) => [script, scene.things.filter(thing => thing.kind === kind)],
+  );
+  for (const [kind, things] of groups) kind.below(pen, things);
   [...all].sort((p, q) => p.depth - q.depth).forEach(drawStood);
-  const {labels, taken} = drawPlaces(pen, first.near);
+  /** @type {Labels} */
+  const found = {labels: [], taken: []};
+  for (const [kind, things] of groups) kind.above({...pen, near: first.near}, things, found);
   all.forEach(drawFlange);
   placeLabels(
     g,
-    labels,
-    [...all.flatMap(one => one.trace.filter(p => p !== null).map(one.cam.to)), ...taken],
+    found.labels,
+    [...all.flatMap(one => one.trace.filter(p => p !== null).map(one.cam.to)), ...found.taken],
     [x + 4, y + 24, w - 8, h - 46],
   );
   compass(g, cam, [x + w - 34, y + h - 34]);

@@ -2,7 +2,7 @@
 
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
-import {sceneView} from "./scene.js";
+import {sceneOf, sceneView} from "./scene.js";
 import {orbit, pictures, sceneCanvas} from "./controls.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
@@ -35,7 +35,7 @@ import {handleLayer} from "./handles.js";
  * @param {PageExplorer} data
  */
 export function stageOf(root, data) {
-  const scene = {...data.scene, unit: data.unit},
+  const scene = sceneOf(data),
     state = {view: [...scene.view]};
   const canvas = sceneCanvas(scene, data.alt),
     view = sceneView(canvas, scene),

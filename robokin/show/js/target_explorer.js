@@ -8,7 +8,9 @@ import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
+import {point} from "./mark.js";
 import {menu, slider, stageOf, table, tick} from "./stage.js";
+import {frame} from "./target.js";
 import {targetHandles} from "./target_handles.js";
 import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
 
@@ -168,8 +170,7 @@ const cells = ({arm, words, units}, {rows, exists, inside, travel}) =>
  * @param {string} name
  */
 function markTarget({scene}, {rotation, place}, name) {
-  scene.targets = rotation ? [{name, pose: matrix(rotation, place)}] : [];
-  scene.marks = rotation ? [] : [{name, at: place, radius: 0}];
+  scene.things = [rotation ? frame(name, matrix(rotation, place)) : point(name, place)];
 }
 
 /**

@@ -13,6 +13,7 @@ import {kernelOf, unpacked} from "./live.js";
 import {beside, menu, slider, stageOf, table, wordButton} from "./stage.js";
 import {below, mark, toured} from "./tour_picture.js";
 import {plain} from "./turns.js";
+import {point} from "./mark.js";
 
 /** @import {PageLink, TourPage, With} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
@@ -120,7 +121,7 @@ function tourExplorer(root, id, stage, data) {
     rows.set(heard.cells, tour ? tours.indexOf(tour) : -1, tours.map(Boolean));
     mark(stage.handles.layer, state, heard, tour);
     last = tour ? tour.at(state.time) : last;
-    stage.scene.marks = [state.p0, ...state.points].map(at => ({name: "", at, radius: 0}));
+    stage.scene.things = [state.p0, ...state.points].map(at => point("", at));
     return [{name: "", chain: answer.chain, q: last, under: below(state, heard)}];
   });
 }

@@ -1,0 +1,51 @@
+"""Checks of what a caller gives a figure, a player or a thing in a scene."""
+
+import itertools
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from .._arrays import Floats
+from .._validate import short, text
+
+HORIZON = 1e9  # metres: nothing in a picture is farther away
+LONGEST = 2000  # characters of a title or a name
+
+
+def in_sight(lengths: Floats, name: str) -> Floats:
+    """Return lengths (...) in metres if a figure can hold them; else ValueError. NaN passes."""
+    if (abs(lengths) > HORIZON).any():
+        raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
+    return lengths
+
+
+def several(
+    value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
+) -> list[Any]:
+    """Return the items of `value` if it is a list or another iterable; else raise `error`, which
+    says that `what` was wanted. ValueError: more items than a figure has room for.
+    """
+    alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
+    if alone or not isinstance(value, Iterable):
+        raise error(f"{name}: wanted {what}, got {short(value)}")
+    found = list(itertools.islice(value, most + 1))
+    if len(found) > most:
+        raise ValueError(f"{name}: wanted at most {most}, got more")
+    return found
+
+
+def yes(value: Any, name: str) -> bool:
+    """Return `value` if it is True or False; else ValueError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name}: wanted True or False, got {short(value)}")
+    return bool(value)
+
+
+def plain(value: Any, name: str) -> str:
+    """Return `value` if it is text for a figure or a page; else ValueError. Lone surrogates, which
+    no file can hold, become the replacement character.
+    """
+    if len(text(value, name)) > LONGEST:
+        raise ValueError(f"{name}: wanted at most {LONGEST} letters, got {len(value)}")
+    return str(value).encode("utf-16", "surrogatepass").decode("utf-16", "replace")

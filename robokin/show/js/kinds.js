@@ -1,0 +1,8 @@
+// Written by `python tests/javascript.py types` from PageThing of things/__init__.py.
+
+import {faces} from "./faces.js";
+import {mark} from "./mark.js";
+import {target} from "./target.js";
+
+/** The kinds of things, in the order in which they are drawn. */
+export const kinds = {faces, mark, target};

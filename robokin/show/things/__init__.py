@@ -1,0 +1,16 @@
+"""What a scene shows besides arms: one module and one script (js/) for each kind of thing.
+
+CONTRIBUTING has the recipe for a new kind.
+"""
+
+from typing import TypeAlias
+
+from .faces import Faces, PageFaces
+from .mark import Mark, PageMark
+from .target import PageTarget, Target
+from .thing import Thing
+
+__all__ = ["Faces", "Mark", "PageThing", "Target", "Thing"]
+
+# The kinds, in the order in which a page draws them.
+PageThing: TypeAlias = PageFaces | PageMark | PageTarget

@@ -1,0 +1,155 @@
+"""What every kind of thing has, and numbers that may move."""
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..._arrays import ArrayLike, Floats, Ints, Sealed, frozen
+from ..._validate import floats
+from ..checks import HORIZON, in_sight
+from ..numbers import Packed, fewest, packed, rounded
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+    from . import PageThing
+
+
+class PageWay(Packed):
+    """Numbers that move, in k columns: for each motion or one for all, for each sample or one for
+    all. A thing with a NaN in one of its ways is not drawn at that moment.
+    """
+
+    motions: int
+    samples: int
+
+
+class PageReading(PageWay):
+    """A number to write beside a thing, with this many decimals. It keeps its value until the next
+    sample; NaN writes nothing.
+    """
+
+    decimals: int
+
+
+@dataclass(frozen=True, eq=False)
+class Way(Sealed):
+    """Numbers that stand still or move.
+
+    rows   (motions or 1, samples or 1, k); NaN where there is nothing
+    shape  the leading axes as they were given: () for numbers that stand still
+    name   what error messages call the numbers; `last` is the axis that they add to the shape
+    """
+
+    rows: Floats
+    shape: tuple[int, ...]
+    name: str
+    last: tuple[int, ...] = ()
+
+    def at(self, sample: int | None) -> Floats:
+        """The k numbers at a sample of the first motion."""
+        one: Floats = self.rows[0, sample if sample and self.rows.shape[1] > 1 else 0]
+        return one
+
+    def page(self, kept: Ints | None) -> list[float] | PageWay:
+        """The data of the page; `kept` are the samples that it gets."""
+        return self._packed(kept) if self.shape else rounded(self.rows)
+
+    def fit(self, lead: tuple[int, ...], count: int) -> None:
+        """ValueError: the shape does not fit motions of the shape `lead` with `count` samples."""
+        wanted = dict.fromkeys([(count,), (*lead, count), (*lead, 1)])
+        if self.shape and self.shape not in wanted:
+            shapes = " or ".join(str((*one, *self.last)) for one in wanted)
+            got = (*self.shape, *self.last)
+            raise ValueError(f"{self.name}: wanted shape {shapes}, got {got}")
+
+    def _packed(self, kept: Ints | None) -> PageWay:
+        rows = self.rows[:, kept] if self.rows.shape[1] > 1 else self.rows
+        return {**packed(rows, 8000), "motions": len(rows), "samples": rows.shape[1]}
+
+
+class Reading(Way):
+    """Numbers to write beside a thing, one at a time."""
+
+    def page(self, kept: Ints | None) -> PageReading:
+        """The data of the page."""
+        return {**self._packed(kept), "decimals": fewest(self.rows)}
+
+    def after(self, name: str, sample: int | None) -> str:
+        """Return `name` and the number at a sample; the name alone where there is no number."""
+        value = np.nan if sample is None else self.at(sample)[0]
+        return name if np.isnan(value) else f"{name}: {value:.{fewest(self.rows)}f}"
+
+
+class Thing(ABC):
+    """A thing in a scene. Each kind is a frozen dataclass, which checks what it is made of."""
+
+    @abstractmethod
+    def page(self, kept: Ints | None) -> "PageThing":
+        """The data of the page; `kept` are the samples that it gets of what moves."""
+
+    @abstractmethod
+    def seen(self, axis: float) -> Floats:
+        """Points (k, 3) that the camera has to see, NaN ignored. `axis` is the length (m) of the
+        axes of frames.
+        """
+
+    @abstractmethod
+    def draw(self, scene: "Scene", sample: int | None) -> None:
+        """Draw into a figure what the thing is at a sample of the first motion; with None, what
+        does not change.
+        """
+
+    @property
+    def moves(self) -> bool:
+        """Whether its place depends on the motion."""
+        return any(way.shape for way in self._ways() if not isinstance(way, Reading))
+
+    def fit(self, lead: tuple[int, ...], count: int) -> None:
+        """ValueError: it does not fit motions of the shape `lead` with `count` samples."""
+        for way in self._ways():
+            way.fit(lead, count)
+
+    def hold(self, **fields: Any) -> None:
+        """Set the fields of the frozen dataclass."""
+        vars(self).update(fields)
+
+    def _ways(self) -> list[Way]:
+        return [value for value in vars(self).values() if isinstance(value, Way)]
+
+
+def as_place(value: ArrayLike | Way, name: str) -> Way:
+    """Return places (..., 3) in metres, or one place (2,) or (3,), as a `Way`. ValueError: other
+    shapes, infinite numbers.
+    """
+    if isinstance(value, Way):
+        return value
+    given = floats(value, name, finite=False)
+    if given.ndim > 1 and given.shape[-1] == 3:
+        return moving(in_sight(given, name), name, (3,))
+    if given.shape not in ((2,), (3,)):
+        raise ValueError(f"{name}: wanted places (x, y, z), got shape {given.shape}")
+    point = in_sight(np.append(floats(given, name), [0.0] * (3 - len(given))), name)
+    return Way(frozen(point[None, None]), (), name, (3,))
+
+
+def as_reading(value: ArrayLike | Reading, name: str) -> Reading:
+    """Return numbers (...) to write as a `Reading`. ValueError: numbers that are too large."""
+    if isinstance(value, Reading):
+        return value
+    given = np.atleast_1d(floats(value, name, finite=False))
+    if (abs(given) > HORIZON).any():
+        raise ValueError(f"{name}: wanted numbers up to {HORIZON:g}")
+    return Reading(_flat(given[..., None]), given.shape, name)
+
+
+def moving(given: Floats, name: str, last: tuple[int, ...] = ()) -> Way:
+    """Return numbers (..., samples, k) as a `Way`."""
+    return Way(_flat(given), given.shape[:-1], name, last)
+
+
+def _flat(given: Floats) -> Floats:
+    """Numbers (..., samples, k) with all motions in one row."""
+    return frozen(given.reshape(math.prod(given.shape[:-2]), *given.shape[-2:]))
