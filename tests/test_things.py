@@ -18,10 +18,10 @@ def today(scene):
         for old in scene["targets"]
     ]
     for old in scene["marks"]:
-        reading = old["reading"] | {"decimals": old["decimals"]} if "reading" in old else None
-        at = old.get("way", old.get("at"))
-        named = {"name": old["name"], "radius": old["radius"]}
-        things.append({"kind": "mark", **named, "at": at, "reading": reading})
+        name, at = old["name"], old.get("way", old.get("at"))
+        if "reading" in old:
+            name = old["reading"] | {"name": name, "decimals": old["decimals"]}
+        things.append({"kind": "mark", "name": name, "radius": old["radius"], "at": at})
     if "faces" in scene:
         things.append({"kind": "faces", "corners": scene["faces"]})
     defaults = {"grows": False, "solid": False, "bases": None}

@@ -24,14 +24,13 @@ export const mark = {
   },
   /** The points, and the names of both. */
   above({g, cam}, marks, {labels}) {
-    for (const {name, at, radius, reading} of marks) {
-      const place = cam.to(at),
-        text = reading ? `${name}: ${reading}` : name;
+    for (const {name, at, radius} of marks) {
+      const place = cam.to(at);
       if (!radius) spot(g, place, 3.5, colors.path);
-      if (text) labels.push({text, at: place, color: colors.soft});
+      if (name) labels.push({text: name, at: place, color: colors.soft});
     }
   },
 };
 
 /** A point that an explorer shows. @type {(name: string, at: Point) => Now<PageMark>} */
-export const point = (name, at) => ({kind: "mark", name, radius: 0, at, reading: null});
+export const point = (name, at) => ({kind: "mark", name, radius: 0, at});

@@ -28,6 +28,7 @@ export interface PageReading {
   data: string;
   motions: number;
   samples: number;
+  name: string;
   decimals: number;
 }
 
@@ -40,10 +41,9 @@ export interface PageWay {
 
 export interface PageMark {
   kind: "mark";
-  name: string;
+  name: string | PageReading;
   radius: number;
   at: number[] | PageWay;
-  reading: PageReading | null;
 }
 
 export interface PageTarget {

@@ -29,14 +29,13 @@ import {number} from "./canvas.js";
  * for no value.
  * @param {Packed} packed
  * @param {number} motions
- * @param {number} columns
  * @param {number} samples
  * @param {number} nothing  the whole number for no value
- * @returns {Float64Array}
  */
-export function unpacked({steps, data}, motions, columns, samples, nothing) {
+function unpacked({steps, data}, motions, samples, nothing) {
   const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)),
-    values = new Float64Array(motions * columns * samples);
+    values = new Float64Array(bytes.filter(byte => byte < 128).length), // the last byte of each
+    columns = values.length / motions / samples;
   let at = 0,
     to = 0;
   for (let motion = 0; motion < motions; motion++)
@@ -73,7 +72,7 @@ export function unpacked({steps, data}, motions, columns, samples, nothing) {
 export function recording(arm, motions, samples, {unit, nothing}) {
   const joints = arm.chain.length,
     inner = arm.chain.map(link => (link.prismatic ? unit.size : Math.PI / 180));
-  const all = arm.motion.map(packed => unpacked(packed, motions, joints, samples, nothing));
+  const all = arm.motion.map(packed => unpacked(packed, motions, samples, nothing));
   /** @type {(motion: number, j: number) => number} */
   const row = (motion, j) => (motion * joints + j) * samples;
   return {
@@ -105,38 +104,25 @@ export function thingsAt(things, nothing) {
 }
 
 /**
- * A value of a thing. A reading waits for its next sample, a way goes there evenly.
+ * A value of a thing. A way moves evenly between two samples, a reading waits for the next one.
  * @param {unknown} value
  * @param {number} nothing
  * @returns {AtMoment<unknown>}
  */
 function valueAt(value, nothing) {
   if (!(value instanceof Object && "samples" in value)) return () => value;
-  const at = numbers(/** @type {PageWay} */ (value), nothing);
-  if (!("decimals" in value)) return at;
-  const {decimals} = /** @type {PageReading} */ (value);
-  return (motion, i) => {
-    const [now] = at(motion, i, 0);
-    return Number.isNaN(now) ? "" : number(now, decimals);
-  };
-}
-
-/**
- * A PageWay -> (motion, sample, share) -> its columns.
- * @param {PageWay} way
- * @param {number} nothing
- * @returns {AtMoment<number[]>}
- */
-function numbers(way, nothing) {
-  const {motions, samples} = way,
-    count = [...atob(way.data)].filter(c => c < "\x80").length, // each number ends with such a byte
-    columns = count / motions / samples;
-  const values = unpacked(way, motions, columns, samples, nothing);
+  const way = /** @type {PageWay & Partial<PageReading>} */ (value),
+    {motions, samples, name, decimals} = way,
+    values = unpacked(way, motions, samples, nothing),
+    columns = values.length / motions / samples;
   return (motion, i, share) => {
-    const first = (motions > 1 ? motion : 0) * columns * samples + (samples > 1 ? i : 0);
-    return Array.from({length: columns}, (_, k) =>
-      interpolate(values, first + k * samples, samples > 1 ? share : 0),
+    const [sample, part] = samples > 1 ? [i, decimals === undefined ? share : 0] : [0, 0],
+      first = (motions > 1 ? motion : 0) * columns * samples + sample;
+    const now = Array.from({length: columns}, (_, k) =>
+      interpolate(values, first + k * samples, part),
     );
+    if (decimals === undefined) return now;
+    return Number.isNaN(now[0]) ? name : `${name}: ${number(now[0], decimals)}`;
   };
 }
 

@@ -204,20 +204,18 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const {g, cam, scene} = pen,
     [first] = arms,
     all = arms.map((arm, i) => stood(pen, arm, scene.bases?.[i]));
+  /** @type {(kind: string) => Now<PageThing>[]} */
+  const only = kind => scene.things.filter(thing => thing.kind === kind);
   const sunk = all.filter(one => one.dips);
   drawFloor(pen);
   for (const one of sunk) drawRods(one);
   if (sunk.length) drawFloor(pen, true);
   if (pen.space.spatial) all.forEach(drawShadow);
-  const groups = Object.entries(KINDS).map(
-    /** @returns {[Kind<PageThing>, Now<PageThing>[]]} */
-    ([kind, script]) => [script, scene.things.filter(thing => thing.kind === kind)],
-  );
-  for (const [kind, things] of groups) kind.below(pen, things);
+  for (const kind in KINDS) KINDS[kind].below(pen, only(kind));
   [...all].sort((p, q) => p.depth - q.depth).forEach(drawStood);
   /** @type {Labels} */
   const found = {labels: [], taken: []};
-  for (const [kind, things] of groups) kind.above({...pen, near: first.near}, things, found);
+  for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), found);
   all.forEach(drawFlange);
   placeLabels(
     g,

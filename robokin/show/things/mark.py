@@ -15,13 +15,12 @@ if TYPE_CHECKING:
 
 
 class PageMark(TypedDict):
-    """A point (radius 0) or a ball, and a number to write after its name."""
+    """A point (radius 0) or a ball."""
 
     kind: Literal["mark"]
-    name: str
+    name: str | PageReading
     radius: float
     at: list[float] | PageWay
-    reading: PageReading | None
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -53,10 +52,9 @@ class Mark(Thing):
     def page(self, kept: Ints | None) -> PageMark:
         return {
             "kind": "mark",
-            "name": self.name,
+            "name": self.reading.named(self.name, kept) if self.reading else self.name,
             "radius": self.radius,
             "at": self.at.page(kept),
-            "reading": None if self.reading is None else self.reading.page(kept),
         }
 
     def seen(self, axis: float) -> Floats:

@@ -27,10 +27,11 @@ class PageWay(Packed):
 
 
 class PageReading(PageWay):
-    """A number to write beside a thing, with this many decimals. It keeps its value until the next
-    sample; NaN writes nothing.
+    """A name with a number after it, which keeps its value until the next sample; NaN leaves the
+    name alone.
     """
 
+    name: str
     decimals: int
 
 
@@ -71,11 +72,11 @@ class Way(Sealed):
 
 
 class Reading(Way):
-    """Numbers to write beside a thing, one at a time."""
+    """Numbers to write after a name, one at a time."""
 
-    def page(self, kept: Ints | None) -> PageReading:
-        """The data of the page."""
-        return {**self._packed(kept), "decimals": fewest(self.rows)}
+    def named(self, name: str, kept: Ints | None) -> PageReading:
+        """The data of the page for a thing with this name."""
+        return {**self._packed(kept), "name": name, "decimals": fewest(self.rows)}
 
     def after(self, name: str, sample: int | None) -> str:
         """Return `name` and the number at a sample; the name alone where there is no number."""
