@@ -72,16 +72,11 @@ def written():
 def kinds():
     """js/kinds.js: the scripts of the kinds of `things.PageThing`."""
     names = [get_args(get_type_hints(table)["kind"])[0] for table in KINDS]
-    return "\n".join(
-        [
-            "// Written by `python tests/javascript.py types` from PageThing of things/__init__.py.",
-            "",
-            *[f'import {{{name}}} from "./{name}.js";' for name in sorted(names)],
-            "",
-            "/** The kinds of things, in the order in which they are drawn. */",
-            f"export const kinds = {{{', '.join(names)}}};",
-            "",
-        ]
+    imports = "".join(f'import {{{name}}} from "./{name}.js";\n' for name in sorted(names))
+    return (
+        "// Written by `python tests/javascript.py types` from PageThing in things/__init__.py.\n\n"
+        f"{imports}\n/** The kinds of things, in the order in which they are drawn. */\n"
+        f"export const kinds = {{{', '.join(names)}}};\n"
     )
 
 

@@ -140,7 +140,7 @@ UNPACK = """([content, buffers]) => {
     const bytes = Uint8Array.from(" " + atob(text), letter => letter.charCodeAt(0));
     return new DataView(bytes.buffer, 1);  // at an odd place
   });
-  return plain($live.unpacked(content, views));
+  return plain($live.joinArrays(content, views));
 }"""
 
 
@@ -153,7 +153,9 @@ def test_arrays_reach_the_page_unchanged_by_message_and_by_file(browser):
         "real": rng.normal(size=(2, 7)).astype(np.float32),
         "none": np.empty((0, 3), dtype=np.float32),
     }
-    content, buffers = live.packed({"words": "ä", "list": [1, None, arrays["thin"]], **arrays})
+    content, buffers = live.split_arrays(
+        {"words": "ä", "list": [1, None, arrays["thin"]], **arrays}
+    )
     text = [live.stored({"array": k}, buffers)["array"] for k in range(len(buffers))]
     assert page.inert(live.stored(content, buffers))
     tab = browser.new_page()
@@ -168,7 +170,7 @@ def test_arrays_reach_the_page_unchanged_by_message_and_by_file(browser):
             np.testing.assert_array_equal(got[name]["values"], array.ravel())
     tab.close()
     with pytest.raises(ValueError, match="answer: wanted arrays of uint8"):
-        live.packed({"x": np.zeros(3)})
+        live.split_arrays({"x": np.zeros(3)})
 
 
 # --- In JupyterLab --------------------------------------------------------------------------------

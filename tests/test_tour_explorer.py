@@ -275,7 +275,7 @@ def slow(browser, tmp_path):
         return page.evaluate("window.asked || []")
 
     def answer(one):
-        content = live.stored(*live.packed(answered(one["question"], SPEEDS)))
+        content = live.stored(*live.split_arrays(answered(one["question"], SPEEDS)))
         root.evaluate(ANSWER, {"n": one["n"], "answer": content})
         page.evaluate(FRAMES)
 

@@ -50,7 +50,7 @@ class Live(Explorer):
         first: Question,
         answer: Callable[[Question], Answer],
     ) -> None:
-        content, buffers = packed(answer(first))
+        content, buffers = split_arrays(answer(first))
         words = {**data["words"], **WORDS}
         data = data | {"words": words, "first": stored(content, buffers), "question": first}
         super().__init__(data, still)
@@ -61,7 +61,7 @@ class Live(Explorer):
         return super()._repr_mimebundle_(include, exclude)
 
 
-def packed(answer: Any) -> tuple[Any, list[bytes]]:
+def split_arrays(answer: Any) -> tuple[Any, list[bytes]]:
     """An answer for JSON, and its arrays apart: in their place stands {"array": number, "type",
     "shape"}. ValueError: an array of another type.
     """
@@ -86,7 +86,7 @@ def packed(answer: Any) -> tuple[Any, list[bytes]]:
 
 
 def stored(content: Any, buffers: list[bytes]) -> Any:
-    """What `packed` gives as JSON alone: arrays in base64."""
+    """Return what `split_arrays` gives as JSON alone: arrays in base64."""
     if isinstance(content, dict) and "array" in content:
         return content | {"array": base64.b64encode(buffers[content["array"]]).decode()}
     if isinstance(content, dict):
@@ -106,7 +106,7 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
     def reply(model: Any, message: Any, _: Any) -> None:
         try:
-            content, buffers = packed(answer(message["question"]))
+            content, buffers = split_arrays(answer(message["question"]))
             inert(content)
         except Exception as error:  # said in the view; in this thread nobody would read it
             content, buffers = {"error": f"{type(error).__name__}: {error}"}, []

@@ -73,9 +73,9 @@ def _differences(whole: Ints) -> bytes:
     second = np.diff(np.diff(whole, axis=1, prepend=0), axis=1, prepend=0)
     second = second.transpose(0, 2, 1).ravel()
     folded = np.where(second < 0, -2 * second - 1, 2 * second)
-    places = folded[:, None] >> np.array([0, 7, 14])
+    groups = folded[:, None] >> np.array([0, 7, 14])
     last = 0 + (folded > 127) + (folded > 16383)
-    sevens: Ints = (places & 127) + 128 * (np.arange(3) < last[:, None])
+    sevens: Ints = (groups & 127) + 128 * (np.arange(3) < last[:, None])
     return bytes(sevens[np.arange(3) <= last[:, None]].tolist())
 
 

@@ -197,7 +197,7 @@ export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
  * @param {CanvasTextAlign} [align]
  * @param {string | number} [weight]
  */
-export function words(g, text, x, y, color = colors.ink, size = 12, align = "left", weight = "") {
+export function write(g, text, x, y, color = colors.ink, size = 12, align = "left", weight = "") {
   g.font = font(size, weight);
   g.textAlign = align;
   g.lineWidth = 3.5;

@@ -1,6 +1,6 @@
 // The curves: columns of panels over one time axis.
 
-import {colors, font, jointColor, number, prepared, stroke, tiled, words} from "./canvas.js";
+import {colors, font, jointColor, number, prepared, stroke, tiled, write} from "./canvas.js";
 import {dashes, drawPanel} from "./panel.js";
 
 /** @import {Box, Context} from "./canvas.js" */
@@ -85,7 +85,7 @@ function drawColumn({g, patterns, times, ticks, now}, column, box, titled) {
     inner = left + room,
     wide = width - room - right;
   const below = legend(g, patterns, column, inner, wide, above + (titled ? 36 : 14));
-  if (titled) words(g, title, inner, above + 14, colors.ink, 13, "left", "600");
+  if (titled) write(g, title, inner, above + 14, colors.ink, 13, "left", "600");
   const bottom = above + height - 24,
     tall = (bottom - below) / panels.length;
   /** @type {Place} */
@@ -112,7 +112,7 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
     const t = first + i * step;
     if (t < t0 - 1e-9 || t > t1 + 1e-9) continue;
     const unit = t + step > t1 + 1e-9 ? " s" : "";
-    words(g, number(t, decimals) + unit, x(t) + (unit ? 4 : 0), y, colors.soft, 11, "center");
+    write(g, number(t, decimals) + unit, x(t) + (unit ? 4 : 0), y, colors.soft, 11, "center");
   }
 }
 
@@ -166,7 +166,7 @@ function legend(g, patterns, column, left, width, y) {
       2.2,
       dashes(patterns, j, 2.2),
     );
-    words(g, `q${j + 1}`, x + long + 4, row, colors.ink, 12);
+    write(g, `q${j + 1}`, x + long + 4, row, colors.ink, 12);
   }
   return y + 16 * (rows - 1) + 2;
 }

@@ -1,4 +1,4 @@
-// Written by `python tests/javascript.py types` from PageThing of things/__init__.py.
+// Written by `python tests/javascript.py types` from PageThing in things/__init__.py.
 
 import {faces} from "./faces.js";
 import {mark} from "./mark.js";

@@ -1,6 +1,6 @@
 // Labels beside their points.
 
-import {font, hit, words} from "./canvas.js";
+import {font, hit, write} from "./canvas.js";
 
 /** @import {Box, Context, Pixel} from "./canvas.js" */
 
@@ -42,6 +42,6 @@ export function placeLabels(g, labels, taken, [left, top, width, height]) {
       }
     const [, x, y] = best;
     done.push([x, y, w, h]);
-    words(g, label.text, x + 2, y + 12, label.color, 12, "left", label.weight);
+    write(g, label.text, x + 2, y + 12, label.color, 12, "left", label.weight);
   }
 }

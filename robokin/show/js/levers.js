@@ -3,7 +3,7 @@
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
 // to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
 
-import {between, distance2, leastTravel, nowhere} from "./rows.js";
+import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 
 /** @import {ThreeLeverInverse, Tolerances} from "./page.js" */
 /** @import {ArmOf} from "./kinematics.js" */
@@ -94,7 +94,7 @@ function leverPosture(arm, KO, phi, alpha) {
     {ROUNDING} = tolerances,
     low = lowest(arm, KO);
   if (!(alpha >= low - ROUNDING && alpha <= Math.PI + ROUNDING)) return nowhere(3);
-  alpha = between(alpha, low, Math.PI);
+  alpha = clamp(alpha, low, Math.PI);
   const KB = across(b, c, alpha);
   return [
     phi + angleOf(KO, a, KB, tolerances),
@@ -266,7 +266,7 @@ export function least(arm, point, previous, limited = true) {
     ...level(arm, KO, low, high),
   ];
   const rows = alphas.map(alpha =>
-    leverPosture(arm, KO, phi, between(Number.isNaN(alpha) ? low : alpha, low, high)),
+    leverPosture(arm, KO, phi, clamp(Number.isNaN(alpha) ? low : alpha, low, high)),
   );
   return leastTravel(rows, previous);
 }

@@ -5,7 +5,7 @@
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
 import {fill} from "./blanks.js";
-import {colors, number, prepared, spot, stroke, upright, words} from "./canvas.js";
+import {colors, number, prepared, spot, stroke, upright, write} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {scrubbing} from "./controls.js";
 import {element, waiting} from "./elements.js";
@@ -261,7 +261,7 @@ function drawCosts(canvas, says, costs) {
     right = w - 12,
     top = 26,
     bottom = h - 34;
-  words(g, says.costTitle, 6, 14, colors.ink, 12, "left", "600");
+  write(g, says.costTitle, 6, 14, colors.ink, 12, "left", "600");
   if (!costs) return null;
   const {low, high, alpha, best, at} = costs,
     count = 120;
@@ -284,7 +284,7 @@ function drawCosts(canvas, says, costs) {
       colors.grid,
       1,
     );
-    words(
+    write(
       g,
       `${number(degrees(value), 0)}\u00B0`,
       left - 5,
@@ -303,9 +303,9 @@ function drawCosts(canvas, says, costs) {
   upright(g, x(best), top, bottom, colors.near, 1.4, [4, 3]);
   upright(g, x(alpha), top, bottom, colors.ink, 1.4);
   spot(g, [x(alpha), y(at(alpha))], 4.5, colors.accent);
-  words(g, `${number(degrees(low), 1)}\u00B0`, left, bottom + 14, colors.soft, 11, "left");
-  words(g, `${number(degrees(high), 1)}\u00B0`, right, bottom + 14, colors.soft, 11, "right");
-  words(g, says.costAxis, (left + right) / 2, bottom + 28, colors.soft, 11, "center");
+  write(g, `${number(degrees(low), 1)}\u00B0`, left, bottom + 14, colors.soft, 11, "left");
+  write(g, `${number(degrees(high), 1)}\u00B0`, right, bottom + 14, colors.soft, 11, "right");
+  write(g, says.costAxis, (left + right) / 2, bottom + 28, colors.soft, 11, "center");
   return {
     alphaAt: px => low + (high - low) * Math.min(1, Math.max(0, (px - left) / (right - left))),
   };

@@ -51,7 +51,7 @@ export function kernelOf(root, id, words, hear) {
       about = questions.answered(n);
     if (!about) return;
     questions.stir(true, answer.error ? words.failed.replace("{error}", answer.error) : "");
-    if (!answer.error) hear(/** @type {Answer} */ (unpacked(answer, buffers)), about.question);
+    if (!answer.error) hear(/** @type {Answer} */ (joinArrays(answer, buffers)), about.question);
     root.dataset.answered = String(n);
     questions.send();
   });
@@ -160,12 +160,12 @@ const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float3
  * @param {DataView<ArrayBuffer>[]} [buffers]
  * @returns {unknown}  Values in the place of each array
  */
-export function unpacked(answer, buffers = []) {
-  if (Array.isArray(answer)) return answer.map(each => unpacked(each, buffers));
+export function joinArrays(answer, buffers = []) {
+  if (Array.isArray(answer)) return answer.map(each => joinArrays(each, buffers));
   if (!answer || typeof answer !== "object") return answer;
   if (!("array" in answer))
     return Object.fromEntries(
-      Object.entries(answer).map(([key, value]) => [key, unpacked(value, buffers)]),
+      Object.entries(answer).map(([key, value]) => [key, joinArrays(value, buffers)]),
     );
   const {array, type, shape} = /** @type {StoredArray} */ (answer);
   const bytes =

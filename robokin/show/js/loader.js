@@ -10,19 +10,19 @@ const scripts = (Object(globalThis).robokinScripts ??= new Map());
  * @template T
  * @param {string} id  of the view
  * @param {string} key  of its script
- * @param {string} packed  the script, compressed by zlib, in base64
+ * @param {string} deflated  the script, compressed by zlib, in base64
  * @param {(module: T) => void} show
  */
-export function start(id, key, packed, show) {
+export function start(id, key, deflated, show) {
   const nonce = document.currentScript?.nonce ?? "",
-    script = scripts.get(key) ?? unpacked(packed).then(text => run(text, nonce));
+    script = scripts.get(key) ?? inflated(deflated).then(text => run(text, nonce));
   scripts.set(key, script);
   script.then(module => show(/** @type {T} */ (module))).catch(error => explain(id, error));
 }
 
-/** @param {string} packed */
-async function unpacked(packed) {
-  const bytes = Uint8Array.from(atob(packed), c => c.charCodeAt(0)),
+/** @param {string} deflated */
+async function inflated(deflated) {
+  const bytes = Uint8Array.from(atob(deflated), c => c.charCodeAt(0)),
     stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).text();
 }

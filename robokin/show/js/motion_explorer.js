@@ -166,11 +166,11 @@ function motions(data, state) {
   /** @type {?Motion} */
   let found = null;
   /** @type {?number[][]} */
-  let between = null;
+  let refined = null;
   const now = () => {
     const {time, ...asked} = state, // the clock alone changes nothing
       key = JSON.stringify(asked);
-    if (!found || key !== known) [known, found, between] = [key, motionOf(data, state), null];
+    if (!found || key !== known) [known, found, refined] = [key, motionOf(data, state), null];
     return found;
   };
   return {
@@ -180,8 +180,8 @@ function motions(data, state) {
       const motion = now(),
         {v, a} = motion,
         sampled = [v, a].map(rows => data.units.map(({size}, j) => most(rows, j) / size));
-      if (!held) between ??= topsOf(data, motion, sampled);
-      return {sure: between !== null, values: between ?? sampled};
+      if (!held) refined ??= topsOf(data, motion, sampled);
+      return {sure: refined !== null, values: refined ?? sampled};
     },
   };
 }

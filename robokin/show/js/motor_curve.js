@@ -2,7 +2,7 @@
 
 import {fill} from "./blanks.js";
 import {lastOf} from "./bench.js";
-import {colors, number, prepared, stroke, upright, words} from "./canvas.js";
+import {colors, number, prepared, stroke, upright, write} from "./canvas.js";
 import {stepOf} from "./rotor.js";
 
 /** @import {PageMotors} from "./page.js" */
@@ -34,16 +34,16 @@ export function drawCurve(canvas, says, bench) {
   const x = time => left + ((right - left) * time) / lastOf(t);
   /** @type {Place} */
   const y = value => bottom - ((bottom - top) * (value - low)) / (high - low);
-  words(g, says.curveTitle, 6, 14, colors.ink, 12, "left", "600");
+  write(g, says.curveTitle, 6, 14, colors.ink, 12, "left", "600");
   drawLines(panel, y, [lastOf(sent), 0, low, high]);
   const stairs = sent.flatMap((n, i) => corners(i, n, sent, t).map(([a, b]) => [x(a), y(b)]));
   stroke(g, /** @type {Pixel[]} */ (stairs), colors.soft, 1.6, [4, 2]);
   const line = made.map(/** @returns {Pixel} */ (value, i) => [x(t[i]), y(value)]);
   stroke(g, line, colors.accent, 2);
   tellEnds(panel, says, y, lastOf(sent), lastOf(made));
-  words(g, "0", left, bottom + 14, colors.soft, 11, "center");
-  words(g, number(1000 * lastOf(t), 0), right, bottom + 14, colors.soft, 11, "center");
-  words(g, says.curveTime, (left + right) / 2, bottom + 26, colors.soft, 11, "center");
+  write(g, "0", left, bottom + 14, colors.soft, 11, "center");
+  write(g, number(1000 * lastOf(t), 0), right, bottom + 14, colors.soft, 11, "center");
+  write(g, says.curveTime, (left + right) / 2, bottom + 26, colors.soft, 11, "center");
   const {shown, time} = bench.clock;
   if (shown) upright(g, x(time), top, bottom, colors.ink, 1.2);
 }
@@ -80,7 +80,7 @@ function drawLines({g, left, right}, y, values) {
       [right, y(value)],
     ];
     stroke(g, line, colors.grid, 1);
-    words(g, number(value, 0), left - 5, y(value) + 4, colors.soft, 11, "right");
+    write(g, number(value, 0), left - 5, y(value) + 4, colors.soft, 11, "right");
   }
 }
 
@@ -96,11 +96,11 @@ function tellEnds({g, right}, says, y, sent, made) {
   /** @type {[number, number]} */
   const ends = [y(sent), y(made)];
   const close = Math.abs(ends[0] - ends[1]) < 13;
-  words(g, says.sent, right + 4, ends[0] + (close ? -2 : 4), colors.soft, 11);
-  words(g, says.made, right + 4, ends[1] + (close ? 11 : 4), colors.accent, 11);
+  write(g, says.sent, right + 4, ends[0] + (close ? -2 : 4), colors.soft, 11);
+  write(g, says.made, right + 4, ends[1] + (close ? 11 : 4), colors.accent, 11);
   const lost = Math.round(Math.abs(sent - made));
   if (!lost) return;
   upright(g, right - 6, ...ends, colors.alarm, 1.6);
   const middle = (ends[0] + ends[1]) / 2 + 4;
-  words(g, fill(says.gap, {lost}), right - 10, middle, colors.alarm, 12, "right", "600");
+  write(g, fill(says.gap, {lost}), right - 10, middle, colors.alarm, 12, "right", "600");
 }

@@ -1,7 +1,7 @@
 // The picture of a motor, seen along its shaft: as the stage of an explorer takes it.
 
 import {fill} from "./blanks.js";
-import {colors, font, number, polygon, prepared, shape, spot, stroke, words} from "./canvas.js";
+import {colors, font, number, polygon, prepared, shape, spot, stroke, write} from "./canvas.js";
 import {control} from "./elements.js";
 import {holdingTorque, pull} from "./rotor.js";
 import {degrees} from "./turns.js";
@@ -87,8 +87,8 @@ function drawMotor(g, camera, bench, says) {
   spot(g, [x, y], 4, colors.hub, colors.edge, 1.2);
   /** @type {(text: string, angle: number) => string} */
   const said = (text, angle) => fill(text, {angle: number(degrees(angle), 1)});
-  words(g, said(says.rotorAt, live.theta), 4, 14, colors.ink, 12, "left", "600");
-  words(g, said(says.fieldAt, field), 2 * x - 4, 14, colors.accent, 12, "right", "600");
+  write(g, said(says.rotorAt, live.theta), 4, 14, colors.ink, 12, "left", "600");
+  write(g, said(says.fieldAt, field), 2 * x - 4, 14, colors.accent, 12, "right", "600");
 }
 
 /** @type {(at: Round, from: number, to: number, r: number) => Pixel[]} */

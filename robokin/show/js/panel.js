@@ -9,7 +9,7 @@ import {
   spot,
   stroke,
   upright,
-  words,
+  write,
 } from "./canvas.js";
 import {panelWords, shade} from "./panel_words.js";
 
@@ -60,7 +60,7 @@ export function drawPanel(ground, panel, ticks, now) {
     for (const j of joints) ys[j] = y;
     return y;
   });
-  words(g, panel.label, left - 40, top - 8, colors.ink, 12, "left", "600");
+  write(g, panel.label, left - 40, top - 8, colors.ink, 12, "left", "600");
   g.save();
   g.beginPath();
   g.rect(left, top - 1, right - left, bottom - top + 2);
@@ -83,7 +83,7 @@ export function drawPanel(ground, panel, ticks, now) {
     x,
     sides,
   ))
-    words(g, text, px, py + h - 2, color, size, "left", weight);
+    write(g, text, px, py + h - 2, color, size, "left", weight);
   upright(g, x(now), top, bottom, colors.ink, 1.4);
   ys.forEach((y, j) => {
     const at = y(panel.now[j]);
@@ -126,11 +126,11 @@ function drawScales({g, sides: [left, right, top]}, {axes}, scales) {
       px = k ? right + 6 : left - 6;
     for (let i = 0; i < count; i++) {
       const value = low + i * step;
-      words(g, number(value, decimals), px, scales[k](value) + 4, color, 11, k ? "left" : "right");
+      write(g, number(value, decimals), px, scales[k](value) + 4, color, 11, k ? "left" : "right");
     }
     if (!k) return;
     const text = `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`;
-    words(g, text, right + 42, top - 8, color, 12, "right", "600");
+    write(g, text, right + 42, top - 8, color, 12, "right", "600");
   });
 }
 

@@ -1,7 +1,7 @@
 // The cube of postures of a plan, its side being 1.
 
 import {camera} from "./camera.js";
-import {clear, colors, polygon, prepared, spot, stroke, words} from "./canvas.js";
+import {clear, colors, polygon, prepared, spot, stroke, write} from "./canvas.js";
 import {orbit} from "./controls.js";
 import {control} from "./elements.js";
 
@@ -206,6 +206,6 @@ function tellAngles({g, cam: {to}}) {
       far = Math.hypot(x - mx, y - my) || 1,
       [px, py] = [x + (14 * (x - mx)) / far, y + (18 * (y - my)) / far + 4];
     const align = x < mx - 40 ? "right" : x > mx + 40 ? "left" : "center";
-    words(g, `${name} 0\u2013180\u00B0`, px, py, colors.soft, 12, align);
+    write(g, `${name} 0\u2013180\u00B0`, px, py, colors.soft, 12, align);
   }
 }

@@ -9,7 +9,7 @@ import {control, element, range, waiting} from "./elements.js";
 import {inScreen} from "./handles.js";
 import {fk, origin} from "./kinematics.js";
 import {least} from "./levers.js";
-import {kernelOf, unpacked} from "./live.js";
+import {kernelOf, joinArrays} from "./live.js";
 import {cubeView, facesOf} from "./plan_cube.js";
 import {armAt} from "./plan_picture.js";
 import {menu, slider, stageOf, tick} from "./stage.js";
@@ -80,7 +80,7 @@ function planExplorer(stage, root, id, data) {
   const {words: says, arm} = data,
     first = /** @type {Question} */ (data.question);
   const state = opened(first);
-  const shown = read(data, /** @type {Answer} */ (unpacked(data.first)), first);
+  const shown = read(data, /** @type {Answer} */ (joinArrays(data.first)), first);
   /** @type {Now} */
   const now = {shown, wave: shown.most, moment: 0, playing: false, before: 0};
   let asked = JSON.stringify(first);

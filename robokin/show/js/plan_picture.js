@@ -1,6 +1,6 @@
 // A plan in the picture of its explorer, in the plane of the arm.
 
-import {clear, colors, polygon, spot, stroke, words} from "./canvas.js";
+import {clear, colors, polygon, spot, stroke, write} from "./canvas.js";
 import {polyline} from "./kinematics.js";
 
 /** @import {PageLink} from "./page.js" */
@@ -51,7 +51,7 @@ const drawBelow =
       const color = [colors.joint3, colors.joint2][k],
         points = flat(corners);
       polygon(g, points, clear(color, 0.12), color, 1.2);
-      words(g, ["AK", "BA"][k], mean(points, 0), mean(points, 1), color, 12, "center", "600");
+      write(g, ["AK", "BA"][k], mean(points, 0), mean(points, 1), color, 12, "center", "600");
     });
     const color = kept ? colors.accent : colors.alarm;
     stroke(
@@ -95,7 +95,7 @@ const drawAbove =
     spot(g, p, 3.5, colors.near);
     // where it is swept, to the left: the tool's frame points to the right
     const left = p[0] <= x + 1;
-    words(
+    write(
       g,
       text,
       p[0] + (left ? -16 : 9),
@@ -108,7 +108,7 @@ const drawAbove =
     via.forEach((point, k) => {
       const place = to([...point, 0]);
       spot(g, place, 4, colors.path);
-      words(
+      write(
         g,
         `K${k + 2}`,
         place[0] - 8,

@@ -122,22 +122,22 @@ export function leaps(q, t, prismatic, {least, few}) {
  * @param {number} right
  */
 function outside(speeds, i, left, right) {
-  const places = [
+  const neighbours = [
     [i - left, -1],
     [i + right, 1],
   ].filter(([k]) => Number.isFinite(speeds[k]));
-  const beside = places.map(([k]) => speeds[k]);
+  const beside = neighbours.map(([k]) => speeds[k]);
   const [low, high] = [Math.min(...beside), Math.max(...beside)];
   const out = Math.max(speeds[i] - high, low - speeds[i]);
   let near = high - low,
     far = near;
-  for (const [k, side] of places) {
+  for (const [k, side] of neighbours) {
     const on = [1, 2].map(m => Math.abs(speeds[k + m * side] - speeds[k])).filter(Number.isFinite);
     if (!on.length) continue;
     near = Math.max(near, Math.min(...on));
     far = Math.max(far, ...on);
   }
-  const both = places.length === 2,
+  const both = neighbours.length === 2,
     times = Math.abs(speeds[i]) / Math.max(...beside.map(Math.abs));
   const alone = both && out > 8 * far,
     crowd = out > 8 * near && times > (both ? 3 : 10);

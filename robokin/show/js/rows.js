@@ -7,7 +7,7 @@ export const exists = q => !q.some(Number.isNaN);
 export const nowhere = n => new Array(n).fill(NaN);
 
 /** @param {number} x @param {number} low @param {number} high @returns {number} */
-export const between = (x, low, high) => Math.min(Math.max(x, low), high);
+export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /**
  * The length of (x, y) as Python's `distance` has it.

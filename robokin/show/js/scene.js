@@ -2,7 +2,7 @@
 
 import {drawFlange, drawRods, drawShadow, drawStood, stood} from "./arm_picture.js";
 import {camera} from "./camera.js";
-import {clear, colors, polygon, prepared, stroke, tiled, words} from "./canvas.js";
+import {clear, colors, polygon, prepared, stroke, tiled, write} from "./canvas.js";
 import {frames, origin} from "./kinematics.js";
 import {kinds} from "./kinds.js";
 import {placeLabels} from "./labels.js";
@@ -102,8 +102,8 @@ export function sceneView(canvas, scene) {
       return cam;
     });
     const grid = +(scene.grid / scene.unit.size).toPrecision(6);
-    words(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
-    words(g, `grid ${grid} ${scene.unit.name}`, 10, h - 8, colors.soft, 12);
+    write(g, clock, w - 10, 18, colors.ink, 13, "right", "600");
+    write(g, `grid ${grid} ${scene.unit.name}`, 10, h - 8, colors.soft, 12);
     return true;
   }
 
@@ -224,9 +224,9 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
     [x + 4, y + 24, w - 8, h - 46],
   );
   compass(g, cam, [x + w - 34, y + h - 34]);
-  if (named) words(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
   if (arms.some(arm => arm.faded))
-    words(
+    write(
       g,
       "no solution here",
       x + w / 2,

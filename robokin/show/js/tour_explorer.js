@@ -9,7 +9,7 @@ import {element, waiting} from "./elements.js";
 import {fill} from "./blanks.js";
 import {inScreen} from "./handles.js";
 import {plus} from "./kinematics.js";
-import {kernelOf, unpacked} from "./live.js";
+import {kernelOf, joinArrays} from "./live.js";
 import {beside, menu, slider, stageOf, table, wordButton} from "./stage.js";
 import {below, mark, toured} from "./tour_picture.js";
 import {plain} from "./turns.js";
@@ -80,7 +80,7 @@ function tourExplorer(root, id, stage, data) {
     names = /** @type {TourName[]} */ (data.tours),
     home = /** @type {Question} */ (data.question);
   const state = opened(home, names);
-  let heard = read(names, /** @type {Answer} */ (unpacked(data.first)), home),
+  let heard = read(names, /** @type {Answer} */ (joinArrays(data.first)), home),
     asked = JSON.stringify(question(state));
   const inputs = inputsOf(stage, data, state, home),
     rows = tourTable(stage, says, names, state),

@@ -27,7 +27,7 @@ export function toured(chain, {t, q, order, times}, name) {
   const when = [...t.values],
     stops = when.map((_, k) => [...q.values.slice(3 * k, 3 * k + 3)]);
   /** @type {(a: number[], b: number[], share: number) => number[]} */
-  const between = (a, b, share) => a.map((x, j) => x + share * (b[j] - x));
+  const interpolate = (a, b, share) => a.map((x, j) => x + share * (b[j] - x));
   const places = stops
     .flatMap((to, k) => {
       if (!k) return [to];
@@ -35,7 +35,7 @@ export function toured(chain, {t, q, order, times}, name) {
         1,
         Math.ceil(Math.max(...to.map((x, j) => Math.abs(x - stops[k - 1][j]))) / FINE),
       );
-      return Array.from({length: count}, (_, i) => between(stops[k - 1], to, (i + 1) / count));
+      return Array.from({length: count}, (_, i) => interpolate(stops[k - 1], to, (i + 1) / count));
     })
     .map(posture => origin(fk(chain, posture)));
   return {
@@ -49,7 +49,7 @@ export function toured(chain, {t, q, order, times}, name) {
       const k = when.findIndex(x => x > time);
       return k < 1
         ? /** @type {number[]} */ (stops.at(k))
-        : between(stops[k - 1], stops[k], (time - when[k - 1]) / (when[k] - when[k - 1]));
+        : interpolate(stops[k - 1], stops[k], (time - when[k - 1]) / (when[k] - when[k - 1]));
     },
   };
 }

@@ -1,6 +1,6 @@
 // The axes of a frame, and of the base in a corner.
 
-import {colors, stroke, words} from "./canvas.js";
+import {colors, stroke, write} from "./canvas.js";
 import {dot, origin, plus} from "./kinematics.js";
 
 /** @import {Camera} from "./camera.js" */
@@ -38,7 +38,7 @@ export function triad(g, cam, pose, length, width, alpha, letters = false) {
       const d = [tip[0] - from[0], tip[1] - from[1]],
         l = Math.hypot(...d);
       if (l > 0.35 * length * cam.scale)
-        words(
+        write(
           g,
           name,
           tip[0] + (8 * d[0]) / l,
@@ -71,7 +71,7 @@ export function compass(g, cam, [x, y]) {
     /** @type {Pixel} */
     const tip = [x + (18 * dx) / cam.scale, y + (18 * dy) / cam.scale];
     stroke(g, [[x, y], tip], colors[AXES[k]], 1.4);
-    words(
+    write(
       g,
       AXES[k],
       tip[0] + (7 * dx) / cam.scale / l,

@@ -25,19 +25,19 @@ export const model =
   id =>
   ({model}) => {
     /** @type {HTMLElement[]} */
-    const places = [];
+    const roots = [];
     /** @param {HTMLElement} root */
     function meet(root) {
-      if (places.includes(root)) return;
-      places.push(root);
-      const to = places.length - 1;
+      if (roots.includes(root)) return;
+      roots.push(root);
+      const to = roots.length - 1;
       /** @type {(n: number, question: unknown) => void} */
       const send = (n, question) => model.send({to, n, question});
       root.dispatchEvent(new CustomEvent("robokin-wake", {detail: send}));
     }
     function sleep() {
       document.removeEventListener("robokin-asks", asks);
-      for (const root of places.splice(0)) root.dispatchEvent(new CustomEvent("robokin-sleep"));
+      for (const root of roots.splice(0)) root.dispatchEvent(new CustomEvent("robokin-sleep"));
     }
     /** @param {Event} event */
     function asks(event) {
@@ -50,7 +50,7 @@ export const model =
     views.forEach(meet);
     document.addEventListener("robokin-asks", asks);
     model.on("msg:custom", ({to, n, answer}, buffers) =>
-      places[to]?.dispatchEvent(new CustomEvent("robokin-answer", {detail: {n, answer, buffers}})),
+      roots[to]?.dispatchEvent(new CustomEvent("robokin-answer", {detail: {n, answer, buffers}})),
     );
     model.on("comm_live_update", sleep);
     return sleep;
