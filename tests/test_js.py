@@ -17,6 +17,8 @@ from javascript import HERE, NoNetwork, page_types, tool, tools, written
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
 from robokin.show import page, twin
+from robokin.show.things import PageThing
+from robokin.show.things.thing import PageReading, PageWay
 
 PACKAGE = ROOT / "robokin"
 FOLDER = PACKAGE / "show" / "js"
@@ -168,24 +170,45 @@ KEYS = {  # of one kind of page, and a script that takes it
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
 }
+THINGS = {  # of one kind of thing, and the script that draws it
+    "faces": ("corners: number[][][];", "faces.js"),
+    "mark": ("radius: number;", "mark.js"),
+    "target": ("pose: number[] | PageWay;", "target.js"),
+}
 
 
 def test_a_key_changed_in_one_kind_of_page_is_refused(tmp_path):
-    """One page after the other: the scripts of that kind no longer fit, those of others do."""
+    """One page or thing after the other: the scripts of that kind no longer fit, those of others
+    do.
+    """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
         shutil.copy(path, tmp_path)
     settings = json.loads((HERE / "tsconfig.json").read_text()) | {"include": ["."]}
     (tmp_path / "tsconfig.json").write_text(json.dumps(settings))
     types = page_types()
     program = [NODE, tools() / "typescript" / "bin" / "tsc", "--project", tmp_path]
-    for kind, (key, script) in KEYS.items():
-        at = types.index(key, types.index(f"interface {kind.capitalize()}Page {{"))
+    others = {f"{kind}_explorer.js" for kind in KEYS} | {script for _, script in THINGS.values()}
+    changes = [(f"{kind.capitalize()}Page", *pair) for kind, pair in KEYS.items()]
+    changes += [(f"Page{kind.capitalize()}", *pair) for kind, pair in THINGS.items()]
+    for table, key, script in changes:
+        at = types.index(key, types.index(f"interface {table} {{"))
         (tmp_path / "page.d.ts").write_text(f"{types[:at]}un{types[at:]}")
         done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True)
         refused = set(re.findall(r"^(\w+\.js)\(", done.stdout, re.M))
         assert script in refused and done.returncode, done.stdout
-        others = {f"{other}_explorer.js" for other in KEYS if other != kind}
-        assert not refused & others, (kind, refused)
+        own = {script, f"{table.removesuffix('Page').lower()}_explorer.js"}
+        assert not refused & others - own, (table, refused)
+
+
+def test_no_key_of_a_scene_is_optional():
+    for table in (page.PageScene, PageWay, PageReading, *get_args(PageThing)):
+        assert not table.__optional_keys__, table.__name__
+
+
+def test_every_kind_of_thing_is_listed():
+    modules = {path.stem for path in (PACKAGE / "show" / "things").glob("[!_]*.py")} - {"thing"}
+    listed = {get_args(table.__annotations__["kind"])[0] for table in get_args(PageThing)}
+    assert listed == modules == set(THINGS)
 
 
 def test_no_key_of_an_explorers_page_is_optional():

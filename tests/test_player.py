@@ -510,9 +510,9 @@ CIRCLING = np.stack([0.4 * np.cos(T), 0.4 * np.sin(T), 0.3 + 0 * T], axis=-1)
 
 def moved(player, kind, columns):
     """The way of the only mark or target: (motions or 1, samples or 1, columns)."""
-    [mark] = player.data["scene"][kind]
-    assert not {"at", "pose"} & set(mark)
-    way = mark["way"]
+    [thing] = player.data["scene"]["things"]
+    assert thing["kind"] == kind
+    way = thing["pose" if kind == "target" else "at"]
     values = unpacked(way, columns, way["samples"])
     assert len(values) == way["motions"]
     return values
@@ -522,16 +522,17 @@ def test_a_point_may_move_with_time(motions):
     path = CIRCLING.copy()
     path[1500:] = np.nan
     player = animate(IRB140, T, motions[1], points={"ball": path})
-    way, at = moved(player, "marks", 3), kept(player)
+    way, at = moved(player, "mark", 3), kept(player)
     assert way.shape == (1, len(at), 3)
     assert np.allclose(way[0], path[at], rtol=0, atol=1e-4, equal_nan=True)
     assert np.isnan(way[0][at >= 1500]).all()
     still = animate(IRB140, T, motions[1], points={"ball": CIRCLING[0]})
-    assert still.data["scene"]["marks"] == [{"name": "ball", "radius": 0.0, "at": [0.4, 0.0, 0.3]}]
+    [ball] = still.data["scene"]["things"]
+    assert ball == {"kind": "mark", "name": "ball", "radius": 0.0, "at": [0.4, 0.0, 0.3]}
     balls = animate(IRB140, T, motions[1], circles=[(CIRCLING, 0.07)])
     [ball], view = balls.still.findobj(Circle), balls.data["scene"]["view"]
     assert ball.radius == 0.07 and np.allclose(ball.center, project(CIRCLING[-1], view))
-    assert len(player.data["scene"]["marks"][0]["way"]["data"]) < 1100  # a byte a number
+    assert len(player.data["scene"]["things"][0]["at"]["data"]) < 1100  # a byte a number
 
 
 def test_marks_may_move_with_slider_and_switch(motions):
@@ -539,15 +540,15 @@ def test_marks_may_move_with_slider_and_switch(motions):
     words = {"slider": ("x", [1, 2]), "switch": ("y", ["a", "b"])}
     at = np.arange(12.0).reshape(2, 2, 1, 3) / 20
     player = animate(IRB140, T, q, circles=[(at, 0.05)], **words)
-    assert np.allclose(moved(player, "marks", 3), at.reshape(4, 1, 3), atol=1e-4)
-    assert player.data["scene"]["marks"][0]["radius"] == 0.05
+    assert np.allclose(moved(player, "mark", 3), at.reshape(4, 1, 3), atol=1e-4)
+    assert player.data["scene"]["things"][0]["radius"] == 0.05
     paths = CIRCLING + at
     player = animate(IRB140, T, q, points=[paths], **words)
     assert np.allclose(
-        moved(player, "marks", 3), paths.reshape(4, -1, 3)[:, kept(player)], atol=1e-4
+        moved(player, "mark", 3), paths.reshape(4, -1, 3)[:, kept(player)], atol=1e-4
     )
     player = animate(IRB140, T, q, points=[CIRCLING], **words)  # the same in all motions
-    assert moved(player, "marks", 3).shape[0] == 1
+    assert moved(player, "mark", 3).shape[0] == 1
 
 
 def test_a_target_may_move(motions):
@@ -555,13 +556,13 @@ def test_a_target_may_move(motions):
     for given, motion in ((carried, motions[1]), (IRB140.fk(motions[1:3]), motions[1:3])):
         extra = {"slider": ("x", [1, 2])} if motion.ndim == 3 else {}
         player = animate(IRB140, T, motion, targets={"part": given}, **extra)
-        way, at = moved(player, "targets", 12), kept(player)
+        way, at = moved(player, "target", 12), kept(player)
         wanted = given.as_matrix()[..., at, :3, :].reshape(-1, len(at), 12)
         assert np.allclose(way, wanted, rtol=0, atol=1.1e-4)
     gone = motions[1].copy()
     gone[:100] = np.nan
     player = animate(IRB140, T, motions[1], targets={"part": IRB140.fk(gone)})
-    assert np.isnan(moved(player, "targets", 12)[0, 0]).all()
+    assert np.isnan(moved(player, "target", 12)[0, 0]).all()
 
 
 def test_a_via_point_of_each_motion_has_its_distance(motions):
@@ -619,8 +620,9 @@ def test_arms_on_bases_share_a_picture_that_holds_them(motions):
     three = [motions[k] for k in (1, 2, 3)]
     alone = animate(IRB140, T, motions[1]).data["scene"]
     scene = animate([IRB140] * 3, T, three, bases=BASES, faces=[BELT]).data["scene"]
-    assert "bases" not in alone and "faces" not in alone
-    assert scene["bases"] == [[*base, 0] for base in BASES.tolist()] and scene["faces"] == [BELT]
+    assert alone["bases"] is None and alone["things"] == []
+    assert scene["bases"] == [[*base, 0] for base in BASES.tolist()]
+    assert scene["things"] == [{"kind": "faces", "corners": [BELT]}]
     seen = np.array(scene["seen"])
     for base, q in zip(BASES, three, strict=True):
         tool = IRB140.fk(q).translation + [*base, 0]
@@ -662,12 +664,12 @@ def test_a_reading_is_exact_and_has_its_decimals(motions):
         points={"bin": (1, 0, 0), "s": CIRCLING},
         readings={"bin": count, "s": clock},
     )
-    marks = {mark["name"]: mark for mark in player.data["scene"]["marks"]}
+    readings = {thing["name"]["name"]: thing["name"] for thing in player.data["scene"]["things"]}
     for name, values, decimals in (("bin", count, 0), ("s", clock, 2)):
-        way = marks[name]["reading"]
+        way = readings[name]
         got = unpacked(way, 1, way["samples"])[0, :, 0]
         assert np.allclose(got, values[kept(player)], rtol=0, atol=1e-3, equal_nan=True)
-        assert marks[name]["decimals"] == decimals
+        assert way["decimals"] == decimals
     words = [text.get_text() for text in player.still.findobj(Text)]
     assert f"bin: {count[-1]:.0f}" in words and f"s: {clock[-1]:.2f}" in words
 
@@ -1317,7 +1319,7 @@ def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):
             };
             const found = [seen()];
             view.hold(true);
-            scene.targets = [{name: "far", pose: [1, 0, 0, 3, 0, 1, 0, 3, 0, 0, 1, 0]}];
+            scene.things = [$target.frame("far", [1, 0, 0, 3, 0, 1, 0, 3, 0, 0, 1, 0])];
             found.push(seen());
             view.hold(false);
             found.push(seen());

@@ -62,6 +62,7 @@ from robokin import (
 )
 from robokin import show as figures
 from robokin.jobs import conveyor, moving, obstacles, redundancy, steppers, visit_collect
+from robokin.show import things
 
 SECONDS = 5
 FOREIGN = "not robokin's words"
@@ -315,6 +316,7 @@ CALLS = {
             bases=None,
             faces=[[(0, 0, 0), (1, 0, 0), (0, 1, 0)]],
             readings={"p": TIMES},
+            things=[things.Mark((0.1, 0.2, 0.3), "mark")],
         ),
     ),
     "animate (controls)": (
