@@ -256,8 +256,21 @@ class JupyterLab:
 
 
 def awake(page):
-    """Wait until every view in the page has unpacked its script and started."""
-    page.wait_for_function("!document.querySelector('.robokin-player:not([data-ready])')")
+    """Scroll to every view that can be seen, since a view starts when it comes near, and wait until
+    it has started; then scroll back.
+    """
+    page.evaluate(
+        """async () => {
+          const asleep = () => [...document.querySelectorAll(".robokin-player:not([data-ready])")]
+            .find(view => view.checkVisibility());
+          const [x, y] = [scrollX, scrollY];
+          for (let view; (view = asleep()); ) {
+            view.scrollIntoView();
+            await new Promise(requestAnimationFrame);
+          }
+          scrollTo(x, y);
+        }"""
+    )
 
 
 def until(true, complaint, page=None):

@@ -1,5 +1,5 @@
-// Starts a view: unpacks its script, which the output stores compressed, and runs it. All views of
-// one kind share one script, so a page unpacks it only once.
+// Starts a view as soon as it comes near the window: unpacks its script, which the output stores
+// compressed, and runs it. All views of one kind share one script, so a page unpacks it only once.
 
 /** @typedef {HTMLScriptElement & {exported?: unknown}} Exporting */
 
@@ -14,10 +14,36 @@ const scripts = (Object(globalThis).robokinScripts ??= new Map());
  * @param {(module: T) => void} show
  */
 export function start(id, key, deflated, show) {
-  const nonce = document.currentScript?.nonce ?? "",
-    script = scripts.get(key) ?? inflated(deflated).then(text => run(text, nonce));
-  scripts.set(key, script);
-  script.then(module => show(/** @type {T} */ (module))).catch(error => explain(id, error));
+  const nonce = document.currentScript?.nonce ?? "";
+  near(id)
+    .then(() => {
+      const script = scripts.get(key) ?? inflated(deflated).then(text => run(text, nonce));
+      scripts.set(key, script);
+      return script;
+    })
+    .then(module => show(/** @type {T} */ (module)))
+    .catch(error => explain(id, error));
+}
+
+/**
+ * Waits until one of the places of a view is at most half a window away. A long page would be busy
+ * for seconds if all its views started together.
+ * @param {string} id
+ * @returns {Promise<void>}
+ */
+function near(id) {
+  return new Promise(resolve => {
+    const seen = new IntersectionObserver(
+      entries => {
+        if (!entries.some(entry => entry.isIntersecting)) return;
+        seen.disconnect();
+        resolve();
+      },
+      {rootMargin: "50%", scrollMargin: "50%"},
+    );
+    for (const place of document.querySelectorAll(`[data-player="${id}"]:not([data-ready])`))
+      seen.observe(place);
+  });
 }
 
 /** @param {string} deflated */
