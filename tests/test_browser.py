@@ -146,6 +146,7 @@ def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
         f"{lab}: the players did not appear",
         page,
     )
+    awake(page)
     player = players.filter(has=page.get_by_label("playing speed")).first  # no explorer
     player.scroll_into_view_if_needed()
     assert player.locator("img").count() == 0, "the still picture gives way"
@@ -197,6 +198,8 @@ def test_a_change_of_theme_leaves_no_canvas_blank(jupyter, page):
 def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     jupyter.open(page, "03_irb140_motion.ipynb")
     jupyter.run_all(page, "03_irb140_motion.ipynb")
+    page.locator(PLAYER).first.wait_for()
+    awake(page)
     player = page.locator(PLAYER).filter(has=page.get_by_label("blend", exact=True)).first
     player.scroll_into_view_if_needed()
     slider = _slider(player, "blend")

@@ -693,12 +693,13 @@ def guess_all(page):
 
 def alive(page, calls):
     """Everything is awake, also what stands behind the predictions: how many of those."""
-    awake = page.evaluate(AWAKE)
-    assert len(awake) == len(calls) and all(awake)
+    before = page.evaluate(AWAKE)
+    assert len(before) == len(calls) and all(before)
     assert guess_all(page) == calls.count("prediction.ask")
-    until(lambda: all(page.evaluate(AWAKE)), "a view behind a prediction is dead", page)
+    awake(page)
     after = page.evaluate(AWAKE)
-    return len(after) - len(awake)
+    assert all(after), "a view behind a prediction is dead"
+    return len(after) - len(before)
 
 
 def test_a_report_lives_as_a_file(browser, stored_report):

@@ -727,7 +727,7 @@ def test_the_page_stays_small(motions):
     )
     assert 110 <= len(player.data["times"]) <= 121
     assert len(player.html.encode()) < 400_000
-    assert len(animate(IRB140, T, motions[1]).html.encode()) < 50_000
+    assert len(animate(IRB140, T, motions[1]).html.encode()) < 51_000
 
 
 def test_words_for_the_notebook(blended):
