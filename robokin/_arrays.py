@@ -1,9 +1,8 @@
-"""Arrays: which ones are read-only, how the numbers lie in memory, and in what portions a batch is
-worked on.
+"""Read-only arrays, the memory layout of numbers, and the blocks in which a batch is computed.
 
-NumPy works fastest on components: one array for all x, one for all y, each in one long run in
-memory. The formulas of this package are written on components; how the runs are made and cut stands
-here and nowhere else.
+NumPy is fastest on components: one contiguous array for all x, another for all y. The formulas of
+this package work on components. Only this module makes the contiguous arrays and cuts them into
+blocks.
 """
 
 import math
@@ -19,29 +18,29 @@ if TYPE_CHECKING:
     Floats: TypeAlias = NDArray[np.float64]
     Bools: TypeAlias = NDArray[np.bool_]
     Ints: TypeAlias = NDArray[np.int64]
-else:  # only a type checker reads them, and numpy.typing is slow to import
+else:  # only a type checker needs them, and numpy.typing is slow to import
     ArrayLike = Any
     Floats = Bools = Ints = np.ndarray
 
 Array = TypeVar("Array", bound="NDArray[Any]")
 
-BLOCK = 16_000  # numbers in one array of the work: 128 kB, which memory is kept ready for
+BLOCK = 16_000  # numbers in one work array: 128 kB, which the memory allocator keeps for reuse
 
 
 def sealed(array: Array) -> Array:
-    """This very array, which nobody else holds, made read-only."""
+    """Make this array read-only in place and return it. Nobody else may hold a reference to it."""
     array.setflags(write=False)
     return array
 
 
 def frozen(array: Array) -> Array:
-    """A read-only copy."""
+    """Return a read-only copy."""
     return sealed(array.copy())
 
 
 class Sealed:
-    """The base of a frozen dataclass that holds arrays, directly or in tuples. Its copies and what
-    comes out of a pickle are read-only, too; NumPy copies no flags.
+    """The base of a frozen dataclass that holds arrays, directly or in tuples. Copies and unpickled
+    objects are read-only too, although NumPy does not copy the flag.
     """
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -50,8 +49,8 @@ class Sealed:
 
 
 def components(array: Floats) -> tuple[Any, ...]:
-    """The parts of the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, with which
-    the same formulas are several times as fast as with arrays of one.
+    """Split the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, with which the same
+    formulas are several times faster than with arrays of size one.
     """
     if array.ndim == 1:
         return tuple(array.tolist())
@@ -59,8 +58,8 @@ def components(array: Floats) -> tuple[Any, ...]:
 
 
 def stack(parts: Sequence[Any]) -> Floats:
-    """The way back from `components`: k arrays or numbers, broadcast, -> (..., k), each component
-    in one long run.
+    """The inverse of `components`: k arrays or numbers, broadcast, -> (..., k), each component
+    contiguous in memory.
     """
     if all(isinstance(part, float) for part in parts):
         return np.array(parts)
@@ -73,14 +72,15 @@ def stack(parts: Sequence[Any]) -> Floats:
 def by_blocks(
     work: Callable[..., Sequence[Any]], *columns: Floats, rest: tuple[int, ...] = ()
 ) -> Floats:
-    """What `work` makes of the rows of arrays (N, k), in one new array (parts, *rest, N).
+    """Apply `work` to the rows of arrays (N, k), block by block; return one new array (parts,
+    *rest, N).
 
     work(*blocks)  takes the components of some rows of each array, as a tuple of k arrays (rows,).
                    It answers with a list of parts, each a number or an array that fits
                    (*rest, rows), or a pair of such, for the two places of the last axis of `rest`.
 
-    Some thousand rows go through at a time: more would not stay in the processor's cache, and every
-    step would wait for the memory, or ask the system for new pages.
+    A block has a few thousand rows. A larger one would not fit into the processor's cache, and
+    every step would wait for memory or ask the system for new pages.
     """
     count = len(columns[0])
     runs = [np.asfortranarray(column) for column in columns]

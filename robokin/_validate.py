@@ -1,9 +1,9 @@
-"""What every public call asks of what it is given, and how it refuses.
+"""Checks of the arguments of public functions, and their error messages.
 
-One rule. What should be numbers or words and cannot be used, whatever is wrong with it (kind, shape
-or value), is a `ValueError`. What should be an object of a class (an arm, a pose, a task) and is
-not is a `TypeError`. Both say `name: wanted ..., got ...`. What is legal and yet likely a slip
-(degrees for radians) is a warning and never refused.
+There is one rule. Numbers or words that cannot be used raise a `ValueError`, whether the kind, the
+shape or the value is wrong. An argument that should be an object of a class (an arm, a pose, a
+task) and is not raises a `TypeError`. Both messages read `name: wanted ..., got ...`. A legal value
+that is probably a mistake (degrees for radians) causes a warning and is accepted.
 """
 
 import math
@@ -19,16 +19,16 @@ from ._arrays import Bools, Floats
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
-AXES = 30  # of an array that comes in; an answer may have two more, and NumPy broadcasts 32
-GREATEST = 10**8  # values in one array: more would fill the memory of a laptop
+AXES = 30  # axes of an argument; a result may have two more, and NumPy broadcasts up to 32
+GREATEST = 10**8  # values in one array: more would exhaust a laptop's memory
 
 
 def floats(value: Any, name: str, last: int | None = None, finite: bool = True) -> Floats:
-    """`value` as a float array; `last` is the length that its last axis must have. ValueError
-    otherwise.
+    """Return `value` as a float array. `last` is the required length of its last axis. ValueError:
+    it is not such an array.
 
-    With `finite=False` a NaN passes (a row that does not exist) and an infinite number does not.
-    Not a copy: who keeps the array makes one.
+    With `finite=False` NaN is accepted (it marks a row that does not exist) and infinity is not.
+    The result may share memory with `value`: a caller that keeps it makes a copy.
     """
     array = _numbers(value, name)
     if array.ndim > AXES:
@@ -36,15 +36,15 @@ def floats(value: Any, name: str, last: int | None = None, finite: bool = True) 
     if last is not None and (array.ndim == 0 or array.shape[-1] != last):
         raise ValueError(f"{name}: wanted shape (..., {last}), got {array.shape}")
     good = np.isfinite(array) if finite else ~np.isinf(array)
-    if np.count_nonzero(good) < array.size:  # of a few numbers three times as fast as `all`
+    if np.count_nonzero(good) < array.size:  # three times as fast as `all` for a few numbers
         where = tuple(int(i) for i in np.argwhere(~good)[0])
         raise ValueError(f"{name}: wanted finite numbers, got {array[where]} at index {where}")
     return array
 
 
 def number(value: Any, name: str, what: str = "one number") -> float:
-    """`value` as a float, if it is one finite number; ValueError otherwise, which says that `what`
-    was wanted.
+    """Return `value` as a float. ValueError: it is not one finite number; the message says that
+    `what` was wanted.
     """
     array = floats(value, name)
     if array.ndim:
@@ -53,7 +53,7 @@ def number(value: Any, name: str, what: str = "one number") -> float:
 
 
 def positive(value: Any, name: str, what: str = "one positive number") -> float:
-    """`value` as a float, if it is one positive number; ValueError otherwise, which says that
+    """Return `value` as a float. ValueError: it is not one positive number; the message says that
     `what` was wanted.
     """
     one = number(value, name, what)
@@ -63,13 +63,13 @@ def positive(value: Any, name: str, what: str = "one positive number") -> float:
 
 
 def length(value: Any, name: str) -> float:
-    """`value` as a float, if it is one positive number (of metres); ValueError otherwise."""
+    """Return `value`, in metres, as a float. ValueError: it is not one positive number."""
     return positive(value, name, "one positive length in metres")
 
 
 def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
-    """`value` as an int, if it is a whole number from `low` to `high`; ValueError otherwise. True
-    is no number.
+    """Return `value` as an int. ValueError: it is not a whole number from `low` to `high`. True is
+    not a number.
     """
     good = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not (good and low <= value and (high is None or value <= high)):
@@ -79,7 +79,7 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
 
 
 def bools(value: Any, name: str) -> Bools:
-    """`value` as an array of True and False; ValueError otherwise."""
+    """Return `value` as a boolean array. ValueError: it holds something other than True and False."""
     try:
         array = np.asarray(value)
     except Exception:  # an object may offer itself as an array and fail in any way
@@ -90,7 +90,7 @@ def bools(value: Any, name: str) -> Bools:
 
 
 def shape_of(value: Any, name: str) -> tuple[int, ...]:
-    """`value`, if it is the shape of an array of at most 30 axes; ValueError otherwise."""
+    """Return `value`. ValueError: it is not the shape of an array with at most 30 axes."""
     if not (isinstance(value, (tuple, list)) and all(type(n) is int and n >= 0 for n in value)):
         raise ValueError(f"{name}: wanted a tuple of whole numbers, got {short(value)}")
     if len(value) > AXES:
@@ -103,21 +103,21 @@ def shape_of(value: Any, name: str) -> tuple[int, ...]:
 
 
 def text(value: Any, name: str) -> str:
-    """`value`, if it is a string; ValueError otherwise."""
+    """Return `value`. ValueError: it is not a string."""
     if not isinstance(value, str):
         raise ValueError(f"{name}: wanted words, got {short(value)}")
     return value
 
 
 def choice(value: Any, name: str, options: Sequence[str]) -> str:
-    """`value`, if it is one of these words; ValueError otherwise."""
+    """Return `value`. ValueError: it is not one of these words."""
     if not (isinstance(value, str) and value in options):
         raise ValueError(f"{name}: wanted one of {tuple(options)}, got {short(value)}")
     return value
 
 
 def broadcast(name: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
-    """The common batch shape; ValueError where the shapes do not fit."""
+    """Return the common batch shape. ValueError: the shapes do not broadcast."""
     if all(shape == shapes[0] for shape in shapes):
         return shapes[0]
     try:
@@ -128,7 +128,7 @@ def broadcast(name: str, *shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
-    """`value`, if it is a `kind`; TypeError otherwise."""
+    """Return `value`. TypeError: it is not a `kind`."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
         raise TypeError(f"{name}: wanted {article} {kind.__name__}, got {short(value)}{hint}")
@@ -136,10 +136,10 @@ def instance(value: Any, kind: type[T], name: str, hint: str = "") -> T:
 
 
 def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int = 0) -> None:
-    """A UserWarning where radians were wanted and these angles are likely degrees: one of them is
-    beyond two turns, or in a batch, which may be a motion that turns on and on, beyond eight.
+    """Warn (UserWarning) if angles that should be in radians are probably in degrees: one of them
+    exceeds two turns, or eight turns in a batch, which may be a motion that keeps turning.
 
-    posture  1 if the last axis are the joints of one posture, 0 if every angle stands for itself
+    posture  1 if the last axis holds the joints of one posture, 0 if each angle stands alone
     """
     limit = TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS
     far = abs(angles) > limit
@@ -149,20 +149,20 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int
 
 
 def short(value: Any) -> str:
-    """A wrong argument in at most sixty characters, for a message."""
+    """Return a wrong argument in at most sixty characters, for a message."""
     if isinstance(value, np.ndarray):
         return f"array of shape {value.shape}"
     try:
         text = (
             reprlib.repr(value) if isinstance(value, (str, list, tuple, dict, int)) else repr(value)
         )
-    except Exception:  # a repr may fail; the message must not
+    except Exception:  # `repr` may raise; the message must not
         text = f"one {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _numbers(value: Any, name: str) -> Floats:
-    """`value` as floats, if it holds real numbers and nothing else."""
+    """Return `value` as floats. ValueError: it holds something other than real numbers."""
     if type(value) is np.ndarray and value.dtype is FLOAT:
         return value
     if masked(value):
@@ -172,21 +172,21 @@ def _numbers(value: Any, name: str) -> Floats:
         if array.dtype is FLOAT:
             return array
         if array.dtype.kind == "O" and array.size and all(map(_is_real, array.flat)):
-            return array.astype(float)  # whole numbers too great for NumPy, fractions
+            return array.astype(float)  # integers that are too large for NumPy, fractions
     except Exception:  # an object may offer itself as an array and fail in any way
         raise ValueError(f"{name}: wanted numbers, got {short(value)}") from None
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{name}: wanted numbers, got {short(value)}")
-    with np.errstate(over="ignore"):  # of numbers longer than 64 bits
+    with np.errstate(over="ignore"):  # from numbers with more than 64 bits
         return array.astype(float)
 
 
 def masked(value: Any) -> bool:
-    """Whether it is a masked array. Naming `np.ma` would load it, 8 ms that nobody else needs."""
+    """Whether it is a masked array. Naming `np.ma` would import it, which takes 8 ms."""
     return isinstance(value, np.ndarray) and hasattr(value, "mask")
 
 
 def _is_real(value: Any) -> bool:
-    from numbers import Real  # here: rarely needed, and abc costs an import
+    from numbers import Real  # imported here because it is rarely needed
 
     return isinstance(value, Real)

@@ -15,17 +15,17 @@ import numpy as np
 from ._arrays import ArrayLike, Floats, Sealed, components, sealed, stack
 from ._validate import AXES, broadcast, floats, instance, shape_of, warn_if_degrees
 
-UNIT = 1e-6  # a length that differs from 1 by no more than this is 1, and is made so
-UPRIGHT = 1e-14  # a pitch this near to +-90 degrees is +-90 degrees, rounded
+UNIT = 1e-6  # a length within this of 1 is accepted and normalised
+UPRIGHT = 1e-14  # a pitch within this of +-90 degrees counts as +-90 degrees
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 class Batch(Sealed):
-    """What values with a batch shape have in common: indexing, length and iteration over the batch
+    """Base class of values with a batch shape: indexing, length and iteration act on the batch
     only.
     """
 
-    __array_ufunc__ = None  # so that `array @ value` is a TypeError and not an array of objects
+    __array_ufunc__ = None  # makes `array @ value` a TypeError instead of an array of objects
 
     @property
     @abstractmethod
@@ -48,9 +48,9 @@ class Batch(Sealed):
 class Quaternion(Batch):
     """A rotation of any batch shape, as a unit quaternion `wxyz` of shape (..., 4).
 
-    `a @ b` composes (first b, then a) and `a @ points` turns points of shape (..., 3). `wxyz` is
-    read-only. ValueError: not finite, or a length that is not 1 within 1e-6.
-    Source: 001, all listings (there `*`); the product is Hamilton's.
+    `a @ b` composes (b first, then a) and `a @ points` rotates points of shape (..., 3). `wxyz` is
+    read-only. ValueError: not finite, or a length that is not 1 within 1e-6. Source: 001, all
+    listings (there `*`); the product is Hamilton's.
 
     >>> half = Quaternion.from_angle_axis(np.pi, (0, 0, 1))
     >>> (half @ (1, 2, 3)).round(3)
@@ -65,23 +65,21 @@ class Quaternion(Batch):
 
     @classmethod
     def _of(cls, wxyz: Floats) -> "Quaternion":
-        """From quaternions already known to be of unit length: nothing is checked, NaN rows
-        pass.
-        """
+        """Make one from unit quaternions without a check; NaN rows are accepted."""
         self = object.__new__(cls)
         vars(self)["wxyz"] = sealed(wxyz)
         return self
 
     @classmethod
     def identity(cls, shape: tuple[int, ...] = ()) -> "Quaternion":
-        """No rotation, of this batch shape."""
+        """The identity rotation, with this batch shape."""
         return cls._of(np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*shape_of(shape, "shape"), 4)))
 
     @classmethod
     def from_angle_axis(cls, angle: ArrayLike, axis: ArrayLike) -> "Quaternion":
-        """The turn by `angle` (...) in radians about the unit vector `axis` (..., 3),
-        counter-clockwise seen against the axis. ValueError: an axis whose length is not 1 within
-        1e-6.
+        """The rotation by `angle` (...) in radians about the unit vector `axis` (..., 3),
+        counter-clockwise when the axis points at the viewer. ValueError: an axis whose length is
+        not 1 within 1e-6.
         """
         angles, axes = floats(angle, "angle"), floats(axis, "axis", 3)
         broadcast("angle and axis", angles.shape, axes.shape[:-1])
@@ -90,13 +88,13 @@ class Quaternion(Batch):
 
     @classmethod
     def _turn(cls, angle: Floats, axis: Floats) -> "Quaternion":
-        """As `from_angle_axis`, unchecked: a NaN angle gives a NaN rotation."""
+        """As `from_angle_axis`, but without a check: a NaN angle gives a NaN rotation."""
         return cls._of(stack(half_angles(angle, components(axis))))
 
     @classmethod
     def from_roll_pitch_yaw(cls, roll: ArrayLike, pitch: ArrayLike, yaw: ArrayLike) -> "Quaternion":
-        """Turns (...) in radians about the fixed x, then y, then z axis: Rz(yaw) Ry(pitch)
-        Rx(roll).
+        """Rotations by angles (...) in radians about the fixed x, then y, then z axis: Rz(yaw)
+        Ry(pitch) Rx(roll).
         """
         x, y, z = np.eye(3)
         rolled = cls.from_angle_axis(roll, x)
@@ -108,9 +106,8 @@ class Quaternion(Batch):
         """From rotation matrices (..., 3, 3). ValueError: not orthogonal within 1e-6, or a
         reflection.
 
-        Each of the four components can be read from the matrix with a division by itself; we divide
-        by the largest one (Shepperd 1978, J. Guidance and Control 1, p. 223), which is never below
-        1/2.
+        The matrix gives all four components after a division by any one of them. We divide by the
+        largest one (Shepperd 1978, J. Guidance and Control 1, p. 223), which is at least 1/2.
         """
         m = floats(matrix, "matrix", 3)
         if m.ndim < 2 or m.shape[-2] != 3:
@@ -157,8 +154,8 @@ class Quaternion(Batch):
         return matrix_rows(components(self.wxyz))
 
     def as_angle_axis(self) -> tuple[Floats, Floats]:
-        """The angle in [0, pi] and the unit axis (..., 3). The axis of no rotation is z, by
-        agreement.
+        """The angle in [0, pi] and the unit axis (..., 3). The axis of the identity is z by
+        convention.
         """
         vector = np.where(self.wxyz[..., :1] < 0, -self.wxyz[..., 1:], self.wxyz[..., 1:])
         sine = np.linalg.norm(vector, axis=-1)
@@ -168,17 +165,17 @@ class Quaternion(Batch):
         return angle, axis
 
     def as_roll_pitch_yaw(self) -> tuple[Floats, Floats, Floats]:
-        """The turns (...) in radians about the fixed x, then y, then z axis that make this rotation
-        (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
+        """The angles (...) in radians about the fixed x, then y, then z axis that compose this
+        rotation (see `from_roll_pitch_yaw`); pitch lies in [-pi/2, pi/2].
 
-        At a pitch of +-90 degrees (up to the rounding of a few products) roll and yaw turn about
-        the same line; roll is then zero. Close to it each of them has few digits left, but together
-        they still make this rotation.
-        Source: Bernardes and Viollet 2022, PLoS ONE 17(11), e0276302.
+        At a pitch of +-90 degrees (within the rounding of a few products) roll and yaw rotate about
+        the same line, and we set roll to zero. Near it each angle alone loses digits, but together
+        they still give this rotation. Source: Bernardes and Viollet 2022, PLoS ONE 17(11),
+        e0276302.
         """
         w, x, y, z = components(self.wxyz)
         (xx, _, _), (yx, _, _), (zx, _, _) = self._rows()
-        # cosine and sine of (yaw - roll) / 2, which is lost at -90 degrees, and of (yaw + roll) / 2
+        # cosine and sine of (yaw - roll) / 2, undefined at -90 degrees, and of (yaw + roll) / 2
         c, s, cos, sin = w + y, z - x, w - y, z + x
         up, down = np.hypot(cos, sin) < UPRIGHT, np.hypot(c, s) < UPRIGHT
         cos, sin = np.where(up, c, cos), np.where(up, s, sin)
@@ -188,11 +185,11 @@ class Quaternion(Batch):
         return roll, np.arctan2(-zx, np.hypot(xx, yx)), yaw
 
     def angle_to(self, other: "Quaternion") -> Floats:
-        """The angle in [0, pi] of the turn from these rotations to `other`: (...) in radians.
+        """The angle in [0, pi] of the rotation from these to `other`: (...) in radians.
 
-        The shape is that of both batches together. Right to the last digits for small angles, where
-        an arccos of the product's scalar part is not. The `angle_to` of source 001 is another one:
-        the signed angle between two vectors about an axis.
+        The batches are broadcast. Small angles are accurate to the last digits, which the arccos of
+        the product's scalar part is not. The `angle_to` of source 001 is a different function: the
+        signed angle between two vectors about an axis.
         """
         instance(other, Quaternion, "other")
         broadcast("the two rotations", self.shape, other.shape)
@@ -225,21 +222,22 @@ class Quaternion(Batch):
         return stack(turned(components(self.wxyz), components(points)))
 
     def inverse(self) -> "Quaternion":
-        """The rotation back."""
+        """The inverse rotation."""
         return Quaternion._of(self.wxyz * CONJUGATE)
 
     def slerp(self, goal: "Quaternion", s: ArrayLike) -> "Quaternion":
-        """Along the shorter arc from here (s = 0) to `goal` (s = 1), at constant angular velocity.
+        """Interpolate along the shorter arc from this rotation (s = 0) to `goal` (s = 1), at
+        constant angular velocity.
 
-        `s` (...) is broadcast against both; beyond [0, 1] the turn goes on. For a relative turn of
-        exactly pi both arcs are equally long: there the signs of the two quaternions decide (they
-        are used as they are). Source: Shoemake 1985, SIGGRAPH; 001, listing 7.
+        `s` (...) is broadcast against both; outside [0, 1] the rotation continues. For a relative
+        angle of exactly pi both arcs are equally long, and the signs of the two quaternions decide
+        which one is taken. Source: Shoemake 1985, SIGGRAPH; 001, listing 7.
         """
         instance(goal, Quaternion, "goal")
         share = floats(s, "s")
         broadcast("start, goal and s", self.shape, goal.shape, share.shape)
         a, b = _same_sign(self.wxyz, goal.wxyz)
-        angle = _angle_between(a, b) / 2  # of the arc on the sphere of quaternions
+        angle = _angle_between(a, b) / 2  # the angle of the arc on the sphere of unit quaternions
         none = angle == 0
         whole = np.where(none, 1.0, np.sin(angle))
         of_a = np.where(none, 1 - share, np.sin((1 - share) * angle) / whole)
@@ -269,15 +267,15 @@ def hamilton(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
 
 
 def turned(q: Sequence[Any], v: Sequence[Any]) -> tuple[Any, ...]:
-    """The vector v (x, y, z) turned by the quaternion q: q v q* written out, v + w t + u x t."""
+    """The vector v (x, y, z) rotated by the quaternion q: q v q*, expanded to v + w t + u x t."""
     w, *u = q
     t = [2 * c for c in cross(u, v)]
     return tuple(v_ + w * t_ + c for v_, t_, c in zip(v, t, cross(u, t), strict=True))
 
 
 def spun(q: Sequence[Any], axis: int, cosine: Any, sine: Any) -> tuple[Any, Any, Any, Any]:
-    """The quaternion q times a turn about the coordinate axis 0, 1 or 2, given by the cosine and
-    sine of half its angle: what is left of Hamilton's product.
+    """The quaternion q times a rotation about the coordinate axis 0, 1 or 2, given by the cosine
+    and sine of half its angle: Hamilton's product without the terms that are zero.
     """
     w, *v = q
     i, j = (axis + 1) % 3, (axis + 2) % 3
@@ -287,8 +285,8 @@ def spun(q: Sequence[Any], axis: int, cosine: Any, sine: Any) -> tuple[Any, Any,
 
 
 def along(q: Sequence[Any], axis: int, length: float) -> list[Any]:
-    """The vector of this length on the coordinate axis 0, 1 or 2, turned by q: a column of
-    `matrix_rows`, times the length.
+    """The vector of this length along the coordinate axis 0, 1 or 2, rotated by q: a column of
+    `matrix_rows` times the length.
     """
     w, *v = q
     i, j, twice = (axis + 1) % 3, (axis + 2) % 3, 2 * length
@@ -298,7 +296,7 @@ def along(q: Sequence[Any], axis: int, length: float) -> list[Any]:
 
 
 def half_angles(angle: Floats, axis: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
-    """The quaternion of a turn by `angle` about the unit vector `axis` (x, y, z)."""
+    """The quaternion of a rotation by `angle` about the unit vector `axis` (x, y, z)."""
     half = angle / 2
     sine = np.sin(half)
     return np.cos(half), sine * axis[0], sine * axis[1], sine * axis[2]
@@ -318,8 +316,8 @@ def matrix_rows(q: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
 
 
 def unit(vectors: Floats, name: str, what: str) -> Floats:
-    """Vectors (..., k) at length 1. ValueError: a length that is not 1 within 1e-6, which says that
-    `what` was wanted.
+    """Return vectors (..., k) normalised to length 1. ValueError: a length differs from 1 by more
+    than 1e-6; the message says that `what` was wanted.
     """
     with np.errstate(over="ignore"):
         length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
@@ -333,18 +331,18 @@ def unit(vectors: Floats, name: str, what: str) -> Floats:
 
 
 def rounded(array: Floats) -> str:
-    """For a repr: four decimals, no minus zero."""
+    """Round to four decimals for a repr, without negative zeros."""
     return np.array2string(np.round(array, 4) + 0.0, separator=", ")
 
 
 def _same_sign(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """Two rotations, the second as the one of b and -b that is nearer to the first."""
-    # The margin keeps rounding noise from choosing the direction of a half turn.
+    """Return a and whichever of b and -b is nearer to it."""
+    # The margin keeps rounding errors from choosing the direction of a half turn.
     return a, np.where(((a * b).sum(-1) < -1e-14)[..., None], -b, b)
 
 
 def _angle_between(a: Floats, b: Floats) -> Floats:
-    """The angle of the turn between quaternions of the same sign: twice that of their arc."""
+    """The angle of the rotation between quaternions of the same sign: twice the angle of their arc."""
     apart, beside = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     angle: Floats = 4 * np.arctan2(apart, beside)
     return angle

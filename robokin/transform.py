@@ -19,11 +19,11 @@ HERE = Quaternion.identity()
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class Transform(Batch):
-    """A pose or a change of frame: first `rotation`, then `translation` (..., 3) in metres.
+    """A pose or a change of frame: `rotation` first, then `translation` (..., 3) in metres.
 
-    Either part may be left out. A batch of poses acts on a batch of points by broadcasting:
-    `T[:, None] @ points`. The arrays are read-only copies. ValueError: wrong shape, not finite.
-    Source: 001, all listings (there `+`); 000, the homogeneous matrices.
+    Either part may be omitted. A batch of poses acts on a batch of points by broadcasting: `T[:,
+    None] @ points`. The arrays are read-only copies. ValueError: wrong shape, not finite. Source:
+    001, all listings (there `+`); 000, the homogeneous matrices.
 
     >>> ahead = Transform(translation=(1, 0, 0))
     >>> left = Transform(Quaternion.from_angle_axis(np.pi / 2, (0, 0, 1)))
@@ -47,20 +47,20 @@ class Transform(Batch):
 
     @classmethod
     def _of(cls, rotation: Quaternion, translation: Floats) -> "Transform":
-        """From parts of one batch shape: nothing is checked, NaN rows pass."""
+        """Make one from parts with the same batch shape, without a check; NaN rows are accepted."""
         self = object.__new__(cls)
         vars(self).update(rotation=rotation, translation=sealed(translation))
         return self
 
     @classmethod
     def identity(cls, shape: tuple[int, ...] = ()) -> "Transform":
-        """The frame itself, of this batch shape."""
+        """The identity, with this batch shape."""
         place = np.broadcast_to(np.zeros(3), (*shape_of(shape, "shape"), 3))
         return cls._of(Quaternion.identity(shape), place)
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Transform":
-        """From homogeneous matrices (..., 4, 4). ValueError: the upper left part is no rotation
+        """From homogeneous matrices (..., 4, 4). ValueError: the upper left part is not a rotation
         within 1e-6, or the last row is not 0 0 0 1.
         """
         m = floats(matrix, "matrix", 4)
@@ -101,14 +101,14 @@ class Transform(Batch):
         return self.rotation @ other + self.translation
 
     def inverse(self) -> "Transform":
-        """The change of frame back: [R^T, -R^T p]. Source: 000, "Обратная задача"."""
+        """The inverse change of frame: [R^T, -R^T p]. Source: 000, "Обратная задача"."""
         back = self.rotation.inverse()
         return Transform._of(back, -(back @ self.translation))
 
     def lerp(self, goal: "Transform", s: ArrayLike) -> "Transform":
-        """On the way from here (s = 0) to `goal` (s = 1): the origin on a straight line, the
-        rotation by `Quaternion.slerp`. `s` (...) is broadcast against both; beyond [0, 1] the
-        motion goes on. Source: 001, listing 7 (`Transform.lerp`).
+        """Interpolate from this pose (s = 0) to `goal` (s = 1): the origin on a straight line, the
+        rotation by `Quaternion.slerp`. `s` (...) is broadcast against both; outside [0, 1] the
+        motion continues. Source: 001, listing 7 (`Transform.lerp`).
         """
         instance(goal, Transform, "goal")
         share = floats(s, "s")

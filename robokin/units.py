@@ -1,4 +1,4 @@
-"""Units: multiply by one to come in, divide by it to go out.
+"""Units: multiply by a unit to get metres or radians, divide by it to get back.
 
 Inside robokin a length is in metres and an angle in radians. A lesson writes ``352 * mm`` and
 ``90 * deg``.
@@ -20,12 +20,12 @@ def wrapped(angle: Floats, near: Floats | float = 0.0) -> Floats:
 
 
 def length_unit(size: float) -> tuple[str, float]:
-    """The unit in which people read lengths of something of this size in metres: its name, and its
-    length in metres. Millimetres up to 2 m, then metres.
+    """Return the name and the length in metres of the unit that suits an object of this size (m):
+    millimetres up to 2 m, then metres.
     """
     return ("mm", mm) if size <= 2 else ("m", 1.0)
 
 
 def in_words(length: float) -> str:
-    """A length in metres, for a sentence: millimetres below 10 m, then metres."""
+    """Return a length (m) as words for a sentence: millimetres below 10 m, then metres."""
     return f"{length / mm:.1f} mm" if length < 10 else f"{length:.1f} m"

@@ -27,9 +27,9 @@ class Arm(Sealed):
     limits         (n, 2), lowest and highest value of each joint; read-only
     speed_limits   (n,), greatest speeds in rad/s or m/s, where known; read-only
 
-    An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. ValueError: limits that do
-    not fit, links that never move the flange away from axis 1; TypeError: neither geometry nor
-    links.
+    An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. ValueError: limits of the
+    wrong shape, or links that never move the flange away from axis 1. TypeError: neither a geometry
+    nor links.
 
     >>> from robokin import Arm, deg, dh_links, mm
     >>> a, d = np.array([[0, -425, -392.25, 0, 0, 0], [89.159, 0, 0, 109.15, 94.65, 82.3]]) * mm
@@ -79,28 +79,30 @@ class Arm(Sealed):
 
     @property
     def target(self) -> type:
-        """What the arm can be asked for: Transform (place and orientation), ScaraPose (place and
-        angle) or np.ndarray (a point).
+        """The type of the arm's targets: Transform (position and orientation), ScaraPose (position
+        and angle) or np.ndarray (a point).
         """
         return self.geometry.target
 
     @property
     def reach(self) -> float:
-        """How far from axis 1, in metres, the arm can bring what it carries (the wrist centre, the
-        tool of an arm without a wrist).
+        """The greatest distance in metres from axis 1 of the point that the arm carries (the wrist
+        centre, or the tool of an arm without a wrist).
         """
         return self.geometry.reach
 
     @cached_property
     def prismatic(self) -> Bools:
-        """(n,) bool, read-only: which joints shift and do not turn."""
+        """(n,) bool, read-only: which joints are prismatic."""
         prismatic = np.array([link.prismatic for link in self.links])
         prismatic.flags.writeable = False
         return prismatic
 
     @cached_property
     def turning(self) -> slice | Bools:
-        """What picks the joints that turn out of the last axis: all of them, or a mask (n,)."""
+        """The index of the revolute joints in the last axis: a slice of all of them, or a mask
+        (n,).
+        """
         if not self.prismatic.any():
             return slice(None)
         turning = ~self.prismatic
@@ -111,7 +113,7 @@ class Arm(Sealed):
         """The flange in base coordinates: q (..., n) -> Transform of shape (...). NaN rows give NaN
         poses.
 
-        A UserWarning where a joint is turned many times round: degrees were likely meant.
+        A UserWarning if a joint has made many turns: the angles are probably in degrees.
         """
 
         def flange(joints: Sequence[Any]) -> list[Any]:
@@ -121,11 +123,11 @@ class Arm(Sealed):
         return _transform(self._evaluate(flange, q))
 
     def frames(self, q: ArrayLike) -> Transform:
-        """Every frame in base coordinates: base, the frame after each joint, the last one being the
-        flange.
+        """All frames in base coordinates: the base and the frame after each joint, of which the
+        last is the flange.
 
-        q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes that frame and those after
-        it NaN. A UserWarning as in `fk`.
+        q (..., n) -> Transform of shape (..., n + 1). A NaN in q makes its frame and all later ones
+        NaN. The UserWarning is that of `fk`.
         """
 
         def frames(joints: Sequence[Any]) -> list[Any]:
@@ -157,14 +159,14 @@ class Arm(Sealed):
         return parts.reshape(*parts.shape[:-1], 6, n)
 
     def _walk(self, joints: Sequence[Any]) -> Iterator[tuple[Frame, Frame]]:
-        """For each link the frame of its joint and the frame after it, base to flange."""
+        """Yield for each link, base to flange, the frame of its joint and the frame after it."""
         frame = BASE
         for link, q in zip(self.links, joints, strict=True):
             joint, frame = link._carry(frame, q)
             yield joint, frame
 
     def _evaluate(self, work: Callable[[Sequence[Any]], list[Any]], q: ArrayLike) -> Floats:
-        """The numbers that `work` makes of the joints' values, for every q (..., n): (..., k)."""
+        """Apply `work` to the joint values q (..., n): (..., k)."""
         n = len(self.links)
         values = floats(q, "q", n, finite=False)
         warn_if_degrees(values[..., self.turning], "q", 4, posture=1)
@@ -176,10 +178,10 @@ class Arm(Sealed):
     def __repr__(self) -> str:
         return f"Arm({self.name!r}, {len(self.links)} joints)"
 
-    if not TYPE_CHECKING:  # a type checker would take any name for an attribute
+    if not TYPE_CHECKING:  # with it a type checker would accept any attribute name
 
         def __getattr__(self, name):
-            """The error for a name that the arm does not have, and what to use for an inverse."""
+            """Raise the error for a missing attribute; for `ik` it says what to use instead."""
             words = f"{type(self).__name__!r} object has no attribute {name!r}"
             if name in ("ik", "branch", "branches"):
                 kind = type(self)
@@ -191,7 +193,7 @@ class Arm(Sealed):
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class ClosedFormArm(Arm):
-    """An `Arm` with all solutions of its inverse in closed form: `ik`."""
+    """An `Arm` whose inverse kinematics is in closed form: `ik` returns all solutions."""
 
     geometry: ClosedForm
 
@@ -202,13 +204,11 @@ class ClosedFormArm(Arm):
 
     @property
     def branches(self) -> Ints:
-        """(rows, flags) of +-1, read-only: the configuration of every row of `ik`, in its order."""
+        """(rows, flags) of +-1, read-only: the configuration of each row of `ik`, in order."""
         return self.geometry.branches
 
     def branch(self, *flags: int) -> int:
-        """The row of `ik` that holds the configuration with these flags. ValueError: no such
-        flags.
-        """
+        """The row of `ik` with this configuration. ValueError: flags that the arm does not have."""
         for row, wanted in enumerate(self.branches.tolist()):
             if all(isinstance(flag, SCALARS) for flag in flags) and list(flags) == wanted:
                 return row
@@ -216,18 +216,18 @@ class ClosedFormArm(Arm):
         raise ValueError(f"{self.name}: wanted {count} flags of +1 or -1, got {short(flags)}")
 
     def ik(self, pose: Any) -> Floats:
-        """All joint values that bring the flange to `pose` (of the kind `target`, or a Transform):
+        """All joint values that bring the flange to `pose` (of the type `target`, or a Transform):
         shape (...) -> (..., rows, n).
 
-        Row k is always the configuration `branches[k]`. A row that does not exist is wholly NaN.
-        Angles lie in [-pi, pi]; limits are ignored (see `within`, `nearest`). Where branches
-        coincide the row is repeated. TypeError: another kind of thing.
+        Row k is always the configuration `branches[k]`. A row that does not exist is NaN
+        throughout. Angles lie in [-pi, pi]; limits are ignored (see `within`, `nearest`). Where
+        branches coincide the row is repeated. TypeError: a pose of another type.
         """
         return self.geometry.ik(pose)
 
 
 def _measured(geometry: Geometry | Sequence[Link], limits: ArrayLike) -> Geometry:
-    """The geometry of links alone, for these limits; another geometry as it is."""
+    """Return a `Chain` with its reach measured for these limits; any other geometry unchanged."""
     links = geometry.links if isinstance(geometry, Chain) else geometry
     if not isinstance(links, (tuple, list)) or hasattr(links, "links"):
         return cast(Geometry, geometry)
@@ -236,7 +236,7 @@ def _measured(geometry: Geometry | Sequence[Link], limits: ArrayLike) -> Geometr
 
 
 def _pairs(limits: ArrayLike, n: int) -> Floats:
-    """The limits (n, 2) of n joints; ValueError: they are not."""
+    """Return the limits (n, 2) of n joints. ValueError: another shape, or limits out of order."""
     pairs = floats(limits, "limits", 2)
     if pairs.shape != (n, 2) or (pairs[:, 0] >= pairs[:, 1]).any():
         got = pairs.tolist() if pairs.size < 50 else f"shape {pairs.shape}"
@@ -245,8 +245,8 @@ def _pairs(limits: ArrayLike, n: int) -> Floats:
 
 
 def _transform(parts: Floats) -> Transform:
-    """Of w, x, y, z of the rotation and x, y, z of the origin: (..., 7)."""
+    """Make a Transform from rotation w, x, y, z and origin x, y, z: (..., 7)."""
     missing = np.isnan(parts[..., 0])
-    if missing.any():  # a joint on the origin does not move it, and yet nobody knows where it is
+    if missing.any():  # the origin lies on a joint's axis, so that a NaN angle would not reach it
         parts[missing, 4:] = np.nan
     return Transform._of(Quaternion._of(parts[..., :4]), parts[..., 4:])

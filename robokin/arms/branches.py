@@ -1,5 +1,5 @@
-"""Choosing among the solutions of the inverse kinematics: `within`, `nearest`, `follow`,
-`explain`.
+"""Functions that choose among the solutions of the inverse kinematics: `within`, `nearest`,
+`follow`, `explain`.
 """
 
 from collections.abc import Callable
@@ -17,14 +17,14 @@ from .scara import ScaraPose
 from .verdicts import SENTENCES
 
 TURN = 2 * np.pi
-SLACK = 1e-9  # a joint this little past its limit stands at it
+SLACK = 1e-9  # a joint past its limit by no more than this counts as at its limit
 
 
 def within(arm: Arm, q: ArrayLike) -> Bools:
-    """Which joints can stand at q (..., n) inside their limits: bool (..., n).
+    """Which joints can take the posture q (..., n) within their limits: bool (..., n).
 
-    A revolute joint counts if some q + 2 pi k lies inside. NaN is outside. A UserWarning where an
-    angle is many turns: degrees were likely meant.
+    A revolute joint is inside if some q + 2 pi k is. NaN is outside. A UserWarning if an angle is
+    many turns: it is probably in degrees.
 
     >>> from robokin import IRB140, deg, within
     >>> within(IRB140, np.array([0, 120, 0, 0, 0, 390]) * deg)
@@ -36,10 +36,10 @@ def within(arm: Arm, q: ArrayLike) -> Bools:
 
 
 def representative(arm: Arm, q: ArrayLike) -> Floats:
-    """Joint values as people read them: for each joint the value q + 2 pi k that is inside its
-    limits and nearest to q or, if none is inside, the one that is least past them.
+    """The joint values to show to people: for each joint the value q + 2 pi k that is inside its
+    limits and nearest to q or, if none is inside, the one that exceeds them least.
 
-    q (..., n) -> (..., n). A prismatic joint has but one value.
+    q (..., n) -> (..., n). A prismatic joint has only one value.
 
     >>> from robokin import IRB140, deg, representative
     >>> q = np.array([0, 0, -300, 0, 0, 0]) * deg  # joint 3 has room from -230 to 50 degrees
@@ -65,11 +65,11 @@ def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
 
 
 def nearest(arm: Arm, rows: ArrayLike, q: ArrayLike) -> Floats:
-    """The row with the least travel from q: rows (..., rows, n) and q (..., n) -> (..., n).
+    """The row with the least travel from q: rows (..., rows, n), q (..., n) -> (..., n).
 
-    Travel is the sum of all joint changes (rad; m for a prismatic joint). A joint takes the one of
-    its values q + 2 pi k that is nearest to q and inside the limits or, if none is inside, nearest
-    to q. NaN where no row exists. ValueError: shapes that do not fit, no rows.
+    Travel is the sum of the absolute joint changes (rad; m for a prismatic joint). Of its values q
+    + 2 pi k a joint takes the one inside the limits that is nearest to q or, if none is inside, the
+    nearest one. NaN where no row exists. ValueError: shapes that do not match, no rows.
 
     >>> from robokin import SCARA, ScaraPose, deg, nearest
     >>> rows = SCARA.ik(ScaraPose((0.3, 0.1, 0.2), 0))
@@ -86,11 +86,11 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     samples, n).
 
     It starts on `row` (at the first sample where that row exists), with each joint inside its
-    limits if it can; after that every sample takes the row nearest to the one before, with angles
-    unwrapped (they may pass the limits: `within` tells). Where a wrist singularity leaves joints 4
-    and 6 free they share the turn; for joint 1 free in a shoulder singularity nothing is chosen, it
-    is where `ik` puts it. NaN where no row exists, then on from the last finite sample. ValueError:
-    a row that the arm does not have, no samples.
+    limits if possible. Every later sample takes the row nearest to the sample before it, with
+    unwrapped angles, which may pass the limits (`within` tells). Where a wrist singularity leaves
+    joints 4 and 6 free, they share the rotation equally. Where a shoulder singularity leaves joint
+    1 free, it keeps the value from `ik`. Samples without a row are NaN, and the motion continues
+    from the last finite one. ValueError: a row that the arm does not have, no samples.
     """
     options = _rows(arm, rows)
     if options.ndim < 3 or options.shape[-3] == 0:
@@ -101,8 +101,7 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
     q = np.full((*options.shape[:-2], options.shape[-1]), np.nan)
     before = _start(arm, options[..., row, :])
     started = np.zeros(q.shape[:-2], dtype=bool)
-    # Each sample depends on the one before: the one loop over time that cannot be an array
-    # operation.
+    # Each sample depends on the one before, so this loop over time cannot be an array operation.
     for i in range(q.shape[-2]):
         here = options[..., i, :, :]
         here = np.where(started[..., None, None], here, here[..., row : row + 1, :])
@@ -115,12 +114,12 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
 
 
 def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
-    """In one sentence whether row `row` of `arm.ik(pose)` is usable, and if not why. One single
-    pose.
+    """Say in one sentence whether row `row` of `arm.ik(pose)` is usable, and if not, why. `pose` is
+    a single pose.
 
-    Out of reach: by how much, and whether metres were meant to be millimetres. Else every joint
-    past its limit, with the excess, and every singularity that holds. The sentences are those of
-    `verdicts.SENTENCES`.
+    A pose out of reach: by how much, and whether the lengths may be millimetres. Otherwise: every
+    joint past its limit, with the excess, and every singularity of the posture. The sentences are
+    those of `verdicts.SENTENCES`.
 
     >>> from robokin import SCARA, ScaraPose, explain
     >>> explain(SCARA, ScaraPose((0.46, 0, 0.1), 0), 0)
@@ -154,8 +153,8 @@ def _rows(arm: Arm, rows: ArrayLike) -> Floats:
 
 
 def _within(arm: Arm, q: Floats) -> Bools:
-    """The lowest value q + 2 pi k not below the lower limit tells (a prismatic joint has but
-    one).
+    """The lowest value q + 2 pi k that is not below the lower limit decides (a prismatic joint has
+    only one value).
     """
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
     lowest = q + TURN * np.ceil((low - q) / TURN)
@@ -169,7 +168,7 @@ def _unwrapped(arm: Arm, q: Floats, near: Floats) -> Floats:
 
 
 def _inside(arm: Arm, q: Floats, near: Floats) -> Floats:
-    """As `_unwrapped`, but inside the limits where there is such a value."""
+    """As `unwrapped`, but inside the limits where such a value exists."""
     value = _unwrapped(arm, q, near)
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
     up = value + TURN * np.maximum(np.ceil((low - value) / TURN), 0)
@@ -179,7 +178,7 @@ def _inside(arm: Arm, q: Floats, near: Floats) -> Floats:
 
 
 def _least(options: Floats, q: Floats) -> Floats:
-    """The option (..., rows, n) with the least travel from q (..., n); NaN where there is none."""
+    """The option (..., rows, n) with the least travel from q (..., n); NaN where none exists."""
     travel = abs(options - q[..., None, :]).sum(axis=-1)
     best = np.where(np.isnan(travel), np.inf, travel).argmin(axis=-1)
     return np.take_along_axis(options, best[..., None, None], axis=-2)[..., 0, :]
@@ -195,15 +194,15 @@ def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
 
 
 def _start(arm: Arm, track: Floats) -> Floats:
-    """Where a motion along one row (..., samples, n) begins, for its first sample to be measured
-    against.
+    """The posture that the first sample of a motion along one row (..., samples, n) is compared
+    with.
 
-    A motion may begin in a singularity, as from the IRB-140's home pose: the free joints then look
-    ahead to the first sample that determines them.
+    A motion may begin in a singularity, for example at the IRB-140's home pose. The free joints
+    then take their values from the first sample that determines them.
     """
     choose = _chooser(arm)
     exists = ~np.isnan(track).any(axis=-1)
-    # each joint by another amount, so that no two shifts cancel
+    # a different shift for each joint, so that no two shifts cancel
     elsewhere = track + np.arange(track.shape[-1])
     determined = np.isclose(choose(track, elsewhere), track, rtol=0, atol=1e-12).all(axis=-1)
     begin = exists.argmax(axis=-1)
@@ -217,7 +216,7 @@ def _start(arm: Arm, track: Floats) -> Floats:
 
 
 def _shrunk(pose: Any) -> Any:
-    """The pose as if its lengths had been millimetres."""
+    """The pose with its lengths read as millimetres."""
     if isinstance(pose, Transform):
         return replace(pose, translation=pose.translation / 1000)
     if isinstance(pose, ScaraPose):
@@ -226,7 +225,7 @@ def _shrunk(pose: Any) -> Any:
 
 
 def _excess(arm: Arm, q: Floats, i: int) -> str:
-    """How joint i stands past its limit, said in the unit of the joint."""
+    """Say by how much joint i is past its limit, in the unit of the joint."""
     (low, high), value = arm.limits[i], representative(arm, q)[i]
     limit, over = (high, value - high) if value > high else (low, low - value)
     unit, size = (" mm", mm) if arm.prismatic[i] else ("°", deg)

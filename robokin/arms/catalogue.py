@@ -1,4 +1,4 @@
-"""The machines: numbers, each beside its source."""
+"""The robots of the course: their numbers, each with its source."""
 
 import numpy as np
 
@@ -19,14 +19,14 @@ def _at(x: float, y: float, z: float) -> Transform:
     return Transform(translation=(x, y, z))
 
 
-#: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is the
-#: document's, its frame `wrist` split in two (joints 4 and 5). Public models of this robot
-#: (ROS-Industrial abb_experimental, ARTE) are another arm: an upper arm of 360 mm, here 350 mm, and
-#: a joint 2 that leans forward at positive angles, here back. With q2 negated their flange is 10 mm
-#: from this one's at every posture; with the same q2 = 30 degrees, all other joints at zero, 563 mm
-#: (errata S1-g; companion 001, section 2). ARTE has joint 5 to +-120 degrees. We keep the
-#: document's numbers. It states no speeds: those of joints 3 and 4 are ours, below the 260 and 360
-#: of the public models; the maker's data sheet was not at hand.
+#: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is that
+#: of the document, with its frame `wrist` split in two (joints 4 and 5). Public models of this
+#: robot (ROS-Industrial abb_experimental, ARTE) differ: their upper arm has 360 mm, ours 350 mm,
+#: and their joint 2 leans forward at positive angles, ours backward. With q2 negated their flange
+#: is 10 mm from this one's at every posture; with the same q2 = 30 degrees, all other joints at
+#: zero, 563 mm (errata S1-g; companion 001, section 2). ARTE has joint 5 to +-120 degrees. We keep
+#: the document's numbers. It states no speeds. Those of joints 3 and 4 are our choice, below the
+#: 260 and 360 of the public models; we did not have the maker's data sheet.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(
@@ -43,8 +43,8 @@ IRB140 = spherical_wrist(
 )
 
 
-#: SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). Speeds
-#: are not stated.
+#: SCARA. Lengths: 001, listing 4; limits: listings 4 and 12, joint 4 in mm (errata S1-p). The
+#: document states no speeds.
 SCARA = scara_arm(
     "SCARA",
     height=220.2 * mm,
@@ -55,8 +55,8 @@ SCARA = scara_arm(
     ),
 )
 
-#: PUMA 560. Source 001 only names it. Standard DH with the lengths and limits of P. Corke's model
-#: (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
+#: PUMA 560. Source 001 mentions it without numbers. Standard DH with the lengths and limits of P.
+#: Corke's model (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
 PUMA560 = spherical_wrist(
     "PUMA 560",
     links=dh_links(
@@ -70,8 +70,8 @@ PUMA560 = spherical_wrist(
 
 
 def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
-    """The six-axis arm of source 004, table 1, for lengths in metres; d1 and d6 may be 0. It states
-    no limits: here one turn each way. ValueError: a length that is not positive.
+    """The six-axis arm of source 004, table 1, for lengths in metres; d1 and d6 may be 0. The
+    source states no limits: we allow one turn each way. ValueError: a length that is not positive.
     """
     ends = [number(value, name) for name, value in (("d1", d1), ("d6", d6))]
     if min(ends) < 0:
@@ -88,18 +88,18 @@ def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
     )
 
 
-#: Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and
-#: d1 + a2 = 20, of which we take the equal halves, in centimetres (errata S4-j).
+#: Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 +
+#: a2 = 20. We split the sum into equal halves and take centimetres (errata S4-j).
 ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
 
 
 def spbu_arm(l1: float, l2: float) -> ClosedFormArm:
     """The positioning arm of source 000 (figure 2) for lengths in metres: joint 1 turns about the
-    vertical, joint 2 tilts link 1 away from it, and at joint 3 = 0 link 2 stands square to link 1.
-    Limits: the document's domain. ValueError: a length that is not positive.
+    vertical, joint 2 tilts link 1 away from it, and at joint 3 = 0 link 2 is perpendicular to link
+    1. The limits are the document's domain. ValueError: a length that is not positive.
 
-    Its first matrix has alpha = -90 degrees; the text's +90 puts the tool below the floor (errata
-    S0-a).
+    The first matrix of the document has alpha = -90 degrees; the +90 of its text puts the tool
+    below the floor (errata S0-a).
     """
     return elbow_arm(
         "Arm (000)",
@@ -114,25 +114,25 @@ def spbu_arm(l1: float, l2: float) -> ClosedFormArm:
 
 
 def loader_arm(A: float, B: float) -> ClosedFormArm:
-    """The log loader of source 003 for levers of lengths A and B in metres, q = (alpha, gamma,
-    beta) from the base out.
+    """The log loader of source 003 with levers of lengths A and B in metres, q = (alpha, gamma,
+    beta) from the base outwards.
 
     alpha  the turn about the vertical, counter-clockwise from the +x axis
     gamma  lever A above the horizon
     beta   the interior angle between the levers: lever B stands gamma + beta - 180 degrees above
            the horizon
 
-    The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`.
-    There alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x = y
-    = 0, it is free and `ik` gives 0), and beta and gamma are (3) and (4). Limits: alpha as in the
-    document, beta and gamma as (3) and (4) give them for z >= 0. At alpha's limits there is no
-    stop: the shortest turn (errata S3-q) passes them. What the document asks of the gripper's point
-    is `robokin.jobs.steppers.out_of_reach`.
+    The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. In
+    that row alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x =
+    y = 0, it is free and `ik` returns 0), and beta and gamma are (3) and (4). The limits of alpha
+    are those of the document; those of beta and gamma are what (3) and (4) give for z >= 0. Joint
+    alpha has no mechanical stop: the shortest turn (errata S3-q) passes its limits.
+    `robokin.jobs.steppers.out_of_reach` checks the document's conditions on the gripper's point.
 
     Source: 003, paper 1, (1) to (4), table 1, figure 3.
     """
     A, B = length(A, "A"), length(B, "B")
-    # an interior angle of 0 lays B back upon A
+    # an interior angle of 0 folds B back onto A
     forearm = Transform(Quaternion.from_angle_axis(-180 * deg, -Y))
     return elbow_arm(
         "Log loader",

@@ -1,4 +1,4 @@
-"""How near a singularity is: the singular values of the Jacobian, with one length for all."""
+"""The distance from singularities: singular values of the Jacobian, scaled by one length."""
 
 import itertools
 
@@ -10,8 +10,8 @@ from .arm import Arm
 
 
 def total_length(arm: Arm) -> float:
-    """The length of the stretched chain from the base in metres, prismatic joints at their far
-    limit: the measure of its pictures.
+    """The length of the stretched chain from the base in metres, with prismatic joints at their far
+    limit; pictures are scaled by it.
     """
     parts = [part for link in instance(arm, Arm, "arm").links for part in (link.before, link.after)]
     shifts = abs(arm.limits[arm.prismatic]).max(axis=-1, initial=0)
@@ -19,13 +19,13 @@ def total_length(arm: Arm) -> float:
 
 
 def singular_values(arm: Arm, q: ArrayLike) -> Floats:
-    """The singular values of the Jacobian at q (..., n), falling: the semi-axes of the ellipsoid of
-    tool velocities that joint speeds of length 1 can make. NaN for NaN.
+    """The singular values of the Jacobian at q (..., n) in descending order: the semi-axes of the
+    ellipsoid of tool velocities for joint speeds of norm 1. NaN in, NaN out.
 
-    Lengths count in reaches of the arm (`Arm.reach`), so that they have no unit. Only what the arm
-    is asked for counts: the tool's place for arms of up to three joints, else place and
-    orientation, and of these what the arm can move at all.
-    Source: Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
+    Lengths are divided by the arm's reach (`Arm.reach`), so the values have no unit. Only the rows
+    of the arm's task count: the position of the tool for arms with up to three joints, otherwise
+    position and orientation; of these only the rows that the arm can change at all. Source:
+    Siciliano et al., Robotics, 2009, section 3.9 (kinematic manipulability).
     """
     instance(arm, Arm, "arm")
     jacobian = _scaled(arm, q)[..., movable(arm), :]
@@ -36,7 +36,7 @@ def singular_values(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
-    """The smallest of the `singular_values` at q (..., n): (...). It says how little the tool moves
+    """The smallest of the `singular_values` at q (..., n): (...). It says how slowly the tool moves
     in its worst direction; 0 is a singularity.
 
     >>> from robokin import SCARA, deg, distance_from_singularity
@@ -48,12 +48,12 @@ def distance_from_singularity(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def velocity_ellipsoid(arm: Arm, q: ArrayLike) -> Floats:
-    """The semi-axes of the ellipsoid of velocities that joint speeds of length 1 can give the tool
-    point while the tool does not turn: columns of (..., 3, 3) in m/s, the longest first, for q
-    (..., n). Zero columns where it is flat, NaN for NaN.
+    """The semi-axes of the ellipsoid of tool-point velocities for joint speeds of norm 1 that do
+    not rotate the tool: columns of (..., 3, 3) in m/s, longest first, for q (..., n). Zero columns
+    where the ellipsoid is flat; NaN in, NaN out.
 
-    Speeds are in rad/s, of prismatic joints in reaches (`Arm.reach`) per second. The tool of an arm
-    of up to three joints may turn: it is not asked for its orientation.
+    Joint speeds are in rad/s, those of prismatic joints in reaches (`Arm.reach`) per second. The
+    tool of an arm with up to three joints may rotate, since orientation is not part of its task.
     """
     instance(arm, Arm, "arm")
     jacobian = arm.jacobian(q)
@@ -61,7 +61,7 @@ def velocity_ellipsoid(arm: Arm, q: ArrayLike) -> Floats:
     missing = np.isnan(jacobian.sum(axis=(-1, -2)))[..., None, None]
     jacobian = np.where(missing, 0.0, jacobian)
     moves, turns = jacobian[..., :3, :], jacobian[..., 3:, :]
-    if len(arm.links) > 3:  # joint speeds that turn the tool are taken away
+    if len(arm.links) > 3:  # joint speeds that rotate the tool are removed
         moves = moves - moves @ np.linalg.pinv(turns, rcond=1e-9) @ turns
     ways, lengths, _ = np.linalg.svd(moves, full_matrices=False)
     lengths = np.where(lengths < 1e-12 * arm.reach, 0.0, lengths)
@@ -80,14 +80,14 @@ def _scaled(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def movable(arm: Arm) -> Ints:
-    """Which rows of the Jacobian any posture can make other than zero."""
+    """Which rows of the Jacobian are nonzero in at least one posture."""
     moved = abs(_scaled(arm, spread(arm, 64))).max(axis=(0, 2)) > 1e-9
     return np.flatnonzero(moved[:3] if len(arm.links) <= 3 else moved)
 
 
 def spread(arm: Arm, count: int, most: float = np.inf) -> Floats:
-    """Postures (count, n) spread evenly between the limits, turns within +-`most` where limits let
-    them: Weyl's sequence of the square roots of primes.
+    """Postures (count, n) spread evenly between the limits, with angles within +-`most` where the
+    limits permit: Weyl's sequence of the square roots of primes.
     """
     low, high = arm.limits.T
     inner = ~arm.prismatic & (low < most) & (high > -most)

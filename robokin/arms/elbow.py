@@ -1,7 +1,7 @@
-"""Positioning arms: three revolute joints, an upper arm and a forearm; four solutions in closed
-form.
+"""Positioning arms: three revolute joints, an upper arm and a forearm, with four closed-form
+solutions.
 
-The same three joints carry the wrist of a six-axis arm: there the point to be placed is the wrist
+In a six-axis arm the same three joints carry the wrist, and the point to be placed is the wrist
 centre.
 """
 
@@ -28,23 +28,24 @@ def elbow_arm(
     limits: ArrayLike,
     speed_limits: ArrayLike | None = None,
 ) -> ClosedFormArm:
-    """An arm of three revolute links that places its flange's origin; its geometry is read from the
-    links at q = 0.
+    """An arm of three revolute links that positions the origin of its flange. Its geometry is
+    measured from the links at q = 0.
 
-    Wanted at q = 0, in base coordinates: axis 1 on the z axis, axes 2 and 3 parallel to the y axis.
-    Signs and offsets of the joints follow from the links. `ik` takes points (..., 3) in metres, or
-    Transforms, of which it takes the translation. ValueError otherwise, naming the axis.
+    At q = 0, in base coordinates, axis 1 must lie on the z axis, and axes 2 and 3 must be parallel
+    to the y axis. The signs and offsets of the joints follow from the links. `ik` takes points
+    (..., 3) in metres, or the translations of Transforms. ValueError: another arrangement; the
+    message names the axis.
     """
     return ClosedFormArm(name, ElbowGeometry(links), limits, speed_limits)
 
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class ElbowGeometry(Sealed):
-    """Three links that place a point, and their inverse (see `elbow_arm`).
+    """Three links that position a point, and their inverse (see `elbow_arm`).
 
-    Configuration flags, +1 or -1: the point in front of or behind axis 1 (front is the side of +x
-    at q1 = 0); joint 3 on the positive or negative side of the stretched arm. Source: 000, "Решение
-    обратной задачи".
+    Configuration flags, +1 or -1: whether the point is in front of or behind axis 1 (front is the
+    +x side at q1 = 0), and whether joint 3 is on the positive or negative side of the stretched
+    arm. Source: 000, "Решение обратной задачи".
     """
 
     branches = flags(2)
@@ -54,7 +55,7 @@ class ElbowGeometry(Sealed):
     elbow: "Elbow" = field(init=False)
     reach: float = field(init=False)
 
-    @np.errstate(invalid="ignore")  # of lengths whose squares are none
+    @np.errstate(invalid="ignore")  # from lengths whose squares overflow or underflow
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 3 or any(link.prismatic for link in links):
@@ -85,8 +86,8 @@ class ElbowGeometry(Sealed):
         return self.elbow.singularities(q)
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Rows q (..., 3) with joint 1 as in `previous` where the point lies on axis 1 and leaves
-        it free.
+        """Return rows q (..., 3) with joint 1 as in `previous` wherever the point lies on axis 1
+        and leaves joint 1 free.
         """
         on_axis = abs(self.elbow.radius(q)) < FREE * self.elbow.reach
         free = on_axis & (self.elbow.lateral == 0)
@@ -94,13 +95,13 @@ class ElbowGeometry(Sealed):
 
 
 class Elbow(NamedTuple):
-    """Three joints and the point they carry, measured at q = 0.
+    """Three joints and the point that they carry, measured at q = 0.
 
-    carried      what the point is called
-    sign1 ... 3  +1 or -1: the sense in which a joint turns
-    shoulder_x, shoulder_z  where axis 2 is, in the plane of the arm
-    lateral      how far the point is beside the plane that holds axis 1, to the left
-    upper, fore  lengths of the levers
+    carried      the name of the point
+    sign1 ... 3  +1 or -1: the direction in which a joint turns
+    shoulder_x, shoulder_z  the position of axis 2 in the plane of the arm
+    lateral      the point's distance to the left of the plane through axis 1
+    upper, fore  the lengths of the links
     upper_angle, fore_angle  their angles above the horizon at q = 0
     reach        of the stretched arm from axis 1
     """
@@ -120,8 +121,8 @@ class Elbow(NamedTuple):
 
     @classmethod
     def measured(cls, points: Floats, axes: Floats, point: Floats, carried: str) -> "Elbow":
-        """From a point on each of the three axes, the axes, and the carried point, all at q = 0.
-        ValueError: other directions than `elbow_arm` wants, a lever without length.
+        """Measure from a point on each of the three axes, the axes, and the carried point, all at q
+        = 0. ValueError: directions other than those in `elbow_arm`, or a link without length.
         """
         for number, axis, along in ((1, axes[0], 2), (2, axes[1], 1), (3, axes[2], 1)):
             parallel(number, axis, along)
@@ -138,7 +139,9 @@ class Elbow(NamedTuple):
         return cls(
             carried,
             sign1=float(np.sign(axes[0][2])),
-            sign2=-float(np.sign(axes[1][1])),  # a turn about +y lowers what points ahead
+            sign2=-float(
+                np.sign(axes[1][1])
+            ),  # a positive turn about +y lowers a link that points forward
             sign3=-float(np.sign(axes[2][1])),
             shoulder_x=shoulder_x,
             shoulder_z=shoulder_z,
@@ -151,17 +154,18 @@ class Elbow(NamedTuple):
         )
 
     def solve(self, x: Floats, y: Floats, z: Floats) -> tuple[list[Floats], Pair, Pair]:
-        """Joints 1 to 3 that bring the point to x, y, z (N,): each (front/back, elbow, N), NaN
-        where there is no solution.
+        """Return joints 1 to 3 that bring the point to x, y, z (N,): each (front/back, elbow, N),
+        NaN where there is no solution.
 
-        Besides, the directions that a wrist needs: (cosine, sine) of the arm's plane (2, 1, N) and
-        of the forearm above the horizon (2, 2, N). Angles live as such pairs, so that only the
-        joint values need an arctangent.
+        It also returns the directions that a wrist needs: (cosine, sine) of the arm's plane (2, 1,
+        N) and of the forearm's angle above the horizon (2, 2, N). Angles are kept as such pairs, so
+        that only the joint values need an arctangent.
         """
         a, b, c = self.shoulder_x, self.lateral, self.shoulder_z
         upper, fore = self.upper, self.fore
 
-        # Joint 1: seen from above, the point is r in front of axis 1 and b beside the arm's plane.
+        # Joint 1: seen from above, the point is r in front of axis 1 and b to the side of the arm's
+        # plane.
         front = np.array([1.0, -1.0])[:, None, None]
         rho2 = x * x + y * y
         r2 = rho2 - b * b
@@ -170,19 +174,20 @@ class Elbow(NamedTuple):
         tiny = FREE * self.reach
         free = rho2 <= tiny * tiny
         cos1 = np.where(free, front, (x * r + y * b) / rho2)
-        # no minus zero: half a turn is +pi
+        # no negative zero, so that half a turn is +pi
         sin1 = np.where(free, 0.0, (y * r - x * b) / rho2) + 0.0
 
-        # Joints 2 and 3: a triangle of upper arm, forearm and the line from shoulder to point. Of
-        # the angle g between the levers, 1 + cos g and 1 - cos g: how far the arm is from folded
-        # and from stretched. Both are differences of two squares; a cosine would lose the digits of
-        # the smaller one (equal levers, nearly folded). The squares are products, since these are
-        # rounded alike in every language and powers are not.
+        # Joints 2 and 3: the triangle of upper arm, forearm and the line from shoulder to point.
+        # With the angle g between the links, 1 + cos g and 1 - cos g say how far the arm is from
+        # folded and from stretched. Both are differences of two squares; computed from a cosine,
+        # the smaller one would lose its digits (equal links, nearly folded). The squares are
+        # written as products because every language rounds products in the same way, but not
+        # powers.
         u, w = r - a, z - c
         d2, scale = u * u + w * w, 2 * upper * fore
         unfolded = (d2 - (upper - fore) * (upper - fore)) / scale
         unstretched = ((upper + fore) * (upper + fore) - d2) / scale
-        # What one reach of distance is there, at the two borders.
+        # The change at the two borders per reach of distance.
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
         exists = (unfolded >= -ROUNDING * inner) & (unstretched >= -ROUNDING * outer)
@@ -204,18 +209,18 @@ class Elbow(NamedTuple):
         return [q1, q2, q3], (cos1, sin1), (cos_b, sin_b)
 
     def radius(self, q: Floats) -> Floats:
-        """How far in front of axis 1 the point is at q (..., 3 or more): negative behind it."""
+        """The distance of the point in front of axis 1 at q (..., 3 or more), negative behind it."""
         elevation = self.upper_angle + self.sign2 * q[..., 1]
         ahead = self.upper * np.cos(elevation) + self.fore * np.cos(elevation + self.bend(q))
         return self.shoulder_x + ahead
 
     def bend(self, q: Floats) -> Floats:
-        """The angle of the forearm above the upper arm's direction at q (..., 3 or more)."""
+        """The angle from the upper arm up to the forearm at q (..., 3 or more)."""
         return self.fore_angle - self.upper_angle + self.sign3 * q[..., 2]
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """dict of name -> bool (...): shoulder, the point on axis 1 or as near as it comes (within
-        1e-6 of the reach); elbow, the arm stretched or folded (within 1e-6 rad).
+        """dict of name -> bool (...). Shoulder: the point is on axis 1 or as near to it as it can
+        be (within 1e-6 of the reach). Elbow: the arm is stretched or folded (within 1e-6 rad).
         """
         return {
             "shoulder": abs(self.radius(q)) < SINGULAR * self.reach,
@@ -223,13 +228,11 @@ class Elbow(NamedTuple):
         }
 
     def gap(self, point: Sequence[float], front: int) -> Gap:
-        """Which border keeps one single point (3,) from the side `front` (+-1), where it has no
-        solution.
-        """
+        """The border that a single point (3,) without a solution passes on the side `front` (+-1)."""
         x, y, z = point
         rho2 = x * x + y * y
         r2 = rho2 - self.lateral * self.lateral
-        # A point at the border by rounding lies on it: no other border is passed there.
+        # A point at a border, up to rounding, lies on it: there it passes no other border.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
             return Gap("axis", abs(self.lateral) - sqrt(rho2), self.carried)
         r = front * sqrt(max(r2, 0.0))
@@ -242,14 +245,14 @@ class Elbow(NamedTuple):
 
 
 def parallel(number: int, axis: Floats, along: int) -> None:
-    """ValueError unless the axis is parallel to x, y or z (along 0, 1, 2)."""
+    """Raise ValueError unless the axis is parallel to x, y or z (along 0, 1, 2)."""
     if abs(abs(axis[along]) - 1) > 1e-9:
         wanted = f"wanted axis {number} parallel to {'xyz'[along]}"
         raise ValueError(f"links: {wanted}, got {axis} at q = 0")
 
 
 def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
-    """The pair (cosine, sine) of an angle, turned on by a constant angle."""
+    """The pair (cosine, sine) of an angle plus a constant angle."""
     if angle == 0:
         return cosine, sine
     c, s = np.cos(angle), np.sin(angle)
@@ -257,7 +260,9 @@ def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
 
 
 def _unit(x: Floats, y: Floats) -> Pair:
-    """(x, y) at length 1, and (1, 0) for no length: equal levers, folded, leave joint 2 free."""
+    """(x, y) normalised to length 1, or (1, 0) for length zero: equal links that are folded leave
+    joint 2 free.
+    """
     length = np.sqrt(x * x + y * y)
     none = length == 0
     if none.any():

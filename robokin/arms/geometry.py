@@ -1,10 +1,10 @@
-"""What a geometry is: a chain of links and, where there is one, its closed-form inverse.
+"""Geometries: a chain of links and, where one exists, its closed-form inverse.
 
-An arm is a geometry with limits (see `arm.py`). A geometry is made of the numbers that its links
-and its inverse have in common, so that the two cannot disagree. Two protocols say what it has:
-`Geometry` is every one, `ClosedForm` has an inverse besides.
+An arm is a geometry with limits (see `arm.py`). A geometry holds the numbers that its links and its
+inverse share, so that the two cannot disagree. There are two protocols: every geometry is a
+`Geometry`; a `ClosedForm` also has an inverse.
 
-How near is near stands here too, once for all geometries. Distances are shares of the arm's reach.
+The tolerances of all geometries are here too. Distances are fractions of the arm's reach.
 """
 
 from dataclasses import dataclass
@@ -20,21 +20,23 @@ from ..units import in_words
 from .link import Link
 from .verdicts import SENTENCES
 
-ROUNDING = 1e-12  # past a border by no more than this is on it
-STRAIGHT = 1e-14  # this near to stretched or folded is so: the two elbow rows are one
-FREE = 1e-13  # this near to axis 1 the angle of joint 1 is noise, and the joint is free
-SINGULAR = 1e-6  # rad, or of the reach: this near to a singularity is called singular
-UPRIGHT = 1e-9  # rad; a tool tilted by less than this stands upright
+ROUNDING = 1e-12  # a point past a border by no more than this is on it
+STRAIGHT = (
+    1e-14  # an arm this near to stretched or folded counts as such: both elbow rows are equal
+)
+FREE = 1e-13  # within this of axis 1 the angle of joint 1 is noise, and the joint is free
+SINGULAR = 1e-6  # rad, or fraction of the reach: a posture this near to a singularity is singular
+UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
 
 
 class Geometry(Protocol):
-    """What every geometry has.
+    """The attributes of every geometry.
 
     links    base to flange
-    target   what an arm of this geometry can be asked for: Transform (place and orientation),
-             ScaraPose (place and angle) or np.ndarray (a point)
-    reach    m; how far from axis 1 the arm can bring what it carries: the measure of all slack, and
-             the length by which the unlike rows of a Jacobian are made comparable
+    target   the type of an arm's targets: Transform (position and orientation),
+             ScaraPose (position and angle) or np.ndarray (a point)
+    reach    m; the greatest distance from axis 1 of the carried point: tolerances are fractions of it,
+             and it makes the linear and angular rows of a Jacobian comparable
     """
 
     @property
@@ -46,13 +48,13 @@ class Geometry(Protocol):
 
 
 class ClosedForm(Geometry, Protocol):
-    """What a geometry with a closed-form inverse has besides.
+    """The additional attributes of a geometry with a closed-form inverse.
 
-    branches   (rows, flags) of +-1, read-only: the configuration of every row
-    carried    what is brought to its place by the first joints: "wrist centre", "point", ...
+    branches   (rows, flags) of +-1, read-only: the configuration of each row
+    carried    what the first joints position: "wrist centre", "point", ...
 
-    The names that `gap` and `singularities` give are keys of `verdicts.SENTENCES`. The same
-    inverse for pages: `show/js/geometries.js`.
+    The names that `gap` and `singularities` return are keys of `verdicts.SENTENCES`. The same
+    inverse for pages is in `show/js/geometries.js`.
     """
 
     @property
@@ -70,14 +72,14 @@ class ClosedForm(Geometry, Protocol):
         """Which singularities hold at q (..., n): dict of name -> bool (...)."""
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Rows q (..., n) with what a singularity leaves free chosen for the least turn from
+        """Return rows q (..., n) in which the joints that a singularity leaves free turn least from
         `previous` (..., n).
         """
 
 
 @dataclass(frozen=True, eq=False)
 class Chain(Sealed):
-    """The geometry of links alone: no inverse, and a `reach` that no posture exceeds."""
+    """The geometry of a chain of links without an inverse. No posture exceeds its `reach`."""
 
     links: tuple[Link, ...]
     reach: float
@@ -85,9 +87,9 @@ class Chain(Sealed):
 
     @classmethod
     def measured(cls, links: tuple[Link, ...], limits: Floats) -> "Chain":
-        """Of links and the limits of their joints (n, 2). The reach is the sum of the lengths and
-        strokes behind joint 1; what does not move against axis 1 counts by its distance from it.
-        ValueError: a flange that never comes away from axis 1.
+        """Measure links with the limits of their joints (n, 2). The reach is the sum of the lengths
+        and strokes after joint 1; a part that does not move relative to axis 1 counts with its
+        distance from it. ValueError: a flange that never leaves axis 1.
         """
         first, *others = links
         start = first.after @ others[0].before if others else first.after
@@ -103,12 +105,12 @@ class Chain(Sealed):
 
 
 class Gap(NamedTuple):
-    """Why a row does not exist: which border is passed, and by how much.
+    """The reason why a row does not exist: the border that the target passes, and by how much.
 
-    kind     names a sentence of `verdicts.SENTENCES`
-    metres   how far the target is beyond the border; 0 where no length says it
-    what     what should be brought to its place: "the wrist centre", "the target"
-    degrees  by how much a tool is tilted, where that is the reason
+    kind     the key of a sentence in `verdicts.SENTENCES`
+    metres   how far the target is beyond the border; 0 where the reason is not a length
+    what     what should be positioned: "the wrist centre", "the target"
+    degrees  the tilt of the tool, where that is the reason
     """
 
     kind: str
@@ -118,13 +120,13 @@ class Gap(NamedTuple):
 
     @property
     def words(self) -> str:
-        """The reason as a part of a sentence."""
+        """The reason, as part of a sentence."""
         facts = {"what": self.what, "gap": in_words(self.metres), "degrees": self.degrees}
         return SENTENCES[self.kind].format(**facts)
 
 
 def flags(count: int) -> Ints:
-    """All configurations of so many flags, (2**count, count) of +1 and -1, read-only: the first
+    """All configurations with `count` flags, (2**count, count) of +1 and -1, read-only. The first
     flag changes last.
     """
     rows = np.array(list(product((1, -1), repeat=count)))
@@ -133,13 +135,13 @@ def flags(count: int) -> Ints:
 
 
 def worst(gaps: dict[str, Any], what: str) -> Gap:
-    """The border (name -> metres beyond it) that is passed the farthest."""
+    """The border with the largest excess, from a dict of name -> metres beyond it."""
     kind = max(gaps, key=lambda name: float(gaps[name]))
     return Gap(kind, max(float(gaps[kind]), 0.0), what)
 
 
 def coordinates(point: Any) -> tuple[Floats, Floats, Floats]:
-    """x, y, z of points (..., 2) or (..., 3), or of Transforms."""
+    """x, y, z of points (..., 2) or (..., 3), or of the origins of Transforms."""
     place = point.translation if isinstance(point, Transform) else floats(point, "point")
     if place.ndim == 0 or place.shape[-1] not in (2, 3):
         raise ValueError(f"point: wanted shape (..., 2) or (..., 3), got {place.shape}")
@@ -148,7 +150,7 @@ def coordinates(point: Any) -> tuple[Floats, Floats, Floats]:
 
 
 def one_point(point: Any) -> Any:
-    """The point, or ValueError: a batch of them."""
+    """Return the point. ValueError: a batch of points."""
     x = coordinates(point)[0]
     if x.ndim:
         raise ValueError(f"point: wanted one single point, got a batch of shape {x.shape}")
@@ -156,8 +158,8 @@ def one_point(point: Any) -> Any:
 
 
 def distance(x: Floats, y: Floats) -> Floats:
-    """The length of (x, y), as np.hypot gives it, of + - * / and sqrt alone: these are rounded
-    alike on every machine and in every language, so that all agree on what is out of reach.
+    """The length of (x, y), like np.hypot, but computed with + - * / and sqrt alone. Every machine
+    and language rounds these in the same way, so they all agree on what is out of reach.
     """
     scale = np.maximum(np.maximum(abs(x), abs(y)), 1e-300)
     x, y = x / scale, y / scale
@@ -165,20 +167,20 @@ def distance(x: Floats, y: Floats) -> Floats:
 
 
 def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bools]:
-    """The triangle of two levers whose ends are d (...) apart: the angle of the upper one from the
-    line between the ends, the turn from the upper to the fore one, both in [0, pi], and whether
-    there is such a triangle.
+    """The triangle of two links whose ends are d (...) apart: the angle between the first link and
+    the line between the ends, the angle from the first to the second link, both in [0, pi], and
+    whether the triangle exists.
 
-    By half angles: the four factors are Heron's, each taken from a difference and never from a
-    difference of squares, so that no digit is lost where equal levers fold (the law of cosines
-    loses half of them).
+    Computed with half angles. The four factors are those of Heron's formula; each is a difference,
+    never a difference of squares, so that no digits are lost where equal links fold (the law of
+    cosines loses half of them).
     """
     slack = ROUNDING * (upper + fore)
     stretch, fold = upper + fore - d, d - abs(upper - fore)
     exists = (stretch >= -slack) & (fold >= -slack)
     stretch, around = np.maximum(stretch, 0), upper + fore + d
     short, long = np.maximum(d - (upper - fore), 0), np.maximum(d + (upper - fore), 0)
-    with np.errstate(over="ignore"):  # 1e200 m away is out of reach, and that is all
+    with np.errstate(over="ignore"):  # a point 1e200 m away is out of reach, without a warning
         ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
         turn = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
     return ahead, turn, exists

@@ -1,4 +1,4 @@
-"""Links: what a chain is made of."""
+"""Links: the elements of a chain."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -11,8 +11,8 @@ from .._validate import bools, broadcast, floats, instance
 from ..quaternion import Quaternion, along, half_angles, hamilton, spun, turned, unit
 from ..transform import Transform
 
-# A frame on components, as the formulas of a chain take it: the rotation w, x, y, z and the origin
-# x, y, z, each a number or an array of the batch.
+# A frame as the components that the formulas of a chain use: rotation w, x, y, z and origin x, y,
+# z, each a number or an array over the batch.
 Frame: TypeAlias = tuple[Sequence[Any], Sequence[Any]]
 HERE = Transform()
 BASE: Frame = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -23,9 +23,9 @@ class Link(Sealed):
     """One joint between two constant transforms: the frame after it is
     `frame @ before @ motion @ after`.
 
-    The motion is a turn about the unit vector `axis` or, if `prismatic`, a shift along it. A
-    Denavit-Hartenberg row has its constant part after the joint; listing 1 of source 001 has it
-    before. ValueError: a batch of transforms, an axis that is not one unit vector.
+    The motion is a rotation about the unit vector `axis` or, if `prismatic`, a translation along
+    it. A Denavit-Hartenberg row has its constant part after the joint; listing 1 of source 001 has
+    it before. ValueError: a batch of transforms, or an axis that is not one unit vector.
     """
 
     before: Transform
@@ -53,8 +53,9 @@ class Link(Sealed):
         vars(self)["_parts"] = _Still.of(before), _coordinate(direction), _Still.of(after)
 
     def _carry(self, frame: Frame, q: Any) -> tuple[Frame, Frame]:
-        """The joint's own frame and the frame after this link, from the frame before it and q (...)
-        in radians, metres if prismatic; all frames on components (`BASE` to begin with).
+        """Return the frame of the joint and the frame after this link, from the frame before it and
+        q (...) in radians, or metres if prismatic. All frames are components; the first one is
+        `BASE`.
         """
         before, (axis, sign), after = self._parts
         joint = rotation, origin = before.step(frame)
@@ -80,12 +81,12 @@ def dh_links(
     """Links from a table of Denavit-Hartenberg parameters, each (n,), in metres and radians. A link
     is A = Rot(z, theta) Trans(0, 0, d) Trans(a, 0, 0) Rot(x, alpha).
 
-    prismatic  one or (n,) bool: q is added to `d` where it is True, to `theta` where it is False
+    prismatic  one bool or (n,): q is added to `d` where it is True, to `theta` where it is False
     modified   the table is in Craig's form: a row has a and alpha of the link before its joint, and
                A = Rot(x, alpha) Trans(a, 0, 0) Rot(z, theta) Trans(0, 0, d)
 
     Source: 000, "Обзор источников"; 004, table 1; Craig, Introduction to Robotics, section 3.5.
-    ValueError: columns that are not of one length, a `prismatic` that is not True or False.
+    ValueError: columns with different lengths, or a `prismatic` that is not True or False.
 
     >>> from robokin import dh_links
     >>> len(dh_links(a=[0, 0.4], alpha=[0.5 * np.pi, 0], d=0))
@@ -112,7 +113,7 @@ def dh_links(
 
 
 def chain(links: Iterable[Link]) -> tuple[Link, ...]:
-    """`links` as a tuple. TypeError: something else among them; ValueError: none."""
+    """Return `links` as a tuple. TypeError: an item that is not a Link. ValueError: no links."""
     links = tuple(links) if isinstance(links, (list, tuple)) else (instance(links, tuple, "links"))
     if not links:
         raise ValueError("links: wanted at least one Link, got none")
@@ -132,8 +133,8 @@ def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
 
 
 class _Still(NamedTuple):
-    """A constant transform in as few steps as it takes: shifts (axis, length) along coordinate
-    axes, then a turn w, x, y, z about one of them or about any axis, or none.
+    """A constant transform in as few steps as possible: translations (axis, length) along
+    coordinate axes, then a rotation about a coordinate axis or w, x, y, z about any axis, or none.
     """
 
     shifts: tuple[tuple[int, float], ...]
@@ -160,6 +161,6 @@ class _Still(NamedTuple):
 
 
 def _coordinate(axis: Floats) -> tuple[int | None, float]:
-    """Which coordinate axis (0, 1, 2) this one is, and its sign; None if it is another."""
+    """The coordinate axis (0, 1, 2) parallel to this one, and the sign; None if there is none."""
     k = int(abs(axis).argmax())
     return (k, float(axis[k])) if abs(axis[k]) == 1 else (None, 1.0)

@@ -1,5 +1,5 @@
 """Three levers in the plane z = 0: the arm of source 003, OB, BA, AK, with one joint more than a
-point of the plane needs.
+point in the plane needs.
 """
 
 from dataclasses import dataclass
@@ -17,19 +17,19 @@ from .geometry import ROUNDING, coordinates, distance, one_point
 from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
-MOST_ROWS = 2_000_000  # of a table: a second or two
-PORTION = 1000  # tasks looked at together where each has hundreds of postures to compare
+MOST_ROWS = 2_000_000  # rows of a table: one or two seconds
+PORTION = 1000  # tasks that are computed together when each compares hundreds of postures
 
 
 def three_lever(L: ArrayLike) -> "ThreeLeverArm":
-    """The arm of source 003 for levers of length L in metres, or of three lengths (3,), those of
-    OB, BA, AK; q = (gamma, beta, alpha), each from 0 to 180 degrees.
+    """The arm of source 003 with levers of length L in metres, or of the three lengths (3,) of OB,
+    BA, AK; q = (gamma, beta, alpha), each from 0 to 180 degrees.
 
     O      the base, in the origin
     gamma  the angle of lever OB from the +x axis, counter-clockwise
     beta   the interior angle at B; at 180 degrees OB and BA are in line
     alpha  the interior angle at A; at 180 degrees BA and AK are in line
-    K      the gripper, the flange's origin; below 180 degrees the chain turns clockwise on the way
+    K      the gripper, the flange's origin; at angles below 180 degrees the chain bends clockwise
            to it
 
     Source: 003, III.1.1, figures 15 and 16, for equal levers; that they may differ says II.2.
@@ -47,12 +47,12 @@ def three_lever(L: ArrayLike) -> "ThreeLeverArm":
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class ThreeLeverGeometry(Sealed):
-    """Three levers (see `three_lever`). No inverse: a family of postures cannot be listed row by
-    row.
+    """Three levers (see `three_lever`). There is no inverse, because a family of postures cannot be
+    listed row by row.
 
     levers  the lengths of OB, BA, AK
-    lever   their mean: what is counted in lever lengths (tolerances, the document's L/7)
-    inner   |OB - BA| + AK, for equal levers one length; a point must lie farther away
+    lever   their mean, the unit of lengths such as tolerances and the document's L/7
+    inner   |OB - BA| + AK, one lever length if the levers are equal; a point must be farther away
     """
 
     target = np.ndarray
@@ -69,7 +69,7 @@ class ThreeLeverGeometry(Sealed):
             raise ValueError(f"L: wanted {wanted}, got {short(L)}")
         a, b, c = np.broadcast_to(levers, 3).tolist()
         folded = Quaternion.from_angle_axis(-180 * deg, Z)
-        # an interior angle of 0 lays the next lever back upon this one
+        # an interior angle of 0 folds the next lever back onto this one
         links = (
             Link(),
             Link(Transform(folded, (a, 0, 0))),
@@ -83,14 +83,14 @@ class ThreeLeverGeometry(Sealed):
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class ThreeLeverArm(Arm):
     """An arm of three levers (see `three_lever`). It reaches a point K in a family of postures, one
-    for every value of the free angle alpha: `family` takes the place of `ik`.
+    for each value of the free angle alpha; `family` replaces `ik`.
 
-    Reached are the points with |OB - BA| + AK < KO <= OB + BA + AK, for levers of one length L
-    those with L < KO <= 3 L. All their postures have B on the counter-clockwise side of the line
-    OK; nearer points have others, too, and so a second family. Methods take points (..., 2), points
-    (..., 3) with z = 0, or Transforms. With `limited` they keep gamma, too, within 0 to 180
-    degrees; the document asks for it and does not test it (errata S3-g). gamma is not wrapped: it
-    lies between the direction of K and half a turn more.
+    The arm reaches the points with |OB - BA| + AK < KO <= OB + BA + AK; for levers of one length L
+    these are L < KO <= 3 L. In all their postures B is on the counter-clockwise side of the line
+    OK; nearer points also have postures on the other side, and so a second family. The methods take
+    points (..., 2), points (..., 3) with z = 0, or Transforms. With `limited` they also keep gamma
+    within 0 to 180 degrees, which the document requires but does not test (errata S3-g). gamma is
+    not wrapped: it lies between the direction of K and half a turn more.
     """
 
     geometry: ThreeLeverGeometry
@@ -102,7 +102,7 @@ class ThreeLeverArm(Arm):
 
     @property
     def lever(self) -> float:
-        """The mean length of the levers, in metres: the length of each where they are equal."""
+        """The mean length of the levers in metres."""
         return self.geometry.lever
 
     def points(self, q: ArrayLike) -> Floats:
@@ -117,11 +117,12 @@ class ThreeLeverArm(Arm):
         return np.cumsum(steps, axis=-2)
 
     def alpha_range(self, point: Any, limited: bool = True) -> tuple[Floats, Floats]:
-        """The lowest and the highest alpha that reach the point, (...) each; NaN where none does.
+        """The lowest and the highest alpha that reach the point, each (...); NaN where none does.
 
-        At the lowest one beta is 180 degrees (or gamma 0; or alpha, which needs a lever AK shorter
-        than both others), the highest one is 180 degrees (or gamma is): along the family gamma only
-        grows with alpha. Source: 003, (2) and (3), figure 17.
+        At the lowest alpha, beta is 180 degrees (or gamma is 0; or alpha is 0, which needs a lever
+        AK shorter than both others). The highest alpha is 180 degrees, or gamma is 180 degrees
+        there, since gamma increases with alpha along the family. Source: 003, (2) and (3), figure
+        17.
         """
         KO, phi = self._polar(point)
         low, high = self._lowest(KO), np.where(np.isnan(KO), np.nan, np.pi)
@@ -137,24 +138,23 @@ class ThreeLeverArm(Arm):
         """The posture that reaches the point with the free angle alpha: point (...), alpha (...) ->
         q (..., 3).
 
-        NaN where there is none (see `alpha_range`). `within(arm, q)` marks the angles that lie in 0
-        to 180 degrees: alpha and beta always do, gamma often does not. For one point and many
-        alphas: `family(point, alphas)`; for many points and many alphas: `family(points[:, None],
-        alphas)`.
+        NaN where there is none (see `alpha_range`). `within(arm, q)` tells which angles lie in 0 to
+        180 degrees: alpha and beta always do, gamma often does not. For one point and many alphas:
+        `family(point, alphas)`; for many points and many alphas: `family(points[:, None], alphas)`.
         Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d (its last
-        row) put right.
+        row) corrected.
         """
         (KO, phi), angles = self._polar(point), floats(alpha, "alpha", finite=False)
         broadcast("point and alpha", KO.shape, angles.shape)
         return self._posture(KO, phi, angles)
 
     def table(self, point: Any, step: float = 0.01 * deg, limited: bool = True) -> Floats:
-        """Table 3 of the document: the postures for one point at alpha_min, alpha_min + step ... up
-        to 180 degrees.
+        """Table 3 of the document: the postures for one point at alpha_min, alpha_min + step, ...
+        up to 180 degrees.
 
-        Returns (rows, 3), no row if the point is out of reach. With `limited` the rows with gamma
-        outside 0 to 180 degrees are dropped. ValueError: a step that would make more than two
-        million rows. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001); errata S3-e.
+        Returns (rows, 3), with no rows if the point is out of reach. `limited` drops the rows with
+        gamma outside 0 to 180 degrees. ValueError: a step that would give more than two million
+        rows. Source: 003, III.1.3 (step 0.01 degrees), paper 2 (0.001); errata S3-e.
         """
         low = self.alpha_range(one_point(point), limited=False)[0]
         width = positive(step, "step", "one positive angle in radians")
@@ -170,11 +170,11 @@ class ThreeLeverArm(Arm):
         self, point: Any, previous: ArrayLike, step: float = 0.01 * deg, limited: bool = True
     ) -> tuple[Floats, Floats]:
         """The document's choice: the first row of `table` with the smallest S, the sum of the
-        angles' changes.
+        absolute angle changes.
 
-        Returns (q, S) for one point and one posture `previous` (3,); NaN if there is no row. S in
-        radians stands for the motors' energy, which the document does not model (errata S3-i).
-        Source: 003, III.4.1, figure 29.
+        Returns (q, S) for one point and one posture `previous` (3,); NaN if there is no row. S, in
+        radians, is a substitute for the motors' energy, which the document does not model (errata
+        S3-i). Source: 003, III.4.1, figure 29.
         """
         before, rows = self._previous(previous), self.table(point, step, limited)
         if before.ndim != 1:
@@ -186,13 +186,14 @@ class ThreeLeverArm(Arm):
         return rows[best], S[best]
 
     def least(self, point: Any, previous: ArrayLike, limited: bool = True) -> tuple[Floats, Floats]:
-        """The posture at the point with the exactly smallest S = |d alpha| + |d beta| + |d gamma|.
+        """The posture at the point that exactly minimises S = |d alpha| + |d beta| + |d gamma|.
 
         Returns (q, S): points (...) and previous (..., 3) -> (..., 3) and (...), NaN where the
-        point is out of reach. S as a function of alpha has a kink where an angle stays as it was,
-        and between its kinks and its ends it can only be least where a sum like alpha + beta -
-        gamma is level: so a few postures are compared, without a step (errata S3-h: the sweep of
-        0.01 degrees stops up to 0.006 degrees above).
+        point is out of reach. As a function of alpha, S has a kink wherever an angle keeps its
+        previous value. Between the kinks and the ends its minimum can only be where a sum such as
+        alpha + beta - gamma is stationary. So we compare a few postures, without a step size
+        (errata S3-h: the sweep with steps of 0.01 degrees ends up to 0.006 degrees above the
+        minimum).
         """
         a, b, c = self.geometry.levers
         before = self._previous(previous)
@@ -202,7 +203,8 @@ class ThreeLeverArm(Arm):
         gamma0, beta0, alpha0 = np.moveaxis(np.broadcast_to(before, (*shape, 3)), -1, 0)
         low, high = (np.broadcast_to(end, shape) for end in self.alpha_range(point, limited))
 
-        # beta as before: then A lies at the distance OA from O, on one of two sides of the line OK.
+        # beta keeps its previous value: then A is at the distance OA from O, on either side of the
+        # line OK.
         BAO, at_A = _beside(b, a, beta0), _angle(_across(a, b, beta0), c, KO)
         alphas = np.stack(
             [
@@ -228,8 +230,8 @@ class ThreeLeverArm(Arm):
         )
 
     def out_of_reach(self, point: Any) -> str:
-        """In words why one single point is not reached, "" if it is. Source: 003, III.1.2: L < KO <
-        3 L.
+        """Say why a single point is out of reach; "" if it is not. Source: 003, III.1.2: L < KO < 3
+        L.
         """
         x, y, z = coordinates(one_point(point))
         (a, b, c), inner, reach = self.geometry.levers, self.geometry.inner, self.reach
@@ -254,7 +256,7 @@ class ThreeLeverArm(Arm):
         return values
 
     def _polar(self, point: Any) -> tuple[Floats, Floats]:
-        """The distance KO and the direction phi of points (...); NaN where the point is out of
+        """The distance KO and the direction phi of points (...), NaN where the point is out of
         reach.
         """
         x, y, z = coordinates(point)
@@ -267,7 +269,7 @@ class ThreeLeverArm(Arm):
         return np.where(reached, KO, np.nan), np.where(reached, np.arctan2(y, x), np.nan)
 
     def _lowest(self, KO: Floats) -> Floats:
-        """The alpha at which O, B and A are in line, or 0 where the levers need not stretch."""
+        """The alpha at which O, B and A are in line, or 0 where the levers do not have to stretch."""
         a, b, c = self.geometry.levers
         return np.where(KO <= a + b - c, 0.0, _angle(c, a + b, KO))
 
@@ -290,7 +292,7 @@ class ThreeLeverArm(Arm):
         return _angle(KO, a, _across(b, c, alpha))
 
     def _alpha_of_gamma(self, KO: Floats, gamma1: Floats) -> Floats:
-        """The alpha that belongs to the angle KOB; NaN where there is none."""
+        """The alpha for the angle KOB, NaN where there is none."""
         a, b, c = self.geometry.levers
         KB = np.sqrt(KO**2 + a**2 - 2 * KO * a * np.cos(gamma1))
         spare = (KB - abs(b - c)) * (KB + abs(b - c))
@@ -299,9 +301,9 @@ class ThreeLeverArm(Arm):
         return np.where(exists, 2 * np.arcsin(np.minimum(half, 1)), np.nan)
 
     def _bottom(self, KO: Floats, low: Floats, high: Floats) -> Floats:
-        """For equal levers, of which no other sum has a minimum between its ends: the alpha between
-        low and high with the least alpha + beta - gamma. Six times, the best of 33 and its
-        neighbours. Half of the digits of alpha are enough, since the sum is flat there.
+        """For equal levers, the alpha between low and high with the least alpha + beta - gamma; no
+        other sum has a minimum between its ends. Each of six rounds takes the best of 33 samples
+        and its neighbours. Half of the digits of alpha are enough, since the sum is flat there.
         """
         for _ in range(6):
             alphas = low[..., None] + (high - low)[..., None] * np.linspace(0, 1, 33)
@@ -312,10 +314,10 @@ class ThreeLeverArm(Arm):
         return (low + high) / 2
 
     def _level(self, KO: Floats, low: Floats, high: Floats) -> Floats:
-        """For levers of any lengths: six alphas (6, ...), the first and the last between low and
-        high at which beta + alpha - gamma, gamma - beta + alpha, or gamma + beta - alpha is level;
-        others stand in for those that are missing. (gamma + beta + alpha, the direction of the last
-        lever, is level only where O, B and A are in line.)
+        """For levers of any lengths, six alphas (6, ...): the first and the last between low and
+        high at which beta + alpha - gamma, gamma - beta + alpha, or gamma + beta - alpha is
+        stationary. Missing ones are replaced by others. (gamma + beta + alpha, the direction of the
+        last lever, is stationary only where O, B and A are in line.)
         """
         if KO.size > PORTION:
             flat = np.stack([KO, low, high]).reshape(3, -1)
@@ -336,38 +338,39 @@ class ThreeLeverArm(Arm):
         return np.moveaxis((start + end) / 2, -1, 0)
 
     def _slopes(self, KO: Floats, alpha: Floats) -> Floats:
-        """How fast the three sums of `_level` change with alpha, up to a positive factor: (..., 3).
+        """The derivatives of the three sums of `_level` with respect to alpha, up to a positive
+        factor: (..., 3).
 
-        With K held fast gamma, beta and alpha change like the areas of the triangles BAK, OAK (with
-        a minus where A lies counter-clockwise of OK) and OBK.
+        With K fixed, gamma, beta and alpha change in proportion to the areas of the triangles BAK,
+        OAK (negative where A lies counter-clockwise of OK) and OBK.
         """
         a, b, c = self.geometry.levers
         gamma, beta, alpha = np.moveaxis(self._posture(KO, 0.0, alpha), -1, 0)
-        height = a * np.sin(gamma)  # of B over the line OK
+        height = a * np.sin(gamma)  # height of B above the line OK
         changes = [b * c * np.sin(alpha), KO * (b * np.sin(gamma + beta) - height), KO * height]
         return np.stack([sum(changes) - 2 * change for change in changes], axis=-1)
 
 
 def _across(a: float, b: float, angle: Floats) -> Floats:
-    """The third side of a triangle with the sides a and b around an angle; for equal ones the
-    document's 2 a sin(angle / 2), to the last bit.
+    """The third side of a triangle from two sides a and b and the angle between them. For equal
+    sides it is the document's 2 a sin(angle / 2) to the last bit.
     """
     chord = 2 * np.sqrt(a * b) * np.sin(angle / 2)
     return distance(a - b + 0 * chord, chord)
 
 
 def _beside(a: float, b: float, angle: Floats) -> Floats:
-    """The angle between the side a and the third side of the same triangle. By the law of tangents:
-    it keeps all digits in a flat one.
+    """The angle between the side a and the third side of the same triangle. The law of tangents
+    keeps all digits if the triangle is flat.
     """
     half = angle / 2
     return (np.pi - angle) / 2 + np.arctan2((b - a) * np.cos(half), (b + a) * np.sin(half))
 
 
 def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
-    """The angle between the sides a and b of a triangle, opposite c. The law of cosines in its
-    half-angle form: an arccos, as the document has it, loses half of the digits where the triangle
-    is flat. NaN if there is no triangle.
+    """The angle between the sides a and b of a triangle, opposite c, NaN if there is no triangle.
+    It uses the half-angle form of the law of cosines, since the document's arccos loses half of the
+    digits if the triangle is flat.
     """
     with np.errstate(invalid="ignore"):
         beside, around = _spare(c, b, a) * _spare(c, a, b), _spare(a, b, c) * (a + b + c)
@@ -379,7 +382,7 @@ def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
 
 
 def _spare(a: Floats | float, b: Floats | float, c: Floats | float) -> Any:
-    """By how much two sides are longer than the third, rounded alike whichever angle asks: then all
-    angles of a nearly flat triangle belong to one triangle, and the chain closes.
+    """How much longer two sides are than the third, rounded in the same way for every angle, so
+    that all angles of a nearly flat triangle belong to one triangle and the chain closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)

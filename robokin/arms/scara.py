@@ -1,5 +1,5 @@
-"""SCARA arms: two parallel levers, a turning tool and a vertical stroke; two solutions in closed
-form.
+"""SCARA arms: two links with parallel axes, a rotating tool and a vertical stroke, with two
+closed-form solutions.
 """
 
 from dataclasses import dataclass, field
@@ -21,12 +21,12 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class ScaraPose(Batch):
-    """What a SCARA can be asked for: `position` (..., 3) in metres and the tool's `angle` (...)
-    about the vertical. The arrays are read-only copies.
+    """A target of a SCARA: `position` (..., 3) in metres and the tool's `angle` (...) about the
+    vertical. The arrays are read-only copies.
 
-    The angle is in radians and not wrapped: from 0 to pi is a half turn to the left, from 0 to -pi
-    one to the right, and 3 pi is one and a half turns. A rotation cannot tell these apart (errata
-    S1-t). ValueError: wrong shapes, not finite. Source: 001, listings 4 and 12.
+    The angle is in radians and not wrapped: from 0 to pi is half a turn to the left, from 0 to -pi
+    half a turn to the right, and 3 pi is one and a half turns. A rotation cannot distinguish them
+    (errata S1-t). ValueError: wrong shapes, not finite. Source: 001, listings 4 and 12.
 
     >>> from robokin import ScaraPose
     >>> ScaraPose((0.2, 0.3, 0.1), 0.0).lerp(ScaraPose((0.4, 0.1, 0.1), 3.0), 0.5)
@@ -52,8 +52,8 @@ class ScaraPose(Batch):
         return ScaraPose(self.position[(*index, slice(None))], self.angle[index])
 
     def lerp(self, goal: "ScaraPose", s: ArrayLike) -> "ScaraPose":
-        """On the way from here (s = 0) to `goal` (s = 1): position and angle both linear; s (...)
-        is broadcast.
+        """Interpolate from this pose (s = 0) to `goal` (s = 1), linearly in position and angle; s
+        (...) is broadcast.
         """
         instance(goal, ScaraPose, "goal")
         share = floats(s, "s")
@@ -80,10 +80,11 @@ def scara_arm(
     speed_limits: ArrayLike | None = None,
 ) -> ClosedFormArm:
     """A SCARA: joints 1 to 3 turn about vertical axes, joint 4 lowers the tool from `height`.
-    Lengths in m.
+    Lengths are in metres.
 
-    q = 0 stretches the arm along x with the tool at `height`. `ik` takes a ScaraPose or a
-    Transform. Source: 001, listings 4 and 12. ValueError: a lever that is not one positive length.
+    At q = 0 the arm is stretched along x with the tool at `height`. `ik` takes a ScaraPose or a
+    Transform. Source: 001, listings 4 and 12. ValueError: a link whose length is not one positive
+    number.
     """
     return ClosedFormArm(name, ScaraGeometry(height, upper, fore), limits, speed_limits)
 
@@ -93,7 +94,7 @@ class ScaraGeometry(Sealed):
     """The links of a SCARA and their inverse (see `scara_arm`). Configuration flag: the sign of
     joint 2. Angles in [-pi, pi].
 
-    Source: 001, listing 4, with errata S1-o (the other elbow, rounding) put right.
+    Source: 001, listing 4, with errata S1-o (the other elbow, rounding) corrected.
     """
 
     branches = flags(1)
@@ -143,8 +144,8 @@ class ScaraGeometry(Sealed):
         return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Rows q (..., 4) as they are, but for equal levers folded onto axis 1: there joint 1 is as
-        in `previous`, and joint 3 makes up for it.
+        """Return rows q (..., 4) unchanged, except where equal links are folded onto axis 1: there
+        joint 1 is as in `previous`, and joint 3 compensates.
         """
         equal = abs(self.upper - self.fore) <= FREE * self.reach
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal

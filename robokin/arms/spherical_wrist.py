@@ -1,8 +1,8 @@
-"""Six-axis arms with a spherical wrist: all eight solutions in closed form.
+"""Six-axis arms with a spherical wrist, with eight closed-form solutions.
 
 The three wrist axes meet in one point, the wrist centre. It does not move when joints 4 to 6 turn,
-so the problem falls apart in two: bring the wrist centre to its place with joints 1 to 3, then turn
-the tool with joints 4 to 6.
+so the problem splits in two: position the wrist centre with joints 1 to 3, then orient the tool
+with joints 4 to 6.
 """
 
 from collections.abc import Iterable, Sequence
@@ -32,12 +32,13 @@ def spherical_wrist(
     limits: ArrayLike,
     speed_limits: ArrayLike | None = None,
 ) -> ClosedFormArm:
-    """An arm of six revolute links with a spherical wrist; its geometry is read from the links at
-    q = 0.
+    """An arm of six revolute links with a spherical wrist. Its geometry is measured from the links
+    at q = 0.
 
-    Wanted at q = 0, in base coordinates: axis 1 on the z axis; axes 2, 3 and 5 parallel to the y
-    axis; axes 4 to 6 meeting in one point, 4 parallel to 6. Signs and offsets of the joints follow
-    from the links. ValueError otherwise, naming the axis.
+    At q = 0, in base coordinates, axis 1 must lie on the z axis, axes 2, 3 and 5 must be parallel
+    to the y axis, and axes 4 to 6 must meet in one point, with 4 parallel to 6. The signs and
+    offsets of the joints follow from the links. ValueError: another arrangement; the message names
+    the axis.
     """
     return ClosedFormArm(name, SphericalWristGeometry(links), limits, speed_limits)
 
@@ -46,10 +47,10 @@ def spherical_wrist(
 class SphericalWristGeometry(Sealed):
     """Six links with a spherical wrist, and their inverse (see `spherical_wrist`).
 
-    Configuration flags, +1 or -1: the wrist centre in front of or behind axis 1 (front is the side
-    of +x at q1 = 0); joint 3 on the positive or negative side of the stretched arm; joint 5
-    positive or negative. Source: 001, listing 1, with errata S1-c (obtuse shoulder) and S1-d
-    (singular wrist) put right; 004, section 3.
+    Configuration flags, +1 or -1: whether the wrist centre is in front of or behind axis 1 (front
+    is the +x side at q1 = 0), whether joint 3 is on the positive or negative side of the stretched
+    arm, and the sign of joint 5. Source: 001, listing 1, with errata S1-c (obtuse shoulder) and
+    S1-d (singular wrist) corrected; 004, section 3.
     """
 
     branches = flags(3)
@@ -60,7 +61,9 @@ class SphericalWristGeometry(Sealed):
     wrist: "Wrist" = field(init=False)
     reach: float = field(init=False)
 
-    @np.errstate(over="ignore", invalid="ignore")  # of lengths whose squares are none
+    @np.errstate(
+        over="ignore", invalid="ignore"
+    )  # from lengths whose squares overflow or underflow
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 6 or any(link.prismatic for link in links):
@@ -79,17 +82,17 @@ class SphericalWristGeometry(Sealed):
         return np.moveaxis(q.reshape(6, 8, *pose.shape), (0, 1), (-1, -2))
 
     def _solve(self, rotation: Sequence[Floats], origin: Sequence[Floats]) -> list[Any]:
-        """The six joints of poses (N,), for front/back and elbow (2, 2, N): a pair for the two
-        wrists where they differ.
+        """The six joint values for poses (N,), for front/back and elbow (2, 2, N), as a pair where
+        the two wrists differ.
         """
         wrist = self.wrist
 
-        # Joints 1 to 3 bring the wrist centre to its place.
+        # Joints 1 to 3 position the wrist centre.
         tool, centre = wrist.at(rotation, origin)
         first, (cos1, sin1), fore = self.elbow.solve(*centre)
 
-        # Joints 4 to 6: the wrist's frame at the tool, seen from the forearm. Its axis 4 points ce
-        # ahead, se up.
+        # Joints 4 to 6: the wrist's frame at the tool, seen from the forearm, whose axis 4 points
+        # forward by ce and up by se.
         ce, se = rotated(*fore, wrist.axis4 - self.elbow.fore_angle)
         ahead = [cos1 * tool[0][k] + sin1 * tool[1][k] for k in range(3)]
         aside = [wrist.sign5 * (cos1 * tool[1][k] - sin1 * tool[0][k]) for k in range(3)]
@@ -106,8 +109,8 @@ class SphericalWristGeometry(Sealed):
         cos6 = cos4 * aside[1] - sin4 * below[1]
         q4, q5, q6 = np.arctan2(sin4, cos4), np.arctan2(sin5, cos5), np.arctan2(sin6, cos6)
 
-        # The other wrist: joint 5 the other way, joints 4 and 6 half a turn on. A stuck wrist has
-        # but one row.
+        # The other wrist: joint 5 with the opposite sign, joints 4 and 6 half a turn further. A
+        # singular wrist has only one row.
         other = [q4 - np.copysign(np.pi, q4), -q5, q6 - np.copysign(np.pi, q6)]
         if stuck.any():
             pairs = zip((q4, q5, q6), other, strict=True)
@@ -122,17 +125,17 @@ class SphericalWristGeometry(Sealed):
         return self.elbow.gap(centre, self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., 6): dict of name -> bool (...). As
-        `Elbow.singularities`, and wrist: axes 4 and 6 in one line (within 1e-6 rad).
+        """Which singularities hold at q (..., 6): dict of name -> bool (...). Those of
+        `Elbow.singularities`, and wrist: axes 4 and 6 are in line (within 1e-6 rad).
         """
         return self.elbow.singularities(q) | {"wrist": abs(np.sin(q[..., 4])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Rows q (..., 6) with what a wrist singularity leaves free chosen for the least turn from
-        `previous`.
+        """Return rows q (..., 6) in which the joints that a wrist singularity leaves free turn
+        least from `previous`.
 
-        There only the sum of joints 4 and 6 counts (the difference where joint 5 is pi); each takes
-        half of the turn.
+        There only the sum of joints 4 and 6 matters (the difference where joint 5 is pi); each
+        takes half of the rotation.
         """
         stuck = abs(np.sin(q[..., 4])) < NOISY
         if not stuck.any():
@@ -147,13 +150,13 @@ class SphericalWristGeometry(Sealed):
 
 
 class Wrist(NamedTuple):
-    """The last three joints, measured on the links at q = 0.
+    """The last three joints, measured from the links at q = 0.
 
-    sign5, sign6  +1 or -1: axis 5 along +y or -y, axis 6 along axis 4 or against it
+    sign5, sign6  +1 or -1: axis 5 points along +y or -y, axis 6 along or against axis 4
     axis4         angle of axis 4 above the horizon
     from_flange   the quaternion w, x, y, z from the flange to the wrist's own frame, in which axis
                   5 is y and axis 4 is z
-    centre_from_flange  the way x, y, z from the flange to the wrist centre, in the wrist's own
+    centre_from_flange  the vector x, y, z from the flange to the wrist centre, in the wrist's own
                         frame
     """
 
@@ -165,14 +168,16 @@ class Wrist(NamedTuple):
 
     @classmethod
     def measured(cls, points: Floats, axes: Floats, flange: Transform) -> tuple["Wrist", Floats]:
-        """From a point on each of the axes 4 to 6, the axes, and the flange; and the wrist centre.
-        ValueError: other directions than `spherical_wrist` wants.
+        """Measure from a point on each of the axes 4 to 6, the axes, and the flange; return also
+        the wrist centre. ValueError: directions other than those in `spherical_wrist`.
         """
         (e4, e5, e6), (p4, p5, p6) = axes, points
         parallel(5, e5, 1)
         _need(abs(e4[1]) < 1e-9, "axis 4 square to axis 5, got {}", e4)
         _need(abs(abs(e4 @ e6) - 1) < 1e-9, "axis 6 parallel to axis 4, got {}", e6)
-        centre = p4 + ((p5 - p4) @ e4) * e4  # axis 5 is square to axis 4: its foot on axis 4
+        centre = (
+            p4 + ((p5 - p4) @ e4) * e4
+        )  # axis 5 is perpendicular to axis 4: the foot of the perpendicular on axis 4
         for number, point, axis in ((5, p5, e5), (6, p6, e6)):
             beside = np.linalg.norm(cross(centre - point, axis))
             met = "axis {} through {}, got it {:.3g} m beside"
@@ -188,8 +193,8 @@ class Wrist(NamedTuple):
         return wrist, centre
 
     def at(self, rotation: Sequence[Any], origin: Sequence[Any]) -> tuple[Any, list[Any]]:
-        """For a flange on components: the rows of the matrix of the wrist's own frame, and the
-        wrist centre, which the flange carries with it: a step back.
+        """For a flange given as components, return the rows of the matrix of the wrist's own frame,
+        and the wrist centre, which is fixed to the flange.
         """
         rows = matrix_rows(hamilton(rotation, self.from_flange))
         cx, cy, cz = self.centre_from_flange

@@ -1,8 +1,8 @@
-"""Three levers on a base that turns: points in space.
+"""Three levers on a turning base, which reach points in space.
 
-Source 003 works in the plane and leaves the third axis to one motor between manipulator and ground,
-which turns the plane of the levers about the vertical (II.2). That motor asks for no new inverse:
-its angle is a direction, and what is left is the planar arm.
+Source 003 works in the plane and adds the third axis with one motor between manipulator and ground,
+which turns the plane of the levers about the vertical (II.2). This motor needs no new inverse: its
+angle is the direction of the point, and the rest is the planar arm.
 """
 
 from dataclasses import dataclass, field
@@ -23,11 +23,11 @@ X = np.array([1.0, 0.0, 0.0])
 
 
 def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
-    """The arm on a turning base, q = (turn, gamma, beta, alpha): joint 1 turns the plane of the
-    levers about the z axis of the base, which points up; at 0 the levers' x axis is that of the
-    base, and their y axis always points up. The turn goes from -180 to 180 degrees.
+    """The arm on a turning base, q = (turn, gamma, beta, alpha). Joint 1 turns the plane of the
+    levers about the z axis of the base, which points up. At 0 the x axis of the levers is that of
+    the base; their y axis always points up. The turn ranges from -180 to 180 degrees.
 
-    Source: 003, II.2. TypeError: another arm.
+    Source: 003, II.2. TypeError: an arm of another kind.
     """
     limits = np.concatenate([[(-180 * deg, 180 * deg)], instance(arm, ThreeLeverArm, "arm").limits])
     return TurningLeverArm(f"{arm.name} on a turning base", TurningLeverGeometry(arm), limits)
@@ -35,7 +35,7 @@ def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
 
 @dataclass(frozen=True, repr=False, eq=False)
 class TurningLeverGeometry(Sealed):
-    """The links of `turning_base`, and the arm `plane` that turns. No inverse, as there."""
+    """The links of `turning_base`, and the planar arm `plane` that turns. It has no inverse either."""
 
     target = np.ndarray
     plane: ThreeLeverArm
@@ -55,9 +55,9 @@ class TurningLeverArm(Arm):
     geometry: TurningLeverGeometry
 
     def seen(self, point: ArrayLike) -> tuple[Floats, Floats]:
-        """The two turns that bring the plane of the levers through the points, (..., 2), and where
-        the planar arm sees them then, (..., 2, 2): in front of its base, and, half a turn on,
-        behind it. On the axis every turn does; here 0 and half a turn.
+        """The two turns (..., 2) at which the plane of the levers contains the points, and the
+        points in that plane (..., 2, 2): in front of the base and, half a turn further, behind it.
+        For a point on the axis every turn is possible; we take 0 and half a turn.
         """
         x, y, z = np.moveaxis(floats(point, "point", 3), -1, 0)
         r, turn = distance(x, y), np.arctan2(y + 0.0, x + 0.0)  # -0.0 is 0
@@ -65,10 +65,10 @@ class TurningLeverArm(Arm):
         return wrapped(np.stack([turn, turn + np.pi], axis=-1)), places
 
     def least(self, point: ArrayLike, previous: ArrayLike) -> tuple[Floats, Floats]:
-        """The posture within the limits at the points (..., 3) with the smallest sum S of all four
-        angles' changes from previous (..., 4): (..., 4) and (...), NaN where there is none.
+        """The posture within the limits at the points (..., 3) with the smallest sum S of the four
+        absolute angle changes from previous (..., 4): (..., 4) and (...), NaN where there is none.
 
-        Of both turns the better one; on the axis the base stays as it is.
+        It takes the better of both turns; for a point on the axis the base does not turn.
         """
         before = floats(previous, "previous", 4)
         warn_if_degrees(before, "previous", posture=1)

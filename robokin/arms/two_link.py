@@ -26,16 +26,16 @@ from .link import Link
 
 
 def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
-    """The planar arm of source 002: links of lengths l1 and l2 in metres on the point `base` (2,)
-    of the plane z = 0.
+    """The planar arm of source 002: links with lengths l1 and l2 in metres, mounted at the point
+    `base` (2,) of the plane z = 0.
 
-    q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1 on. The document's
-    unknown (x2, y2) is the elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2),
-    points (..., 3) or Transforms, of which it takes the translation; a point off the plane z = 0 is
-    out of reach. Limits: one turn each; the document has none.
+    q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1. The document's
+    unknown (x2, y2) is the elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2)
+    or (..., 3), or the translations of Transforms; a point off the plane z = 0 is out of reach. The
+    limits are one turn each; the document has none.
 
     Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
-    is no point.
+    is not a point.
 
     >>> from robokin import deg, two_link
     >>> (two_link(0.3, 0.4).ik((0.3, 0.4)) / deg).round(1) + 0.0
@@ -49,12 +49,12 @@ def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class TwoLinkGeometry(Sealed):
     """Two links in the plane and their inverse (see `two_link`). Configuration flag: the sign of
-    q2; at +1 link 2 turns counter-clockwise away from link 1, and the elbow lies to the right of
-    the line from base to tip.
+    q2; at +1 link 2 turns counter-clockwise from link 1, and the elbow is to the right of the line
+    from base to tip.
 
     The document's formula (2) holds for equal links on the origin, divides by x3, and changes sides
-    with the sign of x3 (errata S2-a, S2-d, S2-e). Here the triangle of base, elbow and tip is
-    solved by its half angles, for any lengths.
+    with the sign of x3 (errata S2-a, S2-d, S2-e). We solve the triangle of base, elbow and tip with
+    half angles, for any lengths.
     """
 
     branches = flags(1)
@@ -78,14 +78,14 @@ class TwoLinkGeometry(Sealed):
 
     def ik(self, pose: Any) -> Floats:
         """See `ClosedFormArm.ik`: points or Transform of shape (...) -> (..., 2, 2). Where equal
-        links fold and bring the tip to the base, q1 is free, and 0.
+        links fold and the tip is at the base, q1 is free, and set to 0.
         """
         x, y, d, off = self._way(pose)
         ahead, turn, exists = two_levers(self.l1, self.l2, d)
         exists = exists & (off <= ROUNDING * self.reach)
         elbow = self.branches[:, 0]
         q1 = np.arctan2(y, x)[..., None] - elbow * ahead[..., None]
-        q = wrapped(stack([q1, elbow * turn[..., None]])) + 0.0  # and no -0.0
+        q = wrapped(stack([q1, elbow * turn[..., None]])) + 0.0  # also without -0.0
         return np.where(exists[..., None, None], q, np.nan)
 
     def gap(self, pose: Any, row: int) -> Gap:
@@ -99,16 +99,16 @@ class TwoLinkGeometry(Sealed):
         return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
-        """Rows q (..., 2) with q1 as in `previous` where the tip stands on the base and leaves it
-        free.
+        """Return rows q (..., 2) with q1 as in `previous` wherever the tip is at the base and
+        leaves q1 free.
         """
         equal = abs(self.l1 - self.l2) <= FREE * self.reach
         free = (abs(np.cos(q[..., 1] / 2)) < FREE) & equal
         return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
 
     def _way(self, pose: Any) -> tuple[Floats, Floats, Floats, Floats]:
-        """The way from base to tip: x, y, its length d, and how far the tip is off the plane."""
+        """The vector from base to tip: x, y, its length d, and the tip's distance from the plane."""
         x, y, z = coordinates(pose)
-        # -0.0 is 0: atan2 tells them apart, a point does not
+        # -0.0 becomes 0: atan2 distinguishes them, a point does not
         x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0
         return x, y, distance(x, y), abs(z)

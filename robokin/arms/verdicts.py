@@ -1,8 +1,7 @@
-"""The words of a verdict: every sentence that `explain` is made of, so that a page can be given
-them.
+"""The words of a verdict: all sentences that `explain` uses, so that a page can use them too.
 
-In braces stand the facts: {what} is brought to its place, {gap} a length with its unit, {degrees}
-an angle; {row}, {flags}, {reason}, {hint}, {facts}; {joint}, {value}, {over} and {limit}.
+The facts are in braces: {what} is to be positioned, {gap} is a length with its unit, {degrees} an
+angle; then {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value}, {over} and {limit}.
 """
 
 SENTENCES = {
