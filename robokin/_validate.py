@@ -79,7 +79,7 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
 
 
 def bools(value: Any, name: str) -> Bools:
-    """Return `value` as a boolean array. ValueError: it holds something other than True and False."""
+    """Return `value` as a boolean array. ValueError: it holds anything else than True or False."""
     try:
         array = np.asarray(value)
     except Exception:  # an object may offer itself as an array and fail in any way

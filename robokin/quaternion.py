@@ -342,7 +342,7 @@ def _same_sign(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def _angle_between(a: Floats, b: Floats) -> Floats:
-    """The angle of the rotation between quaternions of the same sign: twice the angle of their arc."""
+    """The rotation angle between quaternions of the same sign: twice the angle of their arc."""
     apart, beside = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     angle: Floats = 4 * np.arctan2(apart, beside)
     return angle

@@ -139,9 +139,7 @@ class Elbow(NamedTuple):
         return cls(
             carried,
             sign1=float(np.sign(axes[0][2])),
-            sign2=-float(
-                np.sign(axes[1][1])
-            ),  # a positive turn about +y lowers a link that points forward
+            sign2=-float(np.sign(axes[1][1])),  # turning about +y lowers what points forward
             sign3=-float(np.sign(axes[2][1])),
             shoulder_x=shoulder_x,
             shoulder_z=shoulder_z,
@@ -209,7 +207,7 @@ class Elbow(NamedTuple):
         return [q1, q2, q3], (cos1, sin1), (cos_b, sin_b)
 
     def radius(self, q: Floats) -> Floats:
-        """The distance of the point in front of axis 1 at q (..., 3 or more), negative behind it."""
+        """The distance of the point in front of axis 1 at q (..., 3 or more); negative behind."""
         elevation = self.upper_angle + self.sign2 * q[..., 1]
         ahead = self.upper * np.cos(elevation) + self.fore * np.cos(elevation + self.bend(q))
         return self.shoulder_x + ahead
@@ -228,7 +226,7 @@ class Elbow(NamedTuple):
         }
 
     def gap(self, point: Sequence[float], front: int) -> Gap:
-        """The border that a single point (3,) without a solution passes on the side `front` (+-1)."""
+        """The border that a single unreachable point (3,) passes on the side `front` (+-1)."""
         x, y, z = point
         rho2 = x * x + y * y
         r2 = rho2 - self.lateral * self.lateral

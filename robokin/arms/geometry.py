@@ -21,9 +21,7 @@ from .link import Link
 from .verdicts import SENTENCES
 
 ROUNDING = 1e-12  # a point past a border by no more than this is on it
-STRAIGHT = (
-    1e-14  # an arm this near to stretched or folded counts as such: both elbow rows are equal
-)
+STRAIGHT = 1e-14  # stretched or folded within this: both elbow rows are equal
 FREE = 1e-13  # within this of axis 1 the angle of joint 1 is noise, and the joint is free
 SINGULAR = 1e-6  # rad, or fraction of the reach: a posture this near to a singularity is singular
 UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
@@ -35,8 +33,8 @@ class Geometry(Protocol):
     links    base to flange
     target   the type of an arm's targets: Transform (position and orientation),
              ScaraPose (position and angle) or np.ndarray (a point)
-    reach    m; the greatest distance from axis 1 of the carried point: tolerances are fractions of it,
-             and it makes the linear and angular rows of a Jacobian comparable
+    reach    m; the greatest distance of the carried point from axis 1: tolerances are fractions of
+             it, and it makes the linear and angular rows of a Jacobian comparable
     """
 
     @property

@@ -29,11 +29,11 @@ def three_lever(L: ArrayLike) -> "ThreeLeverArm":
     gamma  the angle of lever OB from the +x axis, counter-clockwise
     beta   the interior angle at B; at 180 degrees OB and BA are in line
     alpha  the interior angle at A; at 180 degrees BA and AK are in line
-    K      the gripper, the flange's origin; at angles below 180 degrees the chain bends clockwise
+    K      the gripper, the flange's origin; below 180 degrees the chain bends clockwise on the way
            to it
 
-    Source: 003, III.1.1, figures 15 and 16, for equal levers; that they may differ says II.2.
-    ValueError: L not one positive number, or three.
+    Source: 003, III.1.1, figures 15 and 16, for equal levers; II.2 says that they may differ.
+    ValueError: L is not one positive number or three.
 
     >>> from robokin import deg, three_lever
     >>> three_lever((0.9, 1.1, 0.6)).points([90 * deg, 90 * deg, 180 * deg]).round(3) + 0.0
@@ -269,7 +269,7 @@ class ThreeLeverArm(Arm):
         return np.where(reached, KO, np.nan), np.where(reached, np.arctan2(y, x), np.nan)
 
     def _lowest(self, KO: Floats) -> Floats:
-        """The alpha at which O, B and A are in line, or 0 where the levers do not have to stretch."""
+        """The alpha at which O, B and A are in line, or 0 if the levers need not stretch."""
         a, b, c = self.geometry.levers
         return np.where(KO <= a + b - c, 0.0, _angle(c, a + b, KO))
 

@@ -61,9 +61,7 @@ class SphericalWristGeometry(Sealed):
     wrist: "Wrist" = field(init=False)
     reach: float = field(init=False)
 
-    @np.errstate(
-        over="ignore", invalid="ignore"
-    )  # from lengths whose squares overflow or underflow
+    @np.errstate(over="ignore", invalid="ignore")  # from squares of huge lengths
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 6 or any(link.prismatic for link in links):
@@ -175,9 +173,7 @@ class Wrist(NamedTuple):
         parallel(5, e5, 1)
         _need(abs(e4[1]) < 1e-9, "axis 4 square to axis 5, got {}", e4)
         _need(abs(abs(e4 @ e6) - 1) < 1e-9, "axis 6 parallel to axis 4, got {}", e6)
-        centre = (
-            p4 + ((p5 - p4) @ e4) * e4
-        )  # axis 5 is perpendicular to axis 4: the foot of the perpendicular on axis 4
+        centre = p4 + ((p5 - p4) @ e4) * e4  # the foot of the perpendicular on axis 4
         for number, point, axis in ((5, p5, e5), (6, p6, e6)):
             beside = np.linalg.norm(cross(centre - point, axis))
             met = "axis {} through {}, got it {:.3g} m beside"

@@ -35,7 +35,7 @@ def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
 
 @dataclass(frozen=True, repr=False, eq=False)
 class TurningLeverGeometry(Sealed):
-    """The links of `turning_base`, and the planar arm `plane` that turns. It has no inverse either."""
+    """The links of `turning_base`, and the planar arm `plane` that turns. It has no inverse."""
 
     target = np.ndarray
     plane: ThreeLeverArm

@@ -107,7 +107,7 @@ class TwoLinkGeometry(Sealed):
         return np.where(free[..., None] & (np.arange(2) == 0), previous, q)
 
     def _way(self, pose: Any) -> tuple[Floats, Floats, Floats, Floats]:
-        """The vector from base to tip: x, y, its length d, and the tip's distance from the plane."""
+        """The vector from base to tip: x, y, its length d, and the tip's height off the plane."""
         x, y, z = coordinates(pose)
         # -0.0 becomes 0: atan2 distinguishes them, a point does not
         x, y = x - self.base[0] + 0.0, y - self.base[1] + 0.0

@@ -53,18 +53,18 @@ Exit status: 0    every task answered
              1    a file skipped, or the output or the log could not be written
              2    nothing to do: wrong use, no such folder, no *.json in it
              130  stopped with Ctrl+C"""
-BIG = 1_000_000  # bytes: a file on which the work can be waited for
+BIG = 1_000_000  # bytes: a file this small is solved quickly
 
 log = logging.getLogger("robokin.jobs")  # to output.log
-answers = log.getChild("answers")  # to the standard output as well
-end = log.getChild("end")  # to the standard error output as well: the run ends here
+answers = log.getChild("answers")  # also to standard output
+end = log.getChild("end")  # also to standard error; the run ends here
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command; the exit status."""
+    """Run the command and return its exit status."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
+            stream.reconfigure(errors="backslashreplace")  # names that it cannot show
     parser = argparse.ArgumentParser(
         prog="python -m robokin.jobs",
         description=HELP,
@@ -88,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def run(folder: str, above_floor: bool = False) -> int:
-    """Answer every task file in the folder; the exit status."""
+    """Answer every task file in the folder and return the exit status."""
     try:
         names = sorted(
             n for n in os.listdir(folder) if n.endswith(".json") and not n.startswith(".")
@@ -117,7 +117,9 @@ def run(folder: str, above_floor: bool = False) -> int:
 
 
 def one(path: str, title: str, above_floor: bool = False) -> bool:
-    """Answer one task file and say so, or say why not; whether it was answered."""
+    """Answer one task file and log the result, or the reason why not. Return whether it was
+    answered.
+    """
     try:
         size = os.path.getsize(path) if os.path.isfile(path) else 0
         if size > BIG:
@@ -133,7 +135,7 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
     except TaskError as error:
         answers.error(f"{title} skipped:" + "".join(f"\n\t{fault}" for fault in error.faults))
         return False
-    except Exception as error:  # a fault of this program: the other files are answered all the same
+    except Exception as error:  # an error in this program: the other files are still answered
         log.debug(title, exc_info=True)
         answers.error(f"{title} skipped:\n\tthis program failed, {type(error).__name__}: {error}")
         return False
@@ -148,8 +150,8 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
 
 
 class Output(logging.StreamHandler[TextIO]):
-    """Lines "LEVEL: message" to a stream. If it cannot be written, that is told once and noted in
-    `lost`, and the others go on.
+    """Write lines "LEVEL: message" to a stream. If it cannot be written, report this once and note
+    it in `lost`; the other outputs go on.
     """
 
     def __init__(self, title: str, stream: TextIO, lost: list[str]) -> None:
@@ -158,22 +160,25 @@ class Output(logging.StreamHandler[TextIO]):
         self.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
 
     def handleError(self, record: logging.LogRecord) -> None:
-        """What `emit` calls where the stream raises."""
+        """`emit` calls this when the stream raises."""
         self.setLevel(logging.CRITICAL + 1)
         _lose(self.title, sys.exc_info()[1], self.lost)
-        # What is left in its buffer goes nowhere, or it would fail again when it is closed.
+        # Discard what is left in its buffer; otherwise closing it would fail again.
         with contextlib.suppress(OSError), open(os.devnull, "w") as nowhere:
             os.dup2(nowhere.fileno(), self.stream.fileno())
 
 
 @contextlib.contextmanager
 def outputs() -> Iterator[list[str]]:
-    """The loggers have their outputs while this lasts; the names of those that are lost."""
+    """Connect the loggers to their outputs for the duration of the context; yield the names of lost
+    outputs.
+    """
     lost: list[str] = []
     with contextlib.ExitStack() as stack:
         try:
             _lock_folder(stack)
-            # Removed and made, not overwritten: it may be a link to a file that must not change.
+            # Remove and create it instead of overwriting: it may be a link to a file that must not
+            # change.
             with contextlib.suppress(FileNotFoundError):
                 os.remove(LOG)
             file = stack.enter_context(open(LOG, "x", encoding="utf-8", errors="backslashreplace"))
@@ -191,7 +196,7 @@ def outputs() -> Iterator[list[str]]:
         stack.callback(log.setLevel, log.level)
         stack.callback(setattr, log, "propagate", log.propagate)
         log.setLevel(logging.DEBUG)
-        log.propagate = False  # a caller's own log is not for this
+        log.propagate = False  # keep these lines out of the caller's own log
         yield lost
 
 
@@ -204,10 +209,10 @@ def _connect(
 
 
 def _lock_folder(stack: contextlib.ExitStack) -> None:
-    """Keep other runs from this folder's log until the stack is left; OSError if one has it.
+    """Lock this folder's log until the stack is closed. OSError: another run holds the lock.
 
-    On Windows no lock is needed: nobody can remove a file that is open. A file system without locks
-    goes without.
+    Windows needs no lock, since nobody can remove an open file there. A file system without locks
+    is used without one.
     """
     if sys.platform == "win32":
         return
@@ -227,20 +232,20 @@ def _lose(title: str, why: object, lost: list[str]) -> None:
 
 
 def _tell(text: str) -> None:
-    """To the standard error output, if there is one."""
+    """Write to standard error, if there is one."""
     if sys.stderr:
         with contextlib.suppress(OSError):
             print(text, file=sys.stderr, flush=True)
 
 
 def _first(rows: Floats) -> str:
-    """Rows of numbers for the log, as many as a report has points."""
+    """The first rows of numbers for the log, as many as a report shows points."""
     more = f" and {len(rows) - POINTS_SHOWN} more" if len(rows) > POINTS_SHOWN else ""
     return f"{rows[:POINTS_SHOWN].tolist()}{more}"
 
 
 def _shown(name: str) -> str:
-    """A file's name on one line, with what cannot be printed as escapes."""
+    """A file name on one line, with unprintable characters escaped."""
     return "".join(
         c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in name
     )

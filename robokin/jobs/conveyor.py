@@ -1,15 +1,15 @@
-"""A conveyor: which objects on a belt the arms beside it can take, and when.
+"""A conveyor: which objects on a belt the arms beside it can pick, and when.
 
-The belt runs along y at v (m/s). At the time 0 object i lies offsets[i] metres before the window of
-the first arm: so it is at the place window[j] at (offsets[i] + window[j] - window[0]) / v. An arm
-waits at its bin, goes to a place of its window, meets the object there and takes it back. Arms
-stand one after the other, each with a window, a bin and a clock of its own, and each sees only what
-those before it have left.
+The belt runs along y at v (m/s). At time 0 object i is offsets[i] metres before the window of the
+first arm, so it reaches the place window[j] at (offsets[i] + window[j] - window[0]) / v. An arm
+waits at its bin, moves to a place in its window, picks the object there and takes it back. Several
+arms stand along the belt, each with its own window, bin and clock; each sees only the objects that
+the arms before it have left.
 
     arms = serve(spaced(200, 0.15, spread=0.5), 0.12, window, ways, arms=2)
     len(arms[0].objects)
 
-The document ends with the question, whether one robot can take all objects from a conveyor, and
+The document ends with the question whether one robot can pick all objects from a conveyor, and
 gives no numbers. Source: 000, "Заключение".
 """
 
@@ -21,22 +21,22 @@ from .._arrays import ArrayLike, Floats, Ints, frozen
 from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
-# So that no call takes more than some seconds:
+# These limits keep every call below a few seconds:
 MOST = 1_000  # objects
-PLACES = 500  # of a window
+PLACES = 500  # places in a window
 ARMS = 100
 
 
 def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Floats:
-    """How far before the first window `count` objects lie, (count,) in m, rising.
+    """The distances of `count` objects from the first window, (count,) in m, increasing.
 
-    The gaps before the objects go in equal steps from gap (1 - spread) to gap (1 + spread), each
-    once, and are shuffled; `seed` says how. So `spread` is a share of the mean gap, from 0, evenly
-    spaced, to 1, gaps between none and twice the mean; the mean is `gap` exactly, and the standard
-    deviation spread / sqrt(3) of it (times sqrt((count + 1) / (count - 1))). One seed gives one
-    order of the gaps for every spread, so that curves over `spread` compare like with like.
+    The gaps before the objects are equally spaced values from gap (1 - spread) to gap (1 + spread),
+    shuffled with `seed`. So `spread` is a fraction of the mean gap: 0 gives even spacing, 1 gives
+    gaps between zero and twice the mean. The mean is exactly `gap`, and the standard deviation is
+    gap * spread / sqrt(3) (times sqrt((count + 1) / (count - 1))). A seed gives the same order of
+    the gaps for every spread, so that points of a curve over `spread` are comparable.
 
-    ValueError: a spread that is not from 0 to 1.
+    ValueError: a spread outside 0 to 1.
     """
     count = whole(count, "count", 1, MOST)
     mean = length(gap, "gap")
@@ -51,13 +51,13 @@ def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Flo
 
 @dataclass(frozen=True, eq=False)
 class Trips:
-    """What one arm does, trip after trip; k trips, times in s on the clock of the belt.
+    """The k trips of one arm, with times in s on the clock of the belt.
 
-    objects  (k,) which objects it takes: their numbers in `offsets`
-    places   (k,) where it meets them: their numbers in the arm's window
-    leaves   (k,) when it leaves its bin: so that it is at the place when the object is
-    meets    (k,) when it takes the object
-    backs    (k,) when it is back at its bin, and its own clock lets it go again
+    objects  (k,) the indices in `offsets` of the objects that it picks
+    places   (k,) the indices in the arm's window of the places where it picks them
+    leaves   (k,) when it leaves its bin, to be at the place together with the object
+    meets    (k,) when it picks the object
+    backs    (k,) when it is back at its bin and free again
     """
 
     objects: Ints
@@ -79,18 +79,18 @@ def serve(
 ) -> tuple[Trips, ...]:
     """The trips of each arm along the belt.
 
-    offsets     (n,) in m, rising: how far before the first arm's window the objects lie at time 0
+    offsets     (n,) in m, increasing: distances before the first arm's window at time 0
     v           speed of the belt, m/s
-    window      (m,) in m, rising: the places along y where the first arm can meet an object
-    ways        (m,) in s: how long the arm's way from its bin to each of them takes, and back again
-    arms        how many stand along the belt, `pitch` metres apart, equal to the first
-    pitch       at least the length of the window (None: that), so that no two windows overlap
-    first_come  the rule. A free arm takes the object with which it is back soonest, or, if
-                `first_come`, the first on the belt that it can still meet. It meets an object at
-                the first place where it can be in time.
+    window      (m,) in m, increasing: the places along y where the first arm can pick an object
+    ways        (m,) in s: the time from the arm's bin to each of them, and back again
+    arms        the number of equal arms along the belt, `pitch` metres apart
+    pitch       at least the window's length (the default), so that no two windows overlap
+    first_come  the rule. A free arm picks the object with which it is back soonest, or, with
+                `first_come`, the first object on the belt that it can still reach. It picks an
+                object at the first place where it can be in time.
 
-    The rules are greedy: they need not take as many objects as can be taken. The arm stands still
-    while it grips, and that takes no time. ValueError: wrong shapes, numbers that do not rise.
+    Both rules are greedy and may pick fewer objects than possible. The arm stands still while it
+    grips, which takes no time. ValueError: wrong shapes, numbers that do not increase.
     """
     reach = _rising(offsets, "offsets", MOST)
     speed = positive(v, "v", "one positive speed in m/s")
@@ -123,14 +123,14 @@ def serve(
 def _trips(arrivals: Floats, delays: Floats, ways: Floats, first_come: bool) -> Trips:
     """The trips of one arm.
 
-    arrivals  (n,) when the objects come to its window;  delays  (m,) how much later they are at
-    each place
+    arrivals  (n,) when the objects reach its window
+    delays    (m,) how much later they are at each place
     """
     free, trips, left = 0.0, [], np.ones(len(arrivals), dtype=bool)
-    slack = (delays - ways).max()  # an object can be met if free <= arrival + slack
+    slack = (delays - ways).max()  # an object can be picked if free <= arrival + slack
     while True:
-        # Those before `low` are past. Those behind the first that comes to the window no sooner
-        # than the arm can be there are met at its first place too, only later.
+        # Objects before `low` have passed. Behind the first object that reaches the window no
+        # sooner than the arm does, all others are picked at the first place too, only later.
         low = np.searchsorted(arrivals, free - slack - 1e-9)  # s, more than rounding
         high = np.searchsorted(arrivals, free + ways[0]) + 1
         found = low + np.flatnonzero(left[low:high])

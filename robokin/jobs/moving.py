@@ -1,8 +1,9 @@
-"""The three-lever arm past an obstacle that moves along a line while the arm does.
+"""Plans for the three-lever arm past an obstacle that moves along a line at the same time.
 
-What `plan` of `robokin.jobs.obstacles` promises of a place holds here of a place and a time: the
-obstacle is at H + v t, the arm in its posture at t, and between two postures all joints turn
-evenly. The bound that proves a distance grows by what the obstacle moves meanwhile.
+`plan` in `robokin.jobs.obstacles` keeps a clearance at every place; here the same holds at every
+place and time. The obstacle is at H + v t, the arm is in its posture at t, and between two postures
+all joints turn at constant speed. The bound that proves a clearance grows by the distance that the
+obstacle moves in the meantime.
 """
 
 from typing import TypeAlias
@@ -32,9 +33,9 @@ from .obstacles.posture_grid import (
     way_back,
 )
 
-Found: TypeAlias = tuple[str, str, Floats, Floats]  # the plan's way, words and path; its times
+Found: TypeAlias = tuple[str, str, Floats, Floats]  # the way, words and path of a plan; its times
 
-TICKS = 120  # of STEP each: how far ahead is looked
+TICKS = 120  # ticks of STEP each: how far the search looks ahead
 
 
 def plan_moving(
@@ -46,19 +47,19 @@ def plan_moving(
     speed: float,
     distance: float | None = None,
 ) -> tuple[Plan, Floats]:
-    """From the posture (3,) to the target, past an obstacle that is at `obstacle` (2,) now and
+    """Plan from the posture (3,) to the target, past an obstacle that is at `obstacle` (2,) now and
     moves with the constant `velocity` (2,) in metres per second.
 
-    Returns (plan, times): the plan's path (k, 3), and when the arm is in each of its postures (k,),
-    in seconds from now. Tried in this order, by rising movement: "direct"; "wait" in the start
-    posture, no longer than needed, and then directly; "search". All levers keep `distance` (metres;
-    L/7 unless given) from the obstacle until the arm arrives; what comes then is another task.
-    `speed`, in radians per second, is what the joints turn together at most, so that a way takes
-    S / speed at least.
+    Returns (plan, times): the plan with its path (k, 3), and the time of each posture (k,), in
+    seconds from now. It tries in this order, by increasing movement: "direct"; "wait" in the start
+    posture, no longer than necessary, and then go directly; "search". All levers keep `distance`
+    (metres; L/7 by default) from the obstacle until the arm arrives; later times belong to the next
+    task. `speed`, in radians per second, limits the sum of the joint speeds, so that a path takes
+    at least S / speed.
 
-    The search is that of `way_round` with the time beside the posture: what can be reached grows by
-    one step of one joint a tick, and shrinks to what is free at that tick. It looks `TICKS` ticks
-    ahead, of 5 degrees / speed each. ValueError: a posture outside the limits.
+    The search is that of `way_round` with time as a further dimension: at each tick the reachable
+    set grows by one step of one joint and shrinks to the postures that are free at that tick. It
+    looks `TICKS` ticks of 5 degrees / speed ahead. ValueError: a posture outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
@@ -94,7 +95,7 @@ def plan_moving(
 
 
 def _positions(H: Floats, v: Floats, begin: Floats, end: Floats) -> Floats:
-    """The obstacle at the begin (n,) and the end (n,) of motions: (2, 1, n, 2)."""
+    """The obstacle at the beginning (n,) and the end (n,) of motions: (2, 1, n, 2)."""
     return (H + np.stack([begin, end])[..., None] * v)[:, None]
 
 
@@ -108,7 +109,7 @@ def _wait(
     v: Floats,
     distance: float,
 ) -> Found | None:
-    """The direct motion after the fewest ticks of waiting; None if it is never free."""
+    """The direct motion after the shortest wait in ticks; None if it is never free."""
     still = motions_keep(
         arm, np.tile(start, (TICKS, 1)), start, _positions(H, v, ticks[:-1], ticks[1:]), distance
     )
@@ -136,12 +137,12 @@ def _search(
     v: Floats,
     distance: float,
 ) -> Found | None:
-    """A way through the grid of postures, the first that is found; None if there is none."""
+    """The first path through the grid of postures that is found; None if there is none."""
     goals = target_curve(arm, K1)
     axes, start = grid_axes(arm, q0)
     size = [len(axis) for axis in axes]
     for margin in MARGINS:
-        steps = [at_start(size, start)]  # all ticks' are kept: 2 bytes for each posture
+        steps = [at_start(size, start)]  # the steps of all ticks are kept, 2 bytes for each posture
         for tick in range(1, len(ticks)):
             room = grid_room(arm, axes, (H + ticks[tick] * v)[None])
             steps.append(spread(steps[-1], blocked(room >= distance + margin * arm.lever, size)))

@@ -1,10 +1,10 @@
-"""Ways to choose the posture of an arm with one joint too many: the methods that source 003 tells
-of in part I, and a race of all of them against its own, the least movement.
+"""Methods that choose the posture of a redundant arm: those that source 003 describes in part I,
+and a race of all of them against its own, the least movement.
 
-Each method takes an arm of three levers, targets (..., 2) in metres and the postures (..., 3)
-before, and answers with postures (..., 3) at the targets, in radians: NaN where it fails, that is,
-does not arrive within the limits of 0 to 180 degrees. How the gripper gets there is not part of the
-answer: from the posture before to that at the target all joints turn evenly.
+Each method takes an arm of three levers, targets (..., 2) in metres and the previous postures (...,
+3), and returns postures (..., 3) at the targets, in radians. A row is NaN if the method fails, that
+is, does not arrive within the limits of 0 to 180 degrees. The path of the gripper is not part of
+the answer: from the previous posture to the new one all joints turn at constant speed.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,24 +21,24 @@ from .obstacles import distances
 
 Method: TypeAlias = Callable[[ThreeLeverArm, ArrayLike, ArrayLike], Floats]
 
-STRIDE = 0.1  # of a lever's length: the gripper's greatest step
-TURN = 10 * deg  # the greatest turn of a joint in one step
-STEPS = 200  # what has not arrived then, does not
+STRIDE = 0.1  # lever lengths: the gripper's greatest step
+TURN = 10 * deg  # a joint's greatest turn in one step
+STEPS = 200  # a motion that has not arrived by then has failed
 ARRIVED = 1e-9  # of a lever's length
-FLAT = 1e-4  # of a lever's length; it damps pseudo-inverses: a stretched arm is no division by 0
-NEAR = 0.5  # of a lever's length: an obstacle farther away than this stops no joint
-PULL = 0.1  # of the way to the middle of the limits, in one step
+FLAT = 1e-4  # lever lengths; damps pseudo-inverses, so that a stretched arm causes no division by 0
+NEAR = 0.5  # lever lengths: an obstacle farther away than this stops no joint
+PULL = 0.1  # fraction of the way to the middle of the limits in one step
 SLACK = 1e-9  # rad; past a limit by no more than this is rounding
-SAME = 1e-12  # of a lever's length; distances that differ by less are the same distance
+SAME = 1e-12  # lever lengths; distances that differ by less count as equal
 
 
 class RaceResult(NamedTuple):
-    """What a method made of n targets, one after the other.
+    """The result of a method for n consecutive targets.
 
-    postures  (n, 3); NaN where the arm cannot reach the target, and stayed
-    turns     (n,) the sum of the changes of all angles in radians
-    failed    (n,) bool: the method failed, and the least movement did the task in its place
-    seconds   the method's own time for one target, the mean
+    postures  (n, 3); NaN where the arm cannot reach the target and stays
+    turns     (n,) the sum of the absolute angle changes in radians
+    failed    (n,) bool: the method failed, and the least movement did the task instead
+    seconds   the method's mean computing time per target
     """
 
     postures: Floats
@@ -50,9 +50,9 @@ class RaceResult(NamedTuple):
 def race(
     methods: Mapping[str, Method], arm: ThreeLeverArm, targets: ArrayLike, start: ArrayLike
 ) -> dict[str, RaceResult]:
-    """Every method on the same targets (n, 2) in the same order, each task from the posture in
-    which the last one ended, the first from `start` (3,). So that the sums of turns can be
-    compared, what a method does not reach is reached by the least movement. dict of name ->
+    """Run every method on the same targets (n, 2) in the same order, each task from the posture in
+    which the previous one ended, the first from `start` (3,). If a method fails, the least movement
+    reaches the target instead, so that the sums of turns are comparable. dict of name ->
     `RaceResult`.
     """
     instance(arm, ThreeLeverArm, "arm")
@@ -62,7 +62,7 @@ def race(
         raise ValueError(f"targets and start: wanted shapes (n, 2) and (3,), got {got}")
     if not isinstance(methods, Mapping) or not all(map(callable, methods.values())):
         raise ValueError(f"methods: wanted names and functions, got {short(methods)}")
-    if len(set(map(id, methods.values()))) < len(methods):  # its dice would go on, not begin anew
+    if len(set(map(id, methods.values()))) < len(methods):  # shared random numbers
         raise ValueError(f"methods: wanted each function once, got {short(methods)}")
     runs = {}
     for name, method in methods.items():
@@ -81,8 +81,8 @@ def race(
 
 
 def methods(obstacle: ArrayLike, seed: int) -> dict[str, Method]:
-    """All of them for `race`, by name: the distance rule with this obstacle (2,), the random choice
-    with dice of this seed.
+    """All methods for `race`, by name: the distance rule with this obstacle (2,), the random choice
+    with this seed.
     """
     return {
         "least movement": least_movement,
@@ -98,27 +98,27 @@ def methods(obstacle: ArrayLike, seed: int) -> dict[str, Method]:
 
 
 def least_movement(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """The posture with the smallest sum of the angles' changes: `ThreeLeverArm.least`, as a method
-    of this module. Source: 003, III.4.1.
+    """The posture with the smallest sum of absolute angle changes: `ThreeLeverArm.least` as a
+    method of this module. Source: 003, III.4.1.
     """
     target, previous = _asked(arm, target, previous)
     return arm.least(target, previous)[0]
 
 
 def pseudo_inverse(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """The gripper goes straight to the target by small steps e, the joints by dq = J+ e: of all
-    that make the step, the dq with the smallest sum of squares. It knows no limits: a joint stops
-    where its own is, and the others may get stuck. Source: 003, I.2.1; Siciliano et al., Robotics,
-    2009, section 3.5.1.
+    """The gripper goes straight to the target in small steps e, the joints move by dq = J+ e: of
+    all dq that make the step, the one with the smallest sum of squares. The method ignores limits:
+    a joint stops at its limit, and the others may get stuck. Source: 003, I.2.1; Siciliano et al.,
+    Robotics, 2009, section 3.5.1.
     """
     target, previous = _asked(arm, target, previous)
     return _go(arm, target, previous, lambda q, J, e: _times(_inverse(arm, J), e))
 
 
 def gradient_projection(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """As `pseudo_inverse`, and besides a motion that leaves the gripper where it is, dq = J+ e +
-    (1 - J+ J) g: of the gradient g of a wish, the part in the null space of J. The wish is to be in
-    the middle of the limits. Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
+    """As `pseudo_inverse`, plus a motion that does not move the gripper, dq = J+ e + (1 - J+ J) g:
+    the part in the null space of J of the gradient g of a secondary objective. The objective is to
+    stay in the middle of the limits. Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
     """
     target, previous = _asked(arm, target, previous)
     middle = arm.limits.mean(axis=-1)
@@ -132,9 +132,9 @@ def gradient_projection(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLi
 
 
 def equal_angles(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """beta = alpha: the levers bend alike at both joints, and the distance KO says how much. With
-    u = -cos(alpha), 4 OB AK u^2 + 2 BA (OB + AK) u + BA^2 + (OB - AK)^2 = KO^2. The posture before
-    does not count. Source: 003, I.2.1 (S. Yahya).
+    """beta = alpha: the levers bend equally at both joints, and the distance KO determines the
+    angle. With u = -cos(alpha), 4 OB AK u^2 + 2 BA (OB + AK) u + BA^2 + (OB - AK)^2 = KO^2. The
+    previous posture does not matter. Source: 003, I.2.1 (S. Yahya).
     """
     target, previous = _asked(arm, target, previous)
     a, b, c = arm.levers
@@ -146,8 +146,8 @@ def equal_angles(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> 
 
 
 def random_choice(seed: int) -> Method:
-    """A method that takes any posture of the family, all alphas alike, by dice of this seed.
-    Source: 003, I.4 (Xi Lei-ping), where one of those that pass the obstacle is taken.
+    """Return a method that takes a random posture of the family, uniform in alpha, with this seed.
+    Source: 003, I.4 (Xi Lei-ping), where the posture is chosen among those that avoid the obstacle.
     """
     dice = np.random.default_rng(whole(seed, "seed", 0))
 
@@ -160,16 +160,16 @@ def random_choice(seed: int) -> Method:
 
 
 def distance_rule(obstacle: ArrayLike) -> Method:
-    """A method that minds an obstacle (2,). As `pseudo_inverse`; but of the levers within half a
-    length of the obstacle that come nearer to it, the nearest one stops: its joint stands still in
-    that step, or turns away if it is nearer than L/7, and the other two take the gripper on.
-    Source: 003, I.4 (M. Benzaoui), told there in words and without a length: where every lever
-    stops, however far, more tasks fail.
+    """Return a method that avoids an obstacle (2,). It works like `pseudo_inverse`, but of the
+    levers within half a length of the obstacle that approach it, the nearest one stops: its joint
+    does not move in that step, or turns away if the lever is nearer than L/7, and the other two
+    move the gripper. Source: 003, I.4 (M. Benzaoui), which describes it in words and gives no
+    length: if every lever stops at any distance, more tasks fail.
 
     Two levers are equally near whenever the nearest place is the joint between them. Then the one
-    nearer to the base stops: its joint moves that place, and the other's joint, which lies in it,
-    does not. What differs by less than 1e-12 of a length is equal here, so that the last bit of a
-    platform decides nothing.
+    nearer to the base stops, since its joint moves that place and the other joint does not.
+    Distances that differ by less than 1e-12 of a length count as equal, so that the result does not
+    depend on the platform's rounding.
     """
     H = floats(obstacle, "obstacle", 2)
 
@@ -199,8 +199,8 @@ def distance_rule(obstacle: ArrayLike) -> Method:
 
 
 def _asked(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> tuple[Floats, Floats]:
-    """Targets (..., 2) and postures (..., 3) of one batch. A place twice as far away as the arm
-    reaches stands for all beyond.
+    """Return targets (..., 2) and postures (..., 3) with one batch shape. Targets farther than
+    twice the arm's reach are moved to that distance.
     """
     instance(arm, ThreeLeverArm, "arm")
     target, previous = floats(target, "target", 2), floats(previous, "previous", 3)
@@ -216,14 +216,14 @@ def _go(
     previous: Floats,
     step: Callable[[Floats, Floats, Floats], Floats],
 ) -> Floats:
-    """Step by step to the target: `step(q, J, e)` makes the joints' step of the gripper's. A joint
-    stops at its limits.
+    """Go to the target step by step: `step(q, J, e)` turns the gripper's step into the joints'
+    step. A joint stops at its limits.
     """
     q = previous
     for _ in range(STEPS):
         points = arm.points(q)
         K = points[..., 3, :]
-        arms = K[..., None, :] - points[..., :3, :]  # from each joint to the gripper
+        arms = K[..., None, :] - points[..., :3, :]  # vectors from each joint to the gripper
         e = target - K
         far = np.linalg.norm(e, axis=-1, keepdims=True)
         if (far <= ARRIVED * arm.lever).all():
@@ -235,19 +235,19 @@ def _go(
 
 
 def _bounded(dq: Floats) -> Floats:
-    """The same step of the joints (..., 3), shortened where one of them would turn too far."""
+    """The step of the joints (..., 3), shortened if one of them would turn too far."""
     bounded: Floats = dq * (TURN / np.maximum(abs(dq).max(axis=-1, keepdims=True), TURN))
     return bounded
 
 
 def _haste(arm: ThreeLeverArm, e: Floats) -> Floats:
-    """1 on the way, less and less near the target: what is done besides must come to rest there."""
+    """1 on the way, falling to 0 near the target, where secondary motions must come to rest."""
     haste: Floats = np.linalg.norm(e, axis=-1, keepdims=True) / (STRIDE * arm.lever)
     return haste
 
 
 def _kept(arm: ThreeLeverArm, q: Floats, target: Floats) -> Floats:
-    """The postures that are at the target and within the limits; NaN for the others."""
+    """The postures that are at the target and within the limits; the others become NaN."""
     with np.errstate(invalid="ignore"):
         inside = ((q >= arm.limits[:, 0] - SLACK) & (q <= arm.limits[:, 1] + SLACK)).all(axis=-1)
         off = np.linalg.norm(arm.points(q)[..., 3, :] - target, axis=-1)

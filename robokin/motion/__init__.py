@@ -1,4 +1,4 @@
-"""Motions: time laws, paths, their derivatives, and recordings of them."""
+"""Motions: time laws, paths, derivatives and recordings."""
 
 from .derivatives import differentiate
 from .laws import TimeLaw, linear, quintic, trapezoidal

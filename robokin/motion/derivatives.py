@@ -5,17 +5,18 @@ import numpy as np
 from .._arrays import ArrayLike, Floats
 from .._validate import floats, short, whole
 
-ORDERS = 10  # each order divides the rounding errors by the step once more
+ORDERS = 10  # each order divides the rounding errors by the step again
 
 
 def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
     """The derivative of samples by central differences, one-sided at both ends (`numpy.gradient`,
     second order).
 
-    values (samples,) or (..., samples, n), t (samples,) in seconds, rising; the result has the
-    shape of `values`. `order` 2 differentiates twice, and so on up to 10. It takes what it gets:
-    give it unwrapped angles (`follow` does). A NaN spreads to its neighbours. ValueError: fewer
-    than three samples, shapes that do not fit, times that do not rise, slopes beyond all numbers.
+    values (samples,) or (..., samples, n); t (samples,) in seconds, strictly increasing. The result
+    has the shape of `values`. `order` 2 differentiates twice, and so on up to 10. Angles are not
+    unwrapped here: pass unwrapped ones (`follow` returns such). A NaN spreads to its neighbours.
+    ValueError: fewer than three samples, shapes that do not match, times that do not increase,
+    slopes that overflow.
 
     >>> t = np.array([0, 0.1, 0.2, 0.3])
     >>> differentiate(5 * t**2, t).round(3), differentiate(5 * t**2, t, 2).round(3)
@@ -38,7 +39,7 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
         missing = np.isnan(values)
         known = np.isfinite(slopes)
         if missing.any():
-            slopes[missing] = np.nan  # a missing sample has no slope, though its neighbours have
+            slopes[missing] = np.nan  # even if its neighbours have a slope
             known = ~np.isinf(slopes)
         if not known.all():
             raise ValueError("values and t: wanted slopes that are numbers, got infinite ones")
@@ -47,8 +48,8 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
 
 
 def rising(t: ArrayLike, least: int = 3) -> Floats:
-    """`t` as an array of at least so many times, each after the one before; ValueError
-    otherwise.
+    """Return `t` as an array of at least `least` strictly increasing times. ValueError: it is not
+    one.
     """
     t = floats(t, "t")
     if t.ndim != 1 or len(t) < least:

@@ -1,4 +1,4 @@
-"""Time laws: how far along its path a motion is at time t. `law(t)` gives s in [0, 1]."""
+"""Time laws: how far a motion is along its path at time t. `law(t)` returns s in [0, 1]."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ class TimeLaw(Sealed):
     """s(t) over `duration` seconds: 0 before the motion, 1 after it.
 
     `progress` maps t / duration, an array of numbers in [0, 1], to s of the same shape. A law can
-    be pickled if its `progress` can (a function of a module can, a lambda cannot). TypeError:
-    `progress` cannot be called.
+    be pickled if its `progress` can (a module-level function can, a lambda cannot). TypeError:
+    `progress` is not callable.
     """
 
     duration: float
@@ -31,8 +31,8 @@ class TimeLaw(Sealed):
         vars(self)["duration"] = duration
 
     def __call__(self, t: ArrayLike) -> Floats:
-        """s at the times t (...) in seconds. ValueError: no times, not finite; a `progress` that
-        gives other shapes or no numbers.
+        """s at the times t (...) in seconds. ValueError: no times, or times that are not finite; a
+        `progress` that returns another shape or no numbers.
         """
         t = floats(t, "t")
         if not t.size:
@@ -42,7 +42,7 @@ class TimeLaw(Sealed):
         )
         if s.shape != t.shape:
             raise ValueError(f"progress: wanted s of shape {t.shape}, got shape {s.shape}")
-        return np.minimum(np.maximum(s, 0.0), 1.0)  # a polynomial near 1 rounds beyond it
+        return np.minimum(np.maximum(s, 0.0), 1.0)  # a polynomial near 1 may round to more than 1
 
 
 def linear(duration: float) -> TimeLaw:
@@ -51,9 +51,9 @@ def linear(duration: float) -> TimeLaw:
 
 
 def trapezoidal(duration: float, ramp: float = 0.25) -> TimeLaw:
-    """Constant acceleration, constant speed, constant braking; each ramp takes the share `ramp` of
-    the duration, above 0 and at most 0.5. The acceleration jumps. Source: Siciliano et al.,
-    Robotics, 2009, section 4.2.1.
+    """Constant acceleration, constant speed, constant deceleration. Each ramp takes the fraction
+    `ramp` of the duration, above 0 and at most 0.5. The acceleration jumps. Source: Siciliano et
+    al., Robotics, 2009, section 4.2.1.
     """
     share = positive(ramp, "ramp", RAMP)
     if share > 0.5:
@@ -72,7 +72,7 @@ def quintic(duration: float) -> TimeLaw:
     return TimeLaw(duration, _quintic)
 
 
-# Functions of the module and not of their builders, so that a law can be pickled.
+# These are module-level functions, so that a law can be pickled.
 
 
 def _linear(x: Floats) -> Floats:
@@ -80,8 +80,8 @@ def _linear(x: Floats) -> Floats:
 
 
 def _trapezoidal(ramp: float, x: Floats) -> Floats:
-    peak = 1 / (1 - ramp)  # the cruising speed, so that the area is 1
-    left = np.minimum(x, 1 - x)  # to the nearer end: the two halves are alike
+    peak = 1 / (1 - ramp)  # the speed between the ramps, for an area of 1
+    left = np.minimum(x, 1 - x)  # time to the nearer end: the two halves are symmetric
     on_ramp = np.minimum(left, ramp)
     s: Floats = peak * (on_ramp * on_ramp / (2 * ramp) + (left - on_ramp))
     return np.where(x > 0.5, 1 - s, s)

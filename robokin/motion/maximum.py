@@ -1,4 +1,4 @@
-"""The greatest value of a quantity over time, where the function behind it is known."""
+"""The greatest value of a quantity over time when its function is known."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -8,13 +8,13 @@ import numpy as np
 from .._arrays import Floats
 from .._validate import floats, number, short, whole
 
-STEPS = 64  # between the samples of a stretch
-DIGITS = 12  # behind the point; a float has few more
-MOST = 200  # stretches that are looked at
+STEPS = 64  # steps between the samples of an interval
+DIGITS = 12  # decimals; a float has only a few more
+MOST = 200  # intervals that are sampled
 
 
 class Maximum(NamedTuple):
-    """A greatest value, and where it is."""
+    """The greatest value, and its place."""
 
     value: float
     at: float
@@ -23,17 +23,18 @@ class Maximum(NamedTuple):
 def refined_maximum(
     function: Callable[[Floats], Floats], low: float, high: float, decimals: int
 ) -> Maximum:
-    """The greatest value between `low` and `high`, to be shown with `decimals`: two more stand.
+    """The greatest value between `low` and `high`, accurate to two more decimals than the
+    `decimals` to be shown.
 
-    The stretch is sampled in 64 steps; so is the stretch round each sample that stands above its
-    neighbours, if it would be the greatest when raised by as much again; and so on, until none
-    would change the greatest by half a unit of the second decimal behind those shown. A concave
-    peak rises above its greatest sample by no more than that. A peak between two samples that
-    neither of them tells of, narrower than a 64th, is not seen.
+    We sample the interval in 64 steps. Around each sample that exceeds its neighbours, and would be
+    the greatest if its excess were doubled, we sample again, and so on, until no such doubling
+    could change the maximum by half a unit of the second decimal beyond those shown. A concave peak
+    exceeds its greatest sample by no more than that. A peak narrower than 1/64 of the interval that
+    no sample shows is missed.
 
-    `function` maps an array (k,) to an array (k,); NaN where it has no value. The lowest is that of
-    the function's negative. TypeError: no function. ValueError: no finite range, other shapes, no
-    value at all, or one that does not stand: beside a pole, say.
+    `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
+    the function. TypeError: `function` is not callable. ValueError: a range that is not finite,
+    another shape, no value at all, or a maximum that does not converge, for example beside a pole.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
     >>> round(value, 5), round(at, 2)

@@ -1,7 +1,7 @@
-"""Paths: where a motion is at s in [0, 1].
+"""Paths: the pose or posture of a motion at s in [0, 1].
 
-`lin`, `lin_lin` and `blend` move anything that has `lerp(goal, s)`: a Transform, for instance.
-`ptp` moves joints.
+`lin`, `lin_lin` and `blend` work on any value with `lerp(goal, s)`, for example a Transform. `ptp`
+moves joints.
 """
 
 from typing import Protocol, Self, TypeVar
@@ -15,10 +15,11 @@ CORNERS = ("parabola", "quintic")
 
 
 class Lerps(Protocol):
-    """A place on the way to another one of its kind: what a path leads through."""
+    """A value that can be interpolated towards another one of its type."""
 
     def lerp(self, goal: Self, s: ArrayLike) -> Self:
-        """Here for s = 0, at `goal` for s = 1, between them on the straight way."""
+        """Interpolate: this value for s = 0, `goal` for s = 1, on the straight line between
+        them."""
 
 
 P = TypeVar("P", bound=Lerps)
@@ -28,7 +29,7 @@ def lin(start: P, goal: P, s: ArrayLike) -> P:
     """The straight motion (LIN, MoveL) from `start` to `goal`, at s (...) in [0, 1].
 
     Source: 001, listing 7. ValueError: s outside [0, 1]. TypeError: values without `lerp`, or of
-    two kinds.
+    two types.
 
     >>> start, goal = Transform(translation=(0.4, 0, 0.5)), Transform(translation=(0.4, 0.2, 0.5))
     >>> lin(start, goal, [0, 0.25, 1]).translation
@@ -40,13 +41,13 @@ def lin(start: P, goal: P, s: ArrayLike) -> P:
 
 
 def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
-    """The point-to-point motion (PTP, MoveJ): all joints straight from q0 (..., n) to q1 (..., n),
-    at s (...).
+    """The point-to-point motion (PTP, MoveJ): all joints move linearly from q0 (..., n) to q1 (...,
+    n), at s (...).
 
-    Returns (..., n). Joint values are taken as they are: to turn the short way, choose q1 with
-    `nearest`. Source: 001, listing 8; 000, the motion along a straight line in the space Q. A
-    UserWarning where a joint stands beyond two turns: degrees were likely meant. ValueError: s
-    outside [0, 1], shapes that do not fit.
+    Returns (..., n). Joint values are not wrapped: to turn the short way, choose q1 with `nearest`.
+    Source: 001, listing 8; 000, the motion along a straight line in the space Q. A UserWarning if a
+    joint is beyond two turns: the angles are probably in degrees. ValueError: s outside [0, 1],
+    shapes that do not match.
     """
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
@@ -60,9 +61,9 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
 
 
 def lin_lin(start: P, via: P, goal: P, s: ArrayLike) -> P:
-    """Two straight motions in a chain: at `via` for s = 1/2, where the velocity jumps.
+    """Two consecutive straight motions. At s = 1/2 the path is at `via`, where the velocity jumps.
 
-    Source: 001, listing 11. Raises as `lin`.
+    Source: 001, listing 11. It raises what `lin` raises.
     """
     return blend(start, via, goal, 0.0, s)
 
@@ -70,7 +71,7 @@ def lin_lin(start: P, via: P, goal: P, s: ArrayLike) -> P:
 def blend(
     start: P, via: P, goal: P, fraction: ArrayLike, s: ArrayLike, corner: str = "parabola"
 ) -> P:
-    """Two straight motions whose corner is rounded while |s - 1/2| < `fraction`, at s (...).
+    """Two straight motions with a corner that is rounded for |s - 1/2| < `fraction`, at s (...).
 
     fraction  the blend (zone), in [0, 0.5], a number or an array broadcast with s; 0 is `lin_lin`
     corner    "parabola": a quadratic Bezier curve from the first line to the second with `via` as
@@ -79,10 +80,10 @@ def blend(
               "quintic": a Bezier curve of degree 5 with control poses 0, 0.4 and 0.8 of the way to
               `via` from both ends; the acceleration is continuous too (C2). It passes at 3/8 of
               that distance, 3/4 of the parabola's.
-    Source: 001, listing 12 (parabola), with errata S1-j: beyond 0.5 the printed law leaves both end
-    poses.
-    ValueError: a fraction outside [0, 0.5], s outside [0, 1], another corner. TypeError: values
-    without `lerp`, or of several kinds.
+    Source: 001, listing 12 (parabola), with errata S1-j: for a fraction above 0.5 the printed law
+    misses both end poses.
+    ValueError: a fraction outside [0, 0.5], s outside [0, 1], an unknown corner. TypeError: values
+    without `lerp`, or of several types.
     """
     s, b = _share(s), floats(fraction, "fraction")
     if ((b < 0) | (b > 0.5)).any():
@@ -90,9 +91,10 @@ def blend(
         raise ValueError(f"fraction: wanted a blend in [0, 0.5], got {bad:g}")
     choice(corner, "corner", CORNERS)
     broadcast("fraction and s", b.shape, s.shape)
-    # x runs from 0 to 1 across the corner and stands still outside: there the curve is at its first
-    # or last control pose, and these run along the two lines. So one formula serves the whole path.
-    with np.errstate(over="ignore"):  # of a corner so short that it is passed in no time
+    # x runs from 0 to 1 across the corner and is constant outside it. There the curve is at its
+    # first or last control pose, which moves along one of the two lines, so one formula covers the
+    # whole path.
+    with np.errstate(over="ignore"):  # from a corner so short that it takes no time
         across = (s - 0.5 + b) / np.where(b > 0, 2 * b, 1)
     x = np.where(b > 0, np.clip(across, 0, 1), s >= 0.5)
     first = _pose(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
@@ -108,7 +110,7 @@ def blend(
             last.lerp(via, 0.4),
             last,
         ]
-    while len(poses) > 1:  # de Casteljau: between neighbours, again and again, until one is left
+    while len(poses) > 1:  # de Casteljau: interpolate between neighbours
         poses = [a.lerp(c, x) for a, c in zip(poses, poses[1:], strict=False)]
     return poses[0]
 

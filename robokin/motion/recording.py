@@ -1,8 +1,10 @@
-"""One recording of a motion: what is known of it, worked out once, for all who draw or judge it.
+"""The recording of a motion: its derivatives, jumps and limits, computed once for all code that
+draws or checks it.
 
-Differences across a jump say nothing about the motion: a corner's "acceleration" is the jump of the
-speed divided by the time step (errata S1-m), a wrapped angle's "speed" is 2 pi divided by it
-(S1-e). Here both are found and named, and no difference is taken across them.
+Differences across a jump say nothing about the motion: the "acceleration" at a corner is the jump
+of the speed divided by the time step (errata S1-m), and the "speed" of a wrapped angle is 2 pi
+divided by it (S1-e). This module finds and reports both kinds of jump, and takes no difference
+across them.
 """
 
 from collections.abc import Iterator
@@ -18,21 +20,21 @@ from ..arms.arm import Arm
 from ..arms.branches import SLACK
 from .derivatives import differentiate, rising
 
-LEAP = 0.002  # rad or m: less is never taken for a jump of position
-FEW = 8  # fewer changes of the speed do not tell what is noise
-# motion, first and last sample, time, values before and after (n,)
+LEAP = 0.002  # rad or m: a smaller change is never a jump of position
+FEW = 8  # with fewer changes of the speed the noise level is unknown
+# motion, first and last sample, time, values before and after, each (n,)
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
 
 @dataclass(frozen=True, eq=False)
 class Jump(Sealed):
-    """A place where joint values, or speeds, of one motion jump.
+    """A jump of the joint values, or of the speeds, of one motion.
 
-    motion         which motion of the batch, so that `recording.q[jump.motion]` is it; () if single
-    first, last    the jump lies between these two samples; at a sample if they are the same
-    time           of the jump, s: half-way between these two
-    before, after  (n,) the values on both sides of it, taken on from the samples beside it: rad and
-                   m, of speeds per second; equal for the joints that do not take part
+    motion         its index in the batch: `recording.q[jump.motion]` is the motion; () if single
+    first, last    the samples around the jump; equal if it is at a sample
+    time           of the jump in s: half-way between these samples
+    before, after  (n,) the values on both sides of it, extrapolated from the samples beside it: rad
+                   and m, for speeds per second; equal for the joints that do not jump
     """
 
     motion: tuple[int, ...]
@@ -44,13 +46,13 @@ class Jump(Sealed):
 
     @property
     def by(self) -> Floats:
-        """(n,) by how much each joint's value jumps; 0 for those that do not take part."""
+        """(n,) the size of each joint's jump; 0 for the joints that do not jump."""
         return self.after - self.before
 
 
 class Extreme(NamedTuple):
-    """The greatest (or lowest) value of each joint and its time in seconds, of the first such
-    sample: both (..., n). NaN for a joint without values.
+    """The greatest (or lowest) value of each joint and the time in seconds of the first sample with
+    it: both (..., n). NaN for a joint without values.
     """
 
     value: Floats
@@ -59,8 +61,8 @@ class Extreme(NamedTuple):
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class Recording(Sealed):
-    """Motions of one arm with n joints, N samples each; the leading axes are the batch. Made by
-    `record`.
+    """Motions of one arm with n joints and N samples each; the leading axes are the batch. `record`
+    makes it.
 
     t        (N,) seconds
     q, v, a  (..., N, n) joint values (rad; m if prismatic), speeds, accelerations. The whole q is
@@ -72,9 +74,9 @@ class Recording(Sealed):
     leaps    a `Jump` for each jump of position
     jumps    a `Jump` for each jump of speed
 
-    `recording[i]` is a part of the batch. All arrays are read-only. Who knows better speeds or
-    accelerations than differences give has them judged with `dataclasses.replace(recording, v=v)`.
-    TypeError, ValueError: parts of another kind or shape.
+    `recording[i]` is a part of the batch. All arrays are read-only. If you have more exact speeds
+    or accelerations than differences give, use `dataclasses.replace(recording, v=v)`. TypeError,
+    ValueError: parts of another type or shape.
     """
 
     arm: Arm
@@ -117,7 +119,7 @@ class Recording(Sealed):
                 raise ValueError(f"{name}: wanted shape {wanted}, got {array.shape}")
             if name in ("missing", "gaps"):
                 array = np.asarray(value, dtype=bool)
-            if array.flags.writeable:  # else nobody can change it, and it need not be copied
+            if array.flags.writeable:  # a read-only array needs no copy
                 array = frozen(array)
             vars(self)[name] = array
         for name, found in (("leaps", leaps), ("jumps", jumps)):
@@ -133,15 +135,15 @@ class Recording(Sealed):
     @cached_property
     def excess(self) -> Floats:
         """(..., N, n) how far each joint is past its limit, rad or m; 0 inside, NaN where missing.
-        As it stands: q + 2 pi k may be inside (`within` tells).
+        Angles are not wrapped: q + 2 pi k may be inside (`within` tells).
         """
         low, high = self.arm.limits.T
         return _excess(np.maximum(low - self.q, self.q - high))
 
     @cached_property
     def speed_excess(self) -> Floats:
-        """(..., N, n) by how much each joint is too fast, rad/s or m/s; 0 where it is not, or where
-        the arm has no speed limits; NaN where there is no speed.
+        """(..., N, n) by how much each joint exceeds its speed limit, rad/s or m/s; 0 where it does
+        not, or where the arm has no speed limits; NaN where there is no speed.
         """
         limits = self.arm.speed_limits
         return _excess(abs(self.v) - (np.inf if limits is None else limits))
@@ -159,12 +161,12 @@ class Recording(Sealed):
 
     @cached_property
     def greatest_speed(self) -> Extreme:
-        """Of all samples, either way, rad/s or m/s."""
+        """The greatest absolute speed over all samples, rad/s or m/s."""
         return _extreme(abs(self.v), self.t)
 
     @cached_property
     def greatest_acceleration(self) -> Extreme:
-        """Of all samples that have one, either way, rad/s² or m/s²."""
+        """The greatest absolute acceleration over all samples that have one, rad/s² or m/s²."""
         return _extreme(abs(self.a), self.t)
 
     def __len__(self) -> int:
@@ -198,29 +200,28 @@ class Recording(Sealed):
 
 
 def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
-    """What is known of the motion q (..., N, n) at the rising times t (N,), two or more: a
-    `Recording`.
+    """Return the `Recording` of the motion q (..., N, n) at two or more increasing times t (N,).
 
-    q is taken as it is: give it unwrapped angles (`follow` does). NaN is "no posture here". Speeds
-    and accelerations are those of `differentiate`, of each unbroken piece for itself. A UserWarning
-    where degrees were likely meant: a motion begins more than two turns away and outside its
-    limits, or passes eight. ValueError: shapes that do not fit, times that do not rise, infinite
-    numbers.
+    Pass unwrapped angles (`follow` returns such). NaN means that there is no posture. Speeds and
+    accelerations are those of `differentiate`, for each unbroken piece separately. A UserWarning if
+    the angles are probably in degrees: a motion begins more than two turns away and outside its
+    limits, or passes eight turns. ValueError: shapes that do not match, times that do not increase,
+    infinite numbers.
 
-    A joint's position jumps in a step, from one sample to the next, if it turns by more than pi
-    there, or if the step's speed lies outside the speeds of the steps beside it (at a corner it
-    lies between them): by more than 8 times as far as the three steps before and the three behind
-    lie apart. Where some of those are jumps themselves, the alike ones are enough if the step is 3
-    times as fast as those beside it; 10 times where only one side is known, at an end or beside a
-    gap. One sample that stands aside has a jump before and a jump behind it. Less than 2 mrad or
-    2 mm is no jump, nor is what noise does: 10 times the lower quartile of the motion's changes of
-    the speed.
+    A joint's position jumps between two samples if it turns by more than pi there, or if the speed
+    of this step lies outside the range of the three steps before and the three after it (at a
+    corner it lies between them) by more than 8 times the width of that range. Where some of these
+    steps are jumps themselves, the remaining similar ones are enough if the step is 3 times as fast
+    as they are; 10 times if only one side is known, at an end or beside a gap. A single outlying
+    sample has a jump before and a jump after it. A change below 2 mrad or 2 mm is not a jump, nor
+    is a change within the noise: 10 times the lower quartile of the motion's changes of speed.
 
-    Samples cannot tell a jump from a motion that takes less than two steps: as they fall, it counts
-    as the one or the other. Of the motions tried (point to point, flips, there and back, sines)
-    none that takes two steps between rest and rest, or five a period, counts as a jump. Two jumps
-    the same way, or three in any way, without another step between them, look like a quick motion;
-    and, if every other step of a motion jumps, all are taken for noise.
+    Samples cannot distinguish a jump from a motion that takes less than two steps: depending on
+    where the samples fall, it counts as one or the other. Of the motions that we tried (point to
+    point, flips, back and forth, sines), none that takes two steps from rest to rest, or five steps
+    per period, counts as a jump. Two jumps in the same direction, or three in any direction,
+    without another step between them look like a quick motion. If every other step of a motion
+    jumps, all of them count as noise.
 
     >>> t = np.linspace(0, 2, 201)
     >>> motion = record(SCARA, t, ptp([0, 0, 0, 0], [1, 1.5, 0, 0.1], quintic(2)(t)))
@@ -254,7 +255,7 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
 
 
 def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
-    """Which steps (C, N - 1, n) are jumps of position, as `record` says."""
+    """Which steps (C, N - 1, n) are jumps of position, by the rule of `record`."""
     duration = np.diff(t)[:, None]
     least = LEAP / duration
     with np.errstate(invalid="ignore", over="ignore"):
@@ -272,8 +273,8 @@ def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
 
 
 def _lonely(speeds: Floats, least: Floats) -> Bools:
-    """Which speeds (C, N - 1, n) lie more than `least` (N - 1, 1) outside of those beside them; so
-    do those before and after one sample that stands aside.
+    """Which speeds (C, N - 1, n) are outside the range of their neighbours by more than `least` (N
+    - 1, 1), as the speeds before and after a single outlying sample are.
     """
     found: Bools = _outside(speeds, 1, 1) > least
     before = (_outside(speeds, 1, 2) > least) & (speeds * _shifted(speeds, 1) < 0)
@@ -284,8 +285,8 @@ def _lonely(speeds: Floats, least: Floats) -> Bools:
 
 
 def _outside(speeds: Floats, left: int, right: int) -> Floats:
-    """How far each speed (C, N - 1, n) lies outside of those `left` before and `right` after it; 0
-    where that may be a quick motion.
+    """How far each speed (C, N - 1, n) is outside the range of the `left` speeds before and the
+    `right` speeds after it; 0 where it may be a quick motion.
     """
     sides = _shifted(speeds, -left), _shifted(speeds, right)
     low, high = np.fmin(*sides), np.fmax(*sides)
@@ -302,7 +303,7 @@ def _outside(speeds: Floats, left: int, right: int) -> Floats:
 
 
 def _leaps(q: Floats, t: Floats, speeds: Floats, parts: Bools) -> list[Found]:
-    """The jumps of position, in the middle between two samples: both sides go on to there."""
+    """The jumps of position, half-way between two samples: both sides are extrapolated to there."""
     c, i = np.nonzero(parts.any(axis=-1))
     half, count = (t[i + 1] - t[i])[:, None] / 2, speeds.shape[1]
 
@@ -318,8 +319,8 @@ def _leaps(q: Floats, t: Floats, speeds: Floats, parts: Bools) -> list[Found]:
 
 
 def _derivatives(q: Floats, t: Floats, gaps: Bools) -> tuple[Floats, Floats]:
-    """Speeds and accelerations, each unbroken piece for itself; NaN where a piece has fewer than
-    three samples.
+    """The speeds and accelerations of each unbroken piece; NaN where a piece has fewer than three
+    samples.
     """
     v, a = np.full_like(q, np.nan), np.full_like(q, np.nan)
     whole = ~gaps.any(axis=-1) & (len(t) >= 3)
@@ -337,12 +338,13 @@ def _derivatives(q: Floats, t: Floats, gaps: Bools) -> tuple[Floats, Floats]:
 
 
 def _jumps(speeds: Floats, t: Floats) -> list[Found]:
-    """Where the speeds between samples (C, N - 1, n) jump: a change far greater than the changes
-    beside it.
+    """The jumps of the speeds between samples (C, N - 1, n): changes far greater than the changes
+    beside them.
 
-    A smooth motion's changes are all of the size acceleration x step; those two samples away tell
-    it (the next one shares a corner that lies between two samples). Less than a hundredth of the
-    greatest speed is no jump, nor is what has no neighbours on both sides.
+    The changes of a smooth motion are all about acceleration times step. We compare with those two
+    samples away, since an adjacent change may share a corner that lies between two samples. A
+    change below a hundredth of the greatest speed is not a jump, nor is one without neighbours on
+    both sides.
     """
     change = abs(np.diff(speeds, axis=1))
     beside = np.maximum(_shifted(change, -2), _shifted(change, 2))
@@ -353,8 +355,8 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     for c in np.flatnonzero(sure.any(axis=(1, 2))):
         for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
             first, last = run[0], run[-1]
-            # A corner between two samples shows in two changes, in one of them perhaps faintly.
-            # (Beside a sure one there always are two more.)
+            # A corner between two samples shows in two changes, in one of them perhaps only
+            # faintly. (A certain jump always has two more changes on each side.)
             first -= part[c, first - 1].any()
             last += part[c, last + 1].any()
             time = float((t[first + 1] + t[last + 1]) / 2)
@@ -368,8 +370,8 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
 
 
 def _towards(speeds: Floats, t: Floats, time: float, i: int, side: int) -> Floats:
-    """The speeds (n,) at `time`, on the straight line through those of interval i and of the next
-    one on its side.
+    """The speeds (n,) at `time`, extrapolated linearly from interval i and the next one on its
+    side.
     """
     here: Floats = speeds[i]
     j = i + side
@@ -381,12 +383,12 @@ def _towards(speeds: Floats, t: Floats, time: float, i: int, side: int) -> Float
 
 
 def _groups(numbers: Ints) -> list[Ints]:
-    """Ascending whole numbers, split where two are more than 2 apart."""
+    """Split ascending whole numbers where two neighbours differ by more than 2."""
     return np.split(numbers, np.flatnonzero(np.diff(numbers) > 2) + 1)
 
 
 def _shifted(values: Floats, k: int) -> Floats:
-    """values (C, m, n) with entry i + k in place i; NaN where there is none."""
+    """Shift values (C, m, n) so that entry i + k is at place i; NaN where there is none."""
     out = np.full_like(values, np.nan)
     m = values.shape[1]
     if abs(k) < m:
@@ -395,7 +397,7 @@ def _shifted(values: Floats, k: int) -> Floats:
 
 
 def _named(found: list[Found], lead: tuple[int, ...]) -> tuple[Jump, ...]:
-    """The same with the motions' places in the batch."""
+    """The same jumps with the indices of their motions in the batch."""
     places = list(np.ndindex(lead))
     return tuple(Jump(places[c], *rest) for c, rest in ((one[0], one[1:]) for one in found))
 
@@ -405,7 +407,7 @@ def _excess(over: Floats) -> Floats:
 
 
 def _extreme(values: Floats, t: Floats) -> Extreme:
-    """The greatest of values (..., N, n) along the samples, and when."""
+    """The greatest of values (..., N, n) over the samples, and its time."""
     values = np.where(np.isnan(values), -np.inf, values)
     at = values.argmax(axis=-2)
     greatest = np.take_along_axis(values, at[..., None, :], axis=-2)[..., 0, :]
@@ -414,7 +416,7 @@ def _extreme(values: Floats, t: Floats) -> Extreme:
 
 
 def _warn(limits: Floats, prismatic: Bools, q: Floats, missing: Bools) -> None:
-    """A motion may turn on beyond all limits, but it begins inside them or near to them."""
+    """A motion may keep turning beyond all limits, but it begins inside or near them."""
     begin = np.take_along_axis(q, missing.argmin(axis=1)[:, None, None], axis=1)[:, 0]
     outside = (begin < limits[:, 0]) | (begin > limits[:, 1])
     farthest = abs(np.where(outside & ~prismatic, begin, 0.0)).max(initial=0.0)
