@@ -1,15 +1,15 @@
-"""The three-lever arm beside a point obstacle H: what lies in its way, via points, clearance, and a
-way round.
+"""The three-lever arm beside a point obstacle H: collisions, via points, clearance, and a path
+around it.
 
-`plan` is the control system of source 003, figure 33; the other functions are its parts. Names are
-the document's:
+`plan` is the control system of source 003, figure 33; the other functions are its parts. The names
+are those of the document:
 
-O, B, A, K    base, two joints and gripper of the arm before the motion; A1, K1 the same after it
-H             the obstacle, a point; the levers OB, BA, AK have no width
+O, B, A, K    base, two joints and gripper of the arm before the motion; A1, K1 after it
+H             the obstacle, a point; the levers OB, BA, AK have no thickness
 K2, K3        via points for the gripper, on a circle about H
 path (k, 3)   postures q = (gamma, beta, alpha) in radians; between two of them every joint turns
               evenly (PTP)
-S             the sum of the changes of all joint angles along a path, in radians
+S             the sum of the absolute changes of all joint angles along a path, in radians
 
 Points are (2,), or (3,) with z = 0, in metres.
 """

@@ -1,4 +1,4 @@
-"""How the functions of this package read postures, paths, points and obstacles."""
+"""Checks of postures, paths, points and obstacles for the functions of this package."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from ..._validate import floats, short
 from ...arms.planar import ThreeLeverArm
 from ...units import deg
 
-SLACK = 1e-9  # past a limit by no more than this is rounding
-FARTHEST = 1e9  # rad or m; beyond it a float does not hold an angle or a place well enough
+SLACK = 1e-9  # an angle past a limit by no more than this is a rounding error
+FARTHEST = 1e9  # rad or m; a larger float is too coarse for an angle or a place
 
 
 def read_angles(value: ArrayLike, name: str, finite: bool = True) -> Floats:

@@ -1,4 +1,4 @@
-"""Where the obstacle lies, and how near the levers of the arm come to it."""
+"""The place of the obstacle, and how near the levers come to it."""
 
 from collections.abc import Callable
 
@@ -11,10 +11,10 @@ from ...arms.two_link import two_link
 from .arguments import read_angles, read_obstacles, read_path, read_point, read_points, read_posture
 
 LEVERS = ("OB", "BA", "AK")
-TOLERANCE = 1e-6  # of a lever's length: a clearance is known as well as this
-CLOSE = 1e-9  # of a lever's length: `keeps` cannot tell distances apart that are nearer than this
-WORK = 1_000_000  # stretches of motions, or postures of a grid, that one call may look at: 1 s
-PORTION = 50_000  # stretches measured at a time, so that memory stays small
+TOLERANCE = 1e-6  # lever lengths: the accuracy of a clearance
+CLOSE = 1e-9  # lever lengths: `keeps` does not distinguish distances closer than this
+WORK = 1_000_000  # pieces of motions, or postures of a grid, in one call: about 1 s
+PORTION = 50_000  # pieces measured at a time, to limit memory
 
 
 # --- Where is the obstacle? -----------------------------------------------------------------------
@@ -23,13 +23,13 @@ PORTION = 50_000  # stretches measured at a time, so that memory stays small
 def in_quadrilateral(
     arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike
 ) -> dict[str, Bools]:
-    """Does H (..., 2) lie in the quadrilaterals between the levers before and after the motion from
-    q0 to q1?
+    """Whether H (..., 2) lies in the quadrilaterals between the levers before and after the motion
+    from q0 to q1.
 
-    dict: "AK" for A K K1 A1, "BA" for B A A1 B1, each bool (...). The document tests the first
-    only; its inequalities hold for its own drawing and fail for most others (errata S3-j, S3-k), so
-    here a ray from H counts the sides it crosses. Straight sides are not what the levers sweep: see
-    `swept`.
+    dict: "AK" for A K K1 A1, "BA" for B A A1 B1, each bool (...). The document tests only the first
+    one, and its inequalities hold for its own drawing but fail for most others (errata S3-j, S3-k).
+    So we count the sides that a ray from H crosses. The area that the levers sweep does not have
+    straight sides: see `swept`.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_points(H, "H")
@@ -40,7 +40,7 @@ def in_quadrilateral(
 
 
 def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dict[str, bool]:
-    """Which levers truly pass over H (2,) on the motion from q0 to q1? dict of lever -> bool."""
+    """Which levers actually pass over H (2,) on the motion from q0 to q1: dict of lever -> bool."""
     instance(arm, ThreeLeverArm, "arm")
     q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_point(H, "H")
     warn_if_degrees(q0, "q0", posture=1)
@@ -50,12 +50,12 @@ def swept(arm: ThreeLeverArm, q0: ArrayLike, q1: ArrayLike, H: ArrayLike) -> dic
 
 
 def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
-    """The places (2, 2) of an obstacle that two sensors, in the points P and Q, measure at these
-    distances, in metres; NaN where the circles do not meet.
+    """The two possible places (2, 2) of an obstacle, in metres, from its distances to two sensors
+    at the points P and Q; NaN where the circles do not meet.
 
-    The circles are the two arms that a two-link arm on P has to Q (`two_link`), and the obstacle
-    its elbow: row 0 lies right of the way from P to Q, row 1 left of it. A third distance tells
-    which. ValueError: P and Q in one point.
+    The obstacle is the elbow of a two-link arm (`two_link`) with base P and tip Q whose links have
+    these lengths: row 0 is to the right of the line from P to Q, row 1 to the left. A third
+    distance would tell which. ValueError: P and Q coincide.
     """
     P, Q = read_point(P, "P"), read_point(Q, "Q")
     if (P == Q).all():
@@ -69,8 +69,8 @@ def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
 
 
 def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
-    """The distances of H (..., 2) from the levers OB, BA, AK in the postures q (..., 3): (..., 3),
-    in metres.
+    """The distances in metres of H (..., 2) from the levers OB, BA, AK in the postures q (..., 3):
+    (..., 3).
     """
     instance(arm, ThreeLeverArm, "arm")
     q, H = read_angles(q, "q", finite=False), read_points(H, "H")
@@ -80,13 +80,13 @@ def distances(arm: ThreeLeverArm, q: ArrayLike, H: ArrayLike) -> Floats:
 
 
 def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
-    """The least distance of every lever from H along a path (k, 3): (k - 1, 3), one row for every
-    part. H is one obstacle (2,), or several (m, 2): then the least over all of them.
+    """The least distance of each lever from H along a path (k, 3): (k - 1, 3), one row for each
+    part. H is one obstacle (2,) or several (m, 2), of which the nearest counts.
 
-    Not a sample but a bound: the arm comes nowhere nearer, and at some place at most `TOLERANCE`
-    lever lengths farther; 0 where a lever passes over H. It is found by halving those stretches of
-    a part which could still hold a smaller distance. ValueError: a path that takes more than `WORK`
-    stretches.
+    This is a bound and not a sample: the arm never comes nearer, and somewhere it comes as near up
+    to `TOLERANCE` lever lengths. It is 0 where a lever passes over H. The function bisects the
+    pieces that could still contain a smaller distance. ValueError: a path that needs more than
+    `WORK` pieces.
     """
     instance(arm, ThreeLeverArm, "arm")
     path, H = read_path(path), read_obstacles(H, "H")
@@ -95,12 +95,12 @@ def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
 
 
 def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance: float) -> Bools:
-    """Do all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2), on the
-    motions from postures a (..., 3) to b (..., 3)? bool (...).
+    """Whether all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2),
+    on the motions from postures a (..., 3) to b (..., 3): bool (...).
 
-    As certain as `clearance` and quicker, since a motion is given up at the first stretch that is
-    too near. One that comes to the distance within 1e-9 of a lever's length may count as too near.
-    ValueError: motions that take more than `WORK` stretches.
+    It is as certain as `clearance` and faster, since it gives up a motion at the first piece that
+    is too near. A motion that exceeds the distance by less than 1e-9 of a lever's length may count
+    as too near. ValueError: motions that need more than `WORK` pieces.
     """
     instance(arm, ThreeLeverArm, "arm")
     a, b = read_angles(a, "a"), read_angles(b, "b")
@@ -112,7 +112,7 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     return motions_keep(arm, a, b, H, distance).reshape(shape[:-1])
 
 
-# --- The same for arguments that are checked, and for obstacles that move -------------------------
+# --- Versions without argument checks, and for moving obstacles -------------------------
 
 
 def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
@@ -124,8 +124,8 @@ def lever_distances(arm: ThreeLeverArm, q: Floats, H: Floats) -> Floats:
 def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Floats:
     """The `clearance` of n motions from postures a (n, 3) to b (n, 3): (n, 3).
 
-    H is (m, 1, 2), m obstacles that stand; or (2, m, n, 2), where they are at the start and at the
-    end of each motion, between which they move evenly.
+    H is (m, 1, 2) for m fixed obstacles, or (2, m, n, 2) for their places at the start and at the
+    end of each motion, between which they move at constant velocity.
     """
     least, tolerance = np.full(a.shape, np.inf), TOLERANCE * arm.lever
 
@@ -147,7 +147,7 @@ def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: 
 
     def halve(part: Ints, here: Floats, bound: Floats) -> Bools:
         doubtful = bound < distance
-        # what cannot be told from touching the circle counts as too near
+        # a distance within the tolerance counts as too near
         near = (here < distance) | (doubtful & (here - bound < CLOSE * arm.lever))
         good[part[near.any(axis=0)]] = False
         return good[part] & doubtful.any(axis=0)
@@ -166,10 +166,10 @@ def _measure(
     H: Floats,
     halve: Callable[[Ints, Floats, Floats], Bools],
 ) -> None:
-    """Measure stretches of the motions a -> b (n, 3), at first the whole motions, and halve those
-    of which `halve(part, here, bound)` says so: number of the motion (k,), distances of the levers
-    at an end of the stretch (3, k), and what they are at least on all of it. With several obstacles
-    every motion is measured beside each of them.
+    """Measure pieces of the motions a -> b (n, 3), beginning with whole motions, and bisect those
+    for which `halve(part, here, bound)` is true. Its arguments are the index of the motion (k,),
+    the distances of the levers at one end of the piece (3, k), and their lower bounds on the piece.
+    With several obstacles each motion is measured for each of them.
     """
     n, m = len(a), H.shape[-3]
     H = np.broadcast_to(H, (2, m, n, 2)).reshape(2, -1, 2)
@@ -197,20 +197,20 @@ def _measure(
 def _bounds(
     arm: ThreeLeverArm, a: Floats, b: Floats, ends: Floats, H: Floats
 ) -> tuple[Floats, Floats]:
-    """For stretches of the motions a -> b (3, n) between two `ends` (2, n), and an obstacle that
-    goes from H[0] to H[1] (2, n, 2) during the motion: the smaller of the distances (3, n) at the
-    ends, and lower bounds for all between.
+    """For pieces of the motions a -> b (3, n) between two `ends` (2, n), and an obstacle that moves
+    from H[0] to H[1] (2, n, 2) during the motion: the smaller of the distances (3, n) at the ends,
+    and lower bounds for the whole piece.
 
-    Seen from a lever, the obstacle goes from one place to another, almost straight: it strays from
-    the line by at most an eighth of its greatest acceleration, the stretch being the unit of time.
-    The distance from a lever is a convex function along that line, and so it lies above its
-    tangents at both ends.
+    In the frame of a lever the obstacle moves almost straight from one place to another: it leaves
+    the line by at most an eighth of its greatest acceleration, with the piece as the unit of time.
+    Along that line the distance from the lever is a convex function, so it lies above its tangents
+    at both ends.
     """
     change, (OB, BA, _) = b - a, arm.levers
     positions = H[0] + ends[..., None] * (H[1] - H[0])
     d, along, beyond, across = _seen(arm, a[:, None] + ends * change[:, None], positions)
     turn = change * (ends[1] - ends[0])
-    # a turning view of a place: omega^2 times its distance, and twice omega times its speed
+    # acceleration in a rotating frame: omega^2 times the distance plus twice omega times the speed
     omega, far = np.cumsum(turn, axis=0), np.sqrt((positions**2).sum(axis=-1).max(axis=0))
     moved = np.sqrt(((positions[1] - positions[0]) ** 2).sum(axis=-1))
     stray = far * omega**2 + 2 * abs(omega) * moved
@@ -226,9 +226,9 @@ def _bounds(
 
 
 def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """H (..., 2) seen from the levers OB, BA, AK in postures q (3, ...), four times (3, ...): its
-    distance from the lever, how far it lies along the lever from its start, how far past either of
-    its ends, and how far across.
+    """H (..., 2) in the frames of the levers OB, BA, AK in postures q (3, ...), as four arrays (3,
+    ...): its distance from the lever, its coordinate along the lever, its distance beyond the ends
+    of the lever, and its coordinate across the lever.
     """
     direction = np.cumsum(q, axis=0)
     direction[1] -= np.pi
@@ -245,11 +245,13 @@ def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Flo
 
 
 def _inside(corners: Floats, point: Floats) -> Bools:
-    """Even-odd rule: corners (n, 2), points (..., 2) -> bool (...). A point on a side is inside."""
+    """The even-odd rule: corners (n, 2), points (..., 2) -> bool (...). A point on a side is
+    inside.
+    """
     crossings, on_side = np.zeros(point.shape[:-1]), np.zeros(point.shape[:-1], dtype=bool)
     for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         x, y = point[..., 0], point[..., 1]
-        left = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)  # > 0: the point lies left of the side
+        left = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)  # > 0: left of the side
         crossings = crossings + ((y0 > y) != (y1 > y)) * ((left > 0) == (y1 > y0))
         within = (x - x0) * (x - x1) + (y - y0) * (y - y1) <= 0
         on_side = on_side | (within & (abs(left) <= 1e-12 * np.hypot(x1 - x0, y1 - y0)))

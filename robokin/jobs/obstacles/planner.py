@@ -1,4 +1,6 @@
-"""The control system of source 003: plans with the direct motion, two via points, or a search."""
+"""The control system of source 003: it plans the direct motion, a path over two via points, or a
+search.
+"""
 
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,21 +17,22 @@ from .collision import LEVERS, TOLERANCE, lever_distances, motion_clearances
 from .posture_grid import STEP, way_round
 
 WAYS = ("direct", "via points", "wait", "search", "none")
-# The via points' circles about H, in lever lengths. On the document's own, 1/7, the way keeps less
-# than 1/7 from H; on a larger one it may keep that.
+# The circles of the via points about H, in lever lengths. With the document's circle, 1/7, the path
+# comes nearer than 1/7 to H; with a larger one it may keep that distance.
 CIRCLES = (1 / 7, 0.16, 0.18, 0.20, 0.225, 0.25)
 
 
-# --- The document's way round: two via points for the gripper -------------------------------------
+# --- The document's path around H: two via points for the gripper
+# -------------------------------------
 
 
 def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floats:
-    """The via points K2 and K3, (2, 2): on the circle about H, where the lines square to KH and to
-    K1H leave it on the side of the base. Source: 003, III.3.2, figure 26.
+    """The via points K2 and K3, (2, 2): the points of the circle about H on the perpendiculars to
+    KH and K1H, on the side of the base. Source: 003, III.3.2, figure 26.
 
     The printed formulas (40), (41) and table 6 swap two legs: their points lie on the circle, but
-    not square to the line, and on either side (errata S3-m). ValueError: H in K or K1, where there
-    is no line.
+    not on the perpendiculars, and on either side (errata S3-m). ValueError: H coincides with K or
+    K1, so that there is no line.
     """
     K, K1, H = read_point(K, "K"), read_point(K1, "K1"), read_point(H, "H")
     radius = length(radius, "radius")
@@ -46,10 +49,10 @@ def via_path(
     limited: bool = True,
 ) -> Floats:
     """The path K - K2 - K3 - K1 with the least movement for each part: (4, 3), NaN from the first
-    point that is out of reach on. The radius is L/7 unless given. Source: 003, IV.
+    point that is out of reach. The radius is L/7 by default. Source: 003, IV.
 
-    Passing K2 and K3 promises nothing about the way between them, nor about the levers (errata
-    S3-n): see `clearance`.
+    A path over K2 and K3 guarantees nothing about the motion between them, nor about the levers
+    (errata S3-n): see `clearance`.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, K1, H = read_posture(q0, "q0"), read_point(target, "target"), read_point(H, "H")
@@ -65,20 +68,20 @@ def via_path(
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What `plan` answers.
+    """The result of `plan`.
 
     way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves
-    words      the answer in sentences
-    path       (k, 3) postures, the first being the start; (1, 3) if nothing was found: the arm
+    words      the result in sentences
+    path       (k, 3) postures from the start on; (1, 3) if nothing was found and the arm
                stays
-    clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on every part;
+    clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on each part;
                inf without one
-    least      S of the direct motion in radians, which no path can undercut; NaN if the target is
+    least      S of the direct motion in radians, a lower bound for all paths; NaN if the target is
                out of reach
     radius     of the circle about the obstacle on which the via points lie, in metres; NaN if it is
                not by via points that the plan goes
 
-    Arrays are read-only copies. ValueError: parts that do not belong together.
+    Arrays are read-only copies. ValueError: parts that do not match.
     """
 
     way: str
@@ -96,7 +99,7 @@ class Plan:
             wanted = "two or more postures (k, 3)" if self.found else "the start (1, 3)"
             raise ValueError(f"path: wanted {wanted} of way {self.way!r}, got shape {path.shape}")
         finite = self.clearance
-        with suppress(ValueError):  # inf is a distance here, and to `floats` it is none
+        with suppress(ValueError):  # inf is a valid distance here, but `floats` refuses it
             finite = np.nan_to_num(finite, nan=np.nan, posinf=0.0)
         known = floats(finite, "clearance", 3)
         if known.shape != (len(path) - 1, 3) or (known < 0).any():
@@ -117,7 +120,7 @@ class Plan:
 
     @property
     def found(self) -> bool:
-        """Is there a path that keeps the clearance?"""
+        """Whether there is a path that keeps the clearance."""
         return self.way != "none"
 
     @property
@@ -127,7 +130,7 @@ class Plan:
 
     @property
     def posture(self) -> Floats:
-        """The posture (3,) in which the arm stands afterwards: remembered for the next task."""
+        """The final posture (3,) of the arm: the start of the next task."""
         posture: Floats = self.path[-1]
         return posture
 
@@ -144,17 +147,17 @@ def plan(
     obstacle: ArrayLike | None = None,
     distance: float | None = None,
 ) -> Plan:
-    """The control system of source 003 (figure 33): from the remembered posture (3,) to the target,
-    past the obstacle.
+    """The control system of source 003 (figure 33): plan from the current posture (3,) to the
+    target, past the obstacle.
 
-    All levers keep `distance` (metres; L/7 unless given) from the obstacle along the whole path, or
-    the plan says in words that none was found. Tried in this order: the direct motion with least
-    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, none smaller
-    than the distance or than L/7, of which the first that keeps the distance is taken; a search
-    among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside.
+    All levers keep `distance` (metres; L/7 by default) from the obstacle along the whole path, or
+    the plan says that none was found. It tries in this order: the direct motion with the least
+    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, but at least
+    the distance and L/7, and takes the first circle that keeps the distance; a search among
+    postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside.
 
-    Of several obstacles (m, 2) all are kept clear of; the via points lie about the one that is in
-    the way first.
+    The path keeps clear of all obstacles (m, 2); the via points lie around the first one that is in
+    the way.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
@@ -193,8 +196,8 @@ def plan(
 
 
 def along(path: ArrayLike, s: ArrayLike) -> Floats:
-    """Postures on a path (k, 3) at the shares s (...) of its S, from 0 to 1: (..., 3), for figures
-    and players. Before and after, the path's ends.
+    """Postures on a path (k, 3) at the fractions s (...) of its S, from 0 to 1: (..., 3), for
+    figures and players. Outside 0 to 1, the ends of the path.
     """
     path, s = read_path(path), np.clip(floats(s, "s"), 0, 1)
     S = np.concatenate([[0.0], abs(np.diff(path, axis=0)).sum(axis=-1).cumsum()])
@@ -202,7 +205,7 @@ def along(path: ArrayLike, s: ArrayLike) -> Floats:
 
 
 def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
-    """A plan that found no way; the words say why."""
+    """A plan without a path; the words say why."""
     return Plan("none", words, start[None], np.empty((0, 3)), least)
 
 
@@ -210,7 +213,7 @@ def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
 
 
 def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> str:
-    """Why no path can keep the distance, in a sentence; "" if one could."""
+    """Say in a sentence why no path can keep the distance; "" if one could."""
     O_H, K1_H = np.hypot(*H[:, 0].T), np.hypot(*(K1 - H[:, 0]).T)
     q_H = lever_distances(arm, start, H)[:, 0]  # (m, 3)
     if O_H.min() < distance:
@@ -230,7 +233,7 @@ def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance
 def _by_via_points(
     arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[tuple[Floats, Floats, float] | None, str]:
-    """The way by via points on the first circle that keeps the distance: its path, clearance and
+    """The path over via points on the first circle that keeps the distance: its path, clearance and
     radius, or None; and the words of the plan about it.
     """
     first = _in_the_way(arm, direct, H, distance)
@@ -258,7 +261,7 @@ def _named(H: Floats, which: int) -> str:
 
 def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
     least = clear.min(axis=0)
-    # two levers are equally near at the joint where they meet: the first is named
+    # two levers are equally near at their common joint: take the first
     lever = LEVERS[(least <= least.min() + TOLERANCE * arm.lever).argmax()]
     one = len(H) == 1
     if not least.min():
@@ -268,8 +271,8 @@ def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
 
 
 def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
-    """Of several obstacles the one that is in the way first, else the nearest. By samples: nothing
-    is promised with it.
+    """The first of several obstacles that is in the way, otherwise the nearest one. It is found by
+    samples and guarantees nothing.
     """
     near = lever_distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
     first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])

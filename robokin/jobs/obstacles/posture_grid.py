@@ -1,9 +1,10 @@
-"""The search for a way past obstacles in a grid of postures: its axes, room, waves and way back.
+"""The search for a path past obstacles in a grid of postures: axes, clearances, breadth-first
+search and backtracking.
 
-A search goes tick by tick. At each tick one joint goes one step, or none does. An array of the grid
-holds the fewest steps in which every posture is reached by that tick. It has one more place than
-the grid at the end of each axis, so that a step past either end leads to a posture that no arm
-takes.
+A search proceeds in ticks. At each tick at most one joint moves, by one step. An array over the
+grid holds the fewest steps in which each posture is reached by that tick. It has one more place
+than the grid at the end of each axis, so that a step past either end leads to a posture that is
+never free.
 """
 
 from collections.abc import Sequence
@@ -21,28 +22,28 @@ from .collision import WORK, lever_distances, motions_keep
 Steps: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int16]]
 Node: TypeAlias = tuple[int, ...]
 
-STEP = 5 * deg  # of the grid of postures in which `way_round` searches
-# Of a lever's length, kept between the grid's postures and the clearance, tried in this order. One
-# step of the first joint can move the gripper by 0.26 lever lengths: a small clearance needs the
-# last margin, or steps jump over H.
+STEP = 5 * deg  # step of the grid of postures in `way_round`
+# Margins between the grid's postures and the clearance, in lever lengths, tried in this order. One
+# step of the first joint can move the gripper by 0.26 lever lengths: with a small clearance only
+# the last margin keeps steps from jumping over H.
 MARGINS = (0.005, 0.03, 0.13)
-NEVER = 10_000  # steps: more than any way through the grid has
-INSIDE = (slice(-1),) * 3  # the grid without the places beyond its ends
-MOVES = ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1))  # of a tick: joint, its steps
+NEVER = 10_000  # steps: more than on any path through the grid
+INSIDE = (slice(-1),) * 3  # the grid without the extra places
+MOVES = ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1))  # of a tick: joint, steps
 
 
 def way_round(
     arm: ThreeLeverArm, q0: ArrayLike, target: ArrayLike, H: ArrayLike, distance: float
 ) -> Floats | None:
-    """A path (k, 3) from posture q0 to the target, with little movement, on which all levers keep
+    """A path (k, 3) from posture q0 to the target with little movement, on which all levers keep
     the distance from H, one obstacle (2,) or several (m, 2); None if none is found.
 
-    The postures (gamma, beta, alpha) fill a cube of 180 degrees a side, in which the target is a
-    curve: its `family`. From q0 a wave spreads through the grid of those postures that keep the
-    distance, one joint by one step at a time, so that it arrives at each with the least S. It is
-    followed back from the place of the curve that it reaches with the least S; then corners that
-    are not needed are cut. Every part of the path is checked by `keeps`. The grid is 5 degrees
-    wide: a passage narrower than that can be missed. ValueError: a posture q0 outside the limits.
+    The postures (gamma, beta, alpha) fill a cube with sides of 180 degrees, in which the target is
+    a curve, its `family`. From q0 a breadth-first search spreads through the grid of postures that
+    keep the distance, one step of one joint at a time, so that it reaches each with the least S. We
+    backtrack from the place on the curve with the least S and then remove unnecessary corners.
+    `keeps` checks every part of the path. The grid step is 5 degrees, so a narrower passage may be
+    missed. ValueError: a posture q0 outside the limits.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, K1, H = read_start(arm, q0, "q0"), read_point(target, "target"), read_obstacles(H, "H")
@@ -71,8 +72,8 @@ def way_round(
 
 
 def target_curve(arm: ThreeLeverArm, K1: Floats, count: int | None = None) -> Floats:
-    """Postures (count, 3) with the gripper in K1 (2,), about a degree of alpha apart unless their
-    number is given; (0, 3) if K1 is out of reach.
+    """Postures (count, 3) with the gripper at K1 (2,), by default about a degree of alpha apart;
+    (0, 3) if K1 is out of reach.
     """
     low, high = arm.alpha_range(K1)
     if np.isnan(low):
@@ -81,8 +82,8 @@ def target_curve(arm: ThreeLeverArm, K1: Floats, count: int | None = None) -> Fl
 
 
 def grid_axes(arm: ThreeLeverArm, q: Floats) -> tuple[list[Floats], Node]:
-    """For each joint the angles of the grid, in even steps from its own in the posture q (3,) to
-    both limits, and the limits; and the node of q.
+    """For each joint the angles of the grid, in equal steps from its angle in the posture q (3,)
+    towards both limits, and the limits; also the node of q.
     """
     axes = []
     for value, (low, high) in zip(q, arm.limits, strict=True):
@@ -94,11 +95,11 @@ def grid_axes(arm: ThreeLeverArm, q: Floats) -> tuple[list[Floats], Node]:
 
 
 def grid_room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
-    """The least distance of the obstacles H (m, 2) from the levers in every posture of the grid
-    with these axes.
+    """The least distance of the obstacles H (m, 2) from the levers in each posture of the grid with
+    these axes.
 
-    Lever OB knows gamma only, BA two of the angles, AK all: each is measured on as small a grid as
-    it needs, in complex numbers.
+    Lever OB depends on gamma only, BA on two of the angles, AK on all three: each is measured on
+    the smallest possible grid, with complex numbers.
     """
     gamma, beta, alpha = (np.exp(1j * axis) for axis in axes)
     OB = gamma[:, None, None]
@@ -107,7 +108,7 @@ def grid_room(arm: ThreeLeverArm, axes: list[Floats], H: Floats) -> Floats:
     room: Any = np.inf
     for place in H @ np.array([1, 1j]):
         for lever, long in zip((OB, BA, AK), arm.levers, strict=True):
-            seen = place * lever.conj()  # with the lever on the real axis
+            seen = place * lever.conj()  # H in a frame with the lever on the real axis
             beyond = seen.real - np.clip(seen.real, 0, long)
             room = np.minimum(room, beyond**2 + seen.imag**2)
             place = place - long * lever
@@ -123,8 +124,8 @@ def grid_postures(axes: list[Floats], nodes: Ints) -> Floats:
 
 
 def blocked(allowed: Bools, size: Sequence[int]) -> Steps:
-    """For a grid of this size: 0 where it is allowed to be, `NEVER` elsewhere and beyond its ends.
-    The array `allowed` may end before the grid does.
+    """For a grid of this size: 0 in allowed postures, `NEVER` elsewhere and beyond the ends. The
+    array `allowed` may be smaller than the grid.
     """
     closed = np.full(np.add(size, 1), NEVER, dtype=np.int16)
     closed[tuple(map(slice, allowed.shape))][allowed] = 0
@@ -132,17 +133,18 @@ def blocked(allowed: Bools, size: Sequence[int]) -> Steps:
 
 
 def at_start(size: Sequence[int], start: Node) -> Steps:
-    """The fewest steps to every posture before the first tick."""
+    """The fewest steps to each posture before the first tick."""
     steps = np.full(np.add(size, 1), NEVER, dtype=np.int16)
     steps[start] = 0
     return steps
 
 
 def spread(steps: Steps, closed: Steps, closed_moves: Sequence[Steps] | None = None) -> Steps:
-    """The fewest steps to every posture a tick later: one joint has gone one step, or none has.
+    """The fewest steps to each posture one tick later, when at most one joint has moved by one
+    step.
 
-    closed        which postures are `blocked` then
-    closed_moves  for each joint: from which postures the step to the next one is `blocked`, there
+    closed        the postures that are `blocked` then
+    closed_moves  for each joint: the postures from which the step to the next is `blocked`, there
                   and back; none if not given
     """
     flat = steps.reshape(-1)
@@ -163,10 +165,10 @@ def breadth_first(
     free_moves: Sequence[Bools] | None = None,
     goals: Bools | None = None,
 ) -> Steps:
-    """The fewest steps from the start to every free posture of the grid, `NEVER` where none lead;
-    where goals are given, no farther than to the first of them.
+    """The fewest steps from the start to each free posture of the grid, `NEVER` where there is no
+    path. With goals, the search ends at the first of them.
 
-    free_moves  for each joint: which of its steps, from each posture to the next one, are free
+    free_moves  for each joint: whether its step from each posture to the next one is free
     """
     size = free.shape
     closed, steps = blocked(free, size), at_start(size, start)
@@ -181,10 +183,10 @@ def breadth_first(
 
 
 def way_back(steps: Sequence[Steps], node: Node, room: Floats | None = None) -> Ints:
-    """The nodes (ticks, 3) of a way with the fewest steps to the node at the last tick: of several
-    the one with more room at each tick, or else any.
+    """The nodes (ticks, 3) of a path with the fewest steps to the node at the last tick. Among
+    several, it prefers the one with more clearance at each tick.
 
-    steps  for every tick. Where nothing moves, the last will do for all: a posture that takes more
+    steps  for each tick. If nothing moves, the last array serves for all: a posture that takes more
            steps than there have been ticks is not reached yet.
     """
     back = [node]
@@ -200,7 +202,9 @@ def way_back(steps: Sequence[Steps], node: Node, room: Floats | None = None) -> 
 
 
 def arrivals(axes: list[Floats], goals: Floats, steps: Steps) -> tuple[Ints, Ints]:
-    """Nodes that the search reached (m, 3) and a goal (m,) in a cell beside each, by rising S."""
+    """Nodes that the search reached (m, 3) and a goal (m,) in an adjacent cell of each, by
+    increasing S.
+    """
     below = np.stack(
         [
             np.clip(np.searchsorted(axis, goals[:, i]) - 1, 0, len(axis) - 2)
@@ -218,8 +222,9 @@ def arrivals(axes: list[Floats], goals: Floats, steps: Steps) -> tuple[Ints, Int
 
 
 def shortcuts(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> list[int] | None:
-    """From every posture on, straight to the farthest that can be reached so: the numbers of those
-    that are left; None if not even the next can. H may be (m, k, 2), its place at every posture.
+    """Go from each posture straight to the farthest one that can be reached directly. Return the
+    indices of the remaining postures, or None if not even the next one can be reached. H may be (m,
+    k, 2), its place at each posture.
     """
     kept = [0]
     while kept[-1] < len(path) - 1:
@@ -240,11 +245,11 @@ def shortcuts(arm: ThreeLeverArm, path: Floats, H: Floats, distance: float) -> l
 def coarse_search(
     arm: ThreeLeverArm, q0: Floats, K1: Floats, H: Floats, distance: float, step: float
 ) -> tuple[Steps, Bools, Floats]:
-    """A search from q0 to K1, past the obstacle H (2,), in a grid over all limits whose every step
-    is proven: as lab 10, section 6, has it.
+    """A search from q0 to K1, past the obstacle H (2,), in a grid over all limits in which every
+    step is proven to keep the distance, as in lab 10, section 6.
 
-    Returns (steps, free, curve): the fewest steps to each posture (n, n, n), `NEVER` where none
-    lead or the target's curve is reached sooner; which postures keep the distance; the curve
+    Returns (steps, free, curve): the fewest steps to each posture (n, n, n), `NEVER` where there is
+    no path or the target's curve is reached earlier; the postures that keep the distance; the curve
     (31, 3), or (0, 3).
     """
     axes = [np.arange(low, high + step / 2, step) for low, high in arm.limits]
@@ -264,8 +269,8 @@ def coarse_search(
 def _proven_moves(
     arm: ThreeLeverArm, grid: Floats, room: Floats, H: Floats, distance: float, step: float
 ) -> list[Bools]:
-    """For each joint: which of its steps, from each posture to the next one, keep the distance."""
-    # how much arm a joint carries: no point of that moves farther than this times the turn
+    """For each joint: whether its step from each posture to the next one keeps the distance."""
+    # length of the arm beyond a joint: no point moves farther than this times the turn
     carried = np.cumsum(arm.levers[::-1])[::-1]
     proven, asked = [], []
     for joint in range(3):
@@ -297,8 +302,8 @@ def _first_path(
     H: Floats,
     distance: float,
 ) -> Floats | None:
-    """The path of the search to the first goal of which all parts keep the distance, without
-    needless corners.
+    """The path of the search to the first goal for which all parts keep the distance, without
+    unnecessary corners.
     """
     nodes, numbers = (column[:400] for column in arrivals(axes, goals, steps))
     good = motions_keep(arm, grid_postures(axes, nodes), goals[numbers], H, distance)
@@ -315,8 +320,9 @@ def _first_path(
 def _shortened(
     arm: ThreeLeverArm, path: Floats, goals: Floats, H: Floats, distance: float
 ) -> Floats:
-    """The path with less S: each via posture pulled between its neighbours as far as the distance
-    allows, and the goal moved along its curve to where it is nearest to the last of them."""
+    """Shorten the path: pull each via posture between its neighbours as far as the distance
+    permits, and move the goal along its curve to the place nearest to the last via posture.
+    """
     shares = np.linspace(1, 0, 33)[:, None]
     for _ in range(4):
         before = path.copy()
@@ -333,7 +339,7 @@ def _shortened(
         good = motions_keep(arm, path[-2], near, H, distance)
         if good.any():
             path[-1] = near[good.argmax()]
-        path = path[cast(list[int], shortcuts(arm, path, H, distance))]  # every part keeps it
+        path = path[cast(list[int], shortcuts(arm, path, H, distance))]  # all parts keep it
         if np.array_equal(path, before):
             break
     return path

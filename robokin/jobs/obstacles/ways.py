@@ -1,4 +1,4 @@
-"""Ways past an obstacle that nobody has checked, and where the levers come nearest on them."""
+"""Unchecked paths past an obstacle, and the place where the levers come nearest on a path."""
 
 import numpy as np
 
@@ -11,16 +11,16 @@ from .planner import along, via_path
 def unchecked_path(
     arm: ThreeLeverArm, way: str, q0: Floats, K1: Floats, H: Floats, distance: float
 ) -> Floats:
-    """The path (k, 3) from posture q0 to the target of the way "direct" or "via points", safe or
-    not; q0 alone, (1, 3), where there is none. The via points lie `distance` metres from the
-    obstacle H (2,), or L/7 if that is more.
+    """The path (k, 3) from posture q0 to the target by the way "direct" or "via points", safe or
+    not; q0 alone, (1, 3), if there is none. The via points are `distance` metres from the obstacle
+    H (2,), or L/7 if that is more.
     """
     if way == "direct":
         path = np.stack([q0, arm.least(K1, q0)[0]])
     else:
         try:
             path = via_path(arm, q0, K1, H, max(distance, arm.lever / 7))
-        except ValueError:  # H lies in K or K1
+        except ValueError:  # H coincides with K or K1
             return q0[None]
     return q0[None] if np.isnan(path).any() else path
 
@@ -28,9 +28,9 @@ def unchecked_path(
 def nearest_approach(
     arm: ThreeLeverArm, path: Floats, clearances: Floats, H: Floats
 ) -> tuple[int, float, Floats]:
-    """The lever that comes nearest to H (2,) on the path (k, 3) whose `clearance` is (k - 1, 3),
-    its distance in metres, and the place (2,) on it where it does; of a path (1, 3) in its posture.
-    The place is sampled: for a figure.
+    """The lever that comes nearest to H (2,) on the path (k, 3) with this `clearance` (k - 1, 3),
+    its distance in metres, and the nearest place (2,) on it. A path (1, 3) is a single posture. The
+    place comes from samples, which is enough for a figure.
     """
     each = clearances.min(axis=0) if len(path) > 1 else lever_distances(arm, path[0], H)
     lever, near = int(each.argmin()), float(each.min())

@@ -1,7 +1,7 @@
-"""Stepper motors: the pulses of a move, when each motor gets them, what they switch in its
-windings, and whether its rotor follows.
+"""Stepper motors: the pulses of a move and their times, the windings that they switch, and whether
+the rotor follows.
 
-The motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
+Example: the motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
 
     arm = loader_arm(1.2, 1.0)
     q = station_postures(arm, points)        # (stations, 3); `out_of_reach` says why one is NaN
@@ -11,10 +11,9 @@ The motors of the log loader (source 003, paper 1), from the points of a job to 
     move.pulses()                            # for each motor: when, and in which direction
     Stepper().run(times, signs).lost         # the steps that its rotor did not make
 
-A motor's position is counted in pulses from the joint's zero. Whole pulses are taken from these
-positions and never from the angle of a single move, so that no rounding adds up, however many moves
-there are.
-Source: 003, II.3 (the motors) and paper 1; errata S3-p to S3-t.
+The position of a motor is counted in pulses from the joint's zero. Whole pulses are computed from
+these positions and never from the angle of a single move, so that rounding errors do not add up
+over many moves. Source: 003, II.3 (the motors) and paper 1; errata S3-p to S3-t.
 """
 
 from .moves import (

@@ -1,4 +1,4 @@
-"""Moves of stepper motors: where they stand at stations, when they are where, and their pulses."""
+"""Moves of stepper motors: their positions at stations and over time, and their pulses."""
 
 from dataclasses import dataclass
 
@@ -13,17 +13,17 @@ from ...units import deg, wrapped
 
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
 SAMPLES = 1001  # postures along a straight line
-SLACK = 1e-9  # this near to a whole pulse is the pulse
-COUNTED = 2**52  # pulses from zero: so far a float counts them, and their differences, one by one
+SLACK = 1e-9  # a position within this of a whole pulse is that pulse
+COUNTED = 2**52  # pulses from zero: a float represents each one exactly
 LISTED = 10_000_000  # pulses that one call lists
-STRETCHES = 100_000  # of a move whose pulses are listed
+STRETCHES = 100_000  # stretches of a move whose pulses are listed
 
 
 # ---- From points to motor positions
 
 
 def out_of_reach(arm: ClosedFormArm, point: ArrayLike) -> list[str]:
-    """Why the loader's gripper cannot be at one point (3,): a list of reasons in words, empty if it
+    """Why the loader's gripper cannot reach a point (3,): a list of reasons in words, empty if it
     can.
 
     Source: 003, paper 1, (1), and the inner bound |A - B| that it lacks (errata S3-r).
@@ -38,12 +38,12 @@ def out_of_reach(arm: ClosedFormArm, point: ArrayLike) -> list[str]:
 
 
 def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
-    """The loader's postures at its stations, in their order: points (stations, 3) -> q (stations,
-    3), alpha unwrapped.
+    """The loader's postures at consecutive stations: points (stations, 3) -> q (stations, 3), with
+    alpha unwrapped.
 
     The elbow is up; beta lies in 0..180 degrees and gamma in 0..270 (for z >= 0). alpha begins in
-    (-180, 180] and goes on by the shortest turn; on the vertical axis, where it is free, it stays
-    as it was (0 at first). NaN rows where a point is out of reach. Source: 003, paper 1, table 1
+    (-180, 180] and continues by the shortest turn; on the vertical axis, where it is free, it keeps
+    its value (0 at first). NaN rows where a point is out of reach. Source: 003, paper 1, table 1
     and (2) to (4); errata S3-p, S3-q.
     """
     reach, points = _loader(arm).elbow.reach, floats(points, "points", 3)
@@ -56,11 +56,11 @@ def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     for i in np.flatnonzero(~np.isnan(alpha)):
         alpha[i] = before = before if free[i] else float(wrapped(alpha[i], before))
     gamma = np.where(gamma < -90 * deg, gamma + 360 * deg, gamma)
-    return np.stack([alpha, gamma, abs(beta)], axis=-1)  # folded, beta is 0 but for rounding
+    return np.stack([alpha, gamma, abs(beta)], axis=-1)  # folded: beta is 0 up to rounding
 
 
 def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
-    """The shortest way from one angle to another, in [-pi, pi] rad; positive is counter-clockwise.
+    """The shortest turn from one angle to another, in [-pi, pi] rad; positive is counter-clockwise.
 
     Source: 003, paper 1, the two conditions for alpha; the second one has the wrong sign for alpha2
     < alpha1 (errata S3-q: from 170 to -170 degrees it turns -20 and not +20).
@@ -71,13 +71,12 @@ def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
 
 
 def counts(q: ArrayLike, per_degree: ArrayLike) -> Ints:
-    """The motors' positions at joint values q (..., n) rad, in whole pulses (..., n), the nearest
-    ones.
+    """The motor positions at joint values q (..., n) rad, in the nearest whole pulses (..., n).
 
-    per_degree  (n,) or one number: pulses per degree of the joint, gear included. Source: 003,
+    per_degree  (n,) or one number: pulses per degree of the joint, including the gear. Source: 003,
                 paper 1, the reduced angle phi of (5).
     The pulses of moves are differences, `np.diff(counts(q, per_degree), axis=-2)`: their sum is
-    exact. A UserWarning where a joint is turned many times round: degrees were likely meant.
+    exact. A UserWarning if a joint has made many turns: the angles are probably in degrees.
     """
     values = floats(q, "q")
     warn_if_degrees(values, "q", posture=1)
@@ -85,7 +84,7 @@ def counts(q: ArrayLike, per_degree: ArrayLike) -> Ints:
 
 
 def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
-    """Joint values in rad from motor positions in pulses (..., n): the way back from `counts`."""
+    """Joint values in rad from motor positions in pulses (..., n): the inverse of `counts`."""
     positions, per_degree = floats(positions, "positions"), _per_degree(per_degree)
     broadcast("positions and per_degree", positions.shape, per_degree.shape)
     with np.errstate(over="ignore"):
@@ -97,12 +96,13 @@ def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Move:
-    """What n motors do between two stations: they stand at `positions` (k, n) in pulses at the
-    times `t` (k,) in s and run evenly in between. The first time is 0, first and last positions are
-    whole pulses. Both are read-only copies.
+    """The motion of n motors between two stations: they are at `positions` (k, n) in pulses at the
+    times `t` (k,) in s and run at constant speed in between. The first time is 0, and the first and
+    last positions are whole pulses. Both are read-only copies.
 
-    `move(t)` gives the positions at the times t (...), as (..., n): not rounded; before and after
-    the move they stand. ValueError: times that do not rise from 0, positions that do not fit.
+    `move(t)` returns the positions at the times t (...), as (..., n), not rounded; before and after
+    the move they are constant. ValueError: times that do not increase from 0, positions that do not
+    match.
     """
 
     t: Floats
@@ -130,16 +130,16 @@ class Move:
 
     @property
     def frequencies(self) -> Floats:
-        """(k - 1, n) pulses per second in each stretch of the move, negative backwards."""
+        """(k - 1, n) pulses per second in each stretch of the move, negative if backwards."""
         with np.errstate(over="ignore"):
             return np.diff(self.positions, axis=0) / np.diff(self.t)[:, None]
 
     def pulses(self) -> list[tuple[Floats, Ints]]:
         """The pulse trains: for each motor (times, signs), both (pulses,); the signs are +1 and -1.
 
-        A pulse comes when the motor is due one whole pulse further on (or back). So the motor lags
-        by less than one pulse, makes exactly the pulses of the move, and after a change of
-        direction, too, no two pulses come faster than the frequencies allow. ValueError: a move of
+        A pulse comes when the motor should be one whole pulse further (or back). So the motor lags
+        by less than one pulse and makes exactly the pulses of the move, and no two pulses come
+        faster than the frequencies permit, even after a change of direction. ValueError: a move of
         more than `LISTED` pulses or `STRETCHES` stretches.
         """
         count, stretches = abs(self.positions[1:] - self.positions[:-1]).sum(), len(self.t) - 1
@@ -150,13 +150,13 @@ class Move:
 
 
 def frequencies(pulses: ArrayLike, limit: float = LIMIT) -> Floats:
-    """Pulse frequencies with which all motors need the same time: pulses (..., n) -> (..., n)
-    pulses per second.
+    """Pulse frequencies at which all motors need the same time: pulses (..., n) -> (..., n) pulses
+    per second.
 
-    The motor with the most pulses runs at `limit`; one that has none stands. Source: 003, paper 1,
-    (5) to (8), with errata S3-s: its conditions (6) and (7) make the motor with the longest way the
-    slowest. Right is omega1 phi2 = omega2 phi1, for every pair of motors: omega_i = limit phi_i /
-    max phi.
+    The motor with the most pulses runs at `limit`; a motor without pulses stands still. Source:
+    003, paper 1, (5) to (8), with errata S3-s: its conditions (6) and (7) make the motor with the
+    longest way the slowest. The correct condition is omega1 phi2 = omega2 phi1 for every pair of
+    motors: omega_i = limit phi_i / max phi.
     """
     pulses, limit = abs(floats(pulses, "pulses")), _limit(limit)
     if not (pulses.ndim and pulses.shape[-1]):
@@ -167,8 +167,8 @@ def frequencies(pulses: ArrayLike, limit: float = LIMIT) -> Floats:
 
 def unsynchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
     """Trajectory a of the document: all motors start together at the greatest frequency, and each
-    stops when it is done. start, goal (n,) motor positions -> Move. The gripper's path has a kink
-    wherever a motor stops.
+    stops when it has finished. start, goal (n,) motor positions -> Move. The gripper's path has a
+    kink wherever a motor stops.
 
     Source: 003, paper 1, figure 4 (5 in the text), a.
     """
@@ -180,11 +180,11 @@ def unsynchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> M
 
 
 def synchronised(start: ArrayLike, goal: ArrayLike, limit: float = LIMIT) -> Move:
-    """Trajectory d of the document: all motors start and stop together, each at its own even
+    """Trajectory d of the document: all motors start and stop together, each at its own constant
     frequency (`frequencies`). start, goal (n,) motor positions -> Move. No motor turns back; the
     gripper's path is a curve.
 
-    No motion that keeps the limit is faster. Source: 003, paper 1, figure 4 (5 in the text), d.
+    No motion within the limit is faster. Source: 003, paper 1, figure 4 (5 in the text), d.
     """
     start, goal = _stations(start, goal)
     duration = _seconds(abs(goal - start), limit).max()
@@ -200,13 +200,13 @@ def straight(
     per_degree: ArrayLike,
     limit: float = LIMIT,
 ) -> Move:
-    """Trajectories b and c of the document: the loader's gripper goes straight from one point (3,)
+    """Trajectories b and c of the document: the loader's gripper moves straight from one point (3,)
     to another -> Move.
 
-    All motors start and stop together; at any moment the one with the most to do runs at the
-    greatest frequency, which is the shortest time for this path. The figure is lost and the text
-    does not say what tells b from c but that in c a motor first turns one way and then back; we
-    read: two pairs of points, one law. c costs more pulses than its d.
+    All motors start and stop together. At any moment the fastest one runs at the greatest
+    frequency, so this is the shortest time for the path. The figure is lost, and the text
+    distinguishes c from b only by a motor that turns one way and then back. We take them as two
+    pairs of points with one law. c needs more pulses than d between the same points.
 
     Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line that
     `out_of_reach` names.
@@ -223,7 +223,7 @@ def straight(
                 f"start and goal: wanted a line inside the workspace, at {s[i]:.0%} of it {reason}"
             )
     due = _counted(_pulses(q, per_degree), "per_degree")
-    due[[0, -1]] = np.rint(due[[0, -1]])  # motors stand on whole pulses
+    due[[0, -1]] = np.rint(due[[0, -1]])  # motors stop at whole pulses
     ahead = _seconds(abs(np.diff(due, axis=0)).max(axis=-1), limit)
     t = np.concatenate([[0.0], np.cumsum(ahead)])
     moved = np.concatenate([[True], np.diff(t) > 0])
@@ -260,7 +260,7 @@ def _limit(value: float) -> float:
 
 
 def _seconds(pulses: Floats, limit: float) -> Floats:
-    """How long these pulses take at the greatest frequency."""
+    """The time of these pulses at the greatest frequency."""
     with np.errstate(over="ignore"):
         return floats(pulses / _limit(limit), "pulses / limit")
 
@@ -270,11 +270,11 @@ def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
     per_degree = _per_degree(per_degree)
     broadcast("q and per_degree", q.shape, per_degree.shape)
     with np.errstate(over="ignore", invalid="ignore"):
-        return np.multiply(q, per_degree / deg, order="F")  # each motor's in one run
+        return np.multiply(q, per_degree / deg, order="F")  # contiguous for each motor
 
 
 def _counted(positions: Floats, name: str) -> Floats:
-    """Motor positions that a float counts."""
+    """Motor positions that a float represents exactly."""
     most = abs(positions).max(initial=0)
     if not most <= COUNTED:
         raise ValueError(f"{name}: wanted at most 2**52 pulses from zero, got {most:.6g}")
@@ -299,7 +299,7 @@ def _stations(start: ArrayLike, goal: ArrayLike) -> tuple[Floats, Floats]:
 
 
 def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
-    """One motor's pulses, from where it is due (k,) at the times t: (times, signs)."""
+    """The pulses (times, signs) of one motor, from its ideal positions (k,) at the times t."""
     times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], due[0]
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]

@@ -26,8 +26,8 @@ COLUMNS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 
 def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
-    """The phase table, one row per pulse: (rows, columns) of 1, 0 and -1. Without `windings` it is
-    that of the document's motors, columns as in `COLUMNS[motor]`.
+    """The phase table, one row per pulse: (rows, columns) of 1, 0 and -1. By default it is that of
+    the document's motors, with columns as in `COLUMNS[motor]`.
 
     drive     "wave": one winding at a time; "two-phase": two neighbours, with more torque;
               "half-step": by turns, half the angle per pulse, so twice the pulses per degree
@@ -39,10 +39,10 @@ def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
               backwards), 4 if None: two windings with a tap in the middle, four halves. 2 to 6
               bipolar, 2 if None. Source: 003, II.3.1 ("two to six")
 
-    The field turns evenly, once in n rows unipolar and 2 n bipolar, and in twice as many half
-    steps. Source: 003, II.3.2, tables 1 and 2 (which shows only the +). Its appendices 3 and 4, the
-    two-phase drive of the unipolar motor and the half step, are not in the text: these rows follow
-    from the order of table 1.
+    The field turns evenly, once in n rows (unipolar) or 2 n rows (bipolar), and in twice as many
+    half steps. Source: 003, II.3.2, tables 1 and 2 (table 2 shows only the +). Its appendices 3 and
+    4, the two-phase drive of the unipolar motor and the half step, are not in the text: we derive
+    these rows from the order of table 1.
     """
     choice(drive, "drive", DRIVES)
     n = read_windings(motor, windings)
@@ -59,12 +59,12 @@ def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
 
 
 def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
-    """What the windings carry before the first and after every pulse: table (rows, columns), signs
-    (pulses,) -> (pulses + 1, columns).
+    """The currents in the windings before the first and after each pulse: table (rows, columns),
+    signs (pulses,) -> (pulses + 1, columns).
 
-    The first answer is the row number `row` of the table, counted on from the last row to the
-    first. A positive pulse takes the next row and a negative one the row before: the order is the
-    direction. Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
+    The first result is row `row` of the table, modulo the number of rows. A positive pulse moves to
+    the next row and a negative one to the row before: the order is the direction. Source: 003,
+    II.3.1. ValueError: signs that are not +1 or -1.
     """
     rows, signs = floats(table, "table"), floats(signs, "signs")
     if rows.ndim != 2 or not len(rows):
@@ -76,6 +76,6 @@ def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
 
 
 def read_windings(motor: str, windings: int | None) -> int:
-    """How many windings a motor has, its own or the document's."""
+    """Return the number of windings of a motor, by default that of the document."""
     fewest = _FEWEST[choice(motor, "motor", tuple(COLUMNS))]
     return whole(_DOCUMENTS[motor] if windings is None else windings, "windings", fewest, 6)

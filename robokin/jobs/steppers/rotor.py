@@ -1,4 +1,4 @@
-"""Rotors: the torques on one, and whether it follows its pulses."""
+"""Rotors: the torques on a rotor, and whether it follows its pulses."""
 
 import math
 from dataclasses import dataclass
@@ -11,17 +11,17 @@ from .moves import LIMIT
 from .phase_table import DRIVES, energised, phases, read_windings
 
 ROTORS = ("active", "passive")
-SETTLED = 8.0  # time constants that a rotor gets to come to rest
-NEARLY = 3.0  # time constants in which a current comes within 5 % of its value
-FINE = (0.1, 0.25)  # a step of the integration: of the mechanics' shortest time, and of `rise`
+SETTLED = 8.0  # time constants after which a rotor is at rest
+NEARLY = 3.0  # time constants until a current is within 5 % of its value
+FINE = (0.1, 0.25)  # integration step, as a fraction of the shortest mechanical time and of `rise`
 INTEGRATED = 100_000  # steps of one run
 FASTEST = 1e9  # rad/s
-SLOWEST = 10  # pulses per second, where the search for a start frequency begins
+SLOWEST = 10  # pulses per second: the search for a start frequency begins here
 
 
 @dataclass(frozen=True)
 class Stepper:
-    """A stepper motor as a weight on a magnetic spring that every pulse moves on.
+    """A stepper motor modelled as an inertia on a magnetic spring, which each pulse moves forward.
 
     rotor     "active": a permanent magnet of two poles. "passive": soft iron with 2 n + 2 teeth
               between 2 n poles; it knows no sign of a current, so it is unipolar
@@ -60,18 +60,18 @@ class Stepper:
 
     @property
     def periods(self) -> int:
-        """How often the pull of a winding comes round in one turn of the rotor."""
+        """The number of periods of a winding's pull in one turn of the rotor."""
         return 1 if self.rotor == "active" else 2 * self.windings + 2
 
     @property
     def currents(self) -> Ints:
-        """(rows, windings): what each winding carries in each row of `phases`; 1, 0 or -1."""
+        """(rows, windings): the current of each winding in each row of `phases`: 1, 0 or -1."""
         table = phases(self.drive, self.motor, self.windings)
         return table[:, ::2] if self.motor == "bipolar" else table
 
     @property
     def step(self) -> float:
-        """The angle of a step in rad: a full turn / (rows of the phase table * periods).
+        """The angle of a step in rad: a full turn divided by (rows of the phase table * periods).
 
         Source: 003, II.3.1: 1 to 9 degrees with a passive rotor, 10 and more with an active one.
         """
@@ -79,7 +79,7 @@ class Stepper:
 
     @property
     def pulls(self) -> np.ndarray[tuple[int, ...], np.dtype[np.complex128]]:
-        """(rows,) complex: direction (in the ring) and strength (1: one winding) of each row."""
+        """(rows,) complex: direction in the ring and strength (1 is one winding) of each row."""
         turn = (math.pi if self.motor == "bipolar" else 2 * math.pi) / self.windings
         currents = self.currents if self.rotor == "active" else self.currents**2
         pulls: np.ndarray[tuple[int, ...], np.dtype[np.complex128]] = currents @ np.exp(
@@ -89,16 +89,16 @@ class Stepper:
 
     @property
     def holding_torque(self) -> float:
-        """The greatest load, N m, that the motor bears at rest in every row: torque * |pull|."""
+        """The greatest load, N m, that the motor holds at rest in every row: torque * |pull|."""
         return float(self.torque * abs(self.pulls).min())
 
     @property
     def starting_torque(self) -> float:
-        """The greatest load, N m, that it still takes from every row to the next, however slowly.
+        """The greatest load, N m, that it can still move from every row to the next at low speed.
 
-        A load L bends row k by asin(L / s_k), s_k the strength; the next row takes over while both
-        angles and the step sum up to less than half a turn. So L is the distance from 0 to the line
-        between two neighbouring `pulls`. Source of the term: 003, II.3.1.
+        A load L deflects row k by asin(L / s_k), with the strength s_k. The next row can take over
+        as long as both angles and the step add up to less than half a turn. So L is the distance
+        from 0 to the line between two neighbouring `pulls`. Source of the term: 003, II.3.1.
         """
         now, on = self.pulls, np.roll(self.pulls, -1) - self.pulls
         share = np.clip(-(now.conj() * on).real / abs(on) ** 2, 0, 1)
@@ -106,24 +106,24 @@ class Stepper:
 
     @property
     def commutation_frequency(self) -> float:
-        """The frequency, pulses per second, above which a winding's current comes no longer within
-        5 % of its value in one step; infinite where `rise` is 0. Source of the term: 003, II.3.1.
+        """The frequency, pulses per second, above which a winding's current does not get within 5 %
+        of its value in one step; infinite if `rise` is 0. Source of the term: 003, II.3.1.
         """
         return 1 / (NEARLY * self.rise) if self.rise else math.inf
 
     def start_frequency(
         self, load: float = 0.0, load_inertia: float = 0.0, pulses: int = 48
     ) -> float:
-        """The frequency, in whole pulses per second, at which the motor just follows from rest
-        without losing a step: one more, and it loses some. At most `LIMIT`; 0 if even `SLOWEST` is
-        too fast. Found by halving: far below it a motor with little damping may lose steps, too, by
-        resonance.
+        """The highest frequency, in whole pulses per second, at which the motor follows from rest
+        without losing a step; one pulse per second more, and it loses some. At most `LIMIT`; 0 if
+        even `SLOWEST` is too fast. It is found by bisection: a motor with little damping may also
+        lose steps far below it, by resonance.
 
         load, load_inertia  as for `run`. Source of the term: 003, II.3.1.
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
-        while high - low > 1:  # made at `low` (or too slow to ask), lost at `high`
+        while high - low > 1:  # no steps lost at `low` (or too slow to try), some lost at `high`
             middle = (low + high) // 2
             times = np.arange(1, count + 1) / middle
             lost = self.run(times, np.ones(count), load, load_inertia).lost
@@ -133,32 +133,32 @@ class Stepper:
     def run(
         self, times: ArrayLike, signs: ArrayLike, load: float = 0.0, load_inertia: float = 0.0
     ) -> "RotorMotion":
-        """What the rotor does with pulses: it rests in the table's first row, gets them, and comes
-        to rest again.
+        """Simulate the rotor: it rests in the table's first row, gets the pulses, and comes to rest
+        again.
 
         times, signs  (pulses,) s, not falling, from 0 on; +1 or -1: as of `Move.pulses`
-        load          N m, a weight on a drum: it pulls backwards, whatever the rotor does
-        load_inertia  kg m^2, beside the rotor's
+        load          N m, like a weight on a drum: it always pulls backwards
+        load_inertia  kg m^2, in addition to the rotor's
 
-        Fourth order Runge-Kutta in equal steps from pulse to pulse; the page has the same
-        (js/rotor.js). ValueError: a run of more than `INTEGRATED` steps.
+        Fourth-order Runge-Kutta in equal steps from pulse to pulse; js/rotor.js does the same in a
+        page. ValueError: a run of more than `INTEGRATED` steps.
         """
         t, turns = floats(times, "times"), floats(signs, "signs")
         if t.ndim != 1 or t.shape != turns.shape or (np.diff(t, prepend=0.0) < 0).any():
             wanted = "wanted times (pulses,) that do not fall, from 0 on, and as many signs"
             raise ValueError(f"times and signs: {wanted}, got {short(t)} and {short(turns)}")
-        rows = energised(np.arange(len(self.currents))[:, None], turns)[:, 0]  # or refuses
+        rows = energised(np.arange(len(self.currents))[:, None], turns)[:, 0]  # or raises
         return _rotor_run(self, t, rows, turns, *_loaded(load, load_inertia))
 
 
 @dataclass(frozen=True, eq=False)
 class RotorMotion:
-    """What a rotor did: at the times `t` (k,) in s its angle was `angle` (k,) and should have been
-    `due` (k,), both in rad. `lost` is how many steps the angle is short of `due` in the end; of
-    pulses with the sign -1 lost steps count negative.
+    """The motion of a rotor: at the times `t` (k,) in s its angle was `angle` (k,) and should have
+    been `due` (k,), both in rad. `lost` is the number of steps by which the final angle is short of
+    `due`; steps lost from pulses with the sign -1 count as negative.
 
-    At rest it can stand only where the last row holds it. So the lost steps are always as many as
-    the phase table has rows, or twice as many, and so on.
+    At rest it can only stand where the last row holds it. So the number of lost steps is always a
+    multiple of the number of rows of the phase table.
     """
 
     t: Floats
@@ -168,11 +168,12 @@ class RotorMotion:
 
 
 def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
-    """The times (pulses,) in s of pulses whose frequency rises evenly from `start` to `end`, in so
-    many seconds, stays there, and falls in the same way. A short move turns back before `end`.
+    """The times (pulses,) in s of pulses whose frequency rises linearly from `start` to `end`
+    within `seconds`, stays there, and falls in the same way. A short move begins to fall before it
+    reaches `end`.
 
-    Frequencies in pulses per second; `seconds` 0: `end` at once. Pulse k comes when k pulses are
-    due, the last one at the end: with start = end as in `Move.pulses`.
+    Frequencies are in pulses per second; with `seconds` 0 it is `end` from the beginning. Pulse k
+    comes when k pulses are due, the last one at the end; with start = end as in `Move.pulses`.
     """
     count = whole(pulses, "pulses", 1, INTEGRATED)
     low, high = (
@@ -182,14 +183,14 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     rise = _not_negative(seconds, "seconds")
     if low > high:
         raise ValueError(f"start and end: wanted a frequency that rises, got {low:g} to {high:g}")
-    more = (high - low) / rise if rise > 0 else 0.0  # pulses per second, each second
+    more = (high - low) / rise if rise > 0 else 0.0  # pulses per second squared
     low = low if more else high
     top = min(high, math.sqrt(low**2 + more * count))
     up = (top - low) / more if more else 0.0
     done = (low + top) / 2 * up  # pulses in the ramp
     duration = 2 * up + (count - 2 * done) / top
     k = np.arange(1, count + 1)
-    ahead = np.minimum(k, count - k)  # from the start, or from the end
+    ahead = np.minimum(k, count - k)  # counted from the start, or from the end
     with np.errstate(divide="ignore", invalid="ignore"):
         climbing = 2 * ahead / (low + np.sqrt(low**2 + 2 * more * ahead))
     since = np.where(ahead < done, climbing, up + (ahead - done) / top)
@@ -213,7 +214,7 @@ def _loaded(load: float, load_inertia: float) -> tuple[float, float]:
 def _rotor_run(
     motor: Stepper, times: Floats, rows: Ints, signs: Floats, load: float, load_inertia: float
 ) -> RotorMotion:
-    """The run of checked arguments."""
+    """The simulation, without argument checks."""
     table, periods = motor.currents.tolist(), motor.periods
     sharp = 1 if motor.rotor == "active" else 2
     turn = (math.pi if motor.motor == "bipolar" else 2 * math.pi) / motor.windings
@@ -272,8 +273,8 @@ def _rotor_run(
 def _integration_steps(
     motor: Stepper, times: Floats, load: float, inertia: float
 ) -> tuple[Floats, Floats]:
-    """The seconds before each pulse and until the rotor has come to rest (pulses + 1,), and in how
-    many equal steps each is integrated; ValueError where that is too much work.
+    """The seconds before each pulse and until the rotor is at rest (pulses + 1,), and the number of
+    equal integration steps in each. ValueError: too many steps.
     """
     torque, damping = motor.torque, motor.damping
     swing = math.sqrt(inertia / (motor.periods * torque * float(abs(motor.pulls).max())))
@@ -295,8 +296,9 @@ def _integration_steps(
 
 
 def _resting(motor: Stepper, load: float) -> Floats:
-    """(rows,) rad: where the rotor rests in each row under a load, the first row's within half a
-    period of 0 and the others after it. Where a row does not hold the load: where it pulls most.
+    """(rows,) rad: the rest position of the rotor in each row under a load, the first within half a
+    period of 0 and the others after it. If a row cannot hold the load: the position where it pulls
+    most.
     """
     pulls = motor.pulls
     bent = np.arcsin(np.clip(load / (motor.torque * abs(pulls)), -1, 1))

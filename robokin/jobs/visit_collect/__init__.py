@@ -12,10 +12,10 @@ A task is a JSON file with exactly the document's keys:
 
 Everything is solved on the document's principal branch, row 0 of `spbu_arm(l1, l2).ik` (errata
 S0-d: a second solution may exist inside the same limits, and be nearer). A joint that is free at a
-point (joint 1 on axis 1, joint 2 as well where equal links are folded onto the origin) stays where
-it stands when the arm arrives; a start there takes the value of the first target that has one
-(errata S0-p).
-Source: 000, "Определение границ рабочей области", "Нахождение времени", appendix 1; errata S0.
+point (joint 1 on axis 1; also joint 2 where equal links are folded onto the origin) keeps its value
+when the arm arrives. If the start has a free joint, it takes the value of the first target that has
+one (errata S0-p). Source: 000, "Определение границ рабочей области", "Нахождение времени", appendix
+1; errata S0.
 """
 
 from .arm import (

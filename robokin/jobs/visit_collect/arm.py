@@ -1,4 +1,4 @@
-"""The arm of source 000: where it reaches, how long a move takes, and how low the tool comes."""
+"""The arm of source 000: its workspace, the time of a move, and the lowest point of the tool."""
 
 import math
 from collections.abc import Sequence
@@ -11,27 +11,28 @@ from ..._validate import TWO_TURNS, broadcast, floats, length, short, warn_if_de
 from ...arms import spbu_arm, within
 from ...arms.geometry import FREE, ROUNDING
 
-SHORTEST, LONGEST = 1e-6, 1e6  # m; a link beyond these is a mistake of units
-UNDER = 1e-9  # of the reach: a tool no deeper under the floor than this is on it
+SHORTEST, LONGEST = 1e-6, 1e6  # m; a link outside this range is probably in wrong units
+UNDER = 1e-9  # fraction of the reach: a tool below the floor by no more than this is on it
 
 
 def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
-    """Which of the document's four conditions hold: points (..., 3) in metres -> bool (..., 4).
+    """Whether each of the document's four conditions holds: points (..., 3) in metres -> bool (...,
+    4).
 
-    In this order: not beyond the stretched arm; not under the floor; not nearer to the origin than
-    l1 - l2 (where l1 > l2); the elbow not under the floor (where l1 < l2). A point past a border by
-    rounding (1e-12 of the reach) is on it (errata S0-l). A point is in the workspace if all four
-    hold; then the principal branch exists, inside the limits. Source: 000, "Определение границ
-    рабочей области"; its condition cos q2 >= 0 follows (errata S0-c, S0-s).
+    They are, in this order: not beyond the stretched arm; not below the floor; not nearer to the
+    origin than l1 - l2 (if l1 > l2); the elbow not below the floor (if l1 < l2). A point past a
+    border by rounding (1e-12 of the reach) is on it (errata S0-l). A point is in the workspace if
+    all four hold; then the principal branch exists, inside the limits. Source: 000, "Определение
+    границ рабочей области"; its condition cos q2 >= 0 follows (errata S0-c, S0-s).
     """
     l1, l2 = _links(l1, l2)
     x, y, z = components(floats(points, "points", 3))
     slack = ROUNDING * (l1 + l2)
-    with np.errstate(over="ignore"):  # a point 1e308 m away is too far, and that is all
+    with np.errstate(over="ignore"):  # a point 1e308 m away is too far, without a warning
         rho = np.hypot(x, y)
         d = np.hypot(rho, z)
-        # The elbow is lowest on the floor behind the axis, l1 away: (rho + l1)^2 + z^2 >= l2^2, the
-        # last inequality of the document with its terms in another order.
+        # The lowest elbow is on the floor behind the axis, l1 away: (rho + l1)^2 + z^2 >= l2^2,
+        # which is the document's last inequality with its terms reordered.
         from_elbow = np.hypot(rho + l1, z)
     inner_sphere = (d >= l1 - l2 - slack) | (l1 <= l2)
     inner_surface = (from_elbow >= l2 - slack) | (l1 >= l2)
@@ -39,9 +40,7 @@ def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
 
 
 def out_of_workspace(l1: float, l2: float, point: ArrayLike) -> list[str]:
-    """Why one point (3,) lies outside the workspace: a list of reasons in words, empty if it lies
-    inside.
-    """
+    """Why a point (3,) is outside the workspace: a list of reasons in words; empty inside it."""
     l1, l2 = _links(l1, l2)
     p = floats(point, "point", 3)
     if p.ndim != 1:
@@ -53,14 +52,14 @@ def out_of_workspace(l1: float, l2: float, point: ArrayLike) -> list[str]:
 
 
 def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
-    """The principal branch for points (..., 3) -> q (..., 3): rad, NaN in a joint that is free, all
-    NaN out of reach.
+    """The principal branch for points (..., 3) -> q (..., 3) in rad. A free joint is NaN; a point
+    out of reach gives a NaN row.
 
     On axis 1 joint 1 is free (errata S0-p), and with equal links folded onto the origin joint 2 as
     well (S0-k).
     """
     l1, l2 = _links(l1, l2)
-    # -0.0 is 0: atan2 tells them apart, a point does not
+    # -0.0 becomes 0: atan2 distinguishes them, a point does not
     p = floats(points, "points", 3) + 0.0
     near = FREE * (l1 + l2)
     with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`
@@ -72,16 +71,16 @@ def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
 
 
 def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
-    """How far the tool at q (..., 3) is from where it should be, points (..., 3): m, (...).
-    Infinite if a joint is past its limit, NaN if the posture does not exist.
+    """The distance in m of the tool at q (..., 3) from the points (..., 3) where it should be:
+    (...). Infinite if a joint is past its limit, NaN if the posture does not exist.
 
-    It says what the printed program's seven checks mean to say: they have no absolute value, and
-    joint 1 is in none of them (errata S0-e).
+    This is what the printed program's seven checks intend: they lack the absolute value, and none
+    of them tests joint 1 (errata S0-e).
     """
     arm = spbu_arm(*_links(l1, l2))
     posture, p = floats(q, "q", 3, finite=False), floats(points, "points", 3)
     broadcast("q and points", posture.shape, p.shape)
-    posture = with_free_joints(posture, 0.0)  # a free joint may take any value; 0 is one of them
+    posture = with_free_joints(posture, 0.0)  # a free joint may have any value, so 0 too
     with np.errstate(over="ignore"):
         gap = np.linalg.norm(arm.fk(posture).translation - p, axis=-1)
     return np.where(within(arm, posture).all(axis=-1) | np.isnan(gap), gap, np.inf)
@@ -90,15 +89,15 @@ def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
 def travel_time(
     q_from: ArrayLike, q_to: ArrayLike, speeds: ArrayLike, *, short_way: bool = False
 ) -> Floats:
-    """The least time from posture to posture, s: q_from, q_to (..., 3) and greatest speeds (3,) ->
-    (...).
+    """The least time in s from posture to posture: q_from, q_to (..., 3) and greatest speeds (3,)
+    -> (...).
 
-    t = max over the joints of |difference| / speed: the slowest joint decides. A joint that is NaN
-    costs nothing: in q_to it is free and stays where it stands (errata S0-p), in q_from nobody has
-    said where it stands. Going on from a free joint, put in what it has kept: `itinerary` does. NaN
-    if every joint is NaN. `short_way` lets joint 1 take the shorter way round, as if it had no stop
-    at +-pi (errata S0-o).
-    Source: 000, "Нахождение времени". ValueError: wrong shapes, a speed that is not positive.
+    t is the maximum over the joints of |difference| / speed: the slowest joint decides. A NaN joint
+    takes no time: in q_to it is free and keeps its value (errata S0-p), in q_from its value is
+    unknown. To continue from a free joint, insert the value that it kept, as `itinerary` does. The
+    result is NaN if every joint is NaN. `short_way` lets joint 1 take the shorter turn, as if it
+    had no stop at +-pi (errata S0-o). Source: 000, "Нахождение времени". ValueError: wrong shapes,
+    a speed that is not positive.
     """
     start, end = (
         floats(q, name, 3, finite=False) for q, name in ((q_from, "q_from"), (q_to, "q_to"))
@@ -113,13 +112,13 @@ def travel_time(
 
 
 def lowest(l1: float, l2: float, q_from: ArrayLike, q_to: ArrayLike) -> Floats:
-    """The least height of the tool, m, on the way from q_from to q_to (..., 3) with every joint
-    moving evenly: (...).
+    """The least height of the tool in m on the way from q_from to q_to (..., 3), with every joint
+    at constant speed: (...).
 
-    Between two points above the floor it can be negative where l1 > l2 (errata S0-u). Not a sample
-    but certain: the tool comes nowhere lower than this minus 1e-9 of the reach. A joint that is NaN
-    at one end is free and stands still; NaN if a posture does not exist. ValueError: a joint beyond
-    two turns.
+    Between two points above the floor it can be negative if l1 > l2 (errata S0-u). The bound is
+    certain and not a sample: the tool is nowhere lower than this minus 1e-9 of the reach. A joint
+    that is NaN at one end is free and stands still. The result is NaN if a posture does not exist.
+    ValueError: a joint beyond two turns.
     """
     l1, l2 = _links(l1, l2)
     start, end = (
@@ -133,11 +132,11 @@ def lowest(l1: float, l2: float, q_from: ArrayLike, q_to: ArrayLike) -> Floats:
     return lowest_place(l1, l2, start, end, np.inf)
 
 
-# ---- The same for arguments that are checked
+# ---- Versions without argument checks
 
 
 def joint_travel_time(start: Floats, end: Floats, speeds: Floats, short_way: bool) -> Floats:
-    """`travel_time` of what has been checked."""
+    """`travel_time` without argument checks."""
     with np.errstate(over="ignore", invalid="ignore"):
         turn = abs(end - start)
         if short_way:
@@ -148,14 +147,16 @@ def joint_travel_time(start: Floats, end: Floats, speeds: Floats, short_way: boo
 
 
 def with_free_joints(q: Floats, here: Floats | float) -> Floats:
-    """Postures q (..., 3) with each free joint (NaN) as it is in the posture `here`. A posture that
-    does not exist has joint 3 missing as well, and stays.
+    """Postures q (..., 3) with each free joint (NaN) as in the posture `here`. A posture that does
+    not exist also lacks joint 3, and stays NaN.
     """
     return np.where(np.isnan(q) & ~np.isnan(q[..., 2:]), here, q)
 
 
 def lowest_place(l1: float, l2: float, start: Floats, end: Floats, below: float) -> Floats:
-    """`lowest` of what has been checked; what is not below the height `below` may be too great."""
+    """`lowest` without argument checks; a result that is not below the height `below` may be too
+    large.
+    """
     start, end = np.broadcast_arrays(
         with_free_joints(with_free_joints(start, end), 0.0),
         with_free_joints(with_free_joints(end, start), 0.0),
@@ -166,9 +167,7 @@ def lowest_place(l1: float, l2: float, start: Floats, end: Floats, below: float)
 
 
 def reasons_outside(l1: float, l2: float, point: Floats) -> tuple[str, ...]:
-    """What is wrong with one point (3,) if it is outside, one text for each of the four
-    conditions.
-    """
+    """The reasons why a point (3,) may be outside, one text for each of the four conditions."""
     x, y, z = point.tolist()
     rho, d = math.hypot(x, y), math.hypot(x, y, z)
     return (
@@ -192,14 +191,14 @@ def _links(l1: Any, l2: Any) -> tuple[float, float]:
     return l1, l2
 
 
-@np.errstate(invalid="ignore")  # NaN of postures that do not exist
+@np.errstate(invalid="ignore")  # NaN from postures that do not exist
 def _lowest_of_block(l1: float, l2: float, moves: Sequence[Floats], below: float) -> Floats:
     """`lowest_place` for moves: q2 and q3 at the start, q2 and q3 at the end, (n,) each.
 
-    Halves those stretches of a move which can still hold a lower place. With a = q2 and b = q2 + q3
-    the height is z = l1 cos a - l2 sin b, and a, b run evenly: a stretch of the share h hangs lower
-    than its lower end by at most z'' h^2 / 8, and z'' is known from its middle and from how fast it
-    can change.
+    It bisects the pieces of a move that can still contain a lower place. With a = q2 and b = q2 +
+    q3 the height is z = l1 cos a - l2 sin b, and a, b change linearly. A piece of the fraction h is
+    lower than its lower end by at most z'' h^2 / 8, and z'' is bounded by its value in the middle
+    and its rate of change.
     """
     a, q3, a_end, q3_end = moves
     b, b_end = a + q3, a_end + q3_end

@@ -1,4 +1,4 @@
-"""A result in words, with warnings."""
+"""The result in words, with warnings."""
 
 import numpy as np
 
@@ -8,15 +8,15 @@ from .arm import UNDER, joint_travel_time, lowest_place
 from .solver import Result, fits, stops_of
 from .task import FAULTS_SHOWN, Task, and_more, coordinates
 
-# So that a person can read what is said:
+# These limits keep a report readable:
 POINTS_SHOWN = 1_000
 
 
 def report(task: Task, result: Result) -> str:
-    """The result in words, one line for each point served: its index in pi, its coordinates, when
-    it is done. Then warnings: a move on which the tool dips under the floor, an order that need not
-    be the best, what is odd about the file. POINTS_SHOWN lines of points at most, and FAULTS_SHOWN
-    of moves. ValueError: a result of another task.
+    """The result in words, one line for each point served: its index in pi, its coordinates, its
+    time. Then warnings: moves on which the tool dips below the floor, an order that may not be the
+    best, oddities of the file. At most POINTS_SHOWN lines of points, and FAULTS_SHOWN of moves.
+    ValueError: a result of another task.
     """
     stops = stops_of(task, result)
     done, count = "collected" if task.kind == "collect" else "visited", len(result.order)
@@ -46,8 +46,8 @@ def report(task: Task, result: Result) -> str:
 
 
 def _low_moves(task: Task, result: Result, q: Floats) -> list[str]:
-    """The moves of a result, between stops q (k, 3), that dip under the floor, in words."""
-    if task.kind == "collect":  # from p0 to each point, and back the same way
+    """The moves between stops q (k, 3) that dip below the floor, in words."""
+    if task.kind == "collect":  # from p0 to each point and back
         names = [f"between p0 and pi[{i}]" for i in result.order]
         start, end = q[:-1:2], q[1::2]
     else:
@@ -65,7 +65,7 @@ def _low_moves(task: Task, result: Result, q: Floats) -> list[str]:
 
 
 def _oddities(task: Task) -> list[str]:
-    """What else a reader of the answer should know, in words."""
+    """Other facts that a reader should know, in words."""
     found = []
     if task.kind == "collect" and np.isnan(task.q[0]).any() and len(task.points) > 1:
         found.append(

@@ -1,4 +1,4 @@
-"""Answers to a task: which points are served, in which order and when."""
+"""Solutions of a task: which points are served, in which order and when."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -12,16 +12,16 @@ from ...arms.geometry import ROUNDING
 from .arm import UNDER, joint_travel_time, lowest_place, with_free_joints
 from .task import Task, TaskError
 
-# So that no call takes more than some seconds:
-EXACT_LIMIT = 16  # points; the exact optimum takes twice the time and memory for each point more
-NEAREST_LIMIT = 10_000  # points; to find the nearest again and again compares n^2 / 2 moves
-ABOVE_LIMIT = 1_000  # the same if the lowest place of each of these moves is wanted
+# These limits keep every call below a few seconds:
+EXACT_LIMIT = 16  # points; each further point doubles the time and memory of the exact optimum
+NEAREST_LIMIT = 10_000  # points; the repeated search for the nearest compares n^2 / 2 moves
+ABOVE_LIMIT = 1_000  # the same if each of these moves also needs its lowest place
 
 
 @dataclass(frozen=True)
 class Result:
-    """What a task yields: `order` and `left`, indices into its points, and `times`, s, when each
-    point of `order` is visited or brought back.
+    """The result of a task: `order` and `left` are indices into its points, and `times` in s says
+    when each point of `order` is visited or brought back.
     """
 
     order: tuple[int, ...]
@@ -38,18 +38,18 @@ class Result:
 
     @property
     def time(self) -> float:
-        """When the last point is served, s; 0 if none is."""
+        """The time in s when the last point is served; 0 if none is."""
         return self.times[-1] if self.times else 0.0
 
 
-@np.errstate(over="ignore")  # here and below: at 1e-308 rad/s a time is infinite, and does not fit
+@np.errstate(over="ignore")  # here and below: at 1e-308 rad/s a time is infinite, and exceeds T
 def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
-    """Bring as many points as possible to p0, one at a time, within T: the Result.
+    """Bring as many points as possible to p0, one at a time, within T.
 
-    Each costs the way there and back; the cheapest come first, the one with the lower index on a
-    tie. This is the optimum (errata S0-r), unless p0 lies on axis 1: there the cost of a point
-    depends on where joint 1 has been left, and the cheapest next from there need not be the best.
-    T hit exactly counts. `above_floor` refuses points on whose way the tool would dip under the
+    Each point costs the way there and back. The cheapest points come first, with the lower index on
+    a tie. This is the optimum (errata S0-r), unless p0 is on axis 1: there the cost of a point
+    depends on the value that joint 1 has kept, and the cheapest next point may not be the best. A
+    time of exactly T counts. `above_floor` refuses points on whose way the tool would dip below the
     floor. Source: 000, "Нахождение времени", task "сбора". TaskError: p0 on axis 1 and more than
     NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
     """
@@ -60,7 +60,7 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
     if above_floor:
         costs[_dips(task, start, task.q[1:])] = np.inf
     order = costs.argsort()
-    # Costs that differ by rounding are a tie; sorted, they stand side by side.
+    # Costs that differ only by rounding are a tie; after sorting they are adjacent.
     rank = np.cumsum(~_nearly_least(costs[order[1:]], costs[order[:-1]]))
     order = order[np.lexsort((order, np.append(0, rank)))]
     times = np.cumsum(costs[order])
@@ -69,27 +69,24 @@ def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -
 
 
 def visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
-    """Go on to the nearest point not yet visited, the one with the lower index on a tie, until T:
-    the Result.
+    """Go to the nearest point that is not yet visited, with the lower index on a tie, until T.
 
-    Greedy, as in the document, and not always the optimum (errata S0-q): see `best_visit`. It ends
-    where the nearest point does not fit, since then none does; the printed program never ends there
-    (S0-f). T hit exactly counts. `above_floor` refuses moves on which the tool would dip under the
-    floor.
-    Source: 000, "Нахождение времени", task "посещения". TaskError: more than NEAREST_LIMIT points
-    (ABOVE_LIMIT with `above_floor`).
+    This is greedy, as in the document, and not always optimal (errata S0-q): see `best_visit`. It
+    ends when the nearest point does not fit within T, since then none does; the printed program
+    never ends in that case (S0-f). A time of exactly T counts. `above_floor` refuses moves on which
+    the tool would dip below the floor. Source: 000, "Нахождение времени", task "посещения".
+    TaskError: more than NEAREST_LIMIT points (ABOVE_LIMIT with `above_floor`).
     """
     return _cheapest_next(instance(task, Task, "task"), short_way, above_floor, back=False)
 
 
 @np.errstate(over="ignore")
 def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
-    """The best possible visit: the most points within T, then the least time, then the order that
-    is first in the dictionary. Times that differ by rounding (1e-12) are equal. Not in the
-    document.
+    """The best visit: the most points within T, then the least time, then the lexicographically
+    first order. Times that differ only by rounding (1e-12) are equal. It is not in the document.
 
-    Exact, by dynamic programming over the sets of visited points; ValueError for more than
-    EXACT_LIMIT points, since each point more doubles the work. `above_floor` as in `visit`.
+    It is exact, by dynamic programming over the sets of visited points. ValueError: more than
+    EXACT_LIMIT points, since each further point doubles the work. `above_floor` is as in `visit`.
     """
     n = len(instance(task, Task, "task").points)
     if n > EXACT_LIMIT:
@@ -102,10 +99,10 @@ def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False
     if above_floor:
         legs[_dips(task, q[:, None], task.q[1:])] = np.inf
 
-    # A set of points is a number, one bit a point. least[here, visited]: the least time to visit
-    # this set, ending in this posture. path: the order that takes it, its points as the digits of a
-    # number to base 16, so that of two orders of one set the smaller number is the one first in the
-    # dictionary.
+    # A set of points is a number with one bit per point. least[here, visited]: the least time to
+    # visit this set and end in this posture. path: the order with that time, its points as the
+    # digits of a number in base 16, so that of two orders of a set the lexicographically first is
+    # the smaller number.
     sets = np.arange(2**n)
     size = np.bitwise_count(sets)
     least = np.full((len(q), 2**n), np.inf)
@@ -135,11 +132,11 @@ def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False
 
 @np.errstate(over="ignore")
 def itinerary(task: Task, result: Result, *, short_way: bool = False) -> tuple[Floats, Floats]:
-    """When the arm is where: times (k,) in s and joint values (k, 3) at every stop, p0 first.
+    """The timetable of the arm: times (k,) in s and joint values (k, 3) at every stop, p0 first.
 
-    After "collect" the arm returns to p0 with each point. Between two stops every joint moves
-    evenly (`np.interp`), so that all arrive together, and none faster than it can. For an
-    animation. ValueError: a result of another task.
+    In "collect" the arm returns to p0 with each point. Between two stops every joint moves at
+    constant speed (`np.interp`), so that all arrive together and none exceeds its limit. It is
+    meant for animations. ValueError: a result of another task.
     """
     q = stops_of(task, result)
     times = joint_travel_time(q[:-1], q[1:], task.speeds, short_way)
@@ -149,16 +146,16 @@ def itinerary(task: Task, result: Result, *, short_way: bool = False) -> tuple[F
 
 
 def answer(task: Task, *, above_floor: bool = False) -> Result:
-    """What the document's program computes: `collect` or the greedy `visit`, as the task says."""
+    """Solve a task as the document's program does: by `collect` or by the greedy `visit`."""
     method = collect if instance(task, Task, "task").kind == "collect" else visit
     return method(task, above_floor=above_floor)
 
 
-# ---- What the report asks besides
+# ---- For the report
 
 
 def stops_of(task: Task, result: Result) -> Floats:
-    """The postures (k, 3) at every stop of a result of this task."""
+    """The postures (k, 3) at all stops of a result of this task."""
     instance(task, Task, "task")
     instance(result, Result, "result")
     n = len(task.points)
@@ -173,7 +170,7 @@ def stops_of(task: Task, result: Result) -> Floats:
 
 @np.errstate(over="ignore")
 def fits(times: Floats, T: float) -> Bools:
-    """Which times are within T: T hit exactly counts, and T passed by rounding is T."""
+    """Which times are within T. A time of exactly T counts, also if it exceeds T by rounding."""
     return times - T <= ROUNDING * T
 
 
@@ -182,8 +179,8 @@ def fits(times: Floats, T: float) -> Bools:
 
 @np.errstate(over="ignore")
 def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -> Result:
-    """Serve the cheapest point left, again and again, while it fits; `back` with the way back to
-    p0.
+    """Serve the cheapest remaining point repeatedly while it fits within T; with `back`, including
+    the way back to p0.
     """
     limit = ABOVE_LIMIT if above_floor else NEAREST_LIMIT
     if (n := len(task.points)) > limit:
@@ -194,8 +191,8 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
     order: list[int] = []
     times: list[float] = []
     total, here, p0 = 0.0, task.q[0], task.q[0]
-    # The points left and their postures, in one long run for each joint; the last takes the place
-    # of one that is served.
+    # The remaining points and their postures, contiguous for each joint; the last one replaces one
+    # that is served.
     left, q = np.arange(n), np.array(task.q[1:], order="F")
     while len(left):
         costs = joint_travel_time(here, q, task.speeds, short_way)
@@ -206,7 +203,7 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
         best = np.flatnonzero(_nearly_least(costs, costs.min()) & fits(total + costs, task.T))
         if not len(best):
             break
-        k = best[left[best].argmin()]  # the first of those that cost least
+        k = best[left[best].argmin()]  # the first of the cheapest
         total += float(costs[k])
         order.append(int(left[k]))
         times.append(total)
@@ -221,8 +218,8 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
 
 
 def _settled(q: Floats) -> Floats:
-    """The postures q (k, 3) of a way with the values of free joints: that of the stop before; at
-    the beginning that of the first stop which has one; 0 if none has.
+    """Fill in the free joints of the postures q (k, 3) on a path with the value of the previous
+    stop; at the beginning with that of the first stop that has one; 0 if none has.
     """
     q = q.copy()
     for joint in range(3):
@@ -235,15 +232,17 @@ def _settled(q: Floats) -> Floats:
 
 
 def _standings(task: Task) -> tuple[Ints, Floats, Ints]:
-    """Every posture in which the arm of a task can stand, the start first: its point (k,), -1 for
-    the start; the posture (k, 3); and in which of them it arrives from each at every point (k, n).
+    """All postures in which the arm of a task can stop, the start first: the point (k,) of each, -1
+    for the start; the posture (k, 3); and the index of the posture in which it arrives at every
+    point from each of them (k, n).
 
-    Off axis 1 there is one at a point; on it one for every angle that joint 1 can bring along.
+    A point off axis 1 has one posture; a point on it has one for each value that joint 1 can bring
+    along.
     """
     point, q = [-1], [task.q[0]]
     lands: list[list[int]] = []
     known: dict[tuple[int, bytes], int] = {}
-    for here in q:  # which grows
+    for here in q:  # the list grows in the loop
         lands.append([])
         for i, posture in enumerate(with_free_joints(task.q[1:], here)):
             if (key := (i, posture.tobytes())) not in known:
@@ -255,14 +254,14 @@ def _standings(task: Task) -> tuple[Ints, Floats, Ints]:
 
 
 def _dips(task: Task, start: Floats, end: Floats) -> Bools:
-    """On which moves from start to end (..., 3) does the tool come under the floor? bool (...)."""
+    """Whether the tool dips below the floor on the moves from start to end (..., 3): bool (...)."""
     return lowest_place(task.l1, task.l2, start, end, below=0) < -UNDER * (task.l1 + task.l2)
 
 
 @np.errstate(over="ignore")
 def _nearly_least(times: Floats, least: Floats) -> Bools:
-    """Which times are the least one; those that differ by rounding are equal, on every
-    processor.
+    """Which times are equal to the least one; times that differ only by rounding are equal, so that
+    every processor agrees.
     """
     return times <= least * (1 + ROUNDING)
 

@@ -1,4 +1,4 @@
-"""Tasks: reading them from a file or from numbers, and everything that is wrong with one."""
+"""Tasks: reading a task from a file or from numbers, and finding all its faults."""
 
 import json
 import math
@@ -16,15 +16,15 @@ from ..._validate import masked, short, text
 from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside, workspace
 
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
-# So that no call takes more than some seconds:
-TASK_LIMIT = 300_000  # points of any task
+# These limits keep every call below a few seconds:
+TASK_LIMIT = 300_000  # points in any task
 FILE_LIMIT = 40_000_000  # bytes
-# So that a person can read what is said:
-FAULTS_SHOWN = 10  # of one kind
+# These limits keep messages readable:
+FAULTS_SHOWN = 10  # faults of one kind
 
 
 class TaskError(ValueError):
-    """A task that cannot be worked on; `faults` holds every reason, one text each."""
+    """A task cannot be solved; `faults` holds all reasons, one text each."""
 
     def __init__(self, faults: Iterable[str]) -> None:
         self.faults = tuple(faults)
@@ -33,12 +33,12 @@ class TaskError(ValueError):
 
 @dataclass(frozen=True, eq=False, init=False)
 class Task:
-    """A checked task, read-only: links l1, l2 (m), time T (s), greatest joint speeds (3,) in rad/s,
-    start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks`: what is odd
-    about its file, in words, for the report. `q` (1 + n, 3) are the `principal_postures` of p0 and
-    of the points.
+    """A checked, read-only task: links l1, l2 (m), time T (s), greatest joint speeds (3,) in rad/s,
+    start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks` are oddities of
+    its file, in words, for the report. `q` (1 + n, 3) are the `principal_postures` of p0 and of the
+    points.
 
-    TaskError with every fault: see `faults`.
+    TaskError: it lists all faults, see `faults`.
 
     >>> task = Task(5, 4, 10, [0.2] * 3, [1, 1, 1], [[2, 3, 2], [1, 3, 3]], "visit")
     >>> visit(task).order
@@ -73,7 +73,7 @@ class Task:
         if not isinstance(remarks, (list, tuple)):
             raise ValueError(f"remarks: wanted a list of texts, got {short(remarks)}")
         l1, l2, T = (float(data[key]) for key in KEYS[:3])
-        # -0.0 is 0, as in `principal_postures`
+        # -0.0 becomes 0, as in `principal_postures`
         rows = [frozen(np.array(data[key], dtype=float) + 0.0) for key in KEYS[3:6]]
         vars(self).update(l1=l1, l2=l2, T=T, speeds=rows[0], p0=rows[1], points=rows[2])
         vars(self).update(
@@ -84,10 +84,9 @@ class Task:
 
 
 def read_task(path: str | os.PathLike[str]) -> Task:
-    """The task in a JSON file. TaskError with every fault, whatever the file holds; the file is
-    only read.
+    """Read the task in a JSON file. TaskError: it lists all faults, whatever the file contains.
 
-    A key given twice is a fault. Unknown keys are let be, and named in the task's `remarks`.
+    A duplicate key is a fault. Unknown keys are ignored and listed in the task's `remarks`.
     """
     data, twice = _parsed(path)
     if not isinstance(data, dict) or not data.keys() >= set(KEYS):
@@ -102,12 +101,12 @@ def read_task(path: str | os.PathLike[str]) -> Task:
 
 
 def faults(data: Any) -> list[str]:
-    """Everything wrong with a task as its file gives it, a dict with the keys KEYS: a list of
-    texts, or an empty one.
+    """All faults of a task as its file gives it, a dict with the keys KEYS: a list of texts, empty
+    if there are none.
 
-    Other keys are let be. Right points are checked against the workspace if the lengths are right
-    too, numbered as in the document: 0 is p0, and 1 is pi[0]. Of one kind ten are named, and the
-    rest are counted.
+    Other keys are ignored. If the points and the lengths are valid, the points are checked against
+    the workspace, numbered as in the document: 0 is p0, and 1 is pi[0]. The first ten faults of one
+    kind are listed, and the rest are counted.
     """
     if not isinstance(data, dict):
         return [f"wanted an object with the keys {', '.join(KEYS)}, got {short(data)}"]
@@ -136,14 +135,12 @@ def faults(data: Any) -> list[str]:
 
 
 def and_more(count: int, shown: int, template: str) -> str:
-    """How many more there are than are shown, in the place {} of the template; "" if there are
-    none.
-    """
+    """Fill the number of items that are not shown into {} of the template; "" if all are shown."""
     return template.format(f"{count - shown} more") if count > shown else ""
 
 
 def coordinates(point: Floats) -> str:
-    """A point (3,) in words, as precise as a report needs."""
+    """A point (3,) in words, with the precision of a report."""
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
@@ -151,8 +148,8 @@ def coordinates(point: Floats) -> str:
 
 
 def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> list[str]:
-    """The faults of points p (n, 3) with their numbers in the document, that the arm cannot
-    serve.
+    """The faults of those points p (n, 3) that the arm cannot serve, with their numbers in the
+    document.
     """
 
     def named(i: int) -> str:
@@ -186,8 +183,8 @@ def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> lis
 
 
 def _parsed(path: str | os.PathLike[str]) -> tuple[Any, Counter[str]]:
-    """What a JSON file holds, and how often its outermost object gives each key. TaskError if it
-    cannot be had.
+    """Return the content of a JSON file, and how often its outermost object gives each key.
+    TaskError: the file cannot be read.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise TypeError(f"path: wanted a path, got {short(path)}")
@@ -200,7 +197,7 @@ def _parsed(path: str | os.PathLike[str]) -> tuple[Any, Counter[str]]:
 
     try:
         raw = _content(Path(path))
-    except (OSError, ValueError) as error:  # ValueError: a name that no file can have
+    except (OSError, ValueError) as error:  # ValueError: an impossible file name
         if isinstance(error, TaskError):
             raise
         raise TaskError([f"cannot be read: {getattr(error, 'strerror', None) or error}"]) from None
@@ -236,7 +233,7 @@ def _number(value: Any) -> bool:
         return (
             isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
         )
-    except OverflowError:  # a whole number greater than every float
+    except OverflowError:  # an integer too large for a float
         return False
 
 
@@ -244,7 +241,7 @@ def _triple(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 3 and all(map(_number, value))
 
 
-RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key: what is right, and its name
+RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key: its check, and its name
     **dict.fromkeys(
         ("L1", "L2"),
         (
@@ -267,8 +264,8 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key: what is right, a
 
 
 def _plain(value: Any, depth: int = 2) -> Any:
-    """Arrays and tuples, as a lesson gives them, as the lists of a file. What is too much, or holds
-    no numbers, stays as it is, and `faults` refuses it.
+    """Convert arrays and tuples, as a lesson gives them, to the lists of a file. Values that are
+    too large or not numbers are unchanged; `faults` refuses them.
     """
     if isinstance(value, (np.ndarray, np.generic)):
         fit = value.dtype.kind not in "mM" and value.size <= 3 * TASK_LIMIT
