@@ -1,4 +1,4 @@
-"""Figures and players for notebooks: arrays in, pictures out."""
+"""Figures and players for notebooks, made from arrays."""
 
 try:
     from .ellipsoid import plot_velocity_ellipsoid

@@ -1,4 +1,4 @@
-"""What a caller gives a figure or a player, looked at before anything is drawn."""
+"""Checks of the arguments of figures and players, before anything is drawn."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -22,9 +22,9 @@ Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
 
 
 def named_targets(targets: Targets) -> dict[str, Transform]:
-    """`targets` as a dict of name -> Transform. A list of one is the target, of two start and goal,
-    of three start, via and goal; more are numbered P1, P2, ... TypeError: other things than poses.
-    ValueError: a batch of poses under one name.
+    """Return `targets` as a dict of name -> Transform. A list of one is called target, a list of
+    two start and goal, a list of three start, via and goal; more are numbered P1, P2, ...
+    TypeError: an item that is not a pose. ValueError: a batch of poses under one name.
     """
     named = posed(targets)
     for name, pose in named.items():
@@ -36,7 +36,7 @@ def named_targets(targets: Targets) -> dict[str, Transform]:
 
 
 def posed(targets: Targets) -> dict[str, Transform]:
-    """As `named_targets`, batches of poses let through."""
+    """As `named_targets`, but batches of poses are accepted."""
     if isinstance(targets, Transform):
         targets = list(targets) if targets.shape else [targets]
     if isinstance(targets, Mapping):
@@ -53,14 +53,14 @@ def posed(targets: Targets) -> dict[str, Transform]:
     return named
 
 
-# --- What a player is given -----------------------------------------------------------------------
+# --- Arguments of a player -----------------------------------------------------------------------
 
 
 def tracks(
     arm: Any, t: Any, q: Any, lead: tuple[int, ...], names: Any
 ) -> tuple[list[Recording], list[str]]:
-    """A recording for each arm, its motions in a row (C, N, n), and the names; whether one arm was
-    given or several, or recordings.
+    """Return a recording for each arm, with its motions in one row (C, N, n), and the names. The
+    caller may give one arm, several arms, or recordings.
     """
     several = isinstance(arm, (list, tuple))
     given = list(arm) if several else [arm]
@@ -98,7 +98,7 @@ def _names(names: Any, arms: Sequence[Arm]) -> list[str]:
 
 
 def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -> None:
-    """The switch before the slider, then samples and joints."""
+    """Check the shape: switch, slider, samples, joints."""
     wanted = (*lead, count, len(arm.limits))
     if q.shape != wanted:
         axes = ", ".join(["switch", "slider", "samples", "joints"][2 - len(lead) :])
@@ -106,7 +106,7 @@ def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -
 
 
 def _in_a_row(recording: Recording) -> Recording:
-    """The same with its motions in one row: (C, N, n)."""
+    """The same recording with its motions in one row: (C, N, n)."""
     lead = recording.shape
 
     def placed(jumps: Iterable[Jump]) -> tuple[Jump, ...]:
@@ -128,7 +128,7 @@ def _pair(value: Any, name: str, what: str) -> tuple[str, Any]:
 
 
 def slider(value: Any) -> Slider | None:
-    """(name, values) as the page gets it."""
+    """Return (name, values) as page data."""
     if value is None:
         return None
     label, given = _pair(value, "slider", "values")
@@ -144,7 +144,7 @@ def slider(value: Any) -> Slider | None:
 
 
 def switch(value: Any) -> Switch | None:
-    """(name, words) as the page gets it."""
+    """Return (name, words) as page data."""
     if value is None:
         return None
     label, values = _pair(value, "switch", "words")
@@ -168,7 +168,7 @@ def things(
 
 
 def bases(value: Any, count: int) -> Floats | None:
-    """Where `count` arms stand in one space: (count, 2)."""
+    """Return the positions of `count` arms in one space: (count, 2)."""
     if value is None:
         return None
     found = in_sight(floats(value, "bases"), "bases")
@@ -179,7 +179,7 @@ def bases(value: Any, count: int) -> Floats | None:
 
 
 def _marks(points: Any, circles: Any, readings: Any) -> list[Mark]:
-    """Points are circles without a radius."""
+    """Return points and circles as marks; points are circles without a radius."""
     if not isinstance(readings, Mapping):
         raise ValueError(f"readings: wanted a dict name -> numbers, got {short(readings)}")
     read = {}

@@ -1,7 +1,7 @@
-"""What a camera must see of arms and things, and where it stands: for figures and pages.
+"""The camera of figures and pages: where it is, and what it must see of arms and things.
 
-`project` gives metres on the picture. Pixels come of them in `scene.Scene._fit` and matplotlib, in
-a page in `js/camera.js`.
+`project` returns metres in the picture. `scene.Scene._fit` and matplotlib convert them to pixels;
+in a page `js/camera.js` does.
 """
 
 from collections.abc import Iterable, Sequence
@@ -24,16 +24,16 @@ from .twin import PageLink
 
 View: TypeAlias = tuple[float, float]
 
-VIEW = -60 * deg, 22 * deg  # azimuth and elevation: where the camera of a spatial view stands
-SPECK = 1e-3  # metres: the smallest arm that a picture shows
-# the views straight at the planes x = 0, y = 0 and z = 0
+VIEW = -60 * deg, 22 * deg  # azimuth and elevation of the camera in a spatial view
+SPECK = 1e-3  # metres: the smallest arm that can be drawn
+# views perpendicular to the planes x = 0, y = 0 and z = 0
 STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
 
 def project(points: ArrayLike, view: View = VIEW) -> Floats:
-    """Parallel projection of points (..., 3) onto the picture: (..., 2), in metres, to the right
-    and up, as it is seen from `view`: azimuth about the base's z axis, counted from its x axis, and
-    elevation, in radians.
+    """Parallel projection of points (..., 3) onto the picture: (..., 2) in metres, to the right and
+    up. `view` is the azimuth about the base's z axis, from its x axis, and the elevation, in
+    radians.
     """
     (ca, ce), (sa, se) = np.cos(view), np.sin(view)
     across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
@@ -41,8 +41,8 @@ def project(points: ArrayLike, view: View = VIEW) -> Floats:
 
 
 def posture(arm: Arm, q: Floats) -> Floats:
-    """The same postures q (..., n) within two turns. A motion that turns on and on (`follow` gives
-    such) is no slip, and nothing is to warn of degrees.
+    """The same postures q (..., n) within two turns. A motion that keeps turning (`follow` returns
+    such) is not a mistake, so it must not cause the warning about degrees.
     """
     far = (abs(q) > TWO_TURNS) & ~arm.prismatic
     return np.where(far, wrapped(q), q) if far.any() else q
@@ -52,8 +52,7 @@ def arm_points(arm: Arm, q: Floats) -> Floats:
     """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange: q (..., n) ->
     (..., 2n + 1, 3).
 
-    Joint i stands at index 2i + 1 (i from 0); the ends of the links are the origins of
-    `arm.frames`.
+    Joint i is at index 2i + 1 (i from 0); the ends of the links are the origins of `arm.frames`.
     """
     frames = arm.frames(posture(arm, q))
     joints = [frames[..., i] @ link.before.translation for i, link in enumerate(arm.links)]
@@ -63,13 +62,13 @@ def arm_points(arm: Arm, q: Floats) -> Floats:
 
 
 def flange(arm: Arm, q: Floats) -> Transform:
-    """The flange at q (..., n), of whatever turns."""
+    """The flange at q (..., n), for angles of any size."""
     return arm.fk(posture(arm, q))
 
 
 def extent(arm: Arm) -> float:
-    """The length of the stretched arm in metres: the scale of its pictures. ValueError: too large
-    or too small for one.
+    """The length of the stretched arm in metres: the scale of its pictures. ValueError: it is too
+    large or too small to draw.
     """
     with np.errstate(over="ignore"):
         size = total_length(arm)
@@ -79,11 +78,11 @@ def extent(arm: Arm) -> float:
 
 
 def is_flat(arm: Arm, q: Floats) -> bool:
-    """Whether all of these postures lie in the plane z = 0, so that a view from above says more."""
+    """Whether these postures lie in the plane z = 0, so that a view from above shows more."""
     return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * extent(arm))
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- Page data ---------------------------------------------------------------------------
 
 
 def scene_data(
@@ -97,8 +96,8 @@ def scene_data(
     grows: bool = False,
     bases: Floats | None = None,
 ) -> PageScene:
-    """Where the camera stands, what it has to see, the floor and the things in the space. `kept`
-    are the samples that the page gets of things that move. A `solid` floor is at height 0.
+    """The camera, the points that it must see, the floor and the things in the space. `kept` are
+    the samples of moving things that the page gets. A `solid` floor is at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
     feet = standing(bases, len(arms))
@@ -139,20 +138,20 @@ def scene_data(
 
 
 def standing(bases: Floats | None, count: int) -> Floats:
-    """Where `count` arms stand: (count, 3). Without `bases`, each at the origin."""
+    """The positions of `count` arms: (count, 3). Without `bases` each is at the origin."""
     flat = np.zeros((count, 2)) if bases is None else bases
     return np.column_stack([flat, np.zeros(count)])
 
 
 def outermost(points: Floats) -> list[list[float]]:
-    """The points (k, 3) that a camera has to see, some fifty: those farthest out in evenly spread
+    """About fifty points (k, 3) that a camera must see: those farthest out in evenly spread
     directions.
 
-    Rounded first, so that which of two equal ones is taken does not depend on noise.
+    They are rounded first, so that the choice between two equal ones does not depend on noise.
     """
     points = np.floor(points[np.isfinite(points).all(axis=-1)] * 200 + 0.5 + TIE).astype(np.int64)
     x, y, z = (points - points.min(axis=0)).T
-    # One number for each place: a hundred times faster to sort than rows.
+    # One number for each place sorts a hundred times faster than rows.
     points = points[np.unique((x << 40) + (y << 20) + z, return_index=True)[1]] / 200
     k = np.arange(100) + 0.5
     z, turn = 1 - 2 * k / 100, k * np.pi * (1 + 5**0.5)
@@ -164,8 +163,8 @@ def outermost(points: Floats) -> list[list[float]]:
 
 
 def best_view(tools: Floats, flat: int | None) -> View:
-    """Azimuth and elevation of the camera: straight at a plane, else from where the tool's path
-    spreads widest, on the tool's side of the base.
+    """Azimuth and elevation of the camera: perpendicular to a plane, otherwise from where the
+    tool's path looks widest, on the tool's side of the base.
     """
     if flat is not None:
         return STRAIGHT[flat]
@@ -174,7 +173,7 @@ def best_view(tools: Floats, flat: int | None) -> View:
         return VIEW
     spread, centre = np.cov(tools.T) if len(tools) > 1 else np.eye(3), tools.mean(axis=0)
     best, most = VIEW, 0.0
-    # In these steps no side of the floor ever lies along the line of sight.
+    # With these steps no side of the floor is ever parallel to the line of sight.
     for azimuth in VIEW[0] + np.array([0, 30, 90, 120, 180, 210, 270, 300]) * deg:
         screen = project(np.eye(3), (azimuth, VIEW[1])).T
         area = np.sqrt(max(np.linalg.det(screen @ spread @ screen.T), 0)) + 0.05 * (
@@ -182,15 +181,13 @@ def best_view(tools: Floats, flat: int | None) -> View:
         )
         toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
         area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
-        if area > 1.05 * most:  # the small margin keeps noise from choosing between two equal ones
+        if area > 1.05 * most:  # the small margin keeps noise from deciding between two equal ones
             best, most = (azimuth, VIEW[1]), area
     return best
 
 
 def common_plane(arms: Sequence[Arm]) -> int | None:
-    """0, 1 or 2 if every arm can move only in the plane where that coordinate is zero, else
-    None.
-    """
+    """The coordinate (0, 1, 2) that is zero in every posture of every arm, or None."""
     for axis in (2, 1, 0):
         if all(
             abs(

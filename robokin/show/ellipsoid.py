@@ -1,4 +1,4 @@
-"""How fast the tool of an arm can move which way, as a figure."""
+"""A figure of how fast an arm's tool can move in each direction."""
 
 from typing import Any
 
@@ -15,23 +15,23 @@ from .palette import ALARM, INK, TRACE
 from .plots import Figure, _samples, _sentence, _words
 from .scene import Scene, number
 
-MOST = 3  # postures beside one another
-MARK = 0.16  # half the line along a direction that is all but lost, in sizes of the arm
+MOST = 3  # postures side by side
+MARK = 0.16  # half the length of the line along a nearly lost direction, in arm lengths
 ROUND = np.linspace(0, 2 * np.pi, 73)
 
 
 def plot_velocity_ellipsoid(
     arm: Arm, q: ArrayLike, *, title: str | None = None, alt: str | None = None
 ) -> Figure:
-    """An arm in one posture q (n,), or in up to three (k, n) beside one another, each with the
-    ellipsoid of velocities that joint speeds of length 1 rad/s can give the tool point while the
-    tool does not turn. (The tool of an arm of up to three joints may turn.)
+    """Plot an arm in one posture q (n,), or in up to three (k, n) side by side, each with the
+    ellipsoid of tool-point velocities for joint speeds of norm 1 rad/s that do not rotate the tool.
+    (The tool of an arm with up to three joints may rotate.)
 
-    All panels have one scale, for lengths and for velocities. The semi-axes carry their speeds; one
-    shorter than a twentieth of the longest has a dashed red line: that way the tool hardly moves.
-    `robokin.arms.dexterity.velocity_ellipsoid` has the numbers.
+    All panels have the same scales for lengths and velocities. The semi-axes are labelled with
+    their speeds. One shorter than a twentieth of the longest has a dashed red line: the tool hardly
+    moves in that direction. `robokin.arms.dexterity.velocity_ellipsoid` returns the numbers.
 
-    ValueError: more than three postures, one with a NaN.
+    ValueError: more than three postures, or a posture with NaN.
     """
     q = _samples(arm, q)
     if len(q) > MOST or not np.isfinite(q).all():
@@ -50,7 +50,7 @@ def plot_velocity_ellipsoid(
         style: dict[str, Any] = {"fontsize": 12, "fontweight": "bold", "color": INK}
         fig.text(0.014, 0.985, title, va="top", parse_math=False, **style)
     points = [arm_points(arm, q).reshape(-1, 3)]
-    # Points all over the ellipsoids, so that none leaves its panel.
+    # Points on the ellipsoids, so that none of them leaves its panel.
     across, up = (x.ravel() for x in np.meshgrid(ROUND[::3], ROUND[::3]))
     ball = np.stack([np.cos(up) * np.cos(across), np.cos(up) * np.sin(across), np.sin(up)])
     points += [tool[i] + drawn * (axes[i] @ ball).T for i in range(len(q))]
@@ -66,7 +66,7 @@ def plot_velocity_ellipsoid(
         _ellipsoid(scene, tool[i], drawn * axes[i])
         for k, way in enumerate(_ways(axes[i]).T):
             tip = tool[i] + drawn * axes[i, :, k]
-            seen_as = np.linalg.norm(scene.project(way))  # nothing, where it is square to a plane
+            seen_as = np.linalg.norm(scene.project(way))  # zero, if it is perpendicular to a plane
             if seen_as > 1e-9 and lengths[i, k] < longest / 20:
                 tip = tool[i] + MARK * size * way
                 ends = [tool[i] - MARK * size * way, tip]
@@ -80,8 +80,8 @@ def plot_velocity_ellipsoid(
 
 
 def _ways(axes: Floats) -> Floats:
-    """The directions of the semi-axes (3, k), also of one that is zero where the other two are not;
-    NaN where nothing tells the direction.
+    """The directions of the semi-axes (3, k), also of a zero one if the other two are not zero; NaN
+    where the direction is undefined.
     """
     lengths = np.linalg.norm(axes, axis=0)
     there = lengths > 1e-9 * lengths.max()
@@ -94,12 +94,14 @@ def _ways(axes: Floats) -> Floats:
 
 
 def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
-    """Its outline, filled; the three ellipses through its semi-axes (3, 3), and these."""
+    """Draw its filled outline, the three ellipses through pairs of its semi-axes (3, 3), and the
+    semi-axes.
+    """
     flat = scene.project(axes.T).T  # (2, 3)
     ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
     ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
     outline = (scene.project(centre)[:, None] + ring).T
-    scene.drawn.append((outline, 1))  # labels keep off it
+    scene.drawn.append((outline, 1))  # labels avoid it
     scene.ax.add_patch(
         Polygon(outline, facecolor=TRACE, edgecolor=TRACE, alpha=0.18, linewidth=1.2, zorder=5.5)
     )
@@ -121,6 +123,6 @@ def _alt(arm: Arm, title: str | None, words: list[list[str]]) -> str:
 
 
 def _round(x: float) -> float:
-    """The greatest of 1, 2, 5, 10, 20, ... that is not above x."""
+    """The greatest of 1, 2, 5, 10, 20, ... that does not exceed x."""
     power = 10.0 ** np.floor(np.log10(x))
     return float(power * max(step for step in (1, 2, 5) if step * power <= x * 1.0001))

@@ -1,4 +1,4 @@
-"""What every explorer of an arm has: its page, its words, its code, its still picture."""
+"""The common parts of all explorers of an arm: page data, words, code, still picture."""
 
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
@@ -79,22 +79,24 @@ WORDS: Mapping[str, str] = {
 
 
 class Explorer(Output):
-    """An arm in a page that answers to the hand. Shows itself in a notebook; `save` writes it as a
-    page.
+    """An arm in a page that the reader can move. It displays itself in a notebook; `save` writes it
+    as a page.
 
-    data    what the page is given, as JSON takes it: a `page.PageExplorer`
-    still   the figure that stands in its place until the script runs, in print and in an untrusted
+    data    the data of the page, ready for JSON: a `page.PageExplorer`
+    still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
     """
 
     @property
     def call(self) -> str:  # type: ignore[override]
-        """The script that shows it."""
+        """The module and function that show it."""
         return f"{self.data['kind']}_explorer.explore"
 
 
 def inverted(arm: ClosedFormArm) -> None:
-    """TypeError: not an arm with an inverse, or one whose inverse no page knows."""
+    """Return the arm. TypeError: an arm without an inverse, or with one that the scripts do not
+    know.
+    """
     kind = type(instance(arm, ClosedFormArm, "arm").geometry)
     if kind not in KINDS:
         raise TypeError(
@@ -106,12 +108,12 @@ def inverted(arm: ClosedFormArm) -> None:
 
 
 def as_transform(pose: Pose) -> Transform:
-    """The flange at a pose."""
+    """The flange pose of a target."""
     return pose.as_transform() if isinstance(pose, ScaraPose) else pose
 
 
 def pose_data(pose: Pose) -> PagePose:
-    """As the scripts take a pose."""
+    """Return a pose as page data."""
     if isinstance(pose, ScaraPose):
         return {"place": pose.position.tolist(), "angle": float(pose.angle)}
     return {"place": pose.translation.tolist(), "rotation": pose.rotation.wxyz.tolist()}
@@ -137,8 +139,8 @@ def arm_page(
     meant: str,
     code: str,
 ) -> ArmPage:
-    """What the pages of all explorers of an arm have: the postures with which it opens (k, n), the
-    targets in its scene.
+    """The page data that all explorers of an arm share, from the postures (k, n) with which it
+    opens and the targets in its scene.
     """
     name, size = length_unit(extent(arm))
     return {
@@ -157,8 +159,8 @@ def arm_page(
 
 
 def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
-    """A scene that holds the postures it opens with (k, n) and those near them, in space above the
-    floor. The page shrinks the picture for what leaves it.
+    """A scene that shows the opening postures (k, n) and those near them, above the floor. The page
+    zooms out for anything that leaves it.
     """
     flat = common_plane([arm]) is not None
     turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
@@ -176,7 +178,7 @@ def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageSce
 def control(
     name: str, unit: str, low: float, high: float, step: float, decimals: int | None = None
 ) -> Control:
-    """A slider. By default a value has one decimal, in metres three."""
+    """A slider. By default its values have one decimal, or three for metres."""
     default = 3 if unit == "m" else 1
     ends = [float(np.round(x, 9)) for x in (low, high)]
     return {
@@ -190,7 +192,7 @@ def control(
 
 
 def units(arm: Arm) -> list[PageUnit]:
-    """Name, size and code of each joint's unit."""
+    """The name, size and code of each joint's unit."""
     name, size = length_unit(extent(arm))
     shift: PageUnit = {"name": name, "size": size, "code": "mm" if size == mm else "1"}
     turn: PageUnit = {"name": "°", "size": deg, "code": "deg"}
@@ -198,12 +200,12 @@ def units(arm: Arm) -> list[PageUnit]:
 
 
 def sizes(arm: Arm) -> Floats:
-    """Sizes (n,) of the joints' units."""
+    """The sizes (n,) of the joints' units."""
     return np.array([unit["size"] for unit in units(arm)])
 
 
 def number(value: float, decimals: int) -> str:
-    """With so many decimals and a real minus sign."""
+    """Format a number with `decimals` decimals and a real minus sign."""
     return f"{tidy(value, decimals):.{decimals}f}".replace("-", "\N{MINUS SIGN}")
 
 
@@ -211,12 +213,12 @@ def number(value: float, decimals: int) -> str:
 
 
 def code_name(arm: Arm) -> str:
-    """What the package calls this very arm, or `arm`."""
+    """The name of this arm in the package, otherwise `arm`."""
     return next((name for name in robokin.__all__ if getattr(robokin, name) is arm), "arm")
 
 
 def imports(arm: Arm, *more: str) -> str:
-    """The lines of Python that import an arm and `more` names."""
+    """The Python lines that import an arm and `more` names."""
     names = {"deg", "mm", *more, *({code_name(arm)} - {"arm"})}
     own = "" if code_name(arm) != "arm" else f"# arm: {' '.join(arm.name.split())}\n"
     return (
@@ -235,7 +237,7 @@ def picture(
     targets: Mapping[str, Transform] | None = None,
     frames: Sequence[Transform] = (),
 ) -> plots.Figure:
-    """One posture, strongly, and others faintly."""
+    """Draw one posture strongly and the others faintly."""
     fig = plots.figure(alt, width=6.4, height=4.5)
     scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
     scene.base()

@@ -1,9 +1,9 @@
-"""Explorers: an arm in a page that answers to the hand, without a kernel.
+"""Explorers: an arm in a page that the reader can move, without a kernel.
 
-`joint_explorer` has its joints taken and turned, `target_explorer` a target moved, with every
-branch of `ik` drawn and judged. The page computes by the scripts of `js/`; `twin.py` says what they
-are told of an arm. Why a row of `ik` does not exist or cannot be used stands in `arms/verdicts.py`,
-everything else that is said in `explorer.WORDS`.
+In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
+every branch of `ik` with its verdict. The page computes with the scripts in `js/`; `twin.py` has
+their data of an arm. The reasons why a row of `ik` does not exist or cannot be used are in
+`arms/verdicts.py`, all other words in `explorer.WORDS`.
 """
 
 import numpy as np
@@ -51,14 +51,14 @@ MEANT = (
 
 
 def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
-    """A ring on each joint to take it by, and a slider; the arm with all its frames, the flange in
-    numbers, and how near it is to a singularity. It opens at the posture q (n,), or at one in the
-    middle of things. At the end of a cell it shows itself. TypeError: not an Arm. ValueError: a q
-    that is no posture.
+    """Show an arm with a ring and a slider for each joint, all its frames, the numbers of the
+    flange, and the distance from a singularity. It opens at the posture q (n,), by default at one
+    with a good view. It displays itself at the end of a cell. TypeError: not an Arm. ValueError: a
+    q that is not a posture.
 
-    Roll, pitch and yaw are turns about the fixed x, y and z axes of the base, in this order: R = Rz
-    Ry Rx (at a pitch of +-90 degrees roll and yaw turn about the same line, and roll is given as
-    zero).
+    Roll, pitch and yaw are rotations about the fixed x, y and z axes of the base, in this order: R
+    = Rz Ry Rx. (At a pitch of +-90 degrees roll and yaw rotate about the same line, and roll is set
+    to zero.)
     """
     instance(arm, Arm, "arm")
     start = _open(arm) if q is None else floats(q, "q", len(arm.limits))
@@ -102,14 +102,15 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
 
 
 def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
-    """A target to take by rings and arrows; every branch of `ik` drawn, the chosen one strongly,
-    with a row of a table for each. A click on a row chooses it; the menu, too, or the usable one
-    nearest to the last posture.
+    """Show a target with rings and arrows to drag it, and every branch of `ik`, the chosen one
+    drawn strongly, with a row in a table for each. A click on a row chooses the branch. The menu
+    can do that too, or select the usable branch nearest to the last posture.
 
-    Six-axis arms: place, and roll, pitch, yaw as in `joint_explorer`. SCARA: place and the tool's
-    angle. Positioning arms: the place. Three levers: the place, the free angle alpha, the curve of
-    what it costs to come there from the posture before, and of unequal ones the lengths. TypeError:
-    an arm with neither.
+    The target of a six-axis arm is a position with roll, pitch and yaw as in `joint_explorer`; of a
+    SCARA, a position and the tool's angle; of a positioning arm, a position. For three levers it
+    shows the position, the free angle alpha, the curve of the cost to get there from the previous
+    posture, and, for unequal levers, their lengths. TypeError: an arm without an inverse or a
+    family of postures.
     """
     if isinstance(arm, ThreeLeverArm):
         return levers_explorer(arm)
@@ -161,7 +162,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "verdict",
             *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
             "distance from singularity",
-            # angles only: a stroke is the same in every row
+            # angles only: the stroke is the same in every row
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),
@@ -173,14 +174,16 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     return Explorer(data, still)
 
 
-# --- Where it opens -------------------------------------------------------------------------------
+# --- The opening posture and target
+# -------------------------------------------------------------------------------
 
 
 def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
-    """A target that shows much: most branches usable, far from singularities, in front of the arm
-    and above the floor. (Where there is none, the one in the middle of all limits.)
+    """A target with most branches usable, far from singularities, in front of the arm and above the
+    floor. (If there is none, the one at the middle of all limits.)
 
-    Place (3,), turns in radians, and the posture (n,) that it was made of; round numbers all.
+    Returns the position (3,), the rotations in radians, and the posture (n,) behind it, all in
+    round numbers.
     """
     middle, size = arm.limits.mean(axis=-1), extent(arm)
     best, most = (arm.fk(middle).translation, _turned(arm, arm.fk(middle)), middle), -1.0
@@ -195,7 +198,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
         usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
             near = np.nanmin(distance_from_singularity(arm, rows))
-            # a singular one last: there two branches are one, and a step on there is none
+            # singular ones last: there two branches coincide, and a small step further none exists
             score = (usable.sum() if near > 0.03 else 0) + float(np.round(near, 6))
             if score > most:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
@@ -204,9 +207,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
 
 
 def _open(arm: Arm) -> Floats:
-    """A posture of round numbers, far from singularities, in front of the arm and above the
-    floor.
-    """
+    """A posture in round numbers, far from singularities, in front of the arm, above the floor."""
     unit, size = sizes(arm), extent(arm)
     q = np.round(spread(arm, 160, 75 * deg) / unit / 5) * 5 * unit
     q = q[((q >= arm.limits[:, 0]) & (q <= arm.limits[:, 1])).all(axis=-1)]
@@ -226,7 +227,7 @@ def _turns(arm: Arm) -> tuple[str, ...]:
 
 
 def _asked(arm: Arm, place: Floats, turns: Floats) -> Pose:
-    """The target with its place (3,) and its turns in radians."""
+    """The target with its position (3,) and its rotations in radians."""
     if arm.target is ScaraPose:
         return ScaraPose(place, turns[0])
     if arm.target is Transform:

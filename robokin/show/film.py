@@ -1,4 +1,4 @@
-"""A player as a film: its scene, without the curves, as an animated GIF."""
+"""A film of a player: its scene, without the curves, as an animated GIF."""
 
 import io
 from collections.abc import Iterator, Sequence
@@ -18,15 +18,15 @@ from .scene import Scene
 from .things import Thing
 
 WIDTH = 640  # pixels
-RATE, FRAMES = 12, 120  # at most so many frames a second, and in all
-BYTES = 3_000_000  # what one may send by mail
+RATE, FRAMES = 12, 120  # greatest number of frames per second, and in total
+BYTES = 3_000_000  # small enough for an e-mail
 COLOURS = 64
-TRACED = 1001  # points of a tool's path
+TRACED = 1001  # points in the path of a tool
 
 
 class Film:
-    """The first motion of a player: with slider or switch the one that it opens with. What stands
-    still is drawn once; only arms and things that move are drawn for each frame.
+    """The first motion of a player, which is the one that it opens with. Fixed things are drawn
+    once; only arms and moving things are drawn for each frame.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class Film:
         self.page, self.title, self.bases = page, title, bases
 
     def gif(self) -> bytes:
-        """The film, which repeats for ever. ValueError: it would take more than 3 MB."""
+        """Return the film as a GIF that repeats for ever. ValueError: it would exceed 3 MB."""
         seconds = float(self.t[-1] - self.t[0])
         count = max(2, min(FRAMES, int(seconds * RATE) + 1))
         times = np.linspace(self.t[0], self.t[-1], count)
@@ -53,7 +53,7 @@ class Film:
             frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in shown
         )
         ends = np.round(100 * seconds / (count - 1) * np.arange(count)).astype(int)  # whole 1/100 s
-        lasts = [*(10 * np.maximum(np.diff(ends), 2)), 1000]  # ms; the last one stays
+        lasts = [*(10 * np.maximum(np.diff(ends), 2)), 1000]  # ms; the last frame stays longer
         file = io.BytesIO()
         more: Any = {"append_images": others, "duration": lasts, "comment": MARK.encode()}
         first.save(file, "GIF", save_all=True, loop=0, **more)
@@ -95,7 +95,7 @@ class Film:
             yield np.array(canvas.buffer_rgba())[..., :3]
 
     def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
-        """What does not move: feet, paths of the tools, things that stand still."""
+        """Draw what does not move: bases, paths of the tools, fixed things."""
         for arm, q, base in arms:
             scene.base(base)
             some = np.linspace(0, len(q) - 1, min(len(q), TRACED)).astype(int)
@@ -108,7 +108,7 @@ class Film:
     def _moving(
         self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]], sample: int
     ) -> None:
-        """What moves, at one sample."""
+        """Draw what moves, at one sample."""
         for arm, q, base in arms:
             scene.arm(arm, q[sample], "last", base)
             scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)

@@ -1,5 +1,5 @@
-"""What is found in recorded motions and said beside their curves: greatest values, the distance to
-a via point, jumps and gaps, the player in one sentence.
+"""Findings in recorded motions for the words beside their curves: greatest values, the distance to
+a via point, jumps and gaps, and a summary in one sentence.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,7 +17,7 @@ from .page import Flaws, Greatest, PageArm, Slider, Switch, Unit
 
 
 def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[int]) -> Greatest:
-    """For every motion and joint: greatest speed, its share of the limit in percent, greatest
+    """For each motion and joint: the greatest speed, its percentage of the limit, the greatest
     acceleration.
     """
     arm, limits = track.arm, track.arm.speed_limits
@@ -43,7 +43,9 @@ def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[in
 
 
 def sampled(t: Floats) -> str:
-    """Of which samples the greatest values are: what lies between two of them, nobody has seen."""
+    """Say from which samples the greatest values come, since they do not show values between
+    samples.
+    """
     least, most = np.diff(t).min(), np.diff(t).max()
     apart = "every" if most - least < 1e-3 * most else "at most"
     return f"greatest values of the {len(t)} samples, {apart} {tidy(most, 6):.4g} s" + (
@@ -52,10 +54,10 @@ def sampled(t: Floats) -> str:
 
 
 def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] | None]:
-    """For every motion [smallest distance from the via point in the length unit, x, y, z of that
-    place in metres]. `via` is that point: (motions or 1, 1, 3).
+    """For each motion [smallest distance from the via point in the length unit, x, y, z of that
+    place in metres]. `via` is the via point: (motions or 1, 1, 3).
 
-    The path is the polyline through all samples; NaN interrupts it. None where there is no path.
+    The path is the polyline through all samples; NaN interrupts it. None if there is no path.
     """
     path = flange(arm, q).translation - via
     place = np.broadcast_to(via, (len(path), 1, 3))[:, 0]
@@ -78,8 +80,8 @@ def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] |
 
 
 def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
-    """What is wrong with each motion, for those with something wrong: gaps between kept samples,
-    jumps to mark with their words, sentences to read.
+    """The flaws of each motion that has any: gaps between kept samples, jumps to mark with their
+    words, and sentences.
     """
     gaps: dict[int, list[int]] = {}
     jumps: dict[int, list[Any]] = {}
@@ -103,7 +105,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
         (track.leaps, leaps, "q{j} jumps by {by}", ""),
     ):
         for jump in found:
-            j = int((abs(jump.by) / units).argmax())  # the joint that jumps most
+            j = int((abs(jump.by) / units).argmax())  # the joint with the largest jump
             words = what.format(j=j + 1, by=amount(jump.by[j], j, per))
             marks.setdefault(jump.motion[0], []).append([tidy(jump.time, 6), words])
     for c, marked in jumps.items():
@@ -148,7 +150,9 @@ def summary_and_alt(
     slider: Slider | None,
     switch: Switch | None,
 ) -> tuple[str, str]:
-    """The player in one sentence, rounded, and the alternative text of its still picture."""
+    """A summary of the player in one sentence, with rounded numbers, and the alt text of its still
+    picture.
+    """
     who = " and ".join(dict.fromkeys(arm["name"] for arm in arms))
     parts = [f"{tidy(t[-1] - t[0], 3):g} s"]
     if slider:

@@ -1,5 +1,5 @@
-"""One script and one style sheet from modules of the folder js: an output has no files beside it to
-import from.
+"""Join modules of the folder js into one script and one style sheet, because an output cannot
+import files.
 """
 
 import base64
@@ -20,23 +20,23 @@ BLANK = re.compile(r"(?:\s|//.*|/\*[\s\S]*?\*/)+")
 TEMPLATE = re.compile(r"[`}](?:[^`\\$]|\\[\s\S]|\$(?!\{))*(?:`|\$\{)")  # to its end or its next ${
 REGULAR = re.compile(r"/(?![*/])(?:[^/\\\[\n]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/\w*")
 OTHER = re.compile(r"""[\w$]+|"(?:[^"\\\n]|\\[\s\S])*"|'(?:[^'\\\n]|\\[\s\S])*'|(?!/\*)[^"'`]""")
-VALUE = re.compile(r"""[\w$)\]}"'`]""")  # what ends in it is divided by a slash that follows
+VALUE = re.compile(r"""[\w$)\]}"'`]""")  # after it a slash divides
 NO_VALUES = {"return", "typeof", "case", "in", "delete", "void", "throw", "else", "do", "await"}
 CSS_BLANK = re.compile(r"\s*(?:/\*[\s\S]*?\*/\s*)+|\s+")
-CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # blanks beside it mean nothing
+CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # blanks beside it have no meaning
 CSS_LINE = re.compile(r"(.{160,}?[{};])(?!\})")
-NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # else two tokens would become another one
+NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a blank two tokens would merge
 
 
-@cache  # a lab has twenty outputs
+@cache  # a lab has about twenty outputs
 def script(name: str) -> str:
-    """The module `name` of the folder js and all that it imports, each once and in its own scope,
-    as one script: `$name` holds what it exports. An output's is `call` of `player.Output` and
-    `explorer.Explorer`. Without comments, which only people read, without blanks that code does
-    not need, and in few lines: in a notebook each costs ten bytes more. A line ends behind `;`,
-    `,` or a brace only, so every statement of a module has to end with `;` or a brace.
+    """Return the module `name` of the folder js and all its imports, each once and in its own
+    scope, as one script in which `$name` holds its exports. `call` in `player.Output` and
+    `explorer.Explorer` names the module of an output. Comments and unnecessary blanks are removed,
+    and the lines are long, because each line costs ten more bytes in a notebook. A line ends only
+    after `;`, `,` or a brace, so every statement of a module must end with `;` or a brace.
 
-    ValueError: an import or an export of another form than `import {a, b} from "./x.js";` and
+    ValueError: an import or an export with a form other than `import {a, b} from "./x.js";` and
     `export function`, `const` or `class`; a comment or a literal that does not end.
     """
     return "\n".join(_modules(name).values())
@@ -44,9 +44,9 @@ def script(name: str) -> str:
 
 @cache
 def compressed(name: str) -> tuple[str, str]:
-    """The script of the module `name` as `loader.js` takes it: its key, a hash of its text, and the
-    script itself, compressed by zlib, in base64. The script adds the style sheets of `name` to
-    the page and returns what the module exports.
+    """Return the script of the module `name` for `loader.js`: its key, a hash of its text, and the
+    script, compressed with zlib, in base64. The script adds the style sheets of `name` to the page
+    and returns the exports of the module.
     """
     sheet = json.dumps(style(name), ensure_ascii=False)
     text = (
@@ -54,14 +54,14 @@ def compressed(name: str) -> tuple[str, str]:
         f"sheet.textContent = {sheet};\ndocument.head.append(sheet);\n"
         f"{script(name)}\nreturn ${name};"
     ).encode()
-    # A hash of the text: another zlib compresses the same text to other bytes.
+    # The hash is of the text, because another zlib compresses the same text to different bytes.
     return hashlib.sha256(text).hexdigest()[:12], base64.b64encode(zlib.compress(text, 9)).decode()
 
 
 @cache
 def style(name: str) -> str:
-    """The style sheets x.css of all modules x of `script(name)`, in the same order: the sheet of a
-    module follows those of what it imports. Without comments and blanks that it does not need.
+    """Return the style sheets x.css of all modules x in `script(name)`, in the same order: the
+    sheet of a module follows those of its imports. Comments and unnecessary blanks are removed.
     """
     sheets = [files(__package__).joinpath("js", f"{module}.css") for module in _modules(name)]
     text = "\n".join(sheet.read_text(encoding="utf-8") for sheet in sheets if sheet.is_file())
@@ -70,20 +70,20 @@ def style(name: str) -> str:
 
 
 def _modules(name: str) -> dict[str, str]:
-    """The script of each module that `name` needs, itself the last."""
+    """Return the scripts of all modules that `name` needs, ending with itself."""
     modules: dict[str, str] = {}
     _add(modules, name, (), f"{name}.js")
     return modules
 
 
 def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: str) -> None:
-    """Put `name` behind what it imports."""
+    """Add `name` after its imports."""
     file = files(__package__).joinpath("js", f"{name}.js")
     if name in importers or not file.is_file():
         raise ValueError(f"{place}: there is no module {name}.js, or it imports itself")
     text = file.read_text(encoding="utf-8")
     exports: list[str] = []
-    pieces: list[tuple[str, str]] = []  # tokens, and the blank before each
+    pieces: list[tuple[str, str]] = []  # tokens with the blank before each
     before, end = ";", 0
     for token, at in _tokens(text, name):
         if at < end:  # a part of an import
@@ -116,7 +116,9 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
 
 
 def _laid(pieces: list[tuple[str, str]]) -> str:
-    """Tokens in lines: a statement of the module itself begins one, within it they get long."""
+    """Lay out tokens in lines: a top-level statement begins a new line, and inner statements share
+    long lines.
+    """
     lines, before, depth = [""], "", 0
     for token, gap in pieces:
         begins = "\n" in gap and before in (";", "{", "}") and token != "}"  # a statement
@@ -132,11 +134,11 @@ def _laid(pieces: list[tuple[str, str]]) -> str:
 
 
 def _tokens(text: str, name: str) -> Iterator[tuple[str, int]]:
-    """Words, signs and literals with the places where they begin, without comments and blanks. Of
-    a template literal each part between the expressions is one, with its quotes or braces.
+    """Yield words, signs and literals with their positions, without comments and blanks. Each part
+    of a template literal between expressions is one token, with its quotes or braces.
     """
     at, before = 0, ""
-    braces: list[str] = []  # those that are open: "{", or "${" in a template
+    braces: list[str] = []  # the open ones: "{", or "${" in a template
     while at < len(text):
         blank = BLANK.match(text, at)
         if blank:

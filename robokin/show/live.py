@@ -1,10 +1,9 @@
-"""Views that must ask a kernel: the page draws and is dragged, Python answers.
+"""Views that need a kernel: the page draws, and Python answers its questions.
 
-A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions, and the answer of the
-run that stored it: with that it is drawn before any kernel is there, and stays in a saved notebook,
-an exported page and on paper. Then it is asleep, and says so. A widget without a view of its own
-wakes it: its model alone finds the place in the page. So nothing is stored that a page without a
-kernel would miss.
+A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions. It stores the first
+answer, with which it is drawn without a kernel: in a saved notebook, in an exported page and on
+paper. Then it is asleep, and says so. A widget without a view of its own wakes it: its model finds
+the view in the page. So a page without a kernel lacks nothing that is stored.
 """
 
 import base64
@@ -33,14 +32,14 @@ WORDS = {
 
 
 class Live(Explorer):
-    """An explorer that asks a kernel. Shows itself in a notebook; `save` writes it as a page, where
-    it is asleep.
+    """An explorer that asks a kernel. It displays itself in a notebook; `save` writes it as a page,
+    where it is asleep.
 
-    data    a `page.PlanPage` or `TourPage` without `first` and the words of this module
-    still   as of every `Explorer`
+    data    a `page.PlanPage` or `TourPage` without `first` and without the words of this module
+    still   as in every `Explorer`
     first   the question with which it opens; its answer is stored
-    answer  question (what JSON holds) -> answer: a dict of what JSON holds and arrays of one of the
-            TYPES. It is called at every move of the pointer, in a thread of its own
+    answer  a function: question (JSON values) -> answer, a dict of JSON values and arrays with
+            TYPES. It is called at every move of the pointer, in its own thread
     """
 
     def __init__(
@@ -62,8 +61,8 @@ class Live(Explorer):
 
 
 def split_arrays(answer: Any) -> tuple[Any, list[bytes]]:
-    """An answer for JSON, and its arrays apart: in their place stands {"array": number, "type",
-    "shape"}. ValueError: an array of another type.
+    """Split an answer into JSON values and its arrays. Each array is replaced by {"array": number,
+    "type", "shape"}. ValueError: an array of another type.
     """
     buffers: list[bytes] = []
 
@@ -86,7 +85,7 @@ def split_arrays(answer: Any) -> tuple[Any, list[bytes]]:
 
 
 def stored(content: Any, buffers: list[bytes]) -> Any:
-    """Return what `split_arrays` gives as JSON alone: arrays in base64."""
+    """Return the result of `split_arrays` as JSON values only, with arrays in base64."""
     if isinstance(content, dict) and "array" in content:
         return content | {"array": base64.b64encode(buffers[content["array"]]).decode()}
     if isinstance(content, dict):
@@ -98,17 +97,17 @@ def stored(content: Any, buffers: list[bytes]) -> Any:
 
 # --- The widget -----------------------------------------------------------------------------------
 
-_awake: dict[str, Any] = {}  # by the place that they wake: one that runs again replaces the older
+_awake: dict[str, Any] = {}  # by view: a cell that runs again replaces its widget
 
 
 def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
-    """Answer the view in this place of the page from now on."""
+    """Answer this view of the page from now on."""
 
     def reply(model: Any, message: Any, _: Any) -> None:
         try:
             content, buffers = split_arrays(answer(message["question"]))
             inert(content)
-        except Exception as error:  # said in the view; in this thread nobody would read it
+        except Exception as error:  # the view shows it; nobody reads the output of this thread
             content, buffers = {"error": f"{type(error).__name__}: {error}"}, []
         model.send({"to": message["to"], "n": message["n"], "answer": content}, buffers)
 
@@ -121,10 +120,11 @@ def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
 
 
 def unseen(page: str, hear: Callable[[Any, Any, Any], None]) -> Any:
-    """A widget without a view. `page`: a module whose default export has `initialize({model})`;
-    `hear` is called with the widget, a message of that model and its buffers.
+    """Return a widget without a view. `page` is a module whose default export has
+    `initialize({model})`; `hear` is called with the widget, a message of that model and its
+    buffers.
     """
-    from anywidget import AnyWidget  # here: it loads ipywidgets
+    from anywidget import AnyWidget  # imported here because it loads ipywidgets
 
     made = AnyWidget(_esm=page)
     made.on_msg(hear)

@@ -1,4 +1,4 @@
-"""The explorer of a blended motion: its stations taken by the hand."""
+"""The explorer of a blended motion with stations that the reader can drag."""
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
@@ -39,7 +39,7 @@ from .palette import DASHES
 from .player import still_picture
 from .things import Target
 
-SAMPLES = 241  # of a motion: enough for its speeds, few enough to follow a hand
+SAMPLES = 241  # samples of a motion: enough for its speeds, few enough to follow the pointer
 LAWS: Sequence[Law] = ("quintic", "trapezoidal", "linear")
 CORNERS: Sequence[Corner] = ("parabola", "quintic")
 
@@ -47,13 +47,13 @@ CORNERS: Sequence[Corner] = ("parabola", "quintic")
 def motion_explorer(
     arm: ClosedFormArm, start: Pose, via: Pose, goal: Pose, row: int | None = None
 ) -> "Explorer":
-    """A blended motion past `via`: start, via and goal to take by rings and arrows, sliders for the
-    via point, the blend and the duration, menus for the time law, the corner and the branch; arm,
-    curves and numbers follow. A click on a curve puts the clock there. It opens on branch `row`, or
-    on the first with the most usable samples.
+    """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
+    for the via point, the blend and the duration, menus for the time law, the corner and the
+    branch. Arm, curves and numbers follow. A click on a curve sets the clock. It opens on branch
+    `row`, by default the first one with the most usable samples.
 
-    Poses are what `arm.ik` takes (Transform, or ScaraPose for a SCARA), one of each. ValueError: a
-    batch of poses, no such row. TypeError: other poses, an arm without `ik`.
+    The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
+    batch of poses, or an unknown row. TypeError: poses of another type, or an arm without `ik`.
     """
     inverted(arm)
     kind = ScaraPose if arm.target is ScaraPose else Transform
@@ -121,9 +121,9 @@ def motion_explorer(
 def _fastest(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> tuple[float, int, str]:
-    """The greatest speed on a motion with the samples q (samples, n), in the joint's unit, and the
-    joint. In words what it is the greatest of: "" is between the samples, too, where the motion is
-    whole and passes no singularity.
+    """The greatest speed on a motion with the samples q (samples, n), in the joint's unit, its
+    joint, and words that restrict it: "" if it also holds between the samples, because the motion
+    is complete and passes no singularity.
     """
     scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
 
@@ -146,7 +146,7 @@ def _fastest(
             ]
             best = max(tops)
             return best.value, int(speeds(np.array([best.at]))[0].argmax()), ""
-        except ValueError:  # beside a singularity none stands
+        except ValueError:  # next to a singularity none converges
             pass
     sampled = np.nan_to_num(track.greatest_speed.value) / scale
     return float(sampled.max()), int(sampled.argmax()), f" of {SAMPLES} samples"

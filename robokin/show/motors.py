@@ -1,7 +1,7 @@
-"""A stepper motor in a page, seen along its shaft, that answers to the hand, without a kernel.
+"""A stepper motor in a page, seen along its shaft, that the reader can turn, without a kernel.
 
-The page computes by `js/rotor.js`, which has the law of `jobs.steppers.Stepper`; the phase tables,
-the places of the poles and every word come from here.
+The page computes with `js/rotor.js`, which implements `jobs.steppers.Stepper`. The phase tables,
+the positions of the poles and all words come from this module.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ KINDS = {
     ("active", "bipolar"): "magnet (active), bipolar",
     ("passive", "unipolar"): "soft iron (passive), unipolar",
 }
-ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # of currents + and -, of a pole
+ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # current +, current -, pole
 PLUS, MINUS = "+", "\N{MINUS SIGN}"
 WORDS = {
     "motor": "rotor, feed",
@@ -89,8 +89,8 @@ FREQUENCY = 160  # pulses per second, at first
 
 
 class PagePole(TypedDict):
-    """A pole of the stator: where it stands in rad, whose winding it carries, +1 or -1 wound, and
-    the name written on it.
+    """A pole of the stator: its position in rad, its winding, the direction of the winding (+1 or
+    -1), and the name on it.
     """
 
     at: float
@@ -100,10 +100,10 @@ class PagePole(TypedDict):
 
 
 class PageMotor(TypedDict):
-    """One rotor and feed with so many windings: as rotor.js takes it (`turn`, `periods`, `sharp`),
-    the poles, the teeth of a passive rotor (0: a magnet), how far the field turns in the picture
-    for one turn of the ring, the heads of the table, and for each drive the currents and the table
-    as the document prints it.
+    """A motor with one rotor, feed and number of windings: the arguments of rotor.js (`turn`,
+    `periods`, `sharp`), the poles, the teeth of a passive rotor (0: a magnet), how far the field
+    turns in the picture for one turn of the ring, the heads of the table, and for each drive the
+    currents and the table as the document prints it.
     """
 
     windings: int
@@ -119,7 +119,7 @@ class PageMotor(TypedDict):
 
 
 class MotorKind(TypedDict):
-    """A rotor and a feed, what they are called, and their motors by the number of windings."""
+    """A rotor and a feed, their names, and their motors by the number of windings."""
 
     rotor: str
     motor: str
@@ -128,7 +128,7 @@ class MotorKind(TypedDict):
 
 
 class MotorDrive(TypedDict):
-    """A drive: its key in `PageMotor`, and what it is called."""
+    """A drive: its key in `PageMotor`, and its name."""
 
     key: str
     name: str
@@ -144,7 +144,7 @@ class MotorNumbers(TypedDict):
 
 
 class MotorRules(TypedDict):
-    """The constants of jobs/steppers/rotor.py by which a run is computed and judged."""
+    """The constants of jobs/steppers/rotor.py for the simulation and its verdict."""
 
     fine: list[float]
     settled: float
@@ -154,15 +154,15 @@ class MotorRules(TypedDict):
 
 
 class MotorControl(Control):
-    """A slider: which of `MotorValues` it sets, and the size of its unit in SI units."""
+    """A slider: the key in `MotorValues` that it sets, and the size of its unit in SI units."""
 
     key: Quantity
     size: float
 
 
 class MotorValues(TypedDict):
-    """What is chosen: the numbers of a kind, of a motor in it and of a drive; frequencies, load,
-    and time of the ramp in the units of their sliders.
+    """The current choice: the indices of a kind, of a motor in it and of a drive; frequencies,
+    load, and ramp time in the units of their sliders.
     """
 
     kind: int
@@ -176,9 +176,9 @@ class MotorValues(TypedDict):
 
 
 class PageMotors(TypedDict):
-    """Everything that the motor explorer is given. `pulses`: of a run; `opening`: what is chosen
-    at first; `words`: every sentence it says; `code`: the lines of Python behind it, with blanks;
-    `meant`: what stands below.
+    """The data of the motor explorer. `pulses`: the pulses of a run; `opening`: the first choice;
+    `words`: all its sentences; `code`: the corresponding Python lines, with blanks to fill;
+    `meant`: the text below.
     """
 
     kind: str
@@ -198,13 +198,14 @@ class PageMotors(TypedDict):
 
 
 def motor_explorer(motor: Stepper | None = None) -> Explorer:
-    """A stepper motor seen along its shaft: windings coloured by their currents, the field, the
-    rotor to be turned by hand; beside it the phase table with the row that is on. Pulses come one
-    by one or as a run at a frequency, with a load and a ramp; what the rotor loses is counted and
-    drawn over time. Menus choose rotor, feed, windings and drive.
+    """Show a stepper motor along its shaft: windings coloured by their currents, the field, and a
+    rotor to turn; beside it the phase table with the current row. Pulses come one by one or as a
+    run at a frequency, with a load and a ramp; lost steps are counted and drawn over time. Menus
+    choose rotor, feed, windings and drive.
 
-    It opens as `motor`, or as that of the document's table 1, whose torque, inertia, damping and
-    `rise` it keeps. TypeError: not a Stepper. ValueError: one whose runs are too long to compute.
+    It opens with `motor`, by default that of the document's table 1, and keeps its torque, inertia,
+    damping and `rise`. TypeError: not a Stepper. ValueError: a motor whose runs take too long to
+    compute.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
     own: MotorNumbers = {
@@ -307,15 +308,16 @@ def _motor(rotor: str, feed: str, n: int) -> PageMotor:
 
 
 def _heads(rotor: str, feed: str, n: int) -> list[str]:
-    """The columns of the table: those of the document where it has them, letters elsewhere."""
+    """The column heads of the table: those of the document where it has them, otherwise letters."""
     if feed == "bipolar":
         return [f"{end}{k + 1}" for k in range(n) for end in "ab"]
     return ["a1", "b1", "a2", "b2"] if (rotor, n) == ("active", 4) else list("abcdef"[:n])
 
 
 def _poles(rotor: str, feed: str, n: int) -> list[PagePole]:
-    """A magnet between one-way windings has a pole for each; else opposite poles make a pair. In a
-    bipolar motor they are wound against each other; a passive rotor asks for no sign.
+    """A magnet in a unipolar motor has one pole for each winding; otherwise opposite poles form a
+    pair. In a bipolar motor they are wound in opposite directions; for a passive rotor the sign
+    does not matter.
     """
     pairs = rotor == "passive" or feed == "bipolar"
     count = 2 * n if pairs else n
@@ -335,7 +337,7 @@ def _poles(rotor: str, feed: str, n: int) -> list[PagePole]:
 
 
 def _picture(motor: Stepper, alt: str) -> plots.Figure:
-    """The motor in the first row of its table, and the table."""
+    """Draw the motor in the first row of its table, and the table."""
     page = _motor(motor.rotor, motor.motor, motor.windings)
     rows, currents = page["printed"][motor.drive], page["currents"][motor.drive][0]
     fig = plots.figure(alt, width=8.0, height=4.2)

@@ -1,5 +1,5 @@
-"""Numbers for pages and figures, the same on every processor: rounding, ticks, which samples to
-keep, and whole numbers in few bytes.
+"""Numbers for pages and figures, equal on every processor: rounding, ticks, the choice of samples,
+and compact integers.
 """
 
 import base64
@@ -14,17 +14,17 @@ from ..motion.recording import Recording
 
 Scale: TypeAlias = tuple[float, float, int, int]  # lowest tick, step, number of ticks, decimals
 
-# what joint values, speeds and accelerations of all motions may take; at least 41 samples
+# bytes for the joint values, speeds and accelerations of all motions; at least 41 samples
 DATA_BYTES = 570_000
-NOTHING = -32768  # the whole number that stands for "no value here"
-# added before rounding: an exact half falls the same way on every processor
+NOTHING = -32768  # the integer for "no value"
+# added before rounding, so that every processor rounds an exact half in the same way
 TIE = 2e-7 * np.sqrt(2)
 
 
 class Packed(TypedDict):
-    """Numbers (motions, samples, columns) in few bytes: whole numbers of 16 bits times a step.
+    """Numbers (motions, samples, columns) in compact form: 16-bit integers times a step.
 
-    steps  of each motion: one for all of its columns, or one for each
+    steps  for each motion one step for all columns, or one for each
     data   in base64: motion after motion, column after column, the second differences of the whole
            numbers over the samples (as if two zeros stood before the first), each as 2 d or
            -2 d - 1, in groups of seven bits, the lowest first; a byte above 127 is not the last.
@@ -36,22 +36,25 @@ class Packed(TypedDict):
 
 
 def tidy(x: float, decimals: int) -> float:
-    """x rounded; an exact half and the noise around it always go up, and there is no minus zero."""
+    """Round x; an exact half and the noise around it always round up, and there is no negative
+    zero.
+    """
     scale = 10.0**decimals
     return float(np.floor(float(x) * scale + 0.5 + TIE) / scale) + 0.0
 
 
 def rounded(values: ArrayLike, decimals: int = 9) -> list[float]:
-    """All values in a row, rounded as `tidy` does."""
+    """Return all values in one list, rounded with `tidy`."""
     return [tidy(x, decimals) for x in np.ravel(values)]
 
 
 def packed(values: Floats, finest: float, groups: Sequence[Bools] = ()) -> Packed:
-    """(motions, samples, columns) as `Packed`, the greatest of each motion about `finest` steps.
-    Columns of one group have one step; without groups all have.
+    """Return (motions, samples, columns) as `Packed`; the greatest value of each motion has about
+    `finest` steps. The columns of a group share a step; without groups all columns do.
 
-    A step for each motion: one extreme value among many motions would make stairs of the others.
-    Second differences: of 241 samples of a smooth curve nearly all fit into one byte.
+    Each motion has its own step, since one extreme value would make the other motions coarse. We
+    store second differences, since for 241 samples of a smooth curve nearly all of them fit into
+    one byte.
     """
     steps = np.empty((len(values), 1, values.shape[-1]))
     for group in groups or [np.ones(values.shape[-1], dtype=bool)]:
@@ -80,8 +83,8 @@ def _differences(whole: Ints) -> bytes:
 
 
 def series_step(least: float) -> float:
-    """The first number of the series 1, 2, 5, 10, ... that is not below `least`, from a millionth
-    on.
+    """The first number of the series 1, 2, 5, 10, ..., beginning at a millionth, that is not below
+    `least`.
     """
     least = max(least, 1e-6)
     power = 10.0 ** np.floor(np.log10(least) + 1e-12)
@@ -89,8 +92,9 @@ def series_step(least: float) -> float:
 
 
 def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
-    """Which of `count` samples the page gets: evenly spread, those on both sides of every jump, and
-    where speed and acceleration of a motion are greatest: so the curves reach what the table says.
+    """The samples of `count` that the page gets: evenly spread ones, those on both sides of each
+    jump, and those with the greatest speed and acceleration of a motion, so that the curves reach
+    the values in the table.
     """
     values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
     wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 1.1 * 4 / 3))))
@@ -116,7 +120,9 @@ def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
 
 
 def _peaks(tracks: Sequence[Recording]) -> list[int]:
-    """Where speeds and accelerations of each motion are greatest, the greatest of all first."""
+    """The samples with the greatest speeds and accelerations of each motion, the greatest of all
+    first.
+    """
     found: list[tuple[float, int]] = []
     for track in tracks:
         for values in (track.v, track.a):
@@ -132,8 +138,8 @@ def _peaks(tracks: Sequence[Recording]) -> list[int]:
 
 
 def scales(ranges: Sequence[Any]) -> list[Scale]:
-    """The scale for one range (low, high); or for two in one panel, with zeros and ticks at the
-    same heights.
+    """The scale for one range (low, high), or for two ranges in one panel, with zeros and ticks at
+    the same heights.
     """
     ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
     if len(ranges) == 1:
@@ -157,7 +163,7 @@ def scales(ranges: Sequence[Any]) -> list[Scale]:
 
 
 def scale(low: float, high: float) -> Scale:
-    """Matplotlib's choice of ticks, the outermost ones at or beyond the data."""
+    """Matplotlib's ticks, of which the outermost are at or beyond the data."""
     low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
     if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
         pad = 0.5 * max(abs(low), 1.0)
@@ -177,7 +183,7 @@ def _ticks(low: float, step: float, count: int) -> Scale:
 
 
 def fewest(values: Floats, most: int = 2) -> int:
-    """With how many decimals these values are written exactly, at most `most`."""
+    """The number of decimals that represents these values exactly, at most `most`."""
     return next(
         (
             d
@@ -189,8 +195,8 @@ def fewest(values: Floats, most: int = 2) -> int:
 
 
 def decimals(curves: Iterable[Floats]) -> int:
-    """How many decimals show the greatest value of this quantity with three digits; at least
-    one.
+    """The number of decimals that shows the greatest value of this quantity with three digits; at
+    least one.
     """
     greatest = max(np.nanmax(abs(c), initial=0, where=~np.isnan(c)) for c in curves)
     return 1 if greatest >= 10 else 2 if greatest >= 1 else 3

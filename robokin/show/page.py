@@ -1,5 +1,5 @@
-"""The data of a page, and the HTML with the script that draws it. An explorer's arm is described in
-`twin`, what a scene shows besides arms in `things`; `saving` writes pages to files.
+"""The data of a page, and the HTML with the script that draws it. `twin` has the data of an
+explorer's arm, `things` the data of other things in a scene; `saving` writes pages to files.
 """
 
 import base64
@@ -21,9 +21,9 @@ STILL = (
 
 # --- The data -------------------------------------------------------------------------------------
 #
-# Metres and radians in the scene; in the curves degrees and the unit of lengths. A rigid transform
-# is 12 numbers: the rows of [R | p]. A motion is one value of the switch with one of the slider:
-# their number is switch * slider values + slider.
+# Scenes use metres and radians; curves use degrees and the unit of lengths. A rigid transform is 12
+# numbers: the rows of [R | p]. A motion belongs to one value of the switch and one of the slider;
+# its index is switch * slider values + slider.
 
 
 class Unit(TypedDict):
@@ -34,7 +34,7 @@ class Unit(TypedDict):
 
 
 class Slider(TypedDict):
-    """A value to choose a motion by, and the decimals to write it with."""
+    """A slider that selects a motion by a number: its values, and their decimals in text."""
 
     label: str
     values: list[float]
@@ -42,18 +42,18 @@ class Slider(TypedDict):
 
 
 class Switch(TypedDict):
-    """Words to choose a motion by."""
+    """A menu that selects a motion by a word."""
 
     label: str
     values: list[str]
 
 
 class PageScene(TypedDict):
-    """The space: the arm's length, the coordinate that is zero where all is flat, the step of the
-    floor's grid, what the camera must see, two corners of the floor, azimuth and elevation of the
-    camera. With `grows` the picture shrinks where an arm or a thing leaves it; a floor that is
-    `solid` hides what dips below it. With `bases` all arms stand there in one picture; None gives
-    each its own.
+    """The scene: the arm's length, the coordinate that is zero in a flat scene, the step of the
+    floor's grid, the points that the camera must see, two corners of the floor, azimuth and
+    elevation of the camera. With `grows` the picture zooms out when an arm or a thing leaves it. A
+    `solid` floor hides what is below it. With `bases` all arms are in one picture at these places;
+    with None each has its own picture.
     """
 
     size: float
@@ -69,8 +69,8 @@ class PageScene(TypedDict):
 
 
 class Axis(TypedDict):
-    """The scales of turning or of shifting joints in one panel; `of` motion -> which, or None: all
-    have the first.
+    """The scales of revolute or of prismatic joints in one panel. `of` maps a motion to its scale;
+    with None all motions have the first.
     """
 
     unit: str
@@ -79,8 +79,9 @@ class Axis(TypedDict):
 
 
 class PagePanel(TypedDict):
-    """One panel of curves. `own`: each motion has its own scale. `near`: for each arm the limits
-    to show, [joint, 0 lower or 1 upper]. `axes`: those of "turn" and "shift" joints, if any.
+    """One panel of curves. `own`: each motion has its own scale. `near`: the limits to show for
+    each arm, [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if there
+    are such joints.
     """
 
     label: str
@@ -90,8 +91,8 @@ class PagePanel(TypedDict):
 
 
 class Greatest(TypedDict):
-    """For each motion and joint: the greatest speed, its share of the limit in percent, the
-    greatest acceleration or words where the speed jumps.
+    """For each motion and joint: the greatest speed, its percentage of the limit, and the greatest
+    acceleration, or words if the speed jumps.
     """
 
     speed: list[list[float]]
@@ -100,8 +101,8 @@ class Greatest(TypedDict):
 
 
 class Flaws(TypedDict):
-    """What is wrong with a motion, by its number: the samples after which its curves break, [[time,
-    words]] of jumps of speed and of position, sentences.
+    """The flaws of motions, by index: the samples after which the curves break, [[time, words]] of
+    jumps of speed and of position, and sentences.
     """
 
     gaps: dict[str, list[int]]
@@ -112,8 +113,8 @@ class Flaws(TypedDict):
 
 class PageArm(Greatest, Flaws):
     """One arm and its motions: `Packed` joint values, speeds and accelerations; [lower, upper]
-    limits of the joints, their speed limits; for each motion [smallest distance from "via", x, y,
-    z of that place], or None.
+    joint limits; speed limits; for each motion [smallest distance from "via", x, y, z of that
+    place], or None.
     """
 
     name: str
@@ -125,9 +126,9 @@ class PageArm(Greatest, Flaws):
 
 
 class Page(TypedDict):
-    """Everything that a player draws. `nothing`: the whole number of a `Packed` that stands for no
-    value. `decimals` are those of speeds and accelerations, `sampled` says of which samples the
-    greatest are told, `ticks` is the scale of the time, `dashes` the dashes of the joints' lines.
+    """The data of a player. `nothing`: the integer in a `Packed` that means no value. `decimals`
+    are those of speeds and accelerations. `sampled` says from which samples the greatest values
+    come. `ticks` is the scale of the time, `dashes` are the dashes of the joints' lines.
     """
 
     title: str
@@ -159,15 +160,13 @@ class Control(TypedDict):
 
 
 class PageUnit(Unit):
-    """The same for an explorer, and how it is written in code."""
+    """The unit of an explorer, with its name in Python code."""
 
     code: str
 
 
 class PagePose(TypedDict):
-    """A target as the scripts take it: a place; with `rotation` [w, x, y, z] a transform, with
-    `angle` a ScaraPose.
-    """
+    """A target: a position; with `rotation` [w, x, y, z] a Transform, with `angle` a ScaraPose."""
 
     place: list[float]
     rotation: NotRequired[list[float]]
@@ -175,8 +174,8 @@ class PagePose(TypedDict):
 
 
 class FactRow(TypedDict):
-    """Numbers below an arm: what they are called, which fact of the posture they are, the heads of
-    their columns, their decimals.
+    """A row of numbers below an arm: its name, the fact of the posture that it shows, the heads of
+    its columns, its decimals.
     """
 
     name: str
@@ -185,12 +184,12 @@ class FactRow(TypedDict):
     decimals: int
 
 
-Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # as motion.js has them
+Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # as in motion.js
 Corner: TypeAlias = Literal["parabola", "quintic"]
 
 
 class StartValues(TypedDict):
-    """How a blended motion opens: the numbers of its law, its corner and its branch, too."""
+    """The opening values of a blended motion, with the indices of law, corner and branch."""
 
     blend: float
     duration: float
@@ -200,15 +199,15 @@ class StartValues(TypedDict):
 
 
 class JumpRules(TypedDict):
-    """The constants of motion/recording.py by which a jump of position is found."""
+    """The constants with which motion/recording.py finds a jump of position."""
 
     least: float
     few: int
 
 
 class BranchTask(TypedDict):
-    """An exercise: how many different postures have to reach the target; what it says then and
-    before.
+    """An exercise: the number of different postures that must reach the target, and the words
+    before and after.
     """
 
     wanted: int
@@ -217,8 +216,8 @@ class BranchTask(TypedDict):
 
 
 class ExplorerPage(TypedDict):
-    """What every explorer is given. `words`: every sentence it says; `code`: the lines of Python
-    behind it, with blanks; `meant`: what stands below.
+    """The data of every explorer. `words`: all its sentences; `code`: the corresponding Python
+    lines, with blanks to fill; `meant`: the text below.
     """
 
     title: str
@@ -233,7 +232,7 @@ class ExplorerPage(TypedDict):
 
 
 class ArmPage(ExplorerPage):
-    """The same of an explorer of an arm (see `twin.arm_data`), and the units of its joints."""
+    """The data of an explorer of an arm (see `twin.arm_data`), with the units of its joints."""
 
     arm: ArmData
     units: list[PageUnit]
@@ -248,7 +247,7 @@ class JointPage(ArmPage):
 
 
 class LeversPage(ArmPage):
-    """The point `target`, the posture q before it."""
+    """The point `target`, and the previous posture q."""
 
     kind: Literal["levers"]
     q: list[float]
@@ -256,8 +255,9 @@ class LeversPage(ArmPage):
 
 
 class TargetPage(ArmPage):
-    """The target, its turns in radians, the posture q before it, names of branches, heads of the
-    table, the joints whose angles the column "travel" adds; `task`: of an exercise.
+    """The target, its rotations in radians, the previous posture q, the names of branches, the
+    heads of the table, and the joints whose angles the column "travel" adds. `task` belongs to an
+    exercise.
     """
 
     kind: Literal["target"]
@@ -271,7 +271,9 @@ class TargetPage(ArmPage):
 
 
 class MotionPage(ArmPage):
-    """The stations, how it opens, names of laws, corners, branches and panels, samples."""
+    """The stations, the opening values, the names of laws, corners, branches and panels, and the
+    number of samples.
+    """
 
     kind: Literal["motion"]
     dashes: list[list[float]]
@@ -288,14 +290,14 @@ class MotionPage(ArmPage):
 
 
 class LivePage(ExplorerPage):
-    """What `live.Live` adds: the question with which an explorer opens, and its answer."""
+    """The additional data of `live.Live`: the first question of an explorer, and its answer."""
 
     question: NotRequired[dict[str, Any]]
     first: NotRequired[dict[str, Any]]
 
 
 class PlanPage(LivePage):
-    """The arm, names of the ways as `branches`, the value of forbidden cells of the cube."""
+    """The arm, the names of the ways as `branches`, the value of forbidden cells of the cube."""
 
     kind: Literal["plan"]
     arm: ArmData
@@ -304,7 +306,9 @@ class PlanPage(LivePage):
 
 
 class TourPage(LivePage):
-    """Names of kinds of tasks and of tours, the most points, places for those that are added."""
+    """The names of the kinds of tasks and of the tours, the greatest number of points, and places
+    for added points.
+    """
 
     kind: Literal["tour"]
     kinds: list[str]
@@ -317,9 +321,9 @@ PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | Pla
 
 
 class PageAnswer(TypedDict):
-    """An answer to a question: its short name, which older notebooks do not have, what it says, why
-    it is right or not, the confusion behind a wrong one and a second case that shows it; of a
-    number to type its value.
+    """An option of a question: its short name (missing in older notebooks), its text, why it is
+    right or wrong, the confusion behind a wrong one, and a second case that shows it; `value` if
+    the answer is a number to type.
     """
 
     name: NotRequired[str]
@@ -331,9 +335,8 @@ class PageAnswer(TypedDict):
 
 
 class PageQuestion(TypedDict):
-    """Everything that a prediction is given. `unit` and `within` (a share): of a number to type.
-    `choice`: what was chosen in the notebook, if anything. `view`: what opens after the choice, as
-    HTML.
+    """The data of a prediction. `unit` and `within` (a fraction) belong to a number to type.
+    `choice`: the choice in the notebook, if any. `view`: the HTML that opens after the choice.
     """
 
     name: str
@@ -351,7 +354,7 @@ class PageQuestion(TypedDict):
 
 
 def inert(data: Any) -> str:
-    """`data` as JSON that may stand in a script. ValueError: nothing that JSON can hold."""
+    """Return `data` as JSON that is safe inside a script. ValueError: JSON cannot represent it."""
     try:
         text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         text.encode()
@@ -361,7 +364,7 @@ def inert(data: Any) -> str:
 
 
 def still_image(png: bytes, alt: str) -> str:
-    """The still picture that stands in the place of a player or an explorer until it wakes."""
+    """Return the still picture that is shown until a player or an explorer starts."""
     image = base64.b64encode(png).decode()
     return (
         f'<img alt="{html.escape(alt)}" style="max-width:100%" '
@@ -370,9 +373,9 @@ def still_image(png: bytes, alt: str) -> str:
 
 
 def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
-    """A piece of HTML: `still`, and the script that replaces it by what `text`, a `Page`,
-    `PageExplorer` or `PageQuestion` as JSON, describes. `call`: the module and its function,
-    "player.play". `nonce`: of a page whose policy lets no other script run.
+    """Return a piece of HTML: `still`, and the script that replaces it. `text` is a `Page`,
+    `PageExplorer` or `PageQuestion` as JSON. `call` names the module and its function, such as
+    "player.play". `nonce` is that of a page whose policy forbids other scripts.
     """
     module, _ = call.split(".")
     key, bytes_of_script = compressed(module)

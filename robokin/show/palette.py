@@ -1,7 +1,7 @@
-"""Every colour of figures and pages, and the styles of the joints.
+"""All colours of figures and pages, and the styles of the joints.
 
 A page gets the colours as CSS custom properties (`--rk-ink`, ...) of its root elements, in a light
-and in a dark set, and the font (`--rk-font`); its scripts read them from there. Figures are light.
+and a dark set, and the font (`--rk-font`); its scripts read them there. Figures are light.
 """
 
 from collections.abc import Mapping
@@ -9,10 +9,10 @@ from types import MappingProxyType
 from typing import Any
 
 # Colour and dash of joints 1 to 6; dashes are on/off lengths in line widths. Colours: Okabe and
-# Ito, Color Universal Design, 2008; they stay apart for colour-blind readers, and the dashes stay
-# apart in grey print. In the dark of a page: PAGE, below.
+# Ito, Color Universal Design, 2008; colour-blind readers can distinguish them, and the dashes
+# remain distinct in grey print. PAGE, below, has the colours of dark pages.
 JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
-    MappingProxyType({"color": color, "dash": dash})  # for all to read
+    MappingProxyType({"color": color, "dash": dash})  # shared, so read-only
     for color, dash in (
         ("#0072B2", ()),
         ("#D55E00", (5, 1.8)),
@@ -26,7 +26,7 @@ DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # as the page gets the
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
 ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: the trace, in the background
 
-# Figures: lines and words, postures from strong to faint, the floor.
+# Figures: lines and words, postures from strong to faint, and the floor.
 INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
 REMARK, SCALE = "#5A6672", "#6B7681"
 PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
@@ -35,7 +35,7 @@ FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # of p
 # Pages: name -> (light, dark), six digits each.
 PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
-        "paper": ("#FFFFFF", "#1B2026"),  # behind everything, and the seams between lines
+        "paper": ("#FFFFFF", "#1B2026"),  # the background, and the seams between lines
         "ink": ("#1F2933", "#E4E9EE"),
         "soft": ("#5F6B76", "#A3AFBA"),
         "line": ("#C9D0D6", "#56616C"),
@@ -44,7 +44,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
         "rim": ("#9AA5AF", "#66727E"),  # around a panel of curves
         "alarm": (ALARM, "#FF8A80"),
         "path": ("#1B2A41", "#D3DEEE"),
-        "near": ("#9C4A00", "#FFB26B"),  # the way from the path to the via point
+        "near": ("#9C4A00", "#FFB26B"),  # the line from the path to the via point
         "accent": ("#0072B2", "#5AB4EA"),
         "chosen": ("#E3EEF6", "#26384A"),
         "button": ("#F4F6F8", "#2A323A"),
@@ -83,8 +83,8 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 
 
 def css() -> str:
-    """The palette and the font as CSS: light; dark where JupyterLab or a page that it exported
-    says so, else where the reader's system does; light again on paper.
+    """Return the palette and the font as CSS: light by default; dark if JupyterLab or a page
+    exported from it says so, otherwise if the reader's system does; always light on paper.
     """
     light, dark = (
         ";".join(f"--rk-{name}:{pair[k]}" for name, pair in PAGE.items()) for k in (0, 1)

@@ -1,4 +1,4 @@
-"""What a panel of curves says of its motion, in words: limits, jumps, greatest values."""
+"""The words above a panel of curves: limits, jumps, greatest values."""
 
 from collections.abc import Iterator, Sequence
 
@@ -12,7 +12,7 @@ PER = {"q": "", "v": "/s", "a": "/s²"}
 
 
 def verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
-    """Samples past a limit, or that there are none, or the share of the speed limit."""
+    """Say which samples are past a limit, or that none is, or the percentage of the speed limit."""
     limits = recording.arm.speed_limits
     if past.any():
         what = {"q": "limit", "v": "speed limit"}[kind]
@@ -46,7 +46,7 @@ def verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[
 def leap_words(
     recording: Recording, kind: str, joints: Ints, unit: str, size: float
 ) -> Iterator[str]:
-    """Jumps of position, joint by joint."""
+    """Describe the jumps of position, joint by joint."""
     for joint in joints if kind == "q" else ():
         jumps = [jump for jump in recording.leaps if jump.by[joint]]
         amounts = sorted(abs(jump.by[joint]) / size for jump in jumps)
@@ -59,7 +59,7 @@ def leap_words(
 def spike_words(
     recording: Recording, kind: str, joints: Ints, spikes: Bools, values: Floats, unit: str
 ) -> Iterator[str]:
-    """What given values show at jumps instead of a speed or an acceleration."""
+    """Describe what given values show at jumps instead of a speed or an acceleration."""
     for jumps, what in (
         (recording.leaps, f"{'angle jump' if unit == '°' else 'jump'} / step"),
         (recording.jumps, "speed jump / step"),
@@ -81,7 +81,7 @@ def spike_words(
 def corner_words(
     recording: Recording, kind: str, joints: Ints, unit: str, size: float, missing: Bools
 ) -> Iterator[str]:
-    """Where the speed jumps and no acceleration is drawn."""
+    """Say where the speed jumps and no acceleration is drawn."""
     jumps = [
         jump
         for jump in (recording.jumps if kind == "a" else ())
@@ -98,7 +98,7 @@ def corner_words(
 def range_words(
     recording: Recording, kind: str, name: str, joints: Ints, unit: str, size: float
 ) -> str:
-    """What the curves reach, in numbers that do not depend on the last bits."""
+    """Say which values the curves reach, in numbers that do not depend on the last bits."""
     gap = space(unit)
     if kind == "q":
         parts = []
@@ -117,7 +117,7 @@ def range_words(
 
 
 def beside_jump(jump: Jump) -> slice:
-    """The samples that differences across a jump reach, of whatever kind they are."""
+    """The samples whose differences, of any order, reach across a jump."""
     return slice(max(jump.first - 2, 0), jump.last + 3)
 
 

@@ -31,7 +31,7 @@ from .panel_words import (
 )
 from .scene import dense, number
 
-STRIP = 0.08  # height of the shaded strip beyond a limit, as a share of its panel
+STRIP = 0.08  # height of the shaded strip beyond a limit, as a fraction of its panel
 WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleration", "acceleration")}
 
 
@@ -39,10 +39,10 @@ WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleratio
 class Panel:
     """One panel of a figure.
 
-    heading  the words above it, to be wrapped when its width is known
-    labels   [(words, limit, 1 above it or -1 below)] of the limits that it shows, still to be
+    heading  the words above it, wrapped when its width is known
+    labels   [(words, limit, 1 above it or -1 below)] of the limits that it shows, not yet
              placed
-    facts    what the alt text says about it
+    facts    its sentences in the alt text
     """
 
     ax: Axes
@@ -52,9 +52,8 @@ class Panel:
 
 
 def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
-    """Speeds or accelerations (samples, n) that a caller gives, NaN for the lone spikes that a jump
-    leaves when it is differentiated: beside a jump, and half as large again as all values
-    elsewhere.
+    """Return the caller's speeds or accelerations (samples, n) with NaN in place of the spikes that
+    a differentiated jump leaves: values beside a jump that exceed all others by more than half.
     """
     beside = np.zeros(values.shape, dtype=bool)
     for jump in _jumps(recording, kind):
@@ -76,8 +75,8 @@ def draw_panel(
     unit: str,
     size: float,
 ) -> Panel:
-    """One quantity of some joints in `unit`. `drawn` (samples, n) are the curves, and the recording
-    judges them: what is drawn and not in it is a spike, which does not set the scale.
+    """Draw one quantity of some joints in `unit`. `drawn` (samples, n) are the curves. Values that
+    the recording does not have are spikes, which do not affect the scale.
     """
     t, unit_text = recording.t, unit + PER[kind]
     name = WORDS[kind][int(recording.arm.prismatic[joints[0]])]
@@ -92,7 +91,7 @@ def draw_panel(
     ax.grid(color=PANEL_GRID, linewidth=0.8)
     ax.set_axisbelow(True)
     ax.tick_params(labelsize=9, color=SOFT, length=3)
-    alone = drawn.shape[1] == len(joints)  # else there are two columns of panels
+    alone = drawn.shape[1] == len(joints)  # otherwise there are two columns of panels
     ax.xaxis.set_major_locator(MaxNLocator(8 if alone else 4, steps=[1, 2, 5, 10]))
     steps = [1, 1.5, 3, 4.5, 9, 10] if unit_text == "°" else [1, 2, 5, 10]
     ax.yaxis.set_major_locator(MaxNLocator(5, steps=steps))
@@ -140,7 +139,7 @@ def draw_panel(
 
 
 def lay_out(fig: Figure, panels: Sequence[Panel], title: str | None) -> None:
-    """Margins in inches, the title, and names at the ends of the curves or in a legend."""
+    """Set the margins (inches), the title, and the names at the ends of curves or in a legend."""
     legend = not all(_ends_in_view(panel.ax) for panel in panels)
     width, height = fig.get_size_inches()
     lines = _write_title(fig, title, height) if title else 0
@@ -171,7 +170,7 @@ def near_limits(
     high: Floats | float,
 ) -> Bools:
     """Which limits a panel from low to high shows: those in view that their joint passes or comes
-    near, measured by the height of the panel and by the room between the joint's limits.
+    near to, relative to the height of the panel and to the range between the joint's limits.
 
     limits (..., 2), the joint's least and greatest value (...), low and high (...) -> bool (...,
     2).
@@ -187,7 +186,7 @@ def near_limits(
 
 
 def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Floats:
-    """(k, 2) the limits of the quantity in the unit of the panel, infinite where there are none."""
+    """(k, 2) the limits of the quantity in the unit of the panel, infinite if there are none."""
     arm = recording.arm
     if kind == "q":
         return arm.limits[joints] / size
@@ -205,7 +204,7 @@ def _past(recording: Recording, kind: str, joints: Ints) -> Bools:
 
 
 def _view(values: Floats, kind: str) -> tuple[float, float]:
-    """Lowest and highest value of the panel: the curves and a margin, never the noise of a
+    """The lowest and highest value of the panel: the curves and a margin, but never the noise of a
     constant.
     """
     finite = values[np.isfinite(values)]
@@ -222,8 +221,8 @@ def _view(values: Floats, kind: str) -> tuple[float, float]:
 def _band(
     ax: Axes, limits: Floats, values: Floats, joint: int, unit: str, color: str
 ) -> Iterator[tuple[str, float, int]]:
-    """Shade the near side of what lies beyond a limit. Only a strip: with six joints in one panel,
-    what is beyond one joint's limit is inside another's. Yields the labels.
+    """Shade a strip beyond a limit, and yield the labels. It is only a strip because, with six
+    joints in one panel, values beyond one joint's limit are inside another's.
     """
     low, high = ax.get_ylim()
     near = near_limits(
@@ -246,7 +245,7 @@ def _jumps(recording: Recording, kind: str) -> list[Jump]:
 
 
 def _write_limits(panel: Panel) -> None:
-    """The words beside each limit line, inside it or beyond it, where fewest curves pass."""
+    """Write the words beside each limit line, inside or beyond it, where fewest curves pass."""
     ax = panel.ax
     canvas: Any = ax.figure.canvas
     to_data: Any = ax.transData.inverted()
@@ -279,23 +278,19 @@ def _write_limits(panel: Panel) -> None:
 
 
 def _ends_in_view(ax: Axes) -> bool:
-    """Whether every curve goes on to the right edge, or nearly, and ends between the limits of the
-    panel.
-    """
+    """Whether every curve continues to the right edge, or nearly, and ends within the panel."""
     (low, high), (first, last) = ax.get_ylim(), ax.get_xlim()
     times, ends = _ends(ax)
     return bool(((ends >= low) & (ends <= high) & (times > first + 0.9 * (last - first))).all())
 
 
 def _curves(ax: Axes) -> list[Line2D]:
-    """The joints' lines, and not those of their limits."""
+    """The lines of the joints, without those of their limits."""
     return [line for line in ax.lines if str(line.get_label()).startswith("q")]
 
 
 def _ends(ax: Axes) -> tuple[Floats, Floats]:
-    """Time and value of the last sample that exists, of each curve; NaN for a curve that has
-    none.
-    """
+    """The time and value of the last sample of each curve that exists; NaN for an empty curve."""
     curves = [np.asarray(line.get_xydata()) for line in _curves(ax)]
     last = [curve[np.isfinite(curve[:, 1])][-1:] for curve in curves]
     times, values = np.array([end[0] if len(end) else (np.nan, np.nan) for end in last]).T
@@ -316,7 +311,7 @@ def _legend(ax: Axes) -> None:
 
 
 def _end_labels(ax: Axes) -> None:
-    """The joint's name at the right end of each curve, moved apart where ends meet."""
+    """Write the joint's name at the right end of each curve; names that meet move apart."""
     figure: Any = ax.figure
     lines = _curves(ax)
     low, high = ax.get_ylim()
@@ -356,8 +351,8 @@ def _end_labels(ax: Axes) -> None:
 
 
 def _write_title(fig: Figure, title: str, height: float) -> int:
-    """A bold title at the top left, in as many lines as it takes in a figure of this height;
-    returns their number.
+    """Write a bold title at the top left of a figure of this height, and return its number of
+    lines.
     """
     words = textwrap.fill(title, int(fig.get_size_inches()[0] * 8.4))
     lines = words.count("\n") + 1

@@ -1,8 +1,8 @@
-"""The explorer of plans: an arm of three levers, its target and an obstacle to take by the hand.
+"""The explorer of plans: an arm of three levers with a target and an obstacle to drag.
 
-The page draws, a kernel plans: see `live`. Beside the plane stands the cube of postures, in which
-the levers forbid a body and a wave looks for the target's curve; it is a picture in steps of `STEP`
-for the eye, `robokin.jobs.obstacles.plan` searches in finer ones.
+The page draws, and a kernel plans: see `live`. Beside the plane is the cube of postures with the
+forbidden body of the levers, in which a breadth-first search looks for the target's curve. The cube
+has steps of `STEP` for display; `robokin.jobs.obstacles.plan` searches in finer ones.
 """
 
 from collections.abc import Mapping
@@ -27,11 +27,11 @@ from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data
 
-STEP = 12 * deg  # of the cube's postures
+STEP = 12 * deg  # step of the cube's postures
 MOMENTS = 41  # of a motion
-FORBIDDEN, AWAY = 255, 254  # in the cube: too near to the obstacle; free, and not reached
+FORBIDDEN, AWAY = 255, 254  # cells of the cube: too near to the obstacle; free, but not reached
 WAYS = ("the plan", "two via points", "direct")
-UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names in `unchecked_path`
+UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names that `unchecked_path` uses
 TITLE = "From K to K1, past an obstacle H"
 MEANT = (
     "Drag K, K1 and H, or move them by arrow keys. The cube holds all postures in steps of 12° "
@@ -59,13 +59,14 @@ WORDS: Mapping[str, str] = {
 def plan_explorer(
     arm: ThreeLeverArm, posture: ArrayLike, target: ArrayLike, obstacle: ArrayLike
 ) -> Live:
-    """Start K, target K1 and obstacle H to take, and the distance that all levers shall keep from H
-    (a seventh of a lever at first). A kernel answers every move by `plan`: the way and why, what
-    the levers sweep, how near they come and where; or by what two via points or the direct motion
-    would do. The search can be played in the cube of postures, the motion in the plane.
+    """Show the start K, the target K1 and the obstacle H to drag, and the distance that all levers
+    must keep from H (a seventh of a lever at first). A kernel answers every move with `plan`: the
+    way and the reason, the area that the levers sweep, and where they come nearest; or with what
+    two via points or the direct motion would do. The search can be played in the cube of postures,
+    the motion in the plane.
 
-    posture (3,) in radians: before the motion; target and obstacle (2,) in metres. ValueError: what
-    `plan` refuses. TypeError: an arm without three levers.
+    posture (3,) in radians is the start; target and obstacle (2,) are in metres. ValueError:
+    arguments that `plan` refuses. TypeError: an arm without three levers.
     """
     instance(arm, ThreeLeverArm, "arm")
     distance, H = arm.lever / 7, floats(obstacle, "obstacle")
@@ -95,14 +96,14 @@ def plan_explorer(
 
 
 def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
-    """What the page shows.
+    """Return the answer that the page shows.
 
-    verdict, words  the answer in a sentence; why, as `plan` says it
-    way, kept       of the plan; whether the path that is shown keeps the distance
-    path            (k, 3) postures; the start alone where the arm stays
-    moments         (MOMENTS, 3) of its way
+    verdict, words  the answer in a sentence; the reason, in the words of `plan`
+    way, kept       of the plan; whether the path shown keeps the distance
+    path            (k, 3) postures; the start alone if the arm stays
+    moments         (MOMENTS, 3) postures on its way
     via             (., 2) the gripper's via points
-    nearest         where the levers come nearest: [place on the lever, words]
+    nearest         the nearest place of the levers: [place on the lever, words]
     direct          the quadrilaterals AK and BA of the direct motion and what is to be said of
                     them; None where they are not asked for, or do not exist
     cube            steps of the wave to each posture, or FORBIDDEN, or AWAY
@@ -144,7 +145,7 @@ def _moments(path: Floats) -> Floats:
 def _verdict(
     known: Plan, way: str, path: Floats, lever: int, near: float, distance: float
 ) -> tuple[str, bool]:
-    """In one sentence, and whether the distance is kept."""
+    """The verdict in one sentence, and whether the distance is kept."""
     if len(path) == 1:
         out = "K1 is out of reach" if way == "direct" else "K2, K3 and K1 are not all within reach"
         return ("No: the arm stays." if way == WAYS[0] else f"No: {out}."), False
@@ -178,8 +179,8 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
 def _cube(
     arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[Any, int, Floats]:
-    """The `coarse_search` as the page draws it: the cube (n, n, n), how many steps lead to the
-    target's curve (or all there are), and the curve (., 3).
+    """The `coarse_search` for the page: the cube (n, n, n), the number of steps to the target's
+    curve (or of all steps), and the curve (., 3).
     """
     steps, free, curve = coarse_search(arm, start, K1, H, distance, STEP)
     reached = steps < NEVER
@@ -195,7 +196,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
     name, unit = length_unit(size)
     marks = [Mark(first["target"]), Mark(first["obstacle"], radius=first["distance"])]
     scene = scene_data([arm], [_moments(np.array(known.path))[None]], marks, size, grows=True)
-    scene["things"] = []  # the page makes them
+    scene["things"] = []  # the page creates them
     L = arm.lever
     return {
         "kind": "plan",
@@ -219,7 +220,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
 
 
 def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> plots.Figure:
-    """The plane, and the cube beside it."""
+    """Draw the plane, and the cube beside it."""
     fig = plots.figure(alt, width=4.4, height=2.1)
     blue, orange, green = (style["color"] for style in JOINT_STYLES[:3])
     plane, cube = fig.add_axes((0, 0, 0.58, 0.9)), fig.add_axes((0.6, 0, 0.4, 0.9))
@@ -228,7 +229,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     turn = np.linspace(0, 2 * np.pi, 73)
     disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     plane.fill(*disc.T, color="0.88")
-    # few lines of one colour: a small file
+    # few lines of one colour keep the file small
     plane.add_collection(LineCollection(list(points[::4]), color=PALE, linewidth=0.8))
     plane.plot(*points[:, 3].T, color=blue)
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")
@@ -259,7 +260,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
 
 
 def _body(blocked: Bools) -> tuple[Floats, list[str]]:
-    """The faces of the forbidden body that are seen, the farther ones first: corners (n, 4, 3) in
+    """The visible faces of the forbidden body, the farther ones first: corners (n, 4, 3) in
     radians, and their colours.
     """
     (ca, ce), (sa, se) = np.cos(VIEW), np.sin(VIEW)

@@ -1,9 +1,8 @@
-"""The player: an arm that moves beside its curves, in any browser, without a kernel and without a
-network.
+"""The player: an arm that moves beside its curves, in any browser, without a kernel or a network.
 
-`animate` works everything out once, at full resolution, and hands the page whole numbers: joint
-values, speeds and accelerations of some hundred samples, and for every slider value the numbers
-worth reading. `js/player.js` draws them; `page` says what it gets.
+`animate` computes everything once, at full resolution, and stores compact numbers in the page:
+joint values, speeds and accelerations of about a hundred samples, and the table of greatest values
+for every slider value. `js/player.js` draws them; `page` describes the data.
 """
 
 import hashlib
@@ -46,8 +45,9 @@ from .saving import save, write
 from .scene import Scene
 from .things import Target, Thing
 
-SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # per motion in the page, both ends included
-# Steps of the greatest joint value, speed, acceleration: the joint values also pose the arm.
+SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # samples per motion in the page, including both ends
+# Steps of the greatest joint value, speed and acceleration. Joint values are finer since they also
+# pose the arm.
 FINEST = (32000, 16000, 8000)
 NO_READINGS: Mapping[str, ArrayLike] = MappingProxyType({})
 
@@ -70,15 +70,15 @@ def animate(
     readings: Mapping[str, ArrayLike] = NO_READINGS,
     things: Iterable[Thing] = (),
 ) -> "Player":
-    """A `Player` of the motion q (samples, n) at the times t (samples,); it shows itself at the end
-    of a cell.
+    """Return a `Player` of the motion q (samples, n) at the times t (samples,). It displays itself
+    at the end of a cell.
 
         animate(arm, t, q), animate([arm, other], t, [q, q_other])
         animate(record(arm, t, q)), animate([recording, other])
 
     arm      an Arm, or several side by side: then q and `names` are lists of the same length. Or
              recordings, of the same times: then t and q are theirs
-    t, q     full resolution (2001 samples, say): speeds, accelerations and the numbers below the
+    t, q     full resolution (such as 2001 samples): speeds, accelerations and the numbers below the
              curves come from all samples, and only what is drawn is thinned. Unwrapped angles
              (`follow`); a NaN row is "no solution here".
     targets  Transforms in a list (start and goal; start, via and goal), or a dict of name ->
@@ -88,8 +88,8 @@ def animate(
              has a menu
     points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs where the arm is planar. Metres, base coordinates.
-    floor    the floor lies at height 0 and hides what dips below it; else it lies under everything
-    bases    where several arms stand together in one picture: (arms, 2), x and y in m; targets,
+    floor    the floor is at height 0 and hides what is below it; by default it is under everything
+    bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
              points, circles and faces are then in coordinates of the floor. Points can name them
     faces    polygons to draw behind the arms, such as a belt: corners (k, 3), m
     readings numbers that change, to write behind the names of points: a dict name -> (samples,),
@@ -97,13 +97,13 @@ def animate(
     things   anything else to draw, of the kinds in `robokin.show.things` or of your own
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
-    leading axes of q (..., samples, 3) or, where it depends on slider and switch alone, (..., 1,
-    3); a target is a Transform of such a shape without the 3. NaN where it is not there. No
-    distance is told from a "via" that moves with time, nor with `bases`. Several arms side by side
-    have the same targets, points, circles and faces.
+    leading axes of q (..., samples, 3) or, if it depends on slider and switch only, (..., 1, 3); a
+    target is a Transform with such a shape without the 3. NaN means that it is missing. There is no
+    distance from a "via" that moves with time, nor with `bases`. Several arms side by side share
+    targets, points, circles and faces.
 
-    ValueError: shapes that do not fit, fewer than three samples, times that do not rise, infinite
-    numbers. TypeError: an arm or a target of another kind.
+    ValueError: shapes that do not match, fewer than three samples, times that do not increase,
+    infinite numbers. TypeError: an arm or a target of another type.
     """
     sliding, switching = arguments.slider(slider), arguments.switch(switch)
     lead = tuple(len(control["values"]) for control in (switching, sliding) if control)
@@ -123,13 +123,13 @@ def animate(
 
 
 class Output:
-    """A piece of a page that the browser brings to life. Shows itself in a notebook; `save` writes
-    it as a page.
+    """A piece of a page that a script in the browser animates. It displays itself in a notebook;
+    `save` writes it as a page.
 
-    data    what the page draws, as JSON takes it
-    still   the figure that stands in its place until the script runs, in print and in an untrusted
+    data    the data of the page, ready for JSON
+    still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
-    call    the module of js/ that shows it, and its function
+    call    the module in js/ that shows it, and its function
     """
 
     call = "player.play"
@@ -139,24 +139,25 @@ class Output:
             raise ValueError(f"data: wanted a dict, got {short(data)}")
         self.data, self.still = data, instance(still, plots.Figure, "still")
         self.text = inert(data)
-        # Of the data and not of the picture: another zlib packs the same pixels into other bytes.
-        # Of full floats, too, only what every processor agrees on.
+        # The name is a hash of the data and not of the picture, because another zlib compresses the
+        # same pixels to different bytes. Floats are rounded, because processors differ in the last
+        # bits.
         agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
         self.id = hashlib.sha256(agreed.encode()).hexdigest()[:12]
 
     @property
     def html(self) -> str:
-        """The player as a piece of HTML: the still picture, and the script that replaces it."""
+        """The HTML of the player: the still picture, and the script that replaces it."""
         return self._in_page()
 
     def _in_page(self, nonce: str = "") -> str:
-        """The same for a page whose policy lets only scripts with this nonce run."""
+        """The HTML for a page whose policy permits only scripts with this nonce."""
         still = still_image(plots.palette_png(self.still), self.data["alt"])
         return output(self.call, self.id, self.text, still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
-        that is there and not a saved player.
+        """Write one self-contained page, whole or not at all. ValueError: not a .html file, or an
+        existing file that is not a saved player.
         """
         save(path, self.data["title"], self.html)
 
@@ -168,7 +169,7 @@ class Output:
 
 
 class Player(Output):
-    """An arm and its curves, animated by the browser: see `animate`. `data` is a `page.Page`."""
+    """An arm and its curves, animated in the browser: see `animate`. `data` is a `page.Page`."""
 
     def __init__(self, data: Any, still: plots.Figure, film: Film) -> None:
         super().__init__(data, still)
@@ -176,9 +177,9 @@ class Player(Output):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page (.html), or the scene without the curves as an animated
-        picture (.gif: 640 pixels, at most 12 frames a second and 120 frames; of a slider or menu
-        the first value). ValueError: another name, a file that is there and not a saved player, a
-        picture of more than 3 MB.
+        picture (.gif: 640 pixels, at most 12 frames per second and 120 frames, with the first value
+        of a slider or menu). ValueError: another file name, an existing file that is not a saved
+        player, or a picture of more than 3 MB.
         """
         name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else ""
         if isinstance(name, str) and os.path.splitext(name)[1] == ".gif":
@@ -200,7 +201,7 @@ def page_data(
     solid: bool,
     bases: Floats | None,
 ) -> Page:
-    """What the page draws."""
+    """Return the data of the page."""
     arms, t = [track.arm for track in tracks], tracks[0].t
     motions, size = len(tracks[0]), max(extent(arm) for arm in arms)
     name, length = length_unit(size)
@@ -214,7 +215,7 @@ def page_data(
     targets = {thing.name: thing.way.rows for thing in things if isinstance(thing, Target)}
     via = targets.get("via")
     if bases is not None or via is not None and via.shape[1] > 1:
-        via = None  # a target that moves with time is at no one place
+        via = None  # a target that moves with time has no single place
     drawn: list[PageArm] = [
         {
             "name": name,
@@ -254,11 +255,11 @@ def page_data(
 
 
 def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int) -> PagePanel:
-    """Scales of one panel, for turning and for shifting joints, and the limits that it shows.
+    """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
 
-    All motions share one scale, unless most of them would fill less than a third of it: then each
-    has its own. The limits are those that come near in any motion, so that they stay while a slider
-    moves.
+    All motions share one scale, unless most of them would fill less than a third of it; then each
+    has its own. The panel shows the limits that any motion comes near to, so that they stay while a
+    slider moves.
     """
     per = ("", "/s", "/s²")[order]
     # (motions, n) each
@@ -290,7 +291,7 @@ def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int
     ]
     word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
     axes: dict[str, Axis] = {}
-    seen = {}  # (motions, 2) lowest and highest tick
+    seen = {}  # (motions, 2): lowest and highest tick
     for key, of in zip(ranges, zip(*chosen, strict=True), strict=True):
         unique = sorted(set(of))
         axes[key] = {
@@ -325,8 +326,8 @@ def still_picture(
     alt: str,
     bases: Floats | None = None,
 ) -> plots.Figure:
-    """The first and the last posture of each arm with the path of its tool; what moves stands where
-    it is at last.
+    """Draw the first and the last posture of each arm with the path of its tool, and moving things
+    at their last place.
     """
     count = 1 if bases is not None else len(motions)
     height = 4.5 if bases is None else 3.4
@@ -365,7 +366,7 @@ def still_picture(
 
 
 def _still_arm(scene: Scene, arm: Arm, q: Floats, base: Floats) -> None:
-    """One arm that stands at `base`, first and last, and the path of its tool."""
+    """Draw the first and last posture of one arm at `base`, and the path of its tool."""
     exists = np.flatnonzero(np.isfinite(q).all(axis=-1))
     path = flange(arm, q[np.linspace(0, len(q) - 1, min(len(q), 1001)).astype(int)]).translation
     scene.base(base)

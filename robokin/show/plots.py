@@ -1,8 +1,8 @@
-"""Arrays in, Matplotlib figures out: joint curves, postures of an arm, frames.
+"""Matplotlib figures of arrays: joint curves, postures of an arm, frames.
 
-A figure is a value: the last line of a cell, or `fig.savefig(...)`. Nothing here touches pyplot, so
-no figure is drawn twice and none is kept alive. Degrees and millimetres outside (metres for what is
-larger than 2 m).
+A figure is a value: it is the last line of a cell, or you call `fig.savefig(...)`. This module does
+not use pyplot, so no figure is drawn twice or kept in memory. Figures show degrees and millimetres
+(metres for arms larger than 2 m).
 """
 
 import base64
@@ -47,7 +47,7 @@ INCHES = "one positive number of inches"
 
 
 class Figure(MatplotlibFigure):
-    """A Matplotlib figure that carries its alt text and shows itself in a notebook."""
+    """A Matplotlib figure with alt text that displays itself in a notebook."""
 
     def __init__(self, alt: str, **keywords: Any) -> None:
         super().__init__(dpi=DPI, facecolor="white", **keywords)
@@ -71,11 +71,11 @@ class Figure(MatplotlibFigure):
 
 
 def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
-    """An empty figure of width x height inches (100 pixels each): `ax = fig.subplots()`, and `fig`
-    ends the cell.
+    """Return an empty figure of width x height inches (100 pixels each): use `ax = fig.subplots()`,
+    and end the cell with `fig`.
 
-    `alt` says in words what a sighted reader concludes; it is the image's alternative text and what
-    a test compares. ValueError: no words, a size that is not positive or above 100.
+    `alt` says in words what a sighted reader concludes. It is the alternative text of the image,
+    which tests compare. ValueError: no words, or a size that is not positive or above 100.
     """
     if not (isinstance(alt, str) and alt.strip()):
         raise ValueError(f"alt: wanted words that say what the figure shows, got {short(alt)}")
@@ -86,7 +86,7 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
 
 
 def palette_png(fig: MatplotlibFigure) -> bytes:
-    """The figure as the bytes of a PNG with a palette: a third of the size of a plain one.
+    """Return the figure as a PNG with a palette, which has a third of the size of a plain one.
 
     Pillow's octree keeps the colours of thin lines to 1/100; its median cut turns the green of a
     triad blue.
@@ -109,7 +109,7 @@ def plot_postures(
     title: str | None = None,
     alt: str | None = None,
 ) -> Figure:
-    """Postures along one path, in a spatial view with true proportions.
+    """Plot postures along one path, in a spatial view with true proportions.
 
     q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
              through all samples, the first and last posture strongly and up to seven between them
@@ -137,8 +137,8 @@ def plot_postures(
     if moves:
         scene.trace(tool.translation)
         scene.triad(tool[first], length=0.07 * size, width=2.4)
-        # The names stand where the two postures differ most, on the half next to the base: the tool
-        # has its own names.
+        # The names are where the two postures differ most, on the half next to the base, since the
+        # tool has its own names.
         half = slice(1, len(arm.links) + 1)
         ends = arm_points(arm, q[[first, last]])[:, half]
         where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()
@@ -161,7 +161,7 @@ def plot_frames(
     chain: bool = False,
     alt: str | None = None,
 ) -> Figure:
-    """Frames as triads (x red, y green, z blue) with names, beside the base frame, in true
+    """Plot frames as triads (x red, y green, z blue) with names, beside the base frame, in true
     proportions.
 
     frames  Transform of shape (k,) or (), or a list of single Transforms, in base coordinates; NaN
@@ -275,7 +275,7 @@ def _sentence(title: str | None) -> list[str]:
 
 
 def _canvas(fig: Figure, title: str | None) -> Axes:
-    """Axes over the whole figure, below the title."""
+    """Return axes over the whole figure, below the title."""
     fig.set_size_inches(9, 6)
     if title:
         fig.text(
@@ -304,7 +304,7 @@ def _samples(
 
 
 def _frames(frames: Transform | Iterable[Transform]) -> list[Transform]:
-    """A list of single Transforms."""
+    """Return a list of single Transforms."""
     if isinstance(frames, Transform):
         frames = list(frames) if frames.shape else [frames]
     frames = several(frames, "frames", "Transforms", error=TypeError)
@@ -319,8 +319,8 @@ def _frames(frames: Transform | Iterable[Transform]) -> list[Transform]:
 
 
 def _naming_axis(frames: Sequence[Transform], i: int) -> int | None:
-    """Frames with one origin are told apart at the tips of an axis: of the one (0, 1, 2) whose tips
-    lie farthest apart. None for a frame that has its origin to itself.
+    """For each frame, the axis (0, 1, 2) at whose tip its name is written, or None. Frames with a
+    common origin need names at the tips of the axis whose tips are farthest apart.
     """
     here = [
         f for f in frames if np.allclose(f.translation, frames[i].translation, rtol=0, atol=1e-6)

@@ -1,6 +1,6 @@
 """A spatial view with true proportions: arms, frames, paths, a floor with its scale.
 
-`plots` draws postures and frames with it, `player` its still picture.
+`plots` uses it for postures and frames, `player` for its still picture.
 """
 
 from collections.abc import Mapping, Sequence
@@ -33,15 +33,15 @@ FAR, DOTS = 1e4, 200_000  # pixels; points along a polyline
 
 
 class Scene:
-    """A spatial view with true proportions on plain 2-D axes: draw into it, then call `finish()`
+    """A spatial view with true proportions on ordinary 2-D axes: draw into it, then call `finish()`
     once.
 
         scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
         scene.arm(arm, q);  scene.trace(points);  scene.triad(pose, "goal");  scene.finish()
 
-    size  metres; what the scene is about, the measure of triads and of the base
+    size  metres; the size of the subject, which scales triads and the base
     flat  look straight down
-    like  where given, the scene of a player's page (`camera.scene_data`): the same view, floor and
+    like  optional, the scene of a player's page (`camera.scene_data`): the same view, floor and
           scale
     Matplotlib's own 3-D axes leave wide margins, cut off what stands out and need equal limits
     forced; a parallel projection is one matrix product, and `set_aspect("equal")` keeps the
@@ -62,21 +62,21 @@ class Scene:
         # the axes of the grid
         self.across = [k for k in range(3) if k != (like["flat"] if self.flat else 2)]
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
-        # what the floor has to lie under
+        # points that the floor must be under
         self.corners: list[Floats] = [np.zeros((1, 3))]
         # words, where, colour, size
         self.labels: list[tuple[str, Floats, str, float]] = []
-        # projected lines and their widths, which labels keep off
+        # projected lines and their widths, which labels avoid
         self.drawn: list[tuple[Floats, float]] = []
         ax.set_axis_off()
         ax.set_aspect("equal")
 
     def project(self, points: ArrayLike) -> Floats:
-        """Points (..., 3) as they are seen: (..., 2), in metres."""
+        """Project points (..., 3): (..., 2), in metres."""
         return project(points, self.view)
 
     def line(self, points: Any, corner: bool = True, **style: Any) -> Line2D:
-        """A polyline through points (..., 3); NaN interrupts it."""
+        """Draw a polyline through points (..., 3); NaN interrupts it."""
         points = np.asarray(points, dtype=float).reshape(-1, 3)
         flat = self.project(points)
         if corner:
@@ -88,8 +88,8 @@ class Scene:
         )[0]
 
     def arm(self, arm: Arm, q: Floats, strength: str = "last", base: Floats | float = 0.0) -> None:
-        """One posture q (n,), as "last" (dark, with joints and shadow), "first" (lighter) or
-        "between" (faint), of an arm that stands at `base` (3,).
+        """Draw an arm at `base` (3,) in one posture q (n,), as "last" (dark, with joints and
+        shadow), "first" (lighter) or "between" (faint).
         """
         points = arm_points(arm, q) + base
         if not np.isfinite(points).all():
@@ -120,7 +120,7 @@ class Scene:
         )
 
     def base(self, at: Floats | float = 0.0) -> None:
-        """The foot of the arm, at the origin or at (3,)."""
+        """Draw the base of the arm, at the origin or at (3,)."""
         angle = np.linspace(0, 2 * np.pi, 60)
         ring = (
             0.07
@@ -135,11 +135,11 @@ class Scene:
         self.drawn.append((self.project(ring), 1))
 
     def trace(self, points: Floats) -> None:
-        """The path of the tool: points (samples, 3); NaN is a gap."""
+        """Draw the path of the tool: points (samples, 3); NaN is a gap."""
         self.line(points, color=TRACE, linewidth=1.6, zorder=6)
 
     def drop(self, point: Floats) -> None:
-        """A thin line from a point (3,) to the floor, which tells how high it stands."""
+        """Draw a thin line from a point (3,) to the floor, which shows its height."""
         if not self.flat and np.isfinite(point).all():
             self.line(
                 [point, point * [1, 1, 0]],
@@ -159,8 +159,8 @@ class Scene:
         color: str = INK,
         at: int | None = None,
     ) -> None:
-        """The axes of one pose: x red, y green, z blue. `letters` names the axes at their tips; the
-        pose's name stands at its origin, or at the tip of axis `at` (0, 1, 2).
+        """Draw the axes of one pose: x red, y green, z blue. `letters` names the axes at their
+        tips; the pose's name is at its origin, or at the tip of axis `at` (0, 1, 2).
         """
         if not np.isfinite(pose.translation).all():
             return
@@ -180,13 +180,13 @@ class Scene:
             self.label(name, pose.translation, color)
 
     def ball(self, centre: Floats, radius: float) -> None:
-        """A ball, or in a flat view a disc."""
+        """Draw a ball, or a disc in a flat view."""
         self.corners.append(centre[None])
         x, y = self.project(centre)
         self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0))
 
     def mark(self, centre: Floats, radius: float) -> None:
-        """A point (3,), or with a radius a ball; nothing where it is NaN."""
+        """Draw a point (3,), or with a radius a ball; nothing if it is NaN."""
         if not np.isfinite(centre).all():
             return
         if radius:
@@ -195,7 +195,7 @@ class Scene:
             self.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
 
     def faces(self, polygons: Sequence[Floats]) -> None:
-        """Polygons (k, 3) behind the arms, the farther ones first."""
+        """Draw polygons (k, 3) behind the arms, the farther ones first."""
         (ca, ce), (sa, se) = np.cos(self.view), np.sin(self.view)
         for corners in sorted(
             polygons, key=lambda face: face.mean(axis=0) @ [ce * ca, ce * sa, se]
@@ -205,7 +205,7 @@ class Scene:
             self.ax.add_patch(Polygon(flat, facecolor=FOOT, edgecolor=SOFT, lw=0.8, zorder=0.6))
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
-        """Words beside a point (3,); `finish` finds them a free place."""
+        """Add words beside a point (3,); `finish` finds a free place for them."""
         where = self.project(point)
         if not any(
             words == other and np.allclose(where, there, rtol=0, atol=1e-6)
@@ -214,8 +214,8 @@ class Scene:
             self.labels.append((words, where, color, size))
 
     def finish(self, footnote: str = "", fit: tuple[float, float] | None = None) -> None:
-        """Floor, scale, limits and labels. `fit` (width, height) in inches: the figure shrinks to
-        what is drawn.
+        """Draw floor, scale and labels, and set the limits. With `fit` (width, height) in inches
+        the figure shrinks to its content.
         """
         low, high, step = self._floor()
         name, unit = length_unit(self.size)
@@ -248,8 +248,8 @@ class Scene:
     def _fit(
         self, x0: float, x1: float, y0: float, y1: float, fit: tuple[float, float] | None
     ) -> None:
-        """Limits that fill the axes with this range (metres), and leave room for words at the edges
-        (pixels).
+        """Set limits that fill the axes with this range (metres) and leave room for words at the
+        edges (pixels).
         """
         figure: Any = self.ax.figure
         box = self.ax.get_position(original=True)
@@ -270,8 +270,8 @@ class Scene:
         self.ax.set_ylim(y0 - spare / 2 - below / scale, y1 + spare / 2 + above / scale)
 
     def _floor(self) -> tuple[Floats, Floats, float]:
-        """Corners (2,), (2,) of the floor and the step of its grid: under all that is drawn, in
-        whole steps.
+        """The corners (2,), (2,) of the floor, in whole steps and under everything drawn, and the
+        step of its grid.
         """
         if "floor" in self.like:
             return *np.array(self.like["floor"])[:, self.across], self.like["grid"]
@@ -287,8 +287,8 @@ class Scene:
         return low * step, high * step, step
 
     def _grid(self, low: Floats, high: Floats, step: float, unit: float) -> None:
-        """The lines of the floor, with coordinates along its two front edges (left and lower ones,
-        seen flat).
+        """Draw the lines of the floor, with coordinates along its two front edges (the left and
+        lower ones in a flat view).
         """
         count = np.round((high - low) / step).astype(int)
         values = [low[i] + step * np.arange(count[i] + 1) for i in range(2)]
@@ -342,7 +342,7 @@ class Scene:
         return point
 
     def _place_labels(self) -> None:
-        """Each label at the free place nearest to its point: off the lines, off other labels,
+        """Put each label at the free place nearest to its point: away from lines and other labels,
         inside the picture.
         """
         canvas: Any = self.ax.figure.canvas
@@ -353,7 +353,7 @@ class Scene:
         margin = np.repeat(widths * 0.8 + 2, [len(line) for line in dots])[:, None]
         lines = np.concatenate(dots)
         frame = self.ax.get_window_extent(renderer)
-        # The places: twelve ways from the point, at four distances, in pixels.
+        # The candidate places: twelve directions from the point, at four distances, in pixels.
         angle = np.tile(np.arange(0, 360, 30) * deg, 4)
         way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         ring = np.repeat(np.arange(4), 12)
@@ -388,8 +388,8 @@ class Scene:
 
 
 def number(value: float, digits: int = 3) -> str:
-    """A number for people: three significant digits, a real minus sign, no minus zero."""
-    value = round(float(value), 9)  # so that noise of the processor cannot decide a tie
+    """Format a number for people: three significant digits, a real minus sign, no negative zero."""
+    value = round(float(value), 9)  # so that rounding noise cannot decide a tie
     text = f"{value:.{digits}g}"
     if "e+" in text:
         text = f"{value:.0f}"
@@ -397,7 +397,7 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def dense(line: Floats, step: float = 4) -> Floats:
-    """Points along a polyline (k, 2), every few pixels; the parts far out of any picture apart."""
+    """Points along a polyline (k, 2), every few pixels, except far outside any picture."""
     line = np.clip(line[np.all(np.isfinite(line), axis=-1)], -FAR, FAR)
     if not len(line):
         return line

@@ -1,4 +1,4 @@
-"""Labelled sketches in a plane, as a lecturer draws them: levers, angles, lengths, points.
+"""Labelled sketches in a plane, as a lecturer draws them: links, angles, lengths, points.
 
 sketch = Sketch("Two levers and the angle between them.", title="q2 bends the elbow")
 sketch.levers([(0, 0), (0.3, 0.2), (0.5, 0.1)], ["O", "A", "K"])
@@ -22,8 +22,8 @@ NAMED = 11  # pixels between a joint and its name
 
 
 class Sketch(Figure):
-    """A figure with one plane of true proportions, to be drawn on. Points are (x, y) in metres,
-    angles in radians from the x axis, against the clock; a text may hold formulas in dollar signs.
+    """A figure of one plane with true proportions to draw on. Points are (x, y) in metres, angles
+    are in radians from the x axis, counter-clockwise; a text may contain formulas in dollar signs.
 
     alt    what a sighted reader concludes
     title  what the picture shows
@@ -53,8 +53,8 @@ class Sketch(Figure):
         self.ax.set_title(plain(title, "title"), loc="left", fontweight="bold", color=INK)
 
     def levers(self, points: ArrayLike, names: Sequence[str] = (), *, dashed: bool = False) -> None:
-        """Levers from point to point (k, 2), in the joints' colours, and the names of the points.
-        `dashed`: another posture of the same arm.
+        """Draw links from point to point (k, 2) in the joints' colours, and the names of the
+        points. `dashed` is for another posture of the same arm.
         """
         corners = self._at(points, "points", 2)
         for k, (a, b) in enumerate(zip(corners[:-1], corners[1:], strict=True)):
@@ -67,7 +67,7 @@ class Sketch(Figure):
             self._text(corner, name, corner - middle)
 
     def point(self, place: ArrayLike, name: str = "", *, away: ArrayLike = (0, -1)) -> None:
-        """A point with its name on the side `away`."""
+        """Draw a point with its name on the side `away`."""
         [at] = self._at(place, "place", 1)
         self.ax.plot(*at, "o", color=INK, ms=6, zorder=3)
         self._text(at, name, self._at(away, "away", 1)[0])
@@ -75,8 +75,8 @@ class Sketch(Figure):
     def length(
         self, start: ArrayLike, end: ArrayLike, name: str = "", *, right: bool = False
     ) -> None:
-        """A thin line between two points, its name at its middle: to its left, seen from `start`,
-        or with `right` to its right.
+        """Draw a thin line between two points with its name at the middle: to its left, seen from
+        `start`, or with `right` to its right.
         """
         [a], [b] = self._at(start, "start", 1), self._at(end, "end", 1)
         self.ax.plot(*np.transpose([a, b]), color=REMARK, lw=1.1, ls="--", zorder=1)
@@ -85,8 +85,8 @@ class Sketch(Figure):
     def angle(
         self, centre: ArrayLike, start: float, end: float, name: str = "", *, radius: float = 0.05
     ) -> None:
-        """An arc about a point from the direction `start` to `end`, an arrow at its end and its
-        name outside its middle. A thin line shows the direction in which it begins.
+        """Draw an arc about a point from the direction `start` to `end`, with an arrow at its end
+        and its name outside its middle. A thin line shows the direction of its start.
         """
         first, last = floats([start, end], "start and end", 2)
         [at] = self._at(centre, "centre", 1)
@@ -99,7 +99,7 @@ class Sketch(Figure):
         self.ax.annotate(
             "",
             (arc[-1, 0], arc[-1, 1]),
-            (arc[-4, 0], arc[-4, 1]),  # so near that no straight shaft shows
+            (arc[-4, 0], arc[-4, 1]),  # so short that no straight shaft shows
             arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0},
         )
         self._text(arc[90], name, arc[90] - at)

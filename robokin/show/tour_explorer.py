@@ -1,8 +1,8 @@
-"""The explorer of tours: points, start and links taken by the hand; Python says what greed makes of
-them, and what the best order does.
+"""The explorer of tours: points, start and links that the reader can change; Python computes the
+greedy tour and the best one.
 
 The page draws, and asks a kernel at every move (`live`). Points are numbered as in a `Task`, from
-0. What is said stands here.
+0. All words are in this module.
 """
 
 import re
@@ -37,8 +37,8 @@ from .scene import Scene
 from .things import Mark
 from .twin import chain
 
-MOST = 12  # points: the page stays legible, and the best order is there in some 10 ms
-WHILE_HELD = 10  # points: the best order of more is looked for when the hand lets go
+MOST = 12  # points: the page stays legible, and the best order takes about 10 ms
+WHILE_HELD = 10  # points: with more, the best order is computed when the reader lets go
 KINDS = ("visit", "collect")
 TOURS = ("greedy", "best")
 GREEDY, BEST = JOINT_STYLES[1]["color"], JOINT_STYLES[0]["color"]
@@ -65,12 +65,13 @@ MEANT = (
 
 
 def tour_explorer(task: Task) -> Live:
-    """The points of a task and its start to take and drag, links and time on sliders, visit or
-    collect; the greedy tour (`visit`, `collect`) and the best one (`best_visit`) follow, each drawn
-    as the tool goes; what greed loses, and a clock along which the arm goes either.
+    """Show the points of a task and its start to drag, sliders for links and time, and a choice of
+    visit or collect. The greedy tour (`visit`, `collect`) and the best one (`best_visit`) follow,
+    drawn as the path of the tool, with the loss of the greedy one, and a clock that moves the arm
+    along either.
 
-    It asks the kernel: see `live`. The clock runs without. TypeError: not a Task. ValueError: more
-    than MOST points.
+    It asks the kernel: see `live`. The clock runs without one. TypeError: not a Task. ValueError:
+    more than MOST points.
     """
     count = len(instance(task, Task, "task").points)
     if count > MOST:
@@ -120,7 +121,7 @@ def tour_explorer(task: Task) -> Live:
 
 
 def answered(question: Question, speeds: Floats) -> Answer:
-    """What Python says of a task that the hand has made, with points out of reach left out.
+    """Answer for a task that the reader has made; points out of reach are left out.
 
     question  l1, l2, T, kind, p0, points as of a `Task`; held: whether the hand still holds it
     speeds    (3,) greatest joint speeds, rad/s
@@ -165,7 +166,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
 
 
 def _says(task: Task, results: dict[str, Result], n: str) -> str:
-    """What greed loses, in one sentence; n: of how many points."""
+    """Say in one sentence what the greedy tour loses; n is the number of points."""
     greedy, best = results["greedy"], results.get("best")
     few = len(greedy.order)
     if task.kind == "collect":
@@ -190,7 +191,7 @@ def _points(count: int) -> str:
 
 
 def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Bools) -> list[str]:
-    """Why p0 and points are out of reach, in as many digits as a hand can mean."""
+    """Why p0 and points are out of reach, with the digits that a drag can set."""
 
     def told(p: Sequence[float] | Floats) -> str:
         reasons = "; ".join(out_of_workspace(l1, l2, p))
@@ -205,7 +206,7 @@ def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Boo
 
 
 def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
-    """A tour for the page, and where on it the tool dips deepest under the floor, if it does."""
+    """A tour for the page, and where on it the tool dips deepest below the floor, if it does."""
     t, q = itinerary(task, result)
     order = [int(served[i]) for i in result.order]
     stops = ["p0"]
@@ -215,7 +216,7 @@ def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
     dips = ""
     if len(z) and z.min() < -UNDER * (task.l1 + task.l2):
         k = int(z.argmin())
-        ends = " and ".join(sorted(stops[k : k + 2]))  # the way back is no other place
+        ends = " and ".join(sorted(stops[k : k + 2]))  # the way back has the same places
         dips = f"Between {ends} the tool dips under the floor, down to {_number(z[k], '.2f')} m."
     parts = [f"{i}\N{NO-BREAK SPACE}({at:.2f})" for i, at in zip(order, result.times, strict=True)]
     tour = {
@@ -236,8 +237,8 @@ def _number(x: float, form: str) -> str:
 
 
 def _scene(arm: Arm, task: Task) -> PageScene:
-    """Space for the points and what lies about them, seen from their side; the picture shrinks for
-    the rest.
+    """A scene with room for the points and their surroundings, seen from their side; the picture
+    zooms out for the rest.
     """
     places = np.vstack([task.p0, task.points])
     ring = np.arange(0, 360, 30) * deg
@@ -245,13 +246,13 @@ def _scene(arm: Arm, task: Task) -> PageScene:
     around = out * np.stack([np.cos(ring), np.sin(ring), 0 * ring], axis=-1)
     marks = [Mark(p) for p in (*around, *places)]
     scene = scene_data([arm], [task.q[None, :1]], marks, extent(arm), solid=True, grows=True)
-    scene["things"] = []  # the page makes them
+    scene["things"] = []  # the page creates them
     scene["view"] = rounded([best_view(places, None)[0], 40 * deg], 4)
     return scene
 
 
 def _spare(task: Task) -> Floats:
-    """Places (MOST, 3) for points that are added: all about the arm, each turned on by the golden
+    """Places (MOST, 3) for added points: all around the arm, each turned further by the golden
     angle.
     """
     turn = np.arange(MOST) * np.pi * (3 - 5**0.5)
@@ -264,7 +265,7 @@ def _spare(task: Task) -> Floats:
 
 
 def _picture(alt: str, arm: Arm, task: Task, told: Answer) -> plots.Figure:
-    """The arm at the start, and both tours."""
+    """Draw the arm at the start, and both tours."""
     fig = plots.figure(alt, width=6.4, height=4.5)
     fig.text(0.016, 0.985, told["says"], fontsize=10, fontweight="bold", va="top")
     scene = Scene(fig.add_axes((0, 0, 1, 0.93)), size=extent(arm), like=_scene(arm, task))

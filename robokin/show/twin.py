@@ -1,8 +1,8 @@
-"""The twin: what Python hands over to the page's own kinematics, the scripts of `js/`.
+"""The twin: the data that Python passes to the page's own kinematics, the scripts in `js/`.
 
-A page without a kernel computes in JavaScript, with the same formulas in the same order. It knows
-no arm and no sentence: both come from here as data, every number in full (the nearest rounded one
-would be another machine).
+A page without a kernel computes in JavaScript, with the same formulas in the same order. It
+contains no arm and no sentence: both come from here as data, with every number in full precision (a
+rounded one would describe another machine).
 """
 
 from collections.abc import Sequence
@@ -44,8 +44,8 @@ TOLERANCES: "Tolerances" = {
 
 
 class PageLink(TypedDict):
-    """One link of a chain: the way to its joint, the joint's axis, the way to its end. A way is 12
-    numbers, the rows of [R | p].
+    """One link of a chain: the transform to its joint, the joint's axis, the transform to its end.
+    A transform is 12 numbers, the rows of [R | p].
     """
 
     before: list[float]
@@ -82,14 +82,14 @@ class WristData(TypedDict):
 
 
 class ElbowTurns(TypedDict):
-    """Cosine and sine of the fixed angles by which the inverse turns a direction on."""
+    """Cosine and sine of the constant angles that the inverse adds to a direction."""
 
     upper: tuple[float, float]
     fore: tuple[float, float]
 
 
 class WristTurns(ElbowTurns):
-    """The same with that of axis 4."""
+    """`ElbowTurns` with the angle of axis 4."""
 
     axis4: tuple[float, float]
 
@@ -144,7 +144,7 @@ class ThreeLeverInverse(TypedDict):
 
 
 class NoInverse(TypedDict):
-    """An arm that geometries.js does not know."""
+    """The inverse of an arm that geometries.js does not know."""
 
     kind: None
 
@@ -155,7 +155,7 @@ Inverse: TypeAlias = (
 
 
 class Tolerances(TypedDict):
-    """How near is near: TOLERANCES."""
+    """The tolerances: TOLERANCES."""
 
     ROUNDING: float
     STRAIGHT: float
@@ -167,7 +167,7 @@ class Tolerances(TypedDict):
 
 
 class JointUnit(TypedDict):
-    """What a sentence counts a joint in: its name, and its size in radians or metres."""
+    """The unit of a joint in a sentence: its name, and its size in radians or metres."""
 
     name: str
     size: float
@@ -194,18 +194,18 @@ class ArmData(TypedDict):
 
 
 def arm_data(arm: Arm) -> ArmData:
-    """What the scripts of `js/` have to know of an arm, for JSON.
+    """Return the data of an arm for the scripts in `js/`, ready for JSON.
 
     name, reach   as in Python
     target        "Transform", "ScaraPose" or "point"; None for another one
     chain         see `chain`
     limits        n pairs in rad, m if prismatic; limits_in_words, the same for a sentence
     prismatic     n times true or false
-    units         for each joint what a sentence counts in: name, and size in rad or m
+    units         the unit of each joint in a sentence: name, and size in rad or m
     speed_limits  n, or None
     movable       which rows of the Jacobian the arm can move (see `singular_values`)
     geometry      see `inverse_data`
-    branches, carried, sentences  what `ik` and `explain` need; only where there is an inverse
+    branches, carried, sentences  what `ik` and `explain` need; only if there is an inverse
     tolerances    how near is near
     """
     limits = instance(arm, Arm, "arm").limits.tolist()
@@ -237,8 +237,8 @@ def arm_data(arm: Arm) -> ArmData:
 
 
 def chain(links: Sequence[Link]) -> list[PageLink]:
-    """The links for `frames` in kinematics.js: the fixed transforms as 12 numbers, the rows of
-    [R | p].
+    """Return the links for `frames` in kinematics.js, with the fixed transforms as 12 numbers, the
+    rows of [R | p].
     """
     return [
         {
@@ -252,10 +252,10 @@ def chain(links: Sequence[Link]) -> list[PageLink]:
 
 
 def inverse_data(arm: Arm) -> Inverse:
-    """The numbers of an arm's inverse: `kind`, which geometries.js has to know (None: it does not),
-    and the fields of the geometry by their names.
+    """Return the numbers of an arm's inverse: `kind`, the name of the geometry in geometries.js
+    (None if it is unknown there), and the fields of the geometry by their names.
 
-    turns  cosine and sine of the fixed angles by which the inverse turns a direction on: they
+    turns  cosine and sine of the constant angles that the inverse adds to a direction: they
            decide which rows exist, and no two languages need agree on the last bit of a cosine
     """
     solid = arm.geometry

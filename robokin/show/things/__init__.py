@@ -1,4 +1,4 @@
-"""What a scene shows besides arms: one module and one script (js/) for each kind of thing.
+"""The things in a scene besides arms: one module and one script (js/) for each kind.
 
 CONTRIBUTING has the recipe for a new kind.
 """

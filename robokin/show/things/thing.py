@@ -1,4 +1,4 @@
-"""What every kind of thing has, and numbers that may move."""
+"""The base class of all kinds of things, and numbers that may change during a motion."""
 
 import math
 from abc import ABC, abstractmethod
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class PageWay(Packed):
-    """Numbers that move, in k columns: for each motion or one for all, for each sample or one for
+    """Numbers in k columns that change: for each motion or one for all, for each sample or one for
     all. A thing with a NaN in one of its ways is not drawn at that moment.
     """
 
@@ -27,8 +27,8 @@ class PageWay(Packed):
 
 
 class PageReading(PageWay):
-    """A name with a number after it, which keeps its value until the next sample; NaN leaves the
-    name alone.
+    """A name followed by a number, which keeps its value until the next sample; with NaN only the
+    name is shown.
     """
 
     name: str
@@ -37,11 +37,11 @@ class PageReading(PageWay):
 
 @dataclass(frozen=True, eq=False)
 class Way(Sealed):
-    """Numbers that stand still or move.
+    """Numbers that are constant or change.
 
-    rows   (motions or 1, samples or 1, k); NaN where there is nothing
-    shape  the leading axes as they were given: () for numbers that stand still
-    name   what error messages call the numbers; `last` is the axis that they add to the shape
+    rows   (motions or 1, samples or 1, k); NaN where the thing is missing
+    shape  the leading axes of the argument: () for constant numbers
+    name   the name of the numbers in error messages; `last` is the axis that these add to the shape
     """
 
     rows: Floats
@@ -55,7 +55,7 @@ class Way(Sealed):
         return one
 
     def page(self, kept: Ints | None) -> list[float] | PageWay:
-        """The data of the page; `kept` are the samples that it gets."""
+        """The data of the page; `kept` are its samples."""
         return self._packed(kept) if self.shape else rounded(self.rows)
 
     def fit(self, lead: tuple[int, ...], count: int) -> None:
@@ -72,35 +72,35 @@ class Way(Sealed):
 
 
 class Reading(Way):
-    """Numbers to write after a name, one at a time."""
+    """Numbers to show after a name, one at a time."""
 
     def named(self, name: str, kept: Ints | None) -> PageReading:
         """The data of the page for a thing with this name."""
         return {**self._packed(kept), "name": name, "decimals": fewest(self.rows)}
 
     def after(self, name: str, sample: int | None) -> str:
-        """Return `name` and the number at a sample; the name alone where there is no number."""
+        """Return `name` and the number at a sample, or only the name if there is no number."""
         value = np.nan if sample is None else self.at(sample)[0]
         return name if np.isnan(value) else f"{name}: {value:.{fewest(self.rows)}f}"
 
 
 class Thing(ABC):
-    """A thing in a scene. Each kind is a frozen dataclass, which checks what it is made of."""
+    """A thing in a scene. Each kind is a frozen dataclass that checks its arguments."""
 
     @abstractmethod
     def page(self, kept: Ints | None) -> "PageThing":
-        """The data of the page; `kept` are the samples that it gets of what moves."""
+        """The data of the page; `kept` are its samples of moving values."""
 
     @abstractmethod
     def seen(self, axis: float) -> Floats:
-        """Points (k, 3) that the camera has to see, NaN ignored. `axis` is the length (m) of the
+        """Points (k, 3) that the camera must see; NaN is ignored. `axis` is the length (m) of the
         axes of frames.
         """
 
     @abstractmethod
     def draw(self, scene: "Scene", sample: int | None) -> None:
-        """Draw into a figure what the thing is at a sample of the first motion; with None, what
-        does not change.
+        """Draw the thing into a figure at a sample of the first motion; with None, draw what does
+        not change.
         """
 
     @property
