@@ -187,7 +187,7 @@ import sys
 from robokin.show import animate
 from robokin.show.things.flag import Flag
 from scenes import CIRCLING, GONE, IRB140, T, TURNED
-things = [Flag((0.9, 0, 0.4), "still"), Flag(CIRCLING, "moves")] + [Flag(GONE - [0, 0.4, 0], "gone")]
+things = [Flag((0.9, 0, 0.4), "still"), Flag(CIRCLING, "moves")] + [Flag(GONE - 0.3, "gone")]
 animate(IRB140, T, TURNED, things=things).save(sys.argv[1])
 """
 
