@@ -21,7 +21,7 @@ from unittest import mock
 
 import nbformat
 import pytest
-from conftest import NOTEBOOKS, until
+from conftest import NOTEBOOKS, awake, until
 from nbformat.sign import MemorySignatureStore, NotebookNotary
 
 from robokin.course import copies
@@ -996,6 +996,8 @@ def test_a_copied_lab_is_alive_at_first_opening_and_not_marked_changed(
     copy(jupyter.labs / "student")
     page = browser.new_page()
     jupyter.open(page, "student/00_start_here.ipynb")
+    page.locator("div.robokin-player").first.wait_for()
+    awake(page)
     players = page.locator("div.robokin-player")
     player = players.filter(has=page.get_by_label("playing speed")).first
     player.locator("canvas").first.wait_for()

@@ -98,8 +98,10 @@ const clipboard = {writeText: async text => { window.copied = text; }};
 Object.defineProperty(navigator, "clipboard", {value: clipboard});
 """
 READ = """async rk => {
-  await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
   const all = what => [...rk.querySelectorAll(what)];
+  const frame = () => new Promise(requestAnimationFrame);
+  while (!all("input[type=range]").every(e => e.hasAttribute("aria-valuetext"))) await frame();
+  await frame(), await frame();  // the first picture is drawn: its sliders have their values
   const plain = text => text.replaceAll("\\u2212", "-");
   const named = (what, value) =>
     Object.fromEntries(all(what).map(e => [e.ariaLabel.split(",")[0], value(e)]));

@@ -17,7 +17,7 @@ from types import SimpleNamespace
 
 import nbformat
 import pytest
-from conftest import NOTEBOOKS, awake, until
+from conftest import NOTEBOOKS, awake
 from nbformat.v4 import (
     new_code_cell,
     new_markdown_cell,

@@ -176,7 +176,7 @@ export const flag = {
       const [x, y] = cam.to(foot);
       const corners = [0, 1, 2, 3].map(k => [x + 12 * (k > 1 ? 1 : -1), y + 12 * (k % 3 ? 1 : -1)]);
       polygon(g, corners.map(([u, v]) => [u, v]), colors.alarm, colors.alarm, 1);
-      labels.push({text: label, at: [x, y], color: colors.alarm});
+      labels.push({text: label, at: [x, y + 40], color: colors.ink});
     }
   },
 };
@@ -187,7 +187,7 @@ import sys
 from robokin.show import animate
 from robokin.show.things.flag import Flag
 from scenes import CIRCLING, GONE, IRB140, T, TURNED
-things = [Flag((0.9, 0, 0.4), "still"), Flag(CIRCLING, "moves")] + [Flag(GONE, "gone")]
+things = [Flag((0.9, 0, 0.4), "still"), Flag(CIRCLING, "moves")] + [Flag(GONE - 0.3, "gone")]
 animate(IRB140, T, TURNED, things=things).save(sys.argv[1])
 """
 
