@@ -1,8 +1,8 @@
-"""The course: exercises that name the mistake, predictions, hints, own numbers, a report.
+"""The course: exercises that name the mistake, predictions, hints, individual numbers, a report.
 
     from robokin.course import check, hint, predict, progress, report, solution, variant
 
-What they ask and say of each lab stands in notebooks/exercises (`book` finds it).
+Their text for each lab is in notebooks/exercises (`book` finds it).
 """
 
 import textwrap
@@ -34,19 +34,20 @@ __all__ = [
     "variant",
 ]
 
-watch()  # a lab's first cell imports this: `report` knows then what ran after it
+watch()  # a lab's first cell imports this, so `report` knows which cells ran after it
 _verdicts: dict[
     str, Verdict
-] = {}  # the last one for each exercise in this kernel, or one that held
+] = {}  # for each exercise in this kernel the last verdict, or one that held
 
 
 def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
-    """A `Verdict` on the answer to an exercise, "irb140_motion.1"; it shows itself in a cell.
+    """Return a `Verdict` on the answer to an exercise, such as "irb140_motion.1". It displays
+    itself in a cell.
 
     name  an id, or an exercise of one's own (`exercise`)
     who   the student, where the exercise has numbers of one's own (`variant`)
 
-    Never raises. An answer that does, that prints, changes its input or never ends is told so.
+    It never raises. The verdict says if an answer raises, prints, changes its input or never ends.
     """
     called = name.title if isinstance(name, Exercise) else str(name)
     try:
@@ -61,7 +62,7 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     if isinstance(name, Exercise):  # no lab's
         return verdict
     before = _verdicts.get(verdict.exercise)
-    if before is None or not before.holds:  # what held once is practised
+    if before is None or not before.holds:  # an exercise that held once is done
         _verdicts[verdict.exercise] = verdict
     return verdict
 
@@ -69,21 +70,21 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
 def exercise(
     solution: Any, cases: Callable[..., Any] | None = None, mistakes: str = ""
 ) -> Exercise:
-    """An exercise of one's own: `check(exercise(...), answer)`.
+    """Make your own exercise: `check(exercise(...), answer)`.
 
     solution  a Markdown file (.md) as those of the labs, with its Python file beside it; or a
               function that is right, or its text
     cases     generator of random numbers -> inputs of the function, each a tuple
     mistakes  in the form of the Markdown: a name, a sentence, edits of the solution
 
-    A file is read anew at each call. ValueError: it cannot be read, no function, edits that do not
-    fit.
+    A file is read again at each call. ValueError: it cannot be read, it has no function, or edits
+    do not fit.
     """
     return own(solution, cases, mistakes)
 
 
 def pose_explorer(name: str) -> "Explorer":
-    """The target explorer of an exercise whose answer is a pose: it tells in the page whether the
+    """Return the target explorer of an exercise whose answer is a pose. The page says whether the
     task is fulfilled, and "Copy as Python" gives the pose. ValueError: no such exercise.
     """
     from ..arms.catalogue import IRB140
@@ -99,7 +100,7 @@ def pose_explorer(name: str) -> "Explorer":
 
 
 def hint(name: str, n: int = 1) -> Note:
-    """Hint n of an exercise, from 1: each says more. ValueError: no such exercise."""
+    """Return hint n of an exercise, from 1; each one says more. ValueError: no such exercise."""
     hints = find(name, "exercises").hints
     if not isinstance(n, int) or not 1 <= n <= len(hints):
         return Note(f"There are {len(hints)} hints: 1 to {len(hints)}.")
@@ -108,13 +109,13 @@ def hint(name: str, n: int = 1) -> Note:
 
 
 def solution(name: str) -> Note:
-    """A solution of an exercise, as text to read; it is not run. ValueError: no such exercise."""
+    """Return a solution of an exercise as text; it is not run. ValueError: no such exercise."""
     found: Exercise = find(name, "exercises")
     return Note(f"# --- {found.number}: {found.title}\n{found.solution.strip()}")
 
 
 def progress(name: str | None = None) -> Note:
-    """Which objectives hold in this kernel, lab by lab (`name`: of one lab)."""
+    """Return the objectives reached in this kernel, lab by lab, or those of the lab `name`."""
     slugs = dict.fromkeys(k.partition(".")[0] for k in _verdicts) if name is None else [name]
     lines = ["What was checked since this kernel began:"] if _verdicts else []
     for slug in slugs:

@@ -1,4 +1,4 @@
-"""python -m robokin.course COMMAND: what a course does with its labs as files."""
+"""python -m robokin.course COMMAND: the commands that work on labs as files."""
 
 import argparse
 import os
@@ -11,10 +11,10 @@ from typing import Any
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command; the exit status: 0, or 1 if a file could not be used."""
+    """Run the command and return the exit status: 0, or 1 if a file could not be used."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # a name that the terminal cannot show
+            stream.reconfigure(errors="backslashreplace")  # names that it cannot show
     options = _parser().parse_args(argv)
     try:
         if "to" in options:
@@ -106,8 +106,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add(folder: Path) -> None:
-    """Let this process, and the kernels that it starts, know the labs in a folder. OSError: it is
-    none, or has none.
+    """Make the labs in a folder known to this process and to the kernels that it starts. OSError:
+    it is not a folder, or has no labs.
     """
     from .book import ELSEWHERE, labs
 
@@ -162,7 +162,7 @@ def _report(options: Any) -> int:
 
 
 def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
-    """A page of each lab; one that cannot be made is named, and the others go on."""
+    """Export each lab as a page. A lab that fails is reported, and the others continue."""
     failed = 0
     for path in labs:
         try:
@@ -188,7 +188,7 @@ def _summary(options: Any) -> int:
         print(line, end="" if live else "\n", flush=True)
 
     try:
-        places(options.to)  # before notebooks run for minutes
+        places(options.to)  # checked before notebooks run for minutes
         made = summary(options.folder, tell=tell, ours=lambda path: is_ours(path, options.to))
         if live:
             print()

@@ -1,5 +1,5 @@
-"""Runs a student's answer so that nothing it does gets out: no exception, no print, no endless
-loop, no change of its input.
+"""Run a student's answer in isolation: no exception, print, endless loop or change of its input
+affects the caller.
 """
 
 import _thread
@@ -20,27 +20,27 @@ import numpy as np
 
 from ..transform import Transform
 
-SECONDS = 4.0  # of CPU time for one case; of a test, for one program
-TOTAL = 30.0  # of CPU time for all of them together
-WALL = 90.0  # by the clock on the wall for one: sleeping and C's own threads take no CPU here
+SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
+TOTAL = 30.0  # seconds of CPU time for all cases together
+WALL = 90.0  # seconds by the clock for one: sleeping and threads in C take no CPU time here
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
-IDENTITY: Any = object.__eq__  # of a class whose == compares no values
+IDENTITY: Any = object.__eq__  # objects of a class whose == does not compare values
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
 
 class TimeUp(BaseException):
-    """Not an Exception: `except Exception` in an answer does not catch it."""
+    """This is not an Exception, so `except Exception` in an answer does not catch it."""
 
 
 class Outcome(NamedTuple):
-    """What came of one call: a result, or what went wrong (`name`, and a sentence `says`)."""
+    """The outcome of one call: a result, or what went wrong (`name`, and a sentence `says`)."""
 
     result: Any = None
     name: str | None = None
     says: str = ""
 
 
-# the names of what goes wrong before anything can be judged
+# names of errors that leave nothing to judge
 TROUBLE = {
     "raises an error",
     "changes its input",
@@ -60,8 +60,8 @@ NEVER = _never(SECONDS)
 
 
 def is_stub(answer: Any) -> bool:
-    """Whether nothing was written yet: `...` itself, or a function that does nothing or says by
-    NotImplementedError that it does nothing.
+    """Whether nothing has been written yet: `...` itself, or a function that does nothing or raises
+    NotImplementedError.
     """
     if answer is ... or answer is None:
         return True
@@ -86,13 +86,14 @@ host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
 
 
 def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
-    """What `answer` makes of every case, up to the first one that does not end in time: a case has
-    `SECONDS` of CPU, and `WALL` seconds where it waits or computes elsewhere; all have `TOTAL`.
+    """Run `answer` on every case, up to the first one that does not end in time. A case has
+    `SECONDS` of CPU time, and `WALL` seconds if it waits or computes elsewhere; all together have
+    `TOTAL`.
 
-    The answer runs in a thread of its own. So `TimeUp`, which arrives between any two steps of
-    Python, cannot reach the thread that asks. In a page Python has no threads: there the page sets
-    `host`, is told by it that answers begin (True) and have ended (False), and ends all if it has
-    to.
+    The answer runs in its own thread. So `TimeUp`, which can arrive between any two steps of
+    Python, cannot reach the calling thread. Python in a page has no threads. There the page sets
+    `host`, which tells it that answers begin (True) and have ended (False), and the page stops
+    everything if necessary.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
@@ -122,7 +123,7 @@ def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
             result = answer(*inputs)
     except TimeUp:
         return NEVER
-    except BaseException as error:  # also SystemExit and KeyboardInterrupt: nothing gets out
+    except BaseException as error:  # SystemExit and KeyboardInterrupt too
         return Outcome(
             name="raises an error", says=f"It raises {_told(error)}{_where(answer, error)}."
         )
@@ -138,7 +139,7 @@ def _call(answer: Callable[..., Any], case: tuple[Any, ...]) -> Outcome:
 
 
 def _where(answer: Callable[..., Any], error: BaseException) -> str:
-    """The last line of the answer's own file or cell that the error came through."""
+    """The last line in the answer's own file or cell that the error passed through."""
     code, line, trace = getattr(answer, "__code__", None), 0, error.__traceback__
     while trace is not None:
         if code is not None and trace.tb_frame.f_code.co_filename == code.co_filename:
@@ -157,26 +158,26 @@ def _told(error: BaseException) -> str:
 
 
 class _Worker:
-    """The thread in which an answer runs. Python keeps an exception that another thread sends
-    until the next step, so three things happen in this order: the worker says `done`, the watching
-    thread takes back what it sent, and only then may the worker `leave`.
+    """The thread in which an answer runs. Python delays an exception from another thread until the
+    next step. So three things happen in this order: the worker sets `done`, the watching thread
+    withdraws its exception, and only then may the worker `leave`.
 
-    No `threading.Thread`: an interrupt while its `start` waits comes out as another error.
+    It is not a `threading.Thread`, since an interrupt while `start` waits becomes another error.
     """
 
     def __init__(self, answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> None:
         self.answer, self.cases = answer, cases
         self.started, self.ident = False, 0
         self.outcomes: list[Outcome] = []
-        self.over = "case"  # which of the three times was up
-        locks = [threading.Lock() for _ in range(4)]  # each is released when it is so far
+        self.over = "case"  # which of the three limits was reached
+        locks = [threading.Lock() for _ in range(4)]  # each is released when that point is reached
         self.begun, self.done, self.leave, self.gone = locks
         for lock in locks:
             lock.acquire()
 
     def start(self) -> None:
-        """RuntimeError: no threads here."""
-        self.started = True  # before it is: an interrupt may come between any two steps
+        """Start the thread. RuntimeError: there are no threads here."""
+        self.started = True  # set first, since an interrupt may come between any two steps
         try:
             _thread.start_new_thread(self.run, ())
         except RuntimeError:
@@ -186,7 +187,7 @@ class _Worker:
     def run(self) -> None:
         self.ident = threading.get_ident()
         self.begun.release()
-        # A `finally` calls its first function before Python looks for an exception that was sent.
+        # A `finally` block calls its first function before Python checks for a pending exception.
         try:
             try:
                 try:
@@ -207,7 +208,7 @@ class _Worker:
             host(False)
 
     def stopped(self, cases: int) -> Outcome:
-        """What is said of the last of so many cases, which was stopped."""
+        """The sentence about the last of `count` cases, which was stopped."""
         if self.over == "all":
             says = f"{cases} cases took more than {TOTAL:.0f} s together."
             return Outcome(name="too slow", says=says)
@@ -221,7 +222,7 @@ class _Worker:
                     break
 
     def watch(self) -> None:
-        """Wait until it is done, or until its time is up."""
+        """Wait until it has finished or its time is up."""
         with self.begun:
             cpu = time.process_time
         if hasattr(time, "pthread_getcpuclockid"):
@@ -243,8 +244,8 @@ class _Worker:
         self.done.release()
 
     def end(self) -> None:
-        """Stop it, however often it catches `TimeUp`. A call into C that does not come back within
-        `WALL` seconds is left behind.
+        """Stop it, even if it catches `TimeUp` repeatedly. A call into C that does not return
+        within `WALL` seconds is abandoned.
         """
         if not self.started:
             return
@@ -265,7 +266,7 @@ def _raise_in(thread: int, error: type[BaseException] | None) -> None:
 
 
 def equal(a: Any, b: Any) -> bool:
-    """Whether two values of any kind are the same; a NaN is a NaN."""
+    """Whether two values of any type are equal; NaN equals NaN."""
     if isinstance(a, Transform) or isinstance(b, Transform):
         return (
             isinstance(a, Transform)

@@ -1,9 +1,9 @@
-"""Where exercises and predictions are found by their ids: "irb140_motion.1" is exercise 1 of the
-lab whose notebook is called irb140_motion, whatever its number; "irb140_motion.p2" a prediction.
+"""Find exercises and predictions by id: "irb140_motion.1" is exercise 1 of the lab whose notebook
+is called irb140_motion, with any number; "irb140_motion.p2" is a prediction.
 
-What they say and ask stands in a folder for each lab, beside the notebooks: notebooks/exercises.
-The variable ROBOKIN_EXERCISES names more such folders, for labs of one's own and for an
-installation without a clone.
+Their text is in one folder for each lab, in notebooks/exercises. The environment variable
+ROBOKIN_EXERCISES names more such folders, for your own labs and for an installation without a
+clone.
 """
 
 import contextlib
@@ -31,14 +31,18 @@ from .value import Value
 
 OURS = Path(__file__).parents[2] / "notebooks" / "exercises"
 ELSEWHERE = "ROBOKIN_EXERCISES"
-WORDS = ("objectives", "predictions")  # Markdown that is no exercise
+WORDS = ("objectives", "predictions")  # Markdown files that are not exercises
 MORE = "Labs of your own: ROBOKIN_EXERCISES=FOLDER, or --exercises FOLDER, makes them known."
-DEFAULTS = ("form", "law", "same")  # what a notebook calls so by chance is no part of an exercise
+DEFAULTS = (
+    "form",
+    "law",
+    "same",
+)  # a notebook's variables are no part of an exercise
 
 
 class Lab:
-    """The exercises and predictions of a lab, read from its folder when they are asked for. What
-    cannot be read is in `broken`, file -> why, and the others are there.
+    """The exercises and predictions of a lab, read from its folder on demand. Files that cannot be
+    read are in `broken`, file -> reason; the others are available.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -46,13 +50,13 @@ class Lab:
         self.broken: dict[str, str] = {}
         self.package = f"robokin_exercises_{hashlib.sha1(os.fsencode(folder)).hexdigest()[:12]}"
         for name in [each for each in sys.modules if each.startswith(f"{self.package}.")]:
-            del sys.modules[name]  # its file may have changed
+            del sys.modules[name]  # the file may have changed
         importlib.invalidate_caches()
         sys.modules.setdefault(self.package, ModuleType(self.package)).__path__ = [str(folder)]
 
     @cached_property
     def objectives(self) -> tuple[str, ...]:
-        """What a student can do after the lab."""
+        """What a student is able to do after the lab."""
         file = self.folder / "objectives.md"
         with self._noted(file.name):
             return markdown.objectives(markdown.read(file)) if file.is_file() else ()
@@ -92,26 +96,26 @@ class Lab:
         return found
 
     def _view(self, number: str) -> Any:
-        """What answers a prediction. Only now is what draws imported."""
+        """The view that answers a prediction. The drawing code is imported only now."""
         return self.module("pictures").get(f"{number}_view", str)()
 
     def read(self) -> None:
-        """Read everything now."""
+        """Read all files now."""
         _ = self.objectives, self.exercises, self.predictions
 
     @property
     def given(self) -> Callable[[Any], Any] | None:
-        """Who -> this student's numbers; None: no exercise has numbers of one's own."""
+        """The function from a student to their numbers; None if no exercise has such numbers."""
         found = (getattr(each, "given", None) for each in self.exercises.values())
         return next(filter(None, found), None)
 
     def exercise(self, file: Path) -> Exercise:
-        """The one that a Markdown file and the Python file beside it have. ValueError: none."""
+        """The exercise in a Markdown file and its Python file. ValueError: there is none."""
         text = markdown.exercise(f"{file}", markdown.read(file))
         return made(text, self.module(file.stem))
 
     def module(self, stem: str) -> dict[str, Any]:
-        """The names of a Python file. ValueError: it cannot be run."""
+        """Run a Python file and return its names. ValueError: it cannot be run."""
         file = self.folder / f"{stem}.py"
         if not file.is_file():
             return {}
@@ -129,14 +133,15 @@ class Lab:
     def _noted(self, name: str) -> Iterator[None]:
         try:
             yield
-        except Exception as error:  # a teacher's file may hold anything
+        except Exception as error:  # a teacher's file may raise anything
             known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
             self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
 
 
 def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
-    """An exercise of the kind that it is written as: a test to write has right programs, a value to
-    give has `faults`, and what has neither is a function to write. ValueError: it is none.
+    """Make an exercise of the kind that its text implies: a test to write has right programs, a
+    value to give has `faults`, and one with neither is a function to write. ValueError: it is not
+    an exercise.
     """
     if "Right programs" in text.parts:
         return Catch(text, code)
@@ -144,8 +149,8 @@ def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
 
 
 def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
-    """An exercise of one's own: of a Markdown file, or of a right function, or its text, and its
-    cases. ValueError: it is none.
+    """Make the reader's own exercise from a Markdown file, or from a right function or its text,
+    and its cases. ValueError: it is not an exercise.
     """
     if isinstance(solution, os.PathLike) or f"{solution}".endswith(".md"):
         file = Path(solution).resolve()
@@ -170,14 +175,14 @@ def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
 
 
 def labs() -> Mapping[str, Lab]:
-    """All labs by their names: ours, then those of other folders, each folder's in the order of the
-    notebooks beside it, and those without a notebook after them.
+    """All labs by name: ours, then those of other folders. Those of a folder are in the order of
+    the notebooks beside it; labs without a notebook come last.
     """
     return _labs(OURS, os.environ.get(ELSEWHERE, ""))
 
 
 def numbered(place: Path) -> list[str]:
-    """The labs whose notebooks stand beside a folder, in their order."""
+    """The labs with notebooks beside a folder, in order."""
     return [file.stem.partition("_")[2] for file in sorted(place.parent.glob("[0-9]*_*.ipynb"))]
 
 
@@ -189,7 +194,7 @@ def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
         first = [name for name in numbered(place) if name in folders]
         for name in dict.fromkeys([*first, *sorted(folders)]):
             taken, here = found.get(name), folders[name]
-            if taken and taken.folder != here:  # nobody takes a name of ours
+            if taken and taken.folder != here:  # nobody can replace one of our labs
                 told = f"{here}: not read, for {taken.folder} has this name, too"
                 taken.broken[f"{here}"] = told
             found.setdefault(name, Lab(here))
@@ -197,7 +202,7 @@ def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
 
 
 def lab(name: Any) -> Lab:
-    """A lab. ValueError: none such."""
+    """Return a lab. ValueError: no such lab."""
     known = labs()
     if not known:
         raise ValueError(
@@ -210,13 +215,13 @@ def lab(name: Any) -> Lab:
 
 
 def titled(name: str) -> str:
-    """A lab as people call it: "lab 03, irb140 motion"."""
+    """The name of a lab for people: "lab 03, irb140 motion"."""
     return f"lab {list(labs()).index(name):02}, {name.replace('_', ' ')}"
 
 
 def find(name: Any, what: str) -> Any:
-    """The exercise or prediction with an id; an exercise is its own. `what`: "exercises" or
-    "predictions". ValueError: none such, or one that cannot be read.
+    """Find an exercise or a prediction by id; an exercise is returned as it is. `what` is
+    "exercises" or "predictions". ValueError: there is none, or it cannot be read.
     """
     if isinstance(name, Exercise):
         return name

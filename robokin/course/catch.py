@@ -1,4 +1,4 @@
-"""A test to write that has to accept right programs and to catch wrong ones."""
+"""A test to write that must accept right programs and refuse wrong ones."""
 
 import random
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +11,7 @@ from .answers import Outcome, is_stub, run
 from .exercises import Exercise, Verdict, in_words, unanswered
 from .markdown import BadFile, Text
 
-ASSERTS = "It raises AssertionError"  # as `answers.run` says it
+ASSERTS = "It raises AssertionError"  # as in `answers.run`
 RAISES = (
     "it raises an error",
     "It never comes to a result. A test that passes over errors accepts it: an error is a no.",
@@ -20,21 +20,22 @@ Program = Callable[..., Any]
 
 
 class NoResult(Exception):
-    """What every wrong program raises in the place of its own errors."""
+    """Wrong programs raise this instead of their own errors."""
 
 
 class Catch(Exercise):
-    """A test to write: program -> True if it is right. It has to accept the right programs and to
-    refuse the mistakes, and a program that only raises. What a wrong program raises may pass
-    through the test: that is a no. A test may say no by an assertion, and then yes by its silence.
+    """A test to write: program -> True if it is right. It must accept the right programs, and
+    refuse the mistakes and a program that only raises. If an error of a wrong program passes
+    through the test, it counts as a refusal. A test may refuse with an assertion; then returning
+    nothing means that it accepts.
 
-    The Markdown has the right programs, a promise (what they keep, told to a test that refuses one)
-    and the mistakes, each as edits of the first right program that they fit. All programs may use
-    the names of the Python file, `code`; a function `refusal(inputs, result)` there says more of
-    the last call of a right program that was refused.
+    The Markdown has the right programs, a promise (what they guarantee, shown if a test refuses
+    one) and the mistakes, each as edits of the first right program that they fit. All programs may
+    use the names of the Python file, `code`. A function `refusal(inputs, result)` there adds a
+    sentence about the last call of a right program that was refused.
 
-    The programs come in an order drawn anew for each check, so that no test holds that counts its
-    calls; what is told is the first in the order of the Markdown.
+    Each check runs the programs in a new random order, so that a test which counts its calls does
+    not pass. The verdict names the first one in the order of the Markdown.
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
@@ -54,7 +55,7 @@ class Catch(Exercise):
         ]
 
     def program(self, text: str) -> Program:
-        """A program, made anew, so that one that remembers begins afresh."""
+        """Make a program again, so that one with a memory starts fresh."""
         made: Program = edits.run(text, self.code)[self.function]
         return made
 
@@ -86,7 +87,7 @@ class Catch(Exercise):
         return verdict
 
     def _asked(self, answer: Program) -> Mapping[int, Outcome]:
-        """What the test says of each program, asked in an order drawn by lot."""
+        """The answer of the test for each program, run in random order."""
         programs = [self.program(text) for _, text in self.rights]
         programs += [_guarded(self.program(text)) for _, _, text in self.wrongs]
         programs.append(_guarded(_raises))
@@ -127,7 +128,7 @@ class Catch(Exercise):
         return Verdict(name, mistake=named, says=tuple(says), case=case, points=points)
 
     def _refusal(self, answer: Program, text: str) -> list[str]:
-        """What else is told to a test that refuses this right program."""
+        """The additional sentence for a test that refuses this right program."""
         if "refusal" not in self.code:
             return []
         program, calls = self.program(text), []
@@ -145,7 +146,7 @@ def _raises(*inputs: Any) -> Any:
 
 
 def _guarded(program: Program) -> Program:
-    """The program, which raises nothing but `NoResult`."""
+    """Wrap the program so that it raises only `NoResult`."""
 
     def guarded(*inputs: Any) -> Any:
         try:
@@ -157,7 +158,9 @@ def _guarded(program: Program) -> Program:
 
 
 def _answer(outcome: Outcome) -> Any:
-    """True or False; None: nothing was said; else what was returned, or the outcome itself."""
+    """Return True or False, None if the test returned nothing, otherwise the returned value or the
+    outcome itself.
+    """
     if outcome.name == "raises an error":
         no = outcome.says.startswith((ASSERTS, "It raises NoResult"))
         return False if no else outcome
@@ -168,7 +171,7 @@ def _answer(outcome: Outcome) -> Any:
 
 
 def _trouble(outcome: Outcome, said: Any) -> tuple[str, str] | None:
-    """Name and sentence of an answer that is neither yes nor no."""
+    """The name and sentence for an answer that is neither True nor False."""
     if not isinstance(said, Outcome):
         return None
     if outcome.name:

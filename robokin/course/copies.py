@@ -43,7 +43,7 @@ BUSY = "saved by somebody while labs were copied, and left alone; run this again
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of the file at `path`; `says`: in words.
+    """The outcome for the file at `path`; `says` is in words.
 
     what  "new", "replaced"; "kept": the student's stays, the newer one is beside it; "same":
           nothing to do; "gone": no lab any more, the file stays; "found": rescued from an
@@ -59,10 +59,11 @@ def copy(
     folder: str | os.PathLike[str], source: str | os.PathLike[str] | None = None
 ) -> list[Outcome]:
     """Hand out the labs of `source` (None: of the clone that robokin is installed from) into
-    `folder`, which is made if it is not there.
+    `folder`, which is created if necessary.
 
-    ValueError: no labs, no folder, one inside the other, another copy at work. OSError: no rights,
-    a full disk; then nothing is laid. What fails for one file is an `Outcome`.
+    ValueError: no labs, not a folder, one folder inside the other, or another copy is running.
+    OSError: no permission, or a full disk; then nothing is written. A failure for one file is an
+    `Outcome`.
     """
     labs = Path(source) if source is not None else Path(__file__).parents[2] / "notebooks"
     files = {
@@ -80,8 +81,8 @@ def copy(
 
 
 def digest(path: str, content: bytes) -> str:
-    """What a file holds: of a notebook its cells' kinds, sources and attachments, in their order;
-    of all else, a broken notebook too, the bytes.
+    """A digest of a file's content: for a notebook the types, sources and attachments of its cells,
+    in order; for anything else, including a broken notebook, the bytes.
     """
     if path.endswith(".ipynb"):
         with contextlib.suppress(ValueError, LookupError, TypeError, RecursionError):
@@ -95,8 +96,9 @@ def digest(path: str, content: bytes) -> str:
 
 @dataclass
 class _Entry:
-    """What the manifest knows of a lab. `laid`: the version last laid (digest of the source's
-    file), None: none yet; `handed`: version -> digest of what it holds, of all that may lie there.
+    """The manifest's entry for a lab. `laid`: the version written last (digest of the source's
+    file), None if there is none; `handed`: version -> digest of its content, for all versions that
+    may be there.
     """
 
     laid: str | None = None
@@ -105,8 +107,8 @@ class _Entry:
 
 @dataclass
 class _Job:
-    """A version of the lab `path`, what it holds and where to lay it: in the lab's own place,
-    beside it, nowhere.
+    """A version of the lab `path`, its content, and its destination: the lab's own place, beside
+    it, or nowhere.
     """
 
     path: str
@@ -118,7 +120,7 @@ class _Job:
 
 
 class _Folder:
-    """A student's folder. A path is relative to it, with slashes."""
+    """A student's folder. Paths are relative to it, with slashes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.own = folder, folder / ".robokin"
@@ -128,7 +130,7 @@ class _Folder:
         self.outcomes: list[Outcome] = []
 
     def hand_out(self, labs: dict[str, Path]) -> list[Outcome]:
-        """All of it: find out what to do, write down what will be laid, lay it."""
+        """Do all steps: decide what to do, record what will be written, write it."""
         self._recall()
         self._tidy()
         jobs, notebooks = [], []
@@ -158,12 +160,12 @@ class _Folder:
         finally:
             try:
                 self._remember()
-            except OSError as error:  # the next copy finds out what lies there
+            except OSError as error:  # the next copy will find out what is there
                 self._say(".robokin/manifest.json", "failed", _reason(error))
         return self.outcomes
 
     def _plan(self, path: str, content: bytes, labs: Iterable[str]) -> _Job:
-        """What to do for a lab whose newest version is `content`."""
+        """Decide what to do for a lab whose newest version is `content`."""
         holds = digest(path, content)
         job = _Job(path, hashlib.sha256(content).hexdigest(), holds, content)
         entry = self.entries.get(path, _Entry())
@@ -177,7 +179,7 @@ class _Folder:
             return job
         beside = [p for p in self._beside(path) if p not in labs]
         there = {p: _held(self.folder / p) for p in (path, *beside)}
-        # also where the student went back to an older one
+        # also if the student went back to an older version
         known = (holds, job.version)
         job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
         for place in job.places:
@@ -193,7 +195,7 @@ class _Folder:
         return job
 
     def _do(self, job: _Job) -> None:
-        """Lay a version at its places."""
+        """Write a version to its places."""
         if job.places:
             entry = self.entries[job.path]
             for place in job.places:
@@ -206,8 +208,8 @@ class _Folder:
         self.outcomes += job.outcomes or [Outcome(job.path, "same")]
 
     def _lay(self, path: str, content: bytes, ours: set[str]) -> None:
-        """Write a file, in the place of one of ours or where nothing is. ValueError: somebody has
-        saved there.
+        """Write a file in place of one of ours, or where there is none. ValueError: somebody has
+        saved a file there.
         """
         place, old = self.folder / path, self.old / path
         os.makedirs(place.parent, exist_ok=True)
@@ -227,8 +229,8 @@ class _Folder:
             self._tidy()
 
     def _tidy(self) -> None:
-        """Sweep what is ours in .robokin and give back what was moved there: to its place, or
-        beside it if something new is there that is not what we laid.
+        """Remove our files in .robokin and return the files that were moved there: to their places,
+        or beside them if a new file that we did not write is there.
         """
         ours = {holds for entry in self.entries.values() for holds in entry.handed.values()}
         with contextlib.suppress(FileNotFoundError):
@@ -241,7 +243,7 @@ class _Folder:
                 with contextlib.suppress(FileExistsError):
                     _put(old, place)
                     continue
-            if _held(old) in ours or os.lstat(old).st_nlink > 1:  # stopped while it was given back
+            if _held(old) in ours or os.lstat(old).st_nlink > 1:  # interrupted on its way back
                 os.unlink(old)
             else:
                 side = self._free(path, "yours")
@@ -250,8 +252,8 @@ class _Folder:
                 self._say(path, "found", says)
 
     def _recall(self) -> None:
-        """Read the manifest. One that cannot be read says nothing: what lies there is then ours
-        only if it holds what we would lay.
+        """Read the manifest. Without a readable one, a file counts as ours only if its content is
+        what we would write.
         """
         with contextlib.suppress(FileNotFoundError):
             try:
@@ -267,7 +269,7 @@ class _Folder:
                 self._say(".robokin/manifest.json", "found", "it cannot be read and is made anew")
 
     def _remember(self) -> None:
-        """Write the manifest, wholly or not at all, if there is news."""
+        """Write the manifest, whole or not at all, if it has changed."""
         told = {path: asdict(entry) for path, entry in self.entries.items()}
         text = json.dumps(told, indent=1, sort_keys=True) + "\n"
         if text != self.stored:
@@ -276,14 +278,14 @@ class _Folder:
             self.stored = text
 
     def _beside(self, path: str) -> list[str]:
-        """What lies beside a lab under the names for newer ones."""
+        """The files beside a lab with names for newer versions."""
         place, folder = PurePosixPath(path), (self.folder / path).parent
         name = re.compile(rf"{re.escape(place.stem)}\.new\d*{re.escape(place.suffix)}")
         names = sorted(os.listdir(folder)) if folder.is_dir() else []
         return [str(place.with_name(n)) for n in names if name.fullmatch(n)]
 
     def _free(self, path: str, word: str) -> str:
-        """NAME.word.ipynb, or the next such name that nothing has."""
+        """NAME.word.ipynb, or the next such name that is free."""
         place, n = PurePosixPath(path), 1
         while True:
             side = place.with_name(f"{place.stem}.{word}{n if n > 1 else ''}{place.suffix}")
@@ -296,7 +298,7 @@ class _Folder:
 
 
 def _target(folder: Path, labs: Path) -> Path:
-    """The student's folder, made if need be, with .robokin in it."""
+    """The student's folder, created if necessary, with .robokin in it."""
     if os.path.lexists(folder) and not folder.is_dir():
         raise ValueError("wanted a folder, got a file or a broken link")
     folder = folder.resolve()
@@ -310,8 +312,8 @@ def _target(folder: Path, labs: Path) -> Path:
 
 @contextlib.contextmanager
 def alone(path: Path, seconds: float = 0) -> Iterator[None]:
-    """Hold the lock at `path`, which ends with the process. ValueError: another holds it for so
-    many seconds.
+    """Hold the lock at `path`, which ends with the process. ValueError: another process holds it
+    for `seconds`.
     """
     end = time.monotonic() + seconds
     with open(path, "ab") as file:
@@ -335,19 +337,19 @@ def _locked(file: BinaryIO) -> bool:
     except (BlockingIOError, PermissionError):
         return False
     except OSError:
-        pass  # a file system without locks: two at once get in each other's way, no worse
+        pass  # a file system without locks: two runs disturb each other, but nothing is lost
     return True
 
 
 def _prepared(content: bytes) -> tuple[bytes, Any]:
-    """A notebook as it is laid, and as nbformat's. ValueError: it is none."""
-    import nbformat  # here: it takes most of the time of a copy without news
+    """A notebook as text to write, and as nbformat's object. ValueError: it is not a notebook."""
+    import nbformat  # imported here, since it takes most of the time when nothing has changed
 
     try:
         data = json.loads(content)
         info = data["metadata"].get("language_info", {})
         if info.get("name") == "python":
-            # else JupyterLab marks the lab as changed when its kernel has come
+            # otherwise JupyterLab marks the lab as changed when its kernel has started
             info["version"] = platform.python_version()
         text = json.dumps(data, indent=1, ensure_ascii=False) + "\n"
         notebook = nbformat.reads(text, as_version=4)
@@ -359,7 +361,7 @@ def _prepared(content: bytes) -> tuple[bytes, Any]:
 
 
 def _sign(notebooks: Iterable[Any]) -> str | None:
-    """Trust notebooks as Jupyter does; what stood in the way, if anything did."""
+    """Trust notebooks as Jupyter does; return the obstacle, if there was one."""
     from nbformat.sign import NotebookNotary
 
     try:
@@ -369,14 +371,14 @@ def _sign(notebooks: Iterable[Any]) -> str | None:
                 notary.sign(notebook)
         finally:
             notary.store.close()
-    except Exception as error:  # of files, of SQLite, of Jupyter's settings
+    except Exception as error:  # errors of files, of SQLite, of Jupyter's settings
         return short(f"{error}")
     return None
 
 
 def _held(place: Path) -> str | None:
-    """The digest of what the file at `place` holds; None: nothing is there; "": what is there is
-    no file that we can read, and none of ours.
+    """The digest of the file at `place`; None if nothing is there; "" if it is not a readable file,
+    and so not one of ours.
     """
     try:
         if not stat.S_ISREG(os.lstat(place).st_mode):
@@ -389,13 +391,13 @@ def _held(place: Path) -> str | None:
 
 
 def _barred(folder: Path) -> bool:
-    """Whether something is there that is not a folder itself: nothing is laid through a link."""
+    """Whether anything but a real folder is there; we never write through a link."""
     return folder.is_symlink() or (folder.exists() and not folder.is_dir())
 
 
 def write(path: Path, content: bytes) -> None:
-    """A new file, on the disk when this returns. Never into one that is there: it may have got
-    another name by now.
+    """Write a new file, which is on the disk when this returns. It never writes into an existing
+    file, which may have another name by now.
     """
     with contextlib.suppress(FileNotFoundError):
         os.unlink(path)
@@ -406,15 +408,15 @@ def write(path: Path, content: bytes) -> None:
 
 
 def _put(path: Path, place: Path) -> None:
-    """Move a file to where nothing is. FileExistsError: something is."""
+    """Move a file to a free place. FileExistsError: the place is taken."""
     try:
         os.link(path, place, follow_symlinks=False)
     except FileExistsError:
         raise
-    except (OSError, NotImplementedError):  # a file system without links, or no plain file
+    except (OSError, NotImplementedError):  # a file system without links, or not a regular file
         if os.path.lexists(place):
             raise FileExistsError(place) from None
-        os.rename(path, place)  # Windows looks again; elsewhere these are microseconds
+        os.rename(path, place)  # on Windows this checks again; elsewhere it takes microseconds
     else:
         os.unlink(path)
 

@@ -1,5 +1,5 @@
-"""Wrong programs made from the right one: edits of its text, those of an exercise and those that
-everybody makes, alone and two at a time.
+"""Wrong programs made from the right one by edits of its text: those of the exercise and common
+slips, alone and in pairs.
 """
 
 import ast
@@ -15,7 +15,7 @@ import numpy as np
 
 from .markdown import BadFile, Edit, Wrong
 
-Span = tuple[int, int, str]  # from, to, and what stands there instead
+Span = tuple[int, int, str]  # from, to, and the replacement
 
 
 class Variant(NamedTuple):
@@ -51,7 +51,7 @@ def own(
 
 
 def pairs(variants: Sequence[Variant]) -> Iterator[Variant]:
-    """Every two mistakes that change different places."""
+    """All pairs of mistakes that change different places."""
     for a, b in combinations(variants, 2):
         if isinstance(a.change, str) or isinstance(b.change, str) or a.name == b.name:
             continue
@@ -76,7 +76,7 @@ def _spans(solution: str, edits: tuple[Edit, ...]) -> tuple[Span, ...]:
 
 
 def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
-    """Why this is no change of the solution that gives a program; "": it is one."""
+    """Why this change of the solution does not give a program; "" if it does."""
     if isinstance(wrong, str):
         text = wrong
         if not re.search(rf"^(?:def |class )?{name}\b", text, re.M):
@@ -97,7 +97,7 @@ def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
     return ""
 
 
-# --- What everybody does --------------------------------------------------------------------------
+# --- Common slips --------------------------------------------------------------------------
 
 SLIPS = {
     "sign": "It is what comes out with a plus for a minus, or a minus for a plus.",
@@ -135,8 +135,8 @@ EDGES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 
 
 def everybody(solution: str) -> list[Variant]:
-    """The slips that can be made in any program, found in the functions of this one: not in those
-    that may never end after a slip.
+    """The common slips in the functions of this program, except in functions that may never end
+    after a slip.
     """
     lines = [0, *accumulate(len(line.encode()) for line in solution.splitlines(keepends=True))]
     raw = solution.encode()
@@ -161,7 +161,7 @@ def everybody(solution: str) -> list[Variant]:
 
 
 def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
-    """Slips in arithmetic and comparisons: name, the piece that is replaced, what replaces it."""
+    """Slips in arithmetic and comparisons: name, the piece that is replaced, its replacement."""
     match node:
         case ast.BinOp(op=ast.Add() | ast.Sub(), left=a, right=b):
             sign = "-" if isinstance(node.op, ast.Add) else "+"
@@ -217,8 +217,8 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
 
 
 def function_name(file: str, line: int, program: str) -> str:
-    """The name of the last function that a program defines at its top. BadFile: it defines none, or
-    is no Python. `line`: its first one in the file.
+    """The name of the last function that a program defines at its top level. BadFile: it defines
+    none, or is not Python. `line` is its first line in the file.
     """
     try:
         top = ast.parse(program).body
@@ -231,18 +231,18 @@ def function_name(file: str, line: int, program: str) -> str:
 
 
 def run(text: str, also: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """All that a program names, by its names."""
+    """Run a program and return its names."""
     found: dict[str, Any] = dict(also or {})
     exec(compile(text, "<solution>", "exec"), found)
     return found
 
 
 class Steps:
-    """A solution by the statements of its function, so that thousands of wrong programs run
-    quickly: each is made of statements that are compiled already, and begins after those that it
-    has in common with the solution, with its own copies of all that a statement may change. What
-    cannot be taken apart so is compiled anew for each: a solution that returns in more than one
-    place, or keeps a function, which may ask for what comes later.
+    """A solution split into the statements of its function, so that thousands of wrong programs run
+    quickly. Each wrong program consists of compiled statements and begins after those that it
+    shares with the solution, with its own copies of all values that a statement may change. A
+    solution that cannot be split is compiled again for each: one that returns in more than one
+    place, or that keeps a function, which may use later names.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
@@ -253,14 +253,14 @@ class Steps:
         self.spans = [(lines[n.lineno - 1], lines[n.end_lineno or 0]) for n in top.body]
         self.before = run(solution[: lines[top.lineno - 1]], also)
         returns = [n for n in ast.walk(top) if isinstance(n, ast.Return)]
-        alone = len({a for a, _ in self.spans}) == len(self.spans)  # one statement a line
+        alone = len({a for a, _ in self.spans}) == len(self.spans)  # one statement per line
         late = (ast.Lambda, ast.GeneratorExp)
         kept = any(isinstance(n, ast.Assign) and isinstance(n.value, late) for n in top.body)
         self.plain = returns == top.body[-1:] and alone and not kept
         self.names: dict[Any, dict[str, Any]] = {}
 
     def program(self, variant: Variant) -> Callable[..., Any]:
-        """The wrong program. It leaves its inputs as they are."""
+        """Return the wrong program. It does not change its inputs."""
         change = () if isinstance(variant.change, str) else variant.change
         inside = [any(a <= start and end <= b for a, b in self.spans) for start, end, _ in change]
         if not (self.plain and change and all(inside)):
@@ -282,7 +282,7 @@ class Steps:
         return stepped
 
     def _after(self, count: int, case: tuple[Any, ...]) -> dict[str, Any]:
-        """All names after so many statements of the solution, to be used once."""
+        """All names after `count` statements of the solution, to be used once."""
         key = count, tuple(map(id, case))
         if key not in self.names:
             names = dict(zip(self.inputs, case, strict=True))
@@ -290,7 +290,7 @@ class Steps:
                 names = self._after(count - 1, case)
                 exec(_step(self.solution[slice(*self.spans[count - 1])]), names)
             self.names[key] = {k: v for k, v in names.items() if v is not self.before.get(k, ...)}
-        memo: dict[int, Any] = {}  # one array of two names stays one
+        memo: dict[int, Any] = {}  # an array with two names remains one array
         mine = self.names[key].items()
         return self.before | {
             k: copy.deepcopy(v, memo) if isinstance(v, CHANGEABLE) else v for k, v in mine

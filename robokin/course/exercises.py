@@ -1,4 +1,4 @@
-"""What all exercises have in common: the verdict on an answer, and values in words."""
+"""The common parts of all exercises: the verdict on an answer, and values in words."""
 
 import contextlib
 import html
@@ -20,14 +20,14 @@ EMPTY = "Nothing here yet: write your answer into the cell above and run both ag
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a check found. Shows itself at the end of a cell.
+    """The result of a check. It displays itself at the end of a cell.
 
-    answered  whether there was anything to judge
-    holds     whether everything that was tried holds
+    answered  whether there was an answer to judge
+    holds     whether all conditions hold
     mistake   the mistake by its name, two joined by " or "; None: none, or not recognised
     says      sentences
-    case      the smallest input that shows what is wrong, with your result and what should hold
-    points    from 0 to 1: the share of what was tried that holds
+    case      the smallest input that shows the fault, with your result and what should hold
+    points    from 0 to 1: the fraction of the conditions that hold
     """
 
     exercise: str
@@ -48,7 +48,7 @@ class Verdict:
         lines = [f"{self.exercise}: {word}."]
         if self.case:
             lines += self.case.split("\n")
-        if self.mistake and self.mistake not in TROUBLE:  # the case has said it
+        if self.mistake and self.mistake not in TROUBLE:  # the case already says it
             lines.append(f"The mistake: {self.mistake}.")
         return "\n".join([*lines, *self.says])
 
@@ -68,22 +68,22 @@ class Verdict:
 
 
 class Exercise(ABC):
-    """An exercise, from its Markdown. `objective` is one of the lab's, from 1; `hints` go from a
-    nudge to nearly all.
+    """An exercise from Markdown. `objective` is the number of an objective of the lab, from 1;
+    `hints` range from a nudge to almost the whole solution.
     """
 
     def __init__(self, text: Text) -> None:
         self.text, self.number, self.title = text, text.number, text.title
         self.task, self.objective, self.hints = text.task, text.objective, text.hints
-        _, self.solution = text.code("Solution")  # a right program, as it is shown
+        _, self.solution = text.code("Solution")  # a right program, as shown to students
 
     @abstractmethod
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:
-        """The verdict on an answer of the student `who`."""
+        """Return the verdict on an answer of the student `who`."""
 
 
 def unanswered(name: str) -> Verdict:
-    """The friendly line."""
+    """Return the verdict on a missing answer."""
     return Verdict(name, answered=False, says=(EMPTY,))
 
 
@@ -91,7 +91,7 @@ def unanswered(name: str) -> Verdict:
 
 
 def has_nan(value: Any) -> bool:
-    """Whether a NaN stands in numbers or in a pose."""
+    """Whether numbers or a pose contain a NaN."""
     with contextlib.suppress(Exception):
         numbers = value.as_matrix() if isinstance(value, (Transform, Quaternion)) else value
         return bool(np.isnan(np.asarray(numbers, dtype=float)).any())
@@ -99,7 +99,7 @@ def has_nan(value: Any) -> bool:
 
 
 def numbers(value: Any) -> Any:
-    """A result as an array of numbers; None: it is none."""
+    """Return a result as an array of numbers, or None if it is not numbers."""
     with contextlib.suppress(Exception):
         numbers = value.as_matrix() if isinstance(value, (Transform, Quaternion)) else value
         made = np.asarray(numbers)
@@ -108,7 +108,7 @@ def numbers(value: Any) -> Any:
 
 
 def in_words(value: Any) -> str:
-    """A value in one short line."""
+    """Return a value as one short line."""
     if isinstance(value, Transform) and not value.shape:
         angle, axis = value.rotation.as_angle_axis()
         place = ", ".join(f"{x / mm:.1f}" for x in value.translation + 0.0)

@@ -1,10 +1,10 @@
-"""A notebook as one page that needs no network and no Python: its formulas are MathML, its code is
-coloured, what is folded stays folded, players, explorers and predictions are alive.
+"""Export a notebook as one page that needs no network and no Python: formulas are MathML, code is
+highlighted, folded cells stay folded, and players, explorers and predictions work.
 
-Whoever wrote the notebook, its page does no harm. Of a cell only its text, its number and whether
-it is folded are taken; an output is ours and written again (`ours.py`), or cleaned
-(`harmless.py`), or it is text. Only scripts with the page's nonce run. nbconvert brings the styles
-and reads Markdown.
+The page is harmless even if the notebook is hostile. Of a cell we use only its text, its number and
+whether it is folded. An output of robokin is written again (`ours.py`); any other one is cleaned
+(`harmless.py`) or shown as text. Only scripts with the page's nonce run. nbconvert provides the
+styles and reads Markdown.
 """
 
 import html
@@ -37,19 +37,23 @@ from .ours import again
 from .texts import LINES, visible
 
 FORMULAS = LatexToMathML(fancy_error=False)
-TEX = 2_000  # characters of a formula; the parser's stack grows with its braces
-# Characters to read as Markdown, HTML or Python, in one piece and in a page: the libraries take up
-# to 10 s a megabyte. What is beyond stands there as it was typed.
+TEX = 2_000  # characters in a formula; the parser's stack grows with its braces
+# Characters to parse as Markdown, HTML or Python, in one piece and in a page: the libraries take up
+# to 10 s per megabyte. Text beyond these limits is shown as it was typed.
 PIECE, ROOM = 50_000, 150_000
 MOST = 200  # outputs of robokin in a page
-OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # for each the reader of Markdown looks for an end
+OPENERS = (
+    "\\\\[",
+    "\\\\(",
+    "\\begin{",
+)  # the parser searches for the end of each
 TEXTS = ("text/latex", "text/plain")
 IMAGES = ("image/svg+xml", "image/png", "image/jpeg", "image/gif", "image/webp")
 FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:], "text/plain")
 
 
 def mathml(tex: str, block: bool = False) -> str:
-    """A formula in TeX as MathML. ValueError: a formula that cannot be read."""
+    """Convert a TeX formula to MathML. ValueError: the formula cannot be read."""
     tex = visible(tex.strip())
     if len(tex) > TEX:
         raise ValueError(f"formula {short(tex)}: wanted at most {TEX} characters, got {len(tex)}")
@@ -65,8 +69,8 @@ def mathml(tex: str, block: bool = False) -> str:
 class View:
     """The cells of a notebook as a page shows them.
 
-    folder   where pictures are looked for
-    choices  prediction -> the choice with which it opens; None: those in the notebook
+    folder   the folder with its pictures
+    choices  prediction -> its opening choice; None: the choices in the notebook
     lenient  show a formula that cannot be read as it was typed, and tell it in `remarks`; else it
              is a ValueError
     """
@@ -82,7 +86,7 @@ class View:
         self._highlight = Highlight2HTML(pygments_lexer="python")
 
     def cells(self, notebook: Any) -> list[dict[str, Any]]:
-        """What the template is given of each cell."""
+        """The data of each cell for the template."""
         return [self._cell(cell, k) for k, cell in enumerate(notebook.cells, 1)]
 
     def _cell(self, cell: Any, k: int) -> dict[str, Any]:
@@ -109,7 +113,7 @@ class View:
         }
 
     def _affords(self, text: str) -> bool:
-        """Whether a piece of text is read; it is counted then."""
+        """Whether a piece of text may be parsed; if so, count it."""
         if len(text) > min(PIECE, self._room):
             return False
         self._room -= len(text)
@@ -119,7 +123,7 @@ class View:
 
     def _python(self, source: str) -> Markup:
         text = visible(shortened(source))
-        # the lexer takes the square of the time for lines in a row that are empty
+        # the lexer takes quadratic time for consecutive empty lines
         if self._affords(text) and not re.search(r"\n(?:[ \t\f]{0,200}\n){50}", text):
             return Markup(self._highlight(text))
         return Markup('<div class="highlight"><pre>{}</pre></div>').format(text)
@@ -164,7 +168,7 @@ class View:
         return self._data(output.data) | {"result": kind == "execute_result"}
 
     def _data(self, data: Mapping[str, Any]) -> dict[str, Any]:
-        """The best of what an output has."""
+        """The best representation in an output."""
         for mime in FIRST:
             text = data.get(mime)
             if not isinstance(text, str):
@@ -197,8 +201,8 @@ class View:
 
 
 class Renderer(IPythonRenderer):
-    """Markdown to HTML. Formulas and coloured code are kept apart, since what comes of Markdown is
-    cleaned: in their place stands a mark that nobody can guess.
+    """Convert Markdown to HTML. The resulting HTML is cleaned, so formulas and highlighted code are
+    kept separately and replaced by a mark that nobody can guess.
     """
 
     def __init__(self, view: View, name: str) -> None:
@@ -215,12 +219,12 @@ class Renderer(IPythonRenderer):
 
     def block_code(self, code: str, info: str | None = None) -> str:
         made = super().block_code(code, info) if info and not info.startswith("mermaid") else ""
-        if not made.startswith('<div class="highlight">'):  # no language that is known
+        if not made.startswith('<div class="highlight">'):  # an unknown language
             made = str(Markup("<pre><code>{}</code></pre>").format(code))
         return f"<div>{self._keep(code, made)}</div>\n"
 
     def heading(self, text: str, level: int, **attrs: Any) -> str:
-        """With the anchor that JupyterLab gives it."""
+        """Render a heading with JupyterLab's anchor."""
         words = re.sub("<[^>]*>", "", html.unescape(self.plain(text))).strip()
         return f'<h{level} id="{html.escape(words.replace(" ", "-"))}">{text}</h{level}>\n'
 
@@ -239,11 +243,11 @@ class Renderer(IPythonRenderer):
         return str(Markup('<img alt="{}" src="{}">').format(text, url))
 
     def plain(self, text: str) -> str:
-        """What was kept apart as it was typed."""
+        """Replace the marks by the text as it was typed."""
         return re.sub(f"{self.mark}(\\d+)x", lambda place: self.kept[int(place[1])][0], text)
 
     def filled(self, text: str) -> str:
-        """What was kept apart as HTML."""
+        """Replace the marks by HTML."""
         return re.sub(f"{self.mark}(\\d+)x", lambda place: self.kept[int(place[1])][1], text)
 
     def _formula(self, body: str, dollars: str) -> str:
@@ -274,13 +278,13 @@ def _as_typed(text: str) -> Markup:
 
 
 def _coloured(text: str) -> Markup:
-    """A text of a terminal: colours are kept."""
+    """Render terminal text with its colours."""
     made = ansi2html(visible(shortened(text), LINES + "\x1b"))
     return Markup(made.replace("\x1b", "\\x1b"))
 
 
 def _attached(attachments: Any) -> Iterator[tuple[str, str]]:
-    """(name, `data:` address) of the pictures that a cell brings."""
+    """(name, `data:` address) of the pictures attached to a cell."""
     for name, kinds in attachments.items() if isinstance(attachments, dict) else ():
         for kind, data in kinds.items() if isinstance(kinds, dict) else ():
             address = f"data:{kind};base64,{''.join(str(data).split())}"
@@ -289,20 +293,20 @@ def _attached(attachments: Any) -> Iterator[tuple[str, str]]:
 
 
 class Exporter(HTMLExporter):
-    """nbconvert's page around our cells."""
+    """nbconvert's page with our cells."""
 
     def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> Any:
-        """HTMLExporter's without its parsing of what is made."""
+        """As in HTMLExporter, but without parsing the resulting page."""
         for name in (
             "highlight_code",
             "filter_data_type",
-        ):  # those that it would set for a notebook
+        ):  # the resources that it would set for a notebook
             self.register_filter(name, lambda value: value)
         return TemplateExporter.from_notebook_node(self, nb, resources, **kw)
 
 
 def page(cells: list[dict[str, Any]], title: str, nonce: str, header: str = "") -> str:
-    """The page of a notebook's cells as text; `header`: HTML above them."""
+    """Return the page of a notebook's cells as text; `header` is the HTML above them."""
     resources = {
         "metadata": {"name": visible(title)},
         "nonce": nonce,
@@ -316,13 +320,15 @@ def page(cells: list[dict[str, Any]], title: str, nonce: str, header: str = "") 
 
 
 def read(path: Path) -> Any:
-    """The notebook at `path`, as nbformat has it. ValueError: it is none, or cannot be read."""
+    """Read the notebook at `path` with nbformat. ValueError: it is not a notebook, or cannot be
+    read.
+    """
     try:
         notebook = nbformat.read(path, as_version=4)
-        nbformat.validate(notebook, relax_add_props=True)  # older ones have ids of cells, too
+        nbformat.validate(notebook, relax_add_props=True)  # older notebooks may have cell ids, too
     except OSError as error:
         raise ValueError(f"{error.strerror}") from None
-    except AttributeError:  # nbformat's, where the whole is a list or a number
+    except AttributeError:  # raised by nbformat if the JSON is a list or a number
         raise ValueError("not a notebook: its JSON is no table of names and values") from None
     except Exception as error:  # JSON, Unicode and schema errors of several libraries
         lines = [line for line in visible(str(error)[:2000]).splitlines() if line.strip()]
@@ -332,8 +338,8 @@ def read(path: Path) -> Any:
 
 
 def export(path: Path, to: Path) -> None:
-    """Write the notebook at `path` as the page `to`, wholly or not at all. ValueError: no notebook,
-    a formula that cannot be read, a file in the way that is no page of ours.
+    """Write the notebook at `path` as the page `to`, whole or not at all. ValueError: not a
+    notebook, a formula that cannot be read, or an existing file that is not one of our pages.
     """
     view = View(path.parent)
     write_page(to, page(view.cells(read(path)), path.stem, view.nonce))

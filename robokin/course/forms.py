@@ -1,5 +1,5 @@
-"""Forms that several exercises share: a result as the check wants it, or a sentence that says what
-was wanted and what came.
+"""Forms that several exercises share. A form converts a result for the check, or says what was
+wanted and what came.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,8 +18,8 @@ from .told import floats, one_number
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two results are one answer: numbers to 1e-6, or to a millionth where they are large;
-    a NaN is a NaN.
+    """Whether two results are equal: numbers to 1e-6, or to a millionth if they are large; NaN
+    equals NaN.
     """
     if isinstance(a, Mapping) and isinstance(b, Mapping):
         return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
@@ -32,7 +32,9 @@ def same(a: Any, b: Any) -> bool:
 
 
 def like(result: Any, wanted: Any) -> Any:
-    """A result of the kind and shape of the right one. ValueError: it is of another."""
+    """Return a result with the type and shape of the right one. ValueError: it has another type or
+    shape.
+    """
     if isinstance(wanted, (bool, np.bool_)):
         return truth(result)
     if isinstance(wanted, (str, Transform, Quaternion, ScaraPose)):
@@ -57,7 +59,7 @@ def like(result: Any, wanted: Any) -> Any:
 
 
 def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
-    """Numbers of this shape. ValueError: they are none, or of another shape."""
+    """Return numbers of this shape. ValueError: they are not numbers, or have another shape."""
     if not what:
         what = f"an array of shape {shape}" if shape else "a number"
     try:
@@ -70,14 +72,14 @@ def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
 
 
 def truth(result: Any, what: str = "") -> bool:
-    """True or False. ValueError: something else. `what`: of what, in words."""
+    """Return True or False. ValueError: it is something else. `what` names the subject in words."""
     if not isinstance(result, (bool, np.bool_)):
         raise ValueError(f"wanted True or False{what and f' {what}'}, got {in_words(result)}")
     return bool(result)
 
 
 def numbers_of(answer: Any, names: Sequence[str]) -> dict[str, float]:
-    """A dict with a finite number under each name. ValueError: one is missing or none."""
+    """Return a dict with a finite number for each name. ValueError: one is missing or invalid."""
     if not isinstance(answer, Mapping):
         raise ValueError(f"Wanted a dict with {' and '.join(names)}, got {in_words(answer)}.")
     missing = [name for name in names if name not in answer]

@@ -17,13 +17,13 @@ from .exercises import Exercise, Verdict, has_nan, in_words, numbers, unanswered
 from .markdown import BadFile, Text, why
 from .slips import INPUTS, RESULTS, fed
 
-NEAR = 0.01  # an answer that is off by no larger share is told to be nearly right
+NEAR = 0.01  # an answer with at most this relative error counts as nearly right
 Case = tuple[Any, ...]
-Fault = tuple[str, str]  # the name of what is wrong, and a sentence
+Fault = tuple[str, str]  # the name of the fault, and a sentence
 
 
 class Candidate(NamedTuple):
-    """What may explain an answer: a name, a sentence, and its result in case k."""
+    """A possible explanation of an answer: a name, a sentence, and its result in case k."""
 
     name: str
     says: str
@@ -31,18 +31,18 @@ class Candidate(NamedTuple):
 
 
 class Function(Exercise):
-    """A function to write. `code`, the names of the Python file, has
+    """A function to write. `code`, the names of the Python file, contains
 
     cases  generator of random numbers -> inputs, the smallest first, each a tuple
 
-    and, where what `forms` has by default does not do,
+    and, if the defaults in `forms` do not suffice,
 
     form   (result, case) -> the result as `law` and `same` want it; ValueError that says what was
            wanted and what came
     law    (case, yours, wanted) -> None, or a sentence: what should hold
     same   whether two results are one answer
 
-    Edits of the solution may use all names of the file.
+    Edits of the solution may use all names in the file.
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
@@ -61,12 +61,12 @@ class Function(Exercise):
         self.own = [variant for variant, _ in wrong]
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
-        self.trying = ""  # the mistake that is asked now
-        self.endless: list[str] = []  # mistakes that did not come to an end, and are asked no more
+        self.trying = ""  # the mistake that is running
+        self.endless: list[str] = []  # mistakes that did not end, and do not run again
 
     @cached_property
     def cases(self) -> list[Case]:
-        """The cases, the same on every machine. BadFile: none come, or not within 4 s."""
+        """The cases, equal on every machine. BadFile: there are none, or they take over 4 s."""
         draw = self.code["cases"]
         [outcome] = run(partial(_drawn, draw), [(140,)])
         found: list[Case] = outcome.result or []
@@ -83,7 +83,7 @@ class Function(Exercise):
 
     @cached_property
     def wanted(self) -> list[Any]:
-        """The right results, in form. BadFile: the solution has none."""
+        """The right results, in form. BadFile: the solution does not give them."""
         found: list[Any] = []
         for outcome, case in zip(run(self.right, self.cases), self.cases, strict=False):
             try:
@@ -107,7 +107,7 @@ class Function(Exercise):
             return unanswered(name)
         if not callable(answer):
             return Verdict(name, says=(f"Wanted a function, got {in_words(answer)}.",))
-        cases, _ = self.cases, self.wanted  # BadFile comes from here and from nowhere below
+        cases, _ = self.cases, self.wanted  # only this line raises BadFile
         outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
         wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
         if len(wrong) == len(cases) and not any(wrong):
@@ -120,18 +120,18 @@ class Function(Exercise):
         return Verdict(name, mistake=mistake, says=says, case=case, points=min(good, 0.9))
 
     def same(self, one: Any, other: Any) -> bool:
-        """Whether two results are one answer; those that cannot be compared are not."""
+        """Whether two results are equal; results that cannot be compared are not."""
         with contextlib.suppress(Exception):
             return bool(self.alike(one, other))
         return False
 
     def form(self, result: Any, case: Case, wanted: Any) -> Any:
-        """A result in form. ValueError: it has another one."""
+        """Return a result in form. ValueError: it has another form."""
         own = self.code.get("form")
         return own(result, case) if own else forms.like(result, wanted)
 
     def formed(self, outcome: Outcome, k: int) -> Outcome:
-        """An outcome of case k, its result in form."""
+        """Return the outcome of case k with its result in form."""
         if outcome.name:
             return outcome
         try:
@@ -141,7 +141,7 @@ class Function(Exercise):
             return Outcome(outcome.result, "another kind or shape", f"{error}")
 
     def wrong(self, outcome: Outcome, k: int) -> str | None:
-        """What should hold and does not in case k; None: it holds."""
+        """Say what should hold and does not in case k; None if it holds."""
         if outcome.name:
             return outcome.says
         with np.errstate(all="ignore"), contextlib.suppress(Exception):
@@ -164,7 +164,7 @@ class Function(Exercise):
     def _explained(
         self, answer: Any, outcomes: list[Outcome], wrong: list[str | None], first: int
     ) -> tuple[str | None, tuple[str, ...]]:
-        """Name and sentences of what is wrong, `first` in that case."""
+        """The name and sentences of the fault that shows in the case `first`."""
         trouble = outcomes[first]
         if unended(trouble):
             return trouble.name, ()
@@ -193,7 +193,7 @@ class Function(Exercise):
     def _named_in_time(
         self, outcomes: list[Outcome], wrong: list[str | None], first: int
     ) -> list[Fault]:
-        """`named`, without the mistakes that never end."""
+        """`named`, but without the mistakes that never end."""
         while True:
             self.trying = ""
             [outcome] = run(partial(self.named, outcomes, wrong, first), [()])
@@ -203,12 +203,12 @@ class Function(Exercise):
             self.endless.append(self.trying)
             self.own = [each for each in self.own if each.name != self.trying]
 
-    # --- What explains a wrong answer
+    # --- Explanations of a wrong answer
 
     def named(self, outcomes: list[Outcome], wrong: list[str | None], first: int) -> list[Fault]:
-        """The mistakes that give these outcomes in all cases, asked in groups, the likeliest first:
-        one of the exercise; one answer to everything; one that everybody makes; two of the
-        exercise; one of it and one that everybody makes of a result.
+        """The mistakes with these outcomes in all cases, tried in groups, the likeliest first: one
+        of the exercise; a constant answer; one common slip; two of the exercise; one of the
+        exercise with a slip in its result.
         """
         if len(outcomes) < min(6, len(self.cases)):
             return []
@@ -223,7 +223,7 @@ class Function(Exercise):
         for group in () if raising else (self._pairs, self._slipped):
             found = [c for c in group() if self.agrees(c, outcomes, wrong, order)]
             names = list(dict.fromkeys((c.name, c.says) for c in found))
-            if len(names) > 1:  # unlike pairs: a guess
+            if len(names) > 1:  # pairs with different names are only a guess
                 return []
             if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):  # few answers
                 says = f"It behaves like a program with two mistakes. {names[0][1]}"
@@ -262,7 +262,7 @@ class Function(Exercise):
 
         self.trying = ""
         for pair in edits.pairs(self.own):
-            program = cache(partial(self.steps.program, pair))  # it may be no Python
+            program = cache(partial(self.steps.program, pair))  # it may not be valid Python
             yield Candidate(pair.name, pair.says, partial(ran, program))
 
     def _slipped(self) -> Iterator[Candidate]:
@@ -271,20 +271,22 @@ class Function(Exercise):
 
         for one in self.own:
             for name, says, change in RESULTS:
-                if name != one.name:  # twice the same: what is left of it has another cause
+                if name != one.name:  # the same mistake twice: the rest has another cause
                     told = f"{one.says} And: {says}"
                     yield Candidate(f"{one.name}, and {name}", told, partial(read, one, change))
 
     @cached_property
     def slips(self) -> list[Variant]:
-        """What everybody does wrongly in a program like this solution."""
+        """The common slips in a program like this solution."""
         return edits.everybody(self.solution)
 
     def _candidate(self, variant: Variant) -> Candidate:
         return Candidate(variant.name, variant.says, partial(self.result, variant))
 
     def result(self, variant: Variant, k: int) -> Any:
-        """What a wrong program makes of case k. It runs once a case; what it raises, is raised."""
+        """The result of a wrong program in case k. It runs once for each case; its errors are
+        raised again.
+        """
         if variant.change not in self.made:
             self.made[variant.change] = (self.steps.program(variant), {})
         program, results = self.made[variant.change]
@@ -305,9 +307,9 @@ class Function(Exercise):
         wrong: Sequence[str | None],
         order: Sequence[int],
     ) -> bool:
-        """Whether it gives these outcomes in all cases, and an outcome at all in one; and whether
-        it keeps the law where they do and breaks it where they do. So what leaves the right
-        program as it is explains nothing.
+        """Whether it gives these outcomes in all cases, with a result in at least one, and keeps
+        and breaks the law in the same cases. So an edit that does not change the right program
+        explains nothing.
         """
         others = {}
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -331,10 +333,10 @@ class Function(Exercise):
                 for k, other in others.items()
             )
 
-    # --- What is told where no mistake explains it
+    # --- Words for an answer that no mistake explains
 
     def _nearly(self, outcomes: list[Outcome]) -> str:
-        """By how much an answer is off that is nearly right in every case; "": it is not."""
+        """Say by how much an answer is off that is nearly right in every case; "" if it is not."""
         worst = 0.0
         for outcome, wanted in zip(outcomes, self.wanted, strict=True):
             mine, right = numbers(outcome.result), numbers(wanted)
@@ -354,15 +356,15 @@ class Function(Exercise):
         )
 
     def _unused(self, answer: Any, outcomes: list[Outcome]) -> list[str]:
-        """The inputs that make no difference to the answer, and should in some of the cases that
-        are asked. Asked from several, with unlike results, none of them NaN; where the answers are
-        True and False, from cases of both.
+        """The inputs that do not change the answer although they should in some cases. It tries
+        several cases with different results, none of them NaN; if the results are True and False,
+        it tries cases with both.
         """
         if any(outcome.name for outcome in outcomes):
             return []
         cases = self.cases
         order = np.random.default_rng(140).permutation(len(cases)).tolist()
-        unlike: list[list[int]] = []  # cases with the same result
+        unlike: list[list[int]] = []  # cases grouped by result
         for k in order:
             result = outcomes[k].result
             if not has_nan(result):

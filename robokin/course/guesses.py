@@ -1,14 +1,14 @@
-"""Guesses that arrive: what a student guesses in a page while a kernel lives is kept beside the
-notebook, in `.robokin/guesses.json`, and a report finds it there.
+"""Guesses from a page: while a kernel is running, a student's guesses are saved beside the
+notebook, in `.robokin/guesses.json`, where a report finds them.
 
     {"guesses": 1, "notebooks": {"03_irb140_motion.ipynb": {"irb140_motion.p1":
         [["b: joint 3", time]]}}}
 
-A choice is a number, or a letter with the name of the option, which stays when options change
+A choice is a number, or a letter with the name of the option, which remains valid if options change
 places.
 
-A widget without a view, one for each kernel, hears the page (js/guesses.js) and tells it what came
-of a guess. Nothing of it is stored in the notebook.
+A widget without a view, one for each kernel, listens to the page (js/guesses.js) and confirms each
+guess. The notebook does not store it.
 """
 
 import ast
@@ -33,18 +33,18 @@ if TYPE_CHECKING:
     from .handed_in import HandedIn
 
 FOLDER, FILE = ".robokin", "guesses.json"
-LARGE = 1_000_000  # bytes of a file of guesses; a student's has a few thousand
+LARGE = 1_000_000  # bytes in a file of guesses; a student's file has a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
 ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook's file
-PATIENCE = 10  # seconds that another kernel may take to write
+PATIENCE = 10  # seconds to wait for another kernel that writes
 
 Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
 
 
 def read_guesses(path: Path) -> Kept | None:
-    """The guesses kept for the notebook at `path`: {prediction: [(choice, time), ...]}, in order of
-    time; None: none came with it. Those of a notebook that has been renamed are found, too.
+    """The saved guesses for the notebook at `path`: {prediction: [(choice, time), ...]}, in order
+    of time; None if there is no file. It also finds those of a renamed notebook.
 
     ValueError: the file cannot be used.
     """
@@ -58,10 +58,11 @@ def read_guesses(path: Path) -> Kept | None:
 
 
 def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
-    """Add guesses (prediction, choice, time) to those kept for the notebook at `path`; one that is
-    there already is not added again. A file that cannot be read is set aside.
+    """Add guesses (prediction, choice, time) to those saved for the notebook at `path`, without
+    duplicates. An unreadable file is renamed and kept.
 
-    ValueError: the file is full, another kernel does not end writing. OSError: no rights, ...
+    ValueError: the file is full, or another kernel does not stop writing. OSError: no permission,
+    ...
     """
     own = path.parent / FOLDER
     own.mkdir(exist_ok=True)
@@ -90,8 +91,8 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
 
 
 def parse_line(text: str) -> dict[str, str]:
-    """The guesses in the line that a page copies, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in their
-    order. ValueError: another form. TypeError: no text.
+    """The guesses in the line that a page copies, "p1 b, p3 a, p5 -290": {"p1": "b", ...}, in
+    order. ValueError: another format. TypeError: not text.
     """
     if not isinstance(text, str):
         raise TypeError(f"guesses: wanted the line that a page copies, got {short(text)}")
@@ -109,16 +110,17 @@ def parse_line(text: str) -> dict[str, str]:
     return found
 
 
-# --- What came of them ----------------------------------------------------------------------------
+# --- Results of guesses
+# ----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Guess:
-    """What came of a prediction.
+    """The result of a prediction.
 
-    choice  the first guess, which counts; None: none was made, and right is None
-    when    its time, where it is known
-    later   the other guesses, in order
+    choice  the first guess, which counts; None: no guess was made, and right is None
+    when    its time, if known
+    later   the later guesses, in order
     """
 
     id: str
@@ -130,9 +132,9 @@ class Guess:
 
 
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
-    """What came of the predictions; nothing is run. Guesses kept by a kernel come first, then those
-    in the line that a page copies, then the choice in the cell. `remarks` is told what could not be
-    used.
+    """The results of the predictions, without running anything. Guesses saved by a kernel come
+    first, then those in the line that a page copies, then the choice in the cell. Unusable ones are
+    added to `remarks`.
     """
     kept: Kept = {}
     pasted: dict[str, str] = {}
@@ -158,11 +160,11 @@ def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess
 
 
 def _beside(path: Path, slug: str) -> list[str]:
-    """What to say of a notebook without guesses where a single other one of its lab has some. They
-    are not taken: of two copies one may be another student's, or another try.
+    """The remark for a notebook without guesses if exactly one other notebook of its lab has some.
+    We do not use those: the other copy may belong to another student or another attempt.
     """
     found = []
-    with contextlib.suppress(OSError, ValueError):  # it has been said that the file is of no use
+    with contextlib.suppress(OSError, ValueError):  # already in the remarks
         for name, kept in _stored(path.parent / FOLDER / FILE).items():
             first = {p: made[0][0] for p, made in kept.items() if made and _known(p)}
             mine = {p.partition(".")[2]: c for p, c in first.items() if p.startswith(f"{slug}.")}
@@ -178,7 +180,7 @@ def _beside(path: Path, slug: str) -> list[str]:
 
 
 def _literal(text: str) -> str:
-    """A choice as it stands in a cell, without its quotes."""
+    """A choice as written in a cell, without its quotes."""
     try:
         return str(ast.literal_eval(text))[:40]
     except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
@@ -186,8 +188,8 @@ def _literal(text: str) -> str:
 
 
 def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
-    """What came of a prediction for which these guesses were made, with their times. One without a
-    time is listed only where no other says the same.
+    """The result of a prediction with these guesses and times. A guess without a time is listed
+    only if no other one is the same.
     """
     if not made:
         return Guess(name)
@@ -211,16 +213,16 @@ def _guess(name: str, made: Sequence[tuple[str, str | None]]) -> Guess:
 
 def _value(choice: str) -> str | float:
     try:
-        return float(choice)  # 90 and 90.0 are the same guess
+        return float(choice)  # 90 and 90.0 are equal
     except ValueError:
-        return choice.partition(":")[0]  # and so are "b" and "b: joint 3"
+        return choice.partition(":")[0]  # so are "b" and "b: joint 3"
 
 
 # --- The file -------------------------------------------------------------------------------------
 
 
 def _stored(file: Path) -> dict[str, Kept]:
-    """What a file of guesses holds, by notebook; {} where there is none. ValueError: it holds
+    """The content of a file of guesses, by notebook; {} if there is none. ValueError: it contains
     something else.
     """
     if not os.path.lexists(file):
@@ -265,7 +267,7 @@ def _choice(choice: Any) -> str:
 
 
 def _moment(time: Any) -> datetime:
-    """A time with its offset. ValueError: it is none."""
+    """Return a time with its offset. ValueError: it is not one."""
     try:
         moment = datetime.fromisoformat(time)
         moment.astimezone(UTC)
@@ -283,8 +285,8 @@ def _known(name: str) -> bool:
 
 
 def _name(notebooks: dict[str, Kept], path: Path) -> str:
-    """Under which name the guesses for a notebook are kept: its own; the one that it had before,
-    where a single notebook with its predictions is no longer there.
+    """The key of a notebook's guesses: its own name, or its previous name if exactly one notebook
+    with its predictions no longer exists.
     """
     if path.name in notebooks:
         return path.name
@@ -296,7 +298,7 @@ def _name(notebooks: dict[str, Kept], path: Path) -> str:
 
 
 def _free(folder: Path) -> Path:
-    """A name for a file that is set aside."""
+    """A free name for an unreadable file."""
     n = 1
     while os.path.lexists(folder / f"guesses.broken{n}.json"):
         n += 1
@@ -305,18 +307,16 @@ def _free(folder: Path) -> Path:
 
 # --- The widget -----------------------------------------------------------------------------------
 
-_hub: Any = None  # of this kernel
+_hub: Any = None  # the widget of this kernel
 
 
 def listen() -> None:
-    """Hear guesses in the page from now on, where this is the kernel of a notebook that somebody
-    has opened.
-    """
+    """Listen to guesses in the page from now on, if this is the kernel of an open notebook."""
     global _hub
     own = own_notebook()
     if _hub is not None or own is None or "ROBOKIN_JUDGE" in os.environ:
         return
-    with contextlib.suppress(Exception):  # a question is shown without it, too
+    with contextlib.suppress(Exception):  # a question works without it, too
         from ..show.joiner import script
         from ..show.live import unseen
 
@@ -325,8 +325,8 @@ def listen() -> None:
 
 
 def own_notebook() -> Path | None:
-    """The notebook in which this runs, as it was called when its kernel began: Jupyter's server and
-    VS Code tell it; nobody who runs a notebook without a page does.
+    """The notebook in which this runs, with its name at the start of the kernel. Jupyter's server
+    and VS Code provide it; programs that run a notebook without a page do not.
     """
     ipython = sys.modules.get("IPython")
     space = getattr(ipython.get_ipython() if ipython else None, "user_ns", {})
@@ -341,14 +341,14 @@ def _told(message: Any, own: Path) -> dict[str, Any]:
     try:
         made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
         keep(_called(message["path"], own), made)
-    except Exception as error:  # said in the page; here nobody would read it
+    except Exception as error:  # the page shows it; nobody would read it here
         reason = getattr(error, "strerror", None) or error
         return {"n": message["n"], "error": str(reason)}
     return {"n": message["n"]}
 
 
 def _called(path: str | None, own: Path) -> Path:
-    """The notebook as it is called now. The page knows its path from the server's folder on.
+    """The notebook with its present name. The page knows its path relative to the server's folder.
     ValueError: it cannot be found.
     """
     if path is not None:

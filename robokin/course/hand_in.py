@@ -1,7 +1,7 @@
-"""`report(who)` in a lab: the report of the notebook in which it stands.
+"""`report(who)` in a lab writes the report of its own notebook.
 
-A notebook's file is as old as its last save, so it may lack what the student sees. What ran in this
-kernel, and when, is noted here and compared with the file.
+A notebook's file has the state of its last save, so it may lack what the student sees. This module
+records which cells ran in this kernel and when, and compares them with the file.
 """
 
 import json
@@ -21,11 +21,11 @@ from .note import Note
 from .reported import counted, report_data
 from .variants import normalised
 
-NAMELESS = "your name"  # what the labs have where the student's name should stand
+NAMELESS = "your name"  # the placeholder for the student's name in the labs
 ASLEEP = "Put your name into who, save, and run this cell in JupyterLab: it writes your report."
 UNSAVED = "Save first (Ctrl+S), then run this cell again."
 TOP = str(Path(__file__).resolve().parents[2])
-START = (  # this robokin, and none from the folder of the notebook
+START = (  # this robokin, and not one from the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.__main__ import main; "
     "sys.path.pop(0); sys.exit(main())"
 )
@@ -34,7 +34,7 @@ CALL, ANSWER = re.compile(r"\breport\("), re.compile(r"\b(check|predict)\(|\b(de
 
 
 class Ran(NamedTuple):
-    """A cell that was run, and when: seconds since 1970."""
+    """A cell that was run, and its time in seconds since 1970."""
 
     source: str
     when: float
@@ -44,7 +44,7 @@ _ran: list[Ran] = []  # in this kernel
 
 
 def watch() -> None:
-    """From now on, note what runs in this kernel. What ran before counts as run now."""
+    """Record from now on what runs in this kernel. Earlier cells count as run now."""
     shell = _shell()
     if shell is None:
         return
@@ -57,15 +57,15 @@ def watch() -> None:
 
 
 def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
-    """Run this notebook anew, judge its answers, and write the report to hand in beside it. Shows
-    the report's name, or what is in the way.
+    """Run this notebook again, judge its answers, and write the report to hand in beside it. It
+    shows the report's name, or the reason why there is none.
 
     who       the student's name
     guesses   the line that the exported page of this lab has copied: "p1 b, p3 a"
-    notebook  its file, where that cannot be told
+    notebook  its file, if it cannot be determined
 
-    Never raises. It does nothing with the name that the labs have, nor outside JupyterLab and
-    VS Code, where a notebook is only executed.
+    It never raises. It does nothing with the placeholder name, or outside JupyterLab and VS Code,
+    where a notebook is only executed.
     """
     name = str(who).strip()
     seen = own_notebook()
@@ -90,13 +90,13 @@ def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
 
 
 def _shell() -> Any:
-    """IPython's shell in which this runs, or None."""
+    """The IPython shell in which this runs, or None."""
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None
 
 
 def _notebook(seen: Path | None, path: Any) -> Path:
-    """The notebook's file. ValueError: there is none, or several may be it."""
+    """The notebook's file. ValueError: there is none, or there are several candidates."""
     if path is not None:
         if not Path(path).is_file():
             raise ValueError(f"there is no file {str(path)!r} in {str(Path.cwd())!r}.")
@@ -122,13 +122,13 @@ def _may_be(path: Path, lab: str | None) -> bool:
 
 
 def _lab(sources: Iterable[str]) -> str | None:
-    """The lab whose ids stand most often in these cells."""
+    """The lab whose ids occur most often in these cells."""
     found = Counter(lab for source in sources for lab in IDS.findall(source) if lab in labs())
     return found.most_common(1)[0][0] if found else None
 
 
 def _cells(path: Path) -> list[str]:
-    """What stands in the code cells of a file. ValueError: it is no notebook."""
+    """The text of the code cells in a file. ValueError: it is not a notebook."""
     try:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
@@ -137,22 +137,22 @@ def _cells(path: Path) -> list[str]:
 
 
 def _unsaved(path: Path, guesses: str | None) -> bool:
-    """Whether a cell ran after the file was saved, and is not in it as it ran. A cell that ran
-    before and is not in it was changed or deleted since, and the file is right.
+    """Whether a cell ran after the file was saved and is not in it in that form. A cell that ran
+    before and is not in it was changed or deleted since, so the file is right.
     """
     saved = path.stat().st_mtime
     kept = {"", *(source.strip() for source in _cells(path))}
     return any(
         when > saved and source.strip() not in kept
         for source, when in _ran
-        # this very cell need not be saved, unless the guesses are to be read from it
+        # this cell itself need not be saved, unless it has guesses to read
         if guesses is not None or not CALL.search(source) or ANSWER.search(source)
     )
 
 
 def _written(path: Path, who: str) -> Note:
-    """Write the report in a process of its own, which an interrupt of the cell ends, and which
-    leaves this kernel as it is. ValueError: why there is none.
+    """Write the report in a separate process, which an interrupt of the cell ends, and which does
+    not change this kernel. ValueError: the reason why there is none.
     """
     print("Running your lab anew. This can take a minute.", flush=True)
     command = [sys.executable, "-P", "-X", "utf8", "-c", START, "report", str(path)]
@@ -168,7 +168,7 @@ def _written(path: Path, who: str) -> Note:
     )
     try:
         said, complaint = _outputs(child)
-    except KeyboardInterrupt:  # which the child gets as well, where the front end sends it to all
+    except KeyboardInterrupt:  # the child may get it as well, if the front end sends it to all
         _end(child)
         raise
     if child.returncode:
@@ -185,7 +185,7 @@ def _written(path: Path, who: str) -> Note:
     asked = counted(data)
     made = sum(each["choice"] is not None for each in asked)
     lines.append(f"{made} of {len(asked)} predictions made")
-    if made < len(asked):  # a page's guess waits while the kernel runs all cells
+    if made < len(asked):  # a guess from the page waits while the kernel runs all cells
         lines[-1] += ". Is a guess missing? Run this cell once more."
     note = Note("\n".join(lines))
     note.file = page.name
@@ -193,7 +193,7 @@ def _written(path: Path, who: str) -> Note:
 
 
 def _outputs(child: "subprocess.Popen[str]") -> tuple[str, str]:
-    """What a process says, when it has ended."""
+    """The output of a process after its end."""
     while True:
         try:
             return child.communicate(timeout=0.5)  # Windows interrupts no longer wait

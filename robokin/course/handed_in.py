@@ -1,9 +1,9 @@
-"""A handed-in notebook as a text: which exercises and predictions it answers and how, and which
-verdicts stand in its outputs. Nothing of it is run.
+"""A handed-in notebook as text: which exercises and predictions it answers, how, and which verdicts
+are in its outputs. Nothing is run.
 
-Its author may have written anything. What is wrong with it is told by a ValueError with the reason,
-and reading it takes time in proportion to its size. So the file is not read by nbformat, which can
-take minutes for a megabyte; what comes of it here is a valid notebook with the parts that we use.
+Its author may have written anything. A ValueError gives the reason if it cannot be used, and
+reading takes time in proportion to its size. So we do not use nbformat, which can take minutes for
+a megabyte; the result is a valid notebook with the parts that we use.
 """
 
 import ast
@@ -25,12 +25,12 @@ from .._validate import short
 from .book import lab, labs
 from .texts import ALL_BUT_HALVES, all_visible
 
-NONE = "your name"  # what the labs have where the student's name should stand
+NONE = "your name"  # the placeholder for the student's name in the labs
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet|not judged)\.")
-CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")  # in what is no Python
-SIZE = 20_000_000  # bytes of a notebook
-CODE = 100_000  # characters of a cell that is read as Python
-ALL_CODE = 5 * CODE  # of all such cells
+CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")  # if it is not Python
+SIZE = 20_000_000  # bytes in a notebook
+CODE = 100_000  # characters in a cell that is parsed as Python
+ALL_CODE = 5 * CODE  # in all such cells
 
 
 CALLS = ("check", "predict", "report")
@@ -70,7 +70,7 @@ class HandedIn:
 
     @property
     def title(self) -> str:
-        """Its first heading, or the file's name."""
+        """Its first heading, or the name of the file."""
         for cell in self.notebook.cells:
             found = re.search(r"^# +(\S.*)$", cell.source, re.M)
             if cell.cell_type == "markdown" and found:
@@ -79,8 +79,8 @@ class HandedIn:
 
 
 def handed_in(path: Path) -> HandedIn:
-    """Read a notebook. Which lab it is, the ids in it tell, since a file may be called anything;
-    where there are none, the file's name. ValueError: no notebook, or one that cannot be read.
+    """Read a notebook. The ids in it determine its lab, since a file may have any name; without ids
+    the name of the file does. ValueError: not a notebook, or one that cannot be read.
     """
     notebook = _notebook(path)
     checks: dict[str, Call] = {}
@@ -126,8 +126,8 @@ def handed_in(path: Path) -> HandedIn:
 
 
 def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
-    """What the outputs say of exercises, by their ids: those of the call that counts, where it has
-    any, else of all cells; "holds" if any of them says so.
+    """The verdicts in the outputs, by exercise id: those of the call that counts, if it has any,
+    otherwise of all cells; "holds" if any of them says so.
     """
     found: dict[str, str] = {}
     last = {(call.name, call.cell) for call in checks.values()}
@@ -170,7 +170,7 @@ def _notebook(path: Path) -> Any:
 
 
 def _cell(raw: Any, k: int) -> dict[str, Any]:
-    """A cell with what we use of it, as nbformat 4.5 wants it. ValueError: it is none."""
+    """The parts of a cell that we use, valid for nbformat 4.5. ValueError: it is not a cell."""
     kind = raw.get("cell_type") if isinstance(raw, dict) else None
     if kind not in ("code", "markdown", "raw"):
         raise ValueError(f"cell {k}: wanted code, markdown or raw text, got {short(kind)}")
@@ -188,7 +188,7 @@ def _cell(raw: Any, k: int) -> dict[str, Any]:
 
 
 def _outputs(raw: Any) -> Iterator[dict[str, Any]]:
-    """The stored outputs that are text or have a text."""
+    """The stored outputs that are or contain text."""
     for each in raw if isinstance(raw, list) else ():
         kind = _get(each, "output_type")
         if kind == "stream":
@@ -210,7 +210,7 @@ def _text(value: Any) -> str | None:
 
 
 def _texts(value: Any) -> dict[str, str]:
-    """The texts among the forms of an output or of a file, by MIME type."""
+    """The text representations of an output or a file, by MIME type."""
     forms = value.items() if isinstance(value, dict) else ()
     return {kind: text for kind, form in forms if (text := _text(form)) is not None}
 
@@ -224,21 +224,21 @@ def _claimed(cell: Any) -> Iterator[tuple[str, str]]:
         shown = re.sub("<[^<>]*>", "\n", str(data.get("text/html", "")))
         try:
             shown = html.unescape(shown)
-        except ValueError:  # the number of a character with thousands of digits
+        except ValueError:  # a character reference with thousands of digits
             shown = ""
         yield from CLAIM.findall(f"{output.get('text', '')}\n{data.get('text/plain', '')}\n{shown}")
 
 
 def _known(name: str, what: str) -> bool:
-    """Whether there is an exercise (`what`: "exercises") or a prediction with that id."""
+    """Whether an exercise (`what` is "exercises") or a prediction with this id exists."""
     slug, _, number = name.partition(".")
     return slug in labs() and number in getattr(lab(slug), what)
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:
-    """("check" or "predict", Call) for each call with an id that stands there, from the top, and
-    ("report", Call), whose answer is the line of guesses; not for those inside another one's
-    arguments.
+    """Yield ("check" or "predict", Call) for each call with a literal id, from the top, and
+    ("report", Call), whose answer is the line of guesses. Calls inside the arguments of another
+    call are skipped.
     """
     found = []
     todo: list[ast.AST] = [_tree(source)]
@@ -268,7 +268,7 @@ def _call(node: ast.Call, cell: int) -> tuple[str, Call] | None:
     asked = arguments.get("name")
     name = asked.value if isinstance(asked, ast.Constant) else None
     if what == "check" and asked is not None and not isinstance(name, str):
-        name = ast.unparse(asked)[:60]  # an exercise of one's own
+        name = ast.unparse(asked)[:60]  # the reader's own exercise
     if not isinstance(name, str):
         return None
     answer, own = arguments.get(names[1]), arguments.get("who")
@@ -280,12 +280,12 @@ def _call(node: ast.Call, cell: int) -> tuple[str, Call] | None:
     )
 
 
-_parsing = threading.Lock()  # Python's filters of warnings are those of all threads
+_parsing = threading.Lock()  # Python's warning filters are shared by all threads
 
 
 def _tree(source: str) -> ast.AST:
-    """A cell as Python's tree. Only where it is none, its lines of Jupyter's (`%time`) are left
-    out. SyntaxError, ValueError, RecursionError, MemoryError: still none.
+    """The syntax tree of a cell. If it does not parse, its Jupyter lines (`%time`) are left out.
+    SyntaxError, ValueError, RecursionError, MemoryError: it still does not parse.
     """
     flags = ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
     with _parsing, warnings.catch_warnings():

@@ -1,5 +1,5 @@
-"""What somebody else wrote, made harmless before it stands in a page: no script, style or address
-that fetches gets through, no class or id of ours, nothing that turns the direction of the text.
+"""Make other people's text harmless for a page: it lets through no script, style or fetching
+address, none of our classes or ids, and nothing that changes the direction of text.
 """
 
 import base64
@@ -19,8 +19,8 @@ from markupsafe import Markup
 
 from .texts import visible
 
-LONG = 100_000  # characters of a text that are shown
-DEEP = 100  # open elements; the parser's time grows with their square
+LONG = 100_000  # characters that are shown of a text
+DEEP = 100  # open elements; the parser takes quadratic time
 
 TAGS = frozenset(
     "a abbr b blockquote br caption code col colgroup dd del details div dl dt em figcaption "
@@ -29,7 +29,7 @@ TAGS = frozenset(
 )
 HEADINGS = frozenset(f"h{k}" for k in range(1, 7))
 VOID = {"br", "col", "hr", "img"}
-HIDDEN = ("script", "style")  # their words are no text, and go with them
+HIDDEN = ("script", "style")  # their content is not text and is removed with them
 ALIGNED = re.compile(r"text-align: ?(left|right|center);?")
 PICTURES = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".svg": "svg+xml"}
 INLINE = re.compile(r"data:image/(png|jpeg|gif|webp|svg\+xml);base64,([A-Za-z0-9+/]+={0,2})")
@@ -49,7 +49,7 @@ MATH_STYLE = re.compile(
 
 
 def shortened(text: str, most: int = LONG) -> str:
-    """The beginning of a long text, and how long it is."""
+    """The beginning of a long text, and its length."""
     return text if len(text) <= most else f"{text[:most]}\n... shortened: {len(text)} characters"
 
 
@@ -77,10 +77,10 @@ def clean(
     picture: Callable[[str], str | None] = lambda address: None,
     plain: Callable[[str], str] = str,
 ) -> str:
-    """HTML with what is on the list of elements and attributes, and nothing else.
+    """Return HTML with only the listed elements and attributes.
 
-    picture  the address of a picture -> a `data:` address, or None: it is left out
-    plain    what is done to the values of attributes before anything else
+    picture  the address of a picture -> a `data:` address, or None to leave it out
+    plain    a function applied to the values of attributes first
     """
     last = partial(_Attributes, picture=picture, plain=plain)
     cleaner = Cleaner(
@@ -121,7 +121,7 @@ class _Alignment:
 
 
 class _Attributes(Filter):  # type: ignore[misc]
-    """The last step of `clean`: texts are made visible, links and pictures harmless."""
+    """The last step of `clean`: make texts visible, and links and pictures harmless."""
 
     def __init__(self, source: Any, picture: Any, plain: Any) -> None:
         super().__init__(source)
@@ -161,14 +161,14 @@ class _Attributes(Filter):  # type: ignore[misc]
             if found is None:
                 return {"type": "Characters", "data": f"[{words}]"}
             values |= {"alt": words, "src": found}
-        # the serializer takes an ampersand for the beginning of an entity that stands already
+        # the serializer takes an ampersand for the beginning of an existing entity
         data = {(None, n): visible(v).replace("&", "&amp;") for n, v in values.items()}
         return token | {"data": data}
 
 
 def harmless_link(address: str) -> str:
-    """An address that a reader may follow: of the web, of mail, of a page beside this one (another
-    notebook is one), of a place in it. "" for any other.
+    """Return an address that a reader may follow: web, mail, a page beside this one (or another
+    notebook), a place in this page. "" for any other.
     """
     address = re.sub(r"[\0-\x1f\x7f-\x9f]", "", address).strip().replace(" ", "%20")
     scheme = re.match(r"([^/?#]*):", address)
@@ -180,8 +180,8 @@ def harmless_link(address: str) -> str:
 
 
 def image(kind: str, data: str, alt: str) -> Markup:
-    """A picture of an output: `data` in base64, or the text of an SVG, which in an <img> runs no
-    script and fetches nothing. ValueError: no picture.
+    """Return the picture of an output: `data` in base64, or the text of an SVG, which in an <img>
+    runs no script and fetches nothing. ValueError: not a picture.
     """
     if kind == "image/svg+xml":
         data = base64.b64encode(data.encode(errors="replace")).decode()
@@ -192,19 +192,19 @@ def image(kind: str, data: str, alt: str) -> Markup:
 
 
 def file_as_picture(address: str, folder: Path) -> str | None:
-    """A picture that lies in `folder` or below as a `data:` address; None: there is none."""
+    """A picture in `folder` or below as a `data:` address; None if there is none."""
     kind = PICTURES.get(Path(address).suffix.lower())
     try:
         path = (folder / address).resolve()
         if kind is None or not path.is_relative_to(folder.resolve()) or not path.is_file():
             return None
         return f"data:image/{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
-    except (OSError, ValueError):  # a name that no file can have
+    except (OSError, ValueError):  # an impossible file name
         return None
 
 
 def png(data: str) -> bytes:
-    """The bytes of a PNG in base64. ValueError: it is none."""
+    """Return the bytes of a PNG in base64. ValueError: it is not a PNG."""
     try:
         found = base64.b64decode(data, validate=True)
     except binascii.Error as error:
@@ -215,7 +215,7 @@ def png(data: str) -> bytes:
 
 
 class _Elements(HTMLParser):
-    """Which elements and attributes of MathML are on no list."""
+    """Collects elements and attributes of MathML that are not on a list."""
 
     def __init__(self, markup: str) -> None:
         super().__init__()
@@ -245,5 +245,5 @@ class _Elements(HTMLParser):
 
 
 def odd_in_math(markup: str) -> list[str]:
-    """What MathML has that is on no list: it should be nothing."""
+    """The parts of MathML that are not on a list; there should be none."""
     return _Elements(markup).odd

@@ -1,10 +1,10 @@
-"""A handed-in notebook judged anew: its cells run in a fresh kernel, in order, in a folder of their
-own, and what stands in its calls of `check` is judged there with the package's own `check`.
+"""Judge a handed-in notebook again: its cells run in a fresh kernel, in order, in a separate
+folder, and the answers in its calls of `check` are judged there with the package's own `check`.
 
-A cell that raises does not stop the others; one that takes too long is interrupted; one that cannot
-be interrupted, or that kills the kernel, is left out, and all others run again in a new one. This
-protects from accidents. It is no sandbox: cells may read files and use a network as the user who
-judges, and who wants to can forge a verdict (`kernel.py`).
+A cell that raises does not stop the others. A cell that takes too long is interrupted. A cell that
+cannot be interrupted, or that kills the kernel, is left out, and all others run again in a new
+kernel. This protects against accidents, but it is not a sandbox: cells may read files and use the
+network with the rights of the user who judges, and a student can forge a verdict (`kernel.py`).
 """
 
 import asyncio
@@ -32,13 +32,13 @@ from .process import SLOWER, TEXT, Ended, Kernel, running, shortened
 from .texts import ALL_BUT_HALVES, all_visible
 from .variants import normalised
 
-TIMES = 5  # how often a kernel is started again, at most
+TIMES = 5  # the greatest number of restarts of a kernel
 BESIDE = ("tasks", "images")  # folders that labs read from
-LARGE = 50_000_000  # bytes of a file beside a lab
+LARGE = 50_000_000  # bytes in a file beside a lab
 
 
 class Limits(NamedTuple):
-    """Seconds of CPU time for a cell, for an answer's judgement and for all; bytes of memory."""
+    """Limits: seconds of CPU time for a cell, for an answer, and in total; bytes of memory."""
 
     cell: float = 60
     answer: float = 120
@@ -51,7 +51,7 @@ LIMITS = Limits()
 
 @dataclass(frozen=True)
 class Result:
-    """What came of an exercise.
+    """The result of an exercise.
 
     state  "holds", "does not hold", "unanswered", "failed" (there is no answer to judge: a cell
            raises, is stopped, ...) or "not judged" (the machine was too slow)
@@ -69,7 +69,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Judged:
-    """What came of a notebook: the notebook with new outputs, verdicts and remarks."""
+    """The result of a notebook: the notebook with new outputs, verdicts and remarks."""
 
     notebook: Any
     exercises: tuple[Result, ...]
@@ -78,9 +78,9 @@ class Judged:
 
 
 def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
-    """Run a notebook and judge its answers. For an exercise with numbers of one's own these are
-    those of the student `who`; None: of the name that the notebook gives itself. Several threads
-    may judge at the same time. OSError: no kernel starts.
+    """Run a notebook and judge its answers. An exercise with individual numbers uses those of the
+    student `who`; with None, those of the name in the notebook. Several threads may judge at the
+    same time. OSError: no kernel starts.
     """
     notebook = nbformat.from_dict(handed.notebook)
     names = _ids(handed.lab, "exercises")
@@ -102,24 +102,24 @@ def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -
 
 
 class NotebookRun:
-    """Cells that run, and what is found meanwhile. After `all`: outputs in the notebook, `result`
-    and `remarks`.
+    """One run of the cells and its findings. After `all` it has the outputs in the notebook,
+    `result` and `remarks`.
     """
 
     def __init__(
         self, notebook: Any, checks: dict[str, Call], who: str | None, limits: Limits
     ) -> None:
         self.notebook, self.checks, self.who, self.limits = notebook, checks, who, limits
-        self.found: dict[str, dict[str, Any]] = {}  # id -> what the kernel answered
-        self.notes: dict[int, str] = {}  # cell -> why it is left out
+        self.found: dict[str, dict[str, Any]] = {}  # id -> the answer of the kernel
+        self.notes: dict[int, str] = {}  # cell -> the reason why it is left out
         self.stopped: dict[int, str] = {}  # cell -> what happened to it
-        self.slow: set[int] = set()  # cells that the clock has stopped
-        self.cut: set[int] = set()  # cells that show too much
+        self.slow: set[int] = set()  # cells that the wall-clock limit stopped
+        self.cut: set[int] = set()  # cells with too much output
         self.remarks: list[str] = []
         self.used = 0.0  # CPU time of the kernels that have ended
 
     async def all(self, place: Path) -> None:
-        """Run the notebook in the folder `place`, in a new kernel as often as one dies."""
+        """Run the notebook in the folder `place`, with a new kernel whenever one dies."""
         self.end = time.monotonic() + SLOWER * self.limits.all
         memory = self.limits.memory if _limited() else 0
         if not memory:
@@ -140,7 +140,9 @@ class NotebookRun:
         self._tell()
 
     async def _once(self, kernel: Kernel) -> bool:
-        """Run all cells that are not left out. False: one killed the kernel and is now left out."""
+        """Run all cells that are not left out. Return False if one killed the kernel; it is left
+        out from now on.
+        """
         for k, cell in enumerate(self.notebook.cells):
             if cell.cell_type != "code" or not cell.source.strip() or k in self.notes:
                 continue
@@ -159,7 +161,7 @@ class NotebookRun:
         return True
 
     async def _cell(self, kernel: Kernel, k: int, cell: Any, limit: float) -> bool:
-        """Run a cell. False: it killed the kernel and is now left out."""
+        """Run a cell. Return False if it killed the kernel; it is left out from now on."""
         ended = await kernel.run(cell, k, limit)
         if ended.slow:
             self.slow.add(k)
@@ -172,7 +174,9 @@ class NotebookRun:
         return True
 
     async def _judge(self, kernel: Kernel, call: Call) -> bool:
-        """Judge the answer in a call. False: that killed the kernel; it is not tried again."""
+        """Judge the answer in a call. Return False if that killed the kernel; it is not tried
+        again.
+        """
         if "died" in self.found.get(call.name, {}) or self._too_slow(call):
             return True
         asked = {"name": call.name, "answer": call.answer, "own": call.own, "who": self.who}
@@ -186,11 +190,13 @@ class NotebookRun:
         return "died" not in found
 
     def _too_slow(self, call: Call) -> bool:
-        """Whether the clock has stopped the call's cell or one before it, on which it may rest."""
+        """Whether the wall-clock limit stopped the cell of the call, or an earlier one that it may
+        need.
+        """
         return any(k <= call.cell for k in self.slow)
 
     def result(self, name: str, broken: dict[str, str]) -> Result:
-        """What came of an exercise."""
+        """Return the result of an exercise."""
         exercise = find(name, "exercises")
         blank = Result(name, exercise.task, exercise.objective)
         found, call = self.found.get(name), self.checks.get(name)
@@ -212,11 +218,11 @@ class NotebookRun:
             return replace(blank, state="failed", says=(says,))
         try:
             return _verdict(blank, found["verdict"])
-        except (KeyError, TypeError, ValueError):  # a notebook that answers for us
+        except (KeyError, TypeError, ValueError):  # a notebook that imitates our answer
             return replace(blank, state="failed", says=("No answer to judge: it is no verdict.",))
 
     def _tell(self) -> None:
-        """Put into the notebook and into the remarks what happened to cells."""
+        """Write into the notebook and into the remarks what happened to cells."""
         happened = {**self.stopped, **self.notes}
         raised = []
         for k, cell in enumerate(self.notebook.cells):
@@ -250,7 +256,9 @@ class NotebookRun:
 
 
 def _complete(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
-    """Run it to its end, in a thread: this one may have an event loop that runs, as in a kernel."""
+    """Run it to its end in another thread, because this one may have a running event loop, as in a
+    kernel.
+    """
     tasks: list[Any] = []
 
     async def task() -> None:
@@ -282,7 +290,9 @@ def _stopped(ended: Ended, limit: float) -> str:
 
 
 def _read(answer: Any) -> dict[str, Any]:
-    """What a kernel has answered: any text, since cells share it with the checks."""
+    """Read the answer of a kernel, which may be any text, since cells share the kernel with the
+    checks.
+    """
     with contextlib.suppress(ValueError, TypeError, RecursionError):
         found = all_visible(json.loads(answer), ALL_BUT_HALVES)
         if isinstance(found, dict):
@@ -291,7 +301,9 @@ def _read(answer: Any) -> dict[str, Any]:
 
 
 def _verdict(blank: Result, verdict: Any) -> Result:
-    """A verdict from the kernel as a result. KeyError, TypeError, ValueError: it is none."""
+    """Convert a verdict from the kernel to a result. KeyError, TypeError, ValueError: it is not a
+    verdict.
+    """
     texts = {name: verdict[name] for name in ("mistake", "case")}
     says, points = verdict["says"], float(verdict["points"])
     every = [*says, *(text for text in texts.values() if text is not None)]
@@ -312,12 +324,15 @@ def _verdict(blank: Result, verdict: Any) -> Result:
 @functools.cache
 def _limited() -> bool:
     """Whether this system limits the memory of a process."""
-    return sys.platform not in ("win32", "darwin")  # macOS takes the limit and does not keep it
+    return sys.platform not in (
+        "win32",
+        "darwin",
+    )  # macOS does not enforce it
 
 
 def _furnish(place: Path, handed: HandedIn) -> None:
-    """A folder with a copy of the notebook, of the folders that labs read from, and of the files
-    beside it that it names. What cannot be copied is not there.
+    """Fill a folder with copies of the notebook, of the folders that labs read, and of the files
+    beside it that it names. What cannot be copied is missing.
     """
     place.mkdir()
     named = "\n".join(cell.source for cell in handed.notebook.cells)
@@ -332,7 +347,9 @@ def _furnish(place: Path, handed: HandedIn) -> None:
 
 
 def _unwanted(folder: str, names: list[str]) -> list[str]:
-    """What of a folder is not copied: hidden or large files, and what is no file."""
+    """The contents of a folder that are not copied: hidden or large files, and anything that is not
+    a file.
+    """
     unwanted = []
     for name in names:
         path = Path(folder, name)
@@ -349,7 +366,7 @@ def _ids(slug: str | None, what: str) -> list[str]:
 def _differences(
     exercises: tuple[Result, ...], before: dict[str, str], now: dict[str, str]
 ) -> list[str]:
-    """Where outputs say something else than the verdict."""
+    """The differences between outputs and verdicts, in words."""
     told = {"unanswered": "not answered yet"}
     remarks = []
     for each in exercises:

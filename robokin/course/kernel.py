@@ -1,8 +1,8 @@
-"""The kernel in which a handed-in notebook runs: Jupyter's own, with a limit of memory, that judges
-an answer between two cells with the checks that it had before the first one ran.
+"""The kernel in which a handed-in notebook runs: Jupyter's kernel with a memory limit. Between two
+cells it judges an answer with the checks that it loaded before the first one.
 
-Judging runs the student's code in one process with the checks, so whoever wants to can forge a
-verdict. Nothing here prevents that. Marks that matter belong to nbgrader.
+The student's code runs in the same process as the checks, so a student can forge a verdict, and
+nothing here prevents that. Use nbgrader for marks that matter.
 """
 
 import json
@@ -17,13 +17,13 @@ from ipykernel.kernelapp import IPKernelApp
 from .. import course
 from .book import labs
 
-SAID = 10_000  # characters that a cell may print; a report shows fewer
+SAID = 10_000  # characters that a cell may print; a report shows fewer of them
 
 
 def main(memory: int) -> None:
-    """Be the kernel until told to end. memory: bytes; 0: no limit."""
+    """Run as the kernel until it is told to end. memory: bytes; 0: no limit."""
     for each in labs().values():
-        each.read()  # all that judges is loaded before the first cell
+        each.read()  # the judging code is loaded before the first cell
     kernel = IPKernelApp.instance(outstream_class=f"{__name__}.Stream")
     kernel.initialize(sys.argv[1:])
     shell: Any = kernel.shell
@@ -35,8 +35,8 @@ def main(memory: int) -> None:
 
 
 def limit_memory(size: int) -> None:
-    """Let this process have `size` bytes, or what it has where that is less."""
-    import resource  # Linux and its like
+    """Limit this process to `size` bytes, or to its present limit if that is lower."""
+    import resource  # Linux and similar systems
 
     if sys.platform != "win32":
         _, most = resource.getrlimit(resource.RLIMIT_AS)
@@ -47,9 +47,9 @@ def limit_memory(size: int) -> None:
 def judging(
     check: Callable[..., Any], space: dict[str, Any]
 ) -> Callable[[dict[str, str]], dict[str, str]]:
-    """The function that answers a request, {"judge": JSON of "name", "answer", "who", "own"}, by
-    {"judge": JSON}: of {"verdict": ..., "own": the name used in the notebook}, or of {"error": why
-    there is no verdict}.
+    """Return the function that answers a request {"judge": JSON of "name", "answer", "who", "own"}
+    with {"judge": JSON}: of {"verdict": ..., "own": the name used in the notebook}, or of {"error":
+    why there is no verdict}.
     """
 
     def verdict_of(asked: dict[str, str]) -> dict[str, str]:
@@ -62,9 +62,9 @@ def judging(
             own = eval(request["own"] or "None", space)
             who = own if request["who"] is None else request["who"]
             verdict = asdict(check(request["name"], answer, who=who))
-            # as text, since Jupyter cannot send every string
+            # sent as JSON text, since Jupyter cannot send every string
             found = json.dumps({"verdict": verdict, "own": None if own is None else str(own)})
-        except BaseException as error:  # a KeyboardInterrupt: the time is over
+        except BaseException as error:  # KeyboardInterrupt: the time is up
             found = json.dumps({"error": f"{type(error).__name__}: {error}"[:300]})
         finally:
             course._verdicts = kept
@@ -74,8 +74,8 @@ def judging(
 
 
 class Stream(OutStream):
-    """A kernel's stdout or stderr. What a cell prints without an end goes nowhere, or it would
-    still be on its way long after the cell was stopped.
+    """A kernel's stdout or stderr. Endless output of a cell is discarded; otherwise it would still
+    arrive long after the cell was stopped.
     """
 
     cell, said = None, 0

@@ -1,33 +1,34 @@
-"""What teachers write: the exercises and objectives of a lab, as Markdown."""
+"""The Markdown that teachers write: the exercises and objectives of a lab."""
 
 import re
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
-Edit = tuple[str, str]  # a piece of the solution, which stands there once, and what replaces it
+Edit = tuple[str, str]  # a piece of the solution, which must occur once, and its replacement
 
 
 class Wrong(NamedTuple):
     """A mistake: its name, a sentence, and one or more wrong programs, each as edits of the
-    solution or as a text of its own. Also a right program of a test: then it has no edits.
+    solution or as a complete text. It is also used for a right program of a test, which has no
+    edits.
     """
 
     name: str
     says: str
     programs: tuple[tuple[Edit, ...] | str, ...]
-    lines: tuple[int, ...]  # of the programs, in the file
+    lines: tuple[int, ...]  # lines of the programs in the file
 
 
 class BadFile(ValueError):
-    """What a teacher's file has that cannot be used: "FILE, line 3: why", in one sentence."""
+    """A teacher's file cannot be used: "FILE, line 3: why", in one sentence."""
 
     def __init__(self, file: str, line: int | None, why: str) -> None:
         super().__init__(f"{file}, line {line}: {why}" if line else f"{file}: {why}")
 
 
 class Text(NamedTuple):
-    """An exercise as it is written. `parts`: the other sections, by heading: line and text."""
+    """An exercise as written. `parts` are the other sections, by heading: line and text."""
 
     file: str
     number: str
@@ -38,7 +39,7 @@ class Text(NamedTuple):
     parts: dict[str, tuple[int, str]]
 
     def code(self, part: str) -> tuple[int, str]:
-        """The program of a section, and its first line. BadFile: there is none."""
+        """The program in a section, and its first line. BadFile: there is none."""
         line, text = self.parts.get(part, (0, ""))
         found = CODE.search(text)
         if not found:
@@ -48,7 +49,7 @@ class Text(NamedTuple):
         return line + text.count("\n", 0, found.start(1)), found[1]
 
     def prose(self, part: str) -> str:
-        """The words of a section, on one line."""
+        """The words of a section on one line."""
         return one_line(self.parts.get(part, (0, ""))[1])
 
     def wrong(self, part: str = "Mistakes") -> list[Wrong]:
@@ -67,7 +68,7 @@ EDIT = re.compile(r"(`+)(.+?)\1 (?:→|->) (?:(`+)(.+?)\3|nothing)(?:, (?=`)|$)"
 
 
 def read(file: Path) -> str:
-    """The text of a file. BadFile: it cannot be read, or is not UTF-8."""
+    """Read the text of a file. BadFile: it cannot be read, or is not UTF-8."""
     try:
         return file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -78,17 +79,17 @@ def read(file: Path) -> str:
 
 
 def why(error: Exception) -> str:
-    """What an error says, without a place: that one is told beside it."""
+    """The text of an error without its place, which is reported separately."""
     return f"{type(error).__name__}: {getattr(error, 'msg', error)}"
 
 
 def one_line(text: str) -> str:
-    """Its words with one blank between any two."""
+    """The words of a text, separated by single blanks."""
     return " ".join(text.split())
 
 
 def exercise(file: str, text: str) -> Text:
-    """An exercise. BadFile: its head is none."""
+    """Parse an exercise. BadFile: its head is invalid."""
     places = [found.start() for found in re.finditer("^## ", _blank(text), re.M)]
     head, rest = text[: places[0] if places else None], {}
     for a, b in pairwise([*places, len(text)]):
@@ -104,12 +105,12 @@ def exercise(file: str, text: str) -> Text:
 
 
 def objectives(text: str) -> tuple[str, ...]:
-    """The objectives of a lab: the numbered lines."""
+    """The objectives of a lab, which are the numbered lines."""
     return tuple(map(one_line, re.split(r"^\d\. ", text, flags=re.M)[1:]))
 
 
 def _hint(text: str) -> str:
-    """A hint: its words on one line, and below them a program, if it has one."""
+    """A hint: its words on one line, followed by its program, if any."""
     found = CODE.search(text)
     if not found:
         return one_line(text)
@@ -140,5 +141,5 @@ def _mistake(file: str, line: int, block: str) -> Wrong:
 
 
 def _blank(text: str) -> str:
-    """The text with its programs blanked out: a comment in one is no heading."""
+    """The text with its programs blanked out, since a comment in a program is not a heading."""
     return CODE.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)

@@ -1,12 +1,12 @@
-"""Words that a call leaves below its cell."""
+"""Words that a call shows below its cell."""
 
 import html
 from urllib.parse import quote
 
 
 class Note(str):
-    """Words that show themselves as they are. `file`: one beside the notebook; its name in the
-    words is a link to it.
+    """Words that display themselves unchanged. `file` is a file beside the notebook; its name in
+    the words links to it.
     """
 
     file = ""

@@ -1,6 +1,5 @@
-"""Outputs of robokin in a notebook, written again: each is read as a kind and its data, the data
-are validated, and its script comes from this robokin. A script that stands in a notebook is never
-copied.
+"""Write the outputs of robokin in a notebook again: each is read as a kind and its data, the data
+are validated, and its script comes from this robokin. A script in a notebook is never copied.
 """
 
 import base64
@@ -58,10 +57,10 @@ LINE = re.compile(r'<div style="padding-left:([02])em">([^<>]*)</div>')
 
 
 def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Markup | None:
-    """An output of robokin's as this robokin writes it; None: it is none of them.
+    """Return an output of robokin as this robokin writes it, or None if it is not one.
 
-    nonce    of the page's scripts
-    choices  prediction -> the choice with which it opens; None: the one that it has
+    nonce    the nonce of the page's scripts
+    choices  prediction -> its opening choice; None: the choice in the output
     """
     figure = FIGURE.fullmatch(text)
     if figure:
@@ -86,13 +85,13 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
         data = inert(data)
     except (ValueError, KeyError, TypeError, RecursionError):
         return LEFT_OUT
-    # of the data: two outputs that differ never share a place in the page
+    # a hash of the data, so that different outputs never share a place in the page
     name = hashlib.sha256(data.encode()).hexdigest()[:12]
     return Markup(output(call[1], name, data, still, nonce))
 
 
 def fits(value: Any, kind: Any) -> bool:
-    """Whether a value that JSON gave is of a type as the tables of page.py have them."""
+    """Whether a value from JSON has a type of the tables in page.py."""
     origin, inner = get_origin(kind), get_args(kind)
     if kind is Any:
         return True
@@ -127,7 +126,7 @@ def _hints(table: Any) -> dict[str, Any]:
 
 
 def _kind(data: dict[str, Any], call: str) -> str:
-    """The call that belongs to the data."""
+    """The script call for the data."""
     return f"{data['kind']}_explorer.explore" if "kind" in data else call
 
 
@@ -136,7 +135,7 @@ def _refused(word: str) -> None:
 
 
 def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
-    if "__proto__" in table:  # in a script it is no key, but changes what the table is
+    if "__proto__" in table:  # in a script this is not a key, but changes the type of the object
         raise ValueError("__proto__ is no key")
     return table
 
@@ -152,7 +151,7 @@ def _figure(alt: str, width: str, height: str, data: str) -> Markup:
 
 
 def _verdict(name: str, word: str, lines: str) -> Markup:
-    """What a notebook shows of a verdict, in the colour that belongs to its word."""
+    """The text of a verdict in a notebook, in the colour of its first word."""
     says = [
         ("  " if indent == "2" else "") + visible(html.unescape(line))
         for indent, line in LINE.findall(lines)
@@ -162,18 +161,18 @@ def _verdict(name: str, word: str, lines: str) -> Markup:
 
 
 def _question(data: Any, nonce: str, choices: Mapping[str, str] | None) -> str:
-    """A prediction by its id. ValueError, KeyError, TypeError: there is none."""
+    """Return a prediction by id. ValueError, KeyError, TypeError: there is none."""
     name = data["name"]
     prediction = _prepared(str(name), nonce)
     choice = data.get("choice") if choices is None else choices.get(name)
     try:
         return Asked(name, prediction, _choice(prediction, choice))._in_page(nonce)
-    except ValueError:  # a choice that is none
+    except ValueError:  # an invalid choice
         return Asked(name, prediction, None)._in_page(nonce)
 
 
 class Ready(NamedTuple):
-    """A view whose HTML is there."""
+    """A view with finished HTML."""
 
     html: str
 
@@ -184,14 +183,14 @@ class Ready(NamedTuple):
 
 @lru_cache(256)
 def _prepared(name: str, nonce: str) -> Prediction:
-    """A prediction whose facts and view are worked out, once for a page."""
+    """A prediction with computed facts and view, once for each page."""
     prediction: Prediction = find(name, "predictions")
     facts, view = prediction.facts(), Ready(shown(prediction.view(), nonce))
     return replace(prediction, facts=lambda: facts, view=lambda: view)
 
 
 def _choice(prediction: Prediction, choice: Any) -> Any:
-    """A choice that is kept as text: a letter, or the number that it says. ValueError: none."""
+    """Convert a choice from text: a letter, or a number. ValueError: it is neither."""
     if choice is None or prediction.unit is None:
         return choice
     number = float(choice)

@@ -25,13 +25,13 @@ ASLEEP = (
 
 @functools.cache
 def worked_out(name: str) -> tuple[str, list[Option], int]:
-    """`filled` for the prediction with an id: its facts are worked out once."""
+    """`filled` for the prediction with an id; its facts are computed once."""
     return filled(find(name, "predictions"))
 
 
 def chosen(name: str, choice: str) -> str:
-    """A choice in words: the letter and what its option says, a number with its unit; what is none
-    of the question's stays as it is.
+    """A choice in words: the letter and the text of its option, or a number with its unit. An
+    unknown choice is returned unchanged.
     """
     unit = find(name, "predictions").unit
     if unit is not None:
@@ -45,19 +45,19 @@ def chosen(name: str, choice: str) -> str:
 
 
 def predict(name: str, choice: str | float | None = None) -> "Asked":
-    """A question to answer before you look: "irb140_motion.p2". It shows itself in a cell, and what
-    answers it opens in the page after the choice; no kernel is needed for that.
+    """Show a question to answer before you look, such as "irb140_motion.p2". The view that answers
+    it opens in the page after the choice, without a kernel.
 
-    choice  the letter of an answer, or a number where one is asked for. With it the output shows
-            question, choice and reason: so it stays for the report.
+    choice  the letter of an answer, or a number if one is wanted. With it the output shows
+            question, choice and reason, and the report finds it.
 
-    ValueError: no such prediction, a choice that is none.
+    ValueError: no such prediction, or an invalid choice.
     """
     return Asked(name, find(name, "predictions"), choice)
 
 
 class Asked:
-    """A question on a page. Shows itself in a notebook; `save` writes it as a page."""
+    """A question on a page. It displays itself in a notebook; `save` writes it as a page."""
 
     def __init__(self, name: str, prediction: Prediction, choice: str | float | None) -> None:
         self.name, self.choice = name, choice
@@ -94,11 +94,11 @@ class Asked:
 
     @property
     def html(self) -> str:
-        """The question as a piece of HTML: in words, and the script that replaces them."""
+        """The HTML of the question: its words, and the script that replaces them."""
         return self._in_page()
 
     def _in_page(self, nonce: str = "") -> str:
-        """The same for a page whose policy lets only scripts with this nonce run."""
+        """The HTML for a page whose policy permits only scripts with this nonce."""
         from ..show.page import inert, output
 
         data = self.data | {"view": shown(self.view(), nonce)}
@@ -106,8 +106,8 @@ class Asked:
         return output("prediction.ask", self.id, inert(data), f"{words}<p>{ASLEEP}</p>", nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one self-contained page: wholly or not at all. ValueError: not a .html file, or one
-        that is there and not ours.
+        """Write one self-contained page, whole or not at all. ValueError: not a .html file, or an
+        existing file that is not ours.
         """
         from ..show.saving import save
 
@@ -143,18 +143,18 @@ class Asked:
 
 
 def with_unit(text: str, unit: str) -> str:
-    """A number as people write it: "−290°", "200 mm"."""
+    """Format a number with its unit: "−290°", "200 mm"."""
     space = "" if unit.startswith("°") else " "
     return text.replace("-", "\N{MINUS SIGN}") + space + unit
 
 
 def paragraph(line: str) -> str:
-    """A line as HTML; what stands between back-ticks is code."""
+    """Convert a line to HTML; text between backticks is code."""
     return "<p>" + re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(line)) + "</p>"
 
 
 def shown(view: Any, nonce: str = "") -> str:
-    """What a view shows in a page, as HTML."""
+    """The HTML of a view."""
     if isinstance(view, str):
         return "".join(paragraph(line) for line in view.split("\n") if line)
     if nonce and hasattr(view, "_in_page"):

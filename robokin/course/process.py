@@ -1,9 +1,9 @@
-"""A judging kernel from outside: it starts, does some work within a limit of time, and ends with
-every process that it has started. `kernel.py` is what runs in it.
+"""Control a judging kernel from outside: start it, let it work within a time limit, and end it with
+all processes that it has started. `kernel.py` is the code inside it.
 
-A limit is one of CPU time, of the kernel and its child processes, so that no verdict depends on
-what else the machine does. Sleeping takes no CPU time, so there is a limit by the clock as well,
-`SLOWER` times as long.
+Limits are in CPU time of the kernel and its child processes, so that no verdict depends on the load
+of the machine. Sleeping takes no CPU time, so there is also a wall-clock limit, `SLOWER` times as
+long.
 """
 
 import asyncio
@@ -29,27 +29,27 @@ from nbclient.exceptions import DeadKernelError
 from .texts import ALL_BUT_HALVES, all_visible
 
 SLOWER = 10
-GRACE = 5.0  # seconds that a kernel has after an interrupt, before it is ended
-LOOK = 0.1  # seconds between two looks at the time that it has used, at least
-START = 600  # seconds by the clock for a kernel to start
-LAST = 20  # seconds by the clock for what a cell has shown to arrive, after the cell has ended
-TEXT = 5_000  # characters of text that a cell may leave in the page
-ROOM = 2_000_000  # characters of pictures, players and the like
-MARK = "ROBOKIN_JUDGE"  # an environment variable, the same for all processes of a kernel
+GRACE = 5.0  # seconds after an interrupt before the kernel is killed
+LOOK = 0.1  # least seconds between two checks of the CPU time
+START = 600  # wall-clock seconds for a kernel to start
+LAST = 20  # wall-clock seconds for the output of a cell to arrive after its end
+TEXT = 5_000  # characters of text that a cell may show in the page
+ROOM = 2_000_000  # characters of pictures, players and similar outputs
+MARK = "ROBOKIN_JUDGE"  # an environment variable with the same value in all processes of a kernel
 TOP = str(Path(__file__).resolve().parents[2])
-CODE = (  # this robokin, whichever one is installed, and none from the folder of the notebook
+CODE = (  # this robokin, even if another one is installed or in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.kernel import main; "
     "sys.path.append(sys.path.pop(0)); main({memory})"
 )
-_starting = threading.Lock()  # jupyter_client's list of free ports is not made for threads
+_starting = threading.Lock()  # jupyter_client's list of free ports is not thread-safe
 
 
 class Ended(NamedTuple):
-    """How some work ended.
+    """How a piece of work ended.
 
     how   "in time", "stopped" by an interrupt, "killed" with the kernel, "dead": it killed the
           kernel, or "unread": nbclient does not understand what comes
-    slow  whether the limit by the clock stopped it, and not the limit of CPU time
+    slow  whether the wall-clock limit stopped it, and not the CPU limit
     """
 
     how: str
@@ -57,7 +57,7 @@ class Ended(NamedTuple):
 
 
 class Kernel:
-    """A kernel that runs; `running` makes one."""
+    """A running kernel; `running` starts one."""
 
     def __init__(self, manager: AsyncKernelManager, client: "Client") -> None:
         self.manager, self.client = manager, client
@@ -65,21 +65,21 @@ class Kernel:
         self.used = 0.0
 
     def seconds(self) -> float:
-        """CPU time so far, with that of the child processes."""
+        """The CPU time so far, including child processes."""
         used = 0.0
         with contextlib.suppress(psutil.Error):
             for each in (self.process, *self.process.children(recursive=True)):
                 with contextlib.suppress(psutil.Error):
-                    used += sum(each.cpu_times()[:4])  # its own and of its children that ended
-        self.used = max(self.used, used)  # what was, after its end
+                    used += sum(each.cpu_times()[:4])  # its own time and that of ended children
+        self.used = max(self.used, used)  # the last value, after its end
         return self.used
 
     async def run(self, cell: Any, k: int, limit: float) -> Ended:
-        """Run a cell: its outputs come into it. limit: seconds of CPU time."""
+        """Run a cell and store its outputs in it. limit: seconds of CPU time."""
         return await self._within(limit, self.client.async_execute_cell(cell, k))
 
     async def ask(self, request: str, limit: float) -> tuple[Ended, Any]:
-        """What the kernel's `judging` answers, None: nothing. limit: seconds of CPU time."""
+        """Return the answer of the kernel's `judging`, or None. limit: seconds of CPU time."""
         message = self.client.kc.execute(  # type: ignore[union-attr]
             "", silent=True, store_history=False, user_expressions={"judge": request}
         )
@@ -111,14 +111,14 @@ class Kernel:
                 task.result()
         except DeadKernelError:
             how = "killed" if how == "killed" else "dead"
-        except Exception:  # a cell may send anything
+        except Exception:  # a cell can send anything
             how = "unread"
         finally:
             task.cancel()
         return Ended(how, slow)
 
     async def _late(self, task: asyncio.Future[Any], limit: float) -> str:
-        """Wait until the task is done (""), or its time is over: "CPU" or "by the clock"."""
+        """Wait for the task and return "", or "CPU" or "by the clock" if its time is up."""
         computed, clock = self.seconds() + limit, time.monotonic() + SLOWER * limit
         while True:
             cpu, wall = computed - self.seconds(), clock - time.monotonic()
@@ -132,8 +132,8 @@ class Kernel:
 
 @contextlib.asynccontextmanager
 async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> AsyncIterator[Kernel]:
-    """A new kernel for a notebook, in the folder `place`. memory: bytes, 0: no limit; `cut`: gets
-    the cells that show too much. OSError: it does not start.
+    """Start a kernel for a notebook in the folder `place`. memory: bytes, 0: no limit; `cut`
+    collects the cells with too much output. OSError: it does not start.
     """
     specs = Specs()
     specs.memory = memory
@@ -146,13 +146,13 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
         startup_timeout=START,
         iopub_timeout=LAST,
         allow_errors=True,
-        coalesce_streams=False,  # `Client` does it: nbclient can take hours for a long line
+        coalesce_streams=False,  # `Client` does it, since nbclient can take hours for a long line
         record_timing=False,
         log=_silent(),
     )
     mark = secrets.token_hex(16)
     more = {MARK: mark, "IPYTHONDIR": str(place.parent / "ipython")}
-    # many threads reserve more memory than they use, and the limit counts what is reserved
+    # many threads reserve more memory than they use, and the limit counts reserved memory
     more |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     quiet = {"stdout": asyncio.subprocess.DEVNULL, "stderr": asyncio.subprocess.DEVNULL}
     children: list[psutil.Process] = []
@@ -179,8 +179,8 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
 
 
 async def _end_marked(mark: str) -> None:
-    """End the processes with that mark, also those in sessions of their own. One that starts itself
-    anew can be missed, so it looks until twice there is none.
+    """End the processes with this mark, also those in other sessions. A process that restarts
+    itself can be missed, so we search until there is none twice in a row.
     """
     none, last = 0, time.monotonic() + 2 * GRACE
     while none < 2 and time.monotonic() < last:
@@ -195,8 +195,8 @@ async def _end_marked(mark: str) -> None:
 
 
 class Client(NotebookClient):
-    """nbclient's, which joins what a cell prints, and stops listening where it shows too much.
-    `cut`: those cells.
+    """nbclient's client, which also joins the printed text of a cell and stops listening if there
+    is too much output. `cut` holds such cells.
     """
 
     def __init__(self, *args: Any, cut: set[int], **kwargs: Any) -> None:
@@ -220,7 +220,7 @@ class Client(NotebookClient):
 
 
 class Specs(KernelSpecManager):
-    """Knows one kernel: ours, run by the Python that runs this."""
+    """Knows only our kernel, run by this Python."""
 
     memory = 0
 
@@ -231,13 +231,13 @@ class Specs(KernelSpecManager):
 
 
 def shortened(cell: Any) -> bool:
-    """Shorten what a cell shows; whether it was too much."""
+    """Shorten the outputs of a cell; return whether they were too long."""
     room, cut = TEXT, False
     kept: list[Any] = []
     for output in cell.outputs:
         try:
             output = nbformat.from_dict(all_visible(output, ALL_BUT_HALVES))
-        except ValueError:  # nested too deep
+        except ValueError:  # nested too deeply
             cut = True
             continue
         if output.output_type == "stream":
@@ -263,12 +263,12 @@ def shortened(cell: Any) -> bool:
 
 
 def _overwritten(line: str) -> str:
-    """A line as a terminal shows it that obeys carriage returns."""
+    """A line as a terminal shows it after carriage returns."""
     return line.rstrip("\r").rpartition("\r")[2]
 
 
 def _size(output: Any) -> int:
-    """How many characters an output has, about."""
+    """The approximate number of characters in an output."""
     if output.output_type == "stream":
         return len(output.text)
     if output.output_type == "error":

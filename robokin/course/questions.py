@@ -1,4 +1,4 @@
-"""Predictions as they are written: a question, its answers, and what they are filled with."""
+"""Predictions as written: a question, its answers, and the facts that fill their texts."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -12,13 +12,13 @@ LETTERS = "abcdef"
 
 
 class Option(NamedTuple):
-    """An answer to choose, or a number that somebody may type.
+    """An answer to choose, or a number that a student may type.
 
-    text       what it says; for a number to type, the number as the facts have it: "{tool:.0f}"
-    reason     why it is right, or why it is not
-    confusion  the name of the confusion behind a wrong one; None: the right one
-    second     for a wrong one: a second case that shows it
-    name       a short one, which stays when options change places
+    text       its text; for a number to type, the number from the facts: "{tool:.0f}"
+    reason     why it is right or wrong
+    confusion  the name of the confusion behind a wrong answer; None for the right one
+    second     for a wrong answer: a second case that shows it
+    name       a short name, which remains valid if options change places
     """
 
     text: str
@@ -30,18 +30,18 @@ class Option(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Prediction:
-    """A question, its answers, and the view that answers it.
+    """A question, its answers, and the view that shows the right one.
 
-    Every text is filled with `facts`, which are computed: "{most:.0f} mm".
+    Every text is filled with computed `facts`: "{most:.0f} mm".
 
     question  in two or three sentences
-    options   three or four answers, one of them right; for a number to type (`unit` is given): the
-              right one and those of the confusions, which are not shown
+    options   three or four answers, one of them right; for a number to type (with a `unit`): the
+              right one and those of the confusions, which are hidden
     facts     () -> the numbers behind all texts
-    right     facts -> which option is right, from 0: computed, not typed in
-    view      () -> what opens after the choice: an `Output` or a `Figure` of robokin.show, or words
-    unit      of a number to type; `within`: how near to a number counts as it, as a share
-    optional  whether it stands in the lab's optional part
+    right     facts -> the index of the right option, from 0, always computed
+    view      () -> the view after the choice: an `Output` or a `Figure` of robokin.show, or words
+    unit      of a number to type; `within`: the relative tolerance
+    optional  whether it is in the optional part of the lab
     """
 
     question: str
@@ -55,7 +55,7 @@ class Prediction:
 
 
 def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
-    """Question, options and the number of the right one, with all facts in their places."""
+    """The question, the options and the index of the right one, with all facts filled in."""
     facts = prediction.facts()
     options = [
         Option(
@@ -73,9 +73,9 @@ def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
 def chosen_option(
     prediction: Prediction, options: Sequence[Option], right: int, choice: Any
 ) -> int:
-    """Which option a choice is, -1 for a number that is none of them: "b", or "b: joint 3", where
-    the name counts if an option has it, since options may have changed places. ValueError: neither
-    a letter of an option nor a number, as the prediction wants it.
+    """The index of the option for a choice, -1 for a number that matches none: "b", or "b: joint
+    3", where the name decides if an option has it, since options may have changed places.
+    ValueError: not a letter of an option or a number, whichever the prediction wants.
     """
     if prediction.unit is None:
         letters = list(LETTERS[: len(options)])
@@ -103,7 +103,7 @@ ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?"
 
 
 def sections(text: str) -> Iterator[tuple[int, str, str]]:
-    """What stands under each heading: the heading's line, the heading, the rest."""
+    """The sections of a text: the line of each heading, the heading, and its text."""
     for found in re.finditer(r"^## (.+)\n((?s:.*?))(?=^## |\Z)", text, re.M):
         yield text.count("\n", 0, found.start()) + 1, found[1].strip(), found[2]
 
@@ -111,9 +111,9 @@ def sections(text: str) -> Iterator[tuple[int, str, str]]:
 def prediction(
     file: str, line: int, heading: str, text: str, code: Mapping[str, Any]
 ) -> tuple[str, Prediction]:
-    """The number of a prediction, and what stands under its heading, with the names of its Python
-    file: for p1 `p1()` gives its facts, "right" among them, which is an answer's name. BadFile:
-    something is missing.
+    """Parse a prediction from its number, its section and the names of its Python file: for p1,
+    `p1()` returns its facts, with the name of the right answer as "right". BadFile: something is
+    missing.
 
     ## p5, a number in mm/s, within 2 %
 

@@ -1,8 +1,8 @@
-"""A student's lab as one page to hand in: who it is from, what holds of its exercises, which
-predictions were made, and below it the lab itself, run anew and alive without a network.
+"""A student's lab as one page to hand in: the student, the verdicts on the exercises, the
+predictions, and below them the lab itself, run again, with working views and without a network.
 
-A report is a file that its author can edit, like any other. Who has to be sure judges the notebook
-(`summary` does), and reads in `kernel.py` how sure that is.
+A report is a file that its author can edit. To be sure, judge the notebook again (`summary` does);
+`kernel.py` says how reliable that is.
 """
 
 import os
@@ -30,13 +30,13 @@ from .reported import DATA, counted, report_data
 from .texts import all_visible, visible
 from .variants import normalised, variant
 
-WORDS = 2_000  # characters of one text in the header
-KINDS = {  # of words, for their colour
+WORDS = 2_000  # characters in one text of the header
+KINDS = {  # colours of words
     **dict.fromkeys(("holds", "right"), "holds"),
     **dict.fromkeys(("does not hold", "failed", "not judged", "not so"), "not"),
 }
 INK, SOFT, LINE = (PAGE[name][0] for name in ("ink", "soft", "line"))
-GREEN = AXIS_COLORS[1]  # dark enough for words
+GREEN = AXIS_COLORS[1]  # dark enough for text
 STYLE = f"""\
 .rk-report {{ font: 15px/1.5 system-ui, sans-serif; padding: 0 8px 8px; margin-bottom: 24px;
   border-bottom: 3px solid {SOFT}; color: {INK}; background: #fff; }}
@@ -69,8 +69,9 @@ STYLE = f"""\
 
 
 def report(path: Path, who: str, folder: Path, limits: Limits = LIMITS) -> Path:
-    """Judge the notebook at `path` anew, write its report into `folder` and return where it is.
-    ValueError: no notebook, no name, a file in the way that is not this student's report of it.
+    """Judge the notebook at `path` again, write its report into `folder` and return its path.
+    ValueError: not a notebook, no name, or an existing file that is not this student's report of
+    it.
     """
     if not who.strip():
         raise ValueError(f"name: wanted a name, got {who!r}")
@@ -83,7 +84,7 @@ def report(path: Path, who: str, folder: Path, limits: Limits = LIMITS) -> Path:
 
 
 def told(handed: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
-    """What a report says, as data."""
+    """The data of a report."""
     numbers = str(variant(handed.lab, who)) if handed.lab and lab(handed.lab).given else ""
     return {
         "report": 2,
@@ -102,7 +103,7 @@ def told(handed: HandedIn, who: str, judged: Judged) -> dict[str, Any]:
 
 
 def objectives(data: dict[str, Any]) -> list[tuple[str, str]]:
-    """(objective, "holds", "begun" or "not yet") for each of the lab's."""
+    """(objective, "holds", "begun" or "not yet") for each objective of the lab."""
     found = []
     texts = lab(data["lab"]).objectives if data["lab"] else ()
     for k, text in enumerate(texts, 1):
@@ -119,20 +120,20 @@ def exercise_title(name: str) -> str:
 
 
 def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
-    """The page: what a report says, and the notebook with its outputs. Pictures are looked for in
-    `folder`. What could not be shown is added to the data's remarks.
+    """Return the page: the report, and the notebook with its outputs. Pictures are in `folder`.
+    Outputs that could not be shown are added to the data's remarks.
     """
     choices = {each["id"]: each["choice"] for each in data["predictions"] if each["choice"]}
     view = View(folder, choices, lenient=True)
     cells = view.cells(notebook)
     data["remarks"] += view.remarks
-    # read again by `report_data`; a script only in name
+    # `report_data` reads it again; it is a script only in name
     header = f"<style>{STYLE}</style>\n{DATA}{inert(all_visible(data))}</script>\n{_header(data)}"
     return page(cells, _title(data), view.nonce, header)
 
 
 def safe(text: str) -> str:
-    """Words as a part of a file's name on any system: letters of all scripts, digits and - stay."""
+    """Make words safe for file names on any system; keep letters of all scripts, digits and -."""
     text = unicodedata.normalize("NFC", text)
     kept = "".join(c if c == "-" or unicodedata.category(c)[0] in "LMN" else "_" for c in text)
     short = re.sub("_+", "_", kept).encode(errors="ignore")[:100].decode(errors="ignore")
@@ -140,7 +141,7 @@ def safe(text: str) -> str:
 
 
 def _refuse_to_overwrite(to: Path, handed: HandedIn, who: str) -> None:
-    """ValueError: something else stands there. Before a kernel runs for minutes."""
+    """ValueError: another file is there. This is checked before a kernel runs for minutes."""
     if not to.parent.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(to.parent)!r}")
     if not to.exists() and not to.is_symlink():
@@ -172,7 +173,7 @@ def _day(time: str) -> str:
 
 
 def _sentence(text: str) -> Markup:
-    """Words as HTML; what stands between back-ticks is code."""
+    """Convert words to HTML; text between backticks is code."""
     words = str(Markup.escape(shortened(visible(text), WORDS)))
     return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", words))
 

@@ -1,10 +1,10 @@
-"""What a report says, read from its page and validated: anybody can edit a report, and what a
-student's code gave stands in it.
+"""Read the data of a report from its page and validate them: anybody can edit a report, and it
+contains the results of a student's code.
 
-Validated data hold ids of the lab's own exercises and predictions only; an exercise's task and
-objective come from robokin. Every text is bounded and shows what it is: characters that nobody sees
-are written as escapes. So nothing in it can hide, break a line of a table or turn its direction;
-it is still a stranger's text, and a page escapes it.
+Validated data contain only ids of the lab's own exercises and predictions; an exercise's task and
+objective come from robokin. Every text has a limited length, and invisible characters are written
+as escapes. So nothing in it can hide, break a line of a table or change its direction. It is still
+a stranger's text, and a page must escape it.
 """
 
 import json
@@ -19,14 +19,16 @@ from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
 STATES = ("holds", "does not hold", "unanswered", "failed", "not judged")
-NAME, LINE, TEXT = 200, 2_000, 20_000  # characters of a name, of a line, of a text of many lines
-MANY = 200  # entries of a list
-YEAR_3000 = 32_503_680_000  # seconds; what comes later is beyond the calendar of some systems
-JOINERS = "\u200c\u200d"  # nobody sees them, and names in Persian or Hindi need them
+NAME, LINE, TEXT = 200, 2_000, 20_000  # characters in a name, in a line, in a text of many lines
+MANY = 200  # entries in a list
+YEAR_3000 = 32_503_680_000  # seconds; later times are outside the calendar of some systems
+JOINERS = "\u200c\u200d"  # they are invisible, but names in Persian or Hindi need them
 
 
 def report_data(text: str) -> dict[str, Any] | None:
-    """What the page of a report says; None: it is no report. ValueError: it is a broken one."""
+    """Return the data in the page of a report, or None if it is not a report. ValueError: it is a
+    broken report.
+    """
     start = text.find(DATA)
     if start < 0:
         return None
@@ -43,8 +45,8 @@ def report_data(text: str) -> dict[str, Any] | None:
 
 
 def validated(data: Any) -> dict[str, Any]:
-    """A report's data as version 2 has them; version 1 knows no time of a guess and no later ones.
-    ValueError: they are not what a report has.
+    """Return a report's data in the form of version 2; version 1 lacks the times of guesses and
+    later guesses. ValueError: they are not the data of a report.
     """
     if not isinstance(data, dict) or data.get("report") not in (1, 2):
         raise ValueError("its data are not those of a report that this robokin knows")
@@ -54,7 +56,7 @@ def validated(data: Any) -> dict[str, Any]:
     who = _text(data, "who", TEXT)
     if len(who) > NAME:
         raise ValueError(f"who: wanted at most {NAME} characters, got {len(who)}")
-    normalised(who.strip(JOINERS))  # ValueError: nothing that anybody sees
+    normalised(who.strip(JOINERS))  # ValueError: nothing visible
     guesses = _known(data, slug, "predictions", lambda each: _prediction(each, old))
     return {
         "report": 2,
@@ -75,7 +77,7 @@ def validated(data: Any) -> dict[str, Any]:
 
 
 def counted(data: dict[str, Any]) -> list[dict[str, Any]]:
-    """The predictions among which one can be missing: an optional one is there if it was made."""
+    """The predictions that a report must list; an optional one is listed if it was made."""
     return [
         each
         for each in data["predictions"]
@@ -86,7 +88,7 @@ def counted(data: dict[str, Any]) -> list[dict[str, Any]]:
 def _exercise(each: dict[str, Any]) -> dict[str, Any]:
     exercise = find(each["id"], "exercises")
     points: Any = each.get("points")
-    if type(points) not in (int, float) or not 0 <= points <= 1:  # NaN is not
+    if type(points) not in (int, float) or not 0 <= points <= 1:  # NaN fails this
         raise ValueError(f"points: wanted a number from 0 to 1, got {short(points)}")
     return {
         "id": each["id"],
@@ -120,7 +122,7 @@ def _known(
     what: str,
     checked: Callable[[dict[str, Any]], dict[str, Any]],
 ) -> list[dict[str, Any]]:
-    """The entries for the lab's exercises or predictions, in the lab's order."""
+    """The entries for the lab's exercises or predictions, in the order of the lab."""
     known = [f"{slug}.{number}" for number in getattr(lab(slug), what)] if slug else []
     found: dict[str, dict[str, Any]] = {}
     for each in _list(data, what):
@@ -166,7 +168,7 @@ def _text(data: dict[str, Any], name: str, most: int, ends: str = "") -> str:
 
 
 def _time(data: dict[str, Any], name: str) -> str:
-    """A date and time with its offset, in the one form that `datetime` writes."""
+    """A date and time with its offset, in the form that `datetime` writes."""
     try:
         when = datetime.fromisoformat(data.get(name, ""))
         good = when.tzinfo is not None and 0 <= when.timestamp() < YEAR_3000

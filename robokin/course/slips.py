@@ -1,5 +1,5 @@
-"""What everybody does to a result or to an input, whatever the exercise: other units, a sign, rows
-and columns exchanged.
+"""Common slips in a result or an input of any exercise: other units, a sign, rows and columns
+exchanged.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ Program = Callable[..., Any]
 
 
 def _numbers(change: Program) -> Program:
-    """`change` of a result that is numbers; ValueError for another one."""
+    """Apply `change` to a result that is numbers. ValueError: it is not numbers."""
 
     def changed(value: Any) -> Any:
         if isinstance(value, (Transform, Quaternion, str, bool)) or value is None:
@@ -26,7 +26,7 @@ def _numbers(change: Program) -> Program:
 
 
 def _place(change: Program) -> Program:
-    """`change` of the place of a pose, or of numbers."""
+    """Apply `change` to the position of a pose, or to numbers."""
 
     def changed(value: Any) -> Any:
         if isinstance(value, Transform):
@@ -37,7 +37,7 @@ def _place(change: Program) -> Program:
 
 
 def _turn(change: Program) -> Program:
-    """`change` of the angle of a pose's rotation about its axis, or of numbers."""
+    """Apply `change` to the rotation angle of a pose, or to numbers."""
 
     def changed(value: Any) -> Any:
         if isinstance(value, Transform):
@@ -97,7 +97,7 @@ def _not(value: Any) -> Any:
 
 DEGREES = "Angles are in radians here: `90 * deg`, and `angle / deg` only to print."
 METRES = "Lengths are in metres here: `350 * mm`, and `length / mm` only to print."
-# name, sentence, what is done to a result
+# name, sentence, change of a result
 RESULTS = (
     ("degrees for radians", DEGREES, _turn(lambda x: x / deg)),
     ("degrees for radians", DEGREES, _turn(lambda x: x * deg)),
@@ -134,7 +134,7 @@ RESULTS = (
         _not,
     ),
 )
-# name, sentence, what is done to one of the inputs that are numbers
+# name, sentence, change of one of the numeric inputs
 INPUTS = (
     ("degrees for radians", DEGREES, lambda x: x / deg),
     ("degrees for radians", DEGREES, lambda x: x * deg),
@@ -145,7 +145,7 @@ INPUTS = (
 
 
 def fed(case: tuple[Any, ...], i: int, change: Program) -> tuple[Any, ...]:
-    """The inputs of a case, one of them changed. TypeError: it is no numbers."""
+    """The inputs of a case with one of them changed. TypeError: that one is not numbers."""
     value = case[i]
     if isinstance(value, (float, int)) and not isinstance(value, bool):
         value = float(value)

@@ -1,15 +1,15 @@
-"""What was handed in, collected for the teacher's table: reports are taken as they are, notebooks
-are judged anew (`judge`), side by side.
+"""Collect handed-in work for the teacher's table: reports are used as they are, notebooks are
+judged again (`judge`), several at the same time.
 
-Who it is from: a report says it; of a notebook it is what its file's name has beside the lab's
-("03_irb140_motion Ada.ipynb"), else the folder that it lies in. Its own numbers are those of the
-name that stands in it, since folders are seldom called what students call themselves; where that is
-another name, a remark says so. Of two files of one student for one lab the newer counts: by the
-report's date, by the notebook's time. Of those that are as new as each other, as copies of one page
-are, the one in a folder with the student's name counts, else the first.
+A report names its student. For a notebook it is the part of the file name beside the lab's
+("03_irb140_motion Ada.ipynb"), otherwise the name of its folder. Individual numbers are those of
+the name in the notebook, since folders seldom have the names that students use; a remark says so if
+the names differ. Of two files by one student for one lab the newer counts, by the report's date or
+the notebook's time. If they are equally new, like copies of one page, the one in a folder with the
+student's name counts, otherwise the first.
 
-What is handed in is hostile until it is validated (`reported`), and escaped where it is written
-(`summary_pages`). Whatever is wrong with one file, the others are done.
+All handed-in data are hostile until they are validated (`reported`), and are escaped when written
+(`summary_pages`). A fault in one file does not stop the others.
 """
 
 import os
@@ -32,14 +32,13 @@ from .reported import NAME, TEXT, counted, report_data, validated
 from .texts import visible
 from .variants import normalised
 
-LARGE = 50_000_000  # bytes of a file; a report has a tenth of it
+LARGE = 50_000_000  # bytes in a file; a report has a tenth of this
 
 
 @dataclass(frozen=True)
 class Entry:
-    """What one student handed in for one lab. `file`: below the folder, as a text; `data`:
-    validated, as in a report; `handed`: a notebook that is still to be judged; `judged`: one that
-    was.
+    """The work of one student for one lab. `file`: its path below the folder, as text; `data`:
+    validated, as in a report; `handed`: a notebook still to be judged; `judged`: a judged one.
     """
 
     who: str
@@ -52,7 +51,7 @@ class Entry:
 
     @property
     def date(self) -> str:
-        """Its date and time, where this runs."""
+        """Its date and time, in the local time zone."""
         return f"{self.when.astimezone():%Y-%m-%d %H:%M}"
 
     @property
@@ -62,18 +61,18 @@ class Entry:
 
     @property
     def points(self) -> str:
-        """Those of all exercises together."""
+        """The sum of the points of all exercises."""
         return f"{sum(each['points'] for each in self.data['exercises']):g}"
 
     @property
     def held(self) -> str:
-        """How many exercises hold: "2 of 3"."""
+        """The number of exercises that hold: "2 of 3"."""
         states = [each["state"] for each in self.data["exercises"]]
         return f"{states.count('holds')} of {len(states)}"
 
     @property
     def guessed(self) -> str:
-        """How many first guesses are right."""
+        """The number of first guesses that are right."""
         if not self.data["guesses_came"]:
             return "guesses: none came with the notebook"
         asked = counted(self.data)
@@ -83,8 +82,8 @@ class Entry:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A file that is not in the table; whose it is, and why. `wrong`: it cannot be used; else it is
-    none for the table.
+    """A file that is not in the table, its student, and the reason. `wrong`: it cannot be used;
+    otherwise it does not belong in the table.
     """
 
     file: str
@@ -95,7 +94,7 @@ class LeftOut:
 
 @dataclass
 class Summary:
-    """The entries, by lab and name, and what was left out, by file."""
+    """The entries, by lab and name, and the files that were left out."""
 
     entries: list[Entry] = field(default_factory=list)
     left_out: list[LeftOut] = field(default_factory=list)
@@ -107,10 +106,10 @@ def summary(
     tell: Callable[[int, int, str], None] = lambda done, of, line: None,
     ours: Callable[[Path], bool] = lambda path: False,
 ) -> Summary:
-    """Collect what lies below `folder`, hidden files and folders left out, and what is `ours`: the
-    pages of a summary. Symbolic links are not followed. `tell` is called with how many are done, of
-    how many, and a line: first of all with 0 where there are notebooks, then after each student's
-    lab. ValueError: no folder.
+    """Collect the files below `folder`, except hidden files and folders and those that are `ours`:
+    the pages of a summary. Symbolic links are not followed. `tell` is called with the number of
+    finished labs, their total, and a line: first with 0 if there are notebooks, then after each
+    student's lab. ValueError: not a folder.
     """
     if not folder.is_dir():
         raise ValueError(f"folder: wanted one that exists, got {str(folder)!r}")
@@ -125,7 +124,7 @@ def summary(
                 found[normalised(entry.who), entry.lab].append(entry)
             else:
                 made.left_out.append(_left(inside, entry, problem is not None))
-        except Exception as error:  # a file may have anything in it
+        except Exception as error:  # a file may contain anything
             made.left_out.append(_left(inside, _reason(error), True))
     kernels = side_by_side(limits.memory)
     if notebooks := sum(any(each.handed for each in several) for several in found.values()):
@@ -141,28 +140,28 @@ def summary(
                 line = f"{newest.file}: {newest.who}, {newest.lab}, {newest.held} hold"
                 tell(done, len(jobs), line)
     finally:
-        pool.shutdown(cancel_futures=True)  # Ctrl+C: what has not begun does not begin
+        pool.shutdown(cancel_futures=True)  # Ctrl+C: waiting work does not start
     made.entries.sort(key=lambda each: (list(labs()).index(each.lab), normalised(each.who)))
     made.left_out.sort(key=lambda each: (each.file, each.reason))
     return made
 
 
 def side_by_side(memory: int) -> int:
-    """How many notebooks are judged at once, at least one: one a core, and one for each `memory`
-    bytes that are free.
+    """The number of notebooks to judge at the same time, at least one: one per core, and one for
+    each `memory` bytes of free memory.
     """
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return max(1, min(cores or 1, int(psutil.virtual_memory().available // max(memory, 1))))
 
 
 def who_of(inside: Path) -> str:
-    """Whose file it is, from its path below the folder: what its name has beside a lab's, else
-    the nearest folder, one that is called as a lab left out, else its name.
+    """The student of a file, from its path below the folder: the part of its name beside a lab's,
+    otherwise the nearest folder that is not named after a lab, otherwise its name.
     """
     for k, part in enumerate((inside.stem, *reversed(inside.parent.parts))):
         slug = re.search("|".join(labs()), part, re.I)
         if slug:
-            before = re.sub(r"(^|[\s_-])\d{1,2}[\s_-]*$", " ", part[: slug.start()])  # its number
+            before = re.sub(r"(^|[\s_-])\d{1,2}[\s_-]*$", " ", part[: slug.start()])  # lab number
             after = re.sub(r"-Copy\d+|\(\d+\)|_checkpoint", " ", part[slug.end() :])
             part = " ".join(re.sub("[_ ]+", " ", f"{before} {after}").strip(" -.()").split())
             if re.search(r"[^\W\d_]|\d{3}", part):
@@ -173,8 +172,8 @@ def who_of(inside: Path) -> str:
 
 
 def _files(folder: Path) -> Iterator[tuple[Path, str | None]]:
-    """(path below the folder, why it cannot be read or None) of all pages and notebooks, and of
-    what may hide some: a link to a folder, a folder that cannot be read.
+    """(path below the folder, reason why it cannot be read or None) for all pages and notebooks,
+    and for links to folders and unreadable folders, which may hide some.
     """
     todo = [Path()]
     while todo:
@@ -199,7 +198,9 @@ def _files(folder: Path) -> Iterator[tuple[Path, str | None]]:
 
 
 def _read(path: Path, inside: Path) -> Entry | str:
-    """An entry, of a notebook still without data; or why it is none for the table."""
+    """Return an entry, for a notebook still without data, or the reason why it does not belong in
+    the table.
+    """
     size = path.stat().st_size
     if size > LARGE:
         raise ValueError(f"too large: {size / 1e6:.0f} MB, and at most {LARGE / 1e6:.0f} are read")
@@ -219,8 +220,8 @@ def _read(path: Path, inside: Path) -> Entry | str:
 
 
 def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[LeftOut]]:
-    """Of one student's files for one lab the newest that can be used, judged if it is a notebook;
-    and what is left out.
+    """Return the newest usable file of one student for one lab, judged if it is a notebook, and the
+    files that are left out.
     """
     several = sorted(several, key=lambda each: each.file, reverse=True)
     several.sort(key=lambda each: (each.when, _at_home(each)))
@@ -233,7 +234,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
                     told(entry.handed, entry.who, judge_notebook(entry.handed, None, limits))
                 )
                 entry = replace(entry, data=data, handed=None, judged=True)
-        except Exception as error:  # what a student's code gave may be anything
+        except Exception as error:  # a student's code may return anything
             left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
             continue
         for each in several:
@@ -252,7 +253,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
 
 
 def _at_home(entry: Entry) -> bool:
-    """Whether a folder in which its file lies has the student's name."""
+    """Whether a folder that contains its file has the student's name."""
     name, folders = normalised(entry.who), normalised(f"/{Path(entry.file).parent}")
     return bool(re.search(rf"(?<![^\W_]){re.escape(name)}(?![^\W_])", folders))
 
@@ -262,7 +263,7 @@ def _left(inside: Path, reason: str, wrong: bool) -> LeftOut:
 
 
 def _shown(name: Path | str) -> str:
-    r"""A file's name as a text; what is not UTF-8 in it becomes \xff."""
+    r"""A file name as text; bytes that are not UTF-8 become escapes like \xff."""
     text = name.as_posix() if isinstance(name, Path) else name
     return visible(os.fsencode(text).decode(errors="backslashreplace"), "", TEXT)
 

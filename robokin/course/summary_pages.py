@@ -1,7 +1,7 @@
 """The teacher's table as files: summary.csv, summary.html and a page for each row.
 
-The pages come from templates that escape all words, and have no script: their policy lets a browser
-run none, fetch nothing, and take one style only.
+The pages come from templates that escape all words. They have no script: their policy forbids
+scripts and requests and permits only one style.
 """
 
 import base64
@@ -30,7 +30,7 @@ from .reported import counted
 from .summary import Entry, Summary
 from .variants import normalised
 
-FIRST = ["who", "lab", "file", "date"]  # the columns by which a table of ours is known
+FIRST = ["who", "lab", "file", "date"]  # columns that identify one of our tables
 BEGIN = "<title>What was handed in</title>"  # ... a page
 SHEET = '<meta name="generator" content="robokin summary: one student">'  # ... a student's page
 PAGES = "summary_pages"
@@ -139,7 +139,7 @@ def csv_of(made: Summary, points: bool = True) -> str:
 
 
 def harmless(text: str) -> str:
-    """A cell on one line that no spreadsheet takes for a formula, also one that splits cells at
+    """A cell on one line that no spreadsheet takes for a formula, even one that separates cells by
     another sign than the comma.
     """
     return FORMULA.sub(r"\1'", " ".join(text.split()))
@@ -177,7 +177,7 @@ def sheet(entry: Entry, points: bool = True) -> str:
 
 
 def _figures(slug: str, rows: list[tuple[Entry, str]]) -> dict[str, Any]:
-    """How many hold each exercise and each objective of a lab."""
+    """The number of students for whom each exercise and each objective of a lab holds."""
     states: dict[str, Counter[str]] = defaultdict(Counter)
     for entry, _ in rows:
         for each in entry.data["exercises"]:
@@ -208,13 +208,13 @@ def _templates() -> jinja2.Environment:
 
 
 def _words(text: str) -> Markup:
-    """What stands between back-ticks is code."""
+    """Text between backticks is code."""
     return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(escape(text))))
 
 
 @functools.cache
 def _asked(name: str) -> str:
-    """An exercise's task, a prediction's question, as robokin has it."""
+    """The task of an exercise or the question of a prediction, from robokin."""
     slug, _, number = name.partition(".")
     if number in lab(slug).exercises:
         return str(find(name, "exercises").task)
@@ -238,8 +238,8 @@ def _number(each: dict[str, Any]) -> str:
 
 
 def places(folder: Path) -> tuple[Path, Path, Path]:
-    """Where the table, the page and the students' pages come. ValueError: no folder, or something
-    else is there.
+    """The paths of the table, the page and the students' pages. ValueError: there is no folder, or
+    another file is in the way.
     """
     if not folder.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(folder)!r}")
@@ -254,12 +254,12 @@ def places(folder: Path) -> tuple[Path, Path, Path]:
 
 def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]:
     """Write summary.csv and summary.html into `folder`, and beside them the students' pages, which
-    take the place of those of an earlier summary. ValueError as `places`.
+    replace those of an earlier summary. ValueError: as in `places`.
     """
     table, page, pages = places(folder)
     if made.entries:
         pages.mkdir(exist_ok=True)
-    names: dict[str, str] = {}  # in small letters: two names may be one to a file system
+    names: dict[str, str] = {}  # in lower case, since a file system may ignore case
     for entry in made.entries:
         path = _free(pages, f"{entry.lab}_{safe(entry.who)}", names)
         write_page(path, sheet(entry, points))
@@ -282,7 +282,7 @@ def is_ours(path: Path, folder: Path) -> bool:
 
 
 def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
-    """A page's place where nothing of others lies, and no other student's page."""
+    """A free path for a page, without foreign files or another student's page."""
     path, k = pages / f"{name}.html", 1
     while path.name.casefold() in taken or (os.path.lexists(path) and not _begins(path, SHEET)):
         k += 1
@@ -291,7 +291,7 @@ def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
 
 
 def _begins(path: Path, begin: str) -> bool:
-    """Whether a file, and no link to one, has these words in its first lines."""
+    """Whether a regular file, not a link, has these words in its first lines."""
     if path.is_symlink() or not path.is_file():
         return False
     with path.open("rb") as file:
@@ -299,7 +299,7 @@ def _begins(path: Path, begin: str) -> bool:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Wholly or not at all."""
+    """Write a file, whole or not at all."""
     beside = path.with_name(f".{os.urandom(8).hex()}.csv.part")
     try:
         beside.write_bytes(content)

@@ -1,23 +1,24 @@
-"""Texts of strangers, shown as what they are."""
+"""Make invisible characters in other people's texts visible."""
 
 import functools
 import re
 from typing import Any
 
-# A class of `re`: characters that control, that turn the direction of writing or end a line, marks
-# without a width, tags, halves of pairs. Not the joiners: Persian, Hindi and emoji need them.
+# A class of `re`: control characters, characters that change the direction of writing or end a
+# line, zero-width marks, tags, lone surrogates. Joiners are not in it: Persian, Hindi and emoji
+# need them.
 UNSEEN = (
     "\0-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
     "\ufff9-\ufffb\ud800-\udfff\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
 )
-LINES = "\t\n"  # what a text of many lines needs of them
-ALL_BUT_HALVES = "^\ud800-\udfff"  # no file can hold half of a pair
-DEEP = 100  # lists in lists
+LINES = "\t\n"  # those that a text of many lines needs
+ALL_BUT_HALVES = "^\ud800-\udfff"  # a file cannot contain a lone surrogate
+DEEP = 100  # depth of nested lists
 
 
 def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
-    r"""The text, with an escape, \x1b or \u202e, for each character that nobody sees. `kept`: those
-    to leave, as a class of `re`. What is longer than `most` characters is cut.
+    r"""The text with an escape, such as \x1b or \u202e, for each invisible character. `kept` is a
+    class of `re` with characters to keep. A text longer than `most` characters is cut.
     """
     if most is not None and len(text) > most:
         text = f"{text[:most]} ... shortened"
@@ -27,7 +28,7 @@ def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
 
 
 def all_visible(value: Any, kept: str = LINES, depth: int = 0) -> Any:
-    """A copy of what came as JSON, with all its texts visible. ValueError: nested too deep."""
+    """A copy of a JSON value with all its texts visible. ValueError: it is nested too deeply."""
     if isinstance(value, str):
         return visible(value, kept)
     if not isinstance(value, (dict, list, tuple)):

@@ -1,4 +1,4 @@
-"""Numbers: as an answer gives them, and as a sentence tells them."""
+"""Numbers: reading them from answers, and writing them into sentences."""
 
 from typing import Any
 
@@ -6,15 +6,15 @@ import numpy as np
 
 from .._arrays import Floats
 
-LARGE = 1e7  # told with a power of ten from here on
+LARGE = 1e7  # written with a power of ten from here on
 MOST = 12  # digits after the point
 RAISED = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def floats(value: Any) -> Floats:
-    """A number, or an array or lists of numbers, as an array. Raises TypeError for text, as "0.3",
-    True and False, a complex number that is not real, and what else is no number; ValueError for
-    rows of unlike length.
+    """Return a number, or an array or lists of numbers, as an array. TypeError: text such as "0.3",
+    True or False, a complex number that is not real, or anything else that is not a number.
+    ValueError: rows of different lengths.
     """
     made = np.asarray(value)
     if made.dtype == object and any(
@@ -29,7 +29,9 @@ def floats(value: Any) -> Floats:
 
 
 def one_number(value: Any) -> float:
-    """A number, also as an array that holds only one. TypeError or ValueError: it is none."""
+    """Return one number, also from an array with one element. TypeError or ValueError: it is not
+    one.
+    """
     made = floats(value)
     if made.size != 1:
         raise ValueError(f"wanted one number, got {made.size}")
@@ -37,8 +39,8 @@ def one_number(value: Any) -> float:
 
 
 def apart(a: Any, b: Any, digits: int = 1) -> tuple[str, str]:
-    """Two numbers, or two rows of numbers, in as many digits after the point as they need to differ
-    in what is printed; `digits` at least, and no more where the two are the same.
+    """Write two numbers, or two rows of numbers, with enough decimals to differ in print; at least
+    `digits`, and no more if they are equal.
     """
     rows = [np.atleast_1d(np.asarray(x, dtype=float)) for x in (a, b)]
     for n in [*range(digits, MOST + 1), digits]:

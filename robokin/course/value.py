@@ -1,4 +1,4 @@
-"""A value to give, of which many are right: numbers for one's own task, a pose, a program."""
+"""A value to give, with many right answers: numbers for an individual task, a pose, a program."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -9,18 +9,18 @@ from .markdown import BadFile, Text
 
 
 class Value(Exercise):
-    """A value to give. `code`, the names of the Python file, has
+    """A value to give. `code`, the names of the Python file, contains
 
     form    (answer, given) -> the answer as `faults` wants it; ValueError that says what was wanted
     faults  (answer, given) -> what does not hold, each with a name and a sentence: the first counts
-    COUNT   how many conditions there are
+    COUNT   the number of conditions
 
-    and may have
+    and may contain
 
-    given   who -> this student's numbers; without it all have the same task
+    given   who -> this student's numbers; without it all students have the same task
     GOAL    for a pose taken from an explorer: what the page tells by itself (page.PageExplorer)
     plain   answer -> the answer as the case shows it
-    holds   (answer, given) -> what else is said of an answer that holds
+    holds   (answer, given) -> an additional sentence for an answer that holds
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:

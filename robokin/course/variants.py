@@ -1,4 +1,4 @@
-"""A student's own numbers: the same on every machine, however the name is written."""
+"""A student's individual numbers: equal on every machine, and for all spellings of the name."""
 
 import hashlib
 import random
@@ -9,8 +9,8 @@ from .book import lab as _lab
 
 
 def normalised(who: Any) -> str:
-    """A name without differences that are none: case, ways to type an accent, spaces. ValueError:
-    nothing is left.
+    """Return a name without irrelevant differences: case, ways to type an accent, spaces.
+    ValueError: nothing is left.
     """
     text = unicodedata.normalize("NFKC", str(who)).casefold()
     text = " ".join(unicodedata.normalize("NFKC", text).split())
@@ -20,14 +20,14 @@ def normalised(who: Any) -> str:
 
 
 def dice(lab: str, who: Any) -> random.Random:
-    """Dice for a student in a lab. Draw whole numbers (`randrange`): they are the same on every
-    machine and in every version of Python.
+    """Return a random generator for a student in a lab. Draw integers (`randrange`): they are equal
+    on every machine and in every version of Python.
     """
     return random.Random(int(hashlib.sha256(f"{lab}\n{normalised(who)}".encode()).hexdigest(), 16))
 
 
 class Numbers(dict[str, Any]):
-    """A student's numbers: `numbers["height"]`. Shows itself as a table, with the unit of each.
+    """A student's numbers: `numbers["height"]`. It displays itself as a table with units.
 
     units  name -> unit; values are in SI units times `sizes`
     """
@@ -46,10 +46,11 @@ class Numbers(dict[str, Any]):
 
 
 def variant(lab: str, who: Any) -> Numbers:
-    """The numbers of the student `who` (a name or a number) for the design exercise of a lab.
+    """Return the numbers of the student `who` (a name or a number) for the design exercise of a
+    lab.
 
-    The same on every machine; upper and lower case and spaces make no difference. ValueError: no
-    such lab, one without such an exercise, an empty name.
+    They are equal on every machine; case and spaces make no difference. ValueError: no such lab, a
+    lab without such an exercise, or an empty name.
     """
     given = _lab(lab).given
     if given is None:
@@ -59,5 +60,5 @@ def variant(lab: str, who: Any) -> Numbers:
 
 
 def key(lab: str, names: Any) -> dict[str, Numbers]:
-    """The numbers of many students, for the teacher: name -> numbers."""
+    """Return the numbers of many students, for the teacher: name -> numbers."""
     return {str(name): variant(lab, name) for name in names}

@@ -1,8 +1,8 @@
-"""The course as a site, for readers without Python: labs, companions, glossary, notes for teachers
-and the package's reference. Its arms move, its predictions ask, and nothing in it is fetched.
+"""The course as a web site, for readers without Python: labs, companions, glossary, notes for
+teachers and the reference of the package. Its arms and predictions work, and it fetches nothing.
 
-Sphinx, myst-nb and furo make it from the stored outputs. `build` lays out what they read; conf.py
-says how they read it.
+Sphinx, myst-nb and furo build it from the stored outputs. `build` arranges their input; conf.py
+configures them.
 """
 
 import importlib
@@ -21,16 +21,16 @@ import robokin
 
 HERE = Path(__file__).parent
 TEACHING = "teaching.ipynb"
-NOTES = "documents/teaching"  # in a line of index.md that goes with them
-MARK = ".robokin-site"  # a file in the site's folder: the names of all that were written there
+NOTES = "documents/teaching"  # in the line of index.md that is removed with them
+MARK = ".robokin-site"  # a file in the site's folder with the names of all files written there
 
 
 def build(folder: Path, teaching: bool = True) -> str:
-    """Write the site into `folder`, with the notes for teachers or without; what Sphinx had to
-    complain of, if anything.
+    """Write the site into `folder`, with or without the notes for teachers, and return Sphinx's
+    warnings.
 
-    ValueError: a robokin without labs or without Sphinx, labs of which Sphinx makes no site,
-    something of yours in the way; then nothing is written.
+    ValueError: there are no labs or no Sphinx, Sphinx fails, or a file of yours is in the way; then
+    nothing is written.
     """
     missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
     if missing:
@@ -46,7 +46,7 @@ def build(folder: Path, teaching: bool = True) -> str:
         notebooks = [path for path in _notebooks(labs) if teaching or path.name != TEACHING]
         _gather(labs, notebooks, source)
         complaints = _run(source, made)
-        for notebook in notebooks:  # to download, beside its page
+        for notebook in notebooks:  # the notebook to download, beside its page
             shutil.copyfile(notebook, made / notebook.relative_to(labs))
         unwanted = shutil.ignore_patterns("__pycache__")
         shutil.copytree(labs / "exercises", made / "exercises", ignore=unwanted)
@@ -59,7 +59,7 @@ def anchor(title: str) -> str:
     return title.replace(" ", "-")
 
 
-# --- What Sphinx reads ----------------------------------------------------------------------------
+# --- Input of Sphinx ----------------------------------------------------------------------------
 
 
 def _notebooks(labs: Path) -> list[Path]:
@@ -67,9 +67,9 @@ def _notebooks(labs: Path) -> list[Path]:
 
 
 def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
-    """The files beside this one; the notebooks, and a list of the labs; an arm for the first page;
-    a page for each module. Where the notes for teachers are left out, the first page does not name
-    them.
+    """Gather the files beside this one, the notebooks, a list of the labs, an arm for the first
+    page, and a page for each module. Without the notes for teachers, the first page does not
+    mention them.
     """
     from ...show import target_explorer
 
@@ -92,7 +92,7 @@ def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
 
 
 def _entry(lab: Path) -> str:
-    """A lab in the list of labs: its title, and what it claims."""
+    """A lab in the list of labs: its title and its claim."""
     try:
         first = "".join(json.loads(lab.read_text(encoding="utf-8"))["cells"][0]["source"])
     except (KeyError, ValueError) as error:
@@ -104,7 +104,7 @@ def _entry(lab: Path) -> str:
 
 
 def _modules() -> list[str]:
-    """Whose public names are described."""
+    """The modules whose public names are described."""
     parts = [
         f"robokin.{package}.{module.name}"
         for package in ("arms", "motion", "jobs")
@@ -116,7 +116,7 @@ def _modules() -> list[str]:
 
 
 def _described(name: str) -> str:
-    """A module in the list of modules, with the first sentence that it says of itself."""
+    """A module in the list of modules, with the first sentence of its docstring."""
     words = " ".join((importlib.import_module(name).__doc__ or "").split())
     return f"- [`{name}`]({name}.rst)\\\n  {re.split(r'(?<=[.])(?: |$)', words)[0]}"
 
@@ -126,11 +126,12 @@ def _write(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-# --- Sphinx, and where its pages go ---------------------------------------------------------------
+# --- Running Sphinx, and installing its pages
+# ---------------------------------------------------------------
 
 
 def _run(source: Path, made: Path) -> str:
-    """What Sphinx complains of. ValueError: it makes no site."""
+    """Run Sphinx and return its warnings. ValueError: it fails."""
     flags = ("-q", "-j", "auto", "-d", str(source.with_name("read")))
     paths = (str(HERE.parents[2]), os.environ.get("PYTHONPATH", ""))
     run = subprocess.run(
@@ -147,7 +148,7 @@ def _run(source: Path, made: Path) -> str:
 
 
 def _older(folder: Path) -> set[str]:
-    """The names of the files of a site that is there already. ValueError: something else is."""
+    """The file names of an existing site. ValueError: something else is there."""
     if (folder / MARK).is_file():
         names = (folder / MARK).read_text(encoding="utf-8").split("\n")
         return {name for name in names if name and ".." not in name and not name.startswith("/")}
@@ -157,14 +158,14 @@ def _older(folder: Path) -> set[str]:
 
 
 def _put(made: Path, folder: Path) -> None:
-    """Each file whole, in the place of an older site's; what else lies there stays."""
+    """Write each file whole, in place of the older site's file; other files are kept."""
     old = _older(folder)
     new = {p.relative_to(made).as_posix() for p in made.rglob("*") if p.is_file()}
     for name in sorted(new - old):
         if os.path.lexists(folder / name):
             raise ValueError(f"{folder / name}: not the site's; nothing is overwritten")
     folder.mkdir(parents=True, exist_ok=True)
-    _write(folder / MARK, "\n".join(sorted(old | new)))  # whatever interrupts it, all is known
+    _write(folder / MARK, "\n".join(sorted(old | new)))  # known after an interruption
     for name in sorted(new):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(made / name, folder / f"{MARK}.part")

@@ -1,6 +1,6 @@
-"""How Sphinx makes the site; `build`, in __init__.py, lays out what it reads, and runs it.
+"""The configuration of Sphinx; `build` in __init__.py arranges its input and runs it.
 
-Outputs are the stored ones; formulas become MathML, as in exported pages; docstrings are plain
+Outputs are the stored ones, formulas become MathML as in exported pages, and docstrings are plain
 text.
 """
 
@@ -20,7 +20,7 @@ templates_path = ["templates"]
 
 nb_execution_mode = "off"
 nb_merge_streams = True
-nb_ipywidgets_js: dict[str, Any] = {}  # it would come from a network
+nb_ipywidgets_js: dict[str, Any] = {}  # it would be fetched from the network
 nb_code_prompt_show = nb_code_prompt_hide = "code"
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
@@ -29,7 +29,7 @@ myst_update_mathjax = False
 html_math_renderer = "mathml"
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "none"  # shapes, units and frames stand in the docstrings
+autodoc_typehints = "none"  # shapes, units and frames are in the docstrings
 autodoc_default_options = {"members": True}
 add_module_names = False
 
@@ -81,11 +81,11 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
 
 
 def _own_name(app: Any, docname: str, source: list[str]) -> None:
-    """A companion calls itself #; where it leads to our source, the site leads to its reference."""
+    """A companion refers to itself as #. Links to our source become links to the reference."""
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
     up = "../" * docname.count("/")
     source[0] = re.sub(
-        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # a module of a job: its package
+        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # a job's module: its package
         lambda link: f"]({up}api/{link[1].replace('/', '.')}.rst)",
         source[0],
     )
@@ -107,18 +107,20 @@ def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
 
 # --- Docstrings -----------------------------------------------------------------------------------
 
-ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two blanks, what it means
+ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two blanks, its meaning
 
 
 def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
-    """What a class has from a library, or from its being a tuple, is not described here."""
+    """Skip members that a class inherits from a library or from tuple."""
     home = getattr(thing, "__module__", None) or "robokin"
     foreign = isinstance(home, str) and not home.startswith("robokin")
     return True if foreign or str(thing.__doc__).startswith("Alias for field") else None
 
 
 def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """As reST: paragraphs of words, lists of names; the rest (examples) as it stands there."""
+    """Convert a docstring to reST: paragraphs of words, lists of names, and the rest (examples)
+    unchanged.
+    """
     made: list[str] = []
     for block in re.split(r"\n\s*\n", "\n".join(lines).strip()):
         if re.fullmatch(rf"{ENTRY}(?:\n{ENTRY})*", block):
@@ -133,7 +135,7 @@ def _as_it_is(app: Any, what: str, name: str, thing: Any, options: Any, lines: l
 
 
 def _words(text: str) -> str:
-    """Words as reST that means nothing but these; what stands between back-ticks is code."""
+    """Convert words to reST without markup, except that text between backticks is code."""
     pieces = re.split("``?([^`]+)``?", " ".join(text.split()))
     pieces[::2] = (re.sub(r"([^\w\s])", r"\\\1", words) for words in pieces[::2])
     pieces[1::2] = (rf"\ ``{code}``\ " for code in pieces[1::2])
