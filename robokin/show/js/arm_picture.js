@@ -14,7 +14,7 @@ import {triad} from "./triad.js";
 /** @typedef {[from: Point, to: Point, rod: boolean]} Limb  `rod`: of a prismatic joint */
 
 /**
- * An arm in its place: a pen of its own coordinates, what Shown has, its frames and limbs.
+ * An arm at its base: a pen with its own coordinates, the data of Shown, its frames and limbs.
  * @param {Pen} pen
  * @param {Shown} arm
  * @param {Point} [base]
@@ -51,7 +51,7 @@ export const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) =>
   drawArm(g, cam, chain, rods, joints, thick, scene.size, from);
 
 /**
- * The arm, its path before and behind it.
+ * Draws the arm, and its path in front of it and behind it.
  * @param {Stood} one
  */
 export function drawStood(one) {
@@ -107,7 +107,7 @@ export function drawFlange({g, cam, scene, faded, all, exists}) {
 }
 
 /**
- * The path and the arm on the floor.
+ * Draws the shadow of the path and the arm on the floor.
  * @param {Stood} one
  */
 export function drawShadow({g, cam: {to}, scene, trace, rods, thick}) {
@@ -160,7 +160,7 @@ function limbs(all, joints, moved, size) {
 }
 
 /**
- * What of a limb is above the floor.
+ * The part of a limb above the floor.
  * @param {Limb} limb
  * @returns {Limb[]}
  */
@@ -173,7 +173,7 @@ function raised([p, q, rod]) {
 }
 
 /**
- * Links and joints, the farther ones first; joints from a height on.
+ * Draws links and joints, the farther ones first; joints only above a height.
  * @param {Context} g
  * @param {Camera} cam
  * @param {PageLink[]} chain
@@ -225,7 +225,7 @@ function limb(g, p, q, width, rod) {
 }
 
 /**
- * A joint that turns, as a drum around its axis, with a band of the joint's colour.
+ * Draws a revolute joint as a drum around its axis, with a band in the joint's colour.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Point} p
@@ -261,7 +261,7 @@ function drum(g, cam, p, axis, radius, color) {
 }
 
 /**
- * A joint that shifts, as a square guide.
+ * Draws a prismatic joint as a square guide.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Point} p

@@ -1,14 +1,14 @@
-// The bench of the motor explorer: which motor stands there, what a run of pulses makes of it, and
-// how its rotor stands now. The law is rotor.js.
+// The bench of the motor explorer: its motor, the run of pulses, and the present state of the
+// rotor. The model is in rotor.js.
 
 import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
 
 /** @import {MotorControl, PageMotors} from "./page.js" */
 /** @import {Motor, Run} from "./rotor.js" */
 
-const SLOW = 20; // times slower than time, for a single pulse or a rotor that is let go
-const SHOWN = 8; // seconds that a run takes to show
-const LONG = 2; // seconds of the motor: longer no rotor is watched that does not come to rest
+const SLOW = 20; // times slower than real time, for a single pulse or a released rotor
+const SHOWN = 8; // seconds in which a run is shown
+const LONG = 2; // motor seconds: a rotor that does not come to rest is not shown for longer
 
 /** @type {(list: number[]) => number} */
 export const lastOf = list => list[list.length - 1];
@@ -24,8 +24,8 @@ export class Bench {
     this.live = atRest(this.motor, 0);
     this.sent = 0;
     this.held = false;
-    this.since = LONG; // seconds of the motor since it was touched
-    this.last = 0; // the time of the last picture, ms
+    this.since = LONG; // motor seconds since it was touched
+    this.last = 0; // time of the last picture, ms
     /** @type {?Run} */
     this.found = null;
   }
@@ -66,35 +66,35 @@ export class Bench {
     return ramp(this.data.pulses, Math.min(this.value("start"), end), end, this.value("ramp"));
   }
 
-  /** The run with what is chosen: computed when it is asked for. */
+  /** The run with the present choice, computed on demand. */
   run() {
     this.found ??= run(this.motor, this.times(), this.state.sign);
     return this.found;
   }
 
-  /** When the run ends, s. */
+  /** The end of the run, s. */
   end() {
     return lastOf(this.run().t);
   }
 
-  /** How many times slower than time a run is shown. */
+  /** How many times slower than real time a run is shown. */
   slow() {
     return Math.max(1, Math.round(SHOWN / this.end()));
   }
 
-  /** The row of the table that is on. */
+  /** The current row of the table. */
   row() {
     const count = this.motor.currents.length;
     return ((this.sent % count) + count) % count;
   }
 
-  /** Whether the load is more than the row that is on can hold. */
+  /** Whether the load is more than the current row can hold. */
   bent() {
     const [x, y] = pull(this.motor, this.motor.currents[this.row()]);
     return this.motor.load > this.motor.torque * Math.sqrt(x * x + y * y);
   }
 
-  /** Something else has been chosen; `other`: another motor, which begins again. */
+  /** The choice has changed; `other`: to another motor, which begins again. */
   change(other = false) {
     this.motor = this.built();
     this.found = null;
@@ -108,7 +108,7 @@ export class Bench {
     [this.live, this.sent, this.since] = [atRest(this.motor, 0), 0, LONG];
   }
 
-  /** A hand has touched it: no run is shown any more, and the rotor moves by itself. */
+  /** The reader has touched it: it no longer shows a run, and the rotor moves by itself. */
   wake() {
     Object.assign(this.clock, {time: 0, playing: false, shown: false});
     this.since = 0;
@@ -120,14 +120,14 @@ export class Bench {
     this.wake();
   }
 
-  /** Sends pulses to a row, the nearest way round. @param {number} row */
+  /** Sends pulses to reach a row by the shortest way. @param {number} row */
   sendTo(row) {
     const count = this.motor.currents.length,
       ahead = (((row - this.sent) % count) + count) % count;
     this.send(ahead > count / 2 ? ahead - count : ahead);
   }
 
-  /** The rotor is taken, or let go. @param {boolean} on */
+  /** The rotor is taken or released. @param {boolean} on */
   hold(on) {
     if (on === this.held) return;
     this.held = on;
@@ -135,7 +135,7 @@ export class Bench {
     this.wake();
   }
 
-  /** Moves on to the moment of a picture; whether it goes on. @param {number} now  ms */
+  /** Advances to the time of a picture; returns whether it goes on. @param {number} now  ms */
   moment(now) {
     const passed = this.since === 0 ? 1 / 60 : Math.min(0.05, (now - this.last) / 1000);
     this.last = now;
@@ -144,7 +144,7 @@ export class Bench {
         i = t.findLastIndex(x => x <= this.clock.time);
       this.live = {theta: angle[i], omega: 0, currents: [...this.motor.currents[0]]};
       this.sent = sent[i];
-      return false; // the clock says it
+      return false; // the clock shows it
     }
     if (this.held || this.since >= LONG) return false;
     this.since += passed / SLOW;
@@ -153,7 +153,7 @@ export class Bench {
     return this.since < LONG;
   }
 
-  /** Brings it to rest where what is left cannot be seen. */
+  /** Stops it when the remaining motion is invisible. */
   settle() {
     const period = (2 * Math.PI) / this.motor.periods,
       rest = resting(this.motor, this.sent),

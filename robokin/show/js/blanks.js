@@ -1,5 +1,5 @@
-// Fills the blanks of sentences, which stand in verdicts.py and explorers.py, with numbers as
-// Python writes them.
+// Fills the blanks of the sentences from verdicts.py and explorers.py with numbers in Python's
+// format.
 
 import {rint} from "./kinematics.js";
 
@@ -15,7 +15,7 @@ export const fill = (sentence, facts) =>
   sentence.replace(/\{(\w+)\}/g, (_, name) => String(facts[name]));
 
 /**
- * One decimal as Python writes it: of two equally near ones the even one.
+ * One decimal as in Python, which rounds a half to even.
  * @param {number} x
  */
 export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);

@@ -1,4 +1,4 @@
-// A blended motion, with all that is drawn and said of it.
+// A blended motion, with all its curves and words.
 
 import {follow, onward} from "./branches.js";
 import {ik, singularities} from "./geometries.js";
@@ -15,9 +15,9 @@ import {record} from "./recorded.js";
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
- * The motion for what is asked: what `record` tells of it, times, joint values, the tool's places,
- * how near it passes via; after which samples its curves break, the pose at a time, and the times
- * at which an acceleration may jump.
+ * The motion for a question: the findings of `record`, times, joint values, places of the tool, the
+ * distance from via; the samples after which its curves break, the pose at a time, and the times at
+ * which an acceleration may jump.
  * @param {MotionData} data
  * @param {Asked} state
  */
@@ -39,7 +39,7 @@ export function motionOf(data, state) {
   const times = [0, bend, ...ramps.map(x => x * duration), duration - bend, duration];
   return {
     ...recorded,
-    // a rounded corner is none, however few samples tell of it
+    // a rounded corner is not a jump, however few samples it has
     jumps: state.blend > 0 ? [] : recorded.jumps,
     t,
     q,
@@ -52,8 +52,8 @@ export function motionOf(data, state) {
 }
 
 /**
- * The greatest speeds and accelerations between the samples, too; null where the motion is broken
- * or passes a singularity, or one of them does not stand.
+ * The greatest speeds and accelerations, including those between the samples; null if the motion is
+ * broken or passes a singularity, or if one of them does not converge.
  * @param {MotionData} data
  * @param {Motion} motion
  * @param {number[][]} sampled
@@ -61,7 +61,7 @@ export function motionOf(data, state) {
 export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
-  // where joints are free, it is a choice how they stand
+  // free joints may have any value
   /** @type {(x: number) => number[]} */
   const posture = x => {
     const near = q[Math.min(Math.round(x / step), samples - 1)],
@@ -76,7 +76,7 @@ export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, time
   );
 }
 
-/** The greatest value, NaN where there is none. @type {(rows: number[][], j: number) => number} */
+/** The greatest value, NaN if there is none. @type {(rows: number[][], j: number) => number} */
 export const most = (rows, j) =>
   rows.reduce(
     (best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])),
@@ -87,8 +87,8 @@ export const most = (rows, j) =>
 export const nearDecimals = unit => (unit.size < 1 ? 1 : 3);
 
 /**
- * How near the path passes the via station, in the shown unit: between the samples, too. Infinity
- * where there is no path.
+ * The distance of the path from the via station in the shown unit, including between the samples.
+ * Infinity if there is no path.
  * @param {MotionData} data
  * @param {PagePose} via
  * @param {(x: number) => PagePose} poseAt
@@ -102,7 +102,7 @@ function passing({unit}, via, poseAt, t, missing) {
     far = places.map(place => apart(place, via.place));
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
   let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
-  // only on steps this long the path may come nearer than at the samples
+  // only on such long steps can the path come nearer than at the samples
   for (const i of steps.filter(
     k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
   )) {

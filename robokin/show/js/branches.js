@@ -1,5 +1,4 @@
-// The choice among the rows of `ik`, and what is to be said of them. As branches.py and
-// verdicts.py.
+// The choice among the rows of `ik`, and the words about them, as in branches.py and verdicts.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";
@@ -17,14 +16,15 @@ import {fill, inWords, oneDecimal} from "./blanks.js";
 const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 
 /**
- * The limits of a joint with the slack by which it may stand past them.
+ * The limits of a joint, widened by the tolerance.
  * @param {ArmData} arm
  * @param {number} j
  */
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
- * Which joints can stand at q inside their limits; a turning one at q or whole turns from it.
+ * Which joints can take the posture q within their limits; a revolute one at q or whole turns from
+ * it.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
@@ -37,7 +37,7 @@ export const within = (arm, q) =>
   });
 
 /**
- * For each turning joint the value nearest to `near`, whole turns from q.
+ * For each revolute joint the value nearest to `near` that differs from q by whole turns.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near
@@ -47,7 +47,7 @@ export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
 /**
- * As `unwrapped`, but inside the limits where there is such a value.
+ * As `unwrapped`, but inside the limits where such a value exists.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near
@@ -61,7 +61,8 @@ const inside = (arm, q, near) =>
   });
 
 /**
- * Joint values as people read them: inside the limits and nearest to q, else the least past them.
+ * The joint values to show to people: inside the limits and nearest to q, otherwise those that
+ * exceed the limits least.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number[]}
@@ -77,7 +78,7 @@ export const representative = (arm, q) =>
   });
 
 /**
- * The row with the least travel from q, each joint inside its limits if it can; NaN if there is
+ * The row with the least travel from q, each joint inside its limits if possible; NaN if there is
  * none.
  * @param {ArmData} arm
  * @param {number[][]} rows
@@ -91,8 +92,8 @@ export const nearest = (arm, rows, q) =>
   );
 
 /**
- * Where a motion along one row begins: joints that a singularity leaves free there look ahead to
- * the first sample that fixes them.
+ * The start of a motion along one row: joints that a singularity leaves free there take their
+ * values from the first sample that determines them.
  * @param {ArmData} arm
  * @param {number[][]} track
  */
@@ -111,8 +112,7 @@ function start(arm, track) {
 }
 
 /**
- * Where a motion goes on from the posture `before`: the row with the least travel. NaN where there
- * is none.
+ * The next posture after `before`: the row with the least travel, NaN if there is none.
  * @param {ArmData} arm
  * @param {number[][]} rows
  * @param {number[]} before
@@ -125,8 +125,8 @@ export const onward = (arm, rows, before) =>
   );
 
 /**
- * One continuous motion through the rows of `ik` along a path: it starts on `row`, then every
- * sample takes the row nearest to the one before. NaN where no row exists.
+ * One continuous motion through the rows of `ik` along a path: it starts on `row`, then each sample
+ * takes the row nearest to the sample before it. NaN where no row exists.
  * @param {ArmData} arm
  * @param {number[][][]} samples  the rows of each sample
  * @param {number} row
@@ -146,7 +146,7 @@ export function follow(arm, samples, row) {
 }
 
 /**
- * How joint j stands past its limit.
+ * By how much joint j is past its limit, in words.
  * @param {ClosedFormArm} arm
  * @param {number[]} q
  * @param {number} j
@@ -165,7 +165,7 @@ function excess(arm, q, j) {
 }
 
 /**
- * In one sentence whether a row of `ik` is usable, and if not why: in Python's words.
+ * Says in one sentence whether a row of `ik` is usable, and if not, why, in Python's words.
  * @param {ClosedFormArm} arm
  * @param {PagePose} pose
  * @param {number} row

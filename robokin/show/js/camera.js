@@ -1,5 +1,5 @@
-// The camera of a page: metres in base coordinates to CSS pixels on a canvas. (Figures: camera.py
-// and scene.py.)
+// The camera of a page, from metres in base coordinates to CSS pixels on a canvas. (For figures see
+// camera.py and scene.py.)
 
 import {dot, plus} from "./kinematics.js";
 
@@ -16,7 +16,7 @@ import {dot, plus} from "./kinematics.js";
  */
 
 /**
- * The camera that fits corner points into a rectangle [left, top, width, height].
+ * The camera that fits points into a rectangle [left, top, width, height].
  * @param {number[]} view  azimuth and elevation
  * @param {Point[]} corners
  * @param {Box} box
@@ -49,7 +49,7 @@ export function camera([azimuth, elevation], corners, [left, top, width, height]
 }
 
 /**
- * The same camera for the coordinates of what stands at `base`.
+ * The same camera for the coordinates of an arm at `base`.
  * @param {Camera} cam
  * @param {Point} base
  * @returns {Camera}

@@ -1,4 +1,4 @@
-// Lines, shapes and words on a canvas, in the colours of the page; numbers as people write them.
+// Lines, shapes and words on a canvas, in the colours of the page; numbers for people.
 
 /** @typedef {[number, number]} Pixel  CSS pixels from the left upper corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */
@@ -49,9 +49,9 @@ export const colors = {
   joint6: "",
 };
 
-let family = "sans-serif"; // of words; `readColors` reads it, too
+let family = "sans-serif"; // the font of words; `readColors` reads it, too
 
-/** Reads the colours that the style sheet gives an element in .rk now. @param {Element} place */
+/** Reads the present colours of an element in .rk from the style sheet. @param {Element} place */
 export function readColors(place) {
   const style = getComputedStyle(place);
   family = style.getPropertyValue("--rk-font").trim();
@@ -66,7 +66,7 @@ export const font = (size, weight = "") => `${weight} ${size}px ${family}`;
 export const jointColor = j => colors[/** @type {Color} */ (`joint${(j % 6) + 1}`)];
 
 /**
- * A colour that lets through what is behind it.
+ * A translucent colour.
  * @param {string} color
  * @param {number} share from 0 to 1
  */
@@ -77,9 +77,9 @@ export const clear = (color, share) =>
     .padStart(2, "0");
 
 /**
- * The context of a canvas, wiped, sized to its place on the page at the screen's resolution (at
- * most two by two device pixels each); null where the canvas has no size now: then it keeps what it
- * shows.
+ * The cleared context of a canvas, sized for its place on the page at the screen's resolution (at
+ * most two by two device pixels per CSS pixel); null if the canvas has no size now, and then it
+ * keeps its picture.
  * @param {HTMLCanvasElement} canvas
  * @returns {?[Context, number, number]} context, width and height
  */
@@ -100,7 +100,7 @@ export function prepared(canvas) {
 }
 
 /**
- * Puts a frame into the place of the still picture, unless one of its canvases cannot be drawn on.
+ * Replaces the still picture by a frame, unless one of its canvases cannot be drawn on.
  * @param {HTMLElement} root
  * @param {HTMLElement} frame
  * @param {...HTMLCanvasElement} canvases
@@ -110,7 +110,7 @@ export function replaceStill(root, frame, ...canvases) {
 }
 
 /**
- * A line through points; null or NaN interrupts it.
+ * Draws a line through points; null or NaN interrupts it.
  * @param {Context} g
  * @param {(?Pixel)[]} points
  * @param {string} color
@@ -149,7 +149,7 @@ export const upright = (g, x, top, bottom, ...look) =>
   );
 
 /**
- * Fills and outlines what `draw` traces.
+ * Fills and outlines the path that `draw` traces.
  * @param {Context} g
  * @param {() => void} draw
  * @param {string | CanvasGradient} fill
@@ -175,7 +175,7 @@ export const polygon = (g, points, ...look) =>
   shape(g, () => points.forEach(p => g.lineTo(...p)), ...look);
 
 /**
- * A disc.
+ * Draws a disc.
  * @param {Context} g
  * @param {Pixel} place
  * @param {number} radius
@@ -187,7 +187,7 @@ export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 
 /**
- * Words with a seam, readable over lines.
+ * Writes words with an outline, readable over lines.
  * @param {Context} g
  * @param {string} text
  * @param {number} x
@@ -208,7 +208,7 @@ export function write(g, text, x, y, color = colors.ink, size = 12, align = "lef
 }
 
 /**
- * A number with so many decimals, a real minus sign and no minus zero.
+ * A number with these decimals, a real minus sign and no negative zero.
  * @param {number} x
  * @param {number} decimals
  */
@@ -219,7 +219,7 @@ export const number = (x, decimals) =>
     .replace("-", "\u2212");
 
 /**
- * Whether a box [left, top, width, height] meets one of several.
+ * Whether a box [left, top, width, height] overlaps one of several.
  * @param {Box} box
  * @param {Box[]} boxes
  */
@@ -227,7 +227,7 @@ export const hit = ([x, y, w, h], boxes) =>
   boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);
 
 /**
- * How many columns and rows several arms take in a width.
+ * The number of columns and rows of several arms in a width.
  * @param {number} count
  * @param {number} width
  * @returns {[number, number]}

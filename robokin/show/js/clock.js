@@ -1,5 +1,4 @@
-// The clock of what moves: a button, a slider of the time, a menu of how fast it goes, the Space
-// key.
+// The clock of a motion: a button, a time slider, a menu of playing speeds, and the Space key.
 
 import {number} from "./canvas.js";
 import {choice, control, element, range} from "./elements.js";
@@ -10,7 +9,7 @@ const TICKS = 400,
   SPEEDS = [0.25, 0.5, 1, 2, 4];
 
 /**
- * What is seen of a clock: a row of the page, and its parts.
+ * The visible parts of a clock: a row of the page, and its elements.
  * @typedef {ReturnType<typeof clockRow>} ClockParts
  */
 /** @typedef {ReturnType<typeof runningClock>} Clock */
@@ -67,8 +66,8 @@ export function runningClock(parts, frame, state, span, ask, pace = () => 1) {
   function pass(now) {
     if (!state.playing) return;
     const end = span()[1];
-    // The first stamp may lie before the click; and what was hidden for a while goes on where it
-    // was.
+    // The first time stamp may be before the click, and a view that was hidden for a while
+    // continues where it was.
     const passed = Math.min(500, Math.max(0, now - before)) / 1000;
     state.time = Math.min(end, state.time + passed * pace() * SPEEDS[+parts.speed.value]);
     before = Math.max(before, now);

@@ -1,4 +1,4 @@
-// What surrounds the canvases: dragging the view, and when to draw again.
+// Around the canvases: turning the view by dragging, and when to draw again.
 
 import {colors, readColors} from "./canvas.js";
 import {control} from "./elements.js";
@@ -21,7 +21,7 @@ export const sceneCanvas = (scene, alt) =>
 const KEYS = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 /**
- * Dragging, arrow keys, Home and a double click turn state.view; `ask` gets it drawn.
+ * Dragging, arrow keys, Home and a double click turn state.view; `ask` requests a new picture.
  * @param {HTMLCanvasElement} canvas
  * @param {Pick<PageScene, "flat" | "view">} scene
  * @param {{view: number[]}} state  azimuth and elevation
@@ -58,7 +58,7 @@ export function orbit(canvas, scene, state, ask) {
 }
 
 /**
- * Pressing and dragging on a canvas; `first` at the press.
+ * Calls `take` for pressing and dragging on a canvas, with `first` at the press.
  * @param {HTMLCanvasElement} canvas
  * @param {(event: PointerEvent, first: boolean) => void} take
  */
@@ -73,9 +73,9 @@ export function scrubbing(canvas, take) {
 }
 
 /**
- * When to draw: once before the next picture of the screen after `ask()`, after one of the canvases
- * has got another size, and after the theme has changed (then `colors` has the new ones). Nothing
- * while `root` is not in the page.
+ * Draws once before the next frame of the screen after `ask()`, after a canvas has changed its
+ * size, and after the theme has changed (with the new `colors`), but not while `root` is outside
+ * the page.
  * @param {HTMLElement} root
  * @param {HTMLCanvasElement[]} canvases
  * @param {(now: number) => boolean|void} draw  false: there was no room. It is called again as soon
@@ -89,7 +89,7 @@ export function pictures(root, canvases, draw) {
       asked = requestAnimationFrame(now => {
         asked = 0;
         if (!root.isConnected) return;
-        if (!colors.ink) readColors(canvases[0]); // asked for before any canvas has told its size
+        if (!colors.ink) readColors(canvases[0]); // asked before any canvas has a size
         if (draw(now) === false) watch();
       });
   };
@@ -99,20 +99,20 @@ export function pictures(root, canvases, draw) {
   const turned = () => {
     look();
     if (root.isConnected) draw(performance.now());
-  }; // paper does not wait
+  }; // printing does not wait
   function look() {
     if (root.isConnected) {
-      readColors(canvases[0]); // inside .rk, which has them
+      readColors(canvases[0]); // inside .rk, which defines them
       theme.observe(document.body, {attributeFilter: ["data-jp-theme-light"]});
       for (const one of media) one.addEventListener("change", turned);
       ask();
     } else {
-      // taken out; if it is put back, its canvases get a size again
+      // removed; if it is inserted again, its canvases get a size again
       theme.disconnect();
       for (const one of media) one.removeEventListener("change", turned);
     }
   }
-  // Observed anew, a canvas is reported as soon as it has a size, even one that it had before.
+  // When observed again, a canvas is reported as soon as it has a size, even its previous one.
   function watch() {
     for (const canvas of canvases) {
       sizes.unobserve(canvas);

@@ -1,4 +1,4 @@
-// A button that copies words.
+// A button that copies text.
 
 import {control} from "./elements.js";
 
@@ -13,7 +13,7 @@ export function copyButton(words, text) {
     try {
       await navigator.clipboard.writeText(text());
     } catch {
-      // a page from a file may not: the old way, and if that is forbidden, too, by hand
+      // a page from a file may not: use the old way or, if that is forbidden too, by hand
       area.value = text();
       button.after(area);
       area.select();

@@ -1,4 +1,4 @@
-// The curves: columns of panels over one time axis.
+// The curves: columns of panels with a common time axis.
 
 import {colors, font, jointColor, number, prepared, stroke, tiled, write} from "./canvas.js";
 import {dashes, drawPanel} from "./panel.js";
@@ -68,7 +68,7 @@ export function curvesView(canvas, patterns) {
 }
 
 /**
- * One column in its box.
+ * Draws one column in its box.
  * @param {Shown} shown
  * @param {Column} column
  * @param {Box} box
@@ -100,7 +100,7 @@ function drawColumn({g, patterns, times, ticks, now}, column, box, titled) {
 }
 
 /**
- * The numbers below a column; the last one has the unit.
+ * Writes the numbers below a column; the last one has the unit.
  * @param {Context} g
  * @param {Scale} ticks
  * @param {[first: number, last: number]} span
@@ -117,7 +117,7 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
 }
 
 /**
- * How wide the numbers beside the panels are.
+ * The width of the numbers beside the panels.
  * @param {Context} g
  * @param {Column} column
  */
@@ -138,7 +138,7 @@ function widest(g, {panels}) {
 }
 
 /**
- * Names with their lines, above the panels, evenly in as many rows as it takes.
+ * Writes the legend above the panels, evenly in as many rows as necessary.
  * @param {Context} g
  * @param {number[][]} patterns
  * @param {Column} column

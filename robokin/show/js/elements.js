@@ -1,10 +1,10 @@
-// Elements of a page, and the places that wait for an output.
+// Elements of a page, and the places that wait for a view.
 
 /** @typedef {Record<string, string | number>} Attributes */
 
 /**
- * The places in the page that wait for this output: each only once, and the same one may stand
- * twice in a page.
+ * The places in the page that wait for this view. Each is returned only once; a page may have two
+ * places for the same view.
  * @param {string} id
  * @returns {HTMLElement[]}
  */
@@ -31,8 +31,7 @@ export function element(tag, attributes = {}, ...children) {
 }
 
 /**
- * JupyterLab takes arrow keys and Space for itself unless the very element with the focus forbids
- * it.
+ * JupyterLab handles arrow keys and Space itself unless the focused element forbids it.
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
  * @param {Attributes} attributes
@@ -43,7 +42,7 @@ export const control = (tag, attributes, ...children) =>
   element(tag, {"data-lm-suppress-shortcuts": "true", ...attributes}, ...children);
 
 /**
- * A menu. Its value is the number of a text.
+ * A menu. Its value is the index of a text.
  * @param {string} name
  * @param {string[]} texts
  */
@@ -55,7 +54,7 @@ export const choice = (name, texts) =>
   );
 
 /**
- * A slider over whole numbers from 0 on.
+ * A slider over integers from 0.
  * @param {string} name
  * @param {number} most
  */

@@ -1,8 +1,8 @@
 // The inverse kinematics and the singularities of every geometry (three levers: levers.js). As
 // arms/elbow.py, spherical_wrist.py, scara.py and two_link.py, which are the reference.
 //
-// Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
-// to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
+// Only + - * / and sqrt decide whether a row exists, in Python's order of operations, so that both
+// agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not used.
 
 import {matrix, origin, product, wrapped} from "./kinematics.js";
 import {distance2, nowhere} from "./rows.js";
@@ -48,7 +48,7 @@ const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 
 /**
- * For front/back and elbow, as Elbow.solve: {q, plane, ahead} or null; besides the joints the
+ * For front/back and elbow, as Elbow.solve: {q, plane, ahead} or null, with the joints and the
  * directions (cosine, sine) of the arm's plane and of the forearm above the horizon.
  * @param {ArmOf<ElbowInverse | WristInverse>} arm
  * @param {number[]} place
@@ -88,7 +88,7 @@ function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
         const c = along * u + across * w,
           s = along * w - across * u,
           length = Math.sqrt(c * c + s * s);
-        // equal levers, folded, leave joint 2 free
+        // equal links that are folded leave joint 2 free
         const [cosA, sinA] = length === 0 ? [1, s] : [c / length, s / length];
 
         const [cos2, sin2] = onward([cosA, sinA], turns.upper);
@@ -114,7 +114,7 @@ function elbowRows({geometry: {elbow: e, turns}, tolerances}, [x, y, z]) {
 const bend = (e, q) => e.fore_angle - e.upper_angle + e.sign3 * q[2];
 
 /**
- * How far in front of axis 1 the point is.
+ * The distance of the point in front of axis 1.
  * @param {ElbowData} e
  * @param {number[]} q
  */
@@ -161,7 +161,7 @@ const elbow = {
 };
 
 /**
- * The wrist's own frame at the tool, as 12 numbers, its origin being the wrist centre.
+ * The wrist's own frame at the tool, as 12 numbers, with the wrist centre as its origin.
  * @param {ArmOf<WristInverse>} arm
  * @param {TransformPose} pose
  */
@@ -183,7 +183,7 @@ const wrist = {
       m = wristFrame(arm, pose);
     return elbowRows(arm, origin(m)).flatMap(row => {
       if (!row) return [nowhere(6), nowhere(6)];
-      // seen from the forearm: axis 4 points ce ahead, se up
+      // seen from the forearm: axis 4 points forward by ce, up by se
       const [cos1, sin1] = row.plane,
         [ce, se] = onward(row.ahead, turns.axis4);
       /** @type {(k: number) => number} */
@@ -224,7 +224,7 @@ const wrist = {
 };
 
 /**
- * Equal levers that fold leave joint 1 free.
+ * Whether equal links are folded and leave joint 1 free.
  * @param {number} one
  * @param {number} two
  * @param {number} q2
@@ -264,7 +264,8 @@ const scara = {
 };
 
 /**
- * From the base to the tip of two links: -0 is 0, atan2 tells them apart, a point does not.
+ * The vector from the base to the tip of two links. -0 becomes 0: atan2 distinguishes them, a point
+ * does not.
  * @param {TwoLinkInverse} geometry
  * @param {number[]} place
  * @returns {Pair}
@@ -305,14 +306,14 @@ const GEOMETRIES = {elbow, wrist, scara, two_link: twoLink};
 const UNKNOWN = {held: () => ({}), choose: (arm, q) => q};
 
 /**
- * What is known of an arm's geometry; of one without an inverse only `held` and `choose`.
+ * The functions of an arm's geometry; one without an inverse has only `held` and `choose`.
  * @param {ArmData} arm
  */
 export const geometryOf = arm =>
   /** @type {Geometry<Inverse>} */ (GEOMETRIES[String(arm.geometry.kind)] || UNKNOWN);
 
 /**
- * All joint values that bring the flange to a pose of the arm's kind, in the order of its branches.
+ * All joint values that bring the flange to a target pose, in the order of the arm's branches.
  * @param {ArmData} arm
  * @param {PagePose} pose
  * @returns {number[][]}  a row that does not exist is NaN

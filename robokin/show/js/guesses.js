@@ -1,5 +1,5 @@
-// The page's side of what keeps guesses (guesses.py): the model of a widget without a view, one for
-// each kernel. A page may show several notebooks; each guess goes to the kernel of its own.
+// The page's part of saving guesses (guesses.py): the model of a widget without a view, one for
+// each kernel. A page may show several notebooks; each guess goes to the kernel of its notebook.
 
 /** @typedef {[string, string, string]} Made  a prediction, a choice, when it was made */
 /**
@@ -51,7 +51,7 @@ export function initialize({model}) {
     try {
       model.send({n: sent + 1, path: context?.localPath ?? null, guesses});
     } catch {
-      return; // its kernel is gone
+      return; // its kernel has ended
     }
     asked.set(++sent, tell);
     event.preventDefault();

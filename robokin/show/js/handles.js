@@ -1,5 +1,5 @@
-// Handles: what a hand takes hold of in a scene. Buttons that lie over the canvas, so that a finger
-// on one does not scroll the page, a keyboard reaches it, and it has a name.
+// Handles to drag things in a scene. They are buttons over the canvas, so that touching one does
+// not scroll the page, the keyboard reaches it, and it has a name.
 
 import {cross, dot, frames, origin, plus, turned} from "./kinematics.js";
 import {element, control} from "./elements.js";
@@ -8,11 +8,11 @@ import {element, control} from "./elements.js";
 /** @import {Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 
-const NEAR = 12; // px: no handle is drawn nearer to the edge of the scene
+const NEAR = 12; // px: least distance of a handle from the edge of the scene
 
 /**
- * How far arrows and arcs stand off what they move, in metres for a camera: the same on every
- * screen.
+ * The distance in metres of arrows and arcs from the thing that they move, for a camera, so that it
+ * is the same on every screen.
  * @param {Camera} camera
  */
 export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
@@ -36,7 +36,7 @@ export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 :
 
 /** @typedef {Handle & {node: HTMLElement, shift: Pixel}} Shown  `shift`: to make room */
 /**
- * What the buttons of a layer tell it.
+ * The callbacks of the buttons in a layer.
  * @typedef {object} Hand
  * @property {() => Camera} camera  of the last picture
  * @property {(id: ?string) => void} hold  which handle is taken; null: it is let go
@@ -73,12 +73,11 @@ export function handleLayer(canvas, camera, hold, changed) {
       handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
-    /** To be called behind every picture. */
+    /** Call it after every picture. */
     place() {
       /** @type {Pixel[]} */
       const taken = [];
-      // The one that is held keeps its way to its place, so that it stays under the pointer; the
-      // others make room.
+      // The held one keeps its offset, so that it stays under the pointer; the others make room.
       const first = [...handles].sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, camera(), handle.id === held ? null : taken, canvas));
@@ -101,7 +100,7 @@ function button(handle, {camera, hold, changed}) {
   /** @type {?Drag} */
   let move = null;
   node.addEventListener("pointerdown", event => {
-    event.preventDefault(); // no text is selected, no scrolling begins
+    event.preventDefault(); // prevents text selection and scrolling
     node.focus();
     node.setPointerCapture(event.pointerId);
     [from, move] = [[event.clientX, event.clientY], handle.grab(camera())];
@@ -133,8 +132,8 @@ function button(handle, {camera, hold, changed}) {
 }
 
 /**
- * Puts a button where its handle is; one that has left the scene waits at its edge, and can still
- * be taken.
+ * Puts a button at the place of its handle. A handle outside the scene is shown at its edge and can
+ * still be dragged.
  * @param {Shown} handle
  * @param {Camera} camera
  * @param {?Pixel[]} taken  the places to keep away from; null: it is held
@@ -162,7 +161,7 @@ function placed(handle, camera, taken, canvas) {
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 /**
- * A place that is `room` pixels away from those that are taken.
+ * A place that is `room` pixels away from the taken ones.
  * @param {Pixel} place
  * @param {Pixel[]} taken
  * @param {number} room
@@ -180,8 +179,8 @@ function apart([x, y], taken, room) {
 }
 
 /**
- * How a drag changes one number whose handle moves along a curve: the way of the pointer along the
- * curve's direction on the screen, taken anew as the handle moves on.
+ * A drag that changes one number whose handle moves along a curve: the component of the pointer's
+ * motion along the curve's direction on the screen, updated as the handle moves.
  * @param {Camera} camera
  * @param {(value: number) => Point} place  where the handle is at a value
  * @param {number} value  at the start
@@ -193,8 +192,9 @@ export function alongCurve(camera, place, value, step) {
   let now = value;
   return (dx, dy) => {
     const wanted = [start[0] + dx, start[1] + dy];
-    // Newton's steps to the foot of the pointer on the curve; none where it points at the eye. The
-    // bend of the curve counts: without it a pointer far outside a ring would throw it to and fro.
+    // Newton's steps to the point of the curve nearest to the pointer; none where the curve points
+    // at the eye. They need the curvature: without it a pointer far outside a ring would make it
+    // oscillate.
     for (let i = 0; i < 40; i++) {
       const [before, here, after] = [-step, 0, step].map(x => camera.to(place(now + x)));
       const along = [0, 1].map(k => (after[k] - before[k]) / (2 * step));
@@ -210,10 +210,10 @@ export function alongCurve(camera, place, value, step) {
     return now;
   };
 }
-const MOVES = 0.02; // m of screen per unit of the value: less is no movement that a hand could mean
+const MOVES = 0.02; // m of screen per unit of the value: smaller movements are unintended
 
 /**
- * How a drag moves a point freely in the plane of the screen.
+ * A drag that moves a point freely in the plane of the screen.
  * @param {Camera} camera
  * @param {Point} place  at the start
  * @returns {(dx: number, dy: number) => Point}
@@ -221,7 +221,7 @@ const MOVES = 0.02; // m of screen per unit of the value: less is no movement th
 export const inScreen = (camera, place) => (dx, dy) => plus(place, camera.across(dx, dy));
 
 /**
- * A vector square to `axis`, and one square to both.
+ * A vector perpendicular to `axis`, and one perpendicular to both.
  * @param {number[]} axis
  * @returns {number[][]}
  */
@@ -235,7 +235,7 @@ export function squareTo(axis) {
 }
 
 /**
- * Where joint i of a posture can be taken: on what it moves or, where that is short, on a knob
+ * The place of the handle of joint i: on the part that it moves or, if that is short, on a knob
  * beside it.
  * @param {PageLink[]} chain
  * @param {number[]} q
@@ -261,7 +261,7 @@ export function gripOf(chain, q, i, camera) {
       sunk = dot(way, turned(joints[i], chain[i].axis));
     if (Math.sqrt(dot(way, way) - sunk * sunk) > reach)
       return plus(from, plus(bend, from, -1), share);
-    // a link farther out: its own joint has its ring at 0.6
+    // on the next link: its own joint has its ring at 0.6
     if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3];
   }
   return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);

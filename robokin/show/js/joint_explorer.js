@@ -1,5 +1,5 @@
-// The joint explorer: joints taken by the hand. What is said, and every number of the arm, comes
-// from Python (page.py: JointPage).
+// The joint explorer: the reader drags joints. All words and all numbers of the arm come from
+// Python (page.py: JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -144,7 +144,7 @@ function cells({arm, unit, rows}, q) {
 }
 
 /**
- * The singularities that hold, in words.
+ * The singularities of the posture, in words.
  * @param {JointExplorer} data
  * @param {number[]} q
  */

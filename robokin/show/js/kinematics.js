@@ -1,9 +1,9 @@
-// Chains: rigid transforms as 12 numbers (the rows of [R | p]), rotations as quaternions
-// [w, x, y, z], where a posture brings every joint, and how fast. As quaternion.py, transform.py,
-// arms/arm.py and arms/dexterity.py, which are the reference.
+// Chains: rigid transforms as 12 numbers (the rows of [R | p]), rotations as quaternions [w, x, y,
+// z], the frames of a posture, and the Jacobian. The reference is in quaternion.py, transform.py,
+// arms/arm.py and arms/dexterity.py.
 //
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
-// ("point"). An arm is what `arm_data` of twin.py hands over; no arm's numbers stand in a script.
+// ("point"). An arm is the result of `arm_data` in twin.py; scripts contain no numbers of arms.
 
 /** @import {ArmData, Inverse, PageLink, PagePose, With} from "./page.js" */
 
@@ -34,7 +34,7 @@ export function compose(a, b) {
 }
 
 /**
- * What a joint does at q: a turn about its axis, or a shift along it.
+ * The motion of a joint at q: a rotation about its axis, or a translation along it.
  * @param {Pick<PageLink, "axis" | "prismatic">} link
  * @param {number} q  radians, metres if prismatic
  * @returns {number[]}  12 numbers
@@ -61,8 +61,8 @@ export function motion({axis: [x, y, z], prismatic}, q) {
 }
 
 /**
- * The frames of a posture: base, after each link, the last one being the flange. Where given,
- * `joints` and `moved` receive the frame of each joint before and after its own motion.
+ * The frames of a posture: the base and the frame after each link, of which the last is the flange.
+ * If given, `joints` and `moved` receive the frame of each joint before and after its own motion.
  * @param {PageLink[]} chain
  * @param {number[]} q
  * @param {number[][]} [joints]
@@ -115,7 +115,7 @@ export const cross = (a, b) => [
 export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
 /**
- * The nearest whole number, of two the even one, as in NumPy; Math.round takes the upper one.
+ * The nearest integer, with halves to even as in NumPy; Math.round rounds halves up.
  * @param {number} x
  * @returns {number}
  */
@@ -182,7 +182,7 @@ export function matrix([w, x, y, z], [px, py, pz] = [0, 0, 0]) {
 }
 
 /**
- * The rotation of a transform, by way of its largest component (Shepperd 1978).
+ * The rotation of a transform, computed from its largest component (Shepperd 1978).
  * @param {number[]} m  12 numbers
  * @returns {number[]}  w, x, y, z; the largest one is positive
  */
@@ -218,7 +218,7 @@ export function slerp(a, b, s) {
     less = 0,
     more = 0;
   for (let i = 0; i < 4; i++) same += a[i] * b[i];
-  // the margin keeps rounding noise from choosing the direction of a half turn
+  // the margin keeps rounding errors from choosing the direction of a half turn
   const sign = same < -1e-14 ? -1 : 1;
   for (let i = 0; i < 4; i++) {
     const apart = a[i] - sign * b[i],
@@ -242,7 +242,7 @@ export function slerp(a, b, s) {
 export const fk = (chain, q) => /** @type {number[]} */ (frames(chain, q).at(-1));
 
 /**
- * Where a posture brings the tool, as a pose of the kind that the arm can be asked for.
+ * The pose of the tool in a posture, of the type of the arm's targets.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {PagePose}
@@ -280,9 +280,9 @@ export function jacobian(chain, q) {
 const inner = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 
 /**
- * Vectors turned by pairs until each is square to each other one (one-sided Jacobi, Hestenes 1958),
- * and the rows of the rotation that did it. Their lengths are the singular values, right to the
- * last digits also near zero, where the root of an eigenvalue is not.
+ * Rotates vectors in pairs until all are perpendicular (one-sided Jacobi, Hestenes 1958), and
+ * returns them with the rows of the rotation. Their lengths are the singular values, accurate to
+ * the last digits even near zero, where the root of an eigenvalue is not.
  * @param {number[][]} vectors
  */
 function squared(vectors) {
@@ -312,8 +312,8 @@ function squared(vectors) {
 }
 
 /**
- * How little the tool moves in its worst direction: the smallest singular value of the Jacobian,
- * lengths in reaches of the arm; 0 is a singularity, NaN for NaN.
+ * How slowly the tool moves in its worst direction: the smallest singular value of the Jacobian,
+ * with lengths divided by the arm's reach; 0 is a singularity; NaN in, NaN out.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {number}
@@ -330,7 +330,7 @@ export function distance_from_singularity(arm, q) {
 }
 
 /**
- * The semi-axes of the ellipsoid of tool velocities that joint speeds of length 1 make.
+ * The semi-axes of the ellipsoid of tool velocities for joint speeds of norm 1.
  * @param {PageLink[]} chain
  * @param {number[]} q
  * @returns {number[][]}  three vectors in m/s, the longest first

@@ -1,7 +1,7 @@
 // Three levers: a family of postures for one point. As planar.py, which is the reference.
 //
-// Only + - * / and sqrt decide whether a row exists, in Python's order of operations: so both agree
-// to the last bit. Math.hypot, ** and Math.round are not what NumPy does and do not occur.
+// Only + - * / and sqrt decide whether a row exists, in Python's order of operations, so that both
+// agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not used.
 
 import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 
@@ -11,7 +11,7 @@ import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 /** @typedef {ArmOf<ThreeLeverInverse>} ThreeLeverArm */
 
 /**
- * By how much two sides are longer than the third, rounded alike whichever angle asks.
+ * How much longer two sides are than the third, rounded in the same way for every angle.
  * @param {number} a
  * @param {number} b
  * @param {number} c
@@ -52,7 +52,7 @@ const beside = (a, b, angle) =>
   (Math.PI - angle) / 2 + Math.atan2((b - a) * Math.cos(angle / 2), (b + a) * Math.sin(angle / 2));
 
 /**
- * Distance KO and direction phi of a point; NaN where it is out of reach.
+ * The distance KO and the direction phi of a point, NaN if it is out of reach.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @returns {[number, number]}
@@ -64,7 +64,7 @@ function polar({geometry: {lever, inner, reach}, tolerances: {ROUNDING}}, {place
 }
 
 /**
- * The alpha at which O, B and A are in line, or 0 where the levers need not stretch.
+ * The alpha at which O, B and A are in line, or 0 if the levers need not stretch.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  */
@@ -104,7 +104,7 @@ function leverPosture(arm, KO, phi, alpha) {
 }
 
 /**
- * The alpha that belongs to the angle KOB; NaN where there is none.
+ * The alpha for the angle KOB, NaN if there is none.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} gamma1
@@ -127,7 +127,7 @@ function alphaOfGamma(
 }
 
 /**
- * The same arm with levers OB, BA, AK of other lengths, in metres: what planar.py makes of them.
+ * The same arm with other lengths of the levers OB, BA, AK in metres, as in planar.py.
  * @param {ThreeLeverArm} arm
  * @param {number[]} levers
  * @returns {ThreeLeverArm}
@@ -151,8 +151,8 @@ export function withLevers(arm, levers) {
 }
 
 /**
- * The lowest and the highest alpha that reach a point; NaN where none does. With `limited` gamma,
- * too, stays within 0 to 180 degrees.
+ * The lowest and the highest alpha that reach a point, NaN if none does. With `limited` gamma also
+ * stays within 0 to 180 degrees.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {boolean} [limited]
@@ -179,8 +179,8 @@ export function alpha_range(arm, point, limited = true) {
 }
 
 /**
- * The posture (gamma, beta, alpha) that reaches a point with the free angle alpha; NaN where there
- * is none.
+ * The posture (gamma, beta, alpha) that reaches a point with the free angle alpha, NaN if there is
+ * none.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {number} alpha
@@ -189,8 +189,8 @@ export function alpha_range(arm, point, limited = true) {
 export const family = (arm, point, alpha) => leverPosture(arm, ...polar(arm, point), alpha);
 
 /**
- * How fast beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha change with alpha,
- * up to a positive factor: see planar.py.
+ * The derivatives of beta + alpha - gamma, gamma - beta + alpha and gamma + beta - alpha with
+ * respect to alpha, up to a positive factor: see planar.py.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} each  alpha
@@ -209,9 +209,8 @@ function slopes(arm, KO, each) {
 }
 
 /**
- * Six alphas: the first and the last at which each of these sums is level. (Of equal levers only
- * the first sum has a minimum; planar.py finds it in another way, as well as half of the digits
- * tell.)
+ * Six alphas: the first and the last at which each of these sums is stationary. (For equal levers
+ * only the first sum has a minimum; planar.py finds it in another way, to half of the digits.)
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} low
@@ -235,8 +234,8 @@ function level(arm, KO, low, high) {
 }
 
 /**
- * The posture at a point with the smallest sum S of the angles' changes from `previous`: the
- * kinks and ends of S as a function of alpha and where it is level between them are compared.
+ * The posture at a point with the smallest sum S of the absolute angle changes from `previous`. It
+ * compares the kinks, the ends and the stationary points of S as a function of alpha.
  * @param {ThreeLeverArm} arm
  * @param {{place: number[]}} point
  * @param {number[]} previous

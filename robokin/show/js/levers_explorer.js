@@ -1,6 +1,6 @@
-// The explorer of an arm that reaches a point in a family of postures: the point is taken by the
-// hand, the free angle chosen on the curve of what it costs, and levers of different lengths by
-// sliders. What is said, and every number of the arm, comes from Python (page.py: LeversPage).
+// The explorer of an arm that reaches a point in a family of postures. The reader drags the point,
+// chooses the free angle on the curve of its cost, and sets the lengths of levers with sliders. All
+// words and all numbers of the arm come from Python (page.py: LeversPage).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
@@ -22,7 +22,7 @@ import {point} from "./mark.js";
 
 /** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
 /**
- * What the free angle alpha costs: its range, where it is, the best one, and the cost `at` any.
+ * The cost of the free angle alpha: its range, its value, the best one, and the cost `at` any.
  * @typedef {object} Costs
  * @property {number} low
  * @property {number} high
@@ -40,7 +40,7 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => leversExplorer(stageOf(root, data), data));
 
 /**
- * What the reader has set: the point, the posture before it, the free angle, the arm.
+ * The reader's settings: the point, the previous posture, the free angle, the arm.
  * @typedef {object} State
  * @property {Point} place
  * @property {number[]} before
@@ -107,7 +107,7 @@ function leversExplorer(stage, data) {
 }
 
 /**
- * Sliders of the point, of alpha and, of unequal levers, of their lengths.
+ * The sliders of the point, of alpha and, for unequal levers, of their lengths.
  * @param {Stage} stage
  * @param {LeversExplorer} data
  * @param {State} state
@@ -142,7 +142,8 @@ function slidersOf(stage, {unit, controls}, state) {
 }
 
 /**
- * What alpha costs at the point, with alpha brought into its range; null: no posture reaches it.
+ * The cost of alpha at the point, with alpha moved into its range; null if no posture reaches the
+ * point.
  * @param {State} state
  * @returns {?Costs}
  */
@@ -183,7 +184,7 @@ function told(says, state, {alpha, best, at}) {
 }
 
 /**
- * The arm with some postures that reach the point, too, and the posture before.
+ * The arm with some other postures that reach the point, and the previous posture.
  * @param {State} state
  * @param {?Costs} costs
  */
@@ -247,7 +248,7 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
   });
 
 /**
- * The sum S of the angles' changes over the free angle.
+ * Draws the sum S of the absolute angle changes over the free angle.
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs

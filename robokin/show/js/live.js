@@ -1,29 +1,28 @@
-// What asks the kernel. A view in the page is asleep until a kernel's model finds it
-// (waking.js): events on the view's place in the page carry what both say.
+// Questions to the kernel. A view is asleep until the model of a kernel finds it (waking.js). They
+// communicate by events on the view's element in the page.
 
 import {element} from "./elements.js";
 
 /**
- * What stands in an answer in the place of an array: its number among the buffers, or itself in
- * base64.
+ * The replacement of an array in an answer: its index among the buffers, or its data in base64.
  * @typedef {{array: number | string, type: keyof typeof TYPES, shape: number[]}} StoredArray
  */
 /**
- * The same as it is read.
+ * The array after reading.
  * @typedef {{values: InstanceType<typeof TYPES[keyof typeof TYPES]>, shape: number[]}} Values
  */
 /** @typedef {(n: number, question: unknown) => void} Port  to the kernel */
 /** @typedef {{n: number, answer: {error?: string}, buffers: DataView<ArrayBuffer>[]}} Arrived */
 
-const PATIENCE = 4000; // ms without an answer; then the view says so
-// Two questions under way: the second carries the receipt without which the first answer is held
-// back for 40 ms on its way (Nagle's algorithm meets the delayed receipt).
+const PATIENCE = 4000; // ms without an answer, after which the view says so
+// Up to two questions may be under way: the second carries the acknowledgement without which the
+// first answer is delayed by 40 ms (Nagle's algorithm with delayed acknowledgements).
 const UNDER_WAY = 2;
-// ms from question to answer: then a second one would only wait for the first, and grow old
+// ms from question to answer: if it is longer, a second question would only wait and become stale
 const SLOW = 100;
 
 /**
- * The way from a view to its kernel.
+ * The connection from a view to its kernel.
  *
  * ask(question)  whatever JSON can hold. The newest question is always answered in the end, by the
  *                next kernel if this one leaves; older ones may be skipped while it is at work.
@@ -61,7 +60,7 @@ export function kernelOf(root, id, words, hear) {
 }
 
 /**
- * The questions of a view: the one that waits, those under way, and the port to the kernel.
+ * The questions of a view: the waiting one, those under way, and the port to the kernel.
  * @template Question
  */
 class Questions {
@@ -96,7 +95,7 @@ class Questions {
     this.says.hidden = !sentence;
   }
 
-  /** Takes back what has no answer yet: the newest of it is asked again. */
+  /** Takes back unanswered questions, and asks the newest of them again. */
   takeBack() {
     clearTimeout(this.timer);
     this.wanted ??= [...this.underWay.values()].at(-1)?.question ?? null;
@@ -132,7 +131,7 @@ class Questions {
       try {
         this.port(this.sent, question);
       } catch {
-        // its kernel is gone
+        // its kernel has ended
         return this.sleep();
       }
     }
@@ -141,7 +140,7 @@ class Questions {
       this.timer = setTimeout(() => this.stir(false, this.words.waiting), PATIENCE);
   }
 
-  /** The question that answer n is of, if one waits for it. @param {number} n */
+  /** The question of answer n, if it is still waiting. @param {number} n */
   answered(n) {
     const about = this.underWay.get(n);
     if (!this.port || !about) return null;
@@ -172,7 +171,7 @@ export function joinArrays(answer, buffers = []) {
     typeof array === "string"
       ? Uint8Array.from(atob(array), letter => letter.charCodeAt(0))
       : buffers[array];
-  // a copy: a buffer may begin at an odd place
+  // a copy, since a buffer may begin at an unaligned offset
   const values = new TYPES[type](
     bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength),
   );

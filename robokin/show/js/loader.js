@@ -54,7 +54,7 @@ async function inflated(deflated) {
 }
 
 /**
- * Runs a script and gives what it returns. The script has to be an element of the page, because the
+ * Runs a script and returns its result. The script has to be an element of the page, because the
  * policy of a report allows no other code.
  * @param {string} text
  * @param {string} nonce

@@ -10,7 +10,7 @@ import {clear, colors, spot} from "./canvas.js";
 /** @type {Kind<PageMark>} */
 export const mark = {
   seen: ({at}) => [at],
-  /** The balls. */
+  /** Draws the balls. */
   below({g, cam}, marks) {
     for (const {at, radius} of marks) {
       if (!radius) continue;
@@ -22,7 +22,7 @@ export const mark = {
       spot(g, [x, y], r, shade, colors.ballEdge, 1.2);
     }
   },
-  /** The points, and the names of both. */
+  /** Draws the points, and the names of both. */
   above({g, cam}, marks, {labels}) {
     for (const {name, at, radius} of marks) {
       const place = cam.to(at);

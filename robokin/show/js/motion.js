@@ -1,4 +1,4 @@
-// Paths, time laws, derivatives. As motion/paths.py, laws.py, derivatives.py, maximum.py.
+// Paths, time laws, derivatives, as in motion/paths.py, laws.py, derivatives.py, maximum.py.
 
 import {slerp} from "./kinematics.js";
 
@@ -13,7 +13,8 @@ const STEPS = 64,
 const clipped = s => Math.min(Math.max(s, 0), 1);
 
 /**
- * On the way from pose a (s = 0) to pose b (s = 1): straight, turning evenly.
+ * Interpolates from pose a (s = 0) to pose b (s = 1): on a straight line, at constant angular
+ * velocity.
  * @param {PagePose} a
  * @param {PagePose} b
  * @param {number} s
@@ -38,7 +39,7 @@ export function lerp(a, b, s) {
 export const lin = (start, goal, s) => lerp(start, goal, clipped(s));
 
 /**
- * The motion point to point: all joints straight from q0 to q1, at s in [0, 1].
+ * The point-to-point motion: all joints move linearly from q0 to q1, at s in [0, 1].
  * @param {number[]} q0
  * @param {number[]} q1
  * @param {number} s
@@ -47,7 +48,7 @@ export const lin = (start, goal, s) => lerp(start, goal, clipped(s));
 export const ptp = (q0, q1, s) => q0.map((value, j) => value + clipped(s) * (q1[j] - value));
 
 /**
- * Two straight motions whose corner is rounded while |s - 1/2| < `fraction`.
+ * Two straight motions with a corner that is rounded for |s - 1/2| < `fraction`.
  * @param {PagePose} start
  * @param {PagePose} via
  * @param {PagePose} goal
@@ -73,13 +74,13 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
       last,
     ];
   }
-  // de Casteljau: between neighbours, again and again, until one is left
+  // de Casteljau: interpolate between neighbours
   while (poses.length > 1) poses = poses.slice(1).map((pose, i) => lerp(poses[i], pose, x));
   return poses[0];
 }
 
 /**
- * Two straight motions in a chain: at `via` for s = 1/2.
+ * Two consecutive straight motions, at `via` for s = 1/2.
  * @param {PagePose} start
  * @param {PagePose} via
  * @param {PagePose} goal
@@ -105,7 +106,7 @@ const timeLaw = (duration, progress) => t =>
 export const linear = duration => timeLaw(duration, x => x);
 
 /**
- * Constant acceleration, constant speed, constant braking.
+ * Constant acceleration, constant speed, constant deceleration.
  * @param {number} duration  seconds
  * @param {number} [ramp]  the share of each ramp, at most 0.5
  * @returns {function(number): number}  s at t
@@ -154,7 +155,7 @@ export function differentiate(values, t, order = 1) {
 }
 
 /**
- * The greatest value between low and high, to be shown with so many decimals, as Python's
+ * The greatest value between low and high, to be shown with these decimals, as Python's
  * `refined_maximum`. `quantity` is NaN where it has no value.
  * @param {(x: number) => number} quantity
  * @param {number} low

@@ -1,5 +1,5 @@
-// The motion explorer: a blended motion whose stations are taken by the hand. What is said, and
-// every number of the arm, comes from Python (page.py: MotionPage).
+// The motion explorer: a blended motion with stations to drag. All words and all numbers of the arm
+// come from Python (page.py: MotionPage).
 
 import {fill} from "./blanks.js";
 import {most, motionOf, nearDecimals, topsOf} from "./blended.js";
@@ -28,8 +28,8 @@ import {frame} from "./target.js";
 /** @typedef {Record<(typeof STATIONS)[number], PagePose>} Stations */
 /** @typedef {Stations & StartValues & {time: number}} Asked  `time`: as a share of the duration */
 /**
- * What is shown of a motion: the greatest speeds and accelerations; those between the samples, too,
- * if they are `sure`.
+ * The greatest speeds and accelerations of a motion, including those between the samples if they
+ * are `sure`.
  * @typedef {{sure: boolean, values: number[][]}} Tops
  */
 
@@ -94,7 +94,7 @@ function motionExplorer(stage, data) {
 }
 
 /**
- * Sliders and menus of a motion, and of the time.
+ * The sliders and menus of a motion, and of the time.
  * @param {Stage} stage
  * @param {MotionData} data
  * @param {Asked} state
@@ -134,7 +134,8 @@ function inputsOf(stage, {words, unit, controls, laws, corners, branches}, state
 }
 
 /**
- * Whether a hand holds something: then the samples have to do, between them it takes too long.
+ * Whether the reader holds something: then only the samples count, since values between them take
+ * too long.
  * @param {Stage} stage
  */
 function holding(stage) {
@@ -156,8 +157,8 @@ function holding(stage) {
 }
 
 /**
- * now(): the motion for what is asked, found anew where that has changed; tops(held): its greatest
- * speeds and accelerations.
+ * now(): the motion for the present question, computed again if that has changed; tops(held): its
+ * greatest speeds and accelerations.
  * @param {MotionData} data
  * @param {Asked} state
  */
@@ -168,7 +169,7 @@ function motions(data, state) {
   /** @type {?number[][]} */
   let refined = null;
   const now = () => {
-    const {time, ...asked} = state, // the clock alone changes nothing
+    const {time, ...asked} = state, // the clock alone does not change the motion
       key = JSON.stringify(asked);
     if (!found || key !== known) [known, found, refined] = [key, motionOf(data, state), null];
     return found;
@@ -222,7 +223,7 @@ const poseOf = ({rotation, angle = 0, place}) =>
   matrix(rotation || [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)], place);
 
 /**
- * The arm at sample i; where there is no posture, the last one before, faded.
+ * The arm at sample i; without a posture, the last one before it, faded.
  * @param {MotionData} data
  * @param {Motion} motion
  * @param {number} i
@@ -246,7 +247,7 @@ const nearWords = ({words, unit}, distance) =>
     : "";
 
 /**
- * What is wrong with the motion.
+ * The flaws of the motion, in words.
  * @param {MotionData} data
  * @param {Motion} motion
  */

@@ -1,4 +1,4 @@
-// The motions of a player: all that changes with its slider and its switch.
+// The motions of a player: everything that changes with its slider and its switch.
 
 import {number} from "./canvas.js";
 import {fk, origin} from "./kinematics.js";
@@ -14,7 +14,7 @@ import {recording, thingsAt} from "./recordings.js";
 
 /**
  * choose(motion): everything that changes with slider and switch; things(motion, sample, share):
- * the things that are there then.
+ * the things that exist at that moment.
  * @param {Page} data
  */
 export function motionsOf(data) {
@@ -63,7 +63,7 @@ function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
   };
 }
 
-/** Where the tool is. @type {(chain: PageArm["chain"], q: number[]) => ?Point} */
+/** The place of the tool. @type {(chain: PageArm["chain"], q: number[]) => ?Point} */
 export const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(fk(chain, q)) : null);
 /** @type {(places: (?Point)[], gaps: Set<number>) => (?Point)[]} */
 export const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? [p, null] : [p]));

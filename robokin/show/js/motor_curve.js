@@ -1,4 +1,4 @@
-// Steps over time: what was sent to a motor, and what its rotor made.
+// Steps over time: those sent to a motor, and those that its rotor made.
 
 import {fill} from "./blanks.js";
 import {lastOf} from "./bench.js";
@@ -13,7 +13,7 @@ import {stepOf} from "./rotor.js";
 /** @typedef {(value: number) => number} Place */
 
 /**
- * What was sent as a staircase, what the rotor made as a line, and where the clock is.
+ * Draws the steps sent as a staircase, the rotor's steps as a line, and the time cursor.
  * @param {HTMLCanvasElement} canvas
  * @param {PageMotors["words"]} says
  * @param {Bench} bench
@@ -49,7 +49,7 @@ export function drawCurve(canvas, says, bench) {
 }
 
 /**
- * Where the staircase of what was sent turns at sample i: times and steps.
+ * The corners of the staircase at sample i: times and steps.
  * @param {number} i
  * @param {number} n
  * @param {number[]} sent
@@ -65,7 +65,7 @@ function corners(i, n, sent, t) {
 }
 
 /**
- * Lines at some values, where there is room for their numbers.
+ * Draws lines at some values, where there is room for their numbers.
  * @param {Panel} panel
  * @param {Place} y
  * @param {number[]} values
@@ -85,7 +85,7 @@ function drawLines({g, left, right}, y, values) {
 }
 
 /**
- * Names at the ends of both lines, and what is lost between them.
+ * Writes the names at the ends of both lines, and the lost steps between them.
  * @param {Panel} panel
  * @param {PageMotors["words"]} says
  * @param {Place} y

@@ -1,6 +1,6 @@
-// The motor explorer: a stepper motor seen along its shaft, its phase table, and what its rotor
-// makes of the pulses. What is said, the tables and the poles come from Python (motors.py), the law
-// is rotor.js.
+// The motor explorer: a stepper motor seen along its shaft, its phase table, and the response of
+// its rotor to pulses. Words, tables and poles come from Python (motors.py), the model is in
+// rotor.js.
 
 import {Bench} from "./bench.js";
 import {fill} from "./blanks.js";
@@ -66,7 +66,7 @@ function motorExplorer(root, data) {
 }
 
 /**
- * The frame with its picture, and the rotor to be taken.
+ * The frame with its picture, and a handle on the rotor.
  * @param {HTMLElement} root
  * @param {PageMotors} data
  * @param {Bench} bench
@@ -82,7 +82,7 @@ function motorStage(root, data, bench) {
       bench.hold(false);
       stage.changed();
     };
-  // keys take it, too
+  // the keyboard moves it, too
   layer.addEventListener("keyup", letGo);
   layer.addEventListener("focusout", letGo);
   return stage;
@@ -125,7 +125,7 @@ function rotorHandle(bench, says) {
 }
 
 /**
- * The clock of a run. It shows the run as soon as it goes or is set.
+ * The clock of a run. It shows the run as soon as it plays or is set.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
@@ -147,7 +147,7 @@ function runWatch(stage, bench, says) {
 }
 
 /**
- * Below the picture: single pulses, the clock of a run, and how the rotor stands.
+ * Below the picture: single pulses, the clock of a run, and the state of the rotor.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {HTMLElement} clock
@@ -177,7 +177,7 @@ function pulseRow(stage, bench, clock, says) {
 }
 
 /**
- * What can be chosen, beside the picture.
+ * The choices beside the picture.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors} data
@@ -217,7 +217,7 @@ function choices(stage, bench, data) {
 }
 
 /**
- * Menus of the motor: rotor and feed, windings, which depend on them, and the drive.
+ * The menus of the motor: rotor and feed, windings (which depend on them), and the drive.
  * @param {Bench} bench
  * @param {PageMotors} data
  * @param {() => void} changed
@@ -230,7 +230,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
     k => {
       const {windings} = bench.page();
       state.kind = k;
-      // as many windings as before, where there are such
+      // the same number of windings as before, if possible
       state.motor = Math.max(
         0,
         kinds[k].motors.findIndex(m => m.windings === windings),
@@ -270,8 +270,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
 }
 
 /**
- * The phase table, made anew for another motor, with the rotor that belongs to it. A row that is
- * chosen is switched on.
+ * The phase table, made again for another motor. Choosing a row switches it on.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
@@ -309,7 +308,7 @@ function phaseTable(stage, bench, says) {
 }
 
 /**
- * Scrolls a box until a row of it is seen.
+ * Scrolls a box until one of its rows is visible.
  * @param {HTMLElement} box
  * @param {?HTMLElement} row
  */

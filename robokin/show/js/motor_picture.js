@@ -1,4 +1,4 @@
-// The picture of a motor, seen along its shaft: as the stage of an explorer takes it.
+// The picture of a motor, seen along its shaft, for the stage of an explorer.
 
 import {fill} from "./blanks.js";
 import {colors, font, number, polygon, prepared, shape, spot, stroke, write} from "./canvas.js";
@@ -43,11 +43,11 @@ export function motorPicture(data, bench, changed) {
   };
 }
 
-/** The radius on which the rotor is taken: where its N is, or its teeth. @param {Bench} bench */
+/** The radius of the rotor's handle: at its N, or at its teeth. @param {Bench} bench */
 export const gripRadius = bench => (bench.page().teeth ? 0.52 : 0.46);
 
 /**
- * The camera on the shaft; the unit of length is the radius of the motor.
+ * The camera along the shaft; the unit of length is the radius of the motor.
  * @param {number} w
  * @param {number} h
  * @returns {Camera}
@@ -96,7 +96,7 @@ const arc = (at, from, to, r) =>
   Array.from({length: 25}, (_, i) => at(from + ((to - from) * i) / 24, r));
 
 /**
- * The ring and its poles, each coloured by the current in its winding.
+ * Draws the ring and its poles, each coloured by the current in its winding.
  * @param {Pen} pen
  * @param {number} size
  * @param {Bench} bench
@@ -146,12 +146,12 @@ function drawMagnet({g, at}, theta) {
   ]) {
     const half = arc(at, turn - Math.PI / 2, turn + Math.PI / 2, 0.57);
     polygon(g, half, color, colors.edge, 1.2);
-    // on the screen the ring to take it by lies over the N
+    // on the screen the ring of the handle covers the N
     plainWords(g, name, at(turn, 0.46), colors.edge, true);
   }
 }
 
-/** The weight on the drum, which pulls clockwise. @type {(pen: Pen, motor: Motor) => void} */
+/** Draws the weight on the drum, which pulls clockwise. @type {(pen: Pen, motor: Motor) => void} */
 function drawWeight({g, at}, motor) {
   const from = Math.PI / 2 + 1.3,
     to = from - 2.6 * Math.min(1, motor.load / holdingTorque(motor));
@@ -160,7 +160,7 @@ function drawWeight({g, at}, motor) {
   spot(g, at(to, 0.15), 1.5, colors.near, colors.near, 1);
 }
 
-/** The field. @type {(pen: Pen, angle: number, long: number) => void} */
+/** Draws the field. @type {(pen: Pen, angle: number, long: number) => void} */
 function drawArrow({g, at}, angle, long) {
   const tip = at(angle, long),
     neck = at(angle, long - 0.07),
@@ -177,7 +177,7 @@ function drawArrow({g, at}, angle, long) {
 }
 
 /**
- * Words on a coloured ground that is the same, light, in both themes.
+ * Writes words on a coloured ground that is light in both themes.
  * @param {Context} g
  * @param {string} text
  * @param {Pixel} place

@@ -1,4 +1,4 @@
-// What the motor explorer says of a motor and of a run, in words and in code.
+// The words and the code of the motor explorer about a motor and a run.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -10,7 +10,7 @@ import {degrees, plain} from "./turns.js";
 /** @import {Bench} from "./bench.js" */
 
 /**
- * What the motor can do.
+ * The abilities of the motor, in words.
  * @param {Bench} bench
  * @param {PageMotors} data
  */
@@ -55,7 +55,7 @@ export function factTable(bench, {words: says, pulses, rules}) {
 }
 
 /**
- * What a run comes to, in words.
+ * The result of a run, in words.
  * @param {Bench} bench
  * @param {PageMotors} data
  */
@@ -76,7 +76,7 @@ export function outcome(bench, {words: says, pulses}) {
 }
 
 /**
- * How the rotor stands now, in words.
+ * The present state of the rotor, in words.
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
  */

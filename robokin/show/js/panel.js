@@ -1,4 +1,4 @@
-// One panel of curves: the curves of some joints over time, their limits, and what breaks them.
+// One panel of curves: the curves of some joints over time, with their limits and breaks.
 
 import {
   clear,
@@ -35,7 +35,7 @@ import {panelWords, shade} from "./panel_words.js";
 /** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
- * On what a panel is drawn: where its times are, the dashes of the joints' lines, its sides.
+ * The ground of a panel: the places of its times, the dashes of the joints' lines, its sides.
  * @typedef {{g: Context, patterns: number[][], times: Times, x: Place, sides: Sides}} Ground
  */
 
@@ -93,7 +93,7 @@ export function drawPanel(ground, panel, ticks, now) {
 }
 
 /**
- * Lines at the ticks of the first scale and of the time.
+ * Draws lines at the ticks of the first scale and of the time.
  * @param {Ground} ground
  * @param {Scale} scale
  * @param {Place} y
@@ -115,7 +115,7 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
 }
 
 /**
- * The numbers of the scales: of the first on the left, of another on the right.
+ * Writes the numbers of the scales: of the first on the left, of another on the right.
  * @param {Ground} ground
  * @param {Panel} panel
  * @param {Place[]} scales
@@ -134,7 +134,7 @@ function drawScales({g, sides: [left, right, top]}, {axes}, scales) {
   });
 }
 
-/** Two tips at the ends of a mark's line. @type {(ground: Ground, x: number) => void} */
+/** Draws two tips at the ends of a mark's line. @type {(ground: Ground, x: number) => void} */
 function drawMark({g, sides: [, , top, bottom]}, x) {
   for (const [y, tip] of [
     [top, top + 7],
@@ -151,7 +151,7 @@ function drawMark({g, sides: [, , top, bottom]}, x) {
 }
 
 /**
- * The near side of what lies beyond a limit, a strip above (side 1) or below it.
+ * Draws a strip beyond a limit, above (side 1) or below it.
  * @param {Context} g
  * @param {number} at
  * @param {number} side  1 or -1

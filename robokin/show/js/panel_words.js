@@ -1,15 +1,15 @@
-// Words on a panel of curves: what its marks and limits say, where they cover least.
+// Words on a panel of curves for its marks and limits, placed where they cover least.
 
 import {colors, font, hit, jointColor, number} from "./canvas.js";
 
 /** @import {Box, Context} from "./canvas.js" */
 /** @import {Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
 
-/** Joint colours fit for words. @type {(color: string) => string} */
+/** Joint colours that are readable as text. @type {(color: string) => string} */
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
- * The words of a panel, in a size and a theme: looked for once, not in every picture.
+ * The words of a panel, placed once for a size and a theme and not in every picture.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  of each joint
@@ -57,8 +57,8 @@ function noted(g, marks, x, [left, right, top]) {
 }
 
 /**
- * The words of the limits, as above: beside their lines, off other words and, nearly, off the
- * curves. At most three; where there is no such place, the band alone has to do.
+ * The words of the limits: beside their lines, away from other words and almost away from the
+ * curves. At most three; without such a place only the band is shown.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  of each joint

@@ -1,16 +1,16 @@
-// The greatest speeds and accelerations of a motion, between its samples, too.
+// The greatest speeds and accelerations of a motion, including those between its samples.
 
 import {refinedMaximum} from "./motion.js";
 
 const NODES = [-2, -1, 0, 1, 2],
-  FINE = 2e-4, // from node to node, of the whole motion
-  SHARE = 200; // and of a stretch: at most one of so many parts
+  FINE = 2e-4, // node spacing, as a fraction of the whole motion
+  SHARE = 200; // and of a stretch: at most this fraction
 
 /** @type {(x: number) => number} behind the point: no more than rounding leaves */
 export const decimalsOf = x => (Math.abs(x) < 1e4 ? 1 : 0);
 
 /**
- * When a rising law passes s.
+ * The time at which an increasing law passes s.
  * @param {(t: number) => number} law
  * @param {number} duration
  * @param {number} s
@@ -26,8 +26,8 @@ export function timeOf(law, duration, s) {
 }
 
 /**
- * The greatest speed and acceleration of each joint, either way, in its unit, so that two digits
- * more than `decimalsOf` stand.
+ * The greatest absolute speed and acceleration of each joint in its unit, accurate to two digits
+ * more than `decimalsOf`.
  * @param {(t: number) => number[]} posture  NaN: there is none, or it is not sure
  * @param {number[]} ends  of the stretches, rising: at each an acceleration, or speed, may jump
  * @param {number[]} sizes  of the units
