@@ -45,7 +45,7 @@ machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES)
-def test_fk_is_the_documents_chain_of_matrices(machine, shape):
+def test_fk_equals_the_matrix_chain_of_the_document(machine, shape):
     q = random_joints(machine.arm, RNG, shape)
     T = machine.arm.fk(q)
     assert T.shape == shape
@@ -63,7 +63,7 @@ def test_fk_at_home(machine):
     )
 
 
-def test_the_irb140_at_home():
+def test_irb140_home_pose():
     """By hand from the lengths of listing 1: 70 + 380 + 65 ahead, 352 + 350 up; the flange's z axis
     points ahead.
     """
@@ -74,7 +74,7 @@ def test_the_irb140_at_home():
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES)
-def test_frames_lead_from_the_base_to_the_flange(machine, shape):
+def test_frames_go_from_base_to_flange(machine, shape):
     arm = machine.arm
     q = random_joints(arm, RNG, shape)
     frames = arm.frames(q)
@@ -106,7 +106,7 @@ def test_jacobian_is_the_derivative_of_fk(machine, shape):
 
 
 @machines
-def test_jacobian_loses_rank_where_the_arm_says_it_is_singular(machine):
+def test_jacobian_loses_rank_at_reported_singularities(machine):
     arm = machine.arm
     size = np.array([1 / reach(arm)] * 3 + [1] * 3)[:, None]
 
@@ -126,7 +126,7 @@ def test_jacobian_loses_rank_where_the_arm_says_it_is_singular(machine):
 
 
 @machines
-def test_a_missing_joint_value_makes_its_frames_missing(machine):
+def test_nan_joint_value_gives_nan_frames(machine):
     n = len(machine.arm.links)
     q = np.where(np.eye(n, dtype=bool), np.nan, 0.3)  # row i lacks joint i
     frames = machine.arm.frames(q)
@@ -141,7 +141,7 @@ def test_a_missing_joint_value_makes_its_frames_missing(machine):
 
 
 @machines
-def test_every_row_has_its_own_flags(machine):
+def test_branch_flags_are_unique(machine):
     arm = machine.arm
     assert abs(arm.branches).tolist() == np.ones_like(arm.branches).tolist()
     assert len(arm.branches) == 2 ** arm.branches.shape[1]
@@ -152,7 +152,7 @@ def test_every_row_has_its_own_flags(machine):
             arm.branch(*wrong)
 
 
-def test_dh_links_are_the_product_of_four_matrices():
+def test_dh_links_equal_the_product_of_four_matrices():
     a, alpha, d, theta, q = RNG.normal(size=(5, 4))
     frame = (1, 0, 0, 0), (0, 0, 0)  # a quaternion and an origin, on components
     for link, q_i in zip(dh_links(a, alpha, d, theta), q, strict=True):
@@ -172,7 +172,7 @@ def test_dh_links_are_the_product_of_four_matrices():
 
 
 @pytest.mark.parametrize("modified", [False, True])
-def test_a_table_with_shifts_in_both_forms_is_the_product_of_four_matrices(modified):
+def test_dh_tables_with_prismatic_joints_in_both_forms(modified):
     """Craig's form has Rot(x, alpha) Trans(a, 0, 0) of the link before, and ahead of the joint."""
     a, alpha, d, theta, q = RNG.normal(size=(5, 6))
     shifts = [False, True, False, True, True, False]
@@ -188,7 +188,7 @@ def test_a_table_with_shifts_in_both_forms_is_the_product_of_four_matrices(modif
     assert np.allclose(arm.fk(q).as_matrix(), m, rtol=0, atol=1e-14)
 
 
-def test_the_table_of_a_scara_gives_scaras_forward_kinematics():
+def test_dh_table_of_a_scara_gives_its_forward_kinematics():
     """Both turns of x by 180 degrees: the stroke goes down, and the tool's z axis points up."""
     links = dh_links(
         a=np.array([200, 250, 0, 0]) * mm,
@@ -203,7 +203,7 @@ def test_the_table_of_a_scara_gives_scaras_forward_kinematics():
     assert np.allclose(arm.jacobian(q), SCARA.jacobian(q), rtol=0, atol=1e-15)
 
 
-def test_craigs_table_of_the_puma_gives_its_forward_kinematics_and_inverse():
+def test_craig_table_of_the_puma_gives_fk_and_ik():
     """Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA 560), with the
     catalogue's lengths. Craig's joints 1 and 2 stand half a turn from the catalogue's (his axis 2
     points the other way), and his base is at the shoulder; the flange is the same.
@@ -238,7 +238,7 @@ def ur5_chain(q):
     return m
 
 
-def test_an_arm_of_links_alone_has_forward_kinematics_and_a_jacobian():
+def test_arm_from_links_has_fk_and_jacobian():
     q = RNG.uniform(-np.pi, np.pi, (40, 6))
     flange, J, step = UR5.fk(q).as_matrix(), UR5.jacobian(q), 1e-6
     assert np.allclose(flange, [ur5_chain(one) for one in q], rtol=0, atol=1e-14)
@@ -253,7 +253,7 @@ def test_an_arm_of_links_alone_has_forward_kinematics_and_a_jacobian():
         assert np.allclose(J[:, 3:, j], turns, rtol=0, atol=1e-9)
 
 
-def test_the_reach_of_links_alone_is_a_bound():
+def test_reach_of_a_chain_is_an_upper_bound():
     upright = Transform(Quaternion.from_angle_axis(90 * deg, (1, 0, 0)))
     slide = Link(upright, after=Transform(translation=(0.1, 0, 0)), prismatic=True)
     crooked = [Link(slide.after, (0.6, 0, 0.8), upright), slide, Link(after=slide.after), slide]
@@ -278,7 +278,7 @@ def test_the_reach_of_links_alone_is_a_bound():
     assert longer.reach == pytest.approx(1.0) and arm.reach == pytest.approx(0.6)
 
 
-def test_an_arm_without_an_inverse_says_what_it_can_do():
+def test_arm_without_an_inverse_explains_what_to_use():
     for arm, others in ((UR5, ""), (three_lever(0.4), "alpha_range, family, ")):
         for name in ("ik", "branch", "branches"):
             assert not hasattr(arm, name)
@@ -291,7 +291,7 @@ def test_an_arm_without_an_inverse_says_what_it_can_do():
         type(IRB140)("no inverse", UR5.links, UR5.limits)
 
 
-def test_a_prismatic_joint_shifts_along_its_axis():
+def test_prismatic_joint_moves_along_its_axis():
     link = Link(
         Transform(Quaternion.from_angle_axis(90 * deg, (0, 0, 1)), (1, 0, 0)),
         (1, 0, 0),
@@ -303,7 +303,7 @@ def test_a_prismatic_joint_shifts_along_its_axis():
     assert arm.prismatic.tolist() == [True]
 
 
-def test_whole_turns_change_nothing():
+def test_whole_turns_do_not_change_fk():
     q = RNG.uniform(-np.pi, np.pi, (50, 6))
     with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
         a, b = IRB140.fk(q), IRB140.fk(q + 2 * np.pi * RNG.integers(-9, 10, q.shape))
@@ -332,7 +332,7 @@ PUBLISHED = {
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
-def test_limits_and_speeds_are_the_published_ones(name):
+def test_limits_and_speeds_equal_the_published_ones(name):
     arm, limits, speeds = PUBLISHED[name]
     units = np.where(arm.prismatic, mm, deg)[:, None]
     assert arm.name == name
@@ -343,7 +343,7 @@ def test_limits_and_speeds_are_the_published_ones(name):
         assert np.allclose(arm.speed_limits / deg, speeds, rtol=0, atol=1e-9)
 
 
-def test_equal_parts_do_not_make_equal_arms():
+def test_arms_with_equal_parts_are_not_equal():
     """Arms, links and poses are compared as things, not as numbers: an array has no one answer."""
     for a, b in (
         (Link(), Link()),
@@ -362,6 +362,6 @@ def test_equal_parts_do_not_make_equal_arms():
                 delattr(a, change)
 
 
-def test_an_arm_is_shown_by_its_name():
+def test_repr_shows_the_name_of_an_arm():
     assert repr(IRB140) == "Arm('IRB-140', 6 joints)"
     assert repr(three_lever(1)) == "Arm('Three levers', 3 joints)"

@@ -60,7 +60,7 @@ def representatives(arm, q):
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 @pytest.mark.parametrize("shape", SHAPES)
-def test_within_is_true_where_some_whole_turn_brings_the_joint_inside(arm, shape):
+def test_within_accepts_whole_turns(arm, shape):
     rng = np.random.default_rng(20)
     q = rng.uniform(-8, 8, (*shape, len(arm.links)))
     inside = within(arm, q)
@@ -69,7 +69,7 @@ def test_within_is_true_where_some_whole_turn_brings_the_joint_inside(arm, shape
         assert inside[i].tolist() == [bool(values) for values in representatives(arm, q[i])]
 
 
-def test_within_counts_a_joint_at_its_limit_and_not_a_missing_one():
+def test_within_accepts_the_limit_and_rejects_nan():
     assert within(IRB140, IRB140.limits.T).all()
     with pytest.warns(UserWarning, match="q: 13.2645 rad .* were degrees meant"):
         assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
@@ -86,14 +86,14 @@ def test_within_counts_a_joint_at_its_limit_and_not_a_missing_one():
     ]
 
 
-def test_a_sliding_joint_has_no_other_turn():
+def test_prismatic_joints_have_no_whole_turns():
     assert within(MIXED, [0, 6.9]).tolist() == [True, True]
     assert within(MIXED, [110 * deg, -0.6]).tolist() == [True, False]
     assert within(MIXED, [105 * deg, 7.1]).tolist() == [False if 105 - 360 < -250 else True, False]
     assert within(MIXED, [0, 0.1 - 2 * np.pi]).tolist() == [True, False]
 
 
-def test_a_joint_beyond_half_a_turn_is_inside_though_its_wrapped_value_is_not():
+def test_limits_beyond_half_a_turn_are_respected():
     """Errata S1-f: the listing sees 160 degrees for joint 3, past its 50, and rejects; it stands at
     -200.
     """
@@ -126,7 +126,7 @@ def nearest_by_trial(arm, rows, q):
 
 @machines
 @pytest.mark.parametrize("shape", SHAPES)
-def test_nearest_is_the_least_travel_of_all_rows_and_turns(machine, shape):
+def test_nearest_has_the_least_travel_of_all_rows_and_turns(machine, shape):
     arm = machine.arm
     rng = np.random.default_rng(21)
     q = rng.uniform(arm.limits[:, 0], arm.limits[:, 1], (*shape, len(arm.links)))
@@ -137,7 +137,7 @@ def test_nearest_is_the_least_travel_of_all_rows_and_turns(machine, shape):
         assert np.allclose(chosen[i], nearest_by_trial(arm, rows[i], q[i]), rtol=0, atol=1e-12)
 
 
-def test_nearest_broadcasts_and_says_where_nothing_is():
+def test_nearest_broadcasts_and_returns_nan_without_rows():
     rng = np.random.default_rng(22)
     q = rng.uniform(-1, 1, (5, 6))
     rows = IRB140.ik(IRB140.fk(q[0]))
@@ -157,7 +157,7 @@ def test_nearest_broadcasts_and_says_where_nothing_is():
     )
 
 
-def test_nearest_of_a_sliding_joint_takes_its_value_as_it_is():
+def test_nearest_does_not_wrap_prismatic_joints():
     rows = np.array([[3.0, 6.5], [-3.0, 0.1]])
     # 172 degrees are past the limit
     assert np.allclose(nearest(MIXED, rows, [0.0, 6.4]), [3.0 - 2 * np.pi, 6.5])
@@ -166,7 +166,7 @@ def test_nearest_of_a_sliding_joint_takes_its_value_as_it_is():
     assert np.allclose(nearest(MIXED, beyond, [0.0, 0.0]), [0.0, 7.5])
 
 
-def test_nearest_at_the_pose_it_stands_in_is_no_travel():
+def test_nearest_at_the_current_pose_returns_the_posture():
     rng = np.random.default_rng(23)
     q = rng.uniform(IRB140.limits[:, 0], IRB140.limits[:, 1], (200, 6))
     assert abs(nearest(IRB140, IRB140.ik(IRB140.fk(q)), q) - q).max() < 1e-9
@@ -213,7 +213,7 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
-def test_rounding_noise_at_the_wrist_singularity_turns_nothing(machine, sine):
+def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
     """So near to it joint 4 of every row is rounding noise; a motion does not follow the noise."""
     arm = machine.arm
     rng = np.random.default_rng(25)
@@ -227,7 +227,7 @@ def test_rounding_noise_at_the_wrist_singularity_turns_nothing(machine, sine):
     assert rotation_gap(arm.fk(path), arm.fk(q)).max() < 1e-9
 
 
-def test_follow_moves_off_from_home_without_a_jump():
+def test_follow_leaves_home_without_a_jump():
     """The IRB-140's home pose is a wrist singularity: the motion begins with the joints that its
     second sample has.
     """
@@ -257,7 +257,7 @@ def test_follow_moves_off_from_home_without_a_jump():
     assert rotation_gap(IRB140.fk(back[-1]), IRB140.fk(HOME)) < 1e-12
 
 
-def test_a_motion_that_stays_in_the_wrist_singularity_stands_still_where_it_can():
+def test_free_joints_stay_still_in_the_wrist_singularity():
     q = np.zeros((50, 6)) + [0, 0.2, -0.1, 0, 0, 0.7]
     q[:, 0] = np.linspace(0, 1, 50)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
@@ -266,7 +266,7 @@ def test_a_motion_that_stays_in_the_wrist_singularity_stands_still_where_it_can(
     assert abs(np.diff(path[:, 3:], axis=0)).max() < 1e-12
 
 
-def test_in_the_singularity_joints_4_and_6_share_the_turn():
+def test_joints_4_and_6_share_the_rotation_in_the_singularity():
     q = np.zeros((50, 6)) + [0.3, 0.2, -0.1, 0, 0, 0]
     q[:, 5] = np.linspace(0, 1, 50)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
@@ -274,7 +274,7 @@ def test_in_the_singularity_joints_4_and_6_share_the_turn():
     assert np.allclose(path[:, 5] - path[0, 5], q[:, 5] / 2, rtol=0, atol=1e-12)
 
 
-def test_a_singular_start_keeps_the_fixed_joints_inside_their_limits():
+def test_singular_start_keeps_joints_inside_their_limits():
     """Only the free joints may look ahead to where they are fixed: joint 1 crosses 180 degrees in
     between.
     """
@@ -287,7 +287,7 @@ def test_a_singular_start_keeps_the_fixed_joints_inside_their_limits():
 
 
 @machines
-def test_follow_returns_the_motion_it_is_given(machine):
+def test_follow_returns_the_original_motion(machine):
     """Joint paths over several turns, through +-pi, past every limit: the same motion comes back,
     unwrapped.
     """
@@ -320,7 +320,7 @@ def test_follow_returns_the_motion_it_is_given(machine):
         assert abs(path - turned - q).max() < 1e-6
 
 
-def test_joint_6_turns_on_past_its_limit_of_400_degrees():
+def test_joint_6_keeps_turning_past_its_limit():
     q0, q1 = np.array([0.3, 0.2, -0.1, 0.3, 0.7, 6.0]), np.array([0.4, 0.1, 0.1, -0.3, 0.5, 21.0])
     q, rows, row = joint_path(IRB140, q0, q1, 301)
     path = follow(IRB140, rows, row)
@@ -328,7 +328,7 @@ def test_joint_6_turns_on_past_its_limit_of_400_degrees():
     assert abs(path - path[0] - (q - q[0])).max() < 1e-9
 
 
-def test_follow_starts_inside_the_limits_where_it_can():
+def test_follow_starts_inside_the_limits_if_possible():
     drawn = np.array([10, 20, -200, 30, 40, 50]) * deg
     rows = IRB140.ik(IRB140.fk(drawn + np.linspace(0, 0.1, 11)[:, None]))
     path = follow(IRB140, rows, int(np.nanargmin(turns(rows[0], drawn).max(-1))))
@@ -349,7 +349,7 @@ def out_and_back():
     return IRB140.ik(Transform(T.rotation, out))
 
 
-def test_out_of_the_workspace_is_nan_and_then_on_from_the_last_sample():
+def test_follow_continues_after_nan_from_the_last_sample():
     rows = out_and_back()
     path = follow(IRB140, rows, 0)
     gone = np.isnan(path).any(-1)
@@ -365,7 +365,7 @@ def test_out_of_the_workspace_is_nan_and_then_on_from_the_last_sample():
     assert np.allclose(follow(IRB140, shifted, 0)[first:], rows[first:, 0], rtol=0, atol=1e-9)
 
 
-def test_a_row_that_does_not_exist_yet_is_waited_for():
+def test_follow_waits_for_the_first_sample_of_its_row():
     rows = out_and_back()[::-1].copy()
     rows[:20, 3] = np.nan
     path = follow(IRB140, rows, 3)
@@ -376,7 +376,7 @@ def test_a_row_that_does_not_exist_yet_is_waited_for():
 
 
 @machines
-def test_a_batch_of_motions_is_followed_one_by_one(machine):
+def test_follow_treats_each_motion_of_a_batch_separately(machine):
     arm = machine.arm
     rng = np.random.default_rng(27)
     q0, q1 = random_joints(arm, rng, (2, 3, 2, 1)) * 0.5
@@ -408,7 +408,7 @@ def test_follow_gives_solutions_of_the_poses(machine):
     )
 
 
-def test_one_sample_is_a_motion_too():
+def test_follow_accepts_one_sample():
     rows = IRB140.ik(IRB140.fk(np.full((1, 6), 0.2)))
     assert np.allclose(follow(IRB140, rows, 0), [[0.2] * 6], rtol=0, atol=1e-12)
 
@@ -493,7 +493,7 @@ def test_explain_names_the_singularity():
 
 
 @six
-def test_explain_says_of_every_row_what_ik_and_within_say(machine):
+def test_explain_agrees_with_ik_and_within(machine):
     arm = machine.arm
     rng = np.random.default_rng(29)
     seen = set()
@@ -545,7 +545,7 @@ ROWS = IRB140.ik(IRB140.fk(np.full((4, 6), 0.2)))
         (lambda: explain(None, IRB140.fk(HOME), 0), "None"),
     ],
 )
-def test_wrong_calls_say_what_they_got(call, evidence):
+def test_wrong_arguments_are_named_in_the_error(call, evidence):
     with pytest.raises((ValueError, TypeError), match=evidence):
         call()
 
@@ -569,7 +569,7 @@ def test_the_blend_stays_on_one_row():
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
-def test_the_value_shown_is_inside_or_least_past_the_limits(arm):
+def test_representative_is_inside_or_least_past_the_limits(arm):
     """By trial of whole turns: the value inside that is nearest to q, else the one least past."""
     rng = np.random.default_rng(31)
     q = rng.uniform(-11, 11, (400, len(arm.links)))
@@ -590,7 +590,7 @@ def test_the_value_shown_is_inside_or_least_past_the_limits(arm):
                 assert max(row[i] - high, low - row[i]) == pytest.approx(past.min(), abs=1e-12)
 
 
-def test_a_joint_past_its_limit_is_shown_at_its_least_excess_whatever_came_before():
+def test_representative_has_the_least_excess():
     """A5: lab 02 showed q3 at -300.5, 70 past; lab 07 q5 at 259.8 where -100.2 is 0.2 past."""
     q = np.zeros(6)
     for k in (-1, 0, 1):
@@ -607,14 +607,14 @@ def test_a_joint_past_its_limit_is_shown_at_its_least_excess_whatever_came_befor
     assert np.isnan(representative(IRB140, np.full(6, np.nan))).all()
 
 
-def test_at_its_limit_a_joint_is_shown_there():
+def test_representative_keeps_a_joint_at_its_limit():
     for arm in (IRB140, PUMA560, SCARA):
         for side in (0, 1):
             limit = arm.limits[:, side]
             assert np.allclose(representative(arm, limit), limit, rtol=0, atol=1e-12)
 
 
-def test_unwrapped_takes_the_nearest_whole_turn_and_leaves_a_stroke():
+def test_unwrapped_takes_the_nearest_turn_and_keeps_strokes():
     rng = np.random.default_rng(32)
     q, near = rng.uniform(-9, 9, (2, 100, 2))
     got = unwrapped(MIXED, q, near)
@@ -625,7 +625,7 @@ def test_unwrapped_takes_the_nearest_whole_turn_and_leaves_a_stroke():
         unwrapped(MIXED, np.zeros((2, 2)), np.zeros((3, 2)))
 
 
-def test_degrees_for_radians_are_hinted_at_and_a_long_motion_is_not():
+def test_degrees_cause_a_warning_and_long_motions_do_not():
     with pytest.warns(UserWarning, match="q: 90 rad is many turns; were degrees meant"):
         within(IRB140, [0, 90, 0, 0, 0, 0])
     with pytest.warns(UserWarning, match="q: 90 rad is many turns"):
@@ -635,7 +635,7 @@ def test_degrees_for_radians_are_hinted_at_and_a_long_motion_is_not():
     SCARA.fk([0.1, 0.2, 0.3, 90])  # metres
 
 
-def test_a_batch_of_motions_is_followed_as_each_alone():
+def test_follow_of_a_batch_equals_single_motions():
     """One of them singular throughout, one that begins late, one that is missing."""
     s = np.linspace(0, 1, 30)[:, None]
     plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s
@@ -650,7 +650,7 @@ def test_a_batch_of_motions_is_followed_as_each_alone():
         assert np.isnan(together[1, :3]).all() and np.isfinite(together[:3, 3:]).all()
 
 
-def test_after_a_missing_start_a_motion_begins_inside_its_limits():
+def test_motion_with_a_missing_start_begins_inside_its_limits():
     """Joint 3 of the IRB-140 reaches -230 degrees: -200 is inside where 160 is not."""
     s = np.linspace(0, 1, 20)[:, None]
     q = (np.array([10, 20, -200, 30, 40, 50]) + [5, 5, -5, 5, 5, 5] * s) * deg

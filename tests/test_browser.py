@@ -137,7 +137,7 @@ def saved(tmp_path_factory):
 
 
 @pytest.mark.parametrize("lab", LIVE)
-def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
+def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
     jupyter.open(page, f"{lab}.ipynb")
     jupyter.run_all(page, f"{lab}.ipynb")
     players = page.locator(PLAYER)
@@ -156,7 +156,7 @@ def test_a_player_lives_in_jupyterlab(browser, jupyter, page, lab):
     assert page.outside == [] and page.errors == []
 
 
-def test_opening_a_lab_does_not_mark_it_changed(jupyter, page):
+def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     for lab in LIVE:
         # the one field that no stored lab has right for all: the reader's Python
@@ -173,7 +173,7 @@ def test_opening_a_lab_does_not_mark_it_changed(jupyter, page):
     until(lambda: "jp-mod-dirty" in tab.get_attribute("class"), "a change is not seen", page)
 
 
-def test_a_change_of_theme_leaves_no_canvas_blank(jupyter, page):
+def test_theme_change_redraws_every_canvas(jupyter, page):
     jupyter.open(page, "00_start_here.ipynb")
     jupyter.run_all(page, "00_start_here.ipynb")
     player = page.locator(PLAYER).first
@@ -227,7 +227,7 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     )
 
 
-def test_a_trusted_notebook_plays_without_running(jupyter, page):
+def test_trusted_notebook_plays_without_running(jupyter, page):
     name = _variant(jupyter, "trusted.ipynb")
     jupyter.trust(name)
     jupyter.open(page, name)
@@ -239,7 +239,7 @@ def test_a_trusted_notebook_plays_without_running(jupyter, page):
     assert page.outside == [] and page.errors == []
 
 
-def test_an_untrusted_notebook_shows_a_still_picture(jupyter, page):
+def test_untrusted_notebook_shows_still_pictures(jupyter, page):
     jupyter.open(page, _variant(jupyter, "untrusted.ipynb"))
     stored = re.findall(
         r'<div class="robokin-player"[^>]*><img alt="([^"]*)"', _html_outputs("03_irb140_motion")
@@ -256,7 +256,7 @@ def test_an_untrusted_notebook_shows_a_still_picture(jupyter, page):
 
 
 @pytest.mark.parametrize("lab", [*LABS, *COMPANIONS])
-def test_every_player_of_an_exported_lab_works_without_a_network(page, exported, lab):
+def test_players_of_exported_labs_work_offline(page, exported, lab):
     page.goto(exported[lab].as_uri())
     awake(page)
     players = page.locator(PLAYER)
@@ -287,7 +287,7 @@ def test_every_player_of_an_exported_lab_works_without_a_network(page, exported,
         assert not re.search(r"\$|\\[a-z]+", prose), f"TeX as it was typed: {prose}"
 
 
-def test_a_saved_player_asks_for_nothing(page, saved):
+def test_saved_player_sends_no_requests(page, saved):
     requests = []
     page.on("request", lambda request: requests.append(request.url))
     page.goto(saved.as_uri())

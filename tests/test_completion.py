@@ -40,7 +40,7 @@ OFFERED = {
 
 
 @pytest.mark.parametrize("before", OFFERED)
-def test_the_right_names_are_offered(before):
+def test_completion_offers_the_right_names(before):
     wanted, unwanted = OFFERED[before]
     line = HEAD.count("\n") + 1
     script = jedi.Script(f"{HEAD}{before}.", project=jedi.Project(ROOT))

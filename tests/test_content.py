@@ -27,7 +27,7 @@ CATCHES = [name for name, each in EXERCISES.items() if isinstance(each, Catch)]
 UNJUDGED = "It cannot be judged."
 
 
-def test_nothing_is_broken():
+def test_all_content_can_be_read():
     """Where a line of a solution changed: write the new piece left of the arrow of each edit."""
     told = [line for lab in book.labs().values() for line in lab.broken.values()]
     if told:
@@ -35,7 +35,7 @@ def test_nothing_is_broken():
 
 
 @pytest.mark.parametrize("lab", book.labs())
-def test_a_file_is_read_in_one_sitting(lab):
+def test_content_files_are_short(lab):
     """At most 350 lines, and no name that pytest would take for tests."""
     for file in book.labs()[lab].folder.glob("*.[mp][dy]"):
         assert len(file.read_text(encoding="utf-8").splitlines()) <= 350, file
@@ -43,14 +43,14 @@ def test_a_file_is_read_in_one_sitting(lab):
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_an_exercise_has_its_words(name):
+def test_exercises_have_all_their_sections(name):
     text = EXERCISES[name].text
     assert text.title and text.task and len(set(text.hints)) == 3
     assert all(hint.strip() for hint in text.hints) and EXERCISES[name].solution.strip()
 
 
 @pytest.mark.parametrize("name", [*FUNCTIONS, *CATCHES])
-def test_no_two_mistakes_have_one_name_or_one_sentence(name):
+def test_mistakes_have_unique_names_and_sentences(name):
     mistakes = EXERCISES[name].text.wrong()
     assert len({each.name for each in mistakes}) >= 6, "wanted six mistakes or more"
     for what in ("name", "says"):
@@ -80,14 +80,14 @@ def _outcomes(exercise, variant):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_the_solution_keeps_the_law(name):
+def test_solutions_keep_the_law(name):
     exercise = EXERCISES[name]
     right = [exercise.formed(Outcome(wanted), k) for k, wanted in enumerate(exercise.wanted)]
     assert [exercise.wrong(o, k) for k, o in enumerate(right)] == [None] * len(exercise.cases)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_every_mistake_runs_is_wrong_and_has_a_name_of_its_own(name):
+def test_mistakes_run_are_wrong_and_get_their_own_names(name):
     """A name that an edit needs, and that is not there, shows itself as an error in each case."""
     exercise = EXERCISES[name]
     for variant in exercise.own:
@@ -103,7 +103,7 @@ def test_every_mistake_runs_is_wrong_and_has_a_name_of_its_own(name):
 
 
 @pytest.mark.parametrize("name", CATCHES)
-def test_every_program_of_a_test_is_made(name):
+def test_programs_of_test_exercises_can_be_built(name):
     exercise = EXERCISES[name]
     assert exercise.promise and len(exercise.rights) >= 3
     for _, text in [*exercise.rights, *((n, text) for n, _, text in exercise.wrongs)]:
@@ -111,7 +111,7 @@ def test_every_program_of_a_test_is_made(name):
 
 
 @pytest.mark.parametrize("name", CATCHES)
-def test_no_wrong_program_is_caught_for_a_name_that_is_missing(name):
+def test_wrong_programs_do_not_fail_with_name_errors(name):
     """The test that the solution writes calls each; one that only raises would be caught, too."""
     exercise, space = EXERCISES[name], {}
     exec(compile(exercise.solution, name, "exec"), space)

@@ -44,13 +44,13 @@ def line(request):
 # --- The objects ----------------------------------------------------------------------------------
 
 
-def test_spread_0_is_even():
+def test_zero_spread_gives_equal_gaps():
     assert np.allclose(spaced(COUNT, GAP), GAP * np.arange(1, COUNT + 1), rtol=1e-12, atol=0)
 
 
 @pytest.mark.parametrize("spread", [0.25, 0.5, 1.0])
 @pytest.mark.parametrize("seed", [0, 8])
-def test_spread_is_the_share_by_which_a_gap_differs_most(spread, seed):
+def test_spread_is_the_largest_relative_deviation_of_a_gap(spread, seed):
     gaps = np.diff(spaced(COUNT, GAP, spread, seed=seed), prepend=0)
     assert gaps.min() == pytest.approx(GAP * (1 - spread), abs=1e-12)
     assert gaps.max() == pytest.approx(GAP * (1 + spread), abs=1e-12)
@@ -63,7 +63,7 @@ def test_spread_is_the_share_by_which_a_gap_differs_most(spread, seed):
     assert (np.argsort(np.argsort(steady)) == order).all()
 
 
-def test_another_seed_is_another_order():
+def test_different_seeds_give_different_orders():
     assert not np.allclose(spaced(COUNT, GAP, 0.5, seed=1), spaced(COUNT, GAP, 0.5, seed=2))
     assert spaced(1, GAP, 1.0) == pytest.approx([GAP])
 
@@ -88,7 +88,7 @@ def seconds(point):
     return 15 / 8 * max(abs(a - b) for a, b in there) / SPEED
 
 
-def test_no_object_is_taken_outside_the_window_of_its_arm(line):
+def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
         y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt has carried it
@@ -97,7 +97,7 @@ def test_no_object_is_taken_outside_the_window_of_its_arm(line):
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)
 
 
-def test_no_arm_goes_again_before_its_own_clock_allows(line):
+def test_arms_do_not_leave_before_they_are_free(line):
     _, _, _, trips, _ = line
     assert max(WAYS) == pytest.approx(seconds(PLACES[-1]))
     for one in trips:
@@ -109,7 +109,7 @@ def test_no_arm_goes_again_before_its_own_clock_allows(line):
         assert (np.diff(one.meets) >= ways[:-1] + ways[1:] - 1e-9).all()
 
 
-def test_each_object_is_taken_once_or_missed_by_all(line):
+def test_each_object_is_picked_once_or_missed_by_all(line):
     offsets, v, pitch, trips, first_come = line
     taken = np.concatenate([one.objects for one in trips])
     assert len(set(taken.tolist())) == len(taken) <= COUNT
@@ -119,7 +119,7 @@ def test_each_object_is_taken_once_or_missed_by_all(line):
         assert (one.objects == same.objects).all() and (one.meets == same.meets).all()
 
 
-def test_the_next_arm_takes_what_has_left_the_window_of_the_one_before(line):
+def test_next_arm_picks_what_the_previous_one_left(line):
     """D9: three arms had one clock, and arm 2 took object 4 beside arm 1."""
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips[1:], 1):
@@ -127,7 +127,7 @@ def test_the_next_arm_takes_what_has_left_the_window_of_the_one_before(line):
         assert (one.meets >= left_the_window - 1e-9).all()
 
 
-def test_a_longer_way_between_arms_is_a_delay_and_no_more(line):
+def test_larger_pitch_only_delays_picks(line):
     offsets, v, pitch, trips, first_come = line
     farther = serve(
         offsets, v, WINDOW, WAYS, arms=len(trips), pitch=pitch + 0.6, first_come=first_come
@@ -137,7 +137,7 @@ def test_a_longer_way_between_arms_is_a_delay_and_no_more(line):
         assert np.allclose(later.meets - one.meets, k * 0.6 / v, rtol=0, atol=1e-9)
 
 
-def test_the_rule_by_a_plain_program(line):
+def test_greedy_rule_equals_a_simple_program(line):
     """Every object that is left and every place, tried for every trip."""
     offsets, v, pitch, trips, first_come = line
     left = list(range(COUNT))
@@ -159,7 +159,7 @@ def test_the_rule_by_a_plain_program(line):
         assert (last < free).all()  # it stops only when it can meet none of the rest
 
 
-def test_one_place_takes_every_kth_of_even_objects():
+def test_one_place_picks_every_kth_of_evenly_spaced_objects():
     """With no window to give time, an arm of cycle c takes every ceil(c v / g)-th object."""
     for v in (0.05, 0.1, 0.13, 0.29, 0.4):
         (one,) = serve(spaced(COUNT, GAP), v, [0.0], [0.6])
@@ -170,7 +170,7 @@ def test_one_place_takes_every_kth_of_even_objects():
 
 @pytest.mark.parametrize("spread", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("first_come", [False, True])
-def test_an_endless_window_serves_one_object_each_cycle(spread, first_come):
+def test_unlimited_window_picks_one_object_per_cycle(spread, first_come):
     """A way of w s to every place: v / g objects a second come; 1 / (2 w) at most are taken."""
     way, v = 0.6, 0.4
     assert v / GAP > 1 / (2 * way)  # more than it can take
@@ -187,7 +187,7 @@ def test_an_endless_window_serves_one_object_each_cycle(spread, first_come):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_one_place_and_uneven_objects_by_a_walk_along_the_belt(seed):
+def test_one_place_with_uneven_objects_equals_a_simple_walk(seed):
     """Whoever comes while the arm is away has gone."""
     offsets, v, way = spaced(COUNT, GAP, 1.0, seed=seed), 0.2, 0.5
     (one,) = serve(offsets, v, [0.0], [way])
@@ -199,7 +199,7 @@ def test_one_place_and_uneven_objects_by_a_walk_along_the_belt(seed):
     assert one.objects.tolist() == taken and 0.2 < len(taken) / COUNT < 0.9
 
 
-def test_arms_are_never_fewer_than_the_bound():
+def test_number_of_arms_respects_the_lower_bound():
     for spread, v in ((0.0, 300), (0.5, 200), (1.0, 250)):
         offsets = spaced(COUNT, GAP, spread) + 1.0
         count = next(
@@ -212,7 +212,7 @@ def test_arms_are_never_fewer_than_the_bound():
         assert spread or count == 3  # even objects: the bound, rounded up, is enough here
 
 
-def test_unevenness_costs_speed():
+def test_uneven_spacing_reduces_the_speed():
     """One arm takes all even objects at 120 mm/s, and fewer the more uneven they are."""
     lost = [
         np.mean(
@@ -236,12 +236,12 @@ def test_unevenness_costs_speed():
         (dict(first_come="no"), "first_come: wanted True or False, got 'no'"),
     ],
 )
-def test_wrong_lines_are_refused(change, message):
+def test_invalid_lines_are_refused(change, message):
     with pytest.raises(ValueError, match=message):
         serve(**dict(offsets=[0.1, 0.2], v=0.1, window=WINDOW, ways=WAYS) | change)
 
 
-def test_wrong_spreads_are_refused():
+def test_invalid_spreads_are_refused():
     for spread in (-0.1, 1.1):
         with pytest.raises(ValueError, match="spread: wanted a share from 0 to 1"):
             spaced(COUNT, GAP, spread)

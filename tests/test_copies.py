@@ -625,12 +625,12 @@ ACTS += [History.meets_a_save] * 4
 
 
 @pytest.mark.parametrize("seed", range(50))
-def test_no_history_loses_anything(seed, tmp_path):
+def test_no_sequence_of_copies_loses_work(seed, tmp_path):
     History(seed, tmp_path).run(steps=25)
 
 
 @pytest.mark.parametrize("seed", range(100, 103))
-def test_nor_where_the_file_system_has_no_links(seed, tmp_path, monkeypatch):
+def test_no_work_is_lost_on_a_file_system_without_links(seed, tmp_path, monkeypatch):
     def link(*_, **__):
         raise PermissionError(1, "Operation not permitted")
 
@@ -677,7 +677,7 @@ def school(tmp_path):
     return Class(tmp_path)
 
 
-def test_running_is_not_touching_and_all_else_is():
+def test_running_a_lab_does_not_count_as_a_change():
     lab = notebook("a lab")
     same, others = [notebook("a lab", "run")], [notebook("another")]
     for change in (
@@ -708,7 +708,7 @@ def test_running_is_not_touching_and_all_else_is():
     assert len({digest, *digests}) == 1 + len(digests)
 
 
-def test_what_is_done_and_what_is_said(school, capsys):
+def test_outcomes_match_the_files(school, capsys):
     command = ["copy", str(school.folder), "--from", str(school.labs)]
     assert main(command) == 0
     assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 as they were\n"
@@ -744,7 +744,7 @@ def test_what_is_done_and_what_is_said(school, capsys):
 
 
 @pytest.mark.parametrize("after, dead", [(True, False), (False, True)])
-def test_a_copy_may_end_at_any_write(tmp_path, after, dead, monkeypatch):
+def test_copy_may_stop_at_any_write(tmp_path, after, dead, monkeypatch):
     notary = NotebookNotary(store_factory=MemorySignatureStore, secret=b"secret")
     monkeypatch.setattr(nbformat.sign, "NotebookNotary", lambda: notary)
     school = Class(tmp_path, "one.ipynb", "two.ipynb")
@@ -774,7 +774,7 @@ def test_a_copy_may_end_at_any_write(tmp_path, after, dead, monkeypatch):
     assert ends > 30
 
 
-def test_what_a_killed_copy_had_moved_is_given_back_once(school, tmp_path):
+def test_files_moved_by_a_killed_copy_are_returned_once(school, tmp_path):
     old, ends = school.folder / ".robokin" / "old" / "one.ipynb", 0
     mine, later = written(notebook("mine")), written(notebook("mine, later"))
     while True:
@@ -794,13 +794,13 @@ def test_what_a_killed_copy_had_moved_is_given_back_once(school, tmp_path):
     assert ends > 3
 
 
-def test_half_a_file_of_a_killed_copy_is_swept(school):
+def test_partial_files_of_a_killed_copy_are_removed(school):
     rest = school.folder / ".robokin" / "new"
     rest.write_text("half of a la")
     assert school.copy() == {} and not rest.exists()
 
 
-def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
+def test_link_to_a_folder_created_meanwhile_is_kept(school, tmp_path, monkeypatch):
     write, place = copies.write, school.folder / "one.ipynb"
 
     def meanwhile(path, content):
@@ -814,7 +814,7 @@ def test_a_link_to_a_folder_made_meanwhile_stays(school, tmp_path, monkeypatch):
     assert school.copy() == {"one.ipynb": "failed"} and place.readlink() == tmp_path
 
 
-def test_a_full_disk_is_said_and_mended_later(school, capsys):
+def test_full_disk_is_reported_and_recovered_from(school, capsys):
     for name in ("one.ipynb", "two.ipynb", "new.ipynb"):
         school.newer(name, "second")
     with mock.patch.object(copies, "_put", side_effect=OSError(28, "No space left on device")):
@@ -826,7 +826,7 @@ def test_a_full_disk_is_said_and_mended_later(school, capsys):
     assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
 
 
-def test_a_disk_that_fills_up_tells_what_was_laid(school, monkeypatch):
+def test_disk_that_fills_up_reports_written_files(school, monkeypatch):
     """Whichever file is the last that it takes: what is told lies there, and nothing else does."""
     write, names = copies.write, ("new.ipynb", "one.ipynb", "two.ipynb")
     for name in names:
@@ -859,7 +859,7 @@ def test_a_disk_that_fills_up_tells_what_was_laid(school, monkeypatch):
     assert told == sorted(told) and told[-1] > told[1]
 
 
-def test_a_broken_lab_is_named_and_the_others_are_laid(school, capsys):
+def test_broken_lab_is_reported_and_the_others_are_copied(school, capsys):
     before = (school.folder / "one.ipynb").read_bytes()
     (school.labs / "one.ipynb").write_text("{}")
     (school.labs / "bad.ipynb").write_text('{"cells": [{"cell_type": "code"')
@@ -876,7 +876,7 @@ def test_a_broken_lab_is_named_and_the_others_are_laid(school, capsys):
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"one.ipynb": 5}', "\xff", None])
-def test_without_its_manifest_a_copy_loses_nothing(school, text):
+def test_copy_without_a_manifest_loses_nothing(school, text):
     manifest = school.folder / ".robokin" / "manifest.json"
     mine = written(notebook("mine"))
     school.write("one.ipynb", mine)
@@ -894,7 +894,7 @@ def test_without_its_manifest_a_copy_loses_nothing(school, text):
     assert (school.folder / "one.ipynb").read_bytes() == mine and school.copy() == {}
 
 
-def test_a_lab_may_be_called_new(tmp_path):
+def test_lab_may_have_new_in_its_name(tmp_path):
     school = Class(tmp_path, "one.ipynb", "one.new.ipynb")
     (school.labs / "one.new.ipynb").write_bytes((school.labs / "one.ipynb").read_bytes())
     school.copy()
@@ -905,7 +905,7 @@ def test_a_lab_may_be_called_new(tmp_path):
     assert school.says("one.new.ipynb") == "# one.ipynb first"
 
 
-def test_what_cannot_be_used_is_refused_with_words(school, tmp_path, capsys, monkeypatch):
+def test_unusable_folders_are_refused_with_a_reason(school, tmp_path, capsys, monkeypatch):
     def refused(folder, *source):
         before = sorted(tmp_path.rglob("*"))
         assert main(["copy", str(folder), *(["--from", str(source[0])] if source else [])]) == 1
@@ -934,7 +934,7 @@ def test_what_cannot_be_used_is_refused_with_words(school, tmp_path, capsys, mon
     assert "Permission denied" in refused(tmp_path / "new", school.labs)
 
 
-def test_without_nbformat_it_says_what_to_install(school, monkeypatch, capsys):
+def test_missing_nbformat_is_reported_with_the_install_command(school, monkeypatch, capsys):
     school.newer("one.ipynb", "second")
     monkeypatch.setitem(sys.modules, "nbformat", None)
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
@@ -942,7 +942,7 @@ def test_without_nbformat_it_says_what_to_install(school, monkeypatch, capsys):
     assert school.says("one.ipynb").endswith("first")
 
 
-def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsys):
+def test_labs_are_copied_even_if_they_cannot_be_trusted(school, monkeypatch, capsys):
     school.newer("one.ipynb", "second")
     monkeypatch.setattr(
         nbformat.sign, "NotebookNotary", mock.Mock(side_effect=OSError("no rights"))
@@ -952,7 +952,7 @@ def test_labs_are_laid_even_if_they_cannot_be_trusted(school, monkeypatch, capsy
     assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"
 
 
-def test_two_at_once_do_no_harm(school):
+def test_simultaneous_copies_do_no_harm(school):
     with copies.alone(school.folder / ".robokin" / "lock"):
         with pytest.raises(ValueError, match="another process is at work"):
             school.copy()
@@ -970,7 +970,7 @@ def test_two_at_once_do_no_harm(school):
 # --- The labs -------------------------------------------------------------------------------------
 
 
-def test_the_labs_are_copied_valid_and_trusted(tmp_path):
+def test_copied_labs_are_valid_and_trusted(tmp_path):
     outcomes = copy(tmp_path / "student")
     given = {p.relative_to(NOTEBOOKS).as_posix() for p in NOTEBOOKS.rglob("*") if p.is_file()}
     given = {p for p in given if not any(part.startswith(".") for part in p.split("/"))}
@@ -988,9 +988,7 @@ def test_the_labs_are_copied_valid_and_trusted(tmp_path):
             assert content == lab
 
 
-def test_a_copied_lab_is_alive_at_first_opening_and_not_marked_changed(
-    browser, jupyter, monkeypatch
-):
+def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupyter, monkeypatch):
     """Nothing is run: the player plays, and JupyterLab has nothing to save."""
     monkeypatch.setenv("JUPYTER_DATA_DIR", jupyter.environment["JUPYTER_DATA_DIR"])
     copy(jupyter.labs / "student")

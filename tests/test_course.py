@@ -186,7 +186,7 @@ def right(height, angle):
     return turn @ TIP
 
 
-def test_a_right_answer_holds_and_says_how_much_was_tried():
+def test_right_answer_holds_and_reports_the_number_of_cases():
     verdict = check("made.1", right)
     assert verdict.holds and verdict and verdict.answered and verdict.points == 1
     assert verdict.mistake is None and verdict.case is None
@@ -203,7 +203,7 @@ def raises(height, angle):
 
 
 @pytest.mark.parametrize("answer", [stub, raises, ..., None, lambda h, a: ...])
-def test_nothing_written_yet_is_told_kindly(answer):
+def test_missing_answer_gets_a_friendly_message(answer):
     verdict = check("made.1", answer)
     assert not verdict.answered and not verdict.holds and verdict.mistake is None
     assert "not answered yet" in repr(verdict)
@@ -215,7 +215,7 @@ def half_written(height, angle):
     return right(height, angle)
 
 
-def test_what_is_written_in_part_is_judged(lab):
+def test_partly_written_answer_is_judged(lab):
     """Wherever the part that is missing stands, also in the last case."""
     verdict = check("made.1", half_written)
     assert verdict.answered and not verdict.holds and verdict.mistake == "raises an error"
@@ -263,7 +263,7 @@ TROUBLE = {
 
 
 @pytest.mark.parametrize("name", TROUBLE)
-def test_trouble_is_told_by_its_name(name, capsys):
+def test_errors_of_an_answer_are_named(name, capsys):
     answer, words = TROUBLE[name]
     verdict = check("made.1", answer)
     assert verdict.mistake == name and not verdict.holds and words in repr(verdict)
@@ -272,7 +272,7 @@ def test_trouble_is_told_by_its_name(name, capsys):
 
 
 @pytest.mark.parametrize("answer", [loops, stubborn, late])
-def test_a_loop_without_an_end_is_told_when_its_cpu_time_is_up(answer, monkeypatch):
+def test_endless_loop_is_reported_when_its_cpu_time_is_up(answer, monkeypatch):
     assert answers.SECONDS == 4
     monkeypatch.setattr(answers, "SECONDS", 0.4)
     begin = time.process_time()
@@ -291,7 +291,7 @@ def _interrupts():
 
 
 @pytest.mark.usefixtures("_interrupts")
-def test_an_interrupt_of_the_reader_is_not_an_answer():
+def test_interrupt_by_the_reader_is_passed_on():
     before = _thread._count()
 
     def interrupted(height, angle):
@@ -310,7 +310,7 @@ def test_an_interrupt_of_the_reader_is_not_an_answer():
     assert check("made.1", raises).mistake == "raises an error"
 
 
-def test_a_time_limit_reaches_the_answer_and_never_who_asks(monkeypatch):
+def test_time_limit_stops_the_answer_and_not_the_caller(monkeypatch):
     """Also where the machine is so busy that the limit passes before the caller goes on."""
     monkeypatch.setattr(answers, "SECONDS", 0.01)
     start = _thread.start_new_thread
@@ -329,7 +329,7 @@ def test_a_time_limit_reaches_the_answer_and_never_who_asks(monkeypatch):
     assert _thread._count() == before
 
 
-def test_an_answer_that_waits_is_stopped_by_the_clock_on_the_wall(monkeypatch):
+def test_waiting_answer_is_stopped_by_wall_clock_time(monkeypatch):
     monkeypatch.setattr(answers, "WALL", 0.1)
 
     def waits(height, angle):
@@ -348,7 +348,7 @@ def works(seconds):
     return seconds
 
 
-def test_many_slow_cases_are_told_as_many(monkeypatch):
+def test_many_slow_cases_are_reported_together(monkeypatch):
     """No case is blamed for what all of them take."""
     assert (answers.SECONDS, answers.TOTAL) == (4, 30)
     monkeypatch.setattr(answers, "TOTAL", 0.4)
@@ -363,7 +363,7 @@ def test_many_slow_cases_are_told_as_many(monkeypatch):
     assert [o.name for o in answers.run(works, [(0.05,)] * 10)] == [None] * 10, "each has its own"
 
 
-def test_without_threads_the_page_is_told_and_the_verdicts_are_the_same(monkeypatch):
+def test_verdicts_without_threads_are_the_same_and_the_host_is_called(monkeypatch):
     tried = [right, prints, lambda h, a: h / 0, lambda h, a: right(0.5, a), half_written]
     before = [check("made.1", answer) for answer in tried]
     told = []
@@ -377,7 +377,7 @@ def test_without_threads_the_page_is_told_and_the_verdicts_are_the_same(monkeypa
     assert told == [True, False] * (len(told) // 2) and len(told) >= 2 * len(tried)
 
 
-def test_a_time_limit_leaves_nothing_behind(monkeypatch):
+def test_time_limit_leaves_no_thread_behind(monkeypatch):
     """Neither an exception that comes too late, nor a redirected output, nor a waiting thread."""
     monkeypatch.setattr(answers, "SECONDS", 0.02)
     out, before = sys.stdout, _thread._count()
@@ -402,7 +402,7 @@ def test_a_time_limit_leaves_nothing_behind(monkeypatch):
     assert _thread._count() <= before
 
 
-def test_a_changed_input_is_told(lab):
+def test_changed_input_is_reported(lab):
     lab.exercises["4"] = function(
         "def twice(q):\n    return 2 * q", lambda rng: [(np.arange(3.0),), (np.ones((2, 2)),)]
     )
@@ -418,7 +418,7 @@ def test_a_changed_input_is_told(lab):
     assert check("made.4", lambda q: q * np.nan).mistake == "always NaN"
 
 
-def test_one_changed_input_among_several_is_told():
+def test_one_changed_input_among_several_is_reported():
     def spoils(one, two):
         two[0] = 7
         return one.sum()
@@ -430,20 +430,20 @@ def test_one_changed_input_among_several_is_told():
 # --- The name of a mistake ------------------------------------------------------------------------
 
 
-def test_a_wrong_answer_is_named_by_what_it_agrees_with_in_all_cases():
+def test_wrong_answer_is_named_by_the_mistake_it_equals_in_all_cases():
     verdict = check("made.1", lambda h, a: right(h, a) @ TIP.inverse())
     assert verdict.mistake == "no tip" and "The tip is left out." in verdict.says
     assert "height = 0.5, angle = 1" in verdict.case and "should be at" in verdict.case
 
 
-def test_two_mistakes_that_agree_are_both_named():
+def test_equivalent_mistakes_are_both_named():
     verdict = check("made.1", lambda h, a: right(0.5, a))
     assert verdict.mistake == "fixed height or fixed height, said otherwise"
     assert "height = 2.5" in verdict.case, "the smallest case that shows it"
     assert 0 < verdict.points < 0.5
 
 
-def test_a_mistake_in_some_cases_only_is_not_named():
+def test_mistake_that_agrees_in_some_cases_is_not_named():
     def sometimes(height, angle):
         return right(height, angle) if angle > 0 else right(0.1, angle)
 
@@ -452,7 +452,7 @@ def test_a_mistake_in_some_cases_only_is_not_named():
     assert verdict.case
 
 
-def test_an_input_that_is_not_used_is_named():
+def test_unused_input_is_named():
     verdict = check("made.1", lambda height, angle: right(height, 2.0) if height else None)
     assert verdict.mistake == "angle is not used"
     assert check("made.1", lambda height, angle: TIP).mistake == "one answer to everything"
@@ -467,7 +467,7 @@ def inside(lab, mistakes=""):
     lab.exercises["4"] = function(program, lambda rng: cases, mistakes)
 
 
-def test_a_yes_to_nearly_everything_uses_its_inputs(lab):
+def test_program_that_is_almost_always_true_uses_its_inputs(lab):
     """Asked from one case only, most wrong tests would seem to use nothing."""
     inside(lab)
     assert check("made.4", lambda x, low: low <= x <= 3).holds
@@ -486,7 +486,7 @@ LOW_AND_HIGH = """\
 """
 
 
-def test_two_mistakes_at_once_are_a_guess_where_the_answer_is_yes_or_no(lab):
+def test_pairs_of_mistakes_are_not_named_for_boolean_answers(lab):
     inside(lab, LOW_AND_HIGH)
     assert check("made.4", lambda x, low: low - 1 <= x <= 3).mistake == "too low"
     verdict = check("made.4", lambda x, low: low - 1 <= x <= 4)
@@ -505,7 +505,7 @@ def test_two_mistakes_of_a_pose_are_both_named():
     assert verdict.mistake == "no tip, and degrees for radians"
 
 
-def test_a_nearly_right_answer_is_told_by_how_much(lab):
+def test_nearly_right_answer_gets_its_error(lab):
     """And no mistake is named that leaves the right program as it is, however loose `same` is."""
     loose = lambda a, b: np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-2)  # noqa: E731
     lab.exercises["4"] = made(POSE, **KEPT | {"same": loose})
@@ -529,7 +529,7 @@ GENERAL = {
 
 
 @pytest.mark.parametrize("name", GENERAL)
-def test_a_general_mistake_is_named(name):
+def test_common_slip_is_named(name):
     verdict = check("made.1", GENERAL[name])
     assert not verdict.holds and verdict.mistake == name
 
@@ -545,7 +545,7 @@ ARRAYS = {
 
 
 @pytest.mark.parametrize("name", ARRAYS)
-def test_a_general_mistake_with_numbers_is_named(name, lab):
+def test_common_slip_in_numbers_is_named(name, lab):
     lab.exercises["4"] = function(
         "def twice(t):\n    return 2 * t",
         lambda rng: [(np.linspace(0, 3, 20),), (rng.uniform(0.1, 9, 30),)],
@@ -625,7 +625,7 @@ def asked(a, b):
 
 
 @pytest.mark.parametrize("name", WRITTEN)
-def test_a_mistake_in_an_operation_is_named(name, lab):
+def test_slip_in_an_operation_is_named(name, lab):
     program, cases, wrong = WRITTEN[name]
     lab.exercises["4"] = function(POSED + program, cases)
     verdict = check("made.4", wrong)
@@ -633,7 +633,7 @@ def test_a_mistake_in_an_operation_is_named(name, lab):
     assert check("made.4", edits.run(POSED + program)["asked"]).holds
 
 
-def test_every_general_mistake_is_tried():
+def test_all_common_slips_are_tried():
     everything = "[" + ", ".join(program for program, _, _ in WRITTEN.values()) + "]"
     exercise = function(POSED + everything, angles)
     common = list(exercise._common())
@@ -647,7 +647,7 @@ def test_every_general_mistake_is_tried():
 # --- Values, and tests that catch -----------------------------------------------------------------
 
 
-def test_a_value_is_judged_with_the_numbers_of_a_student():
+def test_value_is_judged_with_the_numbers_of_the_student():
     assert check("made.2", 0.4, who="Ada").holds
     assert not check("made.2", ..., who="Ada").answered
     assert "Whose numbers" in repr(check("made.2", 0.4))
@@ -656,7 +656,7 @@ def test_a_value_is_judged_with_the_numbers_of_a_student():
     assert check("made.2", "long", who="Ada").mistake == "another kind or shape"
 
 
-def test_a_test_has_to_accept_and_to_refuse():
+def test_test_exercise_must_accept_and_refuse():
     def good(program):
         return program(3) == 6 and program(2) == 4
 
@@ -684,7 +684,7 @@ def _quietly(test, program):
         return False
 
 
-def test_a_test_that_passes_over_errors_accepts_what_only_raises():
+def test_test_that_ignores_errors_accepts_a_raising_program():
     def passes_over(program):
         try:
             return program(3) == 6 and program(2) == 4
@@ -696,7 +696,7 @@ def test_a_test_that_passes_over_errors_accepts_what_only_raises():
     assert check("made.3", lambda program: _quietly(passes_over, program)).mistake
 
 
-def test_a_test_that_says_nothing_is_told_so():
+def test_test_that_returns_nothing_is_reported():
     def silent(program):
         program(3) == 6  # noqa: B015
 
@@ -715,13 +715,13 @@ def test_a_test_that_says_nothing_is_told_so():
     assert check("made.3", mixed).mistake == "returns None"
 
 
-def test_an_error_of_the_test_itself_is_no_answer():
+def test_error_in_the_test_itself_is_reported():
     verdict = check("made.3", lambda program: program(3) == 6 and program(2) + "4")
     assert verdict.mistake == "raises an error" and "TypeError" in verdict.says[0]
     assert "plain" in verdict.case
 
 
-def test_a_test_that_counts_its_calls_does_not_hold(monkeypatch):
+def test_test_that_counts_its_calls_does_not_hold(monkeypatch):
     """It is right by luck: twice in ten times ten, asked again."""
     held, told = 0, set()
     for seed in range(200):
@@ -739,7 +739,7 @@ def test_a_test_that_counts_its_calls_does_not_hold(monkeypatch):
     assert held <= 6 and "its answer changes" in told
 
 
-def test_what_is_told_of_a_test_does_not_depend_on_the_order(monkeypatch):
+def test_verdict_on_a_test_does_not_depend_on_the_order(monkeypatch):
     told = set()
     for seed in range(20):
         dice = random.Random(seed)
@@ -764,14 +764,14 @@ def test_what_is_told_of_a_test_does_not_depend_on_the_order(monkeypatch):
     ),
     st.sampled_from(["made.1", "made.2", "made.3", "made.9", "other.1", "", "made"]),
 )
-def test_a_check_never_raises(answer, name):
+def test_check_never_raises(answer, name):
     for who in (None, "Ada", 7, ""):
         verdict = check(name, answer, who=who)
         assert isinstance(repr(verdict), str) and 0 <= verdict.points <= 1
         assert not verdict.holds or verdict.points == 1
 
 
-def test_markup_in_an_answer_stays_words():
+def test_markup_in_an_answer_is_escaped():
     text = check("made.1", lambda h, a: "<script>alert(1)</script>")._repr_html_()
     assert "<script" not in text and "&lt;script" in text
 
@@ -779,7 +779,7 @@ def test_markup_in_an_answer_stays_words():
 # --- Beside the checks ----------------------------------------------------------------------------
 
 
-def test_hints_come_one_by_one():
+def test_hints_are_given_one_at_a_time():
     assert "first" in hint("made.1") and "1 more" in hint("made.1")
     assert "second" in hint("made.1", 2) and "more" not in hint("made.1", 2)
     assert "2 hints" in hint("made.1", 3) and "2 hints" in hint("made.1", 0)
@@ -787,13 +787,13 @@ def test_hints_come_one_by_one():
         hint("made.7")
 
 
-def test_a_solution_is_shown_and_holds():
+def test_shown_solution_holds():
     text = solution("made.1")
     assert text.startswith("# --- 1: a pose\n")
     assert check("made.1", edits.run(text)["pose"]).holds
 
 
-def test_progress_tells_what_holds():
+def test_progress_lists_what_holds():
     assert "Nothing" in progress()
     check("made.1", right)
     check("made.2", 0.9, who="Ada")
@@ -804,7 +804,7 @@ def test_progress_tells_what_holds():
     assert progress().splitlines() == lines, "what held once is practised"
 
 
-def test_a_students_numbers_do_not_depend_on_how_the_name_is_written(lab):
+def test_numbers_do_not_depend_on_the_spelling_of_a_name(lab):
     from robokin.course.variants import Numbers, dice
 
     lab.given = lambda who: Numbers({"x": dice("made", who).randrange(10**6)}, {"x": ("mm", 1)})
@@ -819,7 +819,7 @@ def test_a_students_numbers_do_not_depend_on_how_the_name_is_written(lab):
     assert repr(variant("made", "Ada")).endswith("mm")
 
 
-def test_a_students_numbers_are_the_same_in_another_process():
+def test_numbers_are_equal_in_another_process():
     code = "from robokin.course.variants import dice; print(dice('made', 'Ada').randrange(10**9))"
     made = {
         subprocess.run(
@@ -834,7 +834,7 @@ def test_a_students_numbers_are_the_same_in_another_process():
     assert len(made) == 1 and made.pop().strip().isdigit()
 
 
-def test_an_input_that_was_left_alone_is_equal_to_its_copy():
+def test_unchanged_input_equals_its_copy():
     rotation = Quaternion.from_angle_axis(0.3, [0, 0, 1])
     for value in (Transform(rotation, [1, 2, 3]), ScaraPose((1, 2, 3), 0.3), [np.nan, (1, "a")]):
         assert answers.equal(value, copy.deepcopy(value))

@@ -28,7 +28,7 @@ from robokin.arms.dexterity import spread
 RNG = np.random.default_rng(12)
 
 
-def test_the_reach_is_how_far_the_carried_point_gets_from_axis_1():
+def test_reach_is_the_greatest_distance_from_axis_1():
     assert two_link(0.3, 0.5).reach == pytest.approx(0.8)
     assert IRB140.reach == pytest.approx(0.07 + 0.35 + 0.38)
     assert PUMA560.reach == pytest.approx(0.4318 + np.hypot(0.4318, 0.0203))
@@ -37,14 +37,14 @@ def test_the_reach_is_how_far_the_carried_point_gets_from_axis_1():
     assert three_lever(0.4).reach == pytest.approx(1.2)
 
 
-def test_the_total_length_is_that_of_the_stretched_chain():
+def test_total_length_is_that_of_the_stretched_chain():
     assert total_length(two_link(0.3, 0.5)) == pytest.approx(0.8)
     assert total_length(IRB140) == pytest.approx(0.352 + 0.07 + 0.35 + 0.38 + 0.065)
     assert total_length(SCARA) == pytest.approx(0.2202 + 0.2 + 0.25 + 0.18)
     assert total_length(three_lever(0.4)) == pytest.approx(1.2)
 
 
-def test_of_two_links_the_product_is_the_area_of_their_parallelogram():
+def test_product_for_two_links_is_the_area_of_their_parallelogram():
     """det J = l1 l2 sin q2, in units of the reach squared."""
     arm = two_link(0.3, 0.5)
     q = RNG.uniform(-3, 3, (200, 2))
@@ -53,7 +53,7 @@ def test_of_two_links_the_product_is_the_area_of_their_parallelogram():
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_the_values_are_stretches_of_small_steps(machine):
+def test_singular_values_are_the_extreme_stretches_of_small_steps(machine):
     """Whatever the direction of a small joint step, the tool's step is between the smallest and the
     greatest value long: by differences of FK, lengths in reaches.
     """
@@ -76,7 +76,7 @@ def test_the_values_are_stretches_of_small_steps(machine):
     assert (seen.max(0) > 0.5 * values[:, 0]).all()
 
 
-def test_zero_at_a_singularity_and_missing_where_the_posture_is():
+def test_zero_at_singularities_and_nan_for_nan():
     for arm, q in (
         (IRB140, np.zeros(6)),  # the wrist
         (PUMA560, [0.3, -0.4, -np.pi / 2 + np.arctan2(20.3, 431.8), 0.2, 0.7, 0]),  # stretched
@@ -90,7 +90,7 @@ def test_zero_at_a_singularity_and_missing_where_the_posture_is():
         assert rows[0] == distance_from_singularity(arm, away) and np.isnan(rows[1])
 
 
-def test_the_measure_does_not_depend_on_the_size_of_the_arm():
+def test_distance_does_not_depend_on_the_size_of_the_arm():
     q = RNG.uniform(-2, 2, (20, 6))
     big = itmo_arm(1, 1, 2, 2)
     assert np.allclose(singular_values(ITMO6R, q), singular_values(big, q), rtol=1e-12, atol=0)
@@ -103,7 +103,7 @@ def test_the_measure_does_not_depend_on_the_size_of_the_arm():
     assert np.allclose(a, b, rtol=1e-12, atol=0) and a.shape == (20, 4)
 
 
-def test_no_two_joints_of_a_spread_go_together():
+def test_joints_of_spread_postures_are_uncorrelated():
     count = 40
     chain = SimpleNamespace(links=(Link(),) * count, target=Transform, reach=1.0)
     shares = spread(Arm("many joints", chain, [(0, 1)] * count), 300)
@@ -114,7 +114,7 @@ def test_no_two_joints_of_a_spread_go_together():
     assert (shares[:, :7] == np.arange(1, 301)[:, None] * roots % 1).all()
 
 
-def test_only_what_the_arm_is_asked_for_counts():
+def test_only_rows_of_the_task_count():
     assert singular_values(two_link(1, 1), [0.1, 0.2]).shape == (2,)
     assert singular_values(SCARA, [0.1, 0.2, 0.3, 0.1]).shape == (4,)
     assert singular_values(IRB140, np.full((3, 6), 0.2)).shape == (3, 6)

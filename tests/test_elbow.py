@@ -25,7 +25,7 @@ def matrices(l1, l2, q):
 
 
 @cases
-def test_every_solution_in_its_place_and_none_more(case):
+def test_ik_returns_every_solution_in_its_row(case):
     arm = spbu_arm(case["l1"], case["l2"])
     rows = arm.ik(case["p"])
     tolerance = 1e-4 if case["singular"]["elbow"] else 1e-6
@@ -53,7 +53,7 @@ def test_every_solution_in_its_place_and_none_more(case):
 
 
 @cases
-def test_the_principal_branch_is_row_0(case):
+def test_principal_branch_is_row_0(case):
     row = spbu_arm(case["l1"], case["l2"]).ik(case["p"])[0]
     if "principal" not in case:
         assert np.isnan(row).all()
@@ -75,7 +75,7 @@ def test_the_four_verdicts_of_the_workspace(case):
 
 
 @lengths
-def test_fk_is_the_product_of_the_documents_matrices(l1, l2):
+def test_fk_equals_the_product_of_the_document_matrices(l1, l2):
     for q in np.random.default_rng(1).uniform(-np.pi, np.pi, (20, 3)):
         q1, q2, q3 = q
         T = spbu_arm(l1, l2).fk(q).as_matrix()
@@ -95,7 +95,7 @@ def test_alpha_of_the_text_puts_the_tool_below_the_floor():
 
 @lengths
 @pytest.mark.parametrize("shape", SHAPES)
-def test_ik_returns_to_the_point_and_holds_the_drawn_joints(l1, l2, shape):
+def test_ik_reaches_the_point_and_contains_the_original_joints(l1, l2, shape):
     arm = spbu_arm(l1, l2)
     q = np.random.default_rng(2).uniform(-np.pi, np.pi, (*shape, 3))
     points = arm.fk(q).translation
@@ -114,7 +114,7 @@ def test_ik_returns_to_the_point_and_holds_the_drawn_joints(l1, l2, shape):
 
 
 @lengths
-def test_the_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
+def test_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
     """Errata S0-b, S0-c: the inequalities are exact, and the one for l1 < l2 says that q2 >= -90
     degrees.
     """
@@ -162,11 +162,11 @@ def test_the_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2
         ),
     ],
 )
-def test_the_reason_of_a_refusal(l1, l2, point, words):
+def test_reason_of_an_unreachable_point(l1, l2, point, words):
     assert out_of_workspace(l1, l2, point) == [words]
 
 
-def test_two_reasons_at_once():
+def test_all_reasons_are_listed():
     assert [text.split(":")[0] for text in out_of_workspace(5, 4, (0, 0, -20))] == [
         "is too far",
         "is under floor",
@@ -196,7 +196,7 @@ def test_two_solutions_inside_the_domain():
         (1, 1.7, (0, -2.7, 0)),
     ],
 )
-def test_the_border_is_reached(l1, l2, point):
+def test_border_is_reachable(l1, l2, point):
     """Errata S0-l: the printed program refuses a stretched arm by rounding, and fails at the origin
     (S0-k).
     """
@@ -208,7 +208,7 @@ def test_the_border_is_reached(l1, l2, point):
 
 
 @pytest.mark.parametrize("l1, l2", LENGTHS[:4])
-def test_beyond_the_border_is_refused(l1, l2):
+def test_points_beyond_the_border_are_nan(l1, l2):
     for direction in ((1, 0, 0), (0.6, 0, 0.8), (0, 0, 1)):
         beyond = np.multiply(direction, (l1 + l2) * (1 + 1e-9))
         assert workspace(l1, l2, beyond).tolist() == [False, True, True, True]
@@ -219,7 +219,7 @@ def test_beyond_the_border_is_refused(l1, l2):
 
 @pytest.mark.parametrize("x", [0.0, -0.0])
 @pytest.mark.parametrize("y", [0.0, -0.0])
-def test_joint_1_is_0_on_the_axis_whatever_the_sign_of_zero(x, y):
+def test_joint_1_is_0_on_the_axis_for_both_signs_of_zero(x, y):
     """Errata S0-p: atan2(0, -0.0) is pi."""
     rows = spbu_arm(5, 4).ik((x, y, 4.9))
     np.testing.assert_array_equal(rows[:, 0], [0, 0, np.pi, np.pi])
@@ -227,7 +227,7 @@ def test_joint_1_is_0_on_the_axis_whatever_the_sign_of_zero(x, y):
     assert spbu_arm(5, 4).ik((-1, y, 2))[0, 0] == np.pi == principal_postures(5, 4, (-1, y, 2))[0]
 
 
-def test_a_free_joint_does_not_touch_the_other_rows_of_a_batch():
+def test_free_joint_does_not_affect_other_rows_of_a_batch():
     """Equal levers folded onto joint 2, among points that are not so."""
     arm = loader_arm(1, 1)
     points = np.array([(1, 0.3, 0.2), (0, 0, 0), (0.5, -1, 0.4)])
@@ -238,7 +238,7 @@ def test_a_free_joint_does_not_touch_the_other_rows_of_a_batch():
     np.testing.assert_array_equal(rows, [arm.ik(point) for point in points])
 
 
-def test_wrong_arms_and_points_are_refused():
+def test_invalid_arms_and_points_are_refused():
     for call, evidence in (
         (lambda: workspace(0, 4, (1, 1, 1)), "l1: wanted one positive length in metres, got 0"),
         (lambda: workspace(5, [4, 4], (1, 1, 1)), r"l2: .*\[4, 4\]"),
@@ -253,7 +253,7 @@ def test_wrong_arms_and_points_are_refused():
             call()
 
 
-def test_on_axis_1_only_joint_1_is_free():
+def test_only_joint_1_is_free_on_axis_1():
     for arm in (spbu_arm(2, 1), loader_arm(1, 0.8)):
         rows = arm.ik((0, 0, 1.5))
         near = np.array([0.7, 0.1, 0.2])

@@ -72,7 +72,7 @@ form = law = same
 # --- Made in a cell -------------------------------------------------------------------------------
 
 
-def test_a_solution_and_its_cases_are_an_exercise():
+def test_exercise_from_a_solution_and_cases():
     """The names of the cell's notebook are there, but `form`, `law` and `same` are taken from none
     by chance.
     """
@@ -88,13 +88,13 @@ def test_a_solution_and_its_cases_are_an_exercise():
     assert not check(mine, ...).answered
 
 
-def test_an_exercise_of_ones_own_is_none_of_the_progress(monkeypatch):
+def test_own_exercises_do_not_count_as_progress(monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     assert check(exercise(reach, cases), reach).holds
     assert "Nothing" in progress()
 
 
-def test_slips_are_named_without_a_list():
+def test_slips_are_named_without_a_list_of_mistakes():
     mine = exercise(reach, cases)
     told = {
         "degrees for radians": lambda a, b, q: reach(a, b, q * deg),
@@ -108,7 +108,7 @@ def test_slips_are_named_without_a_list():
     )
 
 
-def test_two_mistakes_at_once_are_named():
+def test_pairs_of_mistakes_are_named():
     mine = exercise(book_text(REACH), cases, REACH.partition("## Mistakes")[2])
     verdict = check(mine, lambda a, b, q: np.sqrt(a + b**2 + 2 * a * b))
     assert verdict.mistake == "the stretched arm, and one link squared"
@@ -117,7 +117,7 @@ def test_two_mistakes_at_once_are_named():
     assert verdict.mistake == "the stretched arm, and mm for m"
 
 
-def test_a_slip_that_undoes_a_mistake_of_its_name_explains_nothing():
+def test_slip_that_undoes_a_mistake_explains_nothing():
     text = "def kept(x):\n    x = 1.0 * x\n    return x if x < 5 else float('nan')\n"
     mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
     mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
@@ -182,7 +182,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_form_law_and_same_come_by_themselves(kind):
+def test_form_law_and_same_have_defaults(kind):
     program, same, wrong, other = KINDS[kind]
     imports = "import numpy as np\nfrom robokin import Quaternion, ScaraPose, Transform\n"
     text = f"{imports}\nTURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))\n\n\ndef mine(x):\n"
@@ -198,7 +198,7 @@ def test_form_law_and_same_come_by_themselves(kind):
     "given",
     [TURN, (TURN, 1.0), {"a": np.ones(3), "b": "text"}, [Transform(TURN, (1, 2, 3))], np.nan, None],
 )
-def test_what_an_answer_is_given_and_leaves_alone_is_not_changed(given):
+def test_unchanged_inputs_are_not_reported(given):
     mine = exercise("def mine(x, y):\n    return y", lambda rng: [(given, k) for k in range(3)])
     assert check(mine, lambda x, y: y).holds
 
@@ -210,7 +210,7 @@ class Gauge:
         self.value = value
 
 
-def test_a_changed_input_of_any_kind_is_told():
+def test_changed_inputs_of_any_type_are_reported():
     for given in (Gauge(2.0), {"value": np.ones(3)}, [Gauge(np.ones(3))]):
         mine = exercise("def mine(x):\n    return 1", lambda rng, given=given: [(given,)])
         assert check(mine, lambda x: 1).holds
@@ -241,7 +241,7 @@ def test_a_changed_input_of_any_kind_is_told():
         ("nowhere.md", None, "nowhere.md: No such file"),
     ],
 )
-def test_what_is_no_exercise_is_told_at_once(solution, cases, says):
+def test_invalid_exercises_are_refused_at_once(solution, cases, says):
     with pytest.raises(ValueError, match=re.escape(says)) as error:
         exercise(solution, cases)
     assert len(str(error.value).splitlines()) == 1
@@ -267,7 +267,7 @@ def place(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_an_exercise_is_read_from_a_file_and_read_anew(tmp_path):
+def test_exercise_files_are_read_again_after_a_change(tmp_path):
     """Also with the marks that Windows leaves in a text."""
     text = f"\ufeff{HEAD.format(number=1)}{REACH}".replace("\n", "\r\n")
     write(tmp_path, reach_md=text, reach_py="from .more import cases\n__all__ = ['cases']\n")
@@ -280,7 +280,7 @@ def test_an_exercise_is_read_from_a_file_and_read_anew(tmp_path):
     assert "18 cases" in repr(check(exercise(str(tmp_path / "reach.md")), reach))
 
 
-def test_a_folder_of_labs_is_found(place):
+def test_folder_of_own_labs_is_found(place):
     write(
         place / "two_links",
         reach_md=HEAD.format(number=2) + REACH,
@@ -302,7 +302,7 @@ def test_a_folder_of_labs_is_found(place):
         variant("two_links", "Ada")
 
 
-def test_ids_of_the_package_cannot_be_taken(place):
+def test_ids_of_our_labs_cannot_be_replaced(place):
     write(place / "scara_motion", reach_md=HEAD.format(number=1) + REACH, reach_py=CASES)
     assert book.lab("scara_motion").folder == book.OURS / "scara_motion"
     assert book.find("scara_motion.1", "exercises").task != "How far the tip is from the base."
@@ -312,12 +312,12 @@ def test_ids_of_the_package_cannot_be_taken(place):
     )
 
 
-def test_progress_has_what_belongs_to_no_objective(place):
+def test_progress_lists_exercises_without_an_objective(place):
     write(place / "two_links", reach_md=HEAD.format(number=1) + REACH, reach_py=CASES)
     assert "not yet  two_links.1: Reach of two links" in progress("two_links")
 
 
-def test_labs_without_a_notebook_come_after_those_with_one(tmp_path, monkeypatch):
+def test_labs_without_a_notebook_come_last(tmp_path, monkeypatch):
     """As in a clone that an installation is told of."""
     for name in ("apple", "pear", "zebra"):
         write(tmp_path / "exercises" / name)
@@ -328,7 +328,7 @@ def test_labs_without_a_notebook_come_after_those_with_one(tmp_path, monkeypatch
     assert [*book.labs()] == ["zebra", "pear", "apple"]
 
 
-def test_an_installation_without_a_clone_says_so(tmp_path, monkeypatch):
+def test_installation_without_a_clone_says_what_to_do(tmp_path, monkeypatch):
     monkeypatch.setattr(book, "OURS", tmp_path / "exercises")
     monkeypatch.delenv(book.ELSEWHERE, raising=False)
     says = "no labs are here. Install robokin from its clone, or let ROBOKIN_EXERCISES name"
@@ -341,7 +341,7 @@ def test_an_installation_without_a_clone_says_so(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name", [None, 3, ["scara_motion"], {}, "", "scara_motion.1"])
-def test_a_name_that_is_no_lab_is_told(name):
+def test_unknown_lab_is_refused(name):
     with pytest.raises(ValueError, match="lab: wanted one of"):
         book.lab(name)
 
@@ -511,7 +511,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("what", BROKEN)
-def test_what_a_teacher_writes_wrongly_is_told_and_the_others_go_on(what, place):
+def test_faults_in_teacher_files_are_reported_and_the_others_work(what, place):
     text, code, says = BROKEN[what]
     write(place / "mine", z_md=text, zz_md=HEAD.format(number=3) + REACH, zz_py=CASES)
     if code is not None:
@@ -542,7 +542,7 @@ UNDRAWN = {
 
 
 @pytest.mark.parametrize("what", UNDRAWN)
-def test_cases_that_do_not_come_are_told_where_they_are_asked_for(what, place, monkeypatch):
+def test_failing_cases_are_reported(what, place, monkeypatch):
     monkeypatch.setattr(answers, "SECONDS", 0.2)
     code, says = UNDRAWN[what]
     write(
@@ -572,7 +572,7 @@ def test_cases_that_do_not_come_are_told_where_they_are_asked_for(what, place, m
         (("return np.sqrt(squares + mixed)", "print(mixed)"), "It prints"),
     ],
 )
-def test_a_solution_without_a_result_is_told(change, says, place, monkeypatch):
+def test_solution_without_a_result_is_reported(change, says, place, monkeypatch):
     monkeypatch.setattr(answers, "SECONDS", 0.2)
     text = altered(change).partition("## Mistakes")[0]
     write(place / "mine", a_md=text, a_py=CASES)
@@ -583,7 +583,7 @@ def test_a_solution_without_a_result_is_told(change, says, place, monkeypatch):
     assert line.startswith(f"This cannot be judged: {where}") and says in line
 
 
-def test_a_test_to_write_is_read_from_a_file(place):
+def test_test_exercise_is_read_from_a_file(place):
     write(place / "mine", twice_md=HEAD.format(number=1) + RIGHTS)
     assert check("mine.1", lambda program: program(3) == 6 and program(2) == 4).holds
     verdict = check("mine.1", lambda program: program(2) == 4)
@@ -608,14 +608,14 @@ NOTHING = """\
 """
 
 
-def test_two_mistakes_that_are_no_program_together_explain_nothing():
+def test_incompatible_pairs_of_mistakes_explain_nothing():
     mine = exercise(EMPTY, lambda rng: [(k / 2, k % 3 > 0) for k in range(9)], NOTHING)
     assert check(mine, lambda x, low: x * 3 if low else x).mistake == "not raised"
     verdict = check(mine, lambda x, low: x + 7 if low else x)
     assert not verdict.holds and verdict.case and "cannot be judged" not in repr(verdict)
 
 
-def test_results_that_cannot_be_compared_are_unlike():
+def test_incomparable_results_are_different():
     mine = exercise("def f(n):\n    return n", lambda rng: [(n,) for n in range(9)])
     mine.alike = lambda a, b: 1 / 0
     mine.code["form"] = lambda result, case: result
@@ -624,7 +624,7 @@ def test_results_that_cannot_be_compared_are_unlike():
     assert not verdict.holds and "cannot be judged" not in repr(verdict)
 
 
-def test_a_broken_line_of_a_solution_names_all_edits_that_no_longer_fit(place):
+def test_changed_solution_names_all_edits_that_no_longer_fit(place):
     """Of a test: those that fit none of its right programs."""
     text = altered(("l1**2 + l2**2\n", "l1 * l1 + l2 * l2\n"))
     write(place / "mine", reach_md=text, reach_py=CASES)
@@ -643,7 +643,7 @@ def test_a_broken_line_of_a_solution_names_all_edits_that_no_longer_fit(place):
         ]
 
 
-def test_an_empty_folder_is_told(place):
+def test_empty_folder_is_reported(place):
     write(place / "mine")
     assert "mine has no exercises, got 'mine.1'" in repr(check("mine.1", 3))
     with pytest.raises(ValueError, match="mine has no predictions"):
@@ -679,7 +679,7 @@ FACTS = "def p1():\n    return {'right': 'half', 'length': 1}\n\n\np3 = p1\n"
 
 
 @pytest.mark.parametrize("what", UNPREDICTED)
-def test_a_prediction_that_is_none_is_told_and_the_others_go_on(what, place):
+def test_invalid_prediction_is_reported_and_the_others_work(what, place):
     text, code, says = UNPREDICTED[what]
     third = PREDICTED.partition("\n## p1")[2]
     write(place / "mine", predictions_md=f"{text}\n## p3\n{third}", objectives_md="1. one\n")
@@ -692,7 +692,7 @@ def test_a_prediction_that_is_none_is_told_and_the_others_go_on(what, place):
     assert [*book.lab("mine").predictions] == ([] if code is None else ["p3"])
 
 
-def test_a_prediction_that_is_there_twice_or_has_no_right_answer_is_told(place):
+def test_duplicate_prediction_or_missing_right_answer_is_reported(place):
     write(
         place / "mine",
         predictions_md=PREDICTED + PREDICTED.replace("# Predictions\n", ""),
@@ -708,14 +708,14 @@ def test_a_prediction_that_is_there_twice_or_has_no_right_answer_is_told(place):
         predict("mine.p1")
 
 
-def test_a_text_of_a_prediction_that_cannot_be_filled_is_told(place):
+def test_prediction_text_that_cannot_be_filled_is_reported(place):
     facts = FACTS.replace("length", "size")
     write(place / "mine", predictions_md=PREDICTED, predictions_py=facts)
     with pytest.raises(BadFile, match="line 3: p1 cannot be filled: KeyError: 'length'"):
         predict("mine.p1")
 
 
-def test_broken_pictures_are_told_where_they_are_drawn(place):
+def test_broken_views_are_reported_when_drawn(place):
     pictures = "def p1_view():\n    return 'half'\n"
     write(place / "mine", predictions_md=PREDICTED, predictions_py=FACTS, pictures_py=pictures)
     write(place / "other", predictions_md=PREDICTED, predictions_py=FACTS, pictures_py="x = 1 / 0")
@@ -727,7 +727,7 @@ def test_broken_pictures_are_told_where_they_are_drawn(place):
 
 
 @pytest.mark.parametrize("name", ["predictions.py", "objectives.md"])
-def test_a_broken_file_beside_exercises_leaves_them(name, place):
+def test_broken_file_does_not_affect_other_exercises(name, place):
     write(
         place / "mine",
         a_md=HEAD.format(number=1) + REACH,
@@ -744,7 +744,7 @@ def test_a_broken_file_beside_exercises_leaves_them(name, place):
     assert check("mine.1", reach).holds
 
 
-def test_a_slip_that_would_never_end_is_not_tried():
+def test_endless_slips_are_not_tried():
     text = """\
 def halvings(x, least):
     count = 0
@@ -757,7 +757,7 @@ def halvings(x, least):
     assert not check(mine, lambda x, least: 4).holds
 
 
-def test_a_teachers_mistake_that_never_ends_is_named(monkeypatch):
+def test_endless_mistake_of_a_teacher_is_reported(monkeypatch):
     monkeypatch.setattr(answers, "SECONDS", 0.3)
     text = """\
 def count(n):
@@ -811,7 +811,7 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("solution", "case", "changes"), CHANGES)
-def test_wrong_programs_are_those_of_their_texts_and_leave_nothing_behind(solution, case, changes):
+def test_wrong_programs_equal_their_texts_and_have_no_side_effects(solution, case, changes):
     """In whichever order they run, alone and in pairs, from pieces that are compiled once."""
     steps = edits.Steps(solution, {})
     own = []

@@ -258,7 +258,7 @@ def tells_the_flange(shown, exact=True):
 
 
 @named(JOINTS)
-def test_joint_explorer_tells_the_flange(opened, arm):
+def test_joint_explorer_shows_the_flange(opened, arm):
     shown = opened(joint_explorer(arm), arm)
     rng, n = random.Random(3), len(arm.links)
     poses, seen = map(list, zip(tells_the_flange(shown), strict=True))
@@ -286,7 +286,7 @@ def test_joint_explorer_names_singularities(opened):
     assert shown.look().says == "Singular: wrist singularity."
 
 
-def test_a_box_takes_nothing_past_a_limit_and_shows_what_it_took(opened):
+def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
     shown = opened(joint_explorer(IRB140), IRB140)
     shown.type("q1", 999)
     assert shown.look().boxes["q1"] == 180 and tells_the_flange(shown)[0][0] == np.pi
@@ -398,7 +398,7 @@ def _values(shown, target):
 
 
 @named(TARGETS)
-def test_every_branch_of_the_target_is_there(opened, arm):
+def test_target_explorer_lists_every_branch(opened, arm):
     shown, rng = opened(target_explorer(arm), arm), random.Random(4)
     controls = shown.data["controls"]
     last, kinds, pixels = shows_every_branch(shown), set(), set()
@@ -422,7 +422,7 @@ def test_every_branch_of_the_target_is_there(opened, arm):
     assert {"none", "usable"} <= kinds and len(pixels) > 8
 
 
-def test_a_branch_stays_chosen_and_its_reason_is_given(opened):
+def test_chosen_branch_stays_and_its_reason_is_shown(opened):
     shown = opened(target_explorer(IRB140), IRB140)
     shown.choose("branch", 7)  # behind "nearest"
     assert shows_every_branch(shown).seen.chosen == 6
@@ -435,7 +435,7 @@ def test_a_branch_stays_chosen_and_its_reason_is_given(opened):
     assert shows_every_branch(shown).seen.chosen == 6
 
 
-def test_a_joint_past_its_limit_is_shown_where_it_is_least_past_it(opened):
+def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
     """Lab 02: q3 at 59.5°, 9.5 past, was shown as -300.5°, 70 past, after a drag through -229°."""
     shown = opened(target_explorer(IRB140), IRB140)
     pose = IRB140.fk(np.array([30, 10, 59.5, 20, 30, 40]) * deg)
@@ -468,7 +468,7 @@ def test_lab_07_at_x_zero(opened):
     assert "q5" in rows[4][1] and "q5" in rows[5][1]
 
 
-def test_a_click_on_a_row_chooses_it_and_a_key_does(opened):
+def test_row_is_chosen_by_click_or_key(opened):
     shown = opened(target_explorer(IRB140), IRB140)
     shown.rk.locator("tbody tr").nth(5).locator("td").nth(3).click()
     seen = shows_every_branch(shown).seen
@@ -481,7 +481,7 @@ def test_a_click_on_a_row_chooses_it_and_a_key_does(opened):
     assert shows_every_branch(shown).seen.menus["branch"] == 0
 
 
-def test_a_click_on_a_row_or_its_button_takes_the_row_once(browser):
+def test_click_on_a_row_or_its_button_chooses_it_once(browser):
     tab = browser.new_page()
     click = """const taken = [];
       const {node} = $stage.table(["a", "b"], ["", "x"], [1], k => taken.push(k));
@@ -493,7 +493,7 @@ def test_a_click_on_a_row_or_its_button_takes_the_row_once(browser):
     tab.close()
 
 
-def test_home_on_an_arc_gives_back_the_first_turns(opened):
+def test_home_key_on_an_arc_restores_the_first_rotation(opened):
     """The sliders wrote into the very turns that Home gives back."""
     shown = opened(target_explorer(IRB140), IRB140)
     first = shown.look().boxes
@@ -504,7 +504,7 @@ def test_home_on_an_arc_gives_back_the_first_turns(opened):
     assert shown.look().boxes == first
 
 
-def test_levers_of_other_lengths(opened):
+def test_sliders_change_the_lengths_of_levers(opened):
     """Three more sliders; arm, curve and words follow, and the lines of Python have the lengths."""
     arm = three_lever((0.9, 1.1, 0.6))
     shown = opened(target_explorer(arm), arm)
@@ -622,7 +622,7 @@ def shows_the_motion(shown, exact=True, held=False):
 
 
 @named(POSES)
-def test_the_motion_passes_where_the_boxes_say(opened, arm):
+def test_motion_passes_the_via_point_in_the_boxes(opened, arm):
     shown = opened(motion_explorer(arm, *POSES[arm]), arm)
     looks = [shows_the_motion(shown)]
     cells = [cell.split(" ")[0] for cell in looks[0].seen.rows[0][1:]]
@@ -649,7 +649,7 @@ def test_the_motion_passes_where_the_boxes_say(opened, arm):
         assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "frozen curves"
 
 
-def test_a_via_point_out_of_reach_leaves_a_gap_and_says_so(opened):
+def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
     shown = opened(motion_explorer(IRB140, START, VIA, GOAL), IRB140)
     shown.slide("time", 2.5)
     assert "no solution here" not in shown.look().words[0]
@@ -665,7 +665,7 @@ def test_a_via_point_out_of_reach_leaves_a_gap_and_says_so(opened):
     assert [cell for cell in seen.rows[0][1:] if cell != "\u2013"] == []
 
 
-def test_through_a_singularity_the_greatest_of_the_samples_are_shown_and_called_so(opened):
+def test_maxima_through_a_singularity_are_labelled_as_sampled(opened):
     """At via axes 4 and 6 are one line: how joints 4 and 6 share a turn there is a choice."""
     ahead = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))
     stations = [Transform(ahead, (0.515, y, 0.702)) for y in (-0.2, 0, 0.2)]
@@ -678,7 +678,7 @@ def test_through_a_singularity_the_greatest_of_the_samples_are_shown_and_called_
     shows_the_motion(shown)
 
 
-def test_a_click_on_a_curve_sets_the_clock(opened):
+def test_click_on_a_curve_sets_the_clock(opened):
     shown = opened(motion_explorer(IRB140, START, VIA, GOAL), IRB140)
     canvas, before = shown.rk.locator(".rk-curves"), shown.look()
     box = canvas.bounding_box()
@@ -737,7 +737,7 @@ def follows_the_pointer(shown, name, key, parts):
 
 
 @named((IRB140, SCARA, FLAT, LEVERS, UR5))
-def test_a_joint_follows_the_pointer_and_no_other_moves(opened, arm):
+def test_dragging_moves_only_the_held_joint(opened, arm):
     shown, seen = opened(joint_explorer(arm), arm), 0
     ends = arm.limits / [[unit["size"]] for unit in shown.data["units"]]
     for j, (_, high) in enumerate(ends):
@@ -754,7 +754,7 @@ def test_a_joint_follows_the_pointer_and_no_other_moves(opened, arm):
 
 
 @named((IRB140, SCARA, ELBOW, FLAT))
-def test_a_target_follows_the_pointer_along_its_arrows_and_arcs(opened, arm):
+def test_target_follows_the_pointer_along_arrows_and_arcs(opened, arm):
     shown = opened(target_explorer(arm), arm)
     place = {c["name"] for c in shown.data["controls"][:3] if c["name"] in "xyz"}
     turns = {c["name"] for c in shown.data["controls"]} - place
@@ -783,7 +783,7 @@ def test_a_target_follows_the_pointer_along_its_arrows_and_arcs(opened, arm):
 
 
 @named((IRB140, SCARA, LOADER, FLAT))
-def test_a_free_target_stays_under_the_pointer_in_the_plane_of_the_screen(opened, arm):
+def test_freely_dragged_target_stays_under_the_pointer(opened, arm):
     shown = opened(target_explorer(arm), arm)
     before = shows_every_branch(shown)
     azimuth, elevation = shown.data["scene"]["view"]
@@ -828,7 +828,7 @@ SINGULAR = {
 
 
 @named(SINGULAR)
-def test_a_drag_out_of_reach_and_through_a_singularity_leaves_no_wrong_picture(opened, arm):
+def test_drag_out_of_reach_and_through_a_singularity_recovers(opened, arm):
     shown = opened(target_explorer(arm), arm)
     start = np.array(shown.look().handles["free"]["at"], dtype=float)
     kinds, pixels, hub = [], set(), PAGE["hub"][0]
@@ -871,7 +871,7 @@ def _color(shown, at):
 
 
 @named(POSES)
-def test_stations_follow_the_pointer_and_no_other_moves(opened, arm):
+def test_dragging_moves_only_the_held_station(opened, arm):
     shown = opened(motion_explorer(arm, *POSES[arm]), arm)
     names = ("start", "via", "goal")
     assert set(shown.look().handles) == {*names, "via x", "via y", "via z"}
@@ -905,7 +905,7 @@ SIZES = """rk => [...rk.querySelectorAll("canvas")].map(c =>
 
 
 @pytest.mark.parametrize("kind", CANVASES)
-def test_every_canvas_is_drawn_anew_in_another_theme_and_size(opened, kind):
+def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
     """Each by itself: the curves hung on the state and kept the colours of the theme before."""
     shown = opened(*CANVASES[kind]())
     shown.page.emulate_media(color_scheme="light")
@@ -923,7 +923,7 @@ def test_every_canvas_is_drawn_anew_in_another_theme_and_size(opened, kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_last_of_many_places_is_shown(opened, kind):
+def test_last_of_many_moves_is_shown(opened, kind):
     """Many moves before one picture, and far ones: where the pointer is at last is what counts."""
     shown = opened(KINDS[kind](), IRB140)
     for name in shown.look().handles:
@@ -949,7 +949,7 @@ def test_the_last_of_many_places_is_shown(opened, kind):
 # --- Fingers, keys, readers -----------------------------------------------------------------------
 
 
-def test_a_finger_on_a_handle_moves_it_and_beside_it_the_page(browser, opened):
+def test_touch_moves_a_handle_or_scrolls_the_page(browser, opened):
     context = browser.new_context(
         viewport={"width": 390, "height": 700}, has_touch=True, is_mobile=True
     )
@@ -986,7 +986,7 @@ def test_a_finger_on_a_handle_moves_it_and_beside_it_the_page(browser, opened):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_keys_reach_and_move_everything(opened, kind):
+def test_keyboard_reaches_and_moves_every_handle(opened, kind):
     shown = opened(KINDS[kind](), IRB140)
     page, start = shown.page, shown.look()
     controls = shown.rk.locator("button:visible, input, select, .rk-scene")
@@ -1039,7 +1039,7 @@ def test_keys_reach_and_move_everything(opened, kind):
     assert shown.look().pixels == start.pixels
 
 
-def test_sliders_and_menus_have_their_names_and_say_their_values(opened):
+def test_sliders_and_menus_have_names_and_value_texts(opened):
     for kind, sliders, menus in (
         ("joint", [f"q{i + 1}, °" for i in range(6)], []),
         ("target", ["x, mm", "y, mm", "z, mm", "roll, °", "pitch, °", "yaw, °"], ["branch"]),
@@ -1063,7 +1063,7 @@ def test_sliders_and_menus_have_their_names_and_say_their_values(opened):
     assert scara.rk.get_by_role("slider", name="angle, °", exact=True).count() == 1
 
 
-def test_the_ellipsoid_and_the_axes_come_and_go(opened):
+def test_ellipsoid_and_axes_can_be_switched(opened):
     for kind in ("joint", "target"):
         shown = opened(KINDS[kind](), IRB140)
         before = shown.look()
@@ -1077,7 +1077,7 @@ def test_the_ellipsoid_and_the_axes_come_and_go(opened):
         assert shown.rk.get_by_role("checkbox", name="joint axes").is_checked() == (kind == "joint")
 
 
-def test_other_postures_are_drawn_with_all_of_their_joints(opened):
+def test_ghost_postures_show_all_joints(opened):
     shown = opened(target_explorer(LEVERS), LEVERS)
     shown.press("free", "ArrowUp")
     lines = shown.page.evaluate(
@@ -1101,7 +1101,7 @@ def test_other_postures_are_drawn_with_all_of_their_joints(opened):
     assert len(lengths) == 3 and np.ptp(lengths) < 0.01, "three equal levers"
 
 
-def test_an_explorer_opens_with_its_arm_filling_the_scene(opened):
+def test_arm_fills_the_scene_at_opening(opened):
     for make in (joint_explorer, target_explorer):
         for arm in (IRB140, SCARA, PUMA560):
             shown = opened(make(arm), arm)
@@ -1114,7 +1114,7 @@ def test_an_explorer_opens_with_its_arm_filling_the_scene(opened):
             assert share.max() > 0.45, (make.__name__, arm.name, share)
 
 
-def test_the_rings_of_an_arm_lie_apart(opened):
+def test_rings_of_an_arm_do_not_overlap(opened):
     for arm in (IRB140, SCARA, PUMA560):
         shown = opened(joint_explorer(arm), arm)
         boxes = [shown.handle(f"q{i + 1}").bounding_box() for i in range(len(arm.links))]
@@ -1124,7 +1124,7 @@ def test_the_rings_of_an_arm_lie_apart(opened):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing_serious(browser, opened, scheme):
+def test_axe_finds_no_serious_problems(browser, opened, scheme):
     context = browser.new_context(color_scheme=scheme)
     context.add_init_script(WATCH)
     q = np.linspace(0, 1, 41)[:, None] * np.array([0.5, 0.3, -0.4, 1, 1, 1])
@@ -1143,7 +1143,7 @@ def test_axe_finds_nothing_serious(browser, opened, scheme):
     context.close()
 
 
-def test_axe_would_find_something(opened):
+def test_axe_detects_a_planted_problem(opened):
     shown = opened(KINDS["joint"](), IRB140)
     shown.handle("q1").evaluate("node => { node.ariaLabel = ''; node.textContent = ''; }")
     found = Axe().run(shown.page, context=".rk").response["violations"]
@@ -1153,7 +1153,7 @@ def test_axe_would_find_something(opened):
 # --- What is copied, memory, room on the page -----------------------------------------------------
 
 
-def test_the_copied_lines_come_from_the_clipboard_and_run(browser, opened, tmp_path):
+def test_copied_python_lines_run(browser, opened, tmp_path):
     context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
     page = watched(context.new_page())
     for make, wanted in (
@@ -1178,7 +1178,7 @@ def test_the_copied_lines_come_from_the_clipboard_and_run(browser, opened, tmp_p
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_thousand_moves_leave_nothing_behind(opened, kind):
+def test_thousand_moves_leak_nothing(opened, kind):
     shown, heap = opened(KINDS[kind](), IRB140), []
     name = {"joint": "q2", "target": "free", "motion": "via"}[kind]
     walk = """(node, count) => new Promise(done => {
@@ -1228,7 +1228,7 @@ ROOM = """rk => {
 @pytest.mark.parametrize(
     "width, height, scale", [(1366, 768, 1), (900, 900, 1), (683, 384, 2), (390, 844, 2)]
 )
-def test_scene_and_sliders_have_room(browser, opened, width, height, scale):
+def test_scene_and_sliders_fit_into_narrow_and_wide_pages(browser, opened, width, height, scale):
     """(683, 384, 2) is 1366 x 768 at 200 %."""
     context = browser.new_context(
         viewport={"width": width, "height": height}, device_scale_factor=scale
@@ -1246,7 +1246,7 @@ def test_scene_and_sliders_have_room(browser, opened, width, height, scale):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_on_paper_the_picture_stays(opened, kind):
+def test_printed_page_keeps_the_picture(opened, kind):
     shown = opened(KINDS[kind](), IRB140)
     before = shown.look()
     shown.page.emulate_media(media="print", color_scheme="dark")
@@ -1262,7 +1262,7 @@ def test_on_paper_the_picture_stays(opened, kind):
 # --- Wrong calls ----------------------------------------------------------------------------------
 
 
-def test_wrong_calls_say_what_is_wanted():
+def test_wrong_calls_name_what_is_wanted():
     two = IRB140.fk(np.zeros((2, 6)))
     inverse = type("Unknown", (type(FLAT.geometry),), {})
     unknown = ClosedFormArm("unknown", inverse(0.3, 0.2, (0, 0)), FLAT.limits)
@@ -1321,7 +1321,7 @@ def stored(tmp_path_factory):
     return path
 
 
-def test_a_notebook_stores_a_still_picture_and_nbval_compares_its_words(stored, tmp_path):
+def test_stored_still_picture_has_words_that_nbval_compares(stored, tmp_path):
     once = stored.read_bytes()
     notebook = nbformat.reads(once.decode(), as_version=4)
     assert set(notebook.metadata) == {"kernelspec", "language_info"}
@@ -1353,7 +1353,7 @@ def test_a_notebook_stores_a_still_picture_and_nbval_compares_its_words(stored, 
     assert changed != once and nbval(changed).returncode != 0, "the words are compared"
 
 
-def test_a_trusted_notebook_is_alive_without_a_kernel_and_in_every_theme(jupyter, page, stored):
+def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, stored):
     name = _copied(jupyter, stored, "trusted explorers")
     jupyter.trust(name)
     jupyter.open(page, name)
@@ -1416,7 +1416,7 @@ def test_a_trusted_notebook_is_alive_without_a_kernel_and_in_every_theme(jupyter
     assert page.outside == [] and page.errors == []
 
 
-def test_an_untrusted_notebook_shows_stills_and_says_how_to_wake_them(jupyter, page, stored):
+def test_untrusted_notebook_shows_stills_and_instructions(jupyter, page, stored):
     jupyter.open(page, _copied(jupyter, stored, "untrusted explorers"))
     for cell in page.locator(".jp-CodeCell").all()[1:]:
         cell.scroll_into_view_if_needed()

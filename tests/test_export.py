@@ -56,7 +56,7 @@ def test_every_formula_becomes_mathml(path):
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-def test_a_page_fetches_nothing_and_has_every_formula(path, exported):
+def test_page_fetches_nothing_and_has_every_formula(path, exported):
     page = exported[path.relative_to(NOTEBOOKS).with_suffix("").as_posix()]
     text = page.read_text(encoding="utf-8")
     fetches = Fetches(text)
@@ -68,7 +68,7 @@ def test_a_page_fetches_nothing_and_has_every_formula(path, exported):
     assert text.count('<details class="rk-folded">') == folded
 
 
-def test_a_formula_says_what_it_means():
+def test_formulas_become_equivalent_mathml():
     assert "atan2" in mathml(r"\operatorname{atan2}(y, x)")
     assert mathml(r"\frac{1}{2}").count("<mn>") == 2 and "<mfrac>" in mathml(r"\frac{1}{2}")
     with pytest.raises(ValueError, match=r"formula.*nonsense"):
@@ -93,7 +93,7 @@ def command(*words, cwd):
     )
 
 
-def test_the_command_names_a_bad_file_and_writes_the_others(tmp_path):
+def test_command_reports_a_bad_file_and_exports_the_others(tmp_path):
     notebook = json.loads(START.read_text(encoding="utf-8"))
     notebook["cells"][0]["source"] = [r"# A lab with $\nonsense$"]
     (tmp_path / "odd.ipynb").write_text(json.dumps(notebook))
@@ -112,7 +112,7 @@ def test_the_command_names_a_bad_file_and_writes_the_others(tmp_path):
     assert "00_start_here.html" in run.stdout and " kB" in run.stdout
 
 
-def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
+def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     mine = tmp_path / "00_start_here.html"
     mine.write_text("mine")
@@ -130,7 +130,7 @@ def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
     assert nonce.search(again)[0] != nonce.search(first)[0], "each page has its own"
 
 
-def test_links_lead_to_the_pages_beside(tmp_path):
+def test_links_lead_to_the_neighbouring_pages(tmp_path):
     page = tmp_path / "page.html"
     export(START, page)
     links = re.findall(r'<a href="([^"#]+)"', page.read_text(encoding="utf-8"))
@@ -138,13 +138,13 @@ def test_links_lead_to_the_pages_beside(tmp_path):
     assert inside and all(link.endswith(".html") for link in inside if "_" in link)
 
 
-def test_start_here_says_how(tmp_path):
+def test_start_here_explains_the_export(tmp_path):
     text = START.read_text(encoding="utf-8")
     assert "python -m robokin.course export" in text
     assert (ROOT / "README.md").read_text(encoding="utf-8").count("robokin.course export") >= 1
 
 
-def test_a_page_is_as_dark_as_its_reader_wants(browser, tmp_path):
+def test_page_follows_the_preferred_color_scheme(browser, tmp_path):
     page = tmp_path / "page.html"
     export(START, page)
     seen = []
@@ -160,7 +160,7 @@ def test_a_page_is_as_dark_as_its_reader_wants(browser, tmp_path):
     assert min(seen[:2]) > 0.9 and max(seen[2:]) < 0.2
 
 
-def test_a_bad_notebook_is_told_with_its_reason(tmp_path):
+def test_bad_notebook_is_reported_with_its_reason(tmp_path):
     path = tmp_path / "a.ipynb"
     cell = {"cell_type": "code", "source": "1", "metadata": {}, "outputs": [], "id": "a"}
     good = {"metadata": {}, "nbformat": 4, "nbformat_minor": 0}

@@ -28,7 +28,7 @@ def alike(one, other):
     return (abs(one.astype(int) - other).max(axis=-1) > 40).mean() < 2e-3
 
 
-def test_the_frames_are_the_motion_in_its_time(tmp_path):
+def test_frames_show_the_motion_at_their_times(tmp_path):
     """Run backwards, the same pictures come backwards; where the arm stands they are the same."""
     there, lasts = frames(animate(IRB140, T, WAY), tmp_path / "there.gif")
     assert there.shape[1:] == (450, 640, 3) and len(there) == 4 * film.RATE + 1
@@ -41,13 +41,13 @@ def test_the_frames_are_the_motion_in_its_time(tmp_path):
     assert alike(slow[len(slow) // 4], there[len(there) // 2])
 
 
-def test_a_long_motion_has_fewer_frames_a_second(tmp_path):
+def test_long_motion_has_fewer_frames_per_second(tmp_path):
     found, lasts = frames(animate(IRB140, 5 * T, WAY), tmp_path / "long.gif")
     assert len(found) == film.FRAMES and sum(lasts[:-1]) == 20_000
     assert (tmp_path / "long.gif").stat().st_size < film.BYTES
 
 
-def test_two_arms_targets_and_points_move_and_what_is_not_there_is_not_drawn(tmp_path):
+def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
     moving = Transform(translation=np.column_stack([WAY[:, 0] / 3, WAY[:, 1], 0.3 + 0 * T]))
     ball = np.column_stack([0.3 + 0 * T, WAY[:, 0] / 5, 0.2 + 0 * T])
     q = np.column_stack([WAY[:, :3], 0.05 + 0 * T])
@@ -63,7 +63,7 @@ def test_two_arms_targets_and_points_move_and_what_is_not_there_is_not_drawn(tmp
     assert dark[-1] < dark[:20].min() / 3
 
 
-def test_what_is_not_ours_stays_and_what_is_too_large_is_refused(tmp_path, monkeypatch):
+def test_foreign_files_are_kept_and_large_films_refused(tmp_path, monkeypatch):
     player = animate(IRB140, T, WAY)
     mine = tmp_path / "mine.gif"
     Image.new("RGB", (4, 4)).save(mine)

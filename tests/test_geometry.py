@@ -50,7 +50,7 @@ def arms_of(rng):
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_the_inverse_returns_to_the_links_of_any_lengths(seed):
+def test_ik_and_fk_agree_for_links_of_any_lengths(seed):
     """Hand-written inverses are held to their chain: every row leads back to the pose, and the
     posture that made it is among them.
     """
@@ -70,7 +70,7 @@ def test_the_inverse_returns_to_the_links_of_any_lengths(seed):
         assert np.isnan(rows).any(-1).tolist() == np.isnan(rows).all(-1).tolist()
 
 
-def test_links_and_inverse_cannot_be_parted():
+def test_links_and_inverse_cannot_be_separated():
     links = list(IRB140.links)
     links[2] = dataclasses.replace(links[2], before=Transform(translation=(0, 0, 498 * mm)))
     with pytest.raises(TypeError, match="links"):
@@ -86,7 +86,7 @@ def test_links_and_inverse_cannot_be_parted():
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_an_arm_says_what_it_can_be_asked_for(machine):
+def test_arm_target_is_the_type_of_its_poses(machine):
     arm = machine.arm
     pose = arm.fk(np.full(len(arm.links), 0.2))
     asked = {
@@ -102,7 +102,7 @@ def test_an_arm_says_what_it_can_be_asked_for(machine):
 @pytest.mark.parametrize(
     "arm", [m.arm for m in MACHINES] + [spbu_arm(5, 4), loader_arm(1, 1), two_link(1, 1)], ids=repr
 )
-def test_every_row_has_its_flags_and_every_configuration_its_row(arm):
+def test_rows_and_configurations_correspond(arm):
     q = np.full(len(arm.links), 0.3)
     count = arm.ik(arm.fk(q)).shape[-2]
     flags = arm.branches.tolist()
@@ -114,7 +114,7 @@ def test_every_row_has_its_flags_and_every_configuration_its_row(arm):
             arm.branch(*wrong)
 
 
-def test_an_arm_without_a_closed_form_is_of_another_type():
+def test_arm_without_closed_form_has_another_type():
     arm = three_lever(0.4)
     assert isinstance(arm, Arm) and arm.target is np.ndarray
     assert not any(hasattr(arm, name) for name in ("ik", "branches", "branch"))
@@ -158,7 +158,7 @@ def away(x):
 
 
 @pytest.mark.parametrize("name", BORDERS)
-def test_what_is_beyond_the_border_is_said_by_one_rule(name):
+def test_gap_follows_one_rule_for_all_geometries(name):
     """Whatever `ik` leaves out `explain` gives the reason for, and the other way round: from a
     rounding to a metre beyond (the first edition said "does not exist: ." in between).
     """
@@ -179,7 +179,7 @@ def test_what_is_beyond_the_border_is_said_by_one_rule(name):
 
 
 @pytest.mark.parametrize("exponent", range(2, 17))
-def test_equal_levers_keep_their_digits_near_the_shoulder(exponent):
+def test_equal_links_keep_their_digits_near_the_shoulder(exponent):
     """The law of cosines loses half of the digits there: the answer was off by the distance."""
     d = 10.0**-exponent
     # From 1e-13 of the reach on a point counts as on axis 1, where joint 1 is free.
@@ -207,7 +207,7 @@ def test_equal_levers_keep_their_digits_near_the_shoulder(exponent):
     assert np.isfinite(back.translation).any(axis=(1, 2)).all()
 
 
-def test_folded_equal_levers_turn_free_joints_with_the_motion():
+def test_free_joints_of_folded_equal_links_follow_the_motion():
     """The tip on the base: joint 1 may stand anywhere, so a motion keeps it."""
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose((0.0, 0.0, 0.1), 0.3))
@@ -222,7 +222,7 @@ def test_folded_equal_levers_turn_free_joints_with_the_motion():
     assert (unequal.geometry.choose_free_joints(folded, near) == folded).all()
 
 
-def test_the_triangle_of_two_levers_against_the_law_of_cosines():
+def test_two_levers_equals_the_law_of_cosines():
     rng = np.random.default_rng(8)
     a, b = rng.uniform(0.1, 2, (2, 500))
     for one, two, share in zip(a, b, rng.uniform(0.01, 0.99, 500), strict=True):
@@ -240,14 +240,14 @@ def test_the_triangle_of_two_levers_against_the_law_of_cosines():
     assert not two_levers(1, 0.5, np.array([0.49, 1.51, np.nan]))[2].any()
 
 
-def test_distance_is_the_hypotenuse_at_every_size():
+def test_distance_equals_hypot_at_every_size():
     rng = np.random.default_rng(9)
     x, y = rng.normal(size=(2, 1000)) * 10.0 ** rng.integers(-300, 150, 1000)
     assert np.allclose(distance(x, y), np.hypot(x, y), rtol=4e-16, atol=0)
     assert distance(np.zeros(1), np.zeros(1)) == 0 and distance(np.array(5e-324), 0.0) == 5e-324
 
 
-def test_every_kind_of_reason_has_its_sentence():
+def test_every_gap_and_singularity_has_a_sentence():
     tilted = Transform(Quaternion.from_angle_axis(1 * deg, (1, 0, 0)), (0.3, 0, 0.1))
     offset = PUMA560.fk(np.full(6, 0.2))
     inside = Transform(offset.rotation, (0.0, 0.01, 0.7))
@@ -272,7 +272,7 @@ def test_every_kind_of_reason_has_its_sentence():
     assert "were millimetres meant" in explain(SCARA, ScaraPose((300, 0, 100), 0.1), 0)
 
 
-def test_a_wrist_is_named_only_where_there_is_one():
+def test_wrist_is_named_only_for_arms_with_a_wrist():
     for arm in (loader_arm(1, 1), spbu_arm(1, 0.7)):
         on_axis = arm.ik((0, 0, 1.2))
         assert arm.geometry.singularities(on_axis)["shoulder"].all()
@@ -281,7 +281,7 @@ def test_a_wrist_is_named_only_where_there_is_one():
         assert "wrist" not in said and "wrist" not in explain(arm, (9, 9, 9), 0)
 
 
-def test_the_unit_axis_is_one_tolerance():
+def test_axis_length_tolerance_is_the_same_everywhere():
     """An axis that is a unit vector within 1e-6 is taken, and made one; elsewhere too."""
     link = Link(axis=(0, 0, 1 + 5e-7))
     assert link.axis.tolist() == [0, 0, 1]
@@ -291,7 +291,7 @@ def test_the_unit_axis_is_one_tolerance():
             make((0, 0, 1 + 1e-5))
 
 
-def test_a_link_about_any_axis_and_after_any_turn():
+def test_links_with_any_axis_and_orientation():
     """The short cuts for coordinate axes and the whole product say the same: a chain whose axes are
     crooked against one that is turned into them.
     """
@@ -310,7 +310,7 @@ def test_a_link_about_any_axis_and_after_any_turn():
         assert abs(abs(np.dot(r1, r2)) - 1) < 1e-14 and np.allclose(o1, o2, rtol=0, atol=1e-14)
 
 
-def test_units_in_words():
+def test_lengths_in_words_choose_their_unit():
     assert length_unit(2.0) == ("mm", 1e-3) and length_unit(2.01) == ("m", 1.0)
     assert in_words(0.0123) == "12.3 mm" and in_words(12.34) == "12.3 m"
     assert in_words(9.99) == "9990.0 mm"

@@ -64,7 +64,7 @@ def chosen(path):
 # --- The file -------------------------------------------------------------------------------------
 
 
-def test_guesses_are_kept_by_notebook_in_order_of_time_and_only_once(tmp_path):
+def test_guesses_are_saved_by_notebook_in_time_order_without_duplicates(tmp_path):
     one, two = notebook(tmp_path / "1.ipynb", ids=[P1]), notebook(tmp_path / "2.ipynb", ids=[P1])
     assert read_guesses(one) is None
     keep(one, [(P1, "b", at(5)), (TYPED, "-290", at(6))])
@@ -79,7 +79,7 @@ def test_guesses_are_kept_by_notebook_in_order_of_time_and_only_once(tmp_path):
     assert os.stat(tmp_path / ".robokin" / "guesses.json").st_mtime_ns == before.st_mtime_ns
 
 
-def test_kernels_that_write_at_the_same_moment_lose_nothing(tmp_path):
+def test_simultaneous_kernels_lose_no_guess(tmp_path):
     paths = [notebook(tmp_path / f"{k}.ipynb", ids=[P1]) for k in range(6)]
     wait = threading.Barrier(len(paths))
 
@@ -97,7 +97,7 @@ def test_kernels_that_write_at_the_same_moment_lose_nothing(tmp_path):
     assert set(os.listdir(tmp_path / ".robokin")) == {"guesses.json", "guesses.lock"}
 
 
-def test_a_renamed_notebook_keeps_its_guesses(tmp_path):
+def test_renamed_notebook_keeps_its_guesses(tmp_path):
     lab, other = (
         notebook(tmp_path / "lab.ipynb", ids=[P1]),
         notebook(tmp_path / "x.ipynb", ids=[P2]),
@@ -148,7 +148,7 @@ HOSTILE = [
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=lambda text: text[:70])
-def test_a_file_that_holds_something_else_is_refused_and_never_overwritten(tmp_path, text):
+def test_foreign_file_is_refused_and_not_overwritten(tmp_path, text):
     lab = notebook(tmp_path / "lab.ipynb", f'predict("{P1}", "c")')
     written(tmp_path, text)
     with pytest.raises(ValueError, match=r"guesses\.json cannot be used: "):
@@ -162,7 +162,7 @@ def test_a_file_that_holds_something_else_is_refused_and_never_overwritten(tmp_p
     assert (tmp_path / ".robokin" / "guesses.broken1.json").read_text() == text
 
 
-def test_what_is_no_plain_file_is_refused(tmp_path):
+def test_special_files_are_refused(tmp_path):
     lab = notebook(tmp_path / "lab.ipynb", ids=[P1])
     (tmp_path / ".robokin").mkdir()
     file = tmp_path / ".robokin" / "guesses.json"
@@ -174,7 +174,7 @@ def test_what_is_no_plain_file_is_refused(tmp_path):
         file.rmdir() if file.is_dir() else file.unlink()
 
 
-def test_what_no_lab_has_and_names_of_nowhere_are_left_out(tmp_path):
+def test_unknown_predictions_and_notebooks_are_left_out(tmp_path):
     lab = notebook(tmp_path / "lab.ipynb", ids=[P1])
     mine = {P1: [["e", at(2)], ["b", "2026-11-23<12:00:01+01:00"]], "os.p1": [["a", at(1)]]}
     names = {name: {P1: []} for name in ("a\0b", "x" * 5000, "../..", "", "\ud800.ipynb")}
@@ -188,7 +188,7 @@ def test_what_no_lab_has_and_names_of_nowhere_are_left_out(tmp_path):
     assert chosen(lab) == {P1: ["b", "e", "c"]}
 
 
-def test_a_full_file_is_read_in_little_time(tmp_path):
+def test_full_file_is_read_quickly(tmp_path):
     names = {f"{k}.ipynb": {f"{LAB}.p{k % 900}": []} for k in range(20_000)}
     written(tmp_path, json.dumps({"guesses": 1, "notebooks": names}))
     lab = notebook(tmp_path / "lab.ipynb", "predict('" + "x" * 3_000_000, ids=[P1])
@@ -197,7 +197,7 @@ def test_a_full_file_is_read_in_little_time(tmp_path):
     assert time.process_time() - begun < 2
 
 
-def test_neither_copy_nor_a_shell_without_a_page_has_to_do_with_it(tmp_path, monkeypatch):
+def test_copy_and_plain_shells_do_not_save_guesses(tmp_path, monkeypatch):
     keep(notebook(tmp_path / "labs" / "01_lab.ipynb", ids=[P1]), [(P1, "b", at(1))])
     copy(tmp_path / "mine", tmp_path / "labs")
     assert [path.name for path in (tmp_path / "mine").rglob("guesses*")] == []
@@ -215,7 +215,7 @@ def test_neither_copy_nor_a_shell_without_a_page_has_to_do_with_it(tmp_path, mon
     assert hub._hub is None, "a judging kernel opens nothing"
 
 
-def test_what_the_page_says_is_kept_where_its_notebook_is_now(tmp_path):
+def test_guesses_are_saved_beside_the_present_notebook(tmp_path):
     one = notebook(tmp_path / "labs" / "one.ipynb", ids=[P1])
     said = {"n": 3, "path": "labs/one.ipynb", "guesses": [[P1, "b", at(1)]]}
     assert hub._told(said, one) == {"n": 3} and chosen(one) == {P1: ["b"]}
@@ -237,7 +237,7 @@ def test_what_the_page_says_is_kept_where_its_notebook_is_now(tmp_path):
 # --- What came of them ----------------------------------------------------------------------------
 
 
-def test_the_line_is_read_and_another_form_is_refused():
+def test_line_of_guesses_is_parsed_or_refused():
     assert parse_line("") == parse_line("  ") == {}
     made = {"p1": "b", "p10": "a", "p5": "-290", "p6": "1e-3"}
     assert list(parse_line(" p1 b,p10  a , p5 -290,p6 1e-3").items()) == list(made.items())
@@ -246,7 +246,7 @@ def test_the_line_is_read_and_another_form_is_refused():
             parse_line(wrong)
 
 
-def test_the_kernels_word_comes_first_then_the_line_then_the_cell(tmp_path):
+def test_saved_guesses_precede_the_line_and_the_cell(tmp_path):
     asked, typed = predict(P1), predict(TYPED)
     right = "abcd"[asked.right]
     wrong = "abcd"[(asked.right + 1) % 4]
@@ -278,14 +278,14 @@ def test_the_kernels_word_comes_first_then_the_line_then_the_cell(tmp_path):
     assert made(f"{LAB}.p4") == Guess(f"{LAB}.p4") and TYPED != f"{LAB}.p4"
 
 
-def test_a_line_that_cannot_be_read_is_told(tmp_path):
+def test_unreadable_line_is_reported(tmp_path):
     lab = notebook(tmp_path / "l.ipynb", f'predict("{P1}", "c")', 'report(who, guesses="all b")')
     remarks = []
     assert guesses(handed_in(lab), remarks)[0].choice == "c"
     assert len(remarks) == 1 and "guesses: wanted" in remarks[0] and "all b" in remarks[0]
 
 
-def test_a_copy_says_whose_guesses_lie_beside_it_and_takes_none(tmp_path):
+def test_copy_mentions_other_guesses_and_uses_none(tmp_path):
     lab = notebook(tmp_path / "lab.ipynb", ids=[P1, TYPED])
     number = TYPED.partition(".")[2]
     made = [(P1, "b", at(1)), (P1, "c", at(2)), (TYPED, "-290", at(3)), (f"{LAB}.p99", "a", at(4))]
@@ -394,7 +394,7 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"
 
 
-def test_where_nobody_knows_a_path_the_only_kernel_is_meant(page):
+def test_guess_without_a_path_goes_to_the_only_kernel(page):
     (one,) = shown(page, None)  # Notebook 7 has no tabs; VS Code's model no context
     page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
     answer(one, "b")
@@ -409,7 +409,7 @@ def test_where_nobody_knows_a_path_the_only_kernel_is_meant(page):
     assert made_in(page) == [[]] and "Run All Cells" in told(one).inner_text()
 
 
-def test_a_kernel_that_comes_late_is_told_what_the_page_remembers(page):
+def test_late_kernel_receives_the_remembered_guesses(page):
     (one,) = shown(page, "Path: a.ipynb")
     answer(one, "b")
     answer(one, "c", again=True)
@@ -430,7 +430,7 @@ def exported(folder, *ids):
     return folder / "ada.html", folder / "bob.html"
 
 
-def test_one_button_copies_all_guesses_of_a_page_and_pages_do_not_mix(page, tmp_path):
+def test_copy_button_copies_all_guesses_of_one_page(page, tmp_path):
     ada, bob = exported(tmp_path, P1, P2, TYPED, OTHER)
     page.add_init_script(
         'Object.defineProperty(navigator, "clipboard", '
@@ -462,7 +462,7 @@ def test_one_button_copies_all_guesses_of_a_page_and_pages_do_not_mix(page, tmp_
     assert "You guessed here before." in told(two).inner_text()
 
 
-def test_where_the_clipboard_is_forbidden_the_line_is_there_to_be_selected(page, tmp_path):
+def test_without_clipboard_the_line_can_be_selected(page, tmp_path):
     path, _ = exported(tmp_path, P1)
     page.add_init_script(
         'Object.defineProperty(navigator, "clipboard", {value: undefined});'

@@ -65,13 +65,13 @@ def desk(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("who", ["your name", " Your  NAME ", "", "  ", None, ...])
-def test_without_a_name_it_says_one_line(desk, who):
+def test_report_without_a_name_prints_one_line(desk, who):
     stored(desk.lab, REPORT)
     assert repr(report(who)) == ASLEEP and desk.judged == []
 
 
 @pytest.mark.parametrize("where", ["judged", "in a page", "only executed"])
-def test_where_nobody_hands_in_it_says_the_same_line(desk, monkeypatch, where):
+def test_report_outside_a_front_end_prints_the_same_line(desk, monkeypatch, where):
     stored(desk.lab, REPORT)
     if where == "judged":
         monkeypatch.setenv("ROBOKIN_JUDGE", "1")
@@ -84,13 +84,13 @@ def test_where_nobody_hands_in_it_says_the_same_line(desk, monkeypatch, where):
     assert "\n" not in ASLEEP
 
 
-def test_a_name_may_be_anything_a_student_writes(desk):
+def test_names_may_be_anything(desk):
     stored(desk.lab, REPORT)
     for who in (7, "Zoë -x", "李 小龙"):
         assert report(who) == "written" and desk.judged[-1] == ("lab.ipynb", str(who))
 
 
-def test_no_module_takes_a_name_that_the_course_exports():
+def test_modules_do_not_shadow_exported_names():
     """Or importing the module would put it in the place of the function."""
     modules = {path.stem for path in Path(course.__file__).parent.iterdir()}
     assert not modules & set(course.__all__)
@@ -99,7 +99,7 @@ def test_no_module_takes_a_name_that_the_course_exports():
 # --- Is the file as new as what the student sees? -------------------------------------------------
 
 
-def test_an_answer_that_is_not_saved_is_not_judged(desk):
+def test_unsaved_answer_is_not_judged(desk):
     stored(desk.lab, IMPORTS, "my_posture = ...", CHECK, saved=100)
     desk.run(IMPORTS, "my_posture = 1", CHECK, REPORT, when=200)
     assert report("Ada") == UNSAVED and desk.judged == []
@@ -107,7 +107,7 @@ def test_an_answer_that_is_not_saved_is_not_judged(desk):
     assert report("Ada") == "written"
 
 
-def test_the_last_version_of_a_cell_counts(desk):
+def test_last_version_of_a_cell_counts(desk):
     versions = [f"def answer(q):\n    return {k}" for k in range(3)]
     desk.run(IMPORTS, *versions, CHECK, when=200)
     stored(desk.lab, IMPORTS, versions[1], CHECK, saved=150)
@@ -118,19 +118,19 @@ def test_the_last_version_of_a_cell_counts(desk):
     assert report("Ada") == UNSAVED
 
 
-def test_a_cell_that_was_deleted_after_it_ran_is_not_missed(desk):
+def test_deleted_cells_are_ignored(desk):
     desk.run(IMPORTS, "def helper(): ...", 'predict("start_here.p1", "b")', when=200)
     stored(desk.lab, IMPORTS, CHECK, saved=300)
     assert report("Ada") == "written"
 
 
-def test_what_ran_as_it_stands_in_the_file_needs_no_other_save(desk):
+def test_unchanged_cells_need_no_further_save(desk):
     stored(desk.lab, IMPORTS, CHECK + "\n", saved=100)
     desk.run(IMPORTS, CHECK, when=200)
     assert report("Ada") == "written"
 
 
-def test_the_cell_of_the_report_need_not_be_saved_unless_it_has_guesses(desk, monkeypatch):
+def test_report_cell_must_be_saved_only_if_it_has_guesses(desk, monkeypatch):
     parse = SimpleNamespace(parse_line=lambda text: None)
     monkeypatch.setitem(sys.modules, "robokin.course.guesses", parse)
     stored(desk.lab, IMPORTS, "report(who)", saved=100)
@@ -145,7 +145,7 @@ def test_the_cell_of_the_report_need_not_be_saved_unless_it_has_guesses(desk, mo
     assert report("Ada") == UNSAVED, "an answer beside it counts"
 
 
-def test_a_line_of_guesses_that_is_none_is_told(desk):
+def test_invalid_line_of_guesses_is_reported(desk):
     stored(desk.lab, IMPORTS)
     assert report("Ada", guesses=3).startswith("No report: guesses: wanted the line")
     said = report("Ada", guesses="first b")
@@ -156,7 +156,7 @@ def test_a_line_of_guesses_that_is_none_is_told(desk):
 # --- Which file is it? ----------------------------------------------------------------------------
 
 
-def test_a_notebook_with_a_new_name_is_found_by_its_exercises(desk):
+def test_renamed_notebook_is_found_by_its_exercises(desk):
     stored(desk.folder / "Ada's lab.ipynb", IMPORTS, CHECK)
     stored(desk.folder / "other.ipynb", IMPORTS, 'check("scara_motion.1", f)')
     (desk.folder / "broken.ipynb").write_text("{")
@@ -165,7 +165,7 @@ def test_a_notebook_with_a_new_name_is_found_by_its_exercises(desk):
     assert report("Ada") == "written" and desk.judged == [("Ada's lab.ipynb", "Ada")]
 
 
-def test_among_two_copies_it_asks_which(desk):
+def test_two_copies_require_a_file_name(desk):
     for name in ("one.ipynb", "two.ipynb"):
         stored(desk.folder / name, IMPORTS, CHECK)
     desk.run(IMPORTS, CHECK, when=100)
@@ -178,21 +178,21 @@ def test_among_two_copies_it_asks_which(desk):
 
 
 @pytest.mark.parametrize("given", ["lost.ipynb", "", 3, ["lab.ipynb"], "a\0b"])
-def test_a_file_that_is_not_there_is_told(desk, given):
+def test_missing_file_is_reported(desk, given):
     assert report("Ada", notebook=given).startswith("No report: ") and desk.judged == []
 
 
-def test_a_file_that_is_no_notebook_is_told(desk):
+def test_file_that_is_not_a_notebook_is_reported(desk):
     desk.lab.write_text("{}")
     assert report("Ada") == "No report: lab.ipynb is not a notebook."
 
 
-def test_without_any_notebook_it_asks(desk):
+def test_missing_notebook_requires_a_file_name(desk):
     desk.run(IMPORTS, CHECK, when=100)
     assert "no notebook with this lab's exercises" in report("Ada")
 
 
-def test_vs_code_tells_the_file(desk, monkeypatch):
+def test_vs_code_provides_the_file(desk, monkeypatch):
     monkeypatch.delenv("JPY_SESSION_NAME")
     stored(desk.lab, IMPORTS, CHECK)
     space = {"__vsc_ipynb_file__": str(desk.lab)}
@@ -201,7 +201,7 @@ def test_vs_code_tells_the_file(desk, monkeypatch):
     assert report("Ada") == "written"
 
 
-def test_a_link_is_safe_in_the_page():
+def test_links_in_the_page_are_safe():
     note = Note('a<b>&_Ada.html is "your" report.\nx: holds')
     assert note._repr_html_() is None
     note.file = "a<b>&_Ada.html"
@@ -256,7 +256,7 @@ class Kernel:
         return [each for each in started if each.status() != psutil.STATUS_ZOMBIE]
 
 
-def test_a_session(tmp_path):
+def test_complete_session_writes_a_report(tmp_path):
     """An answer that raises, a right one, a save that is missing, an interrupt."""
     raising = "import robokin\nmy_posture = 1 / 0"
     cells = [IMPORTS, raising, CHECK, 'predict("start_here.p1", "b")']
@@ -288,7 +288,7 @@ def test_a_session(tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a login shell")
-def test_the_commands_of_lab_00_work_where_it_says(tmp_path):
+def test_commands_of_lab_00_work(tmp_path):
     """In a login shell, where no Python of ours is on the path, in the folder of the clone."""
     [told] = [cell for cell in _prose("00_start_here.ipynb") if "-m robokin.course report" in cell]
     assert "in the folder from which you started JupyterLab" in " ".join(told.split())

@@ -392,13 +392,13 @@ def seen(browser, listening, tmp_path_factory):
     return result
 
 
-def test_the_values_are_alive_and_many(seen):
+def test_attack_values_are_many_and_effective(seen):
     assert len(set(VALUES)) >= 60
     assert seen.careless.hacked == 1 and len(seen.asked_by_careless) > 5
 
 
 @pytest.mark.parametrize("name", ["harmless", "notebook", "data", "export"])
-def test_no_script_of_theirs_runs_and_nothing_is_fetched(seen, name):
+def test_foreign_scripts_do_not_run_and_nothing_is_fetched(seen, name):
     page = getattr(seen, name)
     assert page.hacked is None and not page.moved
     assert page.title != "hacked"
@@ -406,25 +406,25 @@ def test_no_script_of_theirs_runs_and_nothing_is_fetched(seen, name):
 
 
 @pytest.mark.parametrize("name", ["harmless", "notebook", "data", "export"])
-def test_only_what_is_allowed_stands_in_the_notebook(seen, name):
+def test_notebook_html_contains_only_allowed_elements(seen, name):
     page = getattr(seen, name)
     assert page.odd == []
     assert page.scripts == 0, "scripts without the page's nonce"
 
 
-def test_a_notebook_changes_nothing_above_it(seen):
+def test_notebook_does_not_change_the_header(seen):
     assert seen.notebook.head == seen.harmless.head, "picture and words"
     assert seen.notebook.verdicts == seen.harmless.verdicts
     assert len(seen.harmless.verdicts) >= 10
 
 
-def test_words_in_the_header_change_no_verdict(seen):
+def test_text_in_the_header_does_not_change_a_verdict(seen):
     assert seen.data.verdicts == seen.harmless.verdicts
     for turned in ("\u202e", "\u2067", "\x07", "\x9b"):
         assert turned not in seen.data.head[1]
 
 
-def test_outputs_that_look_like_ours_are_written_again_or_left_out(listening):
+def test_outputs_like_ours_are_rewritten_or_left_out(listening):
     explorer = target_explorer(IRB140).html
     whole = again(explorer, "abc")
     assert whole.count("<script nonce=abc>") == 1 and "<script>" not in whole
@@ -436,7 +436,7 @@ def test_outputs_that_look_like_ours_are_written_again_or_left_out(listening):
     assert again("<p>words</p>", "abc") is None
 
 
-def test_an_output_of_ours_comes_out_as_it_went_in():
+def test_own_outputs_are_unchanged():
     for made in (
         target_explorer(IRB140),
         predict("irb140_motion.p1"),
@@ -446,7 +446,7 @@ def test_an_output_of_ours_comes_out_as_it_went_in():
         assert re.sub("[0-9a-f]{12}", "", same) == re.sub("[0-9a-f]{12}", "", made.html)
 
 
-def test_a_verdict_has_the_colour_of_its_word():
+def test_verdict_has_the_colour_of_its_first_word():
     says = ("one & two", "  a = <b>")
     made = [Verdict("irb140_motion.1", False, says=says), Verdict("irb140_motion.1", holds=True)]
     made.append(Verdict("irb140_motion.1", mistake="a\u202emistake", case="x\ny"))
@@ -490,7 +490,7 @@ def test_a_report_opens_each_question_with_the_first_guess():
         lambda data: data.update(ticks=[0, 1]),
     ],
 )
-def test_data_that_are_no_page_are_refused(change):
+def test_invalid_page_data_are_refused(change):
     data = {
         "title": "a",
         "summary": "",
@@ -524,7 +524,7 @@ def test_data_that_are_no_page_are_refused(change):
     assert not fits(data, Page)
 
 
-def test_pictures_come_from_the_folder_and_nowhere_else(tmp_path):
+def test_pictures_come_only_from_the_folder(tmp_path):
     png = base64.b64decode("iVBORw0KGgo=")
     folder = tmp_path / "labs"
     (folder / "images").mkdir(parents=True)
@@ -544,7 +544,7 @@ def test_pictures_come_from_the_folder_and_nowhere_else(tmp_path):
     assert long in cells[-1]["source"]
 
 
-def test_the_header_says_what_is_to_be_known(tmp_path):
+def test_header_reports_what_was_left_out(tmp_path):
     none_came = data_of() | {"guesses_came": False}
     text = page_of(none_came, new_notebook(), tmp_path)
     assert "Guesses: none came with the notebook." in text and "in another folder" in text
@@ -553,7 +553,7 @@ def test_the_header_says_what_is_to_be_known(tmp_path):
     assert "none came" not in page_of(data_of(), new_notebook(), tmp_path)
 
 
-def test_links_lead_where_they_say():
+def test_links_lead_to_their_visible_targets():
     for address, kept in (
         ("https://example.org/a?b=c&d#e", True),
         ("mailto:a@example.org", True),
@@ -572,7 +572,7 @@ def test_links_lead_where_they_say():
     assert harmless_link("02_irb140_kinematics.ipynb#a") == "02_irb140_kinematics.html#a"
 
 
-def test_what_is_not_seen_is_written_out():
+def test_invisible_characters_are_escaped():
     assert visible("a\u202eb") == "a\\u202eb" and visible("\ud800") == "\\ud800"
     assert visible("a\tb\r\nc\rd") == "a\tb\nc\nd"
     for fine in ("Юрий", "कमला", "José", "家", "عربي", "a\N{ZERO WIDTH JOINER}b", "−290°"):
@@ -582,7 +582,7 @@ def test_what_is_not_seen_is_written_out():
     assert visible("abc", most=2) == "ab ... shortened"
 
 
-def test_every_character_is_seen_or_told():
+def test_every_character_is_visible_or_escaped():
     """By Python's tables: what controls, ends a line or turns the direction; and what it prints."""
     every = [chr(c) for c in range(0x110000)]
     turns = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
@@ -600,7 +600,7 @@ def test_every_character_is_seen_or_told():
     assert kept.encode() and kept.startswith("".join(every[:0xD800]) + r"\ud800\ud801")
 
 
-def test_all_texts_of_what_came_as_json_are_visible():
+def test_all_texts_in_json_become_visible():
     assert all_visible({"a\0": [1, None, ("\u202e",)]}) == {r"a\x00": [1, None, [r"\u202e"]]}
     deep = []
     for _ in range(200):
@@ -615,7 +615,7 @@ PIECES += ("<b></i>", "\\begin{a}", "`", "*a_", "\x1b[31m", "\u202e", "- a\n", "
 
 @pytest.mark.parametrize("piece", PIECES)
 @pytest.mark.parametrize("size", [20_000, 1_000_000])
-def test_a_page_takes_little_time(piece, size, tmp_path):
+def test_page_is_converted_quickly(piece, size, tmp_path):
     """At most 2 s of CPU a megabyte, whatever stands in it; of little text at most 2 s."""
     text = (piece * (size // len(piece) + 1))[:size]
     outputs = [
@@ -628,7 +628,7 @@ def test_a_page_takes_little_time(piece, size, tmp_path):
     assert time.process_time() - begin < 2 * max(1, 3 * size / 1e6)
 
 
-def test_many_pieces_take_no_more_than_one(tmp_path):
+def test_many_pieces_take_no_longer_than_one(tmp_path):
     cells = [new_markdown_cell("<b>x</b> &amp; " * 1000) for _ in range(200)]  # 3 MB
     begin = time.process_time()
     view = View(tmp_path, lenient=True)
@@ -637,7 +637,7 @@ def test_many_pieces_take_no_more_than_one(tmp_path):
     assert "<pre>" not in made[0]["source"] and "<pre>" in made[-1]["source"]
 
 
-def test_deep_elements_are_seen():
+def test_deep_nesting_is_detected():
     assert is_deep("<div>" * 200) and is_deep("<b></i>" * 200) and is_deep("<B\n>" * 200)
     assert not is_deep("<b>x</b>" * 10_000) and not is_deep("<br><img>" * 10_000)
     assert not is_deep("< " * 10_000) and not is_deep("<x>" * 10_000)
@@ -702,7 +702,7 @@ def alive(page, calls):
     return len(after) - len(before)
 
 
-def test_a_report_lives_as_a_file(browser, stored_report):
+def test_report_views_work_from_a_file(browser, stored_report):
     context = browser.new_context(offline=True)
     page, complaints, views, kinds = context.new_page(), [], 0, set()
     page.on("console", lambda m: m.type in ("error", "warning") and complaints.append(m.text))
@@ -719,7 +719,7 @@ def test_a_report_lives_as_a_file(browser, stored_report):
     assert kinds == {*KINDS, "prediction.ask"}
 
 
-def test_a_report_lives_on_a_server(browser, stored_report):
+def test_report_views_work_on_a_server(browser, stored_report):
     handler = type(
         "Quiet", (http.server.SimpleHTTPRequestHandler,), {"log_message": lambda *_: None}
     )

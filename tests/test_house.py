@@ -94,7 +94,7 @@ MODULES = {
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_layers(module):
+def test_modules_import_only_lower_layers(module):
     rule = max(
         (name for name in LAYERS if module == name or module.startswith(f"{name}.")), key=len
     )
@@ -114,7 +114,7 @@ def test_layers(module):
         assert "pyplot" not in name, f"{module}: no pyplot, a figure is a value"
 
 
-def test_layers_see_what_they_should():
+def test_layer_check_detects_a_planted_import():
     # The rule above is only as good as the reading: relative imports and names passed on by a
     # package resolve.
     assert "robokin.arms.catalogue" in _imports("robokin.arms")
@@ -213,7 +213,7 @@ def test_the_package_itself_needs_numpy_only():
     assert extras["labs"] == labs | exports | reports
 
 
-def test_show_without_its_extra_says_what_to_install():
+def test_show_without_matplotlib_says_what_to_install():
     code = "import sys; sys.modules['matplotlib'] = None; import robokin, robokin.show"
     run = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True)
     assert re.search(
@@ -230,7 +230,7 @@ def test_the_package_alone_goes_from_an_import_to_a_saved_page_in_eight_lines(tm
     assert "UR5" in page and "<script" in page and [*tmp_path.iterdir()] == [tmp_path / "page.html"]
 
 
-def test_nobody_is_told_to_install_robokin_from_an_index():
+def test_no_text_installs_robokin_from_an_index():
     """Extras of pyproject.toml name the package; what people read names a clone."""
     read = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
     read += [*MODULES.values(), *(ROOT / "notebooks").glob("**/*.ipynb")]
@@ -238,13 +238,13 @@ def test_nobody_is_told_to_install_robokin_from_an_index():
         assert not re.search(r"install ['\"`]*robokin", path.read_text(encoding="utf-8")), path
 
 
-def test_the_version_stands_once():
+def test_version_is_defined_once():
     assert "version" in PROJECT["dynamic"] and "version" not in PROJECT
     assert re.fullmatch(r"\d+\.\d+\.\d+", robokin.__version__)
 
 
 @pytest.mark.parametrize("what", [[], ["--explicit-package-bases", "notebooks/exercises"]])
-def test_the_checker_finds_nothing(what):
+def test_mypy_finds_no_errors(what):
     # Configured in pyproject.toml. Its cache (.mypy_cache) makes the second run quick.
     run = subprocess.run(
         [sys.executable, "-m", "mypy", *what],
@@ -257,7 +257,7 @@ def test_the_checker_finds_nothing(what):
 
 
 @pytest.mark.parametrize("command", [["check", "--output-format=concise"], ["format", "--check"]])
-def test_ruff_finds_nothing(command):
+def test_ruff_finds_no_errors(command):
     run = subprocess.run(
         [sys.executable, "-m", "ruff", *command, "--no-cache", ROOT],
         text=True,
@@ -278,7 +278,7 @@ PACKAGES = [
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_public_names_are_listed_and_explained(package):
+def test_public_names_are_listed_and_documented(package):
     module = importlib.import_module(package)
     assert len(module.__doc__) > 30 and len(set(module.__all__)) == len(module.__all__)
     passed_on = {name for name, _ in _passed_on(MODULES[package]) if not name.startswith("_")}

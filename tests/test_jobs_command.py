@@ -64,7 +64,7 @@ INFO: 3 files: 2 answered, 1 skipped
 """
 
 
-def test_the_examples(tmp_path):
+def test_example_files_are_answered(tmp_path):
     run = command(str(TASKS), cwd=tmp_path)
     assert (run.returncode, run.out.splitlines(), run.err) == (1, REPORTS.splitlines(), "")
     assert [entry.name for entry in tmp_path.iterdir()] == ["output.log"]
@@ -83,7 +83,7 @@ def test_the_examples(tmp_path):
     assert max(numbers[2][3:]) == pytest.approx(1.331260245755, abs=1e-12)
 
 
-def test_all_fine_is_status_0_and_the_log_is_renewed(tmp_path):
+def test_success_returns_0_and_renews_the_log(tmp_path):
     (tmp_path / "output.log").write_text("yesterday\n" * 1000)
     run = command(
         "tasks", cwd=write(tmp_path / "tasks", b=example(2), a=example(3), c=example(T=4)).parent
@@ -96,7 +96,7 @@ def test_all_fine_is_status_0_and_the_log_is_renewed(tmp_path):
     assert "yesterday" not in (tmp_path / "output.log").read_text()
 
 
-def test_help_and_wrong_use(tmp_path):
+def test_help_and_usage_errors(tmp_path):
     run = command("-h", cwd=tmp_path)
     assert run.returncode == 0
     for word in (
@@ -118,7 +118,7 @@ def test_help_and_wrong_use(tmp_path):
         assert run.returncode == 2 and "usage: python -m robokin.jobs" in run.err
 
 
-def test_nothing_to_do_is_status_2(tmp_path):
+def test_empty_folder_returns_2(tmp_path):
     empty = write(tmp_path / "empty")
     (empty / "readme.txt").write_text("no task")
     (empty / ".hidden.json").write_text("{}")
@@ -142,7 +142,7 @@ def test_nothing_to_do_is_status_2(tmp_path):
 
 @pytest.mark.parametrize("log", ["folder", "link to nowhere"])
 @posix
-def test_a_log_that_cannot_be_written(tmp_path, log):
+def test_unwritable_log_is_reported(tmp_path, log):
     tasks = write(tmp_path / "tasks", a=example())
     if log == "folder":
         (tmp_path / "output.log").mkdir()
@@ -157,7 +157,7 @@ def test_a_log_that_cannot_be_written(tmp_path, log):
 
 @pytest.mark.parametrize("link", ["symlink_to", "hardlink_to"])
 @posix
-def test_a_log_that_is_a_link_to_a_task_leaves_the_task_alone(tmp_path, link):
+def test_log_that_links_to_a_task_does_not_change_the_task(tmp_path, link):
     task = write(tmp_path / "tasks", a=example()) / "a.json"
     before = task.read_bytes()
     getattr(tmp_path / "output.log", link)(task)
@@ -168,7 +168,7 @@ def test_a_log_that_is_a_link_to_a_task_leaves_the_task_alone(tmp_path, link):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
-def test_a_full_disk_is_said(tmp_path):
+def test_full_disk_is_reported(tmp_path):
     tasks = write(tmp_path / "tasks", a=example(), b=example(2))
     with open("/dev/full", "wb") as full:
         run = command(str(tasks), cwd=tmp_path, stdout=full)
@@ -177,7 +177,7 @@ def test_a_full_disk_is_said(tmp_path):
 
 
 @posix
-def test_a_reader_that_leaves(tmp_path):
+def test_closed_pipe_is_handled(tmp_path):
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(50)})
     line = f'"{sys.executable}" -m robokin.jobs tasks | head -1'
     run = subprocess.run(
@@ -189,7 +189,7 @@ def test_a_reader_that_leaves(tmp_path):
 
 
 @posix
-def test_streams_that_are_closed(tmp_path):
+def test_closed_streams_are_handled(tmp_path):
     write(tmp_path / "tasks", a=example())
     for closed, status, told in (
         (">&-", 1, "the standard output cannot be written: it is closed\n"),
@@ -211,7 +211,7 @@ def test_streams_that_are_closed(tmp_path):
 
 
 @posix
-def test_two_runs_in_one_folder(tmp_path):
+def test_simultaneous_runs_in_one_folder_are_refused(tmp_path):
     """The second one leaves the log of the first alone and says so."""
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(600)})
     write(tmp_path / "others", a=example(2))
@@ -232,7 +232,7 @@ def test_two_runs_in_one_folder(tmp_path):
 
 
 @posix
-def test_names_that_a_terminal_cannot_show(tmp_path):
+def test_unprintable_file_names_are_escaped(tmp_path):
     tasks = write(tmp_path / "tasks")
     for name in (b"caf\xe9.json", "задача.json".encode(), b"a\nINFO: b.json", b"[x]*.json"):
         Path(os.fsdecode(os.fsencode(tasks) + b"/" + name)).write_text(json.dumps(example()))
@@ -245,7 +245,7 @@ def test_names_that_a_terminal_cannot_show(tmp_path):
 
 
 @posix
-def test_things_that_are_no_files(tmp_path):
+def test_special_files_are_reported(tmp_path):
     tasks = write(tmp_path / "tasks", good=example())
     (tasks / "folder.json").mkdir()
     os.mkfifo(tasks / "pipe.json")  # reading it would wait for ever
@@ -264,7 +264,7 @@ def test_things_that_are_no_files(tmp_path):
         assert re.search(rf"ERROR: Task {name}.json skipped:\n\t{why}", run.out)
 
 
-def test_ctrl_c_and_a_fault_of_the_program(tmp_path, monkeypatch, capsys):
+def test_interrupts_and_internal_errors_are_handled(tmp_path, monkeypatch, capsys):
     from robokin.jobs import __main__ as module
 
     monkeypatch.chdir(tmp_path)
@@ -291,7 +291,7 @@ def test_ctrl_c_and_a_fault_of_the_program(tmp_path, monkeypatch, capsys):
     assert capsys.readouterr().err == "ERROR: stopped with Ctrl+C\n"
 
 
-def test_the_log_of_a_caller_is_left_alone(tmp_path, monkeypatch, capsys, caplog):
+def test_log_of_the_caller_is_not_used(tmp_path, monkeypatch, capsys, caplog):
     from robokin.jobs import __main__ as module
 
     monkeypatch.chdir(tmp_path)
@@ -307,7 +307,7 @@ def test_the_log_of_a_caller_is_left_alone(tmp_path, monkeypatch, capsys, caplog
 # ---- What a reader should know
 
 
-def test_what_is_odd_about_a_file(tmp_path):
+def test_oddities_of_a_file_are_reported(tmp_path):
     tasks = write(
         tmp_path / "tasks",
         degrees=example(**{"q'": [20, 20, 20]}),
@@ -332,7 +332,7 @@ def test_what_is_odd_about_a_file(tmp_path):
 # ---- Large files
 
 
-def test_large_files_are_told_and_answered_on_a_page(tmp_path):
+def test_large_tasks_give_short_reports(tmp_path):
     rng = np.random.default_rng(0)
     points = rng.uniform([1, 1, 1], [3, 3, 5], (200_000, 3)).round(6).tolist()
     bad = [[9, 9, 9]] * 100_000
@@ -557,7 +557,7 @@ MUTATIONS = {
 }
 
 
-def test_mutated_files_are_each_named_with_a_reason(tmp_path):
+def test_mutated_files_are_reported_with_a_reason(tmp_path):
     count = int(os.environ.get("ROBOKIN_MUTANTS", 300))
     tasks = tmp_path / "tasks"
     wanted = list(mutants(tasks, count))

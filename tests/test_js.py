@@ -41,12 +41,12 @@ def run(name, *arguments):
     return done.stdout + done.stderr if done.returncode else ""
 
 
-def test_prettier_changes_nothing():
+def test_prettier_finds_no_changes():
     said = run("prettier", "--check", FOLDER, SITE / "site.js")
     assert not said, f"{said}\nRun: python tests/javascript.py prettier --write robokin/show/js"
 
 
-def test_the_types_hold():
+def test_tsc_finds_no_errors():
     said = run("tsc")
     assert not said, f"{said}\nThe same by hand: python tests/javascript.py tsc"
 
@@ -142,7 +142,7 @@ def types_in(text):
 LOOSE = re.compile(r"\bany\b|(?<![\w*])\*(?=\s*(?:[>,)}\]|]|$))|\bFunction\b|\bObject\b(?!<)")
 
 
-def test_what_counts_as_no_type():
+def test_untyped_declarations_are_detected():
     text = "/** any {any} @param {{a: any}} x @returns {*} @type {Object<string, *>} any */"
     assert list(types_in(text)) == ["{a: any}", "*", "Object<string, *>"]
     assert all(map(LOOSE.search, types_in(text))) and LOOSE.search("Object")
@@ -150,13 +150,13 @@ def test_what_counts_as_no_type():
 
 
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
-def test_no_type_says_nothing(path):
+def test_no_declaration_is_untyped(path):
     text = path.read_text(encoding="utf-8")
     assert not [each for each in types_in(text) if LOOSE.search(each)]
     assert not re.findall(r"@ts-\w+", text), "a fault is mended, not hidden"
 
 
-def test_the_types_of_the_data_are_those_of_python():
+def test_page_types_equal_those_of_python():
     for path, text in written().items():
         stored = path.read_text(encoding="utf-8")
         assert stored == text, f"{path.name}: run python tests/javascript.py types"
@@ -177,7 +177,7 @@ THINGS = {  # of one kind of thing, and the script that draws it
 }
 
 
-def test_a_key_changed_in_one_kind_of_page_is_refused(tmp_path):
+def test_tsc_refuses_a_changed_key(tmp_path):
     """One page or thing after the other: the scripts of that kind no longer fit, those of others
     do.
     """
@@ -200,18 +200,18 @@ def test_a_key_changed_in_one_kind_of_page_is_refused(tmp_path):
         assert not refused & others - own, (table, refused)
 
 
-def test_no_key_of_a_scene_is_optional():
+def test_scenes_have_no_optional_keys():
     for table in (page.PageScene, PageWay, PageReading, *get_args(PageThing)):
         assert not table.__optional_keys__, table.__name__
 
 
-def test_every_kind_of_thing_is_listed():
+def test_all_kinds_of_things_are_listed():
     modules = {path.stem for path in (PACKAGE / "show" / "things").glob("[!_]*.py")} - {"thing"}
     listed = {get_args(table.__annotations__["kind"])[0] for table in get_args(PageThing)}
     assert listed == modules == set(THINGS)
 
 
-def test_no_key_of_an_explorers_page_is_optional():
+def test_explorer_pages_have_no_optional_keys():
     """But for what `Live` adds."""
     for table in get_args(page.PageExplorer):
         live = page.LivePage.__optional_keys__ & {*table.__annotations__}
@@ -221,7 +221,7 @@ def test_no_key_of_an_explorers_page_is_optional():
 @pytest.mark.parametrize(
     "arm", [IRB140, SCARA, spbu_arm(0.4, 0.3), two_link(0.3, 0.4), three_lever((0.3, 0.2, 0.4))]
 )
-def test_an_arm_has_the_keys_of_its_type(arm):
+def test_arm_data_have_the_keys_of_their_type(arm):
     data = twin.arm_data(arm)
     tables = {get_args(t.__annotations__["kind"])[:1]: t for t in get_args(twin.Inverse)}
     inverse = tables[get_args(Literal[data["geometry"]["kind"]])]

@@ -35,7 +35,7 @@ IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as n
 # --- What answers are worth -----------------------------------------------------------------------
 
 
-def test_missing_raising_and_endless_answers(tmp_path):
+def test_missing_raising_and_endless_answers_are_judged(tmp_path):
     lab = stored(
         tmp_path / "03_irb140_motion Ada.ipynb",
         IMPORTS,
@@ -119,7 +119,7 @@ def tricks(tmp_path_factory):
     return SimpleNamespace(judged=judged, cells=judged.notebook.cells)
 
 
-def test_the_package_judges_and_not_what_the_notebook_made_of_it(tricks):
+def test_modified_package_in_a_notebook_does_not_judge(tricks):
     one, two, three = tricks.judged.exercises
     assert one.state == "does not hold"
     said = 'irb140_motion.1: the notebook\'s own output says "holds"; the check says'
@@ -132,7 +132,7 @@ def test_the_package_judges_and_not_what_the_notebook_made_of_it(tricks):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process may live on")
-def test_what_a_notebook_starts_ends_with_it(tricks):
+def test_processes_of_a_notebook_end_with_it(tricks):
     [printed] = [c.outputs[0].text for c in tricks.cells if c.source.startswith("started")]
     for pid in map(int, printed.split()):
         assert not psutil.pid_exists(pid) or psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
@@ -147,7 +147,7 @@ def _command(process_):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process may live on")
-def test_and_nothing_else_does():
+def test_other_processes_are_not_ended():
     marks = ("one", "two")
     both = [
         subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE, env=env)
@@ -163,7 +163,7 @@ def test_and_nothing_else_does():
             each.communicate()
 
 
-def test_what_cells_show_is_kept_as_far_as_it_can_be(tricks):
+def test_outputs_are_kept_up_to_the_limit(tricks):
     shown = {c.source.split("\n")[0][:20]: c.outputs for c in tricks.cells}
     assert shown["for k in range(60):"][0].text == "x" * 100 + " 59"
     assert len(shown["print('a line of 150"][0].text) < 6000
@@ -172,7 +172,7 @@ def test_what_cells_show_is_kept_as_far_as_it_can_be(tricks):
     nbformat.validate(tricks.judged.notebook)
 
 
-def test_notebooks_judged_at_the_same_time_are_judged_the_same(tmp_path):
+def test_simultaneous_judging_gives_the_same_verdicts(tmp_path):
     labs = [
         stored(
             tmp_path / "scara.ipynb",
@@ -212,7 +212,7 @@ def slower(monkeypatch, factor):
     monkeypatch.setattr(judging, "SLOWER", factor)
 
 
-def test_a_limit_counts_cpu_time_with_that_of_child_processes(tmp_path, monkeypatch):
+def test_cpu_limit_includes_child_processes(tmp_path, monkeypatch):
     slower(monkeypatch, 10_000)  # no machine is as slow
     lab = stored(
         tmp_path / "lab.ipynb",
@@ -236,7 +236,7 @@ def test_a_limit_counts_cpu_time_with_that_of_child_processes(tmp_path, monkeypa
     assert (two.state, three.state) == ("does not hold", "unanswered")
 
 
-def test_all_cells_have_a_time_and_a_memory_together(tmp_path):
+def test_total_time_and_memory_are_limited(tmp_path):
     """What is beyond them does not run, or raises; what came before counts."""
     spin = "import time\nend = time.process_time() + 3\nwhile time.process_time() < end:\n    pass"
     lab = stored(
@@ -257,7 +257,7 @@ def test_all_cells_have_a_time_and_a_memory_together(tmp_path):
     assert "0\n" in printed and f"{late}\n" in printed
 
 
-def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch):
+def test_sleeping_cell_is_stopped_and_not_judged(tmp_path, monkeypatch):
     slower(monkeypatch, 1)
     lab = stored(
         tmp_path / "lab.ipynb",
@@ -280,7 +280,7 @@ def test_who_sleeps_is_stopped_by_the_clock_and_not_judged(tmp_path, monkeypatch
     assert any("nothing less than ending the kernel" in remark for remark in stopped)
 
 
-def test_what_is_not_judged_contradicts_nothing(tmp_path):
+def test_unjudged_exercise_contradicts_no_output(tmp_path):
     run = NotebookRun(
         new_notebook(), {"irb140_motion.1": Call(3, "irb140_motion.1", "x", "")}, "Ada", QUICK
     )
@@ -298,7 +298,7 @@ def asked(answers, name, answer, own="", who=None):
     return json.loads(answers({"judge": request})["judge"])
 
 
-def test_judging_in_the_kernel_leaves_no_trace():
+def test_judging_does_not_change_the_kernel():
     space = {"right": None, "who": "Bob"}
     exec(solution("scara_motion.3").replace("your name", "Bob"), space)
     answers = kernel.judging(course.check, space)
@@ -334,7 +334,7 @@ RIGHT = {"answered": True, "holds": True, "mistake": None, "says": [], "case": N
         )
     ],
 )
-def test_an_answer_that_is_no_verdict_is_none(odd):
+def test_invalid_kernel_answer_is_ignored(odd):
     call = Call(0, "irb140_motion.1", "x", "")
     run = NotebookRun(new_notebook(), {call.name: call}, "Ada", QUICK)
     run.found[call.name] = odd
@@ -345,14 +345,14 @@ def test_an_answer_that_is_no_verdict_is_none(odd):
 
 
 @pytest.mark.parametrize("odd", [None, 1, "", "x", "[]", '{"a":', "[" * 10_000, "9" * 5000])
-def test_nor_is_one_that_is_no_json(odd):
+def test_kernel_answer_that_is_not_json_is_ignored(odd):
     assert judging._read(odd) == {"error": "the kernel gave no answer"}
 
 
 # --- Reading --------------------------------------------------------------------------------------
 
 
-def test_the_last_call_counts_and_files_may_be_called_anything(tmp_path):
+def test_last_call_counts_and_any_file_name_works(tmp_path):
     lab = stored(
         tmp_path / "homework.ipynb",
         'check("irb140_motion.1", first)\ncourse.check(name="irb140_motion.2", answer=a + 1)',
@@ -385,7 +385,7 @@ HOSTILE = ("<", " ", "-", "(", '"', "check(", "\\", "\n ", "?\n", "&#9", "1;", "
 @pytest.mark.parametrize(
     ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE[4:]), (4_000_000, HOSTILE[:4])]
 )
-def test_reading_takes_time_in_proportion_to_size(size, pieces, tmp_path):
+def test_reading_takes_linear_time(size, pieces, tmp_path):
     """At most 2 s of CPU time for a megabyte."""
     call, lab = 'check("irb140_motion.1", x)\n', tmp_path / "lab.ipynb"
     for piece in pieces:
@@ -417,7 +417,7 @@ def test_reading_takes_time_in_proportion_to_size(size, pieces, tmp_path):
     ],
     ids=range(6),
 )
-def test_so_does_what_is_no_notebook(text, tmp_path):
+def test_reading_an_invalid_notebook_takes_linear_time(text, tmp_path):
     lab = tmp_path / "lab.ipynb"
     lab.write_text(text)
     begun = time.process_time()
@@ -462,7 +462,7 @@ def tried(path):
         ({"cells": [{"cell_type": ["code"], "source": ""}]}, False),
     ],
 )
-def test_what_a_notebook_must_have(change, readable, tmp_path):
+def test_invalid_notebooks_are_refused(change, readable, tmp_path):
     lab = tmp_path / "lab.ipynb"
     lab.write_text(json.dumps(new_notebook(cells=[new_code_cell("1")]) | change))
     assert tried(lab) == readable
@@ -482,7 +482,7 @@ def test_what_a_notebook_must_have(change, readable, tmp_path):
         'check("irb140_motion.1", 1' + " " * 200_000 + ")",
     ],
 )
-def test_an_exercise_in_a_cell_that_cannot_be_read_is_broken(source, tmp_path):
+def test_exercise_in_an_unparsable_cell_is_broken(source, tmp_path):
     lab = tmp_path / "irb140_motion.ipynb"
     lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
     assert tried(lab)
@@ -493,7 +493,7 @@ def test_an_exercise_in_a_cell_that_cannot_be_read_is_broken(source, tmp_path):
     assert set(given.broken) == {"irb140_motion.1"} and given.broken["irb140_motion.1"]
 
 
-def test_a_file_that_is_none(tmp_path):
+def test_missing_file_is_refused(tmp_path):
     for name, content in (("bytes", b"\xff\xfe"), ("empty", b""), ("large", b" " * 20_000_001)):
         path = tmp_path / name
         path.write_bytes(content)
@@ -504,12 +504,12 @@ def test_a_file_that_is_none(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="names are Unicode elsewhere")
-def test_a_name_that_is_not_utf_8_is_an_ordinary_name(tmp_path):
+def test_file_name_that_is_not_utf_8_works(tmp_path):
     path = stored(tmp_path / "lab.ipynb", "1").rename(os.fsdecode(os.fsencode(tmp_path) + b"/\xe9"))
     assert tried(path) and handed_in(path).title == "\N{REPLACEMENT CHARACTER}"
 
 
-def test_any_change_of_a_notebook_is_read_or_refused_with_a_reason(tmp_path):
+def test_mutated_notebooks_are_read_or_refused_with_a_reason(tmp_path):
     dice = random.Random(24)
     values = [None, True, -1, 10**400, 1e308, "", "\ud800", "\0", "x" * 300, [], {}, [[]], {"": 0}]
     values += [
@@ -573,7 +573,7 @@ def twice(x):
 """
 
 
-def test_an_exercise_of_ones_own_is_judged_where_the_teacher_has_it(tmp_path, monkeypatch, capsys):
+def test_own_exercise_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, capsys):
     """What lies beside the student's notebook is none of the teacher's."""
     (tmp_path / "handed").mkdir()
     lab = stored(

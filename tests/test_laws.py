@@ -19,7 +19,7 @@ laws = pytest.mark.parametrize(
 
 @laws
 @pytest.mark.parametrize("duration", [1e-3, 1, 20.0, 1e6])
-def test_begins_at_0_ends_at_1_and_never_turns_back(law, duration):
+def test_laws_rise_monotonically_from_0_to_1(law, duration):
     s = law(duration)(np.linspace(0, duration, 5001))
     assert s[0] == 0 and s[-1] == 1
     assert (np.diff(s) > -1e-15).all() and (np.diff(s)[1:-1:50] > 0).all()
@@ -29,26 +29,26 @@ def test_begins_at_0_ends_at_1_and_never_turns_back(law, duration):
 
 
 @laws
-def test_rounding_near_the_end_never_passes_the_goal(law):
+def test_rounding_near_the_end_never_exceeds_1(law):
     t = 3.3 - np.concatenate([np.arange(20_000) * 4e-16, np.linspace(0, 1e-3, 100_001)])
     assert law(3.3)(t).max() <= 1
 
 
 @laws
-def test_stands_still_before_and_after(law):
+def test_laws_are_constant_before_and_after(law):
     assert law(2.0)(np.array([-1e9, -1e-9, 2.0, 2.1, 1e9])).tolist() == [0, 0, 1, 1, 1]
 
 
 @laws
 @pytest.mark.parametrize("shape", SHAPES)
-def test_keeps_the_shape_of_the_times(law, shape):
+def test_laws_keep_the_shape_of_the_times(law, shape):
     t = np.random.default_rng(30).uniform(0, 3, shape)
     s = law(3.0)(t)
     assert np.shape(s) == shape
     assert np.allclose(np.ravel(s), [law(3.0)(one) for one in np.ravel(t)], rtol=0, atol=1e-16)
 
 
-def test_linear_is_the_share_of_the_time():
+def test_linear_is_the_fraction_of_the_time():
     t = np.linspace(0, 7, 50)
     assert np.allclose(linear(7.0)(t), t / 7, rtol=0, atol=1e-16)
 
@@ -91,7 +91,7 @@ def derivative_jumps(law, at, order, h):
         (quintic(4.0), 2, [0, 4], 0),
     ],
 )
-def test_each_law_is_as_smooth_as_it_says(law, order, times, jump):
+def test_laws_have_the_documented_smoothness(law, order, times, jump):
     for at in times:
         jumps = [abs(derivative_jumps(law, at, order, h)) for h in (1e-2, 1e-3)]
         assert abs(jumps[1] - jump) < 1e-5 and abs(jumps[0] - jump) < 1e-2
@@ -103,12 +103,12 @@ def test_each_law_is_as_smooth_as_it_says(law, order, times, jump):
     st.floats(0.01, 100),
     st.lists(st.floats(-1, 200), min_size=2, max_size=20),
 )
-def test_any_trapezoid_rises_from_0_to_1(ramp, duration, times):
+def test_every_trapezoidal_law_rises_from_0_to_1(ramp, duration, times):
     s = trapezoidal(duration, ramp)(np.sort(times))
     assert (np.diff(s) >= -1e-15).all() and (s >= 0).all() and (s <= 1).all()
 
 
-def test_a_law_knows_its_duration():
+def test_laws_store_their_duration():
     for law in LAWS:
         assert law(20).duration == 20 and isinstance(law(20), TimeLaw)
 
@@ -120,14 +120,14 @@ def test_a_law_can_be_pickled(law):
     assert again.duration == 8 and (again(t) == law(8.0)(t)).all()
 
 
-def test_an_own_law_is_a_function_of_the_share_of_the_time():
+def test_custom_law_is_a_function_of_the_fraction_of_time():
     law = TimeLaw(4, lambda x: x**2)
     assert law([-1, 0, 1, 2, 4, 5]).tolist() == [0, 0, 1 / 16, 1 / 4, 1, 1]
     assert TimeLaw(4, lambda x: 3 * x - 1)([0, 2, 4]).tolist() == [0, 0.5, 1]  # kept in [0, 1]
 
 
 @pytest.mark.parametrize("progress", [None, 3, "linear", [0, 1]])
-def test_progress_is_a_function(progress):
+def test_progress_must_be_callable(progress):
     with pytest.raises(TypeError, match="progress: wanted a function, got"):
         TimeLaw(2, progress)
 
@@ -142,26 +142,26 @@ def test_progress_is_a_function(progress):
         (lambda x: x[:2], r"progress: wanted s of shape \(3,\), got shape \(2,\)"),
     ],
 )
-def test_what_progress_answers_is_looked_at(progress, message):
+def test_results_of_progress_are_checked(progress, message):
     with pytest.raises(ValueError, match=message):
         TimeLaw(2, progress)([0, 1, 2])
 
 
 @pytest.mark.parametrize("duration", [1e-320, 1e-300, 1e300])
-def test_no_duration_is_too_short_or_too_long(duration):
+def test_extreme_durations_work(duration):
     for law in LAWS:
         with np.errstate(all="raise", under="ignore"):
             assert law(duration)([0.0, duration, 1e308]).tolist() == [0, 1, 1]
 
 
 @pytest.mark.parametrize("ramp", [1e-300, 1e-320])
-def test_no_ramp_is_too_short(ramp):
+def test_very_short_ramps_work(ramp):
     with np.errstate(all="raise", under="ignore"):
         s = trapezoidal(1.0, ramp)(np.linspace(0, 1, 11))
     assert np.allclose(s, np.linspace(0, 1, 11), rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize("wrong", [0, -1, 0.6, np.nan, "half", [0.1, 0.2], None])
-def test_a_ramp_is_a_share_of_at_most_a_half(wrong):
+def test_ramp_is_at_most_one_half(wrong):
     with pytest.raises(ValueError, match="ramp: wanted"):
         trapezoidal(1.0, wrong)

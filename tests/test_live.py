@@ -51,7 +51,7 @@ def questions(count, seed=15):
         start = plan(ARM, start, target).posture
 
 
-def test_an_answer_is_the_plan_and_what_is_drawn_lies_on_it():
+def test_answer_is_the_plan_and_the_drawing_agrees():
     answer, ways = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer, set()
     for question in questions(25):
         known = plan(ARM, *(question[k] for k in ("posture", "target", "obstacle", "distance")))
@@ -74,7 +74,7 @@ def test_an_answer_is_the_plan_and_what_is_drawn_lies_on_it():
     assert {"direct", "search", "none"} <= ways
 
 
-def test_the_other_ways_are_judged_by_what_the_levers_do():
+def test_unchecked_ways_are_judged_by_the_levers():
     answer = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer
     seen = set()
     for question in questions(12, seed=3):
@@ -97,7 +97,7 @@ def test_the_other_ways_are_judged_by_what_the_levers_do():
     assert seen == {(1, True), (1, False), (2, True), (2, False)}
 
 
-def test_the_cube_is_forbidden_where_a_lever_is_too_near_and_its_wave_takes_proven_steps():
+def test_cube_marks_near_levers_and_its_search_takes_proven_steps():
     question = next(questions(1)) | {"obstacle": [1.2, 1.3], "target": [1.9, 0.3]}
     said = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer(question)
     cube, n = said["cube"], len(said["cube"])
@@ -190,9 +190,7 @@ def stored(tmp_path_factory):
     return path
 
 
-def test_it_is_awake_after_run_all_and_the_last_place_of_the_hand_is_the_one_shown(
-    jupyter, quiet, stored
-):
+def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quiet, stored):
     (jupyter.labs / NAME).write_bytes(stored.read_bytes())
     quiet.add_init_script(CLIPBOARD)
     jupyter.open(quiet, NAME)
@@ -315,7 +313,7 @@ def shows_what_python_says(tab):
 # --- Stored ---------------------------------------------------------------------------------------
 
 
-def test_an_exported_page_sleeps_and_what_needs_no_kernel_lives(quiet, stored, tmp_path):
+def test_exported_page_sleeps_except_for_parts_without_a_kernel(quiet, stored, tmp_path):
     export(stored, tmp_path / "live.html")
     quiet.goto((tmp_path / "live.html").as_uri())
     asleep(quiet)
@@ -333,7 +331,7 @@ def test_an_exported_page_sleeps_and_what_needs_no_kernel_lives(quiet, stored, t
     assert quiet.errors == [] and quiet.outside == []
 
 
-def test_a_notebook_stores_a_small_picture_and_nbval_passes(stored):
+def test_stored_picture_is_small_and_nbval_passes(stored):
     notebook = nbformat.read(stored, as_version=4)
     assert set(notebook.metadata) == {"kernelspec", "language_info"}
     [output] = notebook.cells[1].outputs

@@ -20,7 +20,7 @@ def joints_of(case):
 
 
 @cases
-def test_every_reference_case(case):
+def test_reference_cases(case):
     arm = loader_arm(case["A"], case["B"])
     row = arm.ik(case["p"])[arm.branch(+1, -1)]
     q = station_postures(arm, [case["p"]])[0]
@@ -34,7 +34,7 @@ def test_every_reference_case(case):
 
 
 @lengths
-def test_fk_is_the_documents_figure(A, B):
+def test_fk_matches_the_figure_of_the_document(A, B):
     rng = np.random.default_rng(1)
     for alpha, gamma, beta in rng.uniform(-np.pi, np.pi, (20, 3)):
         chain = (
@@ -56,7 +56,7 @@ def test_fk_is_the_documents_figure(A, B):
 
 @lengths
 @pytest.mark.parametrize("shape", SHAPES)
-def test_ik_returns_the_drawn_joints(A, B, shape):
+def test_ik_contains_the_original_joints(A, B, shape):
     arm = loader_arm(A, B)
     q = np.random.default_rng(2).uniform((-np.pi, 0, 0.01), (np.pi, np.pi / 2, 3.13), (*shape, 3))
     pose = arm.fk(q)
@@ -88,14 +88,14 @@ def test_alpha_in_the_nine_cells_of_table_1(x, y):
     assert alpha == pytest.approx(table[np.sign(x), np.sign(y)], abs=1e-12)
 
 
-def test_the_printed_corner_of_table_1_is_wrong():
+def test_printed_corner_of_table_1_is_wrong():
     alpha = station_postures(loader_arm(2, 1.5), [(-1, 2, 0), (-1, 1e-4, 0)])[:, 0] / deg
     assert alpha == pytest.approx([116.565051, 179.994270], abs=1e-6)
     printed = np.degrees(np.arctan([2.0, 1e-4])) + 90
     assert printed == pytest.approx([153.434949, 90.005730], abs=1e-6)
 
 
-def test_on_the_axis_alpha_stays_as_it_was():
+def test_alpha_keeps_its_value_on_the_axis():
     arm = loader_arm(1.2, 1.0)
     q = station_postures(
         arm, [(0, 0, 1.5), (0.5, 0.5, 1), (0, 0, 1.5), (0, 1e-16, 2.2), (-0.5, 0.5, 1)]
@@ -104,7 +104,7 @@ def test_on_the_axis_alpha_stays_as_it_was():
     assert np.isfinite(q).all() and q[3, 2] == pytest.approx(np.pi)
 
 
-def test_gamma_lies_in_three_quarters_of_a_turn():
+def test_gamma_is_within_three_quarters_of_a_turn():
     """With a longer outer lever the inner one can point down and backwards, up to 270 degrees."""
     arm, alpha = loader_arm(1.0, 2.0), 0.3
     gamma, beta = np.meshgrid([-30, 1, 89, 179, 181, 269, 269.9], [0.03, 0.3, 20, 70, 150])
@@ -116,7 +116,7 @@ def test_gamma_lies_in_three_quarters_of_a_turn():
     np.testing.assert_allclose(station_postures(arm, places)[served], q[served], atol=1e-7)
 
 
-def test_alpha_goes_on_by_the_shortest_turn():
+def test_alpha_continues_by_the_shortest_turn():
     angle = np.array([170, -170, -20, 170, -100, 79]) * deg
     points = np.stack([np.cos(angle), np.sin(angle), 0 * angle + 0.3], axis=-1)
     alpha = station_postures(loader_arm(1.2, 1.0), points)[:, 0]
@@ -144,7 +144,7 @@ def test_the_shortest_turn(start, goal, turn):
     assert shortest_turn(start * deg, goal * deg) / deg == pytest.approx(turn)
 
 
-def test_the_printed_shortest_turn_is_wrong():
+def test_printed_shortest_turn_is_wrong():
     printed = -(360 - abs(-170 - 170))  # errata S3-q
     assert printed == -20 and shortest_turn(170 * deg, -170 * deg) / deg == pytest.approx(20)
 
@@ -166,7 +166,7 @@ def test_stretched_and_folded(A, B):
 
 
 @lengths
-def test_the_angles_are_the_documents_formulas(A, B):
+def test_angles_equal_the_formulas_of_the_document(A, B):
     rng = np.random.default_rng(5)
     p = rng.normal(size=(300, 3)) * [1, 1, 0.7]
     p[:, 2] = abs(p[:, 2])
@@ -184,7 +184,7 @@ def test_the_angles_are_the_documents_formulas(A, B):
     assert gamma.max() > np.pi or A >= B  # the range above 180 degrees is used
 
 
-def test_the_check_of_the_coordinates():
+def test_check_of_the_coordinates():
     arm = loader_arm(1.2, 0.7)
     assert out_of_reach(arm, (1, 0.5, 0.4)) == []
     assert out_of_reach(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
@@ -199,7 +199,7 @@ def test_the_check_of_the_coordinates():
     assert "183.8 mm too near" in explain(arm, Transform(translation=(0.3, 0, 0.1)), 1)
 
 
-def test_wrong_calls_are_refused():
+def test_wrong_arguments_are_refused():
     for A, B in ((0, 1), (-1, 1), (1, np.nan), ("a", 1), ([1, 2], 1)):
         with pytest.raises(ValueError, match="A: |B: "):
             loader_arm(A, B)

@@ -19,7 +19,7 @@ KNOWN = {
 
 @pytest.mark.parametrize("decimals", [0, 1, 3, 5])
 @pytest.mark.parametrize("function, low, high, most", KNOWN.values(), ids=KNOWN)
-def test_two_digits_more_than_shown_stand(function, low, high, most, decimals):
+def test_maximum_is_accurate_to_two_more_digits_than_shown(function, low, high, most, decimals):
     if most is None:  # the later peak, where 7 cos 7x = -0.001
         x = (2 * np.pi + np.arccos(-1e-3 / 7)) / 7
         most = np.sin(7 * x) + 1e-3 * x
@@ -29,7 +29,7 @@ def test_two_digits_more_than_shown_stand(function, low, high, most, decimals):
     assert most - found.value < 10.0 ** -(decimals + 2)
 
 
-def test_the_lowest_is_that_of_the_negative():
+def test_minimum_is_the_maximum_of_the_negative():
     via = Transform(Quaternion.from_angle_axis(45 * deg, np.eye(3)[1]), (0.65, -0.1, 0.8))
     ends = [Transform(translation=p) for p in ((0.2, 0.4, 0.2), (0.3, 0.3, 0.5))]
 
@@ -58,6 +58,6 @@ def test_the_lowest_is_that_of_the_negative():
         ),
     ],
 )
-def test_wrong_calls_say_what_is_wanted(call, kind, message):
+def test_wrong_arguments_name_what_is_wanted(call, kind, message):
     with pytest.raises(kind, match=message):
         refined_maximum(*call)

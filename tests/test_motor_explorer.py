@@ -55,7 +55,7 @@ def rotor(context):
 
 
 @pytest.mark.parametrize("name", MOTORS)
-def test_the_page_has_the_law_of_python(rotor, name):
+def test_page_simulates_like_python(rotor, name):
     motor, seen = MOTORS[name], set()
     for frequency, load, load_inertia, sign in (
         (60, 0.0, 0.0, 1),
@@ -84,7 +84,7 @@ def test_the_page_has_the_law_of_python(rotor, name):
 @pytest.mark.parametrize(
     "asked", [(48, 40, 200, 0.15), (20, 50, 400, 0.3), (1, 10, 90, 2), (7, 9, 9, 0)]
 )
-def test_the_ramps_of_the_page_are_pythons(context, asked):
+def test_ramps_of_the_page_equal_those_of_python(context, asked):
     page = context.new_page()
     page.add_script_tag(content=f"{script('rotor')}\nwindow.rotor = $rotor;")
     times = page.evaluate("asked => rotor.ramp(...asked)", [*asked])
@@ -101,7 +101,7 @@ def lost(shown):
     return int(said[1]) if said else 0, code["run"].lost, code
 
 
-def test_it_tells_what_python_finds(opened):
+def test_page_reports_what_python_finds(opened):
     shown = opened(motor_explorer())
     assert lost(shown)[:2] == (44, 44) and "44 lost" in shown.look().words[1]
     shown.slide("frequency", 100)
@@ -126,14 +126,14 @@ def test_it_tells_what_python_finds(opened):
 
 
 @pytest.mark.parametrize("motor", [Stepper(), MOTORS["table 2"]], ids=["table 1", "table 2"])
-def test_the_tables_are_the_documents(opened, motor):
+def test_tables_equal_those_of_the_document(opened, motor):
     shown = opened(motor_explorer(motor))
     marks = [[cell == "+" for cell in row[1:]] for row in shown.look().rows[:4]]
     assert (np.array(marks) == (phases(motor.drive, motor.motor) == 1)).all()
     assert np.sum(marks) == (4 if motor.motor == "unipolar" else 8)
 
 
-def test_a_hand_turns_the_rotor_and_the_pulses_go_on(opened):
+def test_rotor_can_be_dragged_and_pulses_continue(opened):
     shown = opened(motor_explorer())
     state = shown.rk.locator(".rk-state")
     resting = shown.look()
@@ -183,7 +183,7 @@ def test_a_hand_turns_the_rotor_and_the_pulses_go_on(opened):
     assert "The load runs back" in shown.look().says
 
 
-def test_it_needs_no_network_and_axe_finds_nothing(browser, opened):
+def test_page_works_offline_and_axe_finds_nothing(browser, opened):
     with browser.new_context(viewport={"width": 390, "height": 800}, color_scheme="dark") as small:
         small.add_init_script(test_explorers.WATCH)
         asked = []

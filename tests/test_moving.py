@@ -35,7 +35,7 @@ def least_on_the_way(path, times, H, v, samples=2001):
     return np.array(found)
 
 
-def test_the_bound_beside_what_moves_is_a_bound_and_a_tight_one():
+def test_clearance_from_a_moving_obstacle_is_a_tight_bound():
     """Fast and slow, near and far, through the levers and past them; an arm that stands as well."""
     rng, swept = np.random.default_rng(7), 0
     for turn in (0.0, 0.5, 3.0):
@@ -73,7 +73,7 @@ def answers():
     return [(task, plan_moving(ARM, *task, speed=1.0)) for task in moving_tasks(TASKS)]
 
 
-def test_plans_keep_their_clearance_from_what_moves(answers):
+def test_plans_keep_their_clearance_from_a_moving_obstacle(answers):
     ways = []
     for (q0, K1, H, v), (answer, times) in answers:
         ways.append(answer.way)
@@ -92,7 +92,7 @@ def test_plans_keep_their_clearance_from_what_moves(answers):
     assert {"direct", "wait", "search", "none"} == set(ways)
 
 
-def test_it_is_the_motion_that_makes_the_difference(answers):
+def test_obstacle_motion_changes_the_plan(answers):
     """Some of what is found fails beside the obstacle as it stands at the start or at the end."""
     still = [
         min(clearance(ARM, answer.path, np.add(H, t * v)).min() for t in (times[0], times[-1]))
@@ -102,7 +102,7 @@ def test_it_is_the_motion_that_makes_the_difference(answers):
     assert np.mean(np.array(still) < KEPT) > 0.3
 
 
-def test_the_wait_is_the_shortest_and_who_searches_cannot_wait(answers):
+def test_wait_is_the_shortest_and_search_is_used_only_without_one(answers):
     compared = []
     for (q0, K1, H, v), (answer, times) in answers:
         if "At the start" in answer.words:
@@ -124,7 +124,7 @@ def test_the_wait_is_the_shortest_and_who_searches_cannot_wait(answers):
     assert compared.count("wait") > 5 and compared.count("search") > 5
 
 
-def test_an_obstacle_that_stands_is_that_of_plan():
+def test_plan_for_a_fixed_obstacle_equals_plan():
     for q0, K1, H in tasks(6):
         fixed, (moving, times) = plan(ARM, q0, K1, H), plan_moving(ARM, q0, K1, H, (0, 0), 1.0)
         if moving.found:
@@ -134,7 +134,7 @@ def test_an_obstacle_that_stands_is_that_of_plan():
             assert fixed.cost > 0.8 * TICKS * STEP or not fixed.found
 
 
-def test_twice_the_speed_of_all_is_half_the_time():
+def test_doubling_all_speeds_halves_the_time():
     for q0, K1, H, v in moving_tasks(6):
         slow, slow_times = plan_moving(ARM, q0, K1, H, v, 1.0)
         fast, fast_times = plan_moving(ARM, q0, K1, H, 2 * v, 2.0)
@@ -151,12 +151,12 @@ def test_twice_the_speed_of_all_is_half_the_time():
         ((1.8, 0.6), (0.15, -0.1), "neither waiting nor a search keeps 142.9 mm"),  # onto the base
     ],
 )
-def test_what_cannot_be_is_said(target, obstacle, words):
+def test_impossible_plans_give_a_reason(target, obstacle, words):
     answer, times = plan_moving(ARM, Q0, target, obstacle, (-1.0, 0.6), 1.0)
     assert words in answer.words and not answer.found and times.tolist() == [0.0]
 
 
-def test_a_target_where_the_arm_stands_takes_no_time():
+def test_target_at_the_current_place_takes_no_time():
     answer, times = plan_moving(ARM, Q0, ARM.points(Q0)[3], (3, 3), (-0.1, 0), 1.0)
     assert answer.way == "direct" and times == pytest.approx([0, 0], abs=1e-9)
 
@@ -164,7 +164,7 @@ def test_a_target_where_the_arm_stands_takes_no_time():
 # ---- two distances
 
 
-def test_two_distances_locate_an_obstacle_but_for_its_mirror_image():
+def test_two_distances_locate_an_obstacle_up_to_reflection():
     rng = np.random.default_rng(4)
     for _ in range(100):
         P, Q, H = rng.uniform(-3, 3, (3, 2))
@@ -181,11 +181,11 @@ def test_two_distances_locate_an_obstacle_but_for_its_mirror_image():
 
 
 @pytest.mark.parametrize("away", [(1.0, 0.9), (4.0, 1.9), (0.5, 2.6)])
-def test_circles_that_do_not_meet_locate_nothing(away):
+def test_separate_circles_locate_nothing(away):
     assert np.isnan(locate((0, 0), (2, 0), *away)).all()
 
 
-def test_circles_that_touch_locate_one_place():
+def test_touching_circles_locate_one_place():
     np.testing.assert_allclose(locate((0, 0), (2, 0), 1.5, 0.5), [(1.5, 0)] * 2, atol=1e-7)
     np.testing.assert_allclose(locate((1, 1), (1, 2), 3.0, 2.0), [(1, 4)] * 2, atol=1e-7)
 
@@ -212,7 +212,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_calls_are_named(name):
+def test_wrong_arguments_are_named(name):
     call, words = WRONG[name]
     with pytest.raises(ValueError, match=words):
         call()

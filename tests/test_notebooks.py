@@ -59,11 +59,11 @@ def prose(cells):
     return [cell.source for cell in cells if cell.cell_type == "markdown"]
 
 
-def test_there_are_labs():
+def test_labs_exist():
     assert PATHS
 
 
-def test_labs_are_numbered_without_gaps():
+def test_lab_numbers_have_no_gaps():
     assert [int(path.stem[:2]) for path in LABS] == list(range(len(LABS)))
     assert len(LABS) <= 15
 
@@ -74,7 +74,7 @@ def test_cells_were_executed_from_top_to_bottom(code):
     assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
 
 
-def test_something_is_compared(path, code):
+def test_every_notebook_has_compared_outputs(path, code):
     words_only = path.stem in ("glossary", "teaching")
     printed = sum(output.output_type == "stream" for cell in code for output in cell.outputs)
     assert (not code) if words_only else printed >= 2
@@ -92,11 +92,11 @@ def test_no_warning_is_stored(code):
     ]
 
 
-def test_the_file_is_small(path):
+def test_notebook_files_are_small(path):
     assert path.stat().st_size < 1_000_000
 
 
-def test_stored_scripts_are_those_of_today(path):
+def test_stored_scripts_are_up_to_date(path):
     """nbval compares only their keys, because their bytes depend on the version of zlib."""
     text = json.dumps(json.loads(path.read_text(encoding="utf-8")), ensure_ascii=False)
     form = r"\$loader\.start\(\W*[0-9a-f]{12}\W+([0-9a-f]{12})\W+?([A-Za-z0-9+/=]+)\W+\$(\w+) =>"
@@ -110,7 +110,7 @@ def test_stored_scripts_are_those_of_today(path):
         assert unpacked[0] == unpacked[1], module
 
 
-def test_no_state_of_a_session_is_stored(path):
+def test_no_session_state_is_stored(path):
     notebook = json.loads(path.read_text(encoding="utf-8"))
     assert set(notebook["metadata"]) == {"kernelspec", "language_info"}, (
         "run tests/execute_notebooks.py"
@@ -124,14 +124,14 @@ def test_no_state_of_a_session_is_stored(path):
     assert len(set(ids)) == len(ids)
 
 
-def test_an_output_left_uncompared_has_its_reason(cells):
+def test_ignored_outputs_give_a_reason(cells):
     for cell in cells:
         if UNCOMPARED & set(cell.metadata.get("tags", ())):
             assert len(cell.metadata.get("reason", "")) > 20, cell.source
         assert "NBVAL" not in cell.source.upper(), "use a tag and a reason"
 
 
-def test_a_cell_fits_on_a_screen(code):
+def test_cells_fit_on_a_screen(code):
     too_long = {
         cell.source.splitlines()[0]: n
         for cell in code
@@ -140,7 +140,7 @@ def test_a_cell_fits_on_a_screen(code):
     assert not too_long
 
 
-def test_cells_are_plain_python_and_import_what_command_one_installs(code):
+def test_cells_are_plain_python_with_installed_imports(code):
     for cell in code:
         for node in ast.walk(ast.parse(cell.source)):  # a SyntaxError: a magic, which no lab needs
             names = (
@@ -154,7 +154,7 @@ def test_cells_are_plain_python_and_import_what_command_one_installs(code):
                 )
 
 
-def test_names_in_code_can_be_typed(code):
+def test_names_in_code_are_ascii(code):
     # A Cyrillic letter that looks like a Latin one is another name; an invisible character is a
     # riddle.
     for cell in code:
@@ -176,7 +176,7 @@ def test_no_invisible_or_broken_characters(cells):
         assert not odd | ({"\ufffd"} & set(cell.source)), f"{odd} in: {cell.source[:60]}"
 
 
-def test_every_picture_has_words(cells):
+def test_pictures_have_alt_text(cells):
     for cell in cells:
         for output in cell.get("outputs", ()):
             data = output.get("data", {})
@@ -189,12 +189,12 @@ def test_every_picture_has_words(cells):
             assert all(len(alt) > 20 for alt in re.findall(r"!\[(.*?)\]\(", cell.source, re.S))
 
 
-def test_a_notebook_has_one_title(prose):
+def test_notebooks_have_one_title(prose):
     assert re.match(r"# \S", prose[0]) and len(re.findall(r"^# ", "\n".join(prose), re.M)) == 1
 
 
 @every_lab
-def test_a_lab_has_its_parts(lab):
+def test_labs_have_their_parts(lab):
     text = _prose(lab)
     for heading in HEADINGS:
         assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"no '{heading}'"
@@ -209,13 +209,13 @@ def test_a_lab_has_its_parts(lab):
 
 
 @every_lab
-def test_a_lab_is_an_hour(lab):
+def test_labs_take_about_an_hour(lab):
     size = lab_sizes.measure(lab)
     assert not lab_sizes.too_long(lab.stem, size), size
 
 
 @every_lab
-def test_a_lab_opens_with_what_moves(lab):
+def test_labs_open_with_a_moving_view(lab):
     """A title with a claim, a folded set-up, and the thing itself in three lines."""
     first, setup, thing, *_ = json.loads(lab.read_text(encoding="utf-8"))["cells"]
     assert re.search(r"\n\*\*[^*]+[.?!]\*\*", "".join(first["source"])), "no claim in bold"
@@ -229,7 +229,7 @@ def test_joints_are_counted_from_one(prose):
     assert not [title for title in titles if re.search(r"\bq_?\{?0|q₀|[Jj]oint 0", title)]
 
 
-def test_links_lead_somewhere(path, prose):
+def test_links_resolve(path, prose):
     for text in prose:
         for target in re.findall(r"\]\(([^)\s]+)\)", text):
             if not re.match(r"https?:|#|attachment:", target):
@@ -250,7 +250,7 @@ HTML(f'<img alt="three" src="data:image/png;base64,{base64.b64encode(file.getval
 """
 
 
-def test_executing_again_changes_no_byte(tmp_path):
+def test_executing_again_changes_nothing(tmp_path):
     path = _notebook(
         tmp_path / "a.ipynb",
         "print(1, flush=True)\nprint(2)",
@@ -270,7 +270,7 @@ def test_executing_again_changes_no_byte(tmp_path):
     assert path.read_bytes() == once
 
 
-def test_a_picture_packed_by_another_zlib_keeps_its_bytes(tmp_path):
+def test_picture_from_another_zlib_keeps_its_bytes(tmp_path):
     path = _notebook(tmp_path / "a.ipynb", PICTURE)
     _execute(path)
     first = _png(path)
@@ -285,7 +285,7 @@ def test_a_picture_packed_by_another_zlib_keeps_its_bytes(tmp_path):
     assert _png(path) not in (first, other), "a changed picture must be stored"
 
 
-def test_one_failing_notebook_is_named_and_the_others_go_on(tmp_path):
+def test_failing_notebook_is_reported_and_the_others_run(tmp_path):
     bad, good = (
         _notebook(tmp_path / "bad.ipynb", "1 / 0"),
         _notebook(tmp_path / "good.ipynb", "6 * 7"),
@@ -335,7 +335,7 @@ def _execute(*paths):
 # --- For teachers -----------------------------------------------------------------------------
 
 
-def test_the_teachers_minutes_are_those_that_are_counted():
+def test_minutes_in_the_teacher_notes_equal_the_count():
     rows = re.findall(
         r"^\| \[(\d\d)[^\]]*\]\(\.\./(\S+)\) \| (\d+) \| (\d+) \|", _prose(TEACHING), re.M
     )
@@ -346,7 +346,7 @@ def test_the_teachers_minutes_are_those_that_are_counted():
         assert (int(reading), int(whole)) == (round(size.reading), round(size.minutes)), lab.stem
 
 
-def test_a_teacher_finds_the_same_of_every_lab():
+def test_teacher_notes_have_the_same_parts_for_every_lab():
     parts = re.split(r"^## (\d\d) ", _prose(TEACHING), flags=re.M)[1:]
     assert parts[::2] == [lab.stem[:2] for lab in LABS[1:]]
     for text in parts[1::2]:
@@ -354,7 +354,7 @@ def test_a_teacher_finds_the_same_of_every_lab():
             assert word.lower() in text.lower(), f"{word}: {text[:40]}"
 
 
-def test_the_glossary_is_in_order_and_in_three_languages():
+def test_glossary_is_sorted_and_in_three_languages():
     rows = re.findall(r"^\| (.+?) \| (.+?) \| (.+?) \| (.+?) \| (.+?) \|$", _prose(GLOSSARY), re.M)
     rows = rows[2:]  # the head and the line below it
     assert len(rows) > 80

@@ -151,7 +151,7 @@ def test_reference_cases(case):
         )
 
 
-def test_via_points_are_square_and_on_the_side_of_the_base():
+def test_via_points_are_perpendicular_and_on_the_side_of_the_base():
     """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here, not square and
     one outside.
     """
@@ -169,7 +169,7 @@ def test_via_points_are_square_and_on_the_side_of_the_base():
         via_points(K, H, H, 1 / 7)
 
 
-def test_the_quadrilateral_of_any_drawing():
+def test_quadrilateral_test_works_for_any_drawing():
     """Errata S3-k: the printed inequalities miss this point. A corner and a side count as
     inside.
     """
@@ -192,7 +192,7 @@ def test_the_quadrilateral_of_any_drawing():
 
 
 @pytest.mark.parametrize("L", [1.0, 0.35])
-def test_clearance_is_a_bound_and_a_tight_one(L):
+def test_clearance_is_a_tight_bound(L):
     rng, arm = np.random.default_rng(6), three_lever(L)
     for _ in range(60):
         path, H = rng.uniform(0, np.pi, (4, 3)), L * rng.uniform(-3, 3, 2)
@@ -213,7 +213,7 @@ def test_clearance_is_a_bound_and_a_tight_one(L):
 
 
 @pytest.mark.parametrize("levers", [(0.9, 1.1, 0.6), (0.5, 0.3, 1.6), (1.7, 0.9, 0.2)])
-def test_levers_of_different_lengths(levers):
+def test_levers_with_different_lengths(levers):
     """As above, the places of the levers from `arm.points`, which knows their lengths; and
     plans among them keep what they say.
     """
@@ -247,7 +247,7 @@ def test_levers_of_different_lengths(levers):
     assert kept
 
 
-def test_a_lever_that_passes_over_has_no_clearance():
+def test_lever_that_passes_over_has_zero_clearance():
     q0, q1 = np.array([100, 120, 130]) * deg, np.array([60, 120, 130]) * deg
     for lever, u in ((0, 0.5), (1, 0.3), (2, 0.9)):
         O_B_A_K = ARM.points((q0 + q1) / 2)
@@ -259,7 +259,7 @@ def test_a_lever_that_passes_over_has_no_clearance():
 
 
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
-def test_clearance_of_motions_that_are_known():
+def test_clearance_of_known_motions():
     """Lever OB of an arm whose joint 1 alone turns, past the obstacle or not up to it; all beyond
     B hangs together.
     """
@@ -290,7 +290,7 @@ def test_clearance_where_the_distance_hardly_changes(H):
     assert not keeps(ARM, a, b, H, held) and (held < 0.1 or keeps(ARM, a, b, H, held - 2e-4))
 
 
-def test_a_motion_that_stands_keeps_what_it_has():
+def test_clearance_of_a_constant_motion():
     """The border: a distance that is just kept is kept, and not one above it."""
     q, H = np.array([1.0, 2.0, 1.5]), (1.3, 1.2)
     least = seen(q, H).min()
@@ -302,7 +302,7 @@ def test_a_motion_that_stands_keeps_what_it_has():
     )
 
 
-def test_batches_of_postures_and_of_obstacles():
+def test_batches_of_postures_and_obstacles():
     rng = np.random.default_rng(12)
     q, H = rng.uniform(0, np.pi, (4, 1, 3)), rng.uniform(-2, 2, (5, 2))
     found = distances(ARM, q, H)
@@ -325,7 +325,7 @@ def test_batches_of_postures_and_of_obstacles():
             assert one == (clearance(ARM, [a[i, 0], b[k]], H).min() >= 0.2)
 
 
-def test_long_paths_are_measured_in_portions(monkeypatch):
+def test_long_paths_are_measured_in_blocks(monkeypatch):
     """Whether stretches are looked at all together or a few at a time: the same answer."""
     rng = np.random.default_rng(13)
     path, H = rng.uniform(0, np.pi, (60, 3)), (0.9, 1.1)
@@ -336,7 +336,7 @@ def test_long_paths_are_measured_in_portions(monkeypatch):
 
 
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
-def test_work_without_end_is_refused(monkeypatch):
+def test_excessive_work_is_refused(monkeypatch):
     q = np.array([1.0, 2.0, 1.5])
     # a hundred turns are work, and not too much
     assert clearance(ARM, [q, q + [200 * np.pi, 0, 0]], (1.2, 1.3)).shape == (1, 3)
@@ -358,7 +358,7 @@ def test_work_without_end_is_refused(monkeypatch):
             call()
 
 
-def test_of_several_obstacles_the_least_counts():
+def test_nearest_of_several_obstacles_counts():
     """The same as each by itself, put together."""
     rng = np.random.default_rng(15)
     for _ in range(40):
@@ -401,7 +401,7 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
     assert {"via points", "search", "none"} <= set(ways) and differs > 3
 
 
-def test_the_via_points_lie_about_the_obstacle_that_is_in_the_way_first(two_drawn):
+def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
     """Told from the gripper's places and from the words."""
     count = 0
     for q0, K1, H in two_drawn:
@@ -422,7 +422,7 @@ def test_the_via_points_lie_about_the_obstacle_that_is_in_the_way_first(two_draw
     assert count
 
 
-def test_words_number_the_obstacles_where_there_are_several():
+def test_words_number_several_obstacles():
     far = (-2.0, -2.0)
     for words, obstacle in (
         ("Obstacle 2 lies on the base", (far, (0.05, 0))),
@@ -447,7 +447,7 @@ def answers(drawn):
     return [(*task, plan(ARM, *task)) for task in drawn[:TASKS]]
 
 
-def test_plans_keep_their_clearance_or_say_that_there_is_none(answers):
+def test_plans_keep_their_clearance_or_find_no_path(answers):
     ways = []
     for q0, K1, H, answer in answers:
         ways.append(answer.way)
@@ -473,7 +473,7 @@ def test_plans_keep_their_clearance_or_say_that_there_is_none(answers):
     assert ways.count("search") > 0.5 * TASKS and ways.count("via points") > 0.1 * TASKS
 
 
-def test_the_words_name_the_lever_that_is_nearest(answers):
+def test_words_name_the_nearest_lever(answers):
     """And of levers that meet in the nearest point, the one nearer to the base."""
     told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
     for q0, K1, H, answer in answers:
@@ -508,7 +508,7 @@ def test_the_words_name_the_lever_that_is_nearest(answers):
                 assert abs(float(near) / 1000 - least.min()) <= fast + 5.1e-5 and float(near) > 0
 
 
-def test_the_way_round_is_taut(answers):
+def test_search_path_is_taut(answers):
     """Nothing of a path can be had for less in an obvious way: no via posture left out or pulled a
     little towards its neighbours, and the target reached from the last one in no nearer posture.
     """
@@ -530,7 +530,7 @@ def is_taut(path, K1, H, distance):
     return bool(keeps(ARM, path[-2], goals[gain > 1 * deg], H, distance).any())
 
 
-def test_the_way_round_costs_no_more_than_brute_force_finds(drawn):
+def test_search_path_costs_no_more_than_brute_force(drawn):
     ratios = []
     for i, least in BRUTE.items():
         q0, K1, H = drawn[i]
@@ -554,7 +554,7 @@ def test_small_clearances_are_found(drawn):
     assert sum(found) >= 13
 
 
-def test_the_way_to_a_target_that_few_postures_reach():
+def test_search_reaches_targets_with_few_postures():
     """Near the stretched arm the family is short; at the stretched arm it is one posture; beyond it
     there is none, and no way.
     """
@@ -568,7 +568,7 @@ def test_the_way_to_a_target_that_few_postures_reach():
     assert way_round(ARM, Q0, (0.5, 0.5), (-2.0, 0.5), 0.1) is None
 
 
-def test_a_start_on_its_limits_is_the_start():
+def test_start_at_its_limits_is_accepted():
     """Past a limit by rounding, too: the path begins where the arm stands."""
     for q0 in ([-5e-10, 2.0, 1.5], [np.pi + 5e-10, 2.0, 1.5], [0.0, np.pi, 2.0], [1.0, 0.3, np.pi]):
         path = way_round(ARM, q0, (1.8, 0.6), (1.0, -1.5), 0.1)
@@ -577,7 +577,7 @@ def test_a_start_on_its_limits_is_the_start():
         way_round(ARM, [-5e-9, 2.0, 1.5], (1.8, 0.6), (1.0, -1.5), 0.1)
 
 
-def test_the_way_round_exists_where_a_path_was_made_first():
+def test_search_finds_a_path_where_one_was_constructed():
     """Tasks that are known to be solvable: the obstacle stands beside a path with two random
     corners.
     """
@@ -602,7 +602,7 @@ def test_the_way_round_exists_where_a_path_was_made_first():
     assert solved == count
 
 
-def test_the_remembered_posture_leads_from_task_to_task():
+def test_plan_posture_starts_the_next_task():
     posture = np.array([100, 110, 120]) * deg
     for target, obstacle in (
         ((1.8, 0.6), (1.2, 2.1)),
@@ -615,7 +615,7 @@ def test_the_remembered_posture_leads_from_task_to_task():
         np.testing.assert_allclose(ARM.points(posture)[3], target, atol=1e-12)
 
 
-def test_the_direct_way():
+def test_direct_way():
     q0 = np.array([100, 110, 120]) * deg
     free = plan(ARM, q0, (1.8, 0.6))
     beside = plan(ARM, q0, (1.8, 0.6, 0.0), (-2.0, -2.0, 0.0))
@@ -631,7 +631,7 @@ def test_the_direct_way():
     assert "no obstacle is given" in free.words and "not in it" in beside.words
 
 
-def test_via_points_serve_where_less_is_asked():
+def test_via_points_work_for_smaller_distances():
     """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's way serves a
     smaller distance.
     """
@@ -649,7 +649,7 @@ def test_via_points_serve_where_less_is_asked():
     assert radii.count(1 / 7) > 2 and "search" in ways
 
 
-def test_of_the_circles_the_first_that_keeps_the_distance_is_taken(answers):
+def test_first_circle_that_keeps_the_distance_is_used(answers):
     """None smaller than the distance or than L/7; L/7 itself never keeps L/7 (errata S3-n)."""
     radii = []
     for q0, K1, H, answer in answers:
@@ -692,14 +692,14 @@ KNOWN = ARM.points(Q0)
         ((2.99, 0.1), (1.5, 0.05), "finds no way"),
     ],
 )
-def test_what_cannot_be_is_said(target, obstacle, words):
+def test_impossible_plans_give_a_reason(target, obstacle, words):
     answer = plan(ARM, Q0, target, obstacle)
     assert words in answer.words, answer.words
     assert not answer.found and answer.way == "none" and len(answer.clearance) == 0
     assert answer.path.tolist() == [Q0.tolist()] and (answer.posture == Q0).all()
 
 
-def test_what_is_just_kept_is_kept():
+def test_distance_that_is_barely_kept_counts():
     """The borders of base, start, target and direct way belong to what is allowed."""
     target, H = (1.75, 0.5), (1.75, 0.75)
     at_start, direct = distances(ARM, Q0, H).min(), [Q0, ARM.least(target, Q0)[0]]
@@ -718,7 +718,7 @@ def test_what_is_just_kept_is_kept():
     assert plan(ARM, Q0, target, H, np.nextafter(near, 9)).way != "direct"
 
 
-def test_a_smaller_distance_may_be_asked_for():
+def test_smaller_distances_are_allowed():
     target, obstacle = (1.8, 0.6), (1.8, 0.7)
     assert not plan(ARM, Q0, target, obstacle).found
     answer = plan(ARM, Q0, target, obstacle, distance=0.05)
@@ -734,7 +734,7 @@ def test_postures_along_a_path():
     np.testing.assert_allclose(along(path[[0, 0]], [0, 0.5]), path[[0, 0]])  # a path that stands
 
 
-def test_along_a_path_S_grows_evenly_whichever_way_the_joints_turn():
+def test_S_grows_linearly_along_a_path():
     path = np.array([(0, 1, 0), (0.5, 0, -1), (-1, 0.2, 0)])
     q = along(path, np.linspace(0, 1, 43))  # S is 2.5 and 2.7: a sample stands on no corner
     S = abs(np.diff(q, axis=0)).sum(axis=-1)
@@ -742,7 +742,7 @@ def test_along_a_path_S_grows_evenly_whichever_way_the_joints_turn():
     np.testing.assert_allclose(inner, 5.2 / 42, rtol=1e-12)
 
 
-def test_postures_before_and_after_a_path_are_its_ends():
+def test_postures_outside_a_path_are_its_ends():
     path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
     assert (along(path, [[-1.0, 2.0], [1e300, -1e300]]) == path[[[0, 2], [2, 0]]]).all()
 
@@ -762,7 +762,7 @@ ARMS = {
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_another_arm_is_refused(name):
+def test_other_arms_are_refused(name):
     ARMS[name](ARM)
     for arm in (None, "a", 3, SCARA, loader_arm(1, 1), ARM.geometry, type(ARM)):
         with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):
@@ -838,14 +838,14 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_calls_are_named(name):
+def test_wrong_arguments_are_named(name):
     call, words = WRONG[name]
     with pytest.raises(ValueError, match=words) as caught:
         call()
     assert len(str(caught.value)) < 200
 
 
-def test_degrees_get_a_hint():
+def test_degrees_cause_a_hint():
     q, H = np.array([100.0, 110.0, 120.0]), (1.2, 1.9)
     for call in (
         lambda: in_quadrilateral(ARM, Q0, q, H),
@@ -860,7 +860,7 @@ def test_degrees_get_a_hint():
         assert caught[0].filename == __file__
 
 
-def test_an_arm_with_room_for_too_many_postures_is_refused():
+def test_grids_with_too_many_postures_are_refused():
     wide = type(ARM)("wide", ARM.geometry, [(-20.0, 20.0)] * 3)
     with pytest.raises(ValueError, match=rf"arm: .*{WORK} postures, .* of 1 obst.*got 9.6"):
         way_round(wide, Q0, GOAL, FAR, 0.1)
@@ -878,7 +878,7 @@ def a_plan(**other):
     return Plan(**made | other)
 
 
-def test_a_plan_is_data():
+def test_plans_are_data():
     answer = plan(ARM, Q0, (1.8, 0.6), (1.6, 1.6))
     assert isinstance(answer, Plan) and answer.words.endswith(".")
     path, clear = np.array([Q0, Q0 + 0.1, Q0]), np.array([[1.0, 2, np.inf], [0, 1, 2]])
@@ -930,14 +930,14 @@ def test_a_plan_is_data():
         {"way": "direct", "path": [Q0], "clearance": np.empty((0, 3))},
     ],
 )
-def test_a_plan_of_parts_that_do_not_belong_together_is_refused(wrong):
+def test_plans_with_mismatched_parts_are_refused(wrong):
     with pytest.raises(
         ValueError, match=f"^({'|'.join([*wrong, 'path', 'clearance', 'radius'])}): wanted"
     ):
         a_plan(**wrong)
 
 
-def test_a_way_that_nobody_has_checked_shows_where_the_levers_come_nearest():
+def test_unchecked_path_shows_the_nearest_approach():
     rng, through = np.random.default_rng(31), 0
     for _ in range(40):
         q0, target, H = rng.uniform(0, np.pi, 3), rng.uniform(-1, 2.5, 2), rng.uniform(-1, 2, 2)

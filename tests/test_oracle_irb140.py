@@ -36,7 +36,7 @@ T = np.arange(0, TOTAL, STEP)
 
 
 @pytest.mark.parametrize("case", CASES, ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES)])
-def test_every_solution_in_its_place_and_none_more(case):
+def test_ik_returns_every_solution_in_its_row(case):
     rows = compare(IRB140, case, mm)
     if "q" in case and not case["singular"]["wrist"]:  # the joint values that the pose was made of
         assert np.nanmin(turns(rows, case["q"]).max(-1)) < 1e-6
@@ -47,7 +47,7 @@ def test_every_solution_in_its_place_and_none_more(case):
     [c for c in CASES if c["reachable"]],
     ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES) if case["reachable"]],
 )
-def test_which_joints_can_stand_inside_their_limits(case):
+def test_within_equals_the_oracle(case):
     rows = IRB140.ik(transform(case["T"], mm))
     for solution in case["solutions"]:
         q, inside = np.array(solution["q"]), solution["representatives_in_limits"]
@@ -65,7 +65,7 @@ def test_which_joints_can_stand_inside_their_limits(case):
 @pytest.mark.parametrize(
     "case", [c for c in CASES if not c["reachable"]], ids=lambda case: case["kind"]
 )
-def test_an_unreachable_pose_has_no_row_at_all(case):
+def test_unreachable_pose_has_no_rows(case):
     assert np.isnan(IRB140.ik(transform(case["T"], mm))).all()
 
 
@@ -130,7 +130,7 @@ def test_ptp():
     assert np.allclose(differentiate(q, T), case["speed"], rtol=0, atol=1e-11)
 
 
-def test_the_printed_blend_of_055_is_refused():
+def test_printed_blend_of_055_is_refused():
     assert "LIN-LIN blend 0.55" in MOTIONS
     with pytest.raises(ValueError, match=r"\[0, 0.5\], got 0.55"):
         motion("LIN-LIN blend 0.55")

@@ -23,13 +23,13 @@ COLOUR = r"#[0-9A-Fa-f]{3,8}\b|rgba?\(|hsla?\("
 
 
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
-def test_no_script_has_a_colour_of_its_own(path):
+def test_scripts_contain_no_colours(path):
     text = path.read_text(encoding="utf-8")
     assert not re.findall(COLOUR, text) and not re.findall(r'"(?:white|black)"', text)
 
 
 @pytest.mark.parametrize("path", SHEETS, ids=lambda path: path.name)
-def test_no_sheet_has_a_colour_of_its_own(path):
+def test_style_sheets_contain_no_colours(path):
     text = path.read_text(encoding="utf-8")
     if path.name == "elements.css":
         text = text.replace("#fff", "", 1)  # behind still pictures, whose colours are a figure's
@@ -43,7 +43,7 @@ def test_figures_take_their_colours_from_the_palette():
             assert not re.findall(r'"#[0-9A-F]{6}"', path.read_text(encoding="utf-8")), path.name
 
 
-def test_scripts_know_every_colour_and_no_other():
+def test_scripts_use_exactly_the_colours_of_the_palette():
     text = (ROOT / "robokin/show/js/canvas.js").read_text(encoding="utf-8")
     listed = re.search(r"export const colors = \{(.*?)\};", text, re.S)[1]
     assert re.findall(r"(\w+): \"\"", listed) == [*palette.PAGE]
@@ -52,7 +52,7 @@ def test_scripts_know_every_colour_and_no_other():
     assert set(re.findall(r"\bcolors\.(\w+)", used)) <= set(palette.PAGE)
 
 
-def test_words_can_be_read_in_both_themes():
+def test_text_has_enough_contrast_in_both_themes():
     """A contrast of 4.5 to the paper (WCAG AA), 3 for lines: W3C, 2008."""
 
     def light(color):
@@ -102,7 +102,7 @@ def run(script, ending):
     return done.stdout.strip()
 
 
-def test_each_module_stands_once_in_its_own_scope(modules):
+def test_each_module_is_included_once_in_its_own_scope(modules):
     modules(
         base="// words\nconst hidden = 2;\nexport const twice = x => hidden * x;\n",
         left='import {twice} from "./base.js";\n\nconst hidden = 1;\n'
@@ -136,7 +136,7 @@ def test_each_module_stands_once_in_its_own_scope(modules):
         ("found = /* a */function(){return 1}/* b */() in/* c */[0, 1];", "true"),
     ],
 )
-def test_comments_go_and_code_stays(modules, code, value):
+def test_comments_are_removed_and_code_is_kept(modules, code, value):
     text = f'let found = ["a", "b"];\n{code}\n'
     plain = run(text, "found")
     assert plain == value or value is None and "// " in plain
@@ -156,7 +156,7 @@ def test_a_compressed_script_adds_its_sheets_and_returns_its_module(modules):
     assert joiner.compressed("base")[0] != key, "another text has another key"
 
 
-def test_views_of_one_kind_share_one_script(browser):
+def test_views_of_one_kind_share_a_script(browser):
     pages = [page.output("prediction.ask", k * 12, "0", "<p>words</p>") for k in "ab"]
     called = "globalThis.called = [];"
     pages = [
@@ -179,7 +179,7 @@ def test_views_of_one_kind_share_one_script(browser):
         ("prediction.ask", "<p>Which joint is the fastest?</p><p>a) joint 1</p><p>Run this.</p>"),
     ],
 )
-def test_a_browser_that_cannot_unpack_keeps_the_still_and_says_why(browser, call, still):
+def test_old_browser_keeps_the_still_with_a_reason(browser, call, still):
     tab = browser.new_page()
     tab.set_content(
         "<script>delete globalThis.DecompressionStream</script>"
@@ -192,7 +192,7 @@ def test_a_browser_that_cannot_unpack_keeps_the_still_and_says_why(browser, call
     tab.close()
 
 
-def test_a_literal_that_does_not_end_is_refused_by_file_and_line(modules):
+def test_unterminated_literal_is_refused_with_file_and_line(modules):
     for text in ("const a = 'b;", "const a = `b${c;", "const a = `b;", "/* b", "let a = /b;"):
         modules(top=f"// words\n{text}\n")
         with pytest.raises(ValueError, match=r"top\.js, line 2: .* does not end"):
@@ -213,13 +213,13 @@ def test_a_literal_that_does_not_end_is_refused_by_file_and_line(modules):
         ('import {a} from "./top.js";', r"top\.js, line 2: .* imports itself"),
     ],
 )
-def test_an_import_of_another_form_is_refused_by_file_and_line(modules, text, message):
+def test_unsupported_import_is_refused_with_file_and_line(modules, text, message):
     modules(base="export const a = 1;\n", top=f"// words\n{text}\n")
     with pytest.raises(ValueError, match=message):
         page.script("top")
 
 
-def test_a_sheet_follows_those_of_the_modules_that_its_own_imports(modules):
+def test_style_sheet_follows_those_of_imported_modules(modules):
     rules = ".a {\n  color: red;\n\n  & > .b:hover, & :is(p, q) { margin: 0 -1px; }\n}\n"
     media = "@media (width > 1px) {\n  .c { width: calc(1px + 2px); }\n}"
     modules(
@@ -235,7 +235,7 @@ def test_a_sheet_follows_those_of_the_modules_that_its_own_imports(modules):
     assert joiner.style("other") == ".no{}" and joiner.style("base").startswith("@media")
 
 
-def test_a_browser_reads_the_joined_sheets_as_it_reads_the_files(browser):
+def test_joined_style_sheets_equal_the_files_in_a_browser(browser):
     """All rules of all sheets, as Chromium writes them back."""
     tab = browser.new_page()
     tab.set_content("<style id=sheet></style>")
@@ -254,13 +254,13 @@ def test_a_browser_reads_the_joined_sheets_as_it_reads_the_files(browser):
     tab.close()
 
 
-def test_no_script_has_a_sheet_in_a_string():
+def test_scripts_contain_no_style_sheets():
     for path in [*SCRIPTS, *(ROOT / "robokin" / "show").glob("*.py")]:
         text = path.read_text(encoding="utf-8")
         assert not re.search(r"\{[^{}]*\b(?:padding|margin|display|border): ?[\w-]+;", text), path
 
 
-def test_a_player_has_the_modules_that_it_uses_and_no_words_for_people():
+def test_player_contains_only_used_modules_and_no_comments():
     script = page.script("player")
     assert not re.search(r"const \$(stage|handles|inverse|\w+_explorer) ", script)
     assert script.count("(() => {\n") >= 6 and "\n\n" not in script
@@ -273,7 +273,7 @@ def test_a_player_has_the_modules_that_it_uses_and_no_words_for_people():
 # --- Numbers --------------------------------------------------------------------------------------
 
 
-def test_packed_numbers_come_back_within_half_a_step():
+def test_packed_numbers_are_accurate_to_half_a_step():
     random = np.random.default_rng(3)
     values = np.cumsum(random.normal(size=(4, 50, 3)), axis=1) * [[[1]], [[1e-3]], [[40]], [[0]]]
     values[2, 10:20, 1] = np.nan
@@ -288,7 +288,7 @@ def test_packed_numbers_come_back_within_half_a_step():
             assert error <= max(greatest / 16000 * 2.5, 1e-6) * 0.51
 
 
-def test_smooth_curves_take_little_more_than_a_byte_a_value():
+def test_smooth_curves_take_about_one_byte_per_value():
     t = np.linspace(0, 1, 121)[:, None]
     values = np.array([np.sin(2 * np.pi * t + k) * (k + 1) for k in range(5)])
     assert len(packed(values, 16000)["data"]) < 1.2 * values.size * 4 / 3

@@ -66,11 +66,11 @@ def test_ptp_moves_all_joints_straight(shape):
     assert (ptp(q0, q1, 0) == q0).all() and np.allclose(ptp(q0, q1, 1), q1, rtol=0, atol=1e-15)
 
 
-def test_ptp_takes_angles_as_they_are():
+def test_ptp_does_not_wrap_angles():
     assert np.allclose(ptp([0.0, 7.0], [10.0, -7.0], [0.0, 0.5, 1.0]), [[0, 7], [5, 0], [10, -7]])
 
 
-def test_ptp_between_postures_in_degrees_is_hinted_at(recwarn):
+def test_ptp_between_postures_in_degrees_causes_a_warning(recwarn):
     ptp(np.zeros(6), np.full(6, 2 * np.pi), 0.5)
     ptp([0.0, -12.0], [12.0, 0.0], 0.5)
     assert not recwarn.list
@@ -79,7 +79,7 @@ def test_ptp_between_postures_in_degrees_is_hinted_at(recwarn):
             ptp(*ends, 0.5)
 
 
-def test_lin_lin_is_the_two_lines():
+def test_lin_lin_consists_of_two_lines():
     s = np.linspace(0, 1, 101)
     T = lin_lin(START, VIA, GOAL, s)
     first, second = s <= 0.5, s >= 0.5
@@ -90,7 +90,7 @@ def test_lin_lin_is_the_two_lines():
 
 @corners
 @pytest.mark.parametrize("b", [0, 1e-300, 1e-12, 1e-3, 0.1, 0.25, 0.5])
-def test_a_blend_starts_and_ends_where_it_should_and_is_the_lines_outside_its_corner(corner, b):
+def test_blend_equals_the_lines_outside_its_corner(corner, b):
     s = np.concatenate([np.linspace(0, 1, 401), [0.5 - b, 0.5 + b]])
     T = blend(START, VIA, GOAL, b, s, corner)
     assert difference(T[0], START) < 1e-15 and difference(T[400], GOAL) < 1e-15
@@ -99,14 +99,14 @@ def test_a_blend_starts_and_ends_where_it_should_and_is_the_lines_outside_its_co
 
 
 @corners
-def test_no_blend_is_lin_lin(corner):
+def test_zero_blend_is_lin_lin(corner):
     s = np.linspace(0, 1, 1001)
     assert difference(blend(START, VIA, GOAL, 0.0, s, corner), lin_lin(START, VIA, GOAL, s)) == 0
 
 
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
-def test_how_near_the_path_comes_to_via(corner, b):
+def test_distance_of_the_path_from_via(corner, b):
     """Errata S1-l: the parabola's middle lies |a - 2 b + c| / 4 from via, half of the way to the
     chord; the quintic's at 3/4 of that distance."""
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
@@ -126,7 +126,7 @@ def bernstein(points, x):
 
 
 @corners
-def test_the_corner_is_the_bezier_curve_of_its_control_poses(corner):
+def test_corner_is_the_bezier_curve_of_its_control_poses(corner):
     b, x = 0.2, np.linspace(0, 1, 51)[:, None]
     first, via, last = (
         lin(START, VIA, 1 - 2 * b).translation,
@@ -177,7 +177,7 @@ def jump(f, at, h, order):
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.25, 0.4])
 @pytest.mark.parametrize("corner, order", [("parabola", 1), ("quintic", 1), ("quintic", 2)])
 @pytest.mark.parametrize("what", ["joints", "pose"])
-def test_the_derivative_does_not_jump_at_the_ends_of_the_corner(what, corner, order, b):
+def test_derivative_is_continuous_at_the_ends_of_the_corner(what, corner, order, b):
     """C1 and C2 by measurement, rotations included: the plain difference of q' (q'') across each
     end of the corner vanishes in proportion to the step."""
     row = IRB140.branch(1, 1, -1)
@@ -203,7 +203,7 @@ def test_the_derivative_does_not_jump_at_the_ends_of_the_corner(what, corner, or
 @pytest.mark.parametrize(
     "corner, order, b", [("parabola", 2, 0.1), ("quintic", 3, 0.1), ("parabola", 1, 0.0)]
 )
-def test_it_is_no_smoother_than_it_says(corner, order, b):
+def test_corner_is_no_smoother_than_documented(corner, order, b):
     def f(s):
         return blend(START, VIA, GOAL, b, s, corner).translation
 
@@ -214,7 +214,7 @@ def test_it_is_no_smoother_than_it_says(corner, order, b):
     assert step > 0.5
 
 
-def test_with_a_smooth_law_speed_and_acceleration_rest_at_both_ends():
+def test_smooth_law_gives_rest_at_both_ends():
     law, t = quintic(20.0), np.linspace(0, 20, 2001)
     T = blend(START, VIA, GOAL, 0.1, law(t), "quintic")
     q = follow(IRB140, IRB140.ik(T), IRB140.branch(1, 1, -1))
@@ -224,7 +224,7 @@ def test_with_a_smooth_law_speed_and_acceleration_rest_at_both_ends():
 
 
 @corners
-def test_fractions_are_broadcast_with_the_shares(corner):
+def test_fractions_broadcast_with_s(corner):
     b, s = np.linspace(0, 0.5, 6), np.linspace(0, 1, 41)
     T = blend(START, VIA, GOAL, b[:, None], s, corner)
     assert T.shape == (6, 41)
@@ -259,7 +259,7 @@ def test_anything_with_lerp_can_be_blended(corner):
 
 
 @corners
-def test_start_equal_to_goal_is_a_motion_too(corner):
+def test_start_may_equal_goal(corner):
     s = np.linspace(0, 1, 21)
     for T in (
         lin(START, START, s),
@@ -287,7 +287,7 @@ def test_a_straight_corner_stays_straight(corner):
 @given(
     st.integers(0, 2**32 - 1), st.floats(0, 0.5, allow_subnormal=False), st.sampled_from(CORNERS)
 )
-def test_any_blend_is_continuous_and_between_its_poses(seed, b, corner):
+def test_every_blend_is_continuous_and_between_its_poses(seed, b, corner):
     rng = np.random.default_rng(seed)
     wxyz = rng.normal(size=(3, 4))
     points = Transform(

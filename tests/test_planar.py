@@ -41,7 +41,7 @@ def random_points(rng, shape, L=1.0):
 
 
 @pytest.mark.parametrize("case", SWEEPS)
-def test_the_rows_of_the_family(case):
+def test_rows_of_the_family(case):
     arm, K = three_lever(case["L"]), case["K"]
     low, high = arm.alpha_range(K, limited=False)
     assert low == pytest.approx(case["alpha_min"], abs=1e-12) and high == np.pi
@@ -55,7 +55,7 @@ def test_the_rows_of_the_family(case):
 
 
 @pytest.mark.parametrize("case", SWEEPS)
-def test_the_least_movement_is_the_oracles(case):
+def test_least_movement_equals_the_oracle(case):
     arm = three_lever(case["L"])
     q, S = arm.least(case["K"], ours(case["previous"]), limited=False)
     assert S == pytest.approx(case["cost"], abs=1e-12)
@@ -82,7 +82,7 @@ def test_forward(case):
 
 
 @pytest.mark.parametrize("case", UNREACHED)
-def test_out_of_range_is_said(case):
+def test_out_of_range_gives_a_reason(case):
     arm = three_lever(case["L"])
     assert np.isnan(arm.family(case["K"], [1.0, 2.0, np.pi])).all()
     assert (
@@ -98,7 +98,7 @@ def test_out_of_range_is_said(case):
     ) and f"{case['distance'] * 1000:.1f} mm" in arm.out_of_reach(case["K"])
 
 
-def test_the_worked_example():
+def test_worked_example():
     """Errata S3-h: the sweep stops beside the kink beta = 110 degrees, the exact minimum lies on
     it.
     """
@@ -115,7 +115,7 @@ def test_the_worked_example():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_the_family_reaches_its_point_over_all_of_its_range(shape):
+def test_family_reaches_its_point_over_its_whole_range(shape):
     rng = np.random.default_rng(1)
     arm = three_lever(0.4)
     K = random_points(rng, shape, 0.4)
@@ -146,7 +146,7 @@ def test_the_family_reaches_its_point_over_all_of_its_range(shape):
 
 
 @pytest.mark.parametrize("L", [1.0, 0.3])
-def test_the_stretched_arm(L):
+def test_stretched_arm(L):
     arm = three_lever(L)
     direction = np.array([np.cos(2.0), np.sin(2.0)])
     q, S = arm.least(3 * L * direction, [2.0, 3.0, 3.0])
@@ -160,7 +160,7 @@ def test_the_stretched_arm(L):
 
 
 @pytest.mark.parametrize("limited", [True, False])
-def test_the_exact_minimum_is_never_above_the_sweep(limited):
+def test_exact_minimum_is_never_above_the_sweep(limited):
     rng = np.random.default_rng(2)
     n = 5 * TASKS // 2  # 5000 each by default
     K, previous = random_points(rng, n), rng.uniform(0, np.pi, (n, 3))
@@ -184,7 +184,7 @@ def test_the_exact_minimum_is_never_above_the_sweep(limited):
     assert 0 < np.nanmax(above) < 0.05 * deg and np.nanmedian(above) < 0.005 * deg
 
 
-def test_the_exact_minimum_between_the_kinks():
+def test_exact_minimum_between_the_kinks():
     """A minimum at which no angle stays as it was and alpha is at no end of its range exists, and
     is found.
     """
@@ -197,7 +197,7 @@ def test_the_exact_minimum_between_the_kinks():
     assert around.min() > S - 1e-14 and around[[0, -1]].min() > S + 1e-6
 
 
-def test_a_batch_is_its_single_tasks():
+def test_batch_equals_single_tasks():
     rng = np.random.default_rng(3)
     K, previous = random_points(rng, (4, 5)), rng.uniform(0, np.pi, (5, 3))
     q, S = ARM.least(K, previous)
@@ -208,7 +208,7 @@ def test_a_batch_is_its_single_tasks():
         np.testing.assert_allclose(cost, S[i], rtol=0, atol=1e-13)
 
 
-def test_the_table_is_table_3():
+def test_table_equals_table_3():
     K, step = (1.5, 1.0), 0.01 * deg
     rows = ARM.table(K, step, limited=False)
     assert rows[0, 2] / deg == pytest.approx(64.055520228, abs=1e-9)  # errata S3-e, row 1
@@ -259,19 +259,19 @@ def test_follow_takes_the_family_as_rows():
         (lambda: ARM.least((1.5, np.nan), np.ones(3)), "nan"),
     ],
 )
-def test_wrong_calls_are_named(call, words):
+def test_wrong_arguments_are_named(call, words):
     with pytest.raises(ValueError, match=words):
         call()
 
 
-def test_a_point_off_the_plane_is_not_reached():
+def test_points_off_the_plane_are_out_of_reach():
     assert np.isnan(
         ARM.family((1.5, 1, 0.1), 2.0)
     ).all() and "beside the plane" in ARM.out_of_reach((1.5, 1, 0.1))
 
 
 @pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])
-def test_the_words_end_where_the_postures_end(way):
+def test_out_of_reach_words_agree_with_the_postures(way):
     """The last point that is reached on the way up, or out, is found by halving."""
 
     def at(far):
@@ -299,7 +299,7 @@ def test_out_of_reach_and_the_family_agree_at_the_borders():
     assert ARM.out_of_reach((0, 3 * L * (1 + 5e-13))) == ""
 
 
-def test_the_plane_is_as_thick_as_the_rounding_of_the_arm():
+def test_plane_tolerance_is_the_rounding_error_of_the_arm():
     """A point beside the plane by less than 1e-12 of the reach is on it, whatever the size."""
     for size in (1e-3, 1.0, 1e3):
         two, three = two_link(size, size), three_lever(size)
@@ -309,7 +309,7 @@ def test_the_plane_is_as_thick_as_the_rounding_of_the_arm():
         assert np.isnan(three.family((2 * size, size, 3e-12 * size), 2.5)).all()
 
 
-def test_a_sweep_keeps_gamma_within_its_limits_unless_told_otherwise():
+def test_sweep_keeps_gamma_within_its_limits_by_default():
     """Without the limits some points have a nearer posture, with gamma outside 0 to 180 degrees."""
     previous = np.array([0.0, 90, 120]) * deg
     better = 0
@@ -330,12 +330,12 @@ def test_a_table_of_billions_of_rows_is_refused_with_its_size():
     assert len(ARM.table((1.5 * ARM.lever, ARM.lever), step=0.001 * deg)) > 10_000
 
 
-def test_degrees_for_radians_are_hinted_at():
+def test_degrees_cause_a_warning():
     with pytest.warns(UserWarning, match="previous: 120 rad is many turns"):
         ARM.least((1.5 * ARM.lever, ARM.lever), [100, 110, 120])
 
 
-def test_no_posture_of_the_family_moves_less_than_the_least():
+def test_no_posture_of_the_family_moves_less_than_least():
     """By brute force: 400 targets and postures, each against 20 001 postures of its family."""
     rng = np.random.default_rng(17)
     L = ARM.lever
@@ -356,7 +356,7 @@ def test_no_posture_of_the_family_moves_less_than_the_least():
 
 
 @pytest.mark.parametrize("lengths", [1.0, (0.9, 1.1, 0.6)])
-def test_a_range_has_two_ends_or_none(lengths):
+def test_alpha_range_has_two_ends_or_none(lengths):
     """Where gamma stays below 0 all along the family, the upper end was given without a lower."""
     arm = three_lever(lengths)
     KO, phi = np.meshgrid(np.linspace(0, 3.2, 60), np.linspace(-np.pi, np.pi, 60))
@@ -390,7 +390,7 @@ def ring(rng, lengths, n):
     return np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
 
 
-def test_equal_levers_are_one_length():
+def test_equal_levers_may_be_given_as_one_length():
     one, three = three_lever(0.3), three_lever((0.3, 0.3, 0.3))
     rng = np.random.default_rng(32)
     K, before = random_points(rng, 500, 0.3), rng.uniform(0, np.pi, (500, 3))
@@ -494,7 +494,7 @@ def test_a_minimum_that_equal_levers_do_not_have():
     assert abs(q - rows[sums.argmin()]).max() < 1e-3
 
 
-def test_many_unequal_tasks_are_each_for_itself():
+def test_batch_of_unequal_tasks_equals_single_tasks():
     arm, rng = three_lever((0.9, 1.1, 0.6)), np.random.default_rng(37)
     K, before = ring(rng, (0.9, 1.1, 0.6), 2300), rng.uniform(0, np.pi, (2300, 3))
     S = arm.least(K, before)[1]

@@ -156,7 +156,7 @@ def kept(player, t=T):
 # --- The data of the page -------------------------------------------------------------------------
 
 
-def test_page_holds_the_motion_within_its_step(blended, motions):
+def test_page_stores_the_motion_within_its_step(blended, motions):
     q, v, a = decoded(blended)
     steps = steps_of(blended)
     at = kept(blended)
@@ -172,12 +172,12 @@ def test_page_holds_the_motion_within_its_step(blended, motions):
     assert set(at[np.isnan(a[0]).any(axis=-1)]) <= {999, 1000, 1001} and np.isnan(a[0]).any()
 
 
-def test_steps_are_of_the_series_1_2_5(blended):
+def test_steps_belong_to_the_series_1_2_5(blended):
     for steps in steps_of(blended):
         assert all(re.fullmatch(r"[125]e[-+]\d\d", f"{step:.0e}") for step in steps.flat)
 
 
-def test_greatest_speeds_and_accelerations_are_those_of_the_errata(blended):
+def test_greatest_speeds_and_accelerations_equal_the_errata(blended):
     arm = blended.data["arms"][0]
     for fraction, wanted in GREATEST_SPEED.items():
         got = arm["speed"][FRACTIONS.tolist().index(fraction)]
@@ -211,7 +211,7 @@ def test_printed_number_plot_and_player_agree(blended, motions):
         assert "Greatest acceleration 3.23 °/s² (q3)." in plot.alt
 
 
-def test_plot_and_player_tell_the_same_flaws(motions):
+def test_plot_and_player_report_the_same_flaws(motions):
     """Of one motion with a corner, a turn by 360°, samples past both kinds of limit and a gap."""
     q = motions[0].copy()
     q[1500:, 3] += 2 * np.pi
@@ -238,7 +238,7 @@ def test_plot_and_player_tell_the_same_flaws(motions):
     assert (np.isnan(drawn) == recording.missing).all()
 
 
-def test_a_recording_is_animated_as_its_arrays_are(blended, motions):
+def test_recording_is_animated_like_its_arrays(blended, motions):
     again = animate(
         record(IRB140, T, motions), targets=[START, VIA, GOAL], slider=("blend", FRACTIONS)
     )
@@ -263,7 +263,7 @@ def test_joint_values_may_be_lists():
     assert animate([IRB140], t, (q,)).text == animate([IRB140], t, [q.tolist()]).text
 
 
-def test_given_speeds_of_a_recording_are_drawn_and_judged(motions):
+def test_given_speeds_of_a_recording_are_drawn_and_checked(motions):
     """A recording whose speeds are exact, by whatever means, keeps them."""
     exact = record(IRB140, T, motions[1])
     slow = replace(exact, v=exact.v / 2)
@@ -271,7 +271,7 @@ def test_given_speeds_of_a_recording_are_drawn_and_judged(motions):
     assert np.allclose(np.array(speeds[0]) / 2, speeds[1], atol=0.051)
 
 
-def test_an_unblended_corner_is_a_speed_jump_and_no_acceleration(blended):
+def test_unblended_corner_is_a_speed_jump_without_acceleration(blended):
     arm = blended.data["arms"][0]
     assert arm["acceleration"][0] == [f"jump {x:.1f} °/s" for x in abs(CORNER_JUMP) / deg]
     assert arm["jumps"] == {"0": [[10.0, "speed jumps by 52.7 °/s"]]}
@@ -282,7 +282,7 @@ def test_an_unblended_corner_is_a_speed_jump_and_no_acceleration(blended):
         assert -100 < low < 0 < low + step * (count - 1) < 100
 
 
-def test_the_distance_to_via_is_the_smallest_of_the_path(blended, motions):
+def test_distance_to_via_is_the_smallest_of_the_path(blended, motions):
     path = IRB140.fk(motions).translation
     wanted = np.linalg.norm(path - VIA.translation, axis=-1).min(axis=-1)
     for (distance, *place), least in zip(blended.data["arms"][0]["via"], wanted, strict=True):
@@ -292,7 +292,7 @@ def test_the_distance_to_via_is_the_smallest_of_the_path(blended, motions):
     assert wanted[0] < 1e-9 < 0.03 < wanted[1]
 
 
-def test_where_there_is_no_solution_the_curves_have_a_gap(motions):
+def test_missing_solutions_leave_gaps_in_the_curves(motions):
     q = motions[1].copy()
     q[600:900] = np.nan
     player = animate(IRB140, T, q)
@@ -303,13 +303,13 @@ def test_where_there_is_no_solution_the_curves_have_a_gap(motions):
     assert arm["notes"]["0"] == ["No solution in 300 of 2001 samples."] and not arm["leaps"]
 
 
-def test_a_motion_that_does_not_exist_at_all_still_shows(motions):
+def test_motion_without_any_solution_is_shown(motions):
     player = animate(IRB140, T, np.full((2001, 6), np.nan), targets=[START, VIA, GOAL])
     assert player.data["arms"][0]["notes"]["0"] == ["No solution in 2001 of 2001 samples."]
     assert player.data["arms"][0]["via"] == [None] and "<img" in player.html
 
 
-def test_a_turn_by_two_pi_is_a_break_and_not_a_speed(motions):
+def test_jump_by_two_pi_is_a_break_and_not_a_speed(motions):
     q = motions[1].copy()
     q[1200:, 3] += 2 * np.pi
     player = animate(IRB140, T, q)
@@ -324,7 +324,7 @@ def test_a_turn_by_two_pi_is_a_break_and_not_a_speed(motions):
     assert times[gap] <= 11.99 < 12.0 <= times[gap + 1] <= 12.001
 
 
-def test_a_saw_of_small_teeth_jumps_in_position_and_shows_no_speed_of_its_teeth():
+def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
     """As lab 12's (int): each tooth is smaller than a tenth of a radian, and far from the next."""
     t = np.linspace(0, 5, 500)
     teeth = [82, 146, 199, 246, 289, 328]
@@ -346,7 +346,7 @@ def test_a_saw_of_small_teeth_jumps_in_position_and_shows_no_speed_of_its_teeth(
         (np.array([0, 0.01, 0.03, 0.04]), "greatest values of the 4 samples, at most 0.02 s apart"),
     ],
 )
-def test_the_table_says_of_which_samples_the_greatest_are_told(t, words):
+def test_table_names_the_samples_of_its_maxima(t, words):
     assert animate(IRB140, t, np.zeros((len(t), 6))).data["sampled"] == words
 
 
@@ -365,14 +365,14 @@ def test_samples_past_a_limit_are_counted(motions):
 @pytest.mark.parametrize(
     "past, words", [(0.02, "0.020°"), (0.25, "0.25°"), (1.0, "1.0°"), (12.34, "12.3°")]
 )
-def test_how_far_past_a_limit_has_two_significant_digits(past, words):
+def test_excess_has_two_significant_digits(past, words):
     q = np.zeros((2001, 6))
     q[:, 1] = np.linspace(0, IRB140.limits[1, 1] + past * deg, 2001)
     [note] = animate(IRB140, T, q).data["arms"][0]["notes"]["0"]
     assert note.endswith(f"by up to {words}.")
 
 
-def test_limits_are_shown_for_the_joints_that_come_near_them():
+def test_limits_are_shown_for_joints_near_them():
     q = np.zeros((3, 2001, 6))
     # its limit is 180 degrees
     q[:, :, 0] = np.linspace(0, 1, 2001) * np.array([[100], [120], [130]]) * deg
@@ -415,7 +415,7 @@ def test_two_scales_in_one_panel_share_their_zero_and_their_ticks(stroke):
         assert low <= values.min() + 1e-6 and values.max() <= low + step * (count - 1) + 1e-6
 
 
-def test_joints_that_shift_have_their_own_scale_and_millimetres():
+def test_prismatic_joints_have_their_own_scale_in_millimetres():
     q = np.stack([np.sin(T / 3), np.cos(T / 4), 0.09 + 0.05 * np.sin(T), 0.1 * T], axis=-1)
     player = animate(SCARA, T, q)
     panel = player.data["panels"][1]["axes"]
@@ -425,13 +425,13 @@ def test_joints_that_shift_have_their_own_scale_and_millimetres():
     assert player.data["scene"]["flat"] is None
 
 
-def test_a_planar_arm_is_seen_straight_on():
+def test_planar_arm_is_seen_perpendicularly():
     q = np.stack([np.sin(T / 3), np.cos(T / 4)], axis=-1)
     assert animate(PLANAR, T, q).data["scene"]["flat"] == 2
     assert animate(IRB140, T, 0.1 * np.ones((2001, 6))).data["scene"]["flat"] is None
 
 
-def test_everything_drawn_lies_inside_what_the_camera_sees(blended, motions):
+def test_everything_drawn_is_in_view(blended, motions):
     """The few points handed over span, from any side, all postures (to the 5 mm they are rounded
     to).
     """
@@ -449,7 +449,7 @@ def test_everything_drawn_lies_inside_what_the_camera_sees(blended, motions):
     assert len(seen) <= 100
 
 
-def test_the_still_picture_is_seen_as_the_scene_and_at_one_scale(motions):
+def test_still_picture_has_the_view_and_scale_of_the_scene(motions):
     """First and last posture of both arms, projected as player.js does, are lines of the
     picture.
     """
@@ -490,7 +490,7 @@ def test_several_arms_share_clock_and_scales(motions):
         assert abs(decoded(player, k)[0] - motions[[1, 3][k], kept(player)] / deg).max() < 0.01
 
 
-def test_one_extreme_motion_makes_no_stairs_of_the_others(motions):
+def test_extreme_motion_does_not_coarsen_the_others(motions):
     """A step for each motion: ten times the speed for one slider value leaves the others as fine as
     they are alone.
     """
@@ -579,7 +579,7 @@ def test_a_via_point_of_each_motion_has_its_distance(motions):
     assert moving.data["arms"][0]["via"] is None
 
 
-def test_the_camera_sees_all_places_of_what_moves(motions):
+def test_camera_sees_all_places_of_moving_things(motions):
     path = 3 * CIRCLING
     player = animate(IRB140, T, motions[1], circles=[(path, 0.2)])
     seen = np.array(player.data["scene"]["seen"])
@@ -605,7 +605,7 @@ def test_the_camera_sees_all_places_of_what_moves(motions):
         ({"targets": {"a": Transform(translation=np.zeros((2, 2001, 3)))}}, "target a: wanted"),
     ],
 )
-def test_marks_of_unfit_shapes_are_refused(motions, change, message):
+def test_marks_with_wrong_shapes_are_refused(motions, change, message):
     with pytest.raises(ValueError, match=message):
         animate(IRB140, T, motions[1], **change)
 
@@ -616,7 +616,7 @@ BASES = np.array([[0.2, -0.5], [0.2, 0.7], [0.2, 1.9]])
 BELT = [[0.7, -1, 0.1], [0.8, -1, 0.1], [0.8, 2, 0.1], [0.7, 2, 0.1]]
 
 
-def test_arms_on_bases_share_a_picture_that_holds_them(motions):
+def test_arms_on_bases_share_one_picture(motions):
     three = [motions[k] for k in (1, 2, 3)]
     alone = animate(IRB140, T, motions[1]).data["scene"]
     scene = animate([IRB140] * 3, T, three, bases=BASES, faces=[BELT]).data["scene"]
@@ -631,7 +631,7 @@ def test_arms_on_bases_share_a_picture_that_holds_them(motions):
     assert seen[:, 1].min() <= -0.99 and seen[:, 1].max() >= 1.99  # the belt
 
 
-def test_the_still_picture_has_every_arm_where_it_stands(motions):
+def test_still_picture_has_every_arm_at_its_base(motions):
     one = animate(IRB140, T, motions[1])
     pair = animate([IRB140] * 2, T, [motions[1]] * 2, bases=BASES[:2], faces=[BELT])
     assert len(one.still.axes) == len(pair.still.axes) == 1
@@ -647,7 +647,7 @@ def test_the_still_picture_has_every_arm_where_it_stands(motions):
     )
 
 
-def test_with_bases_no_distance_to_via_is_told(motions):
+def test_arms_on_bases_show_no_distance_to_via(motions):
     via = {"via": IRB140.fk(motions[1][900])}
     pair = [IRB140] * 2, T, [motions[1]] * 2
     assert animate(*pair, targets=via).data["arms"][0]["via"]
@@ -689,7 +689,7 @@ def test_a_reading_is_exact_and_has_its_decimals(motions):
         ({"readings": {"p": 1e10 * T}}, "reading p: wanted numbers up to"),
     ],
 )
-def test_wrong_surroundings_are_refused(motions, change, message):
+def test_invalid_things_are_refused(motions, change, message):
     with pytest.raises(ValueError, match=message):
         animate([IRB140] * 2, T, [motions[1]] * 2, points={"p": (0, 0, 0)}, **change)
     with pytest.raises(ValueError, match="bases: wanted x and y for each of several arms"):
@@ -699,7 +699,7 @@ def test_wrong_surroundings_are_refused(motions, change, message):
 # --- Size and sameness ----------------------------------------------------------------------------
 
 
-def test_the_same_data_gives_the_same_page_whatever_the_noise(blended, motions):
+def test_rounding_noise_does_not_change_the_page(blended, motions):
     again = animate(IRB140, T, motions, targets=[START, VIA, GOAL], slider=("blend", FRACTIONS))
     assert again.html == blended.html
     noise = 1 + 1e-15 * np.random.default_rng(1).standard_normal(motions.shape)
@@ -710,11 +710,11 @@ def test_the_same_data_gives_the_same_page_whatever_the_noise(blended, motions):
     assert animate(IRB140, T, motions[1]).id != animate(IRB140, T, motions[2]).id
 
 
-def test_the_id_is_not_of_the_picture(blended):
+def test_id_does_not_depend_on_the_picture(blended):
     assert blended.id in blended.html and "iVBOR" not in blended.text
 
 
-def test_the_page_stays_small(motions):
+def test_page_is_small(motions):
     q = np.broadcast_to(motions[1], (2, 51, *motions[1].shape))
     values = np.linspace(0, 0.5, 51)
     player = animate(
@@ -730,7 +730,7 @@ def test_the_page_stays_small(motions):
     assert len(animate(IRB140, T, motions[1]).html.encode()) < 51_000
 
 
-def test_words_for_the_notebook(blended):
+def test_mime_bundle_has_html_and_text(blended):
     bundle = blended._repr_mimebundle_()
     assert set(bundle) == {"text/html", "text/plain"}
     farthest = blended.data["arms"][0]["via"][3][0]
@@ -745,7 +745,7 @@ def test_words_for_the_notebook(blended):
     assert re.search(picture, bundle["text/html"])
 
 
-def test_nothing_in_the_data_ends_the_script(motions):
+def test_data_cannot_end_the_script(motions):
     player = animate(IRB140, T, motions[1], title="</script><b>", points={"<!--": (0.1, 0.2, 0.3)})
     script = player.html.split("<script>")[1]
     assert script.count("</script>") == 1 and "<!--" not in script and "<b>" not in script
@@ -755,7 +755,7 @@ def test_nothing_in_the_data_ends_the_script(motions):
 # --- Saving and wrong calls -----------------------------------------------------------------------
 
 
-def test_save_writes_one_page_and_spares_what_is_not_its_own(tmp_path, blended):
+def test_save_writes_one_page_and_keeps_foreign_files(tmp_path, blended):
     page = tmp_path / "player.html"
     blended.save(page)
     blended.save(str(page))  # a saved player may be replaced
@@ -771,7 +771,7 @@ def test_save_writes_one_page_and_spares_what_is_not_its_own(tmp_path, blended):
 
 
 @pytest.mark.parametrize("there", ["dangling link", "link", "link to a player", "folder"])
-def test_save_never_writes_through_what_is_there(tmp_path, blended, there):
+def test_save_never_writes_through_links_or_folders(tmp_path, blended, there):
     page, target = tmp_path / "player.html", tmp_path / "target.html"
     if there == "folder":
         page.mkdir()
@@ -788,7 +788,7 @@ def test_save_never_writes_through_what_is_there(tmp_path, blended, there):
     assert page.is_symlink() or page.is_dir()
 
 
-def test_a_page_is_saved_wholly_or_not_at_all(tmp_path, blended, monkeypatch):
+def test_page_is_saved_completely_or_not_at_all(tmp_path, blended, monkeypatch):
     page = tmp_path / "player.html"
     blended.save(page)
     before = page.read_bytes()
@@ -880,14 +880,14 @@ def test_titles_and_names_are_plain_text(motions):
         ({"circles": [((0, 0, 0), -1)]}, ValueError, "radius"),
     ],
 )
-def test_a_wrong_call_says_what_is_wanted(change, kind, message):
+def test_wrong_arguments_name_what_is_wanted(change, kind, message):
     call = {"arm": IRB140, "t": T, "q": np.zeros((2001, 6))} | change
     arm, t, q = call.pop("arm"), call.pop("t"), call.pop("q")
     with pytest.raises(kind, match=message):
         animate(arm, t, q, **call)
 
 
-def test_wrong_recordings_are_refused(motions):
+def test_invalid_recordings_are_refused(motions):
     one = record(IRB140, T, motions[1])
     for wrong, message in (
         (lambda: animate(one, T), "wanted none beside recordings"),
@@ -902,7 +902,7 @@ def test_wrong_recordings_are_refused(motions):
 
 
 @pytest.mark.parametrize("path", [None, 3, "", "player.txt", b"player.html", ".html"])
-def test_a_page_has_a_name_that_says_so(blended, path):
+def test_player_names_its_scene(blended, path):
     with pytest.raises(ValueError, match="ends in .html"):
         blended.save(path)
 
@@ -1023,7 +1023,7 @@ def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
     assert page.get_by_text("20.00 s").count() == 1
 
 
-def test_every_control_keeps_its_keys_and_has_a_name(page, blended, tmp_path):
+def test_controls_keep_their_keys_and_have_names(page, blended, tmp_path):
     show(page, blended, tmp_path)
     controls = page.locator("input, select, button, canvas[tabindex]")
     assert controls.count() >= 5
@@ -1051,7 +1051,7 @@ def test_dragging_turns_the_arm_and_sets_the_time(page, blended, tmp_path):
     assert int(page.get_by_label("time", exact=True).input_value()) > 390
 
 
-def test_two_copies_of_one_player_do_not_disturb_each_other(page, blended, tmp_path):
+def test_two_copies_of_a_player_are_independent(page, blended, tmp_path):
     page.set_content(blended.html + blended.html)
     awake(page)
     assert page.get_by_role("button", name="play").count() == 2
@@ -1063,7 +1063,7 @@ def test_two_copies_of_one_player_do_not_disturb_each_other(page, blended, tmp_p
     ]
 
 
-def test_a_removed_player_asks_for_no_more_pictures(page, blended, tmp_path):
+def test_removed_player_requests_no_more_frames(page, blended, tmp_path):
     page.add_init_script("""window.asked = 0; const ask = window.requestAnimationFrame;
         window.requestAnimationFrame = f => { window.asked++; return ask.call(window, f); };""")
     show(page, blended, tmp_path)
@@ -1077,7 +1077,7 @@ def test_a_removed_player_asks_for_no_more_pictures(page, blended, tmp_path):
 
 
 @pytest.mark.parametrize("width", [360, 800, 1400])
-def test_the_words_of_limits_keep_apart(page, tmp_path, width):
+def test_limit_labels_do_not_overlap(page, tmp_path, width):
     """Six joints go from limit to limit: at most three labels a panel, with units, none over
     another.
     """
@@ -1113,7 +1113,7 @@ def test_nothing_is_cut_off_at_any_width(page, blended, tmp_path, width):
     assert all(box["width"] > 250 and box["height"] > 250 for box in boxes)
 
 
-def test_without_scripts_the_picture_stays(browser, blended, tmp_path):
+def test_page_without_scripts_shows_the_still(browser, blended, tmp_path):
     blended.save(tmp_path / "player.html")
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
@@ -1207,7 +1207,7 @@ PAINTED = """selector => {
     return data.filter((value, i) => i % 4 === 3 && value).length; }"""
 
 
-def test_a_picture_that_had_no_room_for_a_moment_is_not_blank(page, blended, tmp_path):
+def test_picture_returns_after_a_moment_without_size(page, blended, tmp_path):
     """As while JupyterLab changes its theme: asked for while it is hidden, and then of the old
     size again, so that nobody is told of another one.
     """
@@ -1234,7 +1234,7 @@ def test_a_picture_that_had_no_room_for_a_moment_is_not_blank(page, blended, tmp
     )
 
 
-def test_light_and_dark_follow_jupyterlab_and_else_the_system(page, blended, tmp_path):
+def test_theme_follows_jupyterlab_or_the_system(page, blended, tmp_path):
     show(page, blended, tmp_path)
     theme = "name => { document.body.dataset.jpThemeLight = name; }"
     paper = "() => getComputedStyle(document.querySelector('.rk')).backgroundColor"
@@ -1277,7 +1277,7 @@ def test_canvases_have_at_most_two_device_pixels_per_pixel(browser, blended, tmp
     page.close()
 
 
-def test_the_still_picture_says_how_to_set_it_moving(page, browser, blended, tmp_path):
+def test_still_picture_explains_how_to_start_it(page, browser, blended, tmp_path):
     show(page, blended, tmp_path)
     assert page.get_by_text("trust the notebook").count() == 0
     context = browser.new_context(java_script_enabled=False)
@@ -1287,7 +1287,7 @@ def test_the_still_picture_says_how_to_set_it_moving(page, browser, blended, tmp
     context.close()
 
 
-def test_a_page_that_cannot_draw_keeps_the_still_picture(page, blended, tmp_path):
+def test_page_that_cannot_draw_keeps_the_still(page, blended, tmp_path):
     page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
     for output in (blended, joint_explorer(IRB140), motor_explorer()):
         output.save(tmp_path / "still.html")
@@ -1297,7 +1297,7 @@ def test_a_page_that_cannot_draw_keeps_the_still_picture(page, blended, tmp_path
         assert page.locator("canvas").count() == 0
 
 
-def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):
+def test_scene_projects_points_and_can_be_held(page, blended):
     """For handles over the canvas: `cameras` project as the picture does; while the scene is held,
     a target that leaves it moves nothing else.
     """
@@ -1334,7 +1334,7 @@ def test_a_scene_tells_where_its_points_are_and_can_be_held(page, blended):
     assert held == first and after[1:3] != first[1:3] and hidden is False
 
 
-def test_a_floor_hides_what_dips_below_it(page):
+def test_solid_floor_hides_what_is_below(page):
     """A tool that goes under its base: the floor lies lower still, or with `floor` at height 0.
     Then less is seen of the arm below it, and as much of the arm above it.
     """
@@ -1372,7 +1372,7 @@ def test_a_floor_hides_what_dips_below_it(page):
     assert above == same > 300 and 0 < hidden < 0.8 * bare
 
 
-def test_who_is_quicker_than_the_first_picture_gets_its_colours(page, blended):
+def test_first_picture_after_an_early_request_has_its_colours(page, blended):
     """Asked for in the very task that made the player, before any canvas has told its size."""
     page.set_content(
         "<script>new MutationObserver((_, watch) => {const input = document.querySelector('input');"

@@ -119,7 +119,7 @@ def figures(rounded):
 # --- Joint curves ---------------------------------------------------------------------------------
 
 
-def test_curves_are_the_given_numbers_in_degrees(rounded):
+def test_curves_equal_the_given_numbers_in_degrees(rounded):
     v, a = differentiate(rounded, T), differentiate(rounded, T, 2)
     panels = plot_joints(IRB140, T, rounded, v, a).axes
     assert len(panels) == 3
@@ -147,7 +147,7 @@ def test_prismatic_joints_have_panels_of_their_own_in_millimetres():
     assert "mm" in right.get_ylabel() and "°" in left.get_ylabel()
 
 
-def test_colour_and_dash_tell_the_joints_apart(rounded):
+def test_joints_differ_in_colour_and_dash(rounded):
     lines = [
         line
         for line in plot_joints(IRB140, T, rounded).axes[0].lines
@@ -186,13 +186,13 @@ def test_violations_of_task_1_are_counted_and_marked():
     assert "limit of q5: 115°" in words(ax) and "limit of q3: 50°" in words(ax)
 
 
-def test_a_motion_inside_its_limits_says_so_and_marks_nothing(rounded):
+def test_motion_inside_its_limits_has_no_marks(rounded):
     ax = plot_joints(IRB140, T, rounded).axes[0]
     assert "every joint inside its limits" in words(ax)
     assert not [line for line in ax.lines if line.get_linewidth() > 4]
 
 
-def test_far_limits_do_not_flatten_the_curves(rounded):
+def test_distant_limits_do_not_flatten_the_curves(rounded):
     for ax, values in zip(
         plot_joints(IRB140, T, rounded, differentiate(rounded, T)).axes,
         (rounded, differentiate(rounded, T)),
@@ -215,7 +215,7 @@ def test_speeds_past_the_limit_are_counted():
     assert "limit of q2: 200 °/s" in words(ax) and "limit of q2: −200 °/s" in words(ax)
 
 
-def test_a_share_of_the_speed_limit_is_said(rounded):
+def test_percentage_of_the_speed_limit_is_shown(rounded):
     v = differentiate(rounded, T)
     share = max(abs(v[k, i]) / IRB140.speed_limits[i] for k in range(len(T)) for i in range(6))
     assert f"at most {100 * share:.2g} % of the speed limit (q3)" in words(
@@ -223,7 +223,7 @@ def test_a_share_of_the_speed_limit_is_said(rounded):
     )
 
 
-def test_a_corner_does_not_flatten_the_accelerations(corner):
+def test_corner_does_not_flatten_the_accelerations(corner):
     """Errata S1-m: there the acceleration is the speed's jump divided by the step."""
     a = differentiate(corner, T, 2)
     fig = plot_joints(IRB140, T, corner, differentiate(corner, T), a)
@@ -241,7 +241,7 @@ def test_a_corner_does_not_flatten_the_accelerations(corner):
     assert "spike" not in words(fig.axes[1])  # a jump of the speed is no spike
 
 
-def test_a_recording_shows_no_acceleration_where_the_speed_jumps(corner):
+def test_no_acceleration_is_shown_at_a_speed_jump(corner):
     found = record(IRB140, T, corner)
     fig = plot_joints(found)
     assert len(fig.axes) == 3
@@ -255,7 +255,7 @@ def test_a_recording_shows_no_acceleration_where_the_speed_jumps(corner):
     assert "the speed jumps" in words(fig.axes[2]) and "jumps" not in words(fig.axes[1])
 
 
-def test_given_values_take_the_place_of_the_recording_s(corner):
+def test_given_values_replace_those_of_the_recording(corner):
     found, a = record(IRB140, T, corner), differentiate(corner, T, 2)
     fig = plot_joints(found, a=a)
     assert "spike at 10 s: speed jump / step" in words(fig.axes[2])
@@ -269,7 +269,7 @@ def test_given_values_take_the_place_of_the_recording_s(corner):
     assert "spike" not in calm.lower() and "None at" not in calm
 
 
-def test_spikes_of_two_kinds_are_told_apart():
+def test_two_kinds_of_spikes_are_distinguished():
     q = np.zeros((2001, 6))
     q[:, 3] = np.where(T < 5, 0, 0.05 * (T - 5))
     q[1400:, 5] += 2 * np.pi
@@ -287,7 +287,7 @@ def test_spikes_of_two_kinds_are_told_apart():
         assert high - low < 10
 
 
-def test_values_no_greater_than_elsewhere_are_no_spikes():
+def test_ordinary_values_are_not_spikes():
     """A caller may know the right speed beside a jump of position."""
     q, v = np.zeros((2001, 6)), np.zeros((2001, 6))
     v[:, 3] = np.cos(T)
@@ -297,7 +297,7 @@ def test_values_no_greater_than_elsewhere_are_no_spikes():
     assert "spike" not in fig.alt and "Greatest speed 57.3 °/s (q4)." in fig.alt
 
 
-def test_jumps_of_position_are_named_with_their_size():
+def test_jumps_of_position_are_reported_with_their_size():
     arm = MACHINES[[m.arm.name for m in MACHINES].index("SCARA")].arm
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 4))
@@ -311,14 +311,14 @@ def test_jumps_of_position_are_named_with_their_size():
     assert f"q{turning + 1} jumps by up to 90° at 4 places" in words(left)
 
 
-def test_a_long_burst_is_no_spike(rounded):
+def test_long_bursts_are_not_spikes(rounded):
     a = differentiate(rounded, T, 2)
     ax = plot_joints(IRB140, T, rounded, None, a).axes[1]
     low, high = ax.get_ylim()
     assert low < a.min() / deg and a.max() / deg < high and "spike" not in words(ax)
 
 
-def test_rest_is_drawn_as_rest():
+def test_constant_motion_is_drawn_flat():
     """Rounding noise of a constant speed must not fill the panel."""
     t = np.linspace(0, 1, 101)
     noise = 1e-13 * np.random.default_rng(1).normal(size=(101, 6))
@@ -328,7 +328,7 @@ def test_rest_is_drawn_as_rest():
     assert "Greatest acceleration 0 °/s²." in fig.alt  # and no joint is named by noise
 
 
-def test_a_whole_turn_is_drawn_and_named():
+def test_whole_turn_is_drawn_and_reported():
     raw = IRB140.ik(lin_lin(START, VIA, GOAL, linear(20.0)(T)))[:, IRB140.branch(1, 1, 1)]
     fig = plot_joints(IRB140, T, raw, differentiate(raw, T))
     at = T[1:][abs(np.diff(raw[:, 3])) > 6]
@@ -340,7 +340,7 @@ def test_a_whole_turn_is_drawn_and_named():
     assert high - low < 100  # the spike has 18 000 deg/s
 
 
-def test_gaps_stay_gaps(rounded):
+def test_gaps_remain_gaps(rounded):
     q = rounded.copy()
     q[600:800] = np.nan
     q[1500:] = np.nan
@@ -352,7 +352,7 @@ def test_gaps_stay_gaps(rounded):
     assert "nan" not in fig.alt.lower()
 
 
-def test_names_at_the_ends_do_not_touch(rounded):
+def test_names_at_the_ends_do_not_overlap(rounded):
     # six curves that end in one point
     fig = plot_joints(IRB140, T, rounded, differentiate(rounded, T) * 0)
     fig.canvas.draw()
@@ -400,7 +400,7 @@ def test_names_at_the_ends_do_not_touch(rounded):
         (lambda q: figure("Wide", width=101), ValueError),
     ],
 )
-def test_wrong_calls_say_what_they_got(bad, kind, rounded):
+def test_wrong_arguments_are_named_in_the_error(bad, kind, rounded):
     with pytest.raises(kind, match="wanted .*got|wanted none"):
         bad(rounded)
 
@@ -408,7 +408,7 @@ def test_wrong_calls_say_what_they_got(bad, kind, rounded):
 # --- Spatial views --------------------------------------------------------------------------------
 
 
-def test_a_cube_keeps_its_proportions(figures):
+def test_cube_keeps_its_proportions(figures):
     """Pixels of the corners of a cube: what a true view maps to a scaled orthographic projection,
     by Gauss's theorem of axonometry: with the axes' images as complex numbers, a^2 + b^2 + c^2 = 0.
     """
@@ -452,7 +452,7 @@ def test_links_join_the_frames_of_every_arm(machine):
 
 
 @pytest.mark.parametrize("arm", [*(m.arm for m in MACHINES), PLANAR], ids=lambda arm: arm.name)
-def test_nothing_is_cut_off_and_little_is_empty(arm):
+def test_figure_is_not_cut_off_and_well_filled(arm):
     q = np.linspace(0.1, 0.9, 40)[:, None] * np.where(arm.prismatic, arm.limits[:, 1], 1.0)
     fig = plot_postures(arm, q, targets=[arm.fk(q[0]), arm.fk(q[-1])], title="A title")
     ink = np.asarray(Image.open(io.BytesIO(palette_png(fig))).convert("L")) < 250
@@ -521,7 +521,7 @@ def test_frames_with_one_origin_are_named_at_their_axes():
         (62.5, "62.5"),
     ],
 )
-def test_numbers_for_people(value, text):
+def test_numbers_are_formatted_for_people(value, text):
     assert number(value) == text
 
 
@@ -550,7 +550,7 @@ class Images(HTMLParser):
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_the_ellipsoid_holds_the_velocities_of_a_tool_that_does_not_turn(machine):
+def test_ellipsoid_contains_the_velocities_without_rotation(machine):
     """Of random joint speeds that keep the tool's orientation, by a null space of our own: none
     leaves the ellipsoid, and its longest semi-axis is nearly reached.
     """
@@ -573,14 +573,14 @@ def test_the_ellipsoid_holds_the_velocities_of_a_tool_that_does_not_turn(machine
     assert 0.9 * longest < np.linalg.norm(seen, axis=-1).max() < longest * (1 + 1e-9)
 
 
-def test_a_singular_wrist_cannot_go_one_way():
+def test_singular_wrist_loses_one_direction():
     q = np.array([[20, 70, -60, 30, 50, 10], [20, 70, -60, 30, 0, 10]]) * deg
     lengths = np.linalg.norm(velocity_ellipsoid(ITMO6R, q), axis=-2)
     assert lengths[0].min() > 0.02 and lengths[1, :2].min() > 0.02 and lengths[1, 2] < 1e-12
     assert np.isnan(velocity_ellipsoid(ITMO6R, np.full(6, np.nan))).all()
 
 
-def test_ellipsoids_stand_beside_one_another_in_one_scale():
+def test_several_ellipsoids_share_one_scale():
     q = np.array([[20, 70, -60, 30, 50, 10], [20, 70, -60, 30, 1, 10]]) * deg
     fig = plot_velocity_ellipsoid(ITMO6R, q, title="A $1 title")
     scales = []
@@ -647,7 +647,7 @@ def test_pictures_are_small_and_have_a_palette(figures):
                 assert abs(colours - want).max(axis=1).min() <= 4
 
 
-def test_alt_text_does_not_depend_on_the_last_bit(rounded):
+def test_alt_text_does_not_depend_on_rounding(rounded):
     v = differentiate(rounded, T)
     moved = rounded + 1e-14 * np.random.default_rng(5).normal(size=rounded.shape)
     assert (
@@ -682,7 +682,7 @@ def test_titles_and_names_are_plain_text(rounded):
     assert shown in figs[1].alt and shown in figs[2].alt
 
 
-def test_postures_in_degrees_are_hinted_at(recwarn):
+def test_postures_in_degrees_cause_a_warning(recwarn):
     plot_postures(IRB140, np.full((5, 6), 13.0))  # a motion may turn on and on
     assert not recwarn.list
     for q in ([0, 45, 0, 0, 0, 0], [[0, 0, 0, 0, 0, 0], [0, 90, 0, 0, 0, 0]]):
@@ -690,7 +690,7 @@ def test_postures_in_degrees_are_hinted_at(recwarn):
             plot_postures(IRB140, q)
 
 
-def test_a_caller_can_say_more(rounded):
+def test_caller_can_set_the_alt_text(rounded):
     assert plot_joints(IRB140, T, rounded, alt="All calm.").alt == "All calm."
     assert (
         plot_postures(IRB140, rounded, alt="All calm.").alt
@@ -699,7 +699,7 @@ def test_a_caller_can_say_more(rounded):
     )
 
 
-def test_nothing_here_needs_pyplot():
+def test_plots_do_not_import_pyplot():
     code = (
         "import sys, numpy as np, robokin.show.plots as p; from robokin import IRB140; "
         "t = np.linspace(0, 1, 50); p.plot_joints(IRB140, t, np.zeros((50, "
@@ -717,7 +717,7 @@ def test_nothing_here_needs_pyplot():
 # --- Sketches -------------------------------------------------------------------------------------
 
 
-def test_a_sketch_draws_what_it_is_given_in_true_proportions():
+def test_sketch_has_true_proportions():
     sketch = Sketch("Two levers.", title="Bent", x="ahead", y="up")
     corners = np.array([[0, 0], [0.3, 0.4], [0.6, 0.1]])
     sketch.levers(corners, ["O", "A", "K"])
@@ -740,7 +740,7 @@ def test_a_sketch_draws_what_it_is_given_in_true_proportions():
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("ahead, mm", "up, mm")
 
 
-def test_the_names_of_a_sketch_stand_beside_what_they_name():
+def test_names_in_a_sketch_are_beside_their_objects():
     sketch = Sketch("Two levers.", unit="m")
     corners = np.array([[0, 0], [3, 4], [6, 1]])
     sketch.levers(corners, list("OAK"))

@@ -56,7 +56,7 @@ def drawn(seed, share=0.6):
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("with_moves", [False, True])
-def test_the_steps_are_the_fewest(seed, with_moves):
+def test_search_finds_the_fewest_steps(seed, with_moves):
     _, free, moves = drawn(seed)
     edges = []
     for node, joint, other in neighbours():
@@ -72,7 +72,7 @@ def test_the_steps_are_the_fewest(seed, with_moves):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_it_ends_at_the_first_goal(seed):
+def test_search_ends_at_the_first_goal(seed):
     rng, free, moves = drawn(seed)
     goals = rng.random(SIZE) < 0.03
     every = breadth_first(free, START, moves)[INSIDE]
@@ -84,7 +84,7 @@ def test_it_ends_at_the_first_goal(seed):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_a_way_back_has_the_fewest_steps_and_the_most_room(seed):
+def test_backtracking_has_the_fewest_steps_and_most_clearance(seed):
     rng, free, _ = drawn(seed)
     steps, room = breadth_first(free, START), rng.random(SIZE)
     for node in map(tuple, np.argwhere(steps[INSIDE] < NEVER).tolist()):
@@ -106,7 +106,7 @@ def test_a_way_back_has_the_fewest_steps_and_the_most_room(seed):
             assert room[tuple(before)] == max(room[other] for other in nearer)
 
 
-def test_a_start_that_is_not_free_is_left():
+def test_search_can_leave_a_blocked_start():
     free = np.ones(SIZE, dtype=bool)
     free[START] = False
     steps = breadth_first(free, START)
@@ -114,7 +114,7 @@ def test_a_start_that_is_not_free_is_left():
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_what_is_free_may_change_from_tick_to_tick(seed):
+def test_free_postures_may_change_with_time(seed):
     """The fewest steps by tick t are the least cost in a graph whose nodes are postures at ticks,
     in which waiting costs nothing.
     """

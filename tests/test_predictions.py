@@ -89,7 +89,7 @@ def guess(page):
 
 @pytest.mark.parametrize("width", [900, 390])
 @pytest.mark.parametrize("k", range(3))
-def test_every_answer_can_be_chosen_and_is_answered(opened, k, width):
+def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     asked = Asked("made.p1", words(), None)
     page = opened(asked, width)
     before = seen(page)
@@ -116,7 +116,7 @@ def test_every_answer_can_be_chosen_and_is_answered(opened, k, width):
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
-def test_the_keyboard_is_enough(opened):
+def test_keyboard_is_sufficient(opened):
     page = opened(Asked("made.p1", words(), None))
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowDown")
@@ -143,7 +143,7 @@ def test_the_keyboard_is_enough(opened):
         ("0", "Right is 200 mm."),
     ],
 )
-def test_a_number_is_judged_alike_in_page_and_notebook(opened, typed, says):
+def test_numbers_are_judged_equally_in_page_and_notebook(opened, typed, says):
     page = opened(Asked("made.p2", TYPED, None))
     assert "100" not in seen(page) and "200" not in seen(page)
     page.get_by_label("your guess, mm").fill(typed)
@@ -152,7 +152,7 @@ def test_a_number_is_judged_alike_in_page_and_notebook(opened, typed, says):
     assert says in repr(Asked("made.p2", TYPED, float(typed)))
 
 
-def test_the_page_remembers_and_forgets(opened, browser):
+def test_page_remembers_and_forgets_choices(opened, browser):
     context = browser.new_context()
     asked = Asked("made.p1", words(), None)
     page = opened(asked, within=context)
@@ -174,7 +174,7 @@ def test_the_page_remembers_and_forgets(opened, browser):
     )
 
 
-def test_a_browser_that_forbids_memory_is_no_harm(opened, browser):
+def test_forbidden_storage_does_no_harm(opened, browser):
     context = browser.new_context()
     context.add_init_script(
         "Object.defineProperty(window, 'localStorage', {get() { throw new Error('no'); }});"
@@ -185,7 +185,7 @@ def test_a_browser_that_forbids_memory_is_no_harm(opened, browser):
     assert REASON in seen(page) and "Kept on this page only." in seen(page)
 
 
-def test_a_question_that_stands_in_a_page_twice_is_answered_twice(opened):
+def test_question_may_occur_twice_in_a_page(opened):
     """As JupyterLab's "New View for Cell Output" shows it: the script runs once more."""
     asked = Asked("made.p1", words(), None)
     page = opened(asked)
@@ -202,7 +202,7 @@ def test_a_question_that_stands_in_a_page_twice_is_answered_twice(opened):
     assert "Not so" not in other.inner_text() and other.get_by_label("c)").is_checked()
 
 
-def test_a_choice_in_the_notebook_opens_at_once_and_says_the_same(opened):
+def test_choice_in_the_notebook_opens_at_once(opened):
     asked = Asked("made.p1", words(), "a")
     page = opened(asked)
     text = seen(page)
@@ -234,14 +234,14 @@ def test_a_view_may_be_a_figure_or_a_player(opened):
             assert again["width"] > 100 and 30 < again["height"] < 50
 
 
-def test_without_scripts_the_question_stands_there(opened):
+def test_page_without_scripts_shows_the_question(opened):
     page = opened(Asked("made.p1", words(), None), java_script_enabled=False)
     text = seen(page)
     assert "It is 6.2 now." in text and "c) half as much" in text and ASLEEP in text
     assert "view opens" not in text and REASON not in text
 
 
-def test_markup_stays_words(opened):
+def test_markup_is_escaped(opened):
     asked = Prediction(
         question="Is 1 < 2 & <b>3</b>?",
         options=(Option("<i>yes</i>", "</script>"), Option("no", "a", "b", "c")),
@@ -261,7 +261,7 @@ NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibl
         e.querySelector(".jp-InputArea")?.innerText.slice(0, 80)])"""
 
 
-def test_in_jupyterlab_a_question_is_alive_and_keys_are_its_own(jupyter, page):
+def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
     """Trusted and never run: by keyboard, and no key of it is a command of the notebook."""
     name = test_browser._variant(jupyter, "asked.ipynb")
     jupyter.trust(name)
@@ -286,7 +286,7 @@ def test_in_jupyterlab_a_question_is_alive_and_keys_are_its_own(jupyter, page):
     assert page.errors == [] and page.outside == []
 
 
-def test_in_jupyterlab_an_untrusted_question_says_how_to_answer(jupyter, page):
+def test_untrusted_question_in_jupyterlab_explains_how_to_answer(jupyter, page):
     name = test_browser._variant(jupyter, "not_asked.ipynb")
     jupyter.open(page, name)
     cell = page.locator(".jp-CodeCell").filter(has_text='predict("irb140_motion.p1")')
@@ -298,7 +298,7 @@ def test_in_jupyterlab_an_untrusted_question_says_how_to_answer(jupyter, page):
 
 
 @pytest.mark.parametrize("lab", ["02_irb140_kinematics", "03_irb140_motion"])
-def test_an_exported_lab_asks_on_a_phone(browser, exported, lab):
+def test_exported_lab_asks_on_a_phone(browser, exported, lab):
     """Opened from a file at 390 px with a finger; every question by keyboard once more."""
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
     page = context.new_page()
@@ -330,7 +330,7 @@ def test_an_exported_lab_asks_on_a_phone(browser, exported, lab):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing_serious(opened, scheme):
+def test_axe_finds_no_serious_problems(opened, scheme):
     for asked in (Asked("made.p1", words(), None), Asked("made.p1", words(), "a")):
         page = opened(asked, color_scheme=scheme)
         page.locator(".rk-ask").wait_for()
@@ -342,7 +342,7 @@ def test_axe_finds_nothing_serious(opened, scheme):
         ] == []
 
 
-def test_wrong_choices_are_refused():
+def test_invalid_choices_are_refused():
     for prediction, choice in ((words(), "d"), (words(), ""), (words(), 1), (TYPED, "b")):
         with pytest.raises(ValueError, match="choice: wanted"):
             Asked("made.p1", prediction, choice)

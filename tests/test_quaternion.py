@@ -33,7 +33,7 @@ def same(q, rotation, atol=1e-15):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_composes_acts_and_inverts_as_scipy_does(shape):
+def test_composition_action_and_inverse_equal_scipy(shape):
     a, b, points = random(shape), random(shape), RNG.normal(size=(*shape, 3))
     same(a @ b, scipy(a) * scipy(b))
     same(a.inverse(), scipy(a).inv())
@@ -45,7 +45,7 @@ def test_composes_acts_and_inverts_as_scipy_does(shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_angle_axis_is_scipys_rotation_vector(shape):
+def test_angle_axis_equals_scipy_rotation_vector(shape):
     axis = RNG.normal(size=(*shape, 3))
     axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
     angle = RNG.uniform(-10, 10, shape)
@@ -58,7 +58,7 @@ def test_angle_axis_is_scipys_rotation_vector(shape):
     )
 
 
-def test_angle_axis_at_no_turn_at_half_a_turn_and_near_both():
+def test_angle_axis_at_and_near_zero_and_half_a_turn():
     angle, axis = Quaternion.identity().as_angle_axis()
     assert angle == 0 and axis.tolist() == [0, 0, 1]
     for small in (1e-9, 1e-100):
@@ -103,7 +103,7 @@ def test_from_matrix_takes_batches_and_repairs_printed_digits():
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("flip", [1, -1])
-def test_slerp_is_scipys_whatever_the_sign(shape, flip):
+def test_slerp_equals_scipy_for_both_signs(shape, flip):
     a, b = random(shape), random(shape)
     s = np.array([0, 0.1, 0.5, 0.77, 1])
     ours = a[..., None].slerp(Quaternion(flip * b.wxyz)[..., None], s)
@@ -130,7 +130,7 @@ def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
     assert abs(np.rad2deg(off) - 2.204) < 5e-4
 
 
-def test_slerp_of_half_a_turn_follows_the_signs_as_they_are():
+def test_slerp_of_half_a_turn_depends_on_the_signs():
     """Both arcs are equally long: the signs of the two quaternions decide, and rounding noise does
     not.
     """
@@ -158,7 +158,7 @@ def test_slerp_between_nearly_equal_rotations_keeps_all_digits():
         )
 
 
-def test_slerp_beyond_its_ends_turns_on():
+def test_slerp_continues_beyond_its_ends():
     goal = Quaternion.from_angle_axis(0.4, (0, 0, 1))
     same(
         Quaternion.identity().slerp(goal, np.array([-1.0, 2.5])),
@@ -180,7 +180,7 @@ def test_rotations_are_a_group_that_keeps_lengths_and_hands(seed):
     )
 
 
-def test_indices_reach_the_batch_only():
+def test_indexing_applies_to_the_batch_only():
     q = random((3, 1, 2))
     assert q[0].shape == (1, 2) and q[..., 1].shape == (3, 1) and q[:, 0].shape == (3, 2)
     assert q[None].shape == (1, 3, 1, 2) and q[:, None].shape == (3, 1, 1, 2)
@@ -193,7 +193,7 @@ def test_indices_reach_the_batch_only():
 
 
 @pytest.mark.parametrize("value", [random(()), Transform()])
-def test_one_single_value_has_no_length_and_no_items(value):
+def test_single_rotation_has_no_length_and_no_items(value):
     with pytest.raises(TypeError, match="no length"):
         len(value)
     with pytest.raises(TypeError, match="no length"):
@@ -214,37 +214,37 @@ def test_a_batch_of_rotations_acts_on_a_batch_of_points():
     assert np.allclose(q @ [0, 0, 1.0], scipy(q).apply([0, 0, 1]), rtol=0, atol=1e-14)
 
 
-def test_missing_points_stay_missing():
+def test_nan_points_remain_nan():
     points = np.array([[1.0, 2, 3], [np.nan, 0, 0]])
     turned = random(()) @ points
     assert np.isfinite(turned[0]).all() and np.isnan(turned[1]).all()
 
 
-def test_wrong_partners_are_type_errors():
+def test_invalid_operands_raise_type_error():
     for left, right in ((np.eye(3), random(())), (random(()), Transform()), (2.0, random(()))):
         with pytest.raises(TypeError):
             left @ right
 
 
-def test_keeps_its_numbers_when_the_callers_array_changes():
+def test_numbers_are_copied_from_the_caller():
     wxyz = np.array([1.0, 0, 0, 0])
     q = Quaternion(wxyz)
     wxyz[:] = 7
     assert q.wxyz.tolist() == [1, 0, 0, 0]
 
 
-def test_nearly_unit_quaternions_are_made_unit():
+def test_nearly_unit_quaternions_are_normalised():
     q = Quaternion(np.array([0.6, 0, 0.8, 0]) * (1 + 9e-7))
     assert abs(np.linalg.norm(q.wxyz) - 1) < 3e-16
 
 
-def test_repr_has_no_minus_zero():
+def test_repr_has_no_negative_zero():
     assert repr(Quaternion([1.0, -0.0, -1e-9, 0])) == "Quaternion(wxyz=[1., 0., 0., 0.])"
     assert repr(random((2, 3))) == "Quaternion(shape=(2, 3))"
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_the_angle_between_two_rotations_is_scipys(shape):
+def test_angle_to_equals_scipy(shape):
     a, b = random(shape), random(shape)
     wanted = (scipy(a).inv() * scipy(b)).magnitude().reshape(shape)
     assert np.allclose(a.angle_to(b), wanted, rtol=0, atol=4e-15)
@@ -253,7 +253,7 @@ def test_the_angle_between_two_rotations_is_scipys(shape):
 
 
 @pytest.mark.parametrize("exponent", range(1, 16))
-def test_a_small_angle_keeps_its_digits(exponent):
+def test_small_angles_keep_their_digits(exponent):
     angle = 10.0**-exponent
     a = random((50,))
     b = a @ Quaternion.from_angle_axis(angle, (0.6, 0, 0.8))
@@ -262,7 +262,7 @@ def test_a_small_angle_keeps_its_digits(exponent):
     assert np.allclose(a.angle_to(nearly_opposite), np.pi - angle, rtol=0, atol=2e-15)
 
 
-def test_angles_of_unfit_batches_and_other_things_are_refused():
+def test_angle_to_refuses_wrong_shapes_and_types():
     with pytest.raises(ValueError, match=r"\(2,\).*\(3,\)"):
         random((2,)).angle_to(random((3,)))
     with pytest.raises(TypeError, match="other: wanted a Quaternion"):
@@ -270,7 +270,7 @@ def test_angles_of_unfit_batches_and_other_things_are_refused():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_roll_pitch_yaw_are_scipys_turns_about_fixed_axes(shape):
+def test_roll_pitch_yaw_equal_scipy(shape):
     q = random(shape)
     angles = np.stack(q.as_roll_pitch_yaw(), axis=-1)
     wanted = scipy(q).as_euler("xyz").reshape(*shape, 3)
@@ -282,7 +282,7 @@ def test_roll_pitch_yaw_are_scipys_turns_about_fixed_axes(shape):
 
 
 @pytest.mark.parametrize("pitch", [90, -90])
-def test_upright_the_roll_is_zero_and_the_rotation_right(pitch):
+def test_roll_is_zero_at_vertical_pitch(pitch):
     for roll, yaw in ((0, 0), (30, 20), (-140, 75)):
         q = Quaternion.from_roll_pitch_yaw(*np.deg2rad([roll, pitch, yaw]))
         r, p, y = q.as_roll_pitch_yaw()
@@ -291,7 +291,7 @@ def test_upright_the_roll_is_zero_and_the_rotation_right(pitch):
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_roll_pitch_yaw_keep_their_digits_near_upright(sign):
+def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
     """Roll and yaw are known the less the nearer the pitch is to a quarter turn, and what they make
     together is known to the last digits all the way.
     """
@@ -307,7 +307,7 @@ def test_roll_pitch_yaw_keep_their_digits_near_upright(sign):
             assert abs(np.array(back[::2]) - (roll, yaw)).max() < 1e-15 / off
 
 
-def test_degrees_for_radians_are_hinted_at_and_taken():
+def test_degrees_cause_a_warning():
     with pytest.warns(UserWarning, match=r"angle: 90 rad .* were degrees meant\? \(90 \* deg\)"):
         q = Quaternion.from_angle_axis(90, (0, 0, 1))
     assert q.wxyz[0] == np.cos(45)
@@ -315,7 +315,7 @@ def test_degrees_for_radians_are_hinted_at_and_taken():
         Quaternion.from_angle_axis([0, -90.0], (0, 0, 1))
 
 
-def test_no_rotation_of_any_shape():
+def test_identity_of_any_shape():
     for shape in ((), (3,), (2, 0), (4, 1)):
         assert Quaternion.identity(shape).shape == Transform.identity(shape).shape == shape
         assert (Transform.identity(shape).as_matrix() == np.eye(4)).all()

@@ -10,7 +10,7 @@ from robokin.course.questions import LETTERS, chosen_option, filled
 NAME = "puma560_branches.p3"
 
 
-def test_a_name_counts_before_a_letter():
+def test_option_name_precedes_its_letter():
     prediction = book.find(NAME, "predictions")
     _, options, right = filled(prediction)
     for k, option in enumerate(options):

@@ -204,14 +204,14 @@ def test_assignments_raise_or_change_nothing(tried, root):
     assert after == untouched and len(after) > 0
 
 
-def test_ik_is_right_after_it(tried):
+def test_ik_is_unchanged_by_attempts_to_write(tried):
     after, untouched = (answer["ik"] for answer in tried)
     assert after == untouched
     assert max(after["error"].values()) < 1e-9 and len(after["error"]) == len(MACHINES)
 
 
 @pytest.mark.parametrize("name", KEEPS)
-def test_what_comes_in_is_copied(name):
+def test_arguments_are_copied(name):
     make, given = KEEPS[name]
     given = np.array(given, dtype=float)
     value = make(given)
@@ -221,7 +221,7 @@ def test_what_comes_in_is_copied(name):
 
 
 @pytest.mark.parametrize("name", GIVES)
-def test_what_comes_out_is_the_callers(name):
+def test_results_belong_to_the_caller(name):
     first = GIVES[name]()
     before = first.copy()
     first[...] = 99
@@ -269,7 +269,7 @@ def examples():
 
 @pytest.mark.parametrize("kind", sealed_classes(), ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("how", COPIES)
-def test_a_copy_is_sealed_too(examples, kind, how):
+def test_copies_are_read_only_too(examples, kind, how):
     assert issubclass(kind, Sealed) and kind.__dataclass_params__.frozen
     assert kind.__setattr__ is not kind.__mro__[1].__setattr__, "a frozen base seals only itself"
     value = COPIES[how](examples[kind])
@@ -284,7 +284,7 @@ def test_a_copy_is_sealed_too(examples, kind, how):
     assert not any(array.flags.writeable for array in arrays)
 
 
-def test_the_attack_finds_what_can_be_written():
+def test_attack_detects_writable_arrays():
     # The checks above would see what they are there for: the arrays, lists and names of an object.
     class Open:
         def __init__(self):

@@ -76,7 +76,7 @@ def test_a_smooth_motion_has_the_derivatives_that_differentiate_gives(t):
     assert not found.gaps.any() and not found.missing.any() and found.leaps == found.jumps == ()
 
 
-def test_each_piece_beside_a_gap_is_differentiated_for_itself():
+def test_pieces_beside_a_gap_are_differentiated_separately():
     q = wave()
     q[100:120] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -90,7 +90,7 @@ def test_each_piece_beside_a_gap_is_differentiated_for_itself():
 
 
 @pytest.mark.parametrize("length", [1, 2, 3])
-def test_a_piece_of_less_than_three_samples_has_no_speed(length):
+def test_short_pieces_have_no_speed(length):
     q = wave()
     q[100], q[101 + length] = np.nan, np.nan
     found = record(IRB140, UNEVEN, q)
@@ -101,13 +101,13 @@ def test_a_piece_of_less_than_three_samples_has_no_speed(length):
     assert np.isfinite(found.a[piece]).all() == (length == 3)
 
 
-def test_two_samples_are_a_motion_without_speeds():
+def test_two_samples_have_no_speeds():
     found = record(IRB140, [0, 1], wave(np.array([0, 0.1])))
     assert np.isnan(found.v).all() and np.isnan(found.a).all() and np.isfinite(found.q).all()
     assert np.isnan(found.greatest_speed.value).all() and np.isnan(found.speed_excess).all()
 
 
-def test_a_row_with_one_missing_joint_is_missing():
+def test_row_with_one_nan_joint_is_missing():
     q = wave()
     q[50, 3] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -119,7 +119,7 @@ def test_a_row_with_one_missing_joint_is_missing():
 
 
 @pytest.mark.parametrize("count, tolerance", [(2001, 1e-4), (2000, 2e-3), (100, 0.03)])
-def test_the_jump_of_the_speed_does_not_depend_on_the_step(count, tolerance):
+def test_speed_jump_does_not_depend_on_the_step(count, tolerance):
     t = np.linspace(0, 20, count)
     [jump] = record(IRB140, t, chain(0.0, t)).jumps
     assert t[jump.first] <= 10 + 1e-9 and t[jump.last] >= 10 - 1e-9
@@ -155,7 +155,7 @@ def test_a_corner_between_two_samples_is_found_between_them():
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.7, 0.98])
 @pytest.mark.parametrize("sample", [4, 50, 94])
-def test_a_faint_part_of_a_corner_belongs_to_it(share, sample):
+def test_faint_part_of_a_corner_belongs_to_it(share, sample):
     """A corner shortly behind (or before) a sample changes the speeds of two pairs of intervals,
     one of them by 2 % of the jump: too little for a jump of its own.
     """
@@ -169,7 +169,7 @@ def test_a_faint_part_of_a_corner_belongs_to_it(share, sample):
     np.testing.assert_allclose(jump.after, [1.1, 0], atol=1e-9)
 
 
-def test_there_is_no_acceleration_at_a_jump_of_the_speed_and_only_there():
+def test_acceleration_is_nan_exactly_at_speed_jumps():
     t = np.linspace(0, 3, 301)
     u = t - 1.5
     q = np.zeros((301, 6))
@@ -198,7 +198,7 @@ def test_a_smooth_motion_has_no_jump(count):
     assert record(IRB140, t, chain(0.1, t)).jumps == ()
 
 
-def test_a_jump_of_less_than_a_hundredth_of_the_greatest_speed_is_none():
+def test_tiny_changes_of_speed_are_not_jumps():
     t = np.linspace(0, 2, 401)
     corner = np.maximum(t - 1, 0)
     for share, count in ((0.008, 0), (0.02, 1)):
@@ -230,7 +230,7 @@ def test_two_corners_three_samples_apart_are_two_jumps():
 # --- Jumps of position ----------------------------------------------------------------------------
 
 
-def test_a_turn_by_two_pi_from_one_sample_to_the_next_is_a_jump():
+def test_turn_by_two_pi_between_samples_is_a_jump():
     q = wave()
     q[200:, 3] += 2 * np.pi
     found = record(IRB140, UNEVEN, q)
@@ -249,7 +249,7 @@ def test_a_turn_by_two_pi_from_one_sample_to_the_next_is_a_jump():
 
 
 @pytest.mark.parametrize("size, leap", [(0.0019, False), (0.0021, True), (3.0, True)])
-def test_a_step_out_of_rest_is_a_jump_from_two_thousandths_on(size, leap):
+def test_step_from_rest_is_a_jump_from_two_thousandths_on(size, leap):
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[50:, 0] = size
@@ -277,7 +277,7 @@ TEETH = {
 @pytest.mark.parametrize("teeth", TEETH.values(), ids=TEETH)
 @pytest.mark.parametrize("on", ON.values(), ids=ON)
 @pytest.mark.parametrize("t", [np.linspace(0, 3, 300), UNEVEN], ids=["even", "uneven"])
-def test_every_tooth_of_a_saw_is_a_jump_of_position(t, on, teeth, size):
+def test_every_tooth_of_a_sawtooth_is_a_jump(t, on, teeth, size):
     """Joint 2 falls back at every tooth; joint 1 goes on without. The size of each is known."""
     up = size * np.searchsorted(teeth, np.arange(300))
     q = np.zeros((300, 6))
@@ -292,7 +292,7 @@ def test_every_tooth_of_a_saw_is_a_jump_of_position(t, on, teeth, size):
     assert np.nanmax(abs(found.v[:, 1] - exact)) < 0.4 and abs(size) / 0.015 > 3
 
 
-def test_a_saw_that_falls_back_to_where_it_began():
+def test_sawtooth_that_returns_to_its_start():
     """In three samples it may be a sine, whose samples are the same."""
     t = np.linspace(0, 2, 201)
     for period, leaps in ((3, False), (4, True), (7, True), (30, True)):
@@ -307,7 +307,7 @@ def test_a_saw_that_falls_back_to_where_it_began():
 
 @pytest.mark.parametrize("size", [0.5, -1.5])
 @pytest.mark.parametrize("on", list(ON.values())[:3], ids=list(ON)[:3])
-def test_at_the_ends_a_tooth_is_a_jump_if_it_is_ten_times_the_step_beside_it(on, size):
+def test_tooth_at_an_end_is_a_jump_if_ten_times_the_next_step(on, size):
     t = np.linspace(0, 3, 300)
     q = np.stack([on(t) + size * np.searchsorted([0, 298], np.arange(300)), 0 * t], axis=-1)
     found = record(two_link(1, 1), t, q)
@@ -315,7 +315,7 @@ def test_at_the_ends_a_tooth_is_a_jump_if_it_is_ten_times_the_step_beside_it(on,
     assert all(jump.by[0] == pytest.approx(size, abs=0.03) for jump in found.leaps)
 
 
-def test_teeth_of_different_joints_are_each_their_own_jump():
+def test_teeth_of_different_joints_are_separate_jumps():
     t = np.linspace(0, 3, 300)
     q = wave(t, 0.3)
     teeth = {50: [0], 53: [3], 56: [0, 5], 200: [1, 2, 4]}
@@ -338,7 +338,7 @@ def test_teeth_between_missing_samples_are_found():
     assert all(0.09 < jump.by[0] < 0.11 for jump in found.leaps)
 
 
-def test_a_sample_that_stands_aside_has_a_jump_on_both_sides():
+def test_outlying_sample_has_a_jump_on_both_sides():
     t = np.linspace(0, 3, 301)
     q = np.stack([np.sin(t), 0 * t], axis=-1)
     q[140, 0] += 0.3
@@ -366,7 +366,7 @@ QUICK = {
 
 
 @pytest.mark.parametrize("motion", QUICK.values(), ids=QUICK)
-def test_a_motion_of_two_steps_is_no_jump(motion):
+def test_motion_of_two_steps_is_not_a_jump(motion):
     """Wherever the samples fall, between rest and rest; there and back it takes four."""
     samples = np.arange(-30, 31.0)
     least = 4 if motion is QUICK["there and back"] else 2
@@ -378,13 +378,13 @@ def test_a_motion_of_two_steps_is_no_jump(motion):
 
 
 @pytest.mark.parametrize("period", [5, 5.5, 6.3, 7.1, 9, 20])
-def test_an_oscillation_of_five_samples_is_no_jump(period):
+def test_oscillation_of_five_samples_is_not_a_jump(period):
     turns = np.arange(200) / period + np.arange(0, 1, 0.05)[:, None]
     q = np.sin(2 * np.pi * turns)
     assert record(two_link(1, 1), np.arange(200), np.stack([q, 0 * q], axis=-1)).leaps == ()
 
 
-def test_what_samples_cannot_tell_is_no_jump_of_position():
+def test_ambiguous_samples_are_not_jumps():
     t = np.linspace(0, 1, 101)
     twice = np.searchsorted([50, 51], np.arange(101)) * 0.3
     thrice = np.zeros(101)
@@ -395,7 +395,7 @@ def test_what_samples_cannot_tell_is_no_jump_of_position():
 
 
 @pytest.mark.parametrize("size", [1e-4, 1e-3, 0.01, 0.2])
-def test_noise_is_no_jump(size):
+def test_noise_is_not_a_jump(size):
     rng = np.random.default_rng(3)
     t = np.linspace(0, 20, 5001)
     q = np.sin(np.outer(t, [1, 1.5])) + size * rng.normal(size=(4, 5001, 2))
@@ -404,14 +404,14 @@ def test_noise_is_no_jump(size):
     assert [jump.first for jump in record(two_link(1, 1), t, q).leaps] == [2999] * 4
 
 
-def test_a_fast_motion_is_no_jump():
+def test_fast_motion_is_not_a_jump():
     t = np.linspace(0, 1, 11)
     q = np.zeros((11, 6))
     q[:, 0] = 2.0 * t  # 0.2 rad from one sample to the next, everywhere
     assert record(IRB140, t, q).leaps == ()
 
 
-def test_a_long_stroke_is_no_jump_and_half_a_turn_is():
+def test_long_stroke_is_not_a_jump_but_half_a_turn_is():
     t = np.linspace(0, 10, 11)
     q = np.zeros((11, 4))
     q[:, 2] = 3.2 * t / 1  # every step is more than half a turn
@@ -433,7 +433,7 @@ def test_beside_a_gap_a_jump_has_the_value_of_its_sample():
 
 
 @pytest.mark.parametrize("first", [0, 98])
-def test_a_jump_at_an_end_is_found_too(first):
+def test_jump_at_an_end_is_found(first):
     t = np.linspace(0, 0.99, 100)
     q = np.zeros((100, 6))
     q[:, 0] = 0.1 * t
@@ -461,14 +461,14 @@ def test_excess_is_how_far_each_sample_is_past_its_limit():
     assert found.excess[np.isfinite(found.excess)].min() == 0
 
 
-def test_at_its_limit_a_joint_is_not_past_it():
+def test_joint_at_its_limit_is_not_past_it():
     q = np.broadcast_to(IRB140.limits[:, 1], (5, 6)) + 1e-10
     assert (record(IRB140, np.arange(5), q).excess == 0).all()
     q = np.broadcast_to(IRB140.limits[:, 0], (5, 6)) - 2e-9
     assert (record(IRB140, np.arange(5), q).excess > 0).all()
 
 
-def test_speed_excess_is_by_how_much_a_joint_is_too_fast_either_way():
+def test_speed_excess_is_symmetric():
     t = np.linspace(0, 2, 201)
     q = np.zeros((201, 6))
     q[:, 1], q[:, 2] = -4 * t + 4, 0.1 * np.sin(t)  # 4 rad/s, limit 200 °/s
@@ -479,7 +479,7 @@ def test_speed_excess_is_by_how_much_a_joint_is_too_fast_either_way():
     assert (record(SCARA, t, q[:, :4]).speed_excess == 0).all()
 
 
-def test_greatest_values_and_when(motions):
+def test_greatest_values_and_their_times(motions):
     q = motions[1]
     found = record(IRB140, T, q)
     for extreme, values in (
@@ -494,7 +494,7 @@ def test_greatest_values_and_when(motions):
             assert extreme.value[j] == most and extreme.time[j] == T[column.index(most)]
 
 
-def test_greatest_values_leave_out_what_is_missing():
+def test_greatest_values_ignore_nan():
     q = wave()
     q[:150] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -557,7 +557,7 @@ def test_a_single_recording_has_no_parts(motions):
 # --- What a recording is --------------------------------------------------------------------------
 
 
-def test_nobody_changes_a_recording(motions):
+def test_recordings_are_read_only(motions):
     t, q = T.copy(), motions[0].copy()
     found = record(IRB140, t, q)
     q[:] = t[:] = 99
@@ -578,21 +578,21 @@ def test_nobody_changes_a_recording(motions):
         leap.first = 3
 
 
-def test_a_recording_says_what_it_is_and_can_be_pickled(motions):
+def test_recordings_have_a_repr_and_can_be_pickled(motions):
     found = record(IRB140, T, motions[:2])
     assert repr(found) == "Recording('IRB-140', 2001 samples over 20 s, shape=(2,))"
     again = pickle.loads(pickle.dumps(found))
     assert isinstance(again, Recording) and np.array_equal(again.v, found.v)
 
 
-def test_a_motion_in_degrees_is_warned_of():
+def test_motion_in_degrees_causes_a_warning():
     t = np.linspace(0, 1, 50)
     q = np.linspace([90, 0, 0, 0, 0, 0], [100, 10, 0, 0, 0, 0], 50)
     with pytest.warns(UserWarning, match="q: 90 rad is many turns; were degrees meant"):
         record(IRB140, t, q)
 
 
-def test_so_is_one_that_begins_at_home():
+def test_motion_in_degrees_from_home_causes_a_warning():
     q = np.linspace(np.zeros(6), [90, 0, 0, 0, 0, 0], 50)
     with pytest.warns(UserWarning, match="were degrees meant"):
         record(IRB140, np.linspace(0, 1, 50), q)
@@ -600,7 +600,7 @@ def test_so_is_one_that_begins_at_home():
         record(IRB140, np.linspace(0, 1, 50), np.full((50, 6), -13.0) * [1, 0, 0, 0, 0, 0])
 
 
-def test_turning_on_and_on_is_no_slip(recwarn):
+def test_continuous_turning_causes_no_warning(recwarn):
     t = np.linspace(0, 1, 500)
     q = np.linspace(np.zeros(6), [0, 0, 0, 0, 0, 30], 500)
     q[:20] = np.nan
@@ -627,6 +627,6 @@ def test_turning_on_and_on_is_no_slip(recwarn):
         (lambda q: replace(record(IRB140, T, q), leaps=[]), TypeError, "tuple of Jumps"),
     ],
 )
-def test_wrong_calls_say_what_is_wanted(wrong, kind, message, motions):
+def test_wrong_arguments_name_what_is_wanted(wrong, kind, message, motions):
     with pytest.raises(kind, match=message):
         wrong(motions[1])

@@ -46,7 +46,7 @@ def tasks(arm, n, seed=4):
 
 @arms
 @pytest.mark.parametrize("name", NAMES)
-def test_a_method_arrives_within_the_limits_or_says_that_it_does_not(arm, name):
+def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
     """And for one task, nothing moves less than the least movement."""
     K, before = tasks(arm, 400)
     q = methods(H, 0)[name](arm, K, before)
@@ -66,7 +66,7 @@ def test_a_method_arrives_within_the_limits_or_says_that_it_does_not(arm, name):
 
 
 @arms
-def test_the_pseudo_inverse_makes_the_shortest_step(arm):
+def test_pseudo_inverse_makes_the_shortest_step(arm):
     _, q = tasks(arm, 300)
     K, e = chain(arm, q), 1e-4 * np.array([0.6, -0.8])
     J = arm.jacobian(q)[:, :2]
@@ -78,7 +78,7 @@ def test_the_pseudo_inverse_makes_the_shortest_step(arm):
 
 
 @arms
-def test_the_gradient_projection_pulls_to_the_middle_and_leaves_the_gripper(arm):
+def test_gradient_projection_moves_to_the_middle_without_the_gripper(arm):
     K, before = tasks(arm, 400)
     plain, pulled = pseudo_inverse(arm, K, before), gradient_projection(arm, K, before)
     middle = np.pi / 2
@@ -92,7 +92,7 @@ def test_the_gradient_projection_pulls_to_the_middle_and_leaves_the_gripper(arm)
 
 
 @arms
-def test_equal_angles_are_equal_and_found_where_they_exist(arm):
+def test_equal_angles_are_found_where_they_exist(arm):
     K, before = tasks(arm, 300)
     q = equal_angles(arm, K, before)
     np.testing.assert_allclose(q[:, 1], q[:, 2], rtol=0, atol=1e-9)
@@ -109,7 +109,7 @@ def test_equal_angles_are_equal_and_found_where_they_exist(arm):
     assert np.isnan(q[out]).all() and out.any()
 
 
-def test_a_random_choice_takes_every_posture_alike():
+def test_random_choice_is_uniform():
     arm, K = ARMS["equal"], np.array([1.2, 0.9])
     low, high = arm.alpha_range(K)
     q = random_choice(5)(arm, np.tile(K, (4000, 1)), np.ones(3))
@@ -151,7 +151,7 @@ def test_the_distance_rule_stops_the_lever_that_comes_near(arm):
 
 
 @arms
-def test_on_the_way_joints_stop_at_their_limits(arm, monkeypatch):
+def test_joints_stop_at_their_limits(arm, monkeypatch):
     K, before = tasks(arm, 200)
     seen = []
     monkeypatch.setattr(
@@ -163,7 +163,7 @@ def test_on_the_way_joints_stop_at_their_limits(arm, monkeypatch):
 
 
 @arms
-def test_a_batch_is_its_single_tasks(arm):
+def test_batch_equals_single_tasks(arm):
     K, before = tasks(arm, 12)
     for name in NAMES:
         if name == "random choice":
@@ -199,7 +199,7 @@ def test_a_race_goes_from_task_to_task():
     assert failures > 0
 
 
-def test_wrong_races_are_named():
+def test_invalid_races_are_refused():
     K, before = tasks(ARMS["equal"], 3)
     all_of_them = methods(H, 0)
     with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):

@@ -63,7 +63,7 @@ def hostile(tmp_path_factory):
     return SimpleNamespace(lab=lab, page=page, text=text, data=report_data(text))
 
 
-def test_the_verdicts_are_what_the_answers_are_worth(hostile):
+def test_verdicts_match_the_answers(hostile):
     one, two, three = hostile.data["exercises"]
     assert (one["id"], one["state"], one["points"]) == ("scara_motion.1", "holds", 1)
     wrong = course.check("scara_motion.2", lambda q: True)
@@ -76,7 +76,7 @@ def test_the_verdicts_are_what_the_answers_are_worth(hostile):
     assert hostile.data["numbers"] == str(course.variant("scara_motion", "Ada Lovelace"))
 
 
-def test_what_is_odd_is_said(hostile):
+def test_oddities_are_reported(hostile):
     remarks = "\n".join(hostile.data["remarks"])
     for said in (
         'scara_motion.2: the stored output says "holds"; worked out anew it is "does not hold".',
@@ -101,7 +101,7 @@ def test_what_is_odd_is_said(hostile):
     assert len(hostile.text.encode()) < hostile.lab.stat().st_size + 500_000 + 200_000
 
 
-def test_predictions_are_told_as_they_were_made(hostile):
+def test_predictions_are_reported_as_made(hostile):
     made = {each["id"].partition(".p")[2]: each for each in hostile.data["predictions"]}
     assert len(made) == len(book.lab("scara_motion").predictions)
     for number, letter in (("1", "a"), ("2", "c")):
@@ -113,7 +113,7 @@ def test_predictions_are_told_as_they_were_made(hostile):
     assert {made[n]["right"] for n in made if n not in "123"} == {None}
 
 
-def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
+def test_report_works_from_a_file(hostile, browser, tmp_path):
     context = browser.new_context(viewport={"width": 1000, "height": 900}, offline=True)
     page, complaints, asked = context.new_page(), [], []
     page.on("console", lambda m: m.type in ("error", "warning") and complaints.append(m.text))
@@ -143,7 +143,7 @@ def test_a_report_opens_from_a_file_and_lives(hostile, browser, tmp_path):
     context.close()
 
 
-def test_the_header_has_words_for_guesses_and_titles_in_the_labs_order(tmp_path):
+def test_header_lists_guesses_and_titles_in_lab_order(tmp_path):
     slug = "irb140_motion"
     lab, data = book.lab(slug), report_of("Ada", slug)
     typed = next(n for n, each in lab.predictions.items() if each.unit == "°")
@@ -168,7 +168,7 @@ def test_the_header_has_words_for_guesses_and_titles_in_the_labs_order(tmp_path)
     assert (missing.split(", "), optional) == (left, "p10")
 
 
-def test_a_report_is_hardly_larger_than_the_lab():
+def test_report_is_little_larger_than_the_lab():
     for path in sorted(NOTEBOOKS.glob("*.ipynb"), key=lambda path: path.stat().st_size)[-2:]:
         given = handed_in(path)
         says = ("A sentence about what is wrong and how it can be mended, of usual length.",) * 4
@@ -199,7 +199,7 @@ def test_a_name_becomes_part_of_a_file_name(name, kept):
     assert safe(name) == kept
 
 
-def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
+def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     lab = stored(tmp_path / "my lab.ipynb", new_markdown_cell("# Notes"), "print(1 + 1)")
     page = tmp_path / "my_lab_Ada.html"
@@ -226,7 +226,7 @@ def test_nothing_of_yours_is_overwritten(tmp_path, monkeypatch, capsys):
         report(lab, "Ada", tmp_path / "none")
 
 
-def test_data_that_no_report_has_are_refused(hostile):
+def test_invalid_report_data_are_refused(hostile):
     assert report_data("<!DOCTYPE html><p>A page</p>") is None
     for this, that in (
         ('"state":"holds"', '"state":"perfect"'),
@@ -245,7 +245,7 @@ def test_data_that_no_report_has_are_refused(hostile):
     assert set(STATES) >= {each["state"] for each in hostile.data["exercises"]}
 
 
-def test_no_words_of_a_student_become_html(tmp_path, monkeypatch):
+def test_student_text_is_escaped(tmp_path, monkeypatch):
     evil = "</script><script>alert(1)</script>"
     monkeypatch.setattr(sys, "stdout", io.StringIO())
     lab = stored(tmp_path / "x.ipynb", new_markdown_cell(f"# Title {evil}"))

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:Deprecati
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-def test_cells_can_be_run_again_and_values_tried(path):
+def test_cells_run_again_with_other_values(path):
     """No cell shows another thing when it is run again; no value breaks a cell or makes words
     lie.
     """
@@ -25,7 +25,7 @@ def test_cells_can_be_run_again_and_values_tried(path):
     assert tried == [] and again == []
 
 
-def test_a_name_with_two_meanings_is_found(tmp_path):
+def test_reused_names_are_detected(tmp_path):
     path = _lab(tmp_path, "a = 1", "print(a + 1)", "a = 5", "def f():\n    return b", "b = 2")
     assert rerun.faults(path) == (0, [], ["[2] again: '6' in place of '2'"])
     assert rerun.faults(_lab(tmp_path, "a = 1", "print(a + 1)", "b = 5")) == (0, [], [])
@@ -37,7 +37,7 @@ FIGURE = "from robokin.show import figure\nfig = figure({alt})\nfig.subplots().p
 
 
 @forks
-def test_a_value_that_breaks_or_a_number_that_was_typed_in_is_found(tmp_path):
+def test_failing_values_and_typed_numbers_are_detected(tmp_path):
     def faults(*cells):
         return rerun.faults(_lab(tmp_path, *cells))[:2]
 

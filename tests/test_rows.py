@@ -69,7 +69,7 @@ def found(name):
 
 
 @pytest.mark.parametrize("source", COUNTS)
-def test_every_capability_of_a_document_has_its_place(source):
+def test_every_capability_of_a_document_has_a_target(source):
     rows = table(source)
     assert [row[0] for row in rows] == [f"{source}-{k:02}" for k in range(1, COUNTS[source] + 1)]
     for row, what, where, names in rows:
@@ -102,13 +102,13 @@ def findings():
         return list(csv.DictReader(file, delimiter=";"))
 
 
-def test_every_finding_of_the_second_reading_has_its_place():
+def test_every_finding_of_the_second_reading_has_a_target():
     wanted = [f"{part}{k}" for part, count in FINDINGS.items() for k in range(1, count + 1)]
     assert [line["row"] for line in findings()] == wanted
 
 
 @pytest.mark.parametrize("line", findings(), ids=lambda line: line["row"])
-def test_a_finding_is_dealt_with_where_it_says(line):
+def test_findings_are_resolved_at_their_targets(line):
     assert len(line["what"]) > 10
     for place in line["where"].split(", "):
         if re.fullmatch(r"later|decided against", place):

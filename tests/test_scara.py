@@ -41,7 +41,7 @@ def turned(a, b):
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["kind"])
-def test_every_reference_case_has_its_rows_in_their_places(case):
+def test_ik_returns_reference_cases_in_their_rows(case):
     *position, angle = case["target"]
     target = ScaraPose(np.array(position) * mm, angle)
     rows = SCARA.ik(target)
@@ -58,7 +58,7 @@ def test_every_reference_case_has_its_rows_in_their_places(case):
 
 
 @pytest.mark.parametrize("shape", [(), (1,), (3, 1, 2)])
-def test_ik_returns_the_drawn_joints(shape):
+def test_ik_contains_the_original_joints(shape):
     rng = np.random.default_rng(4)
     q = rng.uniform(-np.pi, np.pi, (*shape, 4)) * [1, 1, 1, 0.05]
     rows = SCARA.ik(SCARA.fk(q))
@@ -123,7 +123,7 @@ def test_the_angle_of_a_target_is_not_wrapped():
     assert VIA.as_transform().rotation.as_matrix()[0, 0] == pytest.approx(-1)
 
 
-def test_half_a_turn_has_a_direction_as_a_target_only():
+def test_direction_of_half_a_turn_exists_only_in_targets():
     """Errata S1-t: 0.01 degrees to either side of START turn the rotation the one or the other way
     to VIA.
     """
@@ -135,7 +135,7 @@ def test_half_a_turn_has_a_direction_as_a_target_only():
     assert middles == pytest.approx([-1, 1], abs=1e-6)
 
 
-def test_the_zone_inside_the_limits_has_the_area_of_the_errata():
+def test_zone_inside_the_limits_has_the_area_of_the_errata():
     step = 4.0  # mm
     x, y = np.meshgrid(*[np.arange(-460 + step / 2, 460, step)] * 2)
     ways = within(
@@ -155,7 +155,7 @@ def test_the_determinant_vanishes_with_the_sine_of_joint_2():
     np.testing.assert_allclose(determinant, 0.2 * 0.25 * np.sin(q[:, 1]), atol=1e-15)
 
 
-def test_at_full_reach_both_rows_exist_and_are_one():
+def test_both_rows_coincide_at_full_reach():
     q = np.zeros((3600, 4))
     q[:, 0] = np.arange(-1800, 1800) * 0.1 * deg
     rows = SCARA.ik(SCARA.fk(q))
@@ -168,7 +168,7 @@ def test_at_full_reach_both_rows_exist_and_are_one():
     assert "elbow singularity" in explain(SCARA, ScaraPose((0.45, 0, 0.1)), 0)
 
 
-def test_wrong_targets_are_refused():
+def test_invalid_targets_are_refused():
     with pytest.raises(ValueError, match=r"\(\.\.\., 3\)"):
         ScaraPose((1.0, 2.0), 0.0)
     with pytest.raises(ValueError, match="nan"):
@@ -185,7 +185,7 @@ def test_explain_names_the_stroke_in_millimetres():
     assert "40.0 mm too near to axis 1" in explain(SCARA, ScaraPose((0.01, 0, 0.1), 0.0), 1)
 
 
-def test_places_of_a_batch():
+def test_batches_of_poses():
     batch = ScaraPose(np.arange(18).reshape(2, 3, 3) / 10, np.arange(6).reshape(2, 3))
     assert batch.shape == (2, 3) and len(batch) == 2 and batch[1].shape == (3,)
     assert batch[1, 2].angle == 5 and batch[1, 2].position.tolist() == [1.5, 1.6, 1.7]
@@ -196,14 +196,14 @@ def test_places_of_a_batch():
     assert not hasattr(batch.angle, "nothing") and not batch.angle.flags.writeable
 
 
-def test_a_place_without_an_angle_has_the_angle_zero():
+def test_transform_without_rotation_has_angle_zero():
     assert ScaraPose((0.3, 0.1, 0.2)).angle == 0
     assert (ScaraPose(np.ones((4, 3))).angle == np.zeros(4)).all()
     rows = SCARA.ik(ScaraPose((0.3, 0.1, 0.1)))
     assert np.allclose(rows[:, :3].sum(-1), 0, rtol=0, atol=1e-15)
 
 
-def test_stretched_and_folded_are_told_by_joint_2_alone():
+def test_stretched_and_folded_depend_on_joint_2_only():
     for q, wanted in (
         ([0.3, 0.0, 0.4, 0.1], True),
         ([0.3, np.pi, 0.4, 0.1], True),

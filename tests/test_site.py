@@ -97,11 +97,11 @@ def parsed(site):
     }
 
 
-def test_there_is_a_page_for_everything_and_nothing_else(parsed):
+def test_site_has_exactly_the_expected_pages(parsed):
     assert sorted(parsed) == sorted(PAGES)
 
 
-def test_every_link_leads_somewhere(site, parsed):
+def test_all_links_resolve(site, parsed):
     wrong = []
     for name, page in parsed.items():
         here = site / f"{name}.html"
@@ -128,7 +128,7 @@ def test_nothing_is_loaded_from_elsewhere(site, parsed):
         assert not re.search(r"@import|url\(['\"]?(https?:)?//", style.read_text()), style
 
 
-def test_the_exercises_are_there_as_they_are_written(site):
+def test_exercises_appear_as_written(site):
     folder = NOTEBOOKS / "exercises"
     files = [p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts]
     copies = [p for p in (site / "exercises").rglob("*") if p.is_file()]
@@ -151,7 +151,7 @@ def test_a_notebook_is_on_its_page_and_can_be_downloaded(path, site, parsed):
     assert (site / f"{name}.ipynb").read_bytes() == path.read_bytes()
 
 
-def test_pictures_have_words_and_headings_an_order(parsed):
+def test_pictures_have_alt_text_and_headings_are_ordered(parsed):
     for name, page in parsed.items():
         assert page.nameless == [], name
         assert name == "search" or page.headings[0] == 1 and page.headings.count(1) == 1, name
@@ -160,7 +160,7 @@ def test_pictures_have_words_and_headings_an_order(parsed):
     assert sum(map(len, (page.headings for page in parsed.values()))) > 200
 
 
-def test_a_section_named_in_a_link_is_where_it_leads(parsed):
+def test_links_to_sections_lead_to_them(parsed):
     named = re.compile(r"\[[^]]*§(\d+)\]\(([\w./]*\.ipynb|#)\)")
     for name, path in zip(NAMES, PATHS, strict=True):
         sections = [section for section, _ in named.findall(path.read_text(encoding="utf-8"))]
@@ -255,7 +255,7 @@ def _too_wide(page):
 
 
 @pytest.mark.parametrize("lab", ["index", *LABS])
-def test_an_arm_is_dragged(page, address, lab):
+def test_arm_can_be_dragged(page, address, lab):
     page.set_viewport_size({"width": 1366, "height": 900})
     page.goto(f"{address}{lab}.html")
     awake(page)
@@ -281,7 +281,7 @@ def test_an_arm_is_dragged(page, address, lab):
     assert page.outside == [] and page.errors == []
 
 
-def test_the_theme_reaches_the_arms(page, address):
+def test_theme_applies_to_the_arms(page, address):
     page.goto(f"{address}index.html")
     awake(page)
     player = page.locator(PLAYER).first
@@ -305,7 +305,7 @@ def test_the_theme_reaches_the_arms(page, address):
     page.emulate_media(color_scheme="light")
 
 
-def test_search_finds(page, address):
+def test_search_finds_pages(page, address):
     page.goto(f"{address}search.html?q=singularity")
     results = page.locator("#search-results li")
     until(lambda: results.count() > 3, "nothing is found", page)
@@ -315,14 +315,14 @@ def test_search_finds(page, address):
     assert page.outside == [] and page.errors == []
 
 
-def test_it_opens_from_a_folder(page, site):
+def test_site_works_from_a_folder(page, site):
     page.goto((site / "index.html").as_uri())
     page.locator(f"{PLAYER}[data-ready] canvas").first.wait_for()
     assert page.outside == [] and page.errors == []
 
 
 @pytest.mark.parametrize("name", ["index", "00_start_here"])
-def test_who_cannot_see_it_can_use_it(page, address, name):
+def test_screen_reader_can_use_the_site(page, address, name):
     page.goto(f"{address}{name}.html")
     awake(page)
     found = {
@@ -363,7 +363,7 @@ def test_the_answers_of_the_oral_questions_are_folded(page, address):
     assert first.is_visible()
 
 
-def test_what_is_yours_stays(tmp_path):
+def test_foreign_files_are_kept(tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
     run = command(tmp_path)
     assert run.returncode == 1 and "nothing is overwritten" in run.stderr
@@ -390,7 +390,7 @@ def read(folder):
     }
 
 
-def test_a_newer_site_takes_the_place_of_an_older_one(tmp_path):
+def test_newer_site_replaces_an_older_one(tmp_path):
     older = laid(tmp_path / "older", index_html="1", labs__gone_html="1", labs__kept_html="1")
     newer = laid(tmp_path / "newer", index_html="2", labs__kept_html="2", new__new_html="2")
     folder = tmp_path / "site"
@@ -407,7 +407,7 @@ def test_a_newer_site_takes_the_place_of_an_older_one(tmp_path):
 
 
 @pytest.mark.parametrize("stop", range(8))
-def test_an_interrupted_site_is_made_whole_by_the_next(tmp_path, monkeypatch, stop):
+def test_next_build_completes_an_interrupted_site(tmp_path, monkeypatch, stop):
     older = laid(tmp_path / "older", index_html="1", gone_html="1")
     newer = laid(tmp_path / "newer", index_html="2", new_html="2", newest_html="2")
     folder = tmp_path / "site"
@@ -436,7 +436,7 @@ def test_an_interrupted_site_is_made_whole_by_the_next(tmp_path, monkeypatch, st
     assert read(folder) == read(newer)
 
 
-def test_no_file_outside_is_taken_away(tmp_path):
+def test_files_outside_the_site_are_not_removed(tmp_path):
     newer = laid(tmp_path / "newer", index_html="1")
     laid(tmp_path, precious_txt="mine")
     folder = laid(tmp_path / "site", index_html="0")
@@ -446,7 +446,7 @@ def test_no_file_outside_is_taken_away(tmp_path):
     assert (tmp_path / "precious.txt").read_text() == "mine"
 
 
-def test_what_is_missing_is_named(tmp_path, monkeypatch):
+def test_missing_parts_are_reported(tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(making, "find_spec", lambda name: None)
         with pytest.raises(ValueError, match=r"sphinx.*pip install '\.\[site\]'"):
@@ -467,7 +467,7 @@ def test_what_is_missing_is_named(tmp_path, monkeypatch):
             making._entry(lab)
 
 
-def test_formulas_and_links_that_cannot_be_read_are_named(tmp_path):
+def test_unreadable_formulas_and_links_are_reported(tmp_path):
     notebook = json.loads((NOTEBOOKS / "documents" / "glossary.ipynb").read_text(encoding="utf-8"))
     source, heading = tmp_path / "source", "3. How does one go back?"
     source.mkdir()

@@ -182,7 +182,7 @@ def test_wrist_singular_poses(machine, bend):
 
 
 @six
-def test_home_is_solved_in_all_its_rows(machine):
+def test_home_has_all_its_rows(machine):
     arm = machine.arm
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
@@ -211,7 +211,7 @@ def stretched(machine, count, rng, folded=False):
 
 @six
 @pytest.mark.parametrize("folded", [False, True])
-def test_stretched_and_folded_arms_are_reachable(machine, folded):
+def test_stretched_and_folded_postures_are_reachable(machine, folded):
     """A cosine beyond 1 by rounding alone is 1. The two elbow rows coincide, and both are there."""
     arm = machine.arm
     if arm is IRB140:
@@ -230,7 +230,7 @@ def test_stretched_and_folded_arms_are_reachable(machine, folded):
 
 
 @six
-def test_a_hair_beyond_the_stretched_arm_is_out_of_reach(machine):
+def test_pose_slightly_beyond_the_stretched_arm_is_out_of_reach(machine):
     """1e-9 of the reach outside is outside, 1e-9 inside is inside."""
     arm, w = machine.arm, machine.wrist
     q = stretched(machine, 200, np.random.default_rng(10), folded=arm is IRB140)
@@ -362,7 +362,7 @@ def test_equal_levers_folded_on_the_shoulder():
 
 
 @machines
-def test_the_zero_of_the_sign_is_a_number(machine):
+def test_sign_at_zero_gives_finite_rows(machine):
     """-0.0 and +0.0 in a pose are one place."""
     arm = machine.arm
     T = arm.fk(np.zeros(len(arm.links)))
@@ -450,7 +450,7 @@ X, Y, Z = np.eye(3)
         (changed(4, before=at(0, 0, 0)), "forearm"),
     ],
 )
-def test_a_chain_that_is_no_such_arm_is_refused_by_the_axis(links, message):
+def test_unsuitable_chains_are_refused_with_the_axis(links, message):
     with pytest.raises(ValueError, match=f"links: wanted.*{message}"):
         spherical_wrist("crooked", links, np.array([(-180, 180)] * len(links)) * deg)
 
@@ -481,7 +481,7 @@ def random_arm(rng):
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_any_such_chain_is_inverted(seed):
+def test_every_suitable_chain_is_inverted(seed):
     """Signs, offsets before and beside the arm, a bow in the forearm, a tilted wrist, any tool: all
     are data.
     """
@@ -503,7 +503,7 @@ def test_any_such_chain_is_inverted(seed):
     solved(arm, T, arm.ik(T))
 
 
-def test_a_dh_table_makes_the_same_arm():
+def test_dh_table_gives_the_same_arm():
     links = dh_links(
         a=[0, 0.1, 0, 0, 0, 0],
         alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
@@ -519,7 +519,7 @@ def _unit(v):
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
-def test_each_singularity_is_told_by_its_own_joints():
+def test_each_singularity_depends_on_its_own_joints():
     """Joint 5 alone for the wrist, joint 3 for the elbow, joints 2 and 3 for the shoulder."""
     stretched = -90 * deg  # of the IRB-140: the forearm straight up
     for q, wanted in (

@@ -96,7 +96,7 @@ def test_counts_and_joint_values_are_inverse():
     assert (abs(joint_values(counts(q, PER_DEGREE), PER_DEGREE) - q) <= half + 1e-12).all()
 
 
-def test_positions_are_counted_as_far_as_a_float_counts():
+def test_positions_beyond_exact_floats_are_refused():
     assert counts([4.0], [2**52 / (4 / deg)]).tolist() == [2**52]
     for q, per_degree in (([4.0], [2**53 / (4 / deg)]), ([1.0], [1e300]), ([-4.0], [1e17])):
         with pytest.raises(ValueError, match=r"q: wanted at most 2\*\*52 pulses"):
@@ -110,7 +110,7 @@ def test_positions_are_counted_as_far_as_a_float_counts():
         joint_values([1e300], 1e-300)
 
 
-def test_degrees_get_a_hint():
+def test_degrees_cause_a_hint():
     with pytest.warns(UserWarning, match="q: 120 rad .*degrees") as caught:
         assert counts([100.0, 110.0, 120.0], 1.0).shape == (3,)
     assert caught[0].filename == __file__
@@ -160,7 +160,7 @@ def test_frequencies_of_a_batch_and_of_nothing():
 
 
 @every_move
-def test_the_pulses_are_exactly_those_of_the_move(kind, move):
+def test_pulses_add_up_to_the_move(kind, move):
     wanted = move.positions[-1] - move.positions[0]
     for (times, signs), n in zip(move.pulses(), wanted, strict=True):
         assert signs.sum() == n and len(times) == len(signs)
@@ -179,7 +179,7 @@ def test_the_frequency_limit_is_kept(kind, move):
 
 
 @every_move
-def test_a_motor_lags_by_less_than_a_pulse(kind, move):
+def test_motors_lag_by_less_than_a_pulse(kind, move):
     for (times, signs), due in zip(move.pulses(), move.positions.T, strict=True):
         t = np.linspace(0, move.duration, 997)
         stands = (
@@ -218,7 +218,7 @@ def test_unsynchronised_motors_stop_one_by_one(start, goal):
 
 
 @pytest.mark.parametrize("points", [B, C])
-def test_the_straight_line_is_straight_and_the_others_are_not(points):
+def test_only_the_straight_move_is_straight(points):
     n = counts(station_postures(ARM, points), PER_DEGREE)
     b = straight(ARM, *points, PER_DEGREE)
     a, d = unsynchronised(*n), synchronised(*n)
@@ -266,7 +266,7 @@ def test_a_line_that_leaves_the_workspace_is_refused():
         straight(ARM, (1.2, 0, -1e-6), (1.2, 0.1, 0.5), PER_DEGREE)
 
 
-def test_no_motor_that_stands_makes_a_move_last():
+def test_idle_motors_do_not_prolong_a_move():
     for move in (synchronised([5, -4], [5, -4]), unsynchronised([5, -4], [5, -4])):
         assert move.duration == 0 and move.positions.tolist() == [[5, -4]]
         assert move.frequencies.shape == (0, 2) and move([0, 1]).tolist() == [[5, -4]] * 2
@@ -276,7 +276,7 @@ def test_no_motor_that_stands_makes_a_move_last():
 
 
 @pytest.mark.parametrize("limit", [100.0, 250, 1e6])
-def test_the_limit_is_the_callers(limit):
+def test_frequency_limit_can_be_set(limit):
     start, goal = np.array([3, 0, -2]), np.array([1003, -400, -2])
     assert synchronised(start, goal, limit).duration == pytest.approx(1000 / limit)
     each = unsynchronised(start, goal, limit)
@@ -288,7 +288,7 @@ def test_the_limit_is_the_callers(limit):
 # ---- a move is data
 
 
-def test_a_move_is_data():
+def test_moves_are_data():
     t, positions = np.array([0.0, 1, 3]), np.array([(0, 5), (2.5, 5), (4, 5)])
     move = Move(t, positions)
     assert move.duration == 3 and move.frequencies.tolist() == [[2.5, 0], [0.75, 0]]
@@ -327,12 +327,12 @@ def test_a_move_is_data():
         ([0, 1], None, "positions: wanted numbers"),
     ],
 )
-def test_a_move_that_cannot_be_is_refused(t, positions, complaint):
+def test_invalid_moves_are_refused(t, positions, complaint):
     with pytest.raises(ValueError, match=complaint):
         Move(t, positions)
 
 
-def test_pulses_without_end_are_refused():
+def test_too_many_pulses_are_refused():
     far = synchronised([0, 0], [10_000_000, 1])
     with pytest.raises(ValueError, match="at most 10000000 in 100000 .* got one of 10000001 in 1"):
         far.pulses()
@@ -343,7 +343,7 @@ def test_pulses_without_end_are_refused():
     assert len(Move(t[:-1], t[:-1, None]).pulses()[0][0]) == 100_000
 
 
-def test_wrong_calls_are_refused():
+def test_wrong_arguments_are_refused():
     table, nan = phases("wave", "bipolar"), np.nan
     for call, complaint in (
         (lambda: synchronised([0, 0], [1, 2, 3]), "one position for each motor"),
@@ -529,13 +529,13 @@ def test_steps_of_passive_rotors_are_the_documents():
 
 
 @pytest.mark.parametrize("motor, strong", [("unipolar", 4), ("bipolar", 2)])
-def test_two_of_the_documents_windings_hold_root_two_as_much(motor, strong):
+def test_two_windings_hold_sqrt_2_times_the_torque(motor, strong):
     one, two, half = (Stepper("active", motor, strong, d).holding_torque for d in DRIVES)
     assert two == pytest.approx(math.sqrt(2) * one) and half == one == Stepper().torque
 
 
 @every_motor
-def test_the_motor_holds_the_holding_torque_and_no_more(motor):
+def test_motor_holds_exactly_up_to_its_holding_torque(motor):
     below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
     assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
     # the load has drawn it back to where the sine is steepest
@@ -548,7 +548,7 @@ def test_the_motor_holds_the_holding_torque_and_no_more(motor):
 
 
 @every_motor
-def test_the_starting_torque_is_taken_from_row_to_row_and_no_more(motor):
+def test_motor_moves_exactly_up_to_its_starting_torque(motor):
     # So much time between the pulses that only torques count.
     slow = replace(motor, inertia=4e-4 * motor.periods, damping=4e-3 * motor.periods, rise=0.0)
     t, signs = even(len(motor.currents), 0.15)
@@ -582,7 +582,7 @@ RUNS = {
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_a_run_is_what_scipy_integrates(name):
+def test_run_equals_scipy_integration(name):
     motor, frequency, load, load_inertia = RUNS[name]
     t, signs = even(12, frequency)
     run = motor.run(t, signs, load, load_inertia)
@@ -621,7 +621,7 @@ def test_a_run_is_what_scipy_integrates(name):
 
 
 @every_motor
-def test_steps_are_lost_in_whole_rounds_of_the_table(motor):
+def test_steps_are_lost_in_multiples_of_the_table(motor):
     motor = replace(motor, rise=0.0)
     lost = [motor.run(*even(24, f), load_inertia=3e-5).lost for f in (60, 250, 480)]
     assert all(n % len(motor.currents) == 0 for n in lost) and any(lost)
@@ -630,7 +630,7 @@ def test_steps_are_lost_in_whole_rounds_of_the_table(motor):
     assert run.due[-1] - run.due[0] == pytest.approx(24 * motor.step)
 
 
-def test_what_the_motor_starts_at_it_starts_at():
+def test_start_frequency_is_the_limit_of_lossless_starts():
     for drive, inertia in ((DRIVES[0], 0.0), (DRIVES[2], 2e-6)):
         motor = Stepper(drive=drive)
         top = motor.start_frequency(load_inertia=inertia)
@@ -642,7 +642,7 @@ def test_what_the_motor_starts_at_it_starts_at():
     assert sorted(tops, reverse=True) == tops and len(set(tops)) == 2
 
 
-def test_four_times_the_inertia_is_half_the_tempo():
+def test_four_times_the_inertia_halves_the_oscillation():
     # the same equation in another time, so the same angles
     heavy = replace(STARTS, damping=2 * STARTS.damping, rise=2 * STARTS.rise)
     for frequency in (100, 180):
@@ -654,7 +654,7 @@ def test_four_times_the_inertia_is_half_the_tempo():
     assert one in [one] and one != replace(one)  # arrays in a `==` would have two answers
 
 
-def test_the_other_way_is_the_mirror_image():
+def test_reverse_run_is_the_mirror_image():
     for motor in MOTORS[::5]:
         t, signs = even(20, 230)
         there, back = motor.run(t, signs), motor.run(t, -signs)
@@ -677,7 +677,7 @@ def test_a_rotor_is_refused_where_load_or_torque_turn_it_too_fast(sign):
         Stepper(torque=1.001 * FASTEST, **strong).run([1e-9], [1], load=sign)
 
 
-def test_a_ramp_makes_a_frequency_that_a_start_does_not():
+def test_ramp_reaches_frequencies_above_the_start_frequency():
     motor = Stepper(drive="two-phase")
     assert motor.run(*even(48, 200), load_inertia=1e-6).lost == 48
     assert motor.run(ramp(48, 40, 200, 0.15), np.ones(48), load_inertia=1e-6).lost == 0
@@ -706,7 +706,7 @@ def test_a_ramp_has_as_many_pulses_as_its_frequencies_add_up_to(asked):
     assert 1 / end - 1e-12 <= gaps.min() and gaps.max() <= 1 / start + 1e-12
 
 
-def test_an_even_ramp_is_an_even_move():
+def test_constant_ramp_equals_a_constant_move():
     times, signs = synchronised([0], [37], 250).pulses()[0]
     assert ramp(37, 250, 250, 1.0) == pytest.approx(times) and signs.sum() == 37
     for no_time in (0.0, 1e-9, 5e-324):

@@ -84,7 +84,7 @@ def words(name, choice):
     return f"{choice}) {asked.options['abcd'.index(choice)].text}".replace("`", "")
 
 
-def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):
+def test_table_lists_handed_in_work(handed, tmp_path, capsys):
     folder, drawn = handed
     assert main(["summary", str(folder), "--to", str(tmp_path)]) == 1
     said = capsys.readouterr()
@@ -127,7 +127,7 @@ def test_the_table_says_what_was_handed_in(handed, tmp_path, capsys):
     assert seen == set(drawn)
 
 
-def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
+def test_mistakes_confusions_and_results_are_counted(handed, tmp_path):
     folder, drawn = handed
     made = summary.summary(folder)
     wrong, guessed, held = defaultdict(list), defaultdict(list), Counter()
@@ -176,7 +176,7 @@ def test_mistakes_confusions_and_what_holds_are_counted(handed, tmp_path):
     assert not re.search(rf"({'|'.join(SLUGS)})\.p?\d", page), "an id instead of a title"
 
 
-def test_each_row_leads_to_a_page_of_its_own(handed, tmp_path):
+def test_each_row_links_to_its_own_page(handed, tmp_path):
     folder, drawn = handed
     made = summary.summary(folder)
     for points in (True, False):
@@ -204,7 +204,7 @@ def test_each_row_leads_to_a_page_of_its_own(handed, tmp_path):
         assert any("points" in head for head in table_in(tmp_path)[0]) == points
 
 
-def test_a_number_has_its_unit_and_what_is_optional_is_not_missing(tmp_path):
+def test_numbers_have_units_and_optional_predictions_may_be_missing(tmp_path):
     slug = "irb140_motion"
     data = report_of("Ada", slug)
     asked = book.lab(slug).predictions
@@ -226,7 +226,7 @@ def test_a_number_has_its_unit_and_what_is_optional_is_not_missing(tmp_path):
     assert entry.guessed == f"{made - 1} right of {made} made ({made} asked)"
 
 
-def test_points_can_be_left_out_and_guesses_that_did_not_come_are_told(tmp_path):
+def test_points_can_be_hidden_and_missing_guesses_are_reported(tmp_path):
     put(tmp_path / "a.html", report_of("Ada", guesses_came=False))
     old = report_of("Grace") | {"report": 1}
     del old["guesses_came"]
@@ -243,7 +243,7 @@ def test_points_can_be_left_out_and_guesses_that_did_not_come_are_told(tmp_path)
     assert cells[1][-2].startswith("1 right of 1 made")
 
 
-def test_nothing_of_yours_is_overwritten(handed, tmp_path):
+def test_foreign_files_are_not_overwritten(handed, tmp_path):
     folder, _ = handed
     made = summary.Summary()
     table, page = summary_pages.write(made, tmp_path)
@@ -265,7 +265,7 @@ def test_nothing_of_yours_is_overwritten(handed, tmp_path):
         summary_pages.write(made, tmp_path / "none")
 
 
-def test_students_pages_leave_what_is_not_theirs(tmp_path, capsys):
+def test_student_pages_keep_foreign_files(tmp_path, capsys):
     """The folder with what was handed in is the one that is written into, as in README."""
     for who in ("Ada B", "ada_b", "Zoë"):
         put(tmp_path / f"{who}.html", report_of(who))
@@ -293,7 +293,7 @@ def test_students_pages_leave_what_is_not_theirs(tmp_path, capsys):
     assert os.listdir(elsewhere) == ["summary_pages"]
 
 
-def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
+def test_notebooks_are_judged_again_and_the_newest_counts(tmp_path):
     ada, bob = tmp_path / "Ada", tmp_path / "bob_17"
     old = notebook(ada / "03_irb140_motion Ada.ipynb", 'check("irb140_motion.1", ...)')
     new = notebook(ada / "irb140_motion.ipynb", 'check("irb140_motion.2", ...)')
@@ -323,7 +323,7 @@ def test_notebooks_are_judged_anew_and_the_newest_counts(tmp_path):
     assert second.data["predictions"][0]["choice"] == "b"
 
 
-def test_one_table_has_all_students_and_labs(tmp_path):
+def test_table_has_all_students_and_labs(tmp_path):
     held = {"Zoë": {SLUGS[0]: 2, SLUGS[2]: 0}, "ada": {SLUGS[2]: 3}, "Bob": {SLUGS[0]: 1}}
     for who, labs in held.items():
         for slug, count in labs.items():
@@ -391,7 +391,7 @@ def stub(wait=lambda name: None):
     return judge
 
 
-def test_notebooks_are_judged_side_by_side_and_in_any_order(tmp_path, monkeypatch):
+def test_notebooks_are_judged_in_parallel_in_any_order(tmp_path, monkeypatch):
     for who in "abcdef":
         notebook(tmp_path / who / f"{SLUG}.ipynb", f'check("{SLUG}.1", ...)')
     monkeypatch.setattr(summary, "side_by_side", lambda memory: 2)
@@ -422,14 +422,14 @@ def test_notebooks_are_judged_side_by_side_and_in_any_order(tmp_path, monkeypatc
 @pytest.mark.parametrize(
     ("cores", "free", "wanted"), [(8, 33, 8), (8, 9, 2), (2, 33, 2), (8, 1, 1), (1, 33, 1)]
 )
-def test_how_many_side_by_side(cores, free, wanted, monkeypatch):
+def test_number_of_parallel_notebooks(cores, free, wanted, monkeypatch):
     memory = type("Memory", (), {"available": free * 2**30})
     monkeypatch.setattr(summary.psutil, "virtual_memory", lambda: memory)
     monkeypatch.setattr(os, "sched_getaffinity", lambda of: range(cores), raising=False)
     assert summary.side_by_side(4 * 2**30) == wanted
 
 
-def test_where_the_newest_cannot_be_judged_the_older_one_counts(tmp_path, monkeypatch):
+def test_older_notebook_counts_if_the_newest_cannot_be_judged(tmp_path, monkeypatch):
     def wait(name):
         if name != "old":
             raise {"dies": MemoryError, "turns": RecursionError}.get(name, KeyError)(name)
@@ -448,7 +448,7 @@ def test_where_the_newest_cannot_be_judged_the_older_one_counts(tmp_path, monkey
     assert all(left.wrong and left.who == "Ada" for left in made.left_out)
 
 
-def test_a_terminal_counts_on_one_line(tmp_path, monkeypatch, capsys):
+def test_terminal_shows_progress_on_one_line(tmp_path, monkeypatch, capsys):
     for who in ("a", "b\x1b[2J", "c"):
         notebook(tmp_path / "in" / who / f"{SLUG}.ipynb", f'check("{SLUG}.1", ...)')
     monkeypatch.setattr(summary, "judge_notebook", stub())
@@ -484,6 +484,6 @@ def test_a_terminal_counts_on_one_line(tmp_path, monkeypatch, capsys):
         (f"{'x' * 250}/x.ipynb", "x" * 200),
     ],
 )
-def test_whose_a_notebook_is(path, who):
+def test_student_of_a_notebook(path, who):
     made = summary.who_of(Path(path))
     assert made == who and normalised(made)

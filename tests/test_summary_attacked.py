@@ -122,7 +122,7 @@ def attacked(folder, values):
         put(folder / str(k) / f"_{name.decode(errors='ignore')}.html", data)
 
 
-def test_no_words_of_a_student_run(browser, server, tmp_path):
+def test_student_text_never_runs(browser, server, tmp_path):
     address, asked = server
     values = {
         value.replace("SERVER", address): (shown or value).replace("SERVER", address)
@@ -188,7 +188,7 @@ def cells(view, table):
 
 
 @pytest.mark.parametrize("comma", [",", ";", "\t", "|"])
-def test_no_cell_is_a_formula_wherever_cells_are_split(comma, tmp_path):
+def test_no_spreadsheet_cell_is_a_formula(comma, tmp_path):
     more = ('"=1', "'=1", " =1", "\t=1", "\n=1", "a;=1", "a,+1", "a\t-1", "a\n@x", 'a"=1', "\r=1")
     values = [*HOSTILE, *more, "=", "-", "- 1", "\u00a0=1", "|=1", "x; =1"]
     attacked(tmp_path, values)
@@ -269,7 +269,7 @@ LONE = "J\udcfcrgen.html"  # as bytes: no UTF-8
 
 
 @pytest.mark.skipif(os.name == "nt", reason="names of bytes, links and pipes are Unix's")
-def test_whatever_is_wrong_with_a_file_the_others_are_done(tmp_path, monkeypatch, capsys):
+def test_bad_file_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(summary, "LARGE", 500_000)
     names = [f"Student {k}" for k in range(27)] + ["half \ud83d", "a\nb", "Юрий"]
     for k, name in enumerate(names):
@@ -316,7 +316,7 @@ def test_whatever_is_wrong_with_a_file_the_others_are_done(tmp_path, monkeypatch
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads all")
-def test_a_folder_that_cannot_be_read_is_named(tmp_path):
+def test_unreadable_folder_is_reported(tmp_path):
     put(tmp_path / "closed" / "x.html", report_of("Ada"))
     (tmp_path / "closed").chmod(0)
     made = summary.summary(tmp_path)

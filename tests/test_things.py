@@ -45,7 +45,7 @@ def test_scenes_have_the_numbers_of_the_earlier_edition(name):
     assert NOW[name] == today(EARLIER[name])
 
 
-def test_things_of_one_argument_are_those_of_the_others():
+def test_things_argument_equals_the_other_arguments():
     goal, belt = IRB140.fk(TURNED[-1]), [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
     apart = animate(
         IRB140,
@@ -62,7 +62,7 @@ def test_things_of_one_argument_are_those_of_the_others():
     assert together.data["scene"] == apart.data["scene"]
 
 
-def test_what_came_in_may_change_afterwards():
+def test_arguments_may_change_afterwards():
     at, belt = np.array([1.0, 0, 0]), np.eye(3)
     mark, faces = Mark(at, "p"), Faces([belt])
     at[:], belt[:] = 7, 7
@@ -74,7 +74,7 @@ def test_what_came_in_may_change_afterwards():
         mark.name = "q"
 
 
-def test_a_reading_that_does_not_exist_leaves_the_name():
+def test_nan_reading_shows_only_the_name():
     gone = np.where(T > 1, np.nan, T)
     still = animate(IRB140, T, TURNED, points={"p": (1, 0, 0)}, readings={"p": gone}).still
     assert "p" in [text.get_text() for text in still.findobj(Text)]
@@ -111,7 +111,7 @@ def test_a_reading_that_does_not_exist_leaves_the_name():
         ),
     ],
 )
-def test_wrong_things_are_refused(make, error, message):
+def test_invalid_things_are_refused(make, error, message):
     with pytest.raises(error, match=message):
         make()
 
@@ -203,7 +203,7 @@ RED = """() => {
 }"""
 
 
-def test_a_kind_is_two_files_and_an_entry_in_the_list(tmp_path, browser):
+def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     """By the recipe of CONTRIBUTING, in a copy: types, formatting, still, film and page."""
     for name in ("robokin", "tests"):
         ignore = shutil.ignore_patterns("__pycache__", "*.ipynb", "benchmarks", "course")

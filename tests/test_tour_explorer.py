@@ -34,7 +34,7 @@ def some(rng, count):
 
 
 @pytest.mark.parametrize("kind", ["visit", "collect"])
-def test_random_tasks_are_answered_whatever_is_out_of_reach(kind):
+def test_random_tasks_with_unreachable_points_are_answered(kind):
     rng, tours, away, lost = np.random.default_rng(15), 0, 0, 0
     for _ in range(150):
         l1, l2, T = rng.uniform([0.5, 0.5, 0], [9, 9, 60])
@@ -72,7 +72,7 @@ def test_random_tasks_are_answered_whatever_is_out_of_reach(kind):
     assert (lost > 3) == (kind == "visit"), "cheapest first is the best, nearest first is not"
 
 
-def test_tours_are_those_of_the_package_with_the_points_numbered_as_the_hand_has_them():
+def test_tours_equal_those_of_the_package_with_the_reader_numbers():
     points = [[2, 3, 2], [20, 0, 0], [1, 3, 3], [-4, 1, 3], [0, 5, -1], [4, -3, 1]]
     question, kept = asked(points=points, T=40), [0, 2, 3, 5]
     for kind, rules in {"visit": (visit, best_visit), "collect": (collect, collect)}.items():
@@ -84,7 +84,7 @@ def test_tours_are_those_of_the_package_with_the_points_numbered_as_the_hand_has
             assert told[name]["times"] == list(result.times)
 
 
-def test_more_than_ten_points_wait_for_the_best_order_until_the_hand_lets_go():
+def test_best_order_of_many_points_waits_for_release():
     rng = np.random.default_rng(4)
     cloud = some(rng, 60)
     cloud = cloud[workspace(5, 4, cloud).all(axis=-1)][: WHILE_HELD + 1].tolist()
@@ -94,7 +94,7 @@ def test_more_than_ten_points_wait_for_the_best_order_until_the_hand_lets_go():
         assert ("let go" in told["says"]) == (told["best"] is None)
 
 
-def test_what_greed_loses_is_said():
+def test_loss_of_the_greedy_tour_is_reported():
     # errata S0-q: the lure costs two points
     said = answered(asked(), SPEEDS)["says"]
     assert said == "Greed loses 2 points: nearest first visits 1 of 4, the best order 3."
@@ -111,7 +111,7 @@ def test_a_start_on_axis_1_has_no_best_way_to_collect():
     assert answered(asked(p0=[0, 0, 6.5], T=60), SPEEDS)["best"]["order"]
 
 
-def test_a_tour_under_the_floor_is_named_with_its_depth():
+def test_tour_below_the_floor_is_reported_with_its_depth():
     # errata S0-u
     low = asked(p0=[6, 0, 1], points=[[1.05, 0, 0.1]], T=60)
     wanted = "Between p0 and point 0 the tool dips under the floor, down to −1.02 m."
@@ -120,7 +120,7 @@ def test_a_tour_under_the_floor_is_named_with_its_depth():
     assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], "never for l1 <= l2"
 
 
-def test_what_is_stored_is_small_and_says_what_is_seen():
+def test_stored_output_is_small_with_alt_text():
     explorer = tour_explorer(CIRCLE)
     assert len(explorer.html) < 57_000
     assert "Greed loses 2 points" in explorer.data["alt"] and explorer.data["alt"] in explorer.html
@@ -137,7 +137,7 @@ def test_what_is_stored_is_small_and_says_what_is_seen():
     ],
     ids=["no time", "p0 on axis 1", "a short link", "millimetres"],
 )
-def test_it_opens_with_any_task(task):
+def test_explorer_opens_with_any_task(task):
     explorer = tour_explorer(task)
     low, high = ([spec[key] for spec in explorer.data["controls"]] for key in ("low", "high"))
     size = explorer.data["unit"]["size"]
@@ -184,7 +184,7 @@ def handle(page, name):
     return page.locator(f"[data-handle='{name}']")
 
 
-def test_asleep_in_a_file_the_clock_runs_and_the_rest_does_not(browser, tmp_path):
+def test_in_a_file_only_the_clock_works(browser, tmp_path):
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser, 390)
     page.goto(f"file://{tmp_path}/tour.html")
@@ -219,7 +219,7 @@ def test_asleep_in_a_file_the_clock_runs_and_the_rest_does_not(browser, tmp_path
     page.close()
 
 
-def test_beside_a_kernel_it_shows_what_python_says_of_what_it_shows(browser, jupyter):
+def test_view_with_a_kernel_agrees_with_python(browser, jupyter):
     code = f"""
 import numpy as np
 from robokin.jobs.visit_collect import Task
@@ -291,7 +291,7 @@ def typed(page, label, value):
     box.press("Enter")
 
 
-def test_an_answer_that_comes_late_takes_nothing_back(slow):
+def test_late_answer_does_not_undo_changes(slow):
     page, _, asked, answer = slow
     typed(page, "T, s, exactly", "29")
     typed(page, "L1, m, exactly", "4.5")
@@ -311,7 +311,7 @@ def test_an_answer_that_comes_late_takes_nothing_back(slow):
 
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
-def test_what_was_asked_before_a_kernel_came_is_asked_again(slow, between):
+def test_questions_before_a_kernel_are_repeated(slow, between):
     """Else the tours are those of other points than the ones shown, until the hand moves on."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")

@@ -19,7 +19,7 @@ def random(shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_composes_inverts_and_acts_as_matrices_do(shape):
+def test_composition_inverse_and_action_equal_matrices(shape):
     a, b, points = random(shape), random(shape), RNG.normal(size=(*shape, 3))
     m, n = a.as_matrix(), b.as_matrix()
     assert (a @ b).shape == a.inverse().shape == shape
@@ -30,7 +30,7 @@ def test_composes_inverts_and_acts_as_matrices_do(shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_matrices_go_there_and_back(shape):
+def test_matrices_round_trip(shape):
     rotation = (
         Rotation.random(int(np.prod(shape)), random_state=3).as_matrix().reshape(*shape, 3, 3)
     )
@@ -41,7 +41,7 @@ def test_matrices_go_there_and_back(shape):
     assert np.allclose(back.as_matrix(), m, rtol=0, atol=1e-15)
 
 
-def test_first_turns_and_then_shifts():
+def test_rotation_is_applied_before_translation():
     T = Transform(Quaternion.from_angle_axis(90 * deg, (0, 0, 1)), (100 * mm, 0, 0))
     assert np.allclose(T @ (50 * mm, 0, 0), (0.1, 0.05, 0), rtol=0, atol=1e-17)
 
@@ -66,7 +66,7 @@ def test_a_batch_of_poses_composes_with_one():
         )
 
 
-def test_parts_are_broadcast_together():
+def test_rotation_and_translation_are_broadcast():
     T = Transform(random((3, 1)).rotation, RNG.normal(size=(4, 3)))
     assert T.shape == (3, 4) and T.rotation.shape == (3, 4) and T.translation.shape == (3, 4, 3)
     assert T[0, 0].shape == () and T[..., 1].rotation.shape == (3,)
@@ -75,7 +75,7 @@ def test_parts_are_broadcast_together():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_lerp_is_a_straight_line_and_a_slerp(shape):
+def test_lerp_is_linear_with_slerp(shape):
     a, b, s = random(shape), random(shape), np.linspace(0, 1, 11)
     T = a[..., None].lerp(b[..., None], s)
     assert T.shape == (*shape, 11)
@@ -88,19 +88,19 @@ def test_lerp_is_a_straight_line_and_a_slerp(shape):
         assert np.allclose(a.lerp(b, s_end).as_matrix(), end.as_matrix(), rtol=0, atol=1e-15)
 
 
-def test_len_and_iteration_are_of_the_batch():
+def test_len_and_iteration_use_the_batch():
     T = random((3, 2))
     assert len(T) == 3 and [t.shape for t in T] == [(2,)] * 3
 
 
-def test_keeps_its_numbers_when_the_callers_array_changes():
+def test_numbers_are_copied_from_the_caller():
     translation = np.array([1.0, 2, 3])
     T = Transform(translation=translation)
     translation[:] = 7
     assert T.translation.tolist() == [1, 2, 3]
 
 
-def test_wrong_partners_are_type_errors():
+def test_invalid_operands_raise_type_error():
     for left, right in (
         (np.eye(4), Transform()),
         (Transform(), Quaternion.identity()),
@@ -110,7 +110,7 @@ def test_wrong_partners_are_type_errors():
             left @ right
 
 
-def test_repr_has_no_minus_zero():
+def test_repr_has_no_negative_zero():
     text = repr(Transform(translation=(-0.0, -1e-9, 1)))
     assert "-0" not in text and "1." in text
 
@@ -124,7 +124,7 @@ def test_a_matrix_may_be_a_list():
     assert batch.shape == (2,) and batch[1].translation.tolist() == [0, 0, 0]
 
 
-def test_a_last_row_that_is_off_either_way_is_refused():
+def test_wrong_last_row_is_refused():
     for column in range(4):
         for off in (1e-6, -1e-6):
             m = np.eye(4)

@@ -32,7 +32,7 @@ def postures(arm, shape, seed=1):
 
 @arms
 @pytest.mark.parametrize("shape", SHAPES)
-def test_the_chain_is_a_turned_plane(arm, shape):
+def test_chain_is_the_rotated_planar_arm(arm, shape):
     q = postures(arm, shape)
     np.testing.assert_allclose(arm.fk(q).translation, tip(arm, q), rtol=0, atol=1e-14)
     turn = np.append(q[..., :1], np.zeros((*shape, 3)), axis=-1)
@@ -43,7 +43,7 @@ def test_the_chain_is_a_turned_plane(arm, shape):
 
 @arms
 @pytest.mark.parametrize("shape", SHAPES)
-def test_least_lands_on_the_point_within_the_limits(arm, shape):
+def test_least_reaches_the_point_within_the_limits(arm, shape):
     points, before = tip(arm, postures(arm, shape)), postures(arm, shape, seed=2)
     q, S = arm.least(points, before)
     assert q.shape == (*shape, 4) and S.shape == shape
@@ -54,7 +54,7 @@ def test_least_lands_on_the_point_within_the_limits(arm, shape):
 
 
 @arms
-def test_no_turn_and_no_alpha_moves_less(arm):
+def test_no_other_posture_moves_less(arm):
     """By brute force over both turns and 2001 alphas; and each turn is the better one sometimes."""
     points, before = tip(arm, postures(arm, (300,))), postures(arm, (300,), seed=2)
     plane = arm.geometry.plane
@@ -77,7 +77,7 @@ def test_no_turn_and_no_alpha_moves_less(arm):
     assert np.isfinite(sums).sum(axis=0).max() == 2
 
 
-def test_on_the_axis_the_base_stays():
+def test_base_does_not_turn_for_points_on_the_axis():
     arm, before = ARMS["unequal"], np.array([1.1, 1.0, 2.0, 2.0])
     q, _ = arm.least((0, 0, 1.7), before)
     assert q[0] == 1.1
@@ -87,7 +87,7 @@ def test_on_the_axis_the_base_stays():
     assert np.isnan(arm.least((0, 0, 2.7), before)[0]).all()
 
 
-def test_it_is_drawn_and_asked_rightly():
+def test_turning_arm_is_drawn_and_explored():
     arm = ARMS["equal"]
     assert "on a turning base" in joint_explorer(arm, [0.5, 1.0, 2.0, 2.0]).data["title"]
     with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):

@@ -864,7 +864,7 @@ LEVERS = three_lever(0.3), three_lever((0.27, 0.33, 0.18))
 
 
 @pytest.mark.parametrize("arm", [*ARMS.values(), *LEVERS], ids=lambda arm: arm.name)
-def test_data_is_whole(arm):
+def test_data_have_full_precision(arm):
     """JSON holds it, and every number comes back to the last bit."""
     data = arm_data(arm)
     assert json.loads(json.dumps(data, allow_nan=False)) == json.loads(json.dumps(data))

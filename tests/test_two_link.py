@@ -30,7 +30,7 @@ def elbows(arm, rows):
 
 
 @cases
-def test_every_reference_case(case):
+def test_reference_cases(case):
     arm = two_link(case["l1"], case["l2"], case["base"])
     rows = arm.ik(case["target"])
     if not case["reachable"]:
@@ -53,7 +53,7 @@ def test_every_reference_case(case):
 @lengths
 @pytest.mark.parametrize("base", [(0, 0), (-3.2, 0.7)])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_ik_returns_the_drawn_joints(l1, l2, base, shape):
+def test_ik_contains_the_original_joints(l1, l2, base, shape):
     arm = two_link(l1, l2, base)
     q = np.random.default_rng(3).uniform(-np.pi, np.pi, (*shape, 2))
     q[..., 1] = np.where(abs(q[..., 1]) < 0.1, 1.0, q[..., 1])
@@ -74,7 +74,7 @@ def test_ik_returns_the_drawn_joints(l1, l2, base, shape):
 
 
 @pytest.mark.parametrize("x3", [0.0, -0.0, 1e-300, -1e-300, 5e-324, 1e-9, -1e-9])
-def test_nothing_happens_where_the_document_divides_by_x3(x3):
+def test_x3_equal_to_zero_is_harmless(x3):
     arm, near = two_link(1, 1), two_link(1, 1).ik((1e-7, 0.3))
     rows = arm.ik((x3, 0.3))
     assert abs(rows - near).max() < 1e-6
@@ -115,7 +115,7 @@ def test_stretched_folded_and_out_of_reach(l1, l2):
     assert np.isnan(arm.ik((x, y, 1e-3))).all() and np.isfinite(arm.ik((x, y, 0))).all()
 
 
-def test_the_reasons_in_words():
+def test_reasons_in_words():
     arm = two_link(1, 1.5)
     assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(
         arm, (3, 0), 0
@@ -135,7 +135,7 @@ def test_follow_goes_through_the_base_with_one_elbow():
     assert abs(np.diff(q, axis=0)).max() < 0.03
 
 
-def test_wrong_calls_are_refused():
+def test_wrong_arguments_are_refused():
     for call, complaint in (
         (lambda: two_link(0, 1), "l1: wanted one positive length"),
         (lambda: two_link(1, -2), "l2: wanted one positive length"),

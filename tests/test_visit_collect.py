@@ -195,7 +195,7 @@ def cheapest_next(task, short_way=False):
 # ---- The document's examples
 
 
-def test_example_1_is_refused_with_its_numbers():
+def test_example_1_is_refused_with_numbered_faults():
     with pytest.raises(TaskError) as caught:
         read_task(TASKS / "example_1.json")
     assert caught.value.faults == (
@@ -235,7 +235,7 @@ def test_example_3_visits_both():
         np.testing.assert_allclose(got, [float(x) for x in q], rtol=0, atol=5e-15)
 
 
-def test_the_examples_are_the_documents():
+def test_examples_equal_those_of_the_document():
     texts = [json.loads((TASKS / f"example_{i}.json").read_text()) for i in (1, 2, 3)]
     assert all(tuple(sorted(text)) == tuple(sorted(KEYS)) for text in texts)
     assert texts[2] == GOOD and texts[1] == GOOD | {"task": "collect"}
@@ -282,7 +282,7 @@ def test_reference_task(case):
 
 
 @cases
-def test_results_hold_together(case):
+def test_results_are_consistent(case):
     task = of_case(case)
     legs = np.array(case["distance"])
     for result in (visit(task), best_visit(task)):
@@ -298,7 +298,7 @@ def test_results_hold_together(case):
 
 
 @pytest.mark.parametrize("k", [1e-5, 1, 1e5])
-def test_rounding_is_a_share_of_the_reach(k):
+def test_tolerance_scales_with_the_reach(k):
     """Errata S0-l: what is past a border by less than 1e-12 of the reach is on it, at any size."""
     behind = np.sqrt(25 - 16)  # where the inner border for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (
@@ -346,7 +346,7 @@ def test_the_slowest_joint_decides():
     assert travel_time((0, 0, 0), (0.1, -0.4, 0.3), (0.1, 2, 0.5)) == pytest.approx(1.0)
 
 
-def test_joint_1_may_take_the_short_way_round():
+def test_joint_1_may_take_the_shorter_turn():
     """Errata S0-o."""
     task = make(p0=(-2, 0.01, 2), points=[(-2, -0.01, 2)], T=100)
     assert visit(task).time == pytest.approx(31.365926952558, abs=1e-11)
@@ -359,7 +359,7 @@ def test_joint_1_may_take_the_short_way_round():
 
 @pytest.mark.parametrize("x", [0.0, -0.0, 1e-17])
 @pytest.mark.parametrize("y", [0.0, -0.0, -1e-17])
-def test_a_point_on_the_axis_costs_no_turn(x, y):
+def test_point_on_the_axis_needs_no_turn(x, y):
     """Errata S0-p: 15.7 s as printed."""
     there = make(p0=(-2, 0, 4), points=[(x, y, 4.9)], T=100)
     back = make(p0=(x, y, 4.9), points=[(-2, 0, 4)], T=100)
@@ -371,7 +371,7 @@ def test_a_point_on_the_axis_costs_no_turn(x, y):
     assert printed == pytest.approx(15.7079632679, abs=1e-10)
 
 
-def test_minus_zero_is_zero():
+def test_negative_zero_equals_zero():
     plus, minus = (
         make(p0=(-2, 0.0, 2), points=[(-1, 0.0, 3)]),
         make(p0=(-2, -0.0, 2), points=[(-1, -0.0, 3)]),
@@ -383,7 +383,7 @@ def test_minus_zero_is_zero():
     assert visit(mixed).times == (0.0,)
 
 
-def test_nothing_is_lost_near_the_origin():
+def test_precision_is_kept_near_the_origin():
     """Equal links, nearly folded: the law of cosines would lose half of the digits."""
     for d in 10.0 ** -np.arange(1, 12):
         point = d * np.array([0.48, -0.64, 0.6])
@@ -412,7 +412,7 @@ def test_folded_onto_the_origin_two_joints_are_free():
 # ---- Points on axis 1
 
 
-def test_no_turn_is_lost_on_the_axis():
+def test_turns_are_kept_on_the_axis():
     """The way over a point on the axis takes the turn of the direct way, 15.71 s: a first edition
     took 5.84 s, with joint 1 at 0.538 rad/s.
     """
@@ -429,7 +429,7 @@ def test_no_turn_is_lost_on_the_axis():
     assert visit(make(**vars_of(task), T=15)).order == (0,)
 
 
-def test_a_container_on_the_axis():
+def test_container_on_the_axis():
     """A first edition collected these four in 23.36 s, with joint 1 at 1.07 rad/s."""
     task = make(
         p0=(0, 0, 6.5), points=[(2, 0, 4), (0, 2, 4), (-2, 0, 4), (0, -2, 4)], T=100, kind="collect"
@@ -479,7 +479,7 @@ AXIS = list(on_the_axis())
 @pytest.mark.parametrize("short_way", [False, True])
 @pytest.mark.parametrize("kind", ["visit", "collect"])
 @pytest.mark.parametrize("number", range(len(AXIS)))
-def test_free_joints_keep_what_they_have(number, kind, short_way):
+def test_free_joints_keep_their_values(number, kind, short_way):
     task = make(**vars_of(AXIS[number]) | {"kind": kind}, T=AXIS[number].T)
     wanted = cheapest_next(task, short_way)
     method = collect if kind == "collect" else visit
@@ -530,7 +530,7 @@ def test_a_start_on_the_axis_takes_the_angle_of_the_first_target_off_it():
 # ---- Above the floor (errata S0-u)
 
 
-def test_a_move_under_the_floor_is_named():
+def test_moves_below_the_floor_are_reported():
     task = make(p0=(6, 0, 1), points=[(1.05, 0, 0.1)], T=100)
     assert lowest(5, 4, *task.q) == pytest.approx(-1.016, abs=5e-4)
     text = report(task, visit(task))
@@ -579,7 +579,7 @@ def test_above_floor_refuses_such_moves():
 
 
 @pytest.mark.parametrize("k", [1e-3, 1, 1e3])
-def test_a_dip_of_a_billionth_of_the_reach_is_rounding(k):
+def test_tiny_dips_below_the_floor_count_as_rounding(k):
     """From a point on the floor to one beside it the tool dips as the square of their distance."""
 
     def beside(distance):
@@ -614,7 +614,7 @@ def dense(task, start, end, count=801):
 
 
 @pytest.mark.parametrize("l1, l2", [(5, 4), (5, 1), (1, 0.99), (0.3, 0.2), (4, 4), (4, 5), (1, 9)])
-def test_the_lowest_place_is_that_of_a_dense_sample(l1, l2):
+def test_lowest_equals_a_dense_sample(l1, l2):
     rng = np.random.default_rng(3)
     task = drawn(rng, 1500, l1=l1, l2=l2)
     start, end = task.q[:-1], task.q[1:]
@@ -632,7 +632,7 @@ def test_the_lowest_place_is_that_of_a_dense_sample(l1, l2):
 
 
 @pytest.mark.parametrize("l1, l2", [(5, 4), (4, 5), (9, 1)])
-def test_the_lowest_place_of_any_move(l1, l2):
+def test_lowest_of_any_move(l1, l2):
     """Between postures anywhere inside the limits, where the lowest place is often on the way."""
     start, end = np.random.default_rng(6).uniform(-np.pi / 2, np.pi / 2, (2, 2000, 3))
     task = make(l1=l1, l2=l2, p0=(0, 8.5, 1), points=[(0, 8.5, 1)])
@@ -643,14 +643,14 @@ def test_the_lowest_place_of_any_move(l1, l2):
 
 
 @pytest.mark.parametrize("l1, l2", [(5, 4), (4, 5)])
-def test_the_lowest_place_is_the_same_there_and_back(l1, l2):
+def test_lowest_is_the_same_in_both_directions(l1, l2):
     start, end = np.random.default_rng(8).uniform(-6, 6, (2, 1000, 3))
     there, back = lowest(l1, l2, start, end), lowest(l1, l2, end, start)
     np.testing.assert_allclose(there, back, atol=1e-8)
     assert (there > -l1 - l2).all() and np.ptp(there) > 1
 
 
-def test_the_floor_is_checked_for_certain():
+def test_floor_check_is_certain():
     """Moves between points on the floor or just above it: the shallowest dips are found, and none
     that is not there. The reference halves the bracket round the least of a dense sample.
     """
@@ -709,7 +709,7 @@ def test_lowest_takes_batches_and_free_joints():
 # ---- Time allowed, ties
 
 
-def test_T_hit_exactly_counts():
+def test_time_equal_to_T_counts():
     rng = np.random.default_rng(5)
     for n in (1, 3, 8):
         full = drawn(rng, n, T=1e6)
@@ -731,7 +731,7 @@ def test_T_hit_exactly_counts():
 @pytest.mark.parametrize(
     "T, served", [(0, ()), (-0.0, ()), (3, ()), (4, (0,)), (4.379, (0,)), (4.38, (0, 1))]
 )
-def test_it_ends_where_the_nearest_does_not_fit(T, served):
+def test_visit_ends_when_the_nearest_does_not_fit(T, served):
     """Errata S0-f: the printed program goes round for ever."""
     assert visit(make(T=T)).order == best_visit(make(T=T)).order == served
     assert visit(make(T=T)).left == tuple({0, 1} - set(served))
@@ -766,7 +766,7 @@ def test_ties_go_to_the_lowest_index():
         assert collect(mirrored).order == (0, 1, 2, 3)
 
 
-def test_time_that_is_no_number_of_floats():
+def test_extreme_times():
     """Speeds and times at the ends of the floats: an answer, no warning."""
     never = make(speeds=(5e-324,) * 3, T=1.7e308)
     assert visit(never).order == collect(never).order == best_visit(never).order == ()
@@ -778,7 +778,7 @@ def test_time_that_is_no_number_of_floats():
 # ---- The optimum
 
 
-def test_greed_visits_one_where_three_can_be_visited():
+def test_greedy_visit_can_be_worse_than_the_best():
     """Errata S0-q."""
     task = make(
         p0=on_a_circle([0])[0], points=on_a_circle([1.0, -1.1, -1.2, -1.3]), speeds=(1, 1, 1), T=1.5
@@ -815,14 +815,14 @@ def test_the_optimum_is_the_best_of_all_orders(seed):
     assert len(greedy.order) < len(best.order) or greedy.time >= best.time * (1 - 1e-12)
 
 
-def test_what_is_left_is_in_order():
+def test_remaining_points_are_sorted():
     points = np.full((10, 3), (2.0, 3, 2))
     points[[1, 8]] = (-2, -3, 2)
     for method, T in ((visit, 10), (best_visit, 10), (collect, 60)):
         assert method(make(points=points, T=T)).left == (1, 8)
 
 
-def test_a_longer_time_never_serves_less():
+def test_more_time_never_serves_fewer_points():
     rng = np.random.default_rng(7)
     given = vars_of(drawn(rng, 7))
     for method in (collect, visit, best_visit):
@@ -830,7 +830,7 @@ def test_a_longer_time_never_serves_less():
         assert counts == sorted(counts) and counts[0] == 0 and counts[-1] == 7
 
 
-def test_the_exact_method_says_its_limit():
+def test_exact_method_states_its_limit():
     rng = np.random.default_rng(8)
     many = drawn(rng, EXACT_LIMIT + 1)
     words = r"at most 16 points for the exact optimum, got 17.*visit\(\) takes up to 10000"
@@ -903,7 +903,7 @@ def test_a_large_task_is_collected_in_seconds():
     assert re.search(r"left: [\d, ]+ and 99000 more", report(half, collect(half)))
 
 
-def test_what_grows_with_the_square_has_a_limit():
+def test_quadratic_work_has_a_limit():
     on_axis = many(NEAREST_LIMIT + 1, p0=(0, 0, 5))
     some = many(ABOVE_LIMIT + 1, p0=(0, 0, 5), T=1)
     for call, what in ((visit, "visit"), (collect, "collect with p0 on axis 1")):
@@ -922,7 +922,7 @@ def test_what_grows_with_the_square_has_a_limit():
     assert len(collect(off_axis, above_floor=True).order) > 100, "this one is sorted"
 
 
-def test_a_task_of_too_many_points():
+def test_tasks_with_too_many_points_are_refused():
     for given in ([[1, 1, 1]] * (TASK_LIMIT + 1), np.ones((TASK_LIMIT + 1, 3))):
         began = time.process_time()
         with pytest.raises(
@@ -1017,7 +1017,7 @@ def test_wrong_joint_values_are_found():
 
 
 @pytest.mark.parametrize("k", [1e-3, 1e3])
-def test_an_inverse_that_is_off_is_found_out(k, monkeypatch):
+def test_misfit_detects_a_wrong_inverse(k, monkeypatch):
     """What the arm answers is put back into its forward kinematics, point by point."""
     right = principal_postures
     given = GOOD | {"L1": 5 * k, "L2": 4 * k, "p0": [k, k, k], "pi": [[0, 9 * k, 0]] * 12}
@@ -1122,7 +1122,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_all_faults_are_named(name, tmp_path):
+def test_all_faults_are_listed(name, tmp_path):
     without, changes, wanted = WRONG[name]
     data = {key: value for key, value in (GOOD | changes).items() if key not in without}
     found = faults(data)
@@ -1164,7 +1164,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_file_that_is_no_task(name, tmp_path):
+def test_files_that_are_not_tasks_are_refused(name, tmp_path):
     data, wanted = FILES[name]
     path = tmp_path / "x.json"
     path.write_bytes(data)
@@ -1174,7 +1174,7 @@ def test_a_file_that_is_no_task(name, tmp_path):
     assert path.read_bytes() == data
 
 
-def test_a_path_that_is_no_file(tmp_path):
+def test_paths_that_are_not_files_are_refused(tmp_path):
     for path, wanted in (
         (tmp_path, "is not a file but a folder"),
         (tmp_path / "no.json", "cannot be read: No such"),
@@ -1183,7 +1183,7 @@ def test_a_path_that_is_no_file(tmp_path):
             read_task(path)
 
 
-def test_what_a_file_may_have(tmp_path):
+def test_allowed_variations_of_a_file(tmp_path):
     path = tmp_path / "x.json"
     path.write_text(
         "\ufeff" + json.dumps(GOOD | {"comment": "a key of its own", "L1": 5.0}), encoding="utf-8"
@@ -1192,7 +1192,7 @@ def test_what_a_file_may_have(tmp_path):
     assert visit(task) == visit(make()) and task.kind == "visit" and task.T == 10.0
 
 
-def test_a_key_given_twice_is_a_fault(tmp_path):
+def test_duplicate_keys_are_a_fault(tmp_path):
     path = tmp_path / "x.json"
     text = json.dumps(GOOD)
     path.write_text(text[:-1] + ', "T": 20, "q\'": [1, 1, 1], "T": 30}')
@@ -1212,7 +1212,7 @@ def test_a_key_given_twice_is_a_fault(tmp_path):
     assert read_task(path).remarks == ("unknown keys, ignored: 'note'",)
 
 
-def test_unknown_keys_are_named_in_the_report(tmp_path):
+def test_unknown_keys_are_listed_in_the_report(tmp_path):
     path = tmp_path / "x.json"
     path.write_text(json.dumps(GOOD | {"q": [1, 2, 3], "a\n": 0}))
     task = read_task(path)
@@ -1227,7 +1227,7 @@ def test_unknown_keys_are_named_in_the_report(tmp_path):
     assert read_task(path).remarks == make().remarks == ()
 
 
-def test_speeds_that_are_likely_degrees():
+def test_speeds_that_are_probably_degrees():
     fast = make(speeds=(0.2, 20, 0.2))
     assert report(fast, visit(fast)).endswith(
         "\n\twarning: q' = [0.2, 20.0, 0.2]: 20 rad/s is more than two turns a second; were "
@@ -1241,7 +1241,7 @@ def test_speeds_that_are_likely_degrees():
         travel_time((0, -60, 0), (0, 0, 0), (1, 1, 1))
 
 
-def test_a_file_that_is_too_big(tmp_path):
+def test_too_large_files_are_refused(tmp_path):
     path = tmp_path / "x.json"
     with path.open("wb") as file:
         file.truncate(40_000_001)
@@ -1255,13 +1255,13 @@ def test_a_file_that_is_too_big(tmp_path):
     tracemalloc.stop()
 
 
-def test_a_name_that_no_file_can_have():
+def test_impossible_file_names_are_refused():
     for name in ("a\0b", "\ud800", "x" * 5000):
         with pytest.raises(TaskError, match="cannot be read: "):
             read_task(name)
 
 
-def test_what_a_task_holds_cannot_be_changed():
+def test_tasks_are_read_only():
     points = np.array([[2.0, 3, 2], [1, 3, 3]])
     task = make(points=points, speeds=(speeds := np.full(3, 0.2)))
     points[:], speeds[:] = 0, 9
@@ -1277,7 +1277,7 @@ def test_what_a_task_holds_cannot_be_changed():
     assert make() != make(), "tasks are compared by identity"
 
 
-def test_arrays_that_hold_no_numbers():
+def test_arrays_without_numbers_are_refused():
     """Not even where each would come out as one: nanoseconds are whole numbers to NumPy."""
     for p0 in (
         np.array([1, 1, 1], dtype="datetime64[ns]"),
@@ -1404,7 +1404,7 @@ def test_wrong_calls():
 
 
 @pytest.mark.parametrize("given", [((0, 1), (0,)), ((0, 2), ()), ((), ()), ((1, 1), ())])
-def test_a_result_of_another_task(given):
+def test_results_of_other_tasks_are_refused(given):
     order, left = given
     for method in (itinerary, report):
         with pytest.raises(ValueError, match="result: wanted one of this task with its 2 points"):
@@ -1412,7 +1412,7 @@ def test_a_result_of_another_task(given):
     itinerary(make(), Result((1,), (5.0,), (0,)))
 
 
-def test_the_lowest_place_of_a_way_is_that_of_the_way_back():
+def test_lowest_of_a_move_equals_that_of_its_reverse():
     """And of no sample of it, in whatever sense the joints turn."""
     rng = np.random.default_rng(23)
     for l1, l2 in ((5, 4), (3, 1), (2, 2), (1, 3)):

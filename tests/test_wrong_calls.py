@@ -766,7 +766,7 @@ def page(tmp_path_factory):
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_wrong_calls_are_refused_in_our_words(name, page):
+def test_wrong_calls_are_refused_with_our_messages(name, page):
     call, right, *chosen = CALLS[name]
     right = {key: page if value is PAGE else value for key, value in right.items()}
     _, complaint = _outcome(call, right)
@@ -806,7 +806,7 @@ def test_every_public_callable_is_called_wrongly():
             assert parameters <= called[name], f"{name}: {parameters - called[name]} missing"
 
 
-def test_the_watch_is_awake():
+def test_detector_of_foreign_errors_works():
     # The checks above would see what they are there for.
     with np.errstate(all="warn"):
         for call, seen in (

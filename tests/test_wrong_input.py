@@ -273,7 +273,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_input_is_named(name):
+def test_wrong_input_is_named_in_the_error(name):
     call, evidence = WRONG[name]
     with pytest.raises(
         TypeError if name in OF_ANOTHER_KIND else ValueError, match=evidence

@@ -1,4 +1,4 @@
-// The cube of postures of a plan, its side being 1.
+// The cube of postures of a plan, with sides of length 1.
 
 import {camera} from "./camera.js";
 import {clear, colors, polygon, prepared, spot, stroke, write} from "./canvas.js";
@@ -33,7 +33,7 @@ export function cubeView(name, ask) {
   let about = null;
   return {
     canvas,
-    /** Draws it if anything is new: it takes longest. @type {(now: Now, q: number[]) => void} */
+    /** Draws it only if something has changed, because it takes longest. @type {(now: Now, q: number[]) => void} */
     draw({shown, wave, moment}, q) {
       const [steps, k] = [Math.floor(wave), Math.round(moment)],
         {clientWidth, clientHeight} = canvas;
@@ -46,8 +46,8 @@ export function cubeView(name, ask) {
 }
 
 /**
- * The faces of the forbidden body by direction (axis and side): cells [i, j, k] that have one
- * there.
+ * The faces of the forbidden body by direction (axis and side): the cells [i, j, k] with such a
+ * face.
  * @param {Values} cube
  * @param {number} forbidden  the value of its cells
  */
@@ -79,11 +79,11 @@ const RING = [
   [-0.5, 0.5],
 ];
 
-/** Where a posture is in the cube. @type {(q: number[]) => Point} */
+/** The place of a posture in the cube. @type {(q: number[]) => Point} */
 const unit = q => q.map(x => x / Math.PI);
 
 /**
- * The body, the wave after so many steps, target, path and posture.
+ * Draws the body, the search after `steps` steps, target, path and posture.
  * @param {HTMLCanvasElement} canvas
  * @param {number[]} view
  * @param {Shown} shown
@@ -117,13 +117,13 @@ function drawCube(canvas, view, shown, steps, q) {
     pen.put(way[k], () => stroke(g, [to(way[k - 1]), to(way[k])], color, 3));
   putTargets(pen, shown.curve.map(unit));
   things.sort((a, b) => a.depth - b.depth).forEach(thing => thing.draw());
-  stroke(g, way.map(to), clear(color, 0.5), 1, [3, 3]); // what lies behind the body, too
+  stroke(g, way.map(to), clear(color, 0.5), 1, [3, 3]); // also those behind the body
   spot(g, to(unit(q)), 5, colors.path);
   tellAngles(pen);
 }
 
 /**
- * The faces of the forbidden body that can be seen.
+ * Draws the visible faces of the forbidden body.
  * @param {Pen} pen
  * @param {Shown} shown
  */
@@ -159,7 +159,7 @@ function putBody(
 }
 
 /**
- * The postures that the search reaches in so many steps.
+ * Draws the postures that the search reaches in `steps` steps.
  * @param {Pen} pen
  * @param {Values} cube
  * @param {number} steps
@@ -192,7 +192,7 @@ function putTargets({g, cam: {to}, put}, places) {
     });
 }
 
-/** The names of the angles at their edges. @param {Pen} pen */
+/** Writes the names of the angles at their edges. @param {Pen} pen */
 function tellAngles({g, cam: {to}}) {
   /** @type {[string, Point][]} */
   const angles = [

@@ -1,6 +1,6 @@
-// The explorer of plans: start, target and obstacle are taken by the hand, a kernel plans
-// (live.js), and what it answers is drawn in the plane and in the cube of postures. What is said
-// comes from Python (plan_explorer.py).
+// The explorer of plans: the reader drags start, target and obstacle, a kernel plans (live.js), and
+// the answer is drawn in the plane and in the cube of postures. The words come from Python
+// (plan_explorer.py).
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -24,7 +24,7 @@ import {point} from "./mark.js";
 
 /** @typedef {With<PlanPage, "question" | "first"> & {arm: ThreeLeverArm}} PlanExplorer */
 /**
- * What is asked; `way`: the number of one of `branches`, `sides`: whether quadrilaterals, too.
+ * The question; `way`: the index in `branches`; `sides`: whether to show quadrilaterals, too.
  * @typedef {object} Question
  * @property {number[]} posture
  * @property {number[]} target  x, y
@@ -34,7 +34,7 @@ import {point} from "./mark.js";
  * @property {boolean} sides
  */
 /**
- * What Python answers: `_answer` of plan_explorer.py says it.
+ * The answer of Python: see `_answer` in plan_explorer.py.
  * @typedef {object} Answer
  * @property {string} verdict
  * @property {string} words
@@ -50,7 +50,7 @@ import {point} from "./mark.js";
 /** @typedef {ReturnType<typeof read>} Shown  an answer as it is drawn */
 /** @typedef {{q: number[], target: Point, obstacle: Point, distance: number, way: number}} State */
 /**
- * What is shown, and when: the step of the search, the moment of the motion.
+ * The state shown: the step of the search, the moment of the motion.
  * @typedef {object} Now
  * @property {Shown} shown
  * @property {number} wave
@@ -60,7 +60,7 @@ import {point} from "./mark.js";
  */
 
 const STEPS = 9,
-  MOMENTS = 16; // of search and motion, a second
+  MOMENTS = 16; // steps of search and motion per second
 
 /**
  * Fills every waiting place with this id.
@@ -147,7 +147,7 @@ const opened = ({posture, target, obstacle, distance, way}) => ({
 /** @type {(now: Now) => number} */
 const lastOf = ({shown}) => shown.moments.length - 1;
 
-/** Time goes on: the search first, then the motion. @param {Now} now */
+/** Advances the time: the search first, then the motion. @param {Now} now */
 function pass(now) {
   const {most} = now.shown,
     time = performance.now(),
@@ -159,7 +159,7 @@ function pass(now) {
 }
 
 /**
- * What is chosen beside the scene.
+ * The choices beside the scene.
  * @param {Stage} stage
  * @param {PlanExplorer} data
  * @param {State} state
@@ -203,8 +203,8 @@ function inputsOf(stage, {words: says, branches, controls: [spec], code}, state)
 }
 
 /**
- * The times of search and motion, below the cube. It needs no kernel and stands beside what does:
- * it lives where the rest sleeps.
+ * The clocks of search and motion, below the cube. They need no kernel, so they work while the rest
+ * is asleep.
  * @param {Stage} stage
  * @param {PlanExplorer} data
  * @param {Now} now
@@ -253,7 +253,7 @@ function timesOf(stage, {words: says}, now, cube) {
 }
 
 /**
- * What can be taken: obstacle, target and start.
+ * The handles of obstacle, target and start.
  * @param {PlanExplorer} data
  * @param {State} state
  * @returns {Handle[]}
@@ -295,7 +295,7 @@ function marks({arm, words: says, unit}, state) {
         state[key] = p;
       },
     );
-  // the start follows as far as the arm reaches, with the least movement
+  // the start follows within the arm's reach, with the least movement
   /** @param {Point} place */
   const follow = place => {
     const q = least(arm, {place}, state.q);
@@ -309,7 +309,7 @@ function marks({arm, words: says, unit}, state) {
 }
 
 /**
- * An answer with all that is drawn of it.
+ * An answer with everything that is drawn of it.
  * @param {PlanExplorer} data
  * @param {Answer} answer
  * @param {Question} about

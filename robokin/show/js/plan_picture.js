@@ -1,4 +1,4 @@
-// A plan in the picture of its explorer, in the plane of the arm.
+// Draws a plan in the picture of its explorer, in the plane of the arm.
 
 import {clear, colors, polygon, spot, stroke, write} from "./canvas.js";
 import {polyline} from "./kinematics.js";
@@ -10,7 +10,7 @@ import {polyline} from "./kinematics.js";
 /** @import {Draw} from "./scene.js" */
 
 /**
- * The arm at its moment of the motion, with what is drawn below and above it.
+ * The arm at the present moment of the motion, with the drawings below and above it.
  * @param {ThreeLeverArm} arm
  * @param {State} state
  * @param {Now} now
@@ -30,7 +30,8 @@ export function armAt({name, chain}, state, {shown, moment}) {
 }
 
 /**
- * The room about H, the quadrilaterals, what the levers sweep, the gripper's path.
+ * Draws the clearance around H, the quadrilaterals, the area that the levers sweep, and the
+ * gripper's path.
  * @type {(chain: PageLink[], shown: Shown, state: State) => Draw}
  */
 const drawBelow =
@@ -72,7 +73,7 @@ const drawBelow =
 const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
 /**
- * The obstacle, via points, and how near the levers come.
+ * Draws the obstacle, the via points, and the nearest distance of the levers.
  * @type {(shown: Shown, state: State) => Draw}
  */
 const drawAbove =
@@ -93,7 +94,7 @@ const drawAbove =
       );
     if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
     spot(g, p, 3.5, colors.near);
-    // where it is swept, to the left: the tool's frame points to the right
+    // to the left of the swept area, since the tool's frame points to the right
     const left = p[0] <= x + 1;
     write(
       g,

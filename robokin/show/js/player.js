@@ -1,4 +1,4 @@
-// The player: recorded motions of arms in space beside their curves. page.py says what it gets.
+// The player: recorded motions of arms in space beside their curves. page.py has its data.
 
 import {number, replaceStill, tiled} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
@@ -107,7 +107,7 @@ function furniture(data) {
     value: element("span", {class: "rk-value"}),
     menu: menu && choice(menu.label, menu.values),
   };
-  // above the pictures: on a small screen the hand and what it moves are seen together
+  // above the pictures, so that a small screen shows the slider and the arm together
   const rows = [parts.row];
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider && parts.slider)
@@ -131,7 +131,7 @@ function furniture(data) {
 }
 
 /**
- * A canvas that has the whole width takes the height that its arms fill.
+ * Sets the height of a canvas with the whole width to what its arms fill.
  * @param {Pick<Parts, "scene" | "curves">} parts
  * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
  * @param {number} arms  so many have curves
@@ -152,7 +152,7 @@ function sized({scene, curves}, inSpace, arms, count) {
 }
 
 /**
- * The numbers of a motion, as a table and in words.
+ * Shows the numbers of a motion, as a table and in words.
  * @param {Parts} parts
  * @param {Page} data
  * @param {{arms: Track[], motion: number}} shown
@@ -234,7 +234,7 @@ function momentAt(times, time) {
 }
 
 /**
- * The arm as the scene draws it; where there is no posture, the last one before, faded.
+ * The arm for the scene; without a posture, the last one before it, faded.
  * @param {Track} arm
  * @param {Moment} moment
  */

@@ -1,4 +1,4 @@
-// A question that is answered before what answers it is seen. predictions.py says what it gets.
+// A question to answer before its view is shown. predictions.py has its data.
 
 import {copyButton} from "./copy.js";
 import {control, element, waiting} from "./elements.js";
@@ -120,7 +120,7 @@ class Prediction {
     inputs[0].focus();
   }
 
-  /** Offers what this page remembers to the kernel of its notebook, and says what came of it. */
+  /** Offers the remembered guesses to the kernel of the notebook, and shows the result. */
   offer() {
     const {data, memory, kept} = this;
     const before = this.clear.hidden ? "" : "You guessed here before. ";
@@ -148,13 +148,13 @@ class Prediction {
     );
   }
 
-  /** No kernel keeps it. @type {(before: string, why: string) => void} */
+  /** No kernel saves it. @type {(before: string, why: string) => void} */
   alone(before, why) {
     const {memory} = this,
       where = memory.lasts() ? "in this browser" : "on this page";
     this.kept.textContent = `${before}Kept ${where} only${why}`;
     const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
-    for (const each of others) each.remove(); // one in a page
+    for (const each of others) each.remove(); // one per page
     this.asking.append(this.copy);
   }
 
@@ -163,17 +163,17 @@ class Prediction {
     const {data, memory} = this;
     this.open(choice);
     const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
-    const made = name ? `${choice}: ${name}` : choice; // the name stays if answers change places
+    const made = name ? `${choice}: ${name}` : choice; // the name remains valid if options change places
     memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
     this.offer();
     this.again.focus();
   }
 
-  /** Opens the answer that was chosen before, if this page remembers one. */
+  /** Opens the earlier choice, if this page remembers one. */
   recall(times = 50) {
     const {data, memory} = this;
     if (memory.path() === "" && times) {
-      setTimeout(() => this.recall(times - 1), 100); // JupyterLab names the notebook a moment later
+      setTimeout(() => this.recall(times - 1), 100); // JupyterLab knows the notebook's name a moment later
       return;
     }
     const [, before] = memory.read().findLast(([name]) => name === data.name) ?? [];
@@ -184,11 +184,11 @@ class Prediction {
   }
 }
 
-/** A box for each answer, or one for a number. @param {PageQuestion} data */
+/** A radio button for each answer, or a box for a number. @param {PageQuestion} data */
 function inputsOf({unit, options}) {
   if (unit !== null)
     return [control("input", {type: "number", step: "any", "aria-label": `your guess, ${unit}`})];
-  const name = `rk${Math.random()}`; // a question may stand in a page twice
+  const name = `rk${Math.random()}`; // a question may occur twice in a page
   return options.map((_, i) => control("input", {type: "radio", name, value: LETTERS[i]}));
 }
 
@@ -211,8 +211,8 @@ const valid = (data, choice) =>
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
- * Which answer is meant: its number; of a typed number the answer that it is near to, the right one
- * first; -1: none.
+ * The index of the chosen answer; for a typed number the answer near to it, the right one first; -1
+ * if there is none.
  * @param {PageQuestion} data
  * @param {string} choice
  */
@@ -252,11 +252,11 @@ function told(data, at, right) {
   ].filter(text => text);
 }
 
-/** Words between back-ticks are code. @type {(text: string) => (string | HTMLElement)[]} */
+/** Text between backticks is code. @type {(text: string) => (string | HTMLElement)[]} */
 const coded = text => text.split("`").map((part, k) => (k % 2 ? element("code", {}, part) : part));
 
 /**
- * The line for a report: the first guess of each prediction of the lab that `own` is of.
+ * The line for a report: the first guess of each prediction in the lab of `own`.
  * @param {Made[]} made
  * @param {string} own
  */
@@ -269,7 +269,7 @@ function line(made, own) {
 }
 
 /**
- * Scripts of a player or an explorer run as soon as they are in the page.
+ * Inserts HTML so that the scripts of a player or an explorer run.
  * @param {string} html
  */
 const view = html => element("div", {}, document.createRange().createContextualFragment(html));
@@ -277,15 +277,15 @@ const view = html => element("div", {}, document.createRange().createContextualF
 /** @type {Record<string, string>} */
 const page = (Object(globalThis).robokinGuesses ??= {}); // what is kept where no storage is
 
-/** The browser's, if it allows it and if notebooks have addresses: in VS Code all have the same. */
+/** The browser's storage, if it is allowed and if notebooks have addresses: in VS Code all share one. */
 function storage() {
   if (!/^(http|file)/.test(location.protocol)) throw new Error("no storage");
   return localStorage;
 }
 
 /**
- * The guesses that the page of `root` remembers: of this notebook in JupyterLab, whose page has
- * several; elsewhere of this address.
+ * The guesses that the page of `root` remembers: those of this notebook in JupyterLab, whose page
+ * shows several; elsewhere those of this address.
  * @param {HTMLElement} root
  */
 function memoryOf(root) {
@@ -293,7 +293,7 @@ function memoryOf(root) {
   const {baseUrl = "", serverRoot = ""} = JSON.parse(
     document.getElementById("jupyter-config-data")?.textContent || "{}",
   );
-  /** Of the notebook, as its tab says it; null: there is no tab; "": it does not say it yet. */
+  /** The path of the notebook from its tab; null: there is no tab; "": it is not known yet. */
   const path = () => {
     /** @type {?HTMLElement} */
     const tab = panel && document.querySelector(`.lm-TabBar-tab[data-id="${panel.id}"]`);

@@ -1,13 +1,13 @@
-// What is known of a motion: its speeds and accelerations, and where it or its speed jumps. As
-// motion/recording.py.
+// The recording of a motion: its speeds and accelerations, and the jumps of position and speed, as
+// in motion/recording.py.
 
 import {differentiate} from "./motion.js";
 
 /** @import {JumpRules} from "./page.js" */
 
 /**
- * The speeds v and accelerations a of joint values q (samples, n), of each unbroken piece for
- * itself; which samples are missing, between which the motion breaks, where the speed jumps.
+ * The speeds v and accelerations a of joint values q (samples, n), for each unbroken piece; the
+ * missing samples, the breaks, and the jumps of the speed.
  * @param {number[][]} q  NaN where there is no posture
  * @param {number[]} t  seconds, rising
  * @param {boolean[]} prismatic
@@ -46,8 +46,8 @@ function derivatives(q, t, gaps) {
 }
 
 /**
- * Where the speeds between samples jump: a change far greater than the changes beside it. From
- * which sample to which, when, and which joints.
+ * The jumps of the speeds between samples: changes far greater than the changes beside them. For
+ * each: the samples, the time, and the joints.
  * @param {number[][]} speeds  (samples - 1, n)
  * @param {number[]} t
  */
@@ -69,7 +69,7 @@ function speedJumps(speeds, t) {
     if (groups.length && i - groups[groups.length - 1][1] <= 2) groups[groups.length - 1][1] = i;
     else groups.push([i, i]);
   return groups.map(([low, high]) => {
-    // a corner between two samples shows in two changes, in one of them perhaps faintly
+    // a corner between two samples shows in two changes, in one of them perhaps only faintly
     const first = low - Number(stands(low - 1, 3, 0).includes(true)),
       last = high + Number(stands(high + 1, 3, 0).includes(true));
     const rows = change.slice(first, last + 1).map((_, k) => stands(first + k, 3, 0));
@@ -83,7 +83,7 @@ function speedJumps(speeds, t) {
 }
 
 /**
- * Which joints jump in position between each sample and the next, as `record` says.
+ * Which joints jump in position between each sample and the next, by the rule of `record`.
  * @param {number[][]} q  (samples, n), NaN where there is no posture
  * @param {number[]} t  seconds, rising
  * @param {boolean[]} prismatic
@@ -114,8 +114,8 @@ export function leaps(q, t, prismatic, {least, few}) {
 }
 
 /**
- * How far a speed lies outside of those `left` before and `right` after it; 0 where that may be a
- * quick motion.
+ * How far a speed is outside the range of the `left` speeds before and the `right` speeds after it;
+ * 0 where it may be a quick motion.
  * @param {number[]} speeds
  * @param {number} i
  * @param {number} left

@@ -1,5 +1,5 @@
-// Recorded numbers: from the few bytes of a page (page.py: Packed, PageWay, PageArm) to values over
-// time.
+// Recorded numbers: from the compact data of a page (page.py: Packed, PageWay, PageArm) to values
+// over time.
 
 import {number} from "./canvas.js";
 
@@ -25,8 +25,7 @@ import {number} from "./canvas.js";
  */
 
 /**
- * The numbers of a Packed: motion after motion, in it column after column, in it the samples; NaN
- * for no value.
+ * The numbers of a Packed, ordered by motion, column and sample; NaN for no value.
  * @param {Packed} packed
  * @param {number} motions
  * @param {number} samples
@@ -84,7 +83,7 @@ export function recording(arm, motions, samples, {unit, nothing}) {
 }
 
 /**
- * Things that may move -> (motion, sample, share) -> those that are there.
+ * From things that may move to a function (motion, sample, share) -> the things that exist then.
  * @param {PageThing[]} things
  * @param {number} nothing  the whole number for no value
  * @returns {AtMoment<Now<PageThing>[]>}
@@ -104,7 +103,8 @@ export function thingsAt(things, nothing) {
 }
 
 /**
- * A value of a thing. A way moves evenly between two samples, a reading waits for the next one.
+ * A value of a thing. A way is interpolated between two samples; a reading is constant until the
+ * next one.
  * @param {unknown} value
  * @param {number} nothing
  * @returns {AtMoment<unknown>}
@@ -127,7 +127,7 @@ function valueAt(value, nothing) {
 }
 
 /**
- * NaN beside a sample that exists does not count before the time has left it.
+ * A NaN next to an existing sample has no effect at exactly that sample.
  * @param {Float64Array} values
  * @param {number} i
  * @param {number} share

@@ -1,5 +1,5 @@
-// The rotor of a stepper motor, as steppers/rotor.py has it: the same law, the same steps of the
-// integration. test_motor_explorer.py holds the two together.
+// The rotor of a stepper motor, as in steppers/rotor.py, with the same equations and integration
+// steps. test_motor_explorer.py compares the two.
 
 /** @import {MotorNumbers, MotorRules, PageMotor} from "./page.js" */
 
@@ -17,13 +17,13 @@
  */
 /** @typedef {{theta: number, omega: number, currents: number[]}} State */
 /**
- * What a run was like: rad, and pulses sent, at times in s; steps lost in the end.
+ * The result of a run: angles in rad and pulses sent, at times in s; steps lost at the end.
  * @typedef {{t: number[], angle: number[], sent: number[], lost: number}} Run
  */
 /** @typedef {[x: number, y: number]} Pull  direction and strength */
 
 /**
- * What currents pull with.
+ * The pull of the currents.
  * @param {Motor} motor
  * @param {number[]} currents
  */
@@ -58,9 +58,9 @@ const strength = ([x, y]) => Math.sqrt(x * x + y * y);
 /** @type {(motor: Motor) => Pull[]} */
 const pulls = motor => motor.currents.map(row => pull(motor, row));
 
-/** The greatest load that every row holds. @param {Motor} motor */
+/** The greatest load that every row can hold. @param {Motor} motor */
 export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
-/** The greatest load that still goes from every row to the next. @param {Motor} motor */
+/** The greatest load that still moves from every row to the next. @param {Motor} motor */
 export function startingTorque(motor) {
   const all = pulls(motor);
   return (
@@ -77,7 +77,7 @@ export function startingTorque(motor) {
 }
 
 /**
- * Where the rotor rests in the row that `sent` pulses lead to, counted on from row 0; rad.
+ * The rest position in rad in the row after `sent` pulses from row 0.
  * @param {Motor} motor
  * @param {number} sent
  */
@@ -93,7 +93,7 @@ export function resting(motor, sent) {
 }
 
 /**
- * The longest step of the integration, and how long the rotor takes to rest.
+ * The longest integration step, and the time until the rotor is at rest.
  * @param {Motor} motor
  */
 function rhythm(motor) {
@@ -115,7 +115,7 @@ function rhythm(motor) {
 }
 
 /**
- * A rotor at rest in the row that `sent` pulses lead to.
+ * A rotor at rest in the row after `sent` pulses.
  * @param {Motor} motor
  * @param {number} sent
  * @returns {State}
@@ -130,7 +130,7 @@ const rowOf = ({currents}, sent) =>
   currents[((sent % currents.length) + currents.length) % currents.length];
 
 /**
- * The rotor some seconds later, by fourth order Runge-Kutta; `state` is changed.
+ * Advances the rotor by some seconds with fourth-order Runge-Kutta; `state` is changed.
  * @param {Motor} motor
  * @param {State} state
  * @param {number} sent  pulses: the row that is on
@@ -179,7 +179,7 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
 }
 
 /**
- * A run from rest in row 0: pulses of one sign at these times, and then to rest.
+ * A run from rest in row 0: pulses of one sign at these times, and then until rest.
  * @param {Motor} motor
  * @param {number[]} times
  * @param {number} sign
@@ -220,7 +220,7 @@ function lostOf(motor, times, sign = 1, each = null) {
 }
 
 /**
- * How many steps the rotor is behind what was sent.
+ * How many steps the rotor is behind the pulses sent.
  * @param {Motor} motor
  * @param {Pick<State, "theta">} state
  * @param {number} sent
@@ -270,5 +270,5 @@ export function startFrequency(motor, count) {
   return low < slowest ? 0 : low;
 }
 
-/** Without a minus zero. @type {(x: number) => number} */
+/** Without a negative zero. @type {(x: number) => number} */
 const rounded = x => Math.round(x) || 0;

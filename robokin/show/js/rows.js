@@ -3,14 +3,14 @@
 /** Whether a row of joint values exists. @param {number[]} q @returns {boolean} */
 export const exists = q => !q.some(Number.isNaN);
 
-/** The row that does not exist. @param {number} n its joints @returns {number[]} */
+/** A row that does not exist. @param {number} n its joints @returns {number[]} */
 export const nowhere = n => new Array(n).fill(NaN);
 
 /** @param {number} x @param {number} low @param {number} high @returns {number} */
 export const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /**
- * The length of (x, y) as Python's `distance` has it.
+ * The length of (x, y), as in Python's `distance`.
  * @param {number} x
  * @param {number} y
  * @returns {number}
@@ -23,7 +23,7 @@ export function distance2(x, y) {
 }
 
 /**
- * The option with the least travel from q; NaN where there is none.
+ * The option with the least travel from q, NaN if there is none.
  * @param {number[][]} options
  * @param {number[]} q
  * @returns {number[]}

@@ -57,7 +57,7 @@ import {compass} from "./triad.js";
 const KINDS = kinds;
 
 /**
- * The scene of a page, before there is any thing in it.
+ * The scene of a page, still without things.
  * @param {{scene: PageScene, unit: Unit}} page
  * @returns {Scene}
  */
@@ -128,15 +128,15 @@ export function sceneView(canvas, scene) {
 }
 
 /**
- * Room at the rims for words: names above, the scale below.
+ * Room for words at the edges: names above, the scale below.
  * @param {Box} cell
  * @returns {Box}
  */
 const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
 
 /**
- * What stands still: the axes of the grid, a point of the floor, what the camera has to see:
- * everything and its shadow. The rest of the floor may leave the picture.
+ * The fixed surroundings: the axes of the grid, a point of the floor, and the points that the
+ * camera must see: everything and its shadow. The rest of the floor may leave the picture.
  * @param {Scene} scene
  */
 function surroundings({flat, floor: [low], seen}) {
@@ -155,7 +155,7 @@ function surroundings({flat, floor: [low], seen}) {
 }
 
 /**
- * What a scene that grows has to hold besides.
+ * The additional points that a growing scene must hold.
  * @param {Scene} scene
  * @param {Shown} arm
  */
@@ -170,7 +170,7 @@ function reached(scene, arm) {
 }
 
 /**
- * A picture inside its cell, with a line to the cell on its left.
+ * Draws a picture inside its cell, with a line to the cell on its left.
  * @param {Pen} pen
  * @param {Shown[]} arms
  * @param {Box} cell
@@ -194,7 +194,7 @@ function drawCell(pen, arms, cell, named) {
 }
 
 /**
- * Arms in one picture and all that is around them.
+ * Draws arms in one picture and everything around them.
  * @param {Pen} pen
  * @param {Shown[]} arms
  * @param {Box} cell
@@ -239,7 +239,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
 }
 
 /**
- * The floor's grid; `over`: what is drawn already lies below it.
+ * Draws the floor's grid; `over`: above what is already drawn.
  * @param {Pen} pen
  * @param {boolean} [over]
  */

@@ -1,4 +1,5 @@
-// What all explorers share: the frame in the page, the picture and its redrawing, sliders, tables.
+// The common parts of all explorers: the frame in the page, the picture and its redrawing, sliders,
+// tables.
 
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
@@ -20,7 +21,7 @@ import {handleLayer} from "./handles.js";
 /** @typedef {ReturnType<typeof stageOf>} Stage */
 /** @typedef {string | {text: string, past: boolean}} Cell  of a table; `past` a limit */
 /**
- * What a frame shows of what has been `seen`.
+ * How a frame draws the state `seen`.
  * @template Seen
  * @typedef {object} Picture
  * @property {HTMLCanvasElement} canvas
@@ -57,8 +58,8 @@ export function stageOf(root, data) {
 }
 
 /**
- * The frame of an explorer: a picture with handles over it, a column of controls beside it, room
- * below.
+ * The frame of an explorer: a picture with handles over it, a column of controls beside it, and
+ * room below.
  *
  * run(answer)  from now on `answer(now)` is asked for what is to be drawn, once for every picture
  *              in which something has changed
@@ -103,7 +104,7 @@ export function frameOf(root, data, picture) {
     run(answer, canvases = [], draw = () => {}) {
       drawn = pictures(root, [canvas, ...canvases], now => {
         if (stale) {
-          stale = false; // before: what moves by itself has changed again by then
+          stale = false; // set first, since a running animation has changed it again by then
           seen = answer(now);
         }
         draw();
@@ -140,7 +141,7 @@ function partsOf({kind, title: text, meant}, canvas, layer) {
 }
 
 /**
- * Puts `more` behind `node`, all in a box of their own.
+ * Puts `more` after `node`, together in a box.
  * @param {HTMLElement} node
  * @param {...HTMLElement} more
  */
@@ -151,7 +152,7 @@ export function beside(node, ...more) {
 }
 
 /**
- * A button with words.
+ * A button with text.
  * @param {string} text
  * @param {() => void} act
  */
@@ -162,8 +163,8 @@ export function wordButton(text, act) {
 }
 
 /**
- * What is shown on request: the axes of the joints, and the ellipsoid of tool velocities, whose
- * outline is that of the ellipse that its semi-axes make on the screen.
+ * Draws the optional parts: the axes of the joints, and the ellipsoid of tool velocities, whose
+ * outline is the ellipse of its projected semi-axes.
  * @param {Context} g
  * @param {Camera} camera
  * @param {Explored} arm
@@ -210,7 +211,7 @@ function drawAids(g, camera, {chain, q, axes, ellipsoid}, size) {
 }
 
 /**
- * A slider with its value to read and to type.
+ * A slider with a number box for its value.
  * @param {Control} spec
  * @param {(value: number) => void} take
  */
@@ -227,7 +228,7 @@ export function slider({name, unit, low, high, step, decimals}, take) {
     element("span", {}, unit),
   );
   range.addEventListener("input", () => take(+range.value));
-  let typing = false; // what is being typed is not written over; what was taken is shown
+  let typing = false; // does not overwrite typing; shows the accepted value afterwards
   exact.addEventListener("input", () => {
     typing = true;
   });
@@ -238,7 +239,7 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   exact.addEventListener("change", taken);
   exact.addEventListener("keydown", event => {
     if (event.key === "Enter") taken();
-  }); // JupyterLab keeps it from the field
+  }); // JupyterLab does not pass it to the field
   return {
     row,
     /** @param {number} most */
@@ -257,7 +258,7 @@ export function slider({name, unit, low, high, step, decimals}, take) {
 }
 
 /**
- * A menu of words.
+ * A menu of texts.
  * @param {string} name
  * @param {string[]} texts
  * @param {(k: number) => void} take
@@ -279,7 +280,7 @@ export function menu(name, texts, take) {
 }
 
 /**
- * A box to tick.
+ * A check box.
  * @param {string} name
  * @param {() => void} take
  * @param {boolean} [on]  ticked at first
@@ -292,7 +293,7 @@ export function tick(name, take, on = false) {
 }
 
 /**
- * A table whose cells are written anew without being made anew.
+ * A table whose cells are updated without being created again.
  * @param {string[]} names  of the rows
  * @param {string[]} heads  of the columns; none: no head
  * @param {number[]} widths  how many cells a row has, or one for each column
@@ -305,7 +306,7 @@ export function table(names, heads, widths, take) {
     const button = take ? control("button", {type: "button", class: "rk-choose"}, name) : null;
     const cells = Array.from({length: count(k)}, () => element("td"));
     const row = element("tr", {}, element("th", {scope: "row"}, button || name), ...cells);
-    // a click on the button reaches its row
+    // a click on the button also reaches its row
     if (take) row.addEventListener("click", () => take(k));
     return {row, cells, button};
   });

@@ -1,5 +1,5 @@
-// What can be taken of a blended motion: start and goal freely in the plane of the screen, the via
-// station along the base's axes, too.
+// The handles of a blended motion: start and goal move freely in the plane of the screen, the via
+// station also along the base's axes.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -34,7 +34,7 @@ export function stationHandles(stage, state, data) {
 }
 
 /**
- * What both kinds of handles have: the place in words, and the way home.
+ * The common parts of both kinds of handles: the place in words, and the return home.
  * @param {Held} held
  * @param {keyof Stations} name
  */

@@ -1,4 +1,4 @@
-// Frames that an arm is asked to reach. things/target.py has their data.
+// Target frames. things/target.py has their data.
 
 import {clear, colors, spot, stroke} from "./canvas.js";
 import {origin} from "./kinematics.js";
@@ -11,7 +11,7 @@ import {triad} from "./triad.js";
 /** @type {Kind<PageTarget>} */
 export const target = {
   seen: ({pose}) => [origin(pose)],
-  /** The straight route between targets that are stations of one path. */
+  /** Draws the straight route between targets that are stations of a path. */
   below({g, cam}, targets) {
     const stations = ["start", "via", "goal"]
       .map(name => targets.find(each => each.name === name))
@@ -20,7 +20,7 @@ export const target = {
     const route = stations.map(({pose}) => cam.to(origin(pose)));
     stroke(g, route, clear(colors.soft, 0.55), 1, [7, 5]);
   },
-  /** The frames, their names, and how near the path passes via. */
+  /** Draws the frames, their names, and the distance of the path from via. */
   above({g, cam, scene, near}, targets, {labels, taken}) {
     for (const {name, pose} of targets) {
       const from = cam.to(origin(pose));

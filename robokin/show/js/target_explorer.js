@@ -1,5 +1,5 @@
-// The target explorer: a target taken by the hand, and all branches that reach it. What is said,
-// and every number of the arm, comes from Python (page.py: TargetPage).
+// The target explorer: a target to drag, and all branches that reach it. All words and all numbers
+// of the arm come from Python (page.py: TargetPage).
 
 import {distance_from_singularity, matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
@@ -25,8 +25,8 @@ import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
  * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
  */
 /**
- * The target now; the posture that the arm has, the branch that the reader wants (-1: the nearest
- * one) and the one that is shown.
+ * The present target, the posture of the arm, the branch that the reader wants (-1: the nearest
+ * one) and the branch shown.
  * @typedef {Target & {q: number[], wanted: number, chosen: number}} State
  */
 
@@ -39,7 +39,7 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => targetExplorer(stageOf(root, data), data));
 
 /**
- * Handles on the target, and a row of a table for every branch that reaches it.
+ * The handles of the target, and a row in a table for every branch that reaches it.
  * @param {Stage} stage
  * @param {TargetExplorer} data
  */
@@ -124,8 +124,8 @@ const slidersOf = (stage, {arm, controls, unit}, state) =>
 /** @typedef {ReturnType<typeof foundAt>} Found */
 
 /**
- * Every branch at the target: its row, whether it exists, which of its joints are inside their
- * limits, its travel from the last posture; and the branch that is to be shown.
+ * All branches at the target: the row, whether it exists, which of its joints are inside their
+ * limits, its travel from the last posture; and the branch to show.
  * @param {TargetExplorer} data
  * @param {State} state
  */
@@ -195,7 +195,7 @@ function verdict(arm, words, q, inside, exists) {
  */
 function told(task, rows, exists) {
   if (!task) return "";
-  // at a singularity two rows may be one posture
+  // at a singularity two rows may be the same posture
   /** @type {(a: number[], b: number[]) => boolean} */
   const same = (a, b) => a.every((x, j) => Math.abs(wrapped(x - b[j])) < 1e-6);
   const count = rows.filter(

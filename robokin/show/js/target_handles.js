@@ -1,4 +1,4 @@
-// What can be taken of a target: its place, freely or along its axes; its turns about them.
+// The handles of a target: its position, freely or along its axes, and its rotation about them.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -15,7 +15,7 @@ import {aboutAxis, degrees, normal, radians, rollPitchYaw, rotationOf} from "./t
 /** @import {State, Target, TargetExplorer} from "./target_explorer.js" */
 
 /**
- * What every handle of a target has to do with.
+ * The common arguments of all handles of a target.
  * @typedef {{stage: Stage, state: State, home: Target, data: TargetExplorer, fine: number}} Held
  */
 

@@ -1,4 +1,4 @@
-// Ticks of a scale. As `scale` of numbers.py, which takes Matplotlib's rule.
+// Ticks of a scale, as in `scale` of numbers.py, which uses Matplotlib's rule.
 
 /** @import {Scale} from "./page.js" */
 
@@ -40,7 +40,7 @@ export function scale(low, high) {
 }
 
 /**
- * A number of steps, which noise does not move past a whole one.
+ * A number of steps, rounded so that noise does not move it past an integer.
  * @param {number} x
  * @param {number} offset  in steps: the larger, the more noise
  * @param {(x: number) => number} round  down or up

@@ -1,6 +1,5 @@
-// The explorer of tours: points taken by the hand, the tours that a kernel makes of them (live.js),
-// and a clock along which the arm goes them; the clock needs no kernel. What is said comes from
-// Python (tour_explorer.py).
+// The explorer of tours: points to drag, the tours that a kernel computes (live.js), and a clock
+// that moves the arm along them and needs no kernel. The words come from Python (tour_explorer.py).
 
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
@@ -25,7 +24,7 @@ import {point} from "./mark.js";
 /** @typedef {With<TourPage, "question" | "first">} TourExplorer */
 /** @typedef {"greedy" | "best"} TourName */
 /**
- * What is asked: a task; `held`: whether the hand still moves it.
+ * The question: a task; `held`: whether the reader is still dragging.
  * @typedef {object} Question
  * @property {number} l1
  * @property {number} l2
@@ -36,7 +35,7 @@ import {point} from "./mark.js";
  * @property {boolean} held
  */
 /**
- * A tour as Python has it: when the arm stops, and where; the points served, and when.
+ * A tour from Python: the times and postures of the stops, and the points served with their times.
  * @typedef {object} FoundTour
  * @property {Values} t
  * @property {Values} q
@@ -45,7 +44,7 @@ import {point} from "./mark.js";
  * @property {string[]} cells  of the table
  */
 /**
- * What Python answers: `answered` of tour_explorer.py says it.
+ * The answer of Python: see `answered` in tour_explorer.py.
  * @typedef {object} Answer
  * @property {PageLink[]} chain
  * @property {boolean} start
@@ -87,7 +86,7 @@ function tourExplorer(root, id, stage, data) {
     notes = element("ul", {class: "rk-notes"});
   beside(stage.side, stage.says, notes);
   stage.below.append(rows.node);
-  // below the scene: alive while the rest is asleep
+  // below the scene: it works while the rest is asleep
   const parts = clockRow();
   beside(stage.space, parts.row);
   const end = () => heard.question.T;
@@ -107,7 +106,7 @@ function tourExplorer(root, id, stage, data) {
     tell();
   });
 
-  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // there is one at first
+  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // one exists at first
   stage.run(() => {
     clock.pass(performance.now());
     clock.tell();
@@ -127,7 +126,7 @@ function tourExplorer(root, id, stage, data) {
 }
 
 /**
- * Links, time and kind of task; points to add and to take away.
+ * Links, time and kind of task; buttons to add and remove points.
  * @param {Stage} stage
  * @param {TourExplorer} data
  * @param {State} state
@@ -190,7 +189,7 @@ function tourTable(stage, says, names, state) {
 }
 
 /**
- * Tells the state whether a hand holds something.
+ * Records in the state whether the reader holds something.
  * @param {Stage} stage
  * @param {State} state
  */

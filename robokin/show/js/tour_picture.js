@@ -1,4 +1,4 @@
-// The tours in the picture of their explorer.
+// Draws the tours in the picture of their explorer.
 
 import {clear, colors, spot, stroke} from "./canvas.js";
 import {fk, origin} from "./kinematics.js";
@@ -10,15 +10,15 @@ import {fk, origin} from "./kinematics.js";
 
 /** @typedef {ReturnType<typeof toured>} Tour */
 
-const FINE = 0.05; // rad of the fastest joint between two points of a drawn path
+const FINE = 0.05; // rad: step of the fastest joint between two points of a drawn path
 // apart for colour-blind readers, and by their dashes
 /** @type {Record<TourName, Color>} */
 const COLORS = {greedy: "joint2", best: "joint1"};
 /** @type {Record<TourName, [width: number, dash?: number[]]>} */
-const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // where both go the same way, both are seen
+const LINES = {greedy: [2.2, [7, 7]], best: [3.4]}; // both are visible where they coincide
 
 /**
- * A tour that can be drawn and gone: the places of the tool, and the posture at a time.
+ * A tour to draw and to play: the places of the tool, and the posture at a time.
  * @param {PageLink[]} chain
  * @param {FoundTour} tour
  * @param {TourName} name
@@ -55,7 +55,7 @@ export function toured(chain, {t, q, order, times}, name) {
 }
 
 /**
- * How each handle looks: served by now, still to be served, left, out of reach; and its place in
+ * The look of each handle: served, still to be served, left out, out of reach; and its place in
  * both tours.
  * @param {HTMLElement} layer
  * @param {State} state
@@ -82,8 +82,8 @@ export function mark(layer, {time}, {answer: {start, reached}, tours}, tour) {
 }
 
 /**
- * Below the arm: how far it reaches, how high the points stand, the tours; a band where the tool
- * dips under the floor.
+ * Draws below the arm: its reach, the heights of the points, the tours, and a band where the tool
+ * dips below the floor.
  * @type {(state: State, heard: Heard) => Draw}
  */
 export const below =
@@ -98,7 +98,7 @@ export const below =
       spot(g, to([x, y, 0]), 2, colors.soft, colors.paper, 0.5);
     }
     for (const tour of [...tours].reverse().filter(each => each !== null)) {
-      // the dashed one last
+      // the dashed one is drawn last
       if (tour.dips)
         stroke(
           g,

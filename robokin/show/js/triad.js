@@ -54,7 +54,7 @@ export function triad(g, cam, pose, length, width, alpha, letters = false) {
 }
 
 /**
- * Where x, y and z of the base point, in a corner.
+ * Draws the directions of the base's x, y and z in a corner.
  * @param {Context} g
  * @param {Camera} cam
  * @param {Pixel} corner

@@ -1,4 +1,4 @@
-// Turns as people set them, and values as Python is given them.
+// Rotations as roll, pitch and yaw, and values as Python code.
 
 import {ellipsoid, product} from "./kinematics.js";
 
@@ -15,7 +15,7 @@ export const radians = x => (x * Math.PI) / 180;
 export const degrees = x => (x * 180) / Math.PI;
 
 /**
- * A turn about an axis of length 1.
+ * A rotation about a unit vector.
  * @param {number[]} axis
  * @param {number} angle
  * @returns {number[]}  w, x, y, z
@@ -45,7 +45,7 @@ export const rotationOf = ([roll, pitch, yaw]) =>
   );
 
 /**
- * As Quaternion.as_roll_pitch_yaw: at a pitch of a quarter turn roll is given as zero.
+ * As Quaternion.as_roll_pitch_yaw: at a pitch of a quarter turn, roll is set to zero.
  * @param {number[]} m  12 numbers
  */
 export function rollPitchYaw(m) {
@@ -78,7 +78,7 @@ export const inUnits = (units, q) =>
 export const lengths = (place, unit) => place.map(x => plain(x / unit.size, unit.size < 1 ? 3 : 6));
 
 /**
- * A target's values for the blanks of a line of code.
+ * The values of a target for the blanks of a line of code.
  * @param {{place: number[], turns?: number[], angle?: number}} state
  * @param {Unit} unit
  * @returns {Object<string, string>}
@@ -96,7 +96,7 @@ export const inCode = (state, unit) => ({
 });
 
 /**
- * The semi-axes of the ellipsoid of tool velocities, in a size that can be seen beside the arm.
+ * The semi-axes of the ellipsoid of tool velocities, scaled to be visible beside the arm.
  * @param {ArmData} arm
  * @param {number[]} q
  */

@@ -1,4 +1,4 @@
-// Two levers and the borders of what they reach. As arms/geometry.py.
+// Two links and the borders of their reach, as in arms/geometry.py.
 
 /** @import {Tolerances} from "./page.js" */
 
@@ -7,7 +7,8 @@
 export const SIGNS = [1, -1];
 
 /**
- * The triangle of two levers whose ends are d apart, by half angles: see `two_levers`. null: none.
+ * The triangle of two links whose ends are d apart, by half angles: see `two_levers`. null: there
+ * is none.
  * @param {number} upper
  * @param {number} fore
  * @param {number} d
@@ -29,7 +30,7 @@ export function twoLevers(upper, fore, d, {ROUNDING}) {
 }
 
 /**
- * The border (name -> metres beyond it) that is passed the farthest.
+ * The border with the largest excess, from name -> metres beyond it.
  * @param {Object<string, number>} borders
  * @returns {Gap}
  */

@@ -1,5 +1,5 @@
-// The page's side of the widget that wakes a view (live.py): its model alone, without a view of its
-// own. It finds its view whichever of the two comes first, and one that is shown twice.
+// The page's part of the widget that wakes a view (live.py): a model without a view of its own. It
+// finds its view whichever of the two comes first, also if the view is shown twice.
 
 /** @import {Arrived} from "./live.js" */
 
@@ -17,7 +17,7 @@
 /** @typedef {{to: number} & Omit<Arrived, "buffers">} Reply */
 
 /**
- * What the widget of the view `id` does with its model; it returns its end.
+ * Initialises the widget of the view `id` with its model, and returns the function that ends it.
  * @param {string} id
  * @returns {(given: {model: Model}) => () => void}
  */
