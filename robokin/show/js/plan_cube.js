@@ -33,7 +33,7 @@ export function cubeView(name, ask) {
   let about = null;
   return {
     canvas,
-    /** Draws it only if something has changed, because it takes longest. @type {(now: Now, q: number[]) => void} */
+    /** Draws it only if something has changed. @type {(now: Now, q: number[]) => void} */
     draw({shown, wave, moment}, q) {
       const [steps, k] = [Math.floor(wave), Math.round(moment)],
         {clientWidth, clientHeight} = canvas;

@@ -163,7 +163,7 @@ class Prediction {
     const {data, memory} = this;
     this.open(choice);
     const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
-    const made = name ? `${choice}: ${name}` : choice; // the name remains valid if options change places
+    const made = name ? `${choice}: ${name}` : choice; // the name stays valid
     memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
     this.offer();
     this.again.focus();
@@ -173,7 +173,7 @@ class Prediction {
   recall(times = 50) {
     const {data, memory} = this;
     if (memory.path() === "" && times) {
-      setTimeout(() => this.recall(times - 1), 100); // JupyterLab knows the notebook's name a moment later
+      setTimeout(() => this.recall(times - 1), 100); // until JupyterLab knows the name
       return;
     }
     const [, before] = memory.read().findLast(([name]) => name === data.name) ?? [];
@@ -277,7 +277,7 @@ const view = html => element("div", {}, document.createRange().createContextualF
 /** @type {Record<string, string>} */
 const page = (Object(globalThis).robokinGuesses ??= {}); // what is kept where no storage is
 
-/** The browser's storage, if it is allowed and if notebooks have addresses: in VS Code all share one. */
+/** The browser's storage, unless it is forbidden or, as in VS Code, shared by all notebooks. */
 function storage() {
   if (!/^(http|file)/.test(location.protocol)) throw new Error("no storage");
   return localStorage;

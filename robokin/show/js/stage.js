@@ -1,5 +1,4 @@
-// The common parts of all explorers: the frame in the page, the picture and its redrawing, sliders,
-// tables.
+// The common parts of all explorers: the frame in the page, the picture, sliders, tables.
 
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
