@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, Ints, frozen
+from .._arrays import ArrayLike, Floats, Ints, Sealed, frozen
 from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
@@ -50,7 +50,7 @@ def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Flo
 
 
 @dataclass(frozen=True, eq=False)
-class Trips:
+class Trips(Sealed):
     """The k trips of one arm, with times in s on the clock of the belt.
 
     objects  (k,) the indices in `offsets` of the objects that it picks

@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from ..._arrays import ArrayLike, Floats, frozen
+from ..._arrays import ArrayLike, Floats, Sealed, frozen
 from ..._validate import choice, floats, instance, length, short, text
 from ...arms.planar import ThreeLeverArm
 from ...units import deg, in_words
@@ -67,7 +67,7 @@ def via_path(
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class Plan(Sealed):
     """The result of `plan`.
 
     way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..._arrays import ArrayLike, Floats, Ints, frozen
+from ..._arrays import ArrayLike, Floats, Ints, Sealed, frozen
 from ..._validate import broadcast, floats, instance, positive, short, warn_if_degrees
 from ...arms.arm import ClosedFormArm
 from ...arms.elbow import ElbowGeometry
@@ -95,7 +95,7 @@ def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class Move:
+class Move(Sealed):
     """The motion of n motors between two stations: they are at `positions` (k, n) in pulses at the
     times `t` (k,) in s and run at constant speed in between. The first time is 0, and the first and
     last positions are whole pulses. Both are read-only copies.

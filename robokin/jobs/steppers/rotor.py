@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..._arrays import ArrayLike, Floats, Ints, frozen
+from ..._arrays import ArrayLike, Floats, Ints, Sealed, frozen
 from ..._validate import choice, floats, number, positive, short, whole
 from .moves import LIMIT
 from .phase_table import DRIVES, energised, phases, read_windings
@@ -20,7 +20,7 @@ SLOWEST = 10  # pulses per second: the search for a start frequency begins here
 
 
 @dataclass(frozen=True)
-class Stepper:
+class Stepper(Sealed):
     """A stepper motor modelled as an inertia on a magnetic spring, which each pulse moves forward.
 
     rotor     "active": a permanent magnet of two poles. "passive": soft iron with 2 n + 2 teeth
@@ -152,7 +152,7 @@ class Stepper:
 
 
 @dataclass(frozen=True, eq=False)
-class RotorMotion:
+class RotorMotion(Sealed):
     """The motion of a rotor: at the times `t` (k,) in s its angle was `angle` (k,) and should have
     been `due` (k,), both in rad. `lost` is the number of steps by which the final angle is short of
     `due`; steps lost from pulses with the sign -1 count as negative.

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._arrays import Bools, Floats, Ints
+from ..._arrays import Bools, Floats, Ints, Sealed
 from ..._validate import floats, instance, short
 from ...arms.geometry import ROUNDING
 from .arm import UNDER, joint_travel_time, lowest_place, with_free_joints
@@ -19,7 +19,7 @@ ABOVE_LIMIT = 1_000  # the same if each of these moves also needs its lowest pla
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(Sealed):
     """The result of a task: `order` and `left` are indices into its points, and `times` in s says
     when each point of `order` is visited or brought back.
     """

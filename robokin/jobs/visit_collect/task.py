@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._arrays import ArrayLike, Floats, frozen
+from ..._arrays import ArrayLike, Floats, Sealed, frozen
 from ..._validate import masked, short, text
 from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside, workspace
 
@@ -32,7 +32,7 @@ class TaskError(ValueError):
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Task:
+class Task(Sealed):
     """A checked, read-only task: links l1, l2 (m), time T (s), greatest joint speeds (3,) in rad/s,
     start p0 (3,) and points (n, 3) in metres, kind "visit" or "collect". `remarks` are oddities of
     its file, in words, for the report. `q` (1 + n, 3) are the `principal_postures` of p0 and of the
