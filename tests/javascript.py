@@ -5,8 +5,7 @@ and with PyPI's Node:
     python tests/javascript.py tsc
     python tests/javascript.py types    # writes page.d.ts and kinds.js in robokin/show/js
 
-npm lays them, once for each lock file, into the user's cache, so that nothing of them stands in
-the tree.
+npm installs them once for each lock file into the user's cache, so that the tree stays clean.
 """
 
 import hashlib
@@ -33,12 +32,12 @@ UNREACHABLE = ("ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ENETUNRE
 
 
 class NoNetwork(Exception):
-    """The tools are not there, and the registry cannot be reached."""
+    """The tools are missing, and the registry cannot be reached."""
 
 
 def tools():
-    """The folder of the installed packages. Another process may install them at the same time:
-    each works in a folder of its own, and the first one to end names it.
+    """The folder of the installed packages. Several processes may install them at the same time:
+    each uses its own folder, and the first one to finish renames it.
     """
     cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "robokin-js"
     home = cache / hashlib.sha256((HERE / "package-lock.json").read_bytes()).hexdigest()[:16]

@@ -1,11 +1,11 @@
-"""How long each lab is, beside what an hour allows.
+"""The length of each lab, compared with what fits into an hour.
 
     python tests/lab_sizes.py                      all labs
     python tests/lab_sizes.py notebooks/05_...     these
 
-Counted is what stands before "Your turn": words of the text, without its formulas; code cells and
-their lines, without folded ones. Minutes: the words at 170 a minute, one for each code cell, two
-for each prediction, twelve for each exercise.
+It counts the part before "Your turn": words of the text without formulas, and code cells with their
+lines, except folded ones. The minutes are one per 170 words, one for each code cell, two for each
+prediction and twelve for each exercise.
 """
 
 import json
@@ -89,7 +89,7 @@ def main() -> int:
 
 
 def too_long(name: str, size: Size) -> list[str]:
-    """What is above its limit, in words."""
+    """The exceeded limits, in words."""
     over = [f"{field} above {most}" for field, most in MOST._asdict().items()
             if getattr(size, field) > most]  # fmt: skip
     over += [f"minutes above {MINUTES}"] * (round(size.minutes, 6) > MINUTES)

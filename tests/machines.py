@@ -1,4 +1,5 @@
-"""The arms that every law runs over, each with a second description that owes nothing to robokin.
+"""The arms on which every law is tested, each with a second description that is independent of
+robokin.
 
 An arm is added by one line of `MACHINES`. `chain(q)` is its forward kinematics as a product of 4 x
 4 matrices written from its document; `wrist` is what an independent count of solutions needs.
@@ -18,8 +19,8 @@ DATA = Path(__file__).parent / "data"
 
 @dataclass(frozen=True)
 class Machine:
-    """An arm, its chain as matrices, and for a spherical wrist the distances that decide what is
-    reachable.
+    """An arm, its chain as matrices, and for a spherical wrist the distances that determine its
+    reach.
     """
 
     arm: object

@@ -1,4 +1,4 @@
-"""Labs are read in loops: a cell is changed and run again. Does that work?
+"""Readers change cells and run them again. Does that work in every lab?
 
     python tests/rerun.py                               all labs and companions, every value
     python tests/rerun.py notebooks/05_scara_motion.ipynb ...

@@ -64,8 +64,8 @@ def test_fk_at_home(machine):
 
 
 def test_irb140_home_pose():
-    """By hand from the lengths of listing 1: 70 + 380 + 65 ahead, 352 + 350 up; the flange's z axis
-    points ahead.
+    """By hand from the lengths of listing 1: 70 + 380 + 65 forward, 352 + 350 up; the flange's z
+    axis points forward.
     """
     T = IRB140.fk(np.zeros(6))
     assert np.allclose(T.translation, [0.515, 0, 0.702], rtol=0, atol=1e-15)
@@ -269,7 +269,7 @@ def test_reach_of_a_chain_is_an_upper_bound():
         q = RNG.uniform(*arm.limits.T, (2000, len(arm.links)))
         flange, joint = arm.fk(q).translation, links[0].before
         beside = flange - joint.translation
-        if not links[0].prismatic:  # only what is beside the axis
+        if not links[0].prismatic:  # only the distance from the axis
             axis = joint.rotation @ links[0].axis
             beside = beside - (beside @ axis)[:, None] * axis
         farthest = np.linalg.norm(beside, axis=-1).max()
@@ -310,7 +310,7 @@ def test_whole_turns_do_not_change_fk():
     assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13
 
 
-# The numbers of the machines as their sources print them, in degrees and millimetres.
+# The numbers of the robots as printed in their sources, in degrees and millimetres.
 PUBLISHED = {
     "IRB-140": (  # 001, listing 7; speeds: our choice, below public models
         IRB140,
@@ -344,7 +344,9 @@ def test_limits_and_speeds_equal_the_published_ones(name):
 
 
 def test_arms_with_equal_parts_are_not_equal():
-    """Arms, links and poses are compared as things, not as numbers: an array has no one answer."""
+    """Arms, links and poses are compared by identity, because a comparison of arrays has no single
+    result.
+    """
     for a, b in (
         (Link(), Link()),
         (Transform(), Transform()),

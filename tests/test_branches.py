@@ -32,7 +32,7 @@ machines = pytest.mark.parametrize("machine", MACHINES, ids=repr)
 six = pytest.mark.parametrize("machine", SIX, ids=repr)
 HOME = np.zeros(6)
 
-# One joint that turns, one that slides: limits past half a turn, and a stroke longer than 2 pi
+# One revolute and one prismatic joint: limits beyond half a turn, and a stroke longer than 2 pi
 # metres.
 MIXED = Arm(
     "mixed",
@@ -110,9 +110,7 @@ def test_limits_beyond_half_a_turn_are_respected():
 
 
 def nearest_by_trial(arm, rows, q):
-    """Every row with every combination of whole turns: inside the limits joint by joint where it
-    can be.
-    """
+    """Every row with every combination of whole turns; each joint inside its limits if possible."""
     best = np.full(len(arm.links), np.nan)
     for row in rows[~np.isnan(rows).any(-1)]:
         choice = []
@@ -214,7 +212,7 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
 def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """So near to it joint 4 of every row is rounding noise; a motion does not follow the noise."""
+    """So near to it joint 4 is rounding noise in every row; a motion does not follow the noise."""
     arm = machine.arm
     rng = np.random.default_rng(25)
     q = np.repeat(rng.uniform(-1, 1, (1, 6)) + [0, 0, 0.3, 0, 0, 0], 41, axis=0)
@@ -275,8 +273,8 @@ def test_joints_4_and_6_share_the_rotation_in_the_singularity():
 
 
 def test_singular_start_keeps_joints_inside_their_limits():
-    """Only the free joints may look ahead to where they are fixed: joint 1 crosses 180 degrees in
-    between.
+    """Only free joints may look ahead to the sample that determines them: joint 1 crosses 180
+    degrees in between.
     """
     q = np.zeros((60, 6)) + [0, 0.2, -0.1, 0.3, 0, 0.4]
     q[:, 0] = 3.0 + np.linspace(0, 0.5, 60)
@@ -297,8 +295,8 @@ def test_follow_returns_the_original_motion(machine):
         np.where(arm.prismatic, arm.limits[:, 0], -7),
         np.where(arm.prismatic, arm.limits[:, 1], 7),
     )
-    # Where two rows meet (a stretched arm, the PUMA's d3) no sample tells passing through from
-    # turning back.
+    # Where two rows meet (a stretched arm, the PUMA's d3), samples cannot distinguish passing
+    # through from turning back.
     meet = (
         slice(0, 1)
         if len(arm.links) == 4
@@ -340,9 +338,7 @@ def test_follow_starts_inside_the_limits_if_possible():
 
 
 def out_and_back():
-    """A straight line that leaves the workspace and comes back into it, at a constant
-    orientation.
-    """
+    """A straight line that leaves the workspace and returns, at a constant orientation."""
     T = IRB140.fk(np.array([0.3, -0.4, 0.2, 0.5, 0.8, -0.3]))
     s = np.linspace(0, 1, 301)
     out = T.translation + np.sin(np.pi * s)[:, None] * np.array([0.6, 0.1, 0.1])
@@ -551,7 +547,7 @@ def test_wrong_arguments_are_named_in_the_error(call, evidence):
 
 
 def test_the_blend_stays_on_one_row():
-    """On a path away from every singularity `follow` is the row it starts on, unwrapped."""
+    """Far from all singularities `follow` returns the row on which it starts, unwrapped."""
     start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
     via = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
     goal = Transform(TURNED, (0.3, 0.3, 0.5))
@@ -564,13 +560,15 @@ def test_the_blend_stays_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# What people read
+# Values for people
 # --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 def test_representative_is_inside_or_least_past_the_limits(arm):
-    """By trial of whole turns: the value inside that is nearest to q, else the one least past."""
+    """By trying whole turns: the inside value nearest to q, otherwise the one least past the
+    limits.
+    """
     rng = np.random.default_rng(31)
     q = rng.uniform(-11, 11, (400, len(arm.links)))
     shown = representative(arm, q)
@@ -636,7 +634,7 @@ def test_degrees_cause_a_warning_and_long_motions_do_not():
 
 
 def test_follow_of_a_batch_equals_single_motions():
-    """One of them singular throughout, one that begins late, one that is missing."""
+    """One is singular throughout, one begins late, one is missing."""
     s = np.linspace(0, 1, 30)[:, None]
     plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s
     stuck = np.array([0.1, 0.2, 0.3, 0.9, 0.0, 0.6]) + [0.5, 0.3, 0.2, 0.4, 0, 0.3] * s

@@ -1,7 +1,6 @@
 """The players in a real browser: live in JupyterLab, trusted and untrusted, exported, saved.
 
-What a player shows is read as a person would see it: the pixels of its canvases and the words of
-its table.
+The tests read what a person would see: the pixels of the canvases and the words of the table.
 """
 
 import html
@@ -24,8 +23,8 @@ PLAYER = "div.robokin-player"
 LIVE = ("00_start_here", "03_irb140_motion")
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 COMPANIONS = [f"documents/{path.stem}" for path in sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
-# What is wrong with players, all of them looked at in the same frames: each slider changes what is
-# drawn, and at its first value shows what it showed there before; the clock runs and stops.
+# Finds faults of players, all checked in the same frames: each slider changes the picture, and
+# returns to the first picture at its first value; the clock runs and stops.
 ALIVE = """async selector => {
   const wrong = {}, players = [...document.querySelectorAll(selector)];
   const frames = () => new Promise(done =>
@@ -81,8 +80,8 @@ NEXT_FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnima
 
 @pytest.fixture
 def page(browser):
-    """A page that keeps account: `page.errors` from its console, `page.outside` the addresses not
-    on this machine.
+    """A page with records: `page.errors` from its console, and `page.outside`, addresses that are
+    not on this machine.
     """
     context = browser.new_context(viewport={"width": 1280, "height": 1000})
     page = context.new_page()
@@ -159,14 +158,14 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
 def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     for lab in LIVE:
-        # the one field that no stored lab has right for all: the reader's Python
+        # the only field that no stored lab can have right for everybody: the reader's Python
         name = _variant(jupyter, f"opened_{lab}.ipynb", lab)
         notebook = json.loads((jupyter.labs / name).read_text())
         notebook["metadata"]["language_info"]["version"] = platform.python_version()
         (jupyter.labs / name).write_text(json.dumps(notebook))
         jupyter.open(page, name)
         page.get_by_text("| Idle").first.wait_for()
-        page.wait_for_timeout(1500)  # the widgets' and the language's word come after it
+        page.wait_for_timeout(1500)  # the status of widgets and language comes after it
         assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class"), name
     page.locator(".jp-CodeCell .cm-content").first.click()
     page.keyboard.type("# mine")
@@ -265,7 +264,7 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
     for question in page.locator(".rk-ask").all():
         _opens(question)
     played = []
-    for player in players.all():  # those behind a question, too
+    for player in players.all():  # including those behind a question
         if player.locator(":scope > .rk-ask").count():
             continue
         player.locator("canvas").first.wait_for()
@@ -339,7 +338,7 @@ def _seen(player):
 
 
 def _settled(page, player):
-    """What is seen once the page has come to rest: what is above may still move and widen it."""
+    """What is visible when the page is at rest, since views above may still move or widen it."""
     seen = _seen(player)
     for _ in range(20):
         page.wait_for_timeout(300)
@@ -361,9 +360,7 @@ def _slider(player, label):
 
 
 def _moves(page, player, slider):
-    """Keys and mouse change the value and what is drawn; what is shown depends on the value
-    alone.
-    """
+    """Keys and mouse change the value and the picture; the picture depends only on the value."""
     slider.scroll_into_view_if_needed()
     slider.focus()
     slider.press("Home")
@@ -373,7 +370,7 @@ def _moves(page, player, slider):
     page.evaluate(NEXT_FRAME)
     seen = [_seen(player).pixels]
     assert slider.input_value() != value
-    slider.press("ArrowLeft")  # the two ends may be one motion: a target turned by a whole turn
+    slider.press("ArrowLeft")  # both ends may be the same motion: a target rotated by a whole turn
     page.evaluate(NEXT_FRAME)
     seen.append(_seen(player).pixels)
     assert any(pixels != first.pixels for pixels in seen)
@@ -392,7 +389,7 @@ def _moves(page, player, slider):
 
 
 def _answers(page, player):
-    """An explorer answers to its sliders and to a key on a handle, in the picture and in words."""
+    """An explorer responds to its sliders and to a key on a handle, in the picture and in words."""
     for held in (player.locator("input[type=range]").first, player.locator(".rk-handle").first):
         held.scroll_into_view_if_needed()
         held.focus()
@@ -447,8 +444,8 @@ def _stored_players(lab):
 
 
 def _variant(jupyter, name, lab="03_irb140_motion"):
-    """A copy of a lab with a cell more, so that its signature is its own; the name, for
-    `jupyter.open`.
+    """Make a copy of a lab with one more cell, so that it has its own signature; return the name
+    for `jupyter.open`.
     """
     notebook = json.loads(Path(jupyter.labs, f"{lab}.ipynb").read_text(encoding="utf-8"))
     notebook["cells"].append(

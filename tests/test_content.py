@@ -1,5 +1,5 @@
-"""What holds of all content: of the folders in notebooks/exercises, and of those that
-ROBOKIN_EXERCISES names. What is too slow to be asked at every check is asked here.
+"""Laws of all content in notebooks/exercises and in the folders of ROBOKIN_EXERCISES, including
+those that are too slow for every check.
 """
 
 import contextlib
@@ -28,7 +28,7 @@ UNJUDGED = "It cannot be judged."
 
 
 def test_all_content_can_be_read():
-    """Where a line of a solution changed: write the new piece left of the arrow of each edit."""
+    """If a line of a solution has changed, write the new piece left of the arrow in each edit."""
     told = [line for lab in book.labs().values() for line in lab.broken.values()]
     if told:
         pytest.fail("\n".join(told), pytrace=False)
@@ -60,7 +60,7 @@ def test_mistakes_have_unique_names_and_sentences(name):
 
 
 def outcomes(exercise, variant):
-    """What a wrong program makes of all cases."""
+    """The results of a wrong program in all cases."""
     [made] = run(lambda: _outcomes(exercise, variant), [()])
     if unended(made):
         pytest.fail(f"{variant.name!r} does not come to an end", pytrace=False)

@@ -1,4 +1,4 @@
-"""The conveyor: laws of its trips, against formulas and a plain second program."""
+"""The conveyor: laws of its trips, compared with formulas and a simple second program."""
 
 from math import acos, asin, atan2, ceil, floor, hypot, sqrt
 
@@ -58,7 +58,7 @@ def test_spread_is_the_largest_relative_deviation_of_a_gap(spread, seed):
     deviation = spread / sqrt(3) * GAP * sqrt((COUNT + 1) / (COUNT - 1))
     assert gaps.std() == pytest.approx(deviation, rel=1e-9)
     order = np.argsort(np.argsort(gaps))
-    assert abs(np.corrcoef(order[1:], order[:-1])[0, 1]) < 0.2  # no gap tells the next
+    assert abs(np.corrcoef(order[1:], order[:-1])[0, 1]) < 0.2  # no gap predicts the next
     steady = np.diff(spaced(COUNT, GAP, 0.1, seed=seed), prepend=0)
     assert (np.argsort(np.argsort(steady)) == order).all()
 
@@ -91,7 +91,7 @@ def seconds(point):
 def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
-        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt has carried it
+        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt carried it
         assert (y >= WINDOW[0] + k * pitch - 1e-9).all()
         assert (y <= WINDOW[-1] + k * pitch + 1e-9).all()
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)
@@ -115,7 +115,7 @@ def test_each_object_is_picked_once_or_missed_by_all(line):
     assert len(set(taken.tolist())) == len(taken) <= COUNT
     more = serve(offsets, v, WINDOW, WAYS, arms=9, pitch=pitch, first_come=first_come)
     assert sorted(np.concatenate([one.objects for one in more]).tolist()) == list(range(COUNT))
-    for one, same in zip(trips, more, strict=False):  # an arm does not feel those behind it
+    for one, same in zip(trips, more, strict=False):  # an arm is not affected by those after it
         assert (one.objects == same.objects).all() and (one.meets == same.meets).all()
 
 
@@ -138,7 +138,7 @@ def test_larger_pitch_only_delays_picks(line):
 
 
 def test_greedy_rule_equals_a_simple_program(line):
-    """Every object that is left and every place, tried for every trip."""
+    """Try every remaining object and every place for every trip."""
     offsets, v, pitch, trips, first_come = line
     left = list(range(COUNT))
     for k, one in enumerate(trips):
@@ -156,7 +156,7 @@ def test_greedy_rule_equals_a_simple_program(line):
             free = meet + WAYS[j]
             left.remove(i)
         last = (offsets[left] + k * pitch + WINDOW[:, None] - WINDOW[0]) / v - WAYS[:, None]
-        assert (last < free).all()  # it stops only when it can meet none of the rest
+        assert (last < free).all()  # it stops only when it can reach none of the rest
 
 
 def test_one_place_picks_every_kth_of_evenly_spaced_objects():
@@ -188,7 +188,7 @@ def test_unlimited_window_picks_one_object_per_cycle(spread, first_come):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_one_place_with_uneven_objects_equals_a_simple_walk(seed):
-    """Whoever comes while the arm is away has gone."""
+    """Objects that come while the arm is away are missed."""
     offsets, v, way = spaced(COUNT, GAP, 1.0, seed=seed), 0.2, 0.5
     (one,) = serve(offsets, v, [0.0], [way])
     free, taken = 0.0, []

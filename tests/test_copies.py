@@ -1,8 +1,8 @@
-"""`python -m robokin.course copy`: labs handed out, and again, without a loss.
+"""`python -m robokin.course copy`: labs are handed out repeatedly without losing work.
 
-A history is what may happen to a student's folder: edits, runs, files of their own, newer labs, and
-copies that are interrupted at any write or meet a student who saves in that very moment. `History`
-knows by itself what the student wrote and what the labs say, and looks after every step.
+A history is a possible sequence of events in a student's folder: edits, runs, other files, newer
+labs, and copies that are interrupted at any write or coincide with a save. `History` records
+independently what the student wrote and what the labs contain, and checks after every step.
 """
 
 import builtins
@@ -73,7 +73,7 @@ def written(data):
 
 
 def cells(content):
-    """What the cells say, or None where the bytes are no notebook."""
+    """The text of the cells, or None if the bytes are not a notebook."""
     try:
         return [(c["cell_type"], "".join(c["source"])) for c in json.loads(content)["cells"]]
     except (ValueError, KeyError, TypeError):
@@ -81,7 +81,7 @@ def cells(content):
 
 
 def said(path, content):
-    """What counts in a file: its cells, or its bytes."""
+    """The relevant content of a file: its cells, or its bytes."""
     return (path.endswith(".ipynb") and str(cells(content))) or content
 
 
@@ -90,20 +90,20 @@ def trusted(path, notary=NotebookNotary):
 
 
 def laid(content):
-    """A lab as it should lie in a student's folder."""
+    """A lab as it should be in a student's folder."""
     data = json.loads(content)
     data["metadata"]["language_info"]["version"] = platform.python_version()
     return data
 
 
-# --- Whatever may happen at a write ---------------------------------------------------------------
+# --- Faults at any write ---------------------------------------------------------------
 
 
 class Writes:
-    """Stands for `os` and `open` in `copies`: counts what it does to files, and at count `end`
-    stops it by an `error`: before or after that takes effect, in the middle of a write; once, or
-    (`dead`) for good, as a process that was killed. `at`: count -> what happens just before.
-    With `near`, a path, it counts from the moment when that is moved or laid.
+    """Replaces `os` and `open` in `copies`: counts file operations, and at count `end` raises an
+    `error`: before or after the operation takes effect, or in the middle of a write; once, or
+    (`dead`) permanently, like a killed process. `at`: count -> an action just before. With `near`,
+    a path, it counts from the moment when that is moved or written.
     """
 
     def __init__(self, end=None, after=False, dead=False, error=KeyboardInterrupt):
@@ -166,7 +166,7 @@ class Writes:
 
 
 class History:
-    """A source of labs, a student's folder, and what has to hold.
+    """A source of labs, a student's folder, and the laws that must hold.
 
     mine       [path, bytes] that the student wrote and has not changed or deleted since; the path
                is None while only the next copy can bring it back (a save that met a killed copy)
@@ -496,7 +496,7 @@ class History:
     # What has to hold
 
     def look(self):
-        """Nothing of the student's is lost, and no notebook is broken that was whole."""
+        """Nothing of the student's work is lost, and no valid notebook is broken."""
         files = self.files(hidden=True)
         for each in self.mine:
             path, content = each
@@ -531,7 +531,7 @@ class History:
         return sorted(p.relative_to(self.source).as_posix() for p in found)
 
     def files(self, hidden=False):
-        """Path -> bytes of the student's files; what links lead to is not theirs twice."""
+        """Path -> bytes of the student's files; targets of links are not counted twice."""
         found = {}
         for top, _, names in os.walk(self.folder):
             for path in (Path(top, name) for name in names):
@@ -658,7 +658,7 @@ class Class:
         place.write_bytes(written(notebook(f"{name} {says}") if "ipynb" in name else says))
 
     def copy(self):
-        """Path -> what became of it, where anything did."""
+        """Path -> its outcome, if anything happened."""
         return {o.path: o.what for o in copy(self.folder, self.labs) if o.what != "same"}
 
     def says(self, name):
@@ -827,7 +827,7 @@ def test_full_disk_is_reported_and_recovered_from(school, capsys):
 
 
 def test_disk_that_fills_up_reports_written_files(school, monkeypatch):
-    """Whichever file is the last that it takes: what is told lies there, and nothing else does."""
+    """Whichever file is the last: exactly the reported files are there."""
     write, names = copies.write, ("new.ipynb", "one.ipynb", "two.ipynb")
     for name in names:
         school.newer(name, "second")
@@ -989,7 +989,7 @@ def test_copied_labs_are_valid_and_trusted(tmp_path):
 
 
 def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupyter, monkeypatch):
-    """Nothing is run: the player plays, and JupyterLab has nothing to save."""
+    """Without running a cell, the player plays and JupyterLab has nothing to save."""
     monkeypatch.setenv("JUPYTER_DATA_DIR", jupyter.environment["JUPYTER_DATA_DIR"])
     copy(jupyter.labs / "student")
     page = browser.new_page()

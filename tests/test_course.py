@@ -1,5 +1,5 @@
-"""The machinery of the course: what a check says of answers of every kind, on exercises made here;
-and that nothing an answer does gets out. The labs' own exercises have a file each.
+"""The engine of the course: the verdicts on answers of every kind, for exercises made here, and the
+isolation of answers. The exercises of each lab have their own test file.
 """
 
 import _thread
@@ -115,7 +115,7 @@ def my_test(program):
 
 
 def made(text, number="1", title="a pose", **code):
-    """An exercise as a teacher writes it: its Markdown below the hints, and its Python."""
+    """An exercise in a teacher's format: its Markdown below the hints, and its Python."""
     words = WORDS.format(number=number, title=title)
     return book.made(markdown.exercise("made.md", words + text), code)
 
@@ -194,7 +194,7 @@ def test_right_answer_holds_and_reports_the_number_of_cases():
 
 
 def stub(height, angle):
-    """Words, and nothing else."""
+    """The words without markup."""
     ...
 
 
@@ -216,7 +216,7 @@ def half_written(height, angle):
 
 
 def test_partly_written_answer_is_judged(lab):
-    """Wherever the part that is missing stands, also in the last case."""
+    """The missing part may be anywhere, even in the last case."""
     verdict = check("made.1", half_written)
     assert verdict.answered and not verdict.holds and verdict.mistake == "raises an error"
     assert "NotImplementedError" in verdict.case and "height = 2.5" in verdict.case
@@ -279,12 +279,12 @@ def test_endless_loop_is_reported_when_its_cpu_time_is_up(answer, monkeypatch):
     verdict = check("made.1", answer)
     assert 0.4 < time.process_time() - begin < 2
     assert verdict.mistake == "never ends" and not verdict.holds
-    assert check("made.1", right).holds  # and whoever asks lives on
+    assert check("made.1", right).holds  # and the caller continues
 
 
 @pytest.fixture
 def _interrupts():
-    """As in a kernel: Ctrl+C raises KeyboardInterrupt, whatever earlier tests have made of it."""
+    """As in a kernel, Ctrl+C raises KeyboardInterrupt, regardless of earlier tests."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -299,7 +299,7 @@ def test_interrupt_by_the_reader_is_passed_on():
         while True:
             height += 1
 
-    for _ in range(30):  # wherever who asks is in that moment
+    for _ in range(30):  # wherever the caller is at that moment
         with pytest.raises(KeyboardInterrupt):
             check("made.1", interrupted)
         until(lambda: _thread._count() == before, "a thread is left")
@@ -311,7 +311,7 @@ def test_interrupt_by_the_reader_is_passed_on():
 
 
 def test_time_limit_stops_the_answer_and_not_the_caller(monkeypatch):
-    """Also where the machine is so busy that the limit passes before the caller goes on."""
+    """Even if the machine is so busy that the limit passes before the caller continues."""
     monkeypatch.setattr(answers, "SECONDS", 0.01)
     start = _thread.start_new_thread
 
@@ -349,7 +349,7 @@ def works(seconds):
 
 
 def test_many_slow_cases_are_reported_together(monkeypatch):
-    """No case is blamed for what all of them take."""
+    """No single case is blamed for the total time."""
     assert (answers.SECONDS, answers.TOTAL) == (4, 30)
     monkeypatch.setattr(answers, "TOTAL", 0.4)
     outcomes = answers.run(works, [(0.05,)] * 40)
@@ -378,12 +378,12 @@ def test_verdicts_without_threads_are_the_same_and_the_host_is_called(monkeypatc
 
 
 def test_time_limit_leaves_no_thread_behind(monkeypatch):
-    """Neither an exception that comes too late, nor a redirected output, nor a waiting thread."""
+    """No late exception, no redirected output, and no waiting thread remains."""
     monkeypatch.setattr(answers, "SECONDS", 0.02)
     out, before = sys.stdout, _thread._count()
     told = set()
     for k in range(40):
-        pause = 0.001 * k  # some end just before the limit, some just after
+        pause = 0.001 * k  # some end just before the limit, others just after
 
         def ends(height, pause=pause):
             end = time.thread_time() + pause
@@ -468,7 +468,7 @@ def inside(lab, mistakes=""):
 
 
 def test_program_that_is_almost_always_true_uses_its_inputs(lab):
-    """Asked from one case only, most wrong tests would seem to use nothing."""
+    """With only one case, most wrong tests would seem to use no input."""
     inside(lab)
     assert check("made.4", lambda x, low: low <= x <= 3).holds
     assert check("made.4", lambda x, low: x <= low + 5).mistake is None
@@ -506,7 +506,7 @@ def test_two_mistakes_of_a_pose_are_both_named():
 
 
 def test_nearly_right_answer_gets_its_error(lab):
-    """And no mistake is named that leaves the right program as it is, however loose `same` is."""
+    """No mistake is named that does not change the right program, however tolerant `same` is."""
     loose = lambda a, b: np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-2)  # noqa: E731
     lab.exercises["4"] = made(POSE, **KEPT | {"same": loose})
     for name in ("made.1", "made.4"):
@@ -570,7 +570,7 @@ def integers(rng):
     return [(float(a), float(b)) for a in range(-2, 3) for b in range(-2, 3)]
 
 
-# what a right program returns, its cases, and how a student writes it wrongly
+# the result of a right program, its cases, and a student's wrong version
 WRITTEN = {
     "element-wise product": ("a @ b", matrices, lambda a, b: a * b),
     "order of a product": ("a @ b", matrices, lambda a, b: b @ a),
@@ -722,7 +722,7 @@ def test_error_in_the_test_itself_is_reported():
 
 
 def test_test_that_counts_its_calls_does_not_hold(monkeypatch):
-    """It is right by luck: twice in ten times ten, asked again."""
+    """It is right by chance, so it is tried repeatedly."""
     held, told = 0, set()
     for seed in range(200):
         dice = random.Random(seed)

@@ -1,6 +1,4 @@
-"""What is special about the exercises of lab 01: right answers in unlike styles, wrong ones with
-their names.
-"""
+"""The exercises of lab 01: right answers in different styles, and wrong ones with their names."""
 
 import functools
 import re
@@ -141,7 +139,7 @@ def unit(row):
 
 
 def by_its_properties(lead):
-    """Unit length, even steps and the whole turn, and no other program to compare with."""
+    """It checks unit length, equal steps and the whole rotation, without a reference program."""
     rng = np.random.default_rng(0)
     for turn in (0, 0.1, 0.4, 1, 2, 3):
         a = unit(rng.normal(size=4))

@@ -39,7 +39,7 @@ def by_chain(q, length, turn):
 
 
 def by_joint_6(q, length, turn):
-    "A turn about the flange's z axis is more of joint 6."
+    "A rotation about the flange's z axis only changes joint 6."
     more = q.copy()
     more[5] += turn
     flange = IRB140.fk(more)
@@ -109,7 +109,9 @@ def test_limits_do_not_count():
 
 
 def test_too_near_in_front_counts_as_well():
-    centre = np.array([70 + 20, 0, 352]) * mm  # 20 mm from the shoulder: the arm cannot fold so far
+    centre = (
+        np.array([70 + 20, 0, 352]) * mm
+    )  # 20 mm from the shoulder: the arm cannot fold that far
     pose = Transform(turned(30 * deg, X), centre + 65 * mm * (turned(30 * deg, X) @ Z))
     assert np.isnan(IRB140.ik(pose)[:4]).all() and check(POSE, pose).holds
 
@@ -165,7 +167,7 @@ def test_the_page_of_the_pose_says_when_the_task_is_fulfilled(browser, tmp_path)
 
 
 def design(who, factor=1.1, height=None):
-    "A right design, found another way than in the solution: the quickest of a few heights."
+    "A right design, found in another way than in the solution: the fastest of a few heights."
     numbers = variant("irb140_kinematics", who)
     p, best = np.linspace(0, 1, 801), []
     for z in (0.65, 0.7, 0.75, 0.8) if height is None else (height,):
@@ -251,7 +253,7 @@ def key(name):
 
 
 def jacobian(q, k, point=(0, 0, 0)):
-    "Speed of a flange point when joint k turns, from its axis: another way than differences."
+    "The speed of a flange point when joint k turns, computed from its axis instead of differences."
     frame = IRB140.frames(q)[k + 1]
     axis = frame.rotation @ IRB140.links[k].axis if k < 5 else IRB140.fk(q).rotation @ Z
     return np.linalg.norm(np.cross(axis, IRB140.fk(q) @ point - frame.translation))
@@ -320,11 +322,11 @@ def test_p9_by_the_law_of_cosines():
     a, b, d = 0.38, 0.35, 0.1
     angle = np.arccos((b**2 + d**2 - a**2) / (2 * b * d))
     assert angle > np.pi / 2 and key("p9") == 3
-    chord = 2 * b * np.sin(angle - np.pi / 2)  # the elbow goes on a circle of the upper arm ...
+    chord = 2 * b * np.sin(angle - np.pi / 2)  # the elbow moves on a circle of the upper arm ...
     facts = LAB.predictions["p9"].facts()
     assert facts["obtuse"] == pytest.approx(angle / deg)
     assert facts["acute"] == pytest.approx(180 - angle / deg)
-    # ... and the whole triangle with it: the wrist centre, d away, goes on a chord of its own
+    # ... with the whole triangle: the wrist centre, d away, moves along its own chord
     assert facts["miss"] == pytest.approx(chord * d / b / mm)
 
 

@@ -1,5 +1,5 @@
 """The exercises and predictions of lab 03: right answers hold in every style, wrong ones are named,
-and every prediction's key is computed a second time, another way.
+and the key of every prediction is computed in a second way.
 """
 
 import json
@@ -166,7 +166,7 @@ def test_too_few_turns_are_told(most, limited, name):
 
 
 def test_a_value_a_little_off_is_told_so():
-    D = 1503 * mm  # typed, with too few digits
+    D = 1503 * mm  # typed with too few digits
 
     def typed(distance, corner):
         fraction = distance / ({"parabola": 1 / 2, "quintic": 3 / 8}[corner] * D * 1.001)

@@ -1,5 +1,5 @@
-"""What holds of the exercises and predictions of every lab, whichever they are. What is special
-about a lab's own stands in test_course_<lab>.py.
+"""Laws of the exercises and predictions of every lab. test_course_<lab>.py has the tests for a
+single lab.
 """
 
 import json
@@ -75,7 +75,7 @@ def test_every_objective_is_practised_and_stands_in_the_lab(lab, monkeypatch):
 
 @every_lab
 def test_the_last_cell_of_your_turn_hands_in(lab):
-    """It takes the lab's own name, which a cell before it or its own first line sets."""
+    """It uses the lab's student name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
     assert re.search(r"^report\(who\)$", sources[end - 1], re.M)
@@ -102,7 +102,7 @@ def test_hints_rise_and_the_solution_holds(name):
     assert all(text in hint(name, k) for k, text in enumerate(exercise.hints, 1))
     [call] = re.findall(rf'^(check\("{re.escape(name)}".*\))$', code(name.partition(".")[0]), re.M)
     space = {"check": check}
-    exec(compile(solution(name), name, "exec"), space)  # in a namespace of its own
+    exec(compile(solution(name), name, "exec"), space)  # in a separate namespace
     space.setdefault("who", "your name")
     verdict = eval(call, space)
     assert verdict.holds and verdict.points == 1, verdict
@@ -155,7 +155,7 @@ def of_the_solution(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_no_test_holds_by_a_trick(name, monkeypatch):
-    """One that counts its calls, passes over errors, says nothing, or says it only now and then."""
+    """Tests that count their calls, ignore errors, return nothing, or answer only sometimes."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1
@@ -210,7 +210,7 @@ def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
     said = asked + "".join(option.reason + option.second for option in options)
     assert not re.search(r"[{}$\\]", said), "a blank that is not filled, or a formula"
     for k, option in enumerate(options):
-        if typed:  # the number of each confusion is told from all others
+        if typed:  # the numbers of all confusions are distinguishable
             assert chosen_option(prediction, options, right, float(option.text)) == k
     assert shown(prediction.view()), "a view that shows nothing"
 
@@ -255,6 +255,6 @@ def test_in_a_kernel_an_endless_answer_is_told_and_the_kernel_lives():
 
 @pytest.mark.parametrize("name", ["answers", "", "..", None, 7, "irb140_motion.1"])
 def test_what_is_no_lab_is_refused(name):
-    """A module of the course, too: a name comes from a file that was handed in."""
+    """Names of course modules are refused, too, since a name comes from a handed-in file."""
     with pytest.raises(ValueError, match="lab: wanted one of start_here, "):
         book.lab(name)

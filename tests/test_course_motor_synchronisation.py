@@ -1,4 +1,4 @@
-"""The exercises of lab 11: right answers in unlike styles hold, wrong ones are told by name."""
+"""The exercises of lab 11: right answers in different styles hold, wrong ones are named."""
 
 import math
 import re
@@ -23,7 +23,7 @@ def short(d):
 
 
 def posture(alpha, guard=True, beta=lambda b: b):
-    """A program with an alpha of its own; without a guard math.acos raises."""
+    """A program with its own alpha; without a guard math.acos raises."""
 
     def program(point, before):
         x, y, z = map(float, point)

@@ -1,5 +1,5 @@
-"""The exercises of lab 10: right answers hold in every style, wrong ones are named; the numbers of
-one's own task can be met.
+"""The exercises of lab 10: right answers hold in every style, wrong ones are named, and individual
+tasks can be solved.
 """
 
 import re
@@ -73,7 +73,9 @@ def _returns_early(c, H):
 
 
 def _winding(c, H):
-    """Not zero in place of odd: the middle of a star drawn in one line is inside."""
+    """The nonzero rule instead of the even-odd rule: the middle of a star drawn in one line is
+    inside.
+    """
     z = (c - H) @ [1, 1j]
     return abs(np.angle(np.roll(z, -1) / z).sum()) > 3
 
@@ -92,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """Neither end of a side counts."""
+    """Neither end point of a side counts."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
@@ -137,7 +139,7 @@ def test_what_one_knows_already_does_not_pass_the_bar(who):
             assert not verdict.holds and verdict.mistake, name
     assert "degrees" in check("obstacle_avoidance.2", paths["degrees"], who=who).mistake
     assert check("obstacle_avoidance.2", paths["back"], who=who).mistake == "another start"
-    # the ends are kept, and what is between them is not
+    # the ends keep the distance, but postures between them do not
     verdict = check("obstacle_avoidance.2", paths["round both ends"], who=who)
     assert "between its ends" in verdict.mistake
 

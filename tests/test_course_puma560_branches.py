@@ -1,5 +1,5 @@
-"""The exercises of lab 07: right answers in unlike styles hold, and wrong ones are named. What
-holds of every lab stands in test_course_labs.py.
+"""The exercises of lab 07: right answers in different styles hold, and wrong ones are named. Laws
+of all labs are in test_course_labs.py.
 """
 
 import re
@@ -127,7 +127,7 @@ def test_wrong_speeds_are_named(answer, mistake):
     ],
 )
 def test_a_duration_is_told_what_it_is(change, mistake):
-    # near 1 rad/s a joint speed is no longer told from a duration
+    # near 1 rad/s a joint speed cannot be distinguished from a duration
     who = next(name for name in map(str, range(99)) if abs(lab.given(name)["fastest"] - 1) > 0.3)
     numbers = lab.given(who)
     least = judged_line(numbers).least(numbers["fastest"])

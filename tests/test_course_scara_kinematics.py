@@ -180,7 +180,7 @@ def test_a_weak_test_is_told_what_it_lets_through():
 
 
 def spoiled(past, tables, at=(7,), said=bool):
-    """A test that spoils one value at a time, by so much."""
+    """A test that changes one value at a time by a given amount."""
 
     def inside_is_right(inside):
         for limits in tables:

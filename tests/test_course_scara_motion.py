@@ -1,5 +1,5 @@
 """The exercises and predictions of lab 05: right answers hold in every style, wrong ones are named,
-and the keys of the predictions are computed a second time, another way.
+and the keys of the predictions are computed in a second way.
 """
 
 import numpy as np
@@ -497,7 +497,7 @@ def test_a_corner_is_an_enlargement_from_via():
         (lambda t: t * 1000**0.5, "mm for m"),
         (lambda t: 1.3 * t, "slower than needed"),
         (lambda t: 0.9 * t, "too fast"),
-        (lambda t: 0.508 * t, "too fast"),  # no half: nobody knows why
+        (lambda t: 0.508 * t, "too fast"),  # not 0.5, which nobody can explain
         (lambda t: 1.97 * t, "slower than needed"),
     ],
 )

@@ -1,5 +1,5 @@
 """The exercises and predictions of lab 06: right answers hold in every style, wrong ones are named,
-and every prediction's key is computed a second time, another way.
+and the key of every prediction is computed in a second way.
 """
 
 import itertools
@@ -208,7 +208,7 @@ def test_a_test_that_is_not_enough_is_told_so(test, mistake):
 
 
 def _with_slack(program):
-    """A careful test, but for the relative tolerance of allclose."""
+    """A careful test except for the relative tolerance of allclose."""
     for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
         for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3)]:
             for wrist in (1, -1):
@@ -221,7 +221,7 @@ def _with_slack(program):
 
 
 def _blind(program):
-    """A careful test, but for NaN."""
+    """A careful test except for NaN."""
     for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
         for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1), (0.2, 2.2)]:
             for wrist in (1, -1):
@@ -290,7 +290,7 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
     verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
     if passage(n, -side, -up)[0] >= n["least_distance"]:
         assert "With up and side exchanged it would do" in verdict.says[0]
-    elif 50 > abs(n["slope"]) / deg > 40:  # then the two tilts are one
+    elif 50 > abs(n["slope"]) / deg > 40:  # then the two tilts coincide
         assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
     elif not verdict.holds and verdict.mistake not in ("too fast", "too slow"):
         assert verdict.mistake in ("up and side exchanged", "tilted along the line", "out of reach")
@@ -347,7 +347,7 @@ def test_a_test_has_to_look_at_the_middle_angle_too():
     whole = _judges([0, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10)
 
     def first_and_last(program):
-        """Takes the theta that fits, whatever the program says of it."""
+        """It takes a matching theta and ignores the program's answer."""
 
         def mended(h, wrist):
             phi, _, psi = program(h, wrist)

@@ -17,7 +17,7 @@ def place(q):
 
 
 def searched(seed):
-    """A posture of random joints 2 to 6, whose tool is mirrored and lifted by a search."""
+    """A posture with random joints 2 to 6 whose tool is mirrored and raised by a search."""
     dice = np.random.default_rng(seed)
     low, high = IRB140.limits.T
     while True:
@@ -91,5 +91,5 @@ def test_p1_left_becomes_right():
     wanted = "x = {:.0f} mm, y = {:.0f} mm".format(*there).replace("-", "\N{MINUS SIGN}")
     assert options[right].text.startswith(wanted)
     reasons = " ".join(option.reason for option in options)
-    for angle in ("140°", "\N{MINUS SIGN}140°", "50°"):  # where the other answers belong
+    for angle in ("140°", "\N{MINUS SIGN}140°", "50°"):  # the places of the other options
         assert f"at {angle}" in reasons

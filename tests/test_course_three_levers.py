@@ -1,5 +1,5 @@
-"""Lab 09: answers to its exercises, right ones in unlike styles and wrong ones, and what the check
-says to them; its numbers of one's own.
+"""The exercises of lab 09: right answers in different styles, wrong ones with their verdicts, and
+individual numbers.
 """
 
 import cmath
@@ -29,7 +29,7 @@ def levers(K, alpha, lengths):
 
 
 def by_complex_numbers(K, alpha, lengths):
-    """OB lies against the clock from OK; the rest follows from the places."""
+    """OB is counter-clockwise from OK; the rest follows from the positions."""
     a, b, c = (float(x) for x in lengths)
     k, KB = complex(*K), abs(b - c * cmath.exp(1j * alpha))
     if abs(k) > a + KB or abs(k) < abs(a - KB):
@@ -87,7 +87,7 @@ def first_of_the_lab(K, alpha, lengths):
 
 
 def whole_arm(K, alpha, lengths):
-    """NaN only where no alpha reaches."""
+    """NaN only where no alpha reaches the point."""
     a, b, c = lengths
     KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
     if not max(0, 2 * max(lengths) - sum(lengths)) <= KO <= sum(lengths):
@@ -102,7 +102,7 @@ def folded(K, alpha, lengths):
 
 
 def added(K, alpha, lengths):
-    """A plus in the law of cosines, and beta_2 from that KB."""
+    """A plus sign in the law of cosines, and beta_2 from that KB."""
     a, b, c = lengths
     KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 + 2 * b * c * np.cos(alpha))
     gamma = law(KO, a, KB) + np.arctan2(K[1], K[0])
@@ -265,7 +265,7 @@ def test_a_posture_a_little_off_is_told_in_numbers_that_differ():
 
 
 def first_and_last_angle(program):
-    """Looks at gamma and alpha, not at beta."""
+    """It checks gamma and alpha, but not beta."""
     for K, previous, S in tasks(140):
         q = np.array(program(K, previous))
         whole = ARM.family(K, np.clip(q[2], *ARM.alpha_range(K)))
@@ -275,7 +275,7 @@ def first_and_last_angle(program):
 
 
 def test_a_test_has_to_ask_from_unlike_postures():
-    """Also a second time: what remembers is made anew for each check."""
+    """Also a second time: programs with a memory are created again for each check."""
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
 

@@ -1,6 +1,4 @@
-"""Right answers that take their time hold: what counts is CPU time of their own, a case apart from
-the others.
-"""
+"""Slow right answers hold: only their own CPU time counts, separately for each case."""
 
 import numpy as np
 import pytest

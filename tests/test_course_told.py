@@ -1,4 +1,4 @@
-"""Numbers from an answer, and in a sentence."""
+"""Numbers read from answers and written into sentences."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The exercises of lab 12: slips in a short program are named, and what is told can be read."""
+"""The exercises of lab 12: slips in a short program are named, and the messages are readable."""
 
 import re
 
@@ -85,7 +85,7 @@ def test_slips_of_the_pen_are_named():
         assert not verdict.holds and verdict.mistake in (name, "NaN"), verdict
         assert len(verdict.says) <= 2
         named += verdict.mistake == name
-    assert named >= len(SLIPS) - 6  # a root below 0 for every tip gives NaN, and nobody knows why
+    assert named >= len(SLIPS) - 6  # a negative root for every tip gives NaN without an explanation
 
 
 def test_known_programs_and_nearly_right_ones_keep_their_names():
@@ -120,7 +120,7 @@ def test_known_programs_and_nearly_right_ones_keep_their_names():
         (
             lambda d, a, b: abs(a - b) - 1e-9 <= d <= a + b + 1e-9,
             None,
-        ),  # metres, also of a small arm
+        ),  # metres, even for a small arm
     ],
 )
 def test_a_rim_a_little_beside_is_seen(reach, name):

@@ -1,5 +1,5 @@
-"""The exercises of lab 08: right answers in unlike styles hold, and wrong ones are named. What
-holds of every lab stands in test_course_labs.py.
+"""The exercises of lab 08: right answers in different styles hold, and wrong ones are named. Laws
+of all labs are in test_course_labs.py.
 """
 
 import math
@@ -289,7 +289,7 @@ def test_a_worth_lost_in_part_is_told():
 
 
 def test_no_set_of_points_beats_cheapest_first():
-    """What the exercise says of "collect" is tried against every choice."""
+    """The exercise's statement about "collect" is compared with all choices."""
     numbers = variant("visit_and_collect", 3)
     rng = np.random.default_rng(3)
     for _ in range(100):

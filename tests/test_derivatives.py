@@ -37,7 +37,7 @@ def test_error_is_quadratic_in_the_step(order, exact):
     inner = [errors[i][0] / errors[i + 1][0] for i in (0, 1)]
     outer = [errors[i][1] / errors[i + 1][1] for i in (0, 1)]
     assert all(abs(ratio - 4) < 0.2 for ratio in inner)
-    # one order less for the second, at the ends
+    # one order less for the second derivative at the ends
     assert all(ratio > (3.8 if order == 1 else 1.8) for ratio in outer)
 
 
@@ -68,7 +68,7 @@ def test_nan_spreads_only_to_its_neighbours(t):
 
 
 def test_angles_are_not_unwrapped():
-    """A wrapped angle gives a spike: unwrapping is `follow`'s work (errata S1-e)."""
+    """A wrapped angle gives a spike; `follow` unwraps angles (errata S1-e)."""
     t = np.linspace(0, 1, 101)
     wrapped = (6 * t + np.pi) % (2 * np.pi) - np.pi
     assert abs(differentiate(wrapped, t)).max() > 250

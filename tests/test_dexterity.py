@@ -1,4 +1,4 @@
-"""How near a singularity is: one measure with one length."""
+"""The distance from singularities, measured with one length."""
 
 from types import SimpleNamespace
 
@@ -54,14 +54,15 @@ def test_product_for_two_links_is_the_area_of_their_parallelogram():
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
 def test_singular_values_are_the_extreme_stretches_of_small_steps(machine):
-    """Whatever the direction of a small joint step, the tool's step is between the smallest and the
-    greatest value long: by differences of FK, lengths in reaches.
+    """For any direction of a small joint step, the length of the tool's step is between the
+    smallest and the greatest singular value; computed by differences of FK, with lengths divided by
+    the reach.
     """
     arm = machine.arm
     q = random_joints(arm, RNG, (5,))
     values = singular_values(arm, q)
     assert (np.diff(values, axis=-1) <= 0).all() and (values >= 0).all()
-    scale = np.where(arm.prismatic, 1 / arm.reach, 1.0)  # a metre of stroke counts in reaches
+    scale = np.where(arm.prismatic, 1 / arm.reach, 1.0)  # a stroke is divided by the reach
     seen = []
     for _ in range(200):
         step = RNG.normal(size=len(arm.links))

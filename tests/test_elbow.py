@@ -109,7 +109,7 @@ def test_ik_reaches_the_point_and_contains_the_original_joints(l1, l2, shape):
         atol=1e-13 * (l1 + l2),
     )
     turned = Transform(Quaternion.from_angle_axis(0.7, (1, 0, 0)), points)
-    # the orientation is not this arm's to choose
+    # this arm cannot choose the orientation
     np.testing.assert_array_equal(arm.ik(turned), rows)
 
 
@@ -228,7 +228,7 @@ def test_joint_1_is_0_on_the_axis_for_both_signs_of_zero(x, y):
 
 
 def test_free_joint_does_not_affect_other_rows_of_a_batch():
-    """Equal levers folded onto joint 2, among points that are not so."""
+    """Equal links folded onto joint 2, in a batch with other points."""
     arm = loader_arm(1, 1)
     points = np.array([(1, 0.3, 0.2), (0, 0, 0), (0.5, -1, 0.4)])
     rows = arm.ik(points)

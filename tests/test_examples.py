@@ -1,5 +1,5 @@
-"""The examples in docstrings are true: each runs with NumPy as `np`, the public names of `robokin`
-and those of its own module or job, as in a notebook that began with them.
+"""The examples in docstrings are correct: each runs with NumPy as `np`, the public names of
+`robokin` and those of its own module or job.
 """
 
 import doctest
@@ -45,7 +45,7 @@ def examples(name):
     """The examples in the docstring of a public name, and of its methods."""
     value = PUBLIC[name]
     module = value if inspect.ismodule(value) else inspect.getmodule(value)
-    if module.__package__ in JOBS:  # of a job that is a package, what one imports from it
+    if module.__package__ in JOBS:  # for a job that is a package, its public names
         module = PUBLIC[module.__package__]
     names = {key: item for key, item in vars(module).items() if key[0] != "_"} | NAMES
     finder = doctest.DocTestFinder(recurse=not inspect.ismodule(value), exclude_empty=True)

@@ -1,6 +1,5 @@
-"""Exercises of one's own: made in a cell, read from a file, and in a folder of labs that
-ROBOKIN_EXERCISES names. What a teacher writes wrongly is told in a sentence with its file and line,
-and the others go on.
+"""Own exercises: made in a cell, read from a file, and in a folder of labs in ROBOKIN_EXERCISES. A
+teacher's errors are reported in a sentence with file and line, and the other exercises work.
 """
 
 import os
@@ -73,8 +72,8 @@ form = law = same
 
 
 def test_exercise_from_a_solution_and_cases():
-    """The names of the cell's notebook are there, but `form`, `law` and `same` are taken from none
-    by chance.
+    """The names of the notebook are available, but its `form`, `law` and `same` are never used by
+    accident.
     """
     mine = exercise(reach, cases)
     verdict = check(mine, lambda a, b, q: np.hypot(a + b * np.cos(q), b * np.sin(q)))
@@ -131,7 +130,7 @@ def book_text(markdown):
 
 
 TURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))
-# what a solution returns, an answer that is the same, one that is wrong, and one of another kind
+# the result of a solution, an equal answer, a wrong one, and one of another type
 KINDS = {
     "a number": ("2 * x", lambda x: 2 * x + 1e-9, lambda x: 3 * x, lambda x: [x, x]),
     "a whole number": ("round(x)", lambda x: float(round(x)), lambda x: x, lambda x: f"{x:.0f}"),
@@ -204,7 +203,7 @@ def test_unchanged_inputs_are_not_reported(given):
 
 
 class Gauge:
-    """A value whose == compares no values."""
+    """A value whose == does not compare values."""
 
     def __init__(self, value):
         self.value = value
@@ -268,7 +267,7 @@ def place(tmp_path, monkeypatch):
 
 
 def test_exercise_files_are_read_again_after_a_change(tmp_path):
-    """Also with the marks that Windows leaves in a text."""
+    """Also with the byte-order mark and line ends of Windows."""
     text = f"\ufeff{HEAD.format(number=1)}{REACH}".replace("\n", "\r\n")
     write(tmp_path, reach_md=text, reach_py="from .more import cases\n__all__ = ['cases']\n")
     write(tmp_path, more_py=CASES)
@@ -318,7 +317,7 @@ def test_progress_lists_exercises_without_an_objective(place):
 
 
 def test_labs_without_a_notebook_come_last(tmp_path, monkeypatch):
-    """As in a clone that an installation is told of."""
+    """As for an installation that points to a clone."""
     for name in ("apple", "pear", "zebra"):
         write(tmp_path / "exercises" / name)
     for name in ("00_zebra.ipynb", "01_pear.ipynb", "02_gone.ipynb"):
@@ -346,7 +345,7 @@ def test_unknown_lab_is_refused(name):
         book.lab(name)
 
 
-# --- What a teacher writes wrongly ----------------------------------------------------------------
+# --- Errors in teacher files ----------------------------------------------------------------
 
 PREDICTED = """\
 # Predictions
@@ -400,7 +399,7 @@ def altered(*changes, text=REACH):
     return HEAD.format(number=1) + text
 
 
-# Markdown, Python, and what is told: the file and line (with ".md" or ".py"), and why
+# Markdown, Python, and the message: the file and line (with ".md" or ".py"), and the reason
 BROKEN = {
     "no head": ("Reach\n", CASES, ".md, line 1: wanted '# 1. TITLE'"),
     "no solution": (
@@ -530,7 +529,7 @@ def test_faults_in_teacher_files_are_reported_and_the_others_work(what, place):
             hint("mine.1")
 
 
-# the Python file, and what is told of its cases, which are drawn when they are needed
+# the Python file, and the message about its cases, which are made when needed
 UNDRAWN = {
     "cases that raise": ("    return 1 / 0\n", "It raises ZeroDivisionError: division by zero."),
     "cases that return nothing": ("    list(rng.uniform(0, 1, 3))\n", "It raises TypeError"),
@@ -653,7 +652,7 @@ def test_empty_folder_is_reported(place):
 
 
 OPTION = "- `whole` **1 m.** It is not {length} m. *twice as long:* a second case."
-# predictions.md, predictions.py, and what is told
+# predictions.md, predictions.py, and the message
 UNPREDICTED = {
     "no facts": (PREDICTED, None, "line 3: no facts: a function p1() in its Python file"),
     "other facts": (PREDICTED, "def p2():\n    pass\n", "line 3: no facts: a function p1()"),
@@ -812,7 +811,7 @@ CHANGES = [
 
 @pytest.mark.parametrize(("solution", "case", "changes"), CHANGES)
 def test_wrong_programs_equal_their_texts_and_have_no_side_effects(solution, case, changes):
-    """In whichever order they run, alone and in pairs, from pieces that are compiled once."""
+    """In any order, alone and in pairs, from pieces that are compiled once."""
     steps = edits.Steps(solution, {})
     own = []
     for old, new in changes.items():

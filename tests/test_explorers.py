@@ -1,8 +1,8 @@
-"""Explorers in a real browser: what they show is what Python says of what they show, whatever hand
-moves them: mouse, finger or keys; and what a notebook stores of them.
+"""Explorers in a real browser: they show what Python computes, whether moved by mouse, finger or
+keys; and their stored form in a notebook.
 
-What an explorer shows is read as a person would: boxes, tables, words, handles, the pixels and the
-words on its canvases. Where more digits are needed than are shown, "Copy as Python" is run.
+The tests read what a person would see: boxes, tables, words, handles, and the pixels and words on
+canvases. For more digits they run "Copy as Python".
 """
 
 import itertools
@@ -73,7 +73,7 @@ POSES = {
         Transform(translation=p) for p in ((0.5, 0.2, 0.3), (0.4, -0.1, 0.6), (0.3, -0.4, 0.2))
     ),
 }
-SAMPLES = 241  # of a motion in the page
+SAMPLES = 241  # samples of a motion in the page
 KINDS = {
     "joint": lambda: joint_explorer(IRB140),
     "target": lambda: target_explorer(IRB140),
@@ -87,7 +87,7 @@ def named(arms):
 
 # --- A page and how it is read --------------------------------------------------------------------
 
-# What is written on a canvas since it was last wiped, and what is put on the clipboard.
+# Records the words on a canvas since it was last cleared, and the text put on the clipboard.
 WATCH = """
 const pen = CanvasRenderingContext2D.prototype, {clearRect: wipe, fillText: write} = pen;
 Object.assign(pen, {
@@ -142,14 +142,14 @@ class Open:
         self.rk = page.locator(".rk")
 
     def look(self):
-        """What is shown when the next picture has been drawn."""
+        """The state shown after the next picture."""
         seen = SimpleNamespace(**self.rk.evaluate(READ))
         assert min(seen.bytes) > 3000, "a canvas is blank"
         assert "NaN" not in str(vars(seen)) and "undefined" not in str(vars(seen))
         return seen
 
     def code(self, seen=None):
-        """What the lines of "Copy as Python" leave when they have run."""
+        """The names after running the lines of "Copy as Python"."""
         space = {"arm": self.arm}
         exec((seen or self.look()).code, space)
         return space
@@ -174,7 +174,7 @@ class Open:
             self.handle(name).press(key)
 
     def take(self, name):
-        """Put the mouse on a handle and hold it; the place."""
+        """Press the mouse on a handle, and return the place."""
         self.handle(name).focus()  # in front of its neighbours
         x, y = self.look().handles[name]["at"]
         self.page.mouse.move(x, y)
@@ -182,7 +182,7 @@ class Open:
         return np.array([x, y])
 
     def drag(self, name, *stops, each=None):
-        """Take a handle to places on the screen, looking at each; the last look."""
+        """Drag a handle to places on the screen, looking at each; return the last look."""
         self.take(name)
         for stop in stops:
             self.page.mouse.move(*stop, steps=3)
@@ -233,7 +233,7 @@ def watched(page):
 
 
 def tells_the_flange(shown, exact=True):
-    """Table, boxes and words agree with `fk` of the posture; the posture."""
+    """Check that table, boxes and words agree with `fk` of the posture; return the posture."""
     arm, seen = shown.arm, shown.look()
     q = np.array(shown.code(seen)["q"])
     units = [unit["size"] for unit in shown.data["units"]]
@@ -303,7 +303,7 @@ def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
 
 
 def same(arm, q, rows, atol):
-    """Whether both are the same postures: whole turns do not count, NaN is NaN."""
+    """Whether both are the same postures, ignoring whole turns; NaN equals NaN."""
     gap = q - rows
     gap = np.where(arm.prismatic, gap, gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
     return np.array_equal(np.isnan(q), np.isnan(rows)) and bool(
@@ -325,7 +325,7 @@ def shows_every_branch(shown, exact=True):
         np.array([[np.nan if x == "\u2013" else float(x) for x in row] for row in cells]) * units
     )
     near = distance_from_singularity(arm, rows)
-    # Three decimals of a degree in the code matter the more, the nearer a singularity is.
+    # Three decimals of a degree in the code matter more near a singularity.
     fine = (
         0.0505 if exact else 0.0505 + 0.005 / np.maximum(np.nan_to_num(near, nan=1), 1e-3)[:, None]
     )
@@ -382,7 +382,9 @@ def shows_every_branch(shown, exact=True):
 
 
 def _values(shown, target):
-    """What the boxes must say of a target, in mm and degrees, not by the code of the explorer."""
+    """The expected numbers in the boxes of a target, in mm and degrees, computed without the
+    explorer.
+    """
     size = shown.data["unit"]["size"]
     if isinstance(target, ScaraPose):
         turned = np.array([target.angle]) / deg
@@ -443,7 +445,7 @@ def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
     values = dict(zip("xyz", pose.translation / mm, strict=True))
     values |= dict(zip(("roll", "pitch", "yaw"), turns, strict=True))
     tables = []
-    for row in (0, 1, 3, 6):  # wherever the joints were before
+    for row in (0, 1, 3, 6):  # for any previous joints
         shown.choose("branch", row + 1)
         for name, value in (("x", 300), ("y", 0), ("z", 700), ("roll", 0), ("yaw", 0)):
             shown.type(name, value)
@@ -494,7 +496,7 @@ def test_click_on_a_row_or_its_button_chooses_it_once(browser):
 
 
 def test_home_key_on_an_arc_restores_the_first_rotation(opened):
-    """The sliders wrote into the very turns that Home gives back."""
+    """The sliders changed the same array that Home restores."""
     shown = opened(target_explorer(IRB140), IRB140)
     first = shown.look().boxes
     for name in ("roll", "pitch", "yaw"):
@@ -505,7 +507,7 @@ def test_home_key_on_an_arc_restores_the_first_rotation(opened):
 
 
 def test_sliders_change_the_lengths_of_levers(opened):
-    """Three more sliders; arm, curve and words follow, and the lines of Python have the lengths."""
+    """Three more sliders: arm, curve and words follow, and the Python lines contain the lengths."""
     arm = three_lever((0.9, 1.1, 0.6))
     shown = opened(target_explorer(arm), arm)
     assert opened(target_explorer(LEVERS)).look().boxes.keys() == {"x", "y", "alpha"}
@@ -527,7 +529,7 @@ def test_sliders_change_the_lengths_of_levers(opened):
         told = [float(x) for x in re.findall(r"alpha = ([\d.]+)°: ([\d.]+)°", seen.says)[0]]
         assert np.allclose(told, [least[0][2] / deg, least[1] / deg], atol=0.06)
     assert all(a != b for a, b in zip(seen.pixels, first.pixels, strict=True))
-    shown.type("lever AK", 1.5)  # the border |OB - BA| + AK is now behind the point
+    shown.type("lever AK", 1.5)  # the border |OB - BA| + AK is now beyond the point
     shown.type("lever BA", 0.5)
     assert shown.look().says == "No posture reaches this point."
 
@@ -658,7 +660,7 @@ def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
     assert there.missing and "no solution here" in there.seen.words[0]
     shown.type("via x", 650)
     assert shows_the_motion(shown).missing == 0
-    for name in ("start", "via", "goal"):  # all out of reach: nothing is left to draw
+    for name in ("start", "via", "goal"):  # everything is out of reach, so there is nothing to draw
         shown.press(name, *["Shift+ArrowRight"] * 30)
     seen = shown.look()
     assert f"No solution in {SAMPLES} of {SAMPLES} samples." in seen.says
@@ -818,7 +820,7 @@ def _place(target):
     return target.translation if isinstance(target, Transform) else np.array(target)
 
 
-# What puts the target where the arm is singular: joint 1 free, or the levers stretched.
+# Moves the target to where the arm is singular: joint 1 is free, or the links are stretched.
 SINGULAR = {
     IRB140: {"x": 0, "y": 0, "roll": 0, "pitch": 0},
     SCARA: {"x": SCARA.reach / mm, "y": 0},
@@ -837,7 +839,7 @@ def test_drag_out_of_reach_and_through_a_singularity_recovers(opened, arm):
         now = shows_every_branch(shown, exact=False)
         kinds.append(now.exists.any())
         pixels.add(tuple(now.seen.pixels))
-        # The dot of the flange, in the middle of the target, is there and only there.
+        # The dot of the flange is in the middle of the target and nowhere else.
         assert _color(shown, now.seen.handles["free"]["at"]) == hub or not now.exists.any()
         if not now.exists.any():
             assert all(row[1] == "does not exist" for row in now.seen.rows)
@@ -906,7 +908,7 @@ SIZES = """rk => [...rk.querySelectorAll("canvas")].map(c =>
 
 @pytest.mark.parametrize("kind", CANVASES)
 def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
-    """Each by itself: the curves hung on the state and kept the colours of the theme before."""
+    """Separately: the curves kept the colours of the previous theme."""
     shown = opened(*CANVASES[kind]())
     shown.page.emulate_media(color_scheme="light")
     light = shown.look().pixels
@@ -924,7 +926,7 @@ def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_last_of_many_moves_is_shown(opened, kind):
-    """Many moves before one picture, and far ones: where the pointer is at last is what counts."""
+    """Many large moves before one picture: only the last position of the pointer counts."""
     shown = opened(KINDS[kind](), IRB140)
     for name in shown.look().handles:
         shown.take(name)
@@ -1069,7 +1071,7 @@ def test_ellipsoid_and_axes_can_be_switched(opened):
         before = shown.look()
         for name in ("ellipsoid of tool velocities, free to turn", "joint axes"):
             box = shown.rk.get_by_role("checkbox", name=name)
-            box.click()  # joints that are turned show their axes from the first
+            box.click()  # turned joints show their axes from the beginning
             drawn = shown.look()
             assert drawn.pixels != before.pixels and drawn.code == before.code
             box.click()
@@ -1199,12 +1201,12 @@ def test_thousand_moves_leak_nothing(opened, kind):
         shown.press(name, "Home")
         heap.append(_heap(shown.page))
     assert shown.look().boxes == start.boxes
-    # what is left behind is there after each thousand; what a collector has not got to is not
+    # a leak remains after each thousand moves; uncollected garbage does not
     assert min(heap[2:]) - heap[0] < 2, f"{heap} MB"
 
 
 def _heap(page):
-    """Megabytes of JavaScript in use after collecting what is not."""
+    """Megabytes of JavaScript in use after garbage collection."""
     session = page.context.new_cdp_session(page)
     for _ in range(3):  # what is freed may free more
         session.send("HeapProfiler.collectGarbage")

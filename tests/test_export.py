@@ -1,4 +1,4 @@
-"""`python -m robokin.course export`: one page for a lab, alive without a network."""
+"""`python -m robokin.course export`: one page for a lab that works without a network."""
 
 import json
 import re
@@ -19,7 +19,7 @@ FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "sour
 
 
 class Fetches(HTMLParser):
-    """What a page would load, and what its scripts would."""
+    """The addresses that a page and its scripts would load."""
 
     def __init__(self, text):
         super().__init__()
@@ -49,7 +49,7 @@ def test_every_formula_becomes_mathml(path):
         assert made.startswith("<math") and ('display="block"' in made) == block
         read = re.sub(r"<[^>]*>|&\w+;", "", made)
         assert not re.search(r"[\\$&]", read), f"{tex}: {read}"
-        # every number and every word of it is there
+        # it contains every number and every word
         said = re.sub(r"\\[A-Za-z]+", " ", tex)
         for number in re.findall(r"\d+", re.sub(r"\[[\d.]+\w*\]", "", said)):
             assert number in read, f"{tex}: {number} is lost"

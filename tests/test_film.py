@@ -24,12 +24,12 @@ def frames(player, path):
 
 
 def alike(one, other):
-    """Up to the colours of single pixels: each film has a palette of its own."""
+    """Up to the colours of single pixels, since each film has its own palette."""
     return (abs(one.astype(int) - other).max(axis=-1) > 40).mean() < 2e-3
 
 
 def test_frames_show_the_motion_at_their_times(tmp_path):
-    """Run backwards, the same pictures come backwards; where the arm stands they are the same."""
+    """Backwards, the same pictures appear in reverse order; while the arm rests they are equal."""
     there, lasts = frames(animate(IRB140, T, WAY), tmp_path / "there.gif")
     assert there.shape[1:] == (450, 640, 3) and len(there) == 4 * film.RATE + 1
     assert sum(lasts[:-1]) == 4000 and min(lasts) > 1000 / film.RATE - 10

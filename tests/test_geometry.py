@@ -1,4 +1,4 @@
-"""Geometries: links and inverse from the same numbers, one rule of slack, the reasons in words."""
+"""Geometries: links and inverse from the same numbers, one tolerance, reasons in words."""
 
 import dataclasses
 
@@ -34,7 +34,7 @@ TURN = 2 * np.pi
 
 
 def arms_of(rng):
-    """One arm of every geometry, of random lengths; None of the limits matters here."""
+    """One arm of every geometry with random lengths; the limits do not matter here."""
     a, b, c, d = rng.uniform(0.1, 2.0, 4)
     return [
         two_link(a, b, rng.normal(size=2)),
@@ -51,8 +51,8 @@ def arms_of(rng):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_ik_and_fk_agree_for_links_of_any_lengths(seed):
-    """Hand-written inverses are held to their chain: every row leads back to the pose, and the
-    posture that made it is among them.
+    """Hand-written inverses agree with their chain: every row leads back to the pose, and the
+    original posture is one of them.
     """
     rng = np.random.default_rng(seed)
     for arm in arms_of(rng):
@@ -122,8 +122,8 @@ def test_arm_without_closed_form_has_another_type():
         type(IRB140)("none", arm.geometry, arm.limits)
 
 
-# Beyond the border: (arm, a pose by how far it is beyond). What decides is one rule of slack, in
-# `ik` and in `explain`.
+# Beyond the border: (arm, a pose for a distance beyond it). One rule of tolerance decides in `ik`
+# and in `explain`.
 def stretched(arm, at):
     return lambda beyond: arm.ik(at(beyond)), lambda beyond: explain(arm, at(beyond), 0)
 
@@ -159,8 +159,8 @@ def away(x):
 
 @pytest.mark.parametrize("name", BORDERS)
 def test_gap_follows_one_rule_for_all_geometries(name):
-    """Whatever `ik` leaves out `explain` gives the reason for, and the other way round: from a
-    rounding to a metre beyond (the first edition said "does not exist: ." in between).
+    """`explain` gives a reason exactly for the rows that `ik` leaves out, from a rounding error to
+    a metre beyond (in between the first edition said "does not exist: .").
     """
     ik, words = BORDERS[name]
     reached = []
@@ -180,7 +180,7 @@ def test_gap_follows_one_rule_for_all_geometries(name):
 
 @pytest.mark.parametrize("exponent", range(2, 17))
 def test_equal_links_keep_their_digits_near_the_shoulder(exponent):
-    """The law of cosines loses half of the digits there: the answer was off by the distance."""
+    """The law of cosines loses half of the digits there: the error was as large as the distance."""
     d = 10.0**-exponent
     # From 1e-13 of the reach on a point counts as on axis 1, where joint 1 is free.
     tolerance = 4e-15 if exponent < 12 else 4e-13
@@ -208,7 +208,7 @@ def test_equal_links_keep_their_digits_near_the_shoulder(exponent):
 
 
 def test_free_joints_of_folded_equal_links_follow_the_motion():
-    """The tip on the base: joint 1 may stand anywhere, so a motion keeps it."""
+    """The tip is at the base: joint 1 may have any value, so a motion keeps it."""
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose((0.0, 0.0, 0.1), 0.3))
     near = np.array([1.1, np.pi, 0.2, 0.1])
@@ -234,7 +234,7 @@ def test_two_levers_equals_the_law_of_cosines():
             (one**2 + two**2 - d**2) / (2 * one * two), abs=1e-13
         )
         assert 0 < ahead < np.pi and 0 < turn < np.pi
-        # The chain closes: one lever ahead, the other turned back.
+        # The chain closes: one link goes forward, the other back.
         tip = one * np.exp(-1j * ahead) + two * np.exp(1j * (turn - ahead))
         assert abs(tip - d) < 1e-14
     assert not two_levers(1, 0.5, np.array([0.49, 1.51, np.nan]))[2].any()
@@ -292,8 +292,8 @@ def test_axis_length_tolerance_is_the_same_everywhere():
 
 
 def test_links_with_any_axis_and_orientation():
-    """The short cuts for coordinate axes and the whole product say the same: a chain whose axes are
-    crooked against one that is turned into them.
+    """The shortcuts for coordinate axes equal the full product: compare a chain with oblique axes
+    and a rotated one.
     """
     rng = np.random.default_rng(11)
     for _ in range(30):

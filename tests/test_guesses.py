@@ -1,5 +1,5 @@
-"""Guesses: what is made in a page is kept beside the notebook it belongs to, and a report has it,
-the first one first; whatever else lies there.
+"""Guesses: those made in a page are saved beside their notebook, and a report has them in order,
+whatever other files are there.
 """
 
 import json
@@ -24,7 +24,7 @@ from robokin.course.guesses import Guess, guesses, keep, parse_line, read_guesse
 from robokin.course.handed_in import handed_in
 from robokin.show.joiner import script
 
-page = test_browser.page  # keeps account of errors and of requests to elsewhere
+page = test_browser.page  # records errors and requests to other hosts
 LAB = "irb140_motion"
 P1, P2 = f"{LAB}.p1", f"{LAB}.p2"
 OTHER = "scara_motion.p1"
@@ -329,7 +329,7 @@ def answer(question, choice, again=False):
 
 
 def kept_as(name, letters):
-    """How guesses made by hand are kept: with the names of the options."""
+    """The saved form of these guesses, with the names of the options."""
     options = predict(name).options
     return [f"{letter}: {options['abcd'.index(letter)].name}" for letter in letters]
 
@@ -338,7 +338,7 @@ def told(question):
     return question.locator(".rk-asking > p")
 
 
-# hubs with a page of their own: what they are sent, and how they answer
+# hubs with their own page: the messages that they get, and their answers
 HUBS = """contexts => {
   window.sent = contexts.map(() => []);
   window.hear = [];
@@ -488,7 +488,7 @@ def says(question, text):
 
 
 def current(page, name):
-    """Wait until the notebook with this name is the one in front."""
+    """Wait until the notebook with this name is in front."""
     tab = ".lm-TabBar-tab.lm-mod-current[data-type=document-title]"
     page.locator(f"{tab}[title*='Path: guessing/{name}']").wait_for()
     page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for()
@@ -507,8 +507,8 @@ def run_all(jupyter, page, count):
 
 
 def test_guesses_arrive_from_jupyterlab(jupyter, page):
-    """Two labs, two copies of one lab, one of them renamed; a kernel that begins anew; Run All
-    after guessing; saved, closed, opened again.
+    """Two labs, two copies of one lab, one of them renamed; a restarted kernel; Run All after
+    guessing; saved, closed and opened again.
     """
     folder = jupyter.labs / "guessing"
     lab = notebook(folder / "lab.ipynb", ids=[P1, P2, TYPED])

@@ -1,4 +1,4 @@
-"""`report(who)` in a lab: it finds its notebook, sees whether the file is as new as what the
+"""`report(who)` in a lab: it finds its notebook, checks whether the file is as new as what the
 student sees, and writes the report or says in one sentence what is in the way.
 """
 
@@ -91,7 +91,7 @@ def test_names_may_be_anything(desk):
 
 
 def test_modules_do_not_shadow_exported_names():
-    """Or importing the module would put it in the place of the function."""
+    """Otherwise importing the module would replace the function."""
     modules = {path.stem for path in Path(course.__file__).parent.iterdir()}
     assert not modules & set(course.__all__)
 
@@ -234,7 +234,7 @@ class Kernel:
         self.manager.shutdown_kernel(now=True)
 
     def run(self, source, seen=lambda text: None):
-        """What a cell says. `seen` is called with what it has said so far."""
+        """The output of a cell. `seen` is called with the output so far."""
         asked, said = self.client.execute(source), ""
         while True:
             try:
@@ -251,13 +251,13 @@ class Kernel:
             seen(said)
 
     def others(self):
-        """The processes that it has started."""
+        """Its child processes."""
         started = psutil.Process(self.manager.provisioner.pid).children(recursive=True)
         return [each for each in started if each.status() != psutil.STATUS_ZOMBIE]
 
 
 def test_complete_session_writes_a_report(tmp_path):
-    """An answer that raises, a right one, a save that is missing, an interrupt."""
+    """An answer that raises, a right one, a missing save, an interrupt."""
     raising = "import robokin\nmy_posture = 1 / 0"
     cells = [IMPORTS, raising, CHECK, 'predict("start_here.p1", "b")']
     lab = stored(tmp_path / "00_start_here.ipynb", *cells)
@@ -324,7 +324,9 @@ def _prose(name):
 
 
 def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
-    """A student's way: change the answer and the name, run all, be told to save, save, hand in."""
+    """A student's steps: change the answer and the name, run all, get the message to save, save,
+    hand in.
+    """
     name = "handing in/00_start_here.ipynb"
     lab = jupyter.labs / name
     lab.parent.mkdir()

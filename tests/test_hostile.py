@@ -1,8 +1,8 @@
-"""A notebook that attacks its page: what a student hands in may say anything, and a teacher opens
-it. No script of theirs runs, nothing is fetched, and the header of a report stays as it is.
+"""A notebook that attacks its page: a student may hand in anything, and a teacher opens it. No
+foreign script runs, nothing is fetched, and the header of a report is unchanged.
 
-The values are put wherever a notebook has room for them. They are alive: in a page that is written
-without care they run and fetch (the first test).
+The attack values are put wherever a notebook has room for them. They work: in a carelessly written
+page they run and fetch (the first test).
 """
 
 import base64
@@ -104,7 +104,7 @@ RUNS = (  # what runs a script
     '# a" onclick="JS',
     "<h2 id=\"x\" onclick='JS'>heading</h2>",
 )
-LEADS = (  # what leads away, at once or by a click
+LEADS = (  # what leads away, immediately or by a click
     '<meta http-equiv="refresh" content="0;url=URL/refresh">',
     '<base href="URL/">',
     '<a href="javascript:JS">a link</a>',
@@ -188,7 +188,7 @@ VERDICTS = """() => [...document.querySelectorAll(".rk-report [class]")].map(e =
 
 @pytest.fixture(scope="module")
 def listening():
-    """A server that nobody should ask: its address, and the requests."""
+    """A server that should get no request: its address, and the requests."""
     asked = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -294,7 +294,7 @@ def forged(url):
 
 
 def data_of(words=("a sentence",)):
-    """What a report says, with these words wherever there is room."""
+    """The data of a report with these words wherever there is room."""
     lab = book.lab("scara_motion")
     word = words[0]
     states = ["holds", "does not hold", "failed", "not judged", "unanswered"]
@@ -337,7 +337,7 @@ def data_of(words=("a sentence",)):
 
 
 class Opened:
-    """Pages in one browser, one after another, and what becomes of them."""
+    """Pages in one browser, one after another, and their results."""
 
     def __init__(self, browser, folder):
         self.folder = folder
@@ -364,7 +364,7 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def seen(browser, listening, tmp_path_factory):
-    """The harmless and the attacked pages, opened, and what was asked for meanwhile."""
+    """The harmless and the attacked pages, opened, and the requests meanwhile."""
     folder = tmp_path_factory.mktemp("hostile")
     opened = Opened(browser, folder)
     quiet = new_notebook(cells=[new_markdown_cell("Words"), new_code_cell("1 + 1")])
@@ -583,7 +583,7 @@ def test_invisible_characters_are_escaped():
 
 
 def test_every_character_is_visible_or_escaped():
-    """By Python's tables: what controls, ends a line or turns the direction; and what it prints."""
+    """By Python's tables: control characters, line ends and direction changes; and what it prints."""
     every = [chr(c) for c in range(0x110000)]
     turns = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
     told = [
@@ -616,7 +616,7 @@ PIECES += ("<b></i>", "\\begin{a}", "`", "*a_", "\x1b[31m", "\u202e", "- a\n", "
 @pytest.mark.parametrize("piece", PIECES)
 @pytest.mark.parametrize("size", [20_000, 1_000_000])
 def test_page_is_converted_quickly(piece, size, tmp_path):
-    """At most 2 s of CPU a megabyte, whatever stands in it; of little text at most 2 s."""
+    """At most 2 s of CPU time per megabyte of any content, and for a short text."""
     text = (piece * (size // len(piece) + 1))[:size]
     outputs = [
         new_output("stream", text=text),
@@ -644,14 +644,14 @@ def test_deep_nesting_is_detected():
 
 
 LABS = {path.stem[:2]: path for path in NOTEBOOKS.glob("[0-9]*.ipynb")}
-SAMPLE = ("03", "08", "09", "10", "11")  # between them all that robokin shows
+SAMPLE = ("03", "08", "09", "10", "11")  # together everything that robokin shows
 AWAKE = """() => [...document.querySelectorAll(".robokin-player")]
   .map(each => "ready" in each.dataset && !each.querySelector(":scope > img"))"""
 
 
 @pytest.fixture(scope="module")
 def stored_report(tmp_path_factory):
-    """The report of a lab as it is stored, no kernel runs: its page, and its calls of scripts."""
+    """The report of a stored lab, made without a kernel: its page, and its script calls."""
     folder = tmp_path_factory.mktemp("reports")
     return cache(lambda name: report_of(LABS[name], folder))
 
@@ -679,7 +679,7 @@ def report_of(path, folder):
 
 
 def guess_all(page):
-    """Make every guess of the page; how many."""
+    """Make every guess of the page; return their number."""
     return page.evaluate("""() => {
       const asking = [...document.querySelectorAll(".rk-ask")];
       for (const each of asking) {
@@ -692,7 +692,9 @@ def guess_all(page):
 
 
 def alive(page, calls):
-    """Everything is awake, also what stands behind the predictions: how many of those."""
+    """Check that every view is awake, including those behind predictions; return the number of the
+    latter.
+    """
     before = page.evaluate(AWAKE)
     assert len(before) == len(calls) and all(before)
     assert guess_all(page) == calls.count("prediction.ask")

@@ -1,10 +1,10 @@
-"""How long a check takes, and whether every student's design task can be solved.
+"""The time of a check, and whether every student's design task can be solved.
 
     python tests/benchmarks/bench_checks.py            checks: right and every listed wrong answer
     python tests/benchmarks/bench_checks.py 1000       also so many variants of every design
 
-Wanted: median below 0.3 s, none above 2 s; an endless loop told within 5 s; every variant solved by
-the method of the solution.
+Aims: a median below 0.3 s, none above 2 s; an endless loop reported within 5 s; every variant
+solved by the method of the solution.
 """
 
 import contextlib
@@ -47,7 +47,7 @@ def answers(name, exercise):
 
 
 def calls():
-    """Exercise -> what its lab hands to `check`."""
+    """Exercise -> the answer in its lab."""
     found = {}
     for path in (Path(__file__).parents[2] / "notebooks").glob("*.ipynb"):
         code = "\n".join("".join(c["source"]) for c in json.loads(path.read_text())["cells"])

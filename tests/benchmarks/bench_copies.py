@@ -1,12 +1,12 @@
-"""Whether copies lose anything, and how long they take: python tests/benchmarks/bench_copies.py
+"""Whether copies lose anything, and their time: python tests/benchmarks/bench_copies.py
 
     python tests/benchmarks/bench_copies.py --histories 500 --kills 60 --saves 60
 
 Histories are those of tests/test_copies.py. Then the real labs: a copy into an empty folder, again
 without news, again with every lab newer. Then a process that copies newer labs is killed (SIGKILL)
 at random moments; and one copies while another saves a lab as JupyterLab does, at a random moment.
-After each, what the student wrote has to be there to the byte and every notebook valid, and the
-next copy has to finish. Wanted: nothing lost; a copy of all labs within two seconds. POSIX only.
+After each of these the student's files must be unchanged and every notebook valid, and the next
+copy must finish. Aims: nothing lost, and a copy of all labs within two seconds. POSIX only.
 """
 
 import argparse
@@ -36,7 +36,7 @@ Process = multiprocessing.get_context("fork").Process
 
 
 def edited(path, text):
-    """The notebook with a cell more, as text."""
+    """The notebook with one more cell, as text."""
     data = json.loads(path.read_text(encoding="utf-8"))
     cell = {"cell_type": "markdown", "id": f"x{random.getrandbits(40)}", "metadata": {}}
     data["cells"].append(cell | {"source": [text]})
@@ -71,14 +71,14 @@ def times(labs, folder):
 
 
 def whole(folder):
-    """Every notebook that can be seen is valid."""
+    """Assert that every visible notebook is valid."""
     for path in folder.rglob("*.ipynb"):
         if ".robokin" not in path.parts:
             nbformat.validate(nbformat.read(path, as_version=4))
 
 
 def finished(labs, folder):
-    """The next copy finishes; what nobody touched is the newest."""
+    """Assert that the next copy finishes and that unchanged labs are the newest."""
     copy(folder, labs)
     whole(folder)
     for path in labs.rglob("*.ipynb"):
@@ -108,7 +108,7 @@ def kills(labs, folder, count):
         met += process.exitcode != 0
         assert (folder / TOUCHED).read_bytes() == mine
         whole(folder)
-        if random.random() < 0.7:  # else the next one is killed on top of it
+        if random.random() < 0.7:  # otherwise the next one is killed, too
             finished(labs, folder)
             assert (folder / TOUCHED).read_bytes() == mine
     finished(labs, folder)
@@ -116,12 +116,12 @@ def kills(labs, folder, count):
 
 
 def save_for_a_while(path, seconds):
-    """Saves like JupyterLab's, one after the other; the last one stays."""
+    """Save repeatedly like JupyterLab; the last version remains."""
     end, k = time.monotonic() + seconds, 0
     try:
         text = edited(path, "COUNT")
     except FileNotFoundError:
-        return  # opened in the moment in which it was exchanged
+        return  # opened while it was being replaced
     while time.monotonic() < end:
         k += 1
         with atomic_writing(str(path)) as file:
@@ -141,7 +141,7 @@ def saves(labs, folder, count):
         start = time.perf_counter()
         copying.start()
         while not (folder / ".robokin" / "new").exists() and copying.is_alive():
-            time.sleep(0.001)  # it has begun to lay
+            time.sleep(0.001)  # it has begun to write
         time.sleep(random.uniform(0, 0.1))
         saving = Process(target=save_for_a_while, args=(folder / SAVED, 0.3))
         saving.start()

@@ -1,18 +1,17 @@
-"""How fast this edition is beside the first one: python tests/benchmarks/bench_editions.py
+"""The speed of this edition compared with the first one: python tests/benchmarks/bench_editions.py
 
     python tests/benchmarks/bench_editions.py --rounds 5          all, about five minutes
-    python tests/benchmarks/bench_editions.py ik fk --rounds 9    cases whose names hold a word
-    python tests/benchmarks/bench_editions.py --old v1.0          beside another commit
+    python tests/benchmarks/bench_editions.py ik fk --rounds 9    cases whose names contain a word
+    python tests/benchmarks/bench_editions.py --old v1.0          compared with another commit
 
-The first edition is commit 2461cda, unpacked into a temporary folder. Each edition lives in a
-process of its own, which times what it is asked for on one thread, in processor time; the two are
-asked in turns, so that a busy machine slows both alike. Printed are medians over the rounds; where
-their ratio and that of the fastest rounds differ by more than 10 %, both are shown and the fastest
-count.
+The first edition is commit 2461cda, unpacked into a temporary folder. Each edition runs in its own
+process, which measures calls on one thread, in processor time; the two take turns, so that a busy
+machine slows both equally. The script prints medians over the rounds; where their ratio and that of
+the fastest rounds differ by more than 10 %, it prints both, and the fastest count.
 
-Wanted: nothing above 1.10 times the first edition's time, the inverse kinematics 1.05 times;
-`import robokin` at most 1.15 times `import numpy` (the fastest of 20 new processes each). What is
-above is marked with a star. Nothing is asserted: read the marks, and run them again alone.
+Aims: nothing above 1.10 times the first edition's time, inverse kinematics 1.05 times; `import
+robokin` at most 1.15 times `import numpy` (the fastest of 20 new processes each). A star marks
+results above the aim. Nothing is asserted: look at the stars, and run those cases again alone.
 """
 
 import argparse
@@ -25,20 +24,20 @@ import tarfile
 import tempfile
 from functools import partial
 from pathlib import Path
-from time import process_time  # of our own work: what else the machine does is not in it
+from time import process_time  # of our own process, so other load does not count
 
 for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
     os.environ[f"{_library}_NUM_THREADS"] = "1"
 
 import numpy as np
 
-import robokin as rk  # of the edition that PYTHONPATH names
+import robokin as rk  # of the edition in PYTHONPATH
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 OLD = "2461cda"
 LIMIT, LIMIT_IK, LIMIT_IMPORT = 1.10, 1.05, 1.15
-BATCH = 0.03  # seconds in one go
-BATCHES = 3  # of which the fastest counts
+BATCH = 0.03  # seconds per measurement
+BATCHES = 3  # measurements, of which the fastest counts
 MANY, SAMPLES = 10_000, 2001
 
 
@@ -46,12 +45,12 @@ MANY, SAMPLES = 10_000, 2001
 
 
 def serve():
-    """Time what is asked for: a line "name count" in, the seconds of one call out."""
+    """Measure on request: read a line "name count", print the seconds of one call."""
     found = {}
     for part in (kinematics, motions, jobs, figures):
         try:
             found |= part()
-        except (ImportError, AttributeError) as error:  # half an edition, while it is built
+        except (ImportError, AttributeError) as error:  # an incomplete edition, while it is built
             print(f"{part.__name__} left out: {error}", file=sys.stderr)
     print(*found, sep="\n", end="\n\n", flush=True)
     for line in sys.stdin:
@@ -66,7 +65,7 @@ def serve():
         print(min(spans) / int(count), flush=True)
 
 
-# Each answers name -> what is timed. Names that changed are looked for under both.
+# Each returns name -> the call to measure. Changed names are tried in both forms.
 
 
 def kinematics():
@@ -246,7 +245,7 @@ def _scara_pose():
 
 
 class Edition:
-    """A process with one edition of the package."""
+    """A process that runs one edition of the package."""
 
     def __init__(self, folder):
         self.process = subprocess.Popen(
@@ -289,7 +288,7 @@ def main():
 
 
 def compare(folder, arguments):
-    """Print a line for every case; how many are above their limit."""
+    """Print a line for every case and return how many are above their limit."""
     old, new = Edition(folder), Edition(ROOT)
     names = [n for n in new.names if not arguments.words or any(w in n for w in arguments.words)]
     for name in set(names) - set(old.names):
@@ -322,10 +321,10 @@ def compare(folder, arguments):
 
 
 def imports(folder):
-    """Print what importing costs beside NumPy: new processes, in turns."""
+    """Print the cost of the import relative to NumPy, with new processes in turns."""
     timed = "import time; s = time.process_time(); import {}; print(time.process_time() - s)"
     spans = {"numpy": [], "old": [], "new": []}
-    # Byte code is kept as it is on a student's machine, even where the environment forbids it.
+    # Keep byte code as on a student's machine, even if the environment forbids it.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     with tempfile.TemporaryDirectory() as cache:
         environment |= {"PYTHONPYCACHEPREFIX": cache}

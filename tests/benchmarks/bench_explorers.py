@@ -1,4 +1,4 @@
-"""Explorers and the player's slider in a real browser, and `interact` with a re-plot beside them.
+"""Explorers and the player's slider in a real browser, compared with `interact` and a re-plot.
 
     python tests/benchmarks/bench_explorers.py
 
@@ -104,8 +104,8 @@ WATCH = """cell => {
         handle.addEventListener('keydown', () => { window.key = performance.now(); }, true);
     handle.watched = true;
 }"""
-# The time from a move to the task after the frame that shows it; moves that share a frame count
-# once, from the first of them.
+# The time from a move to the task after the frame that shows it. Moves in the same frame count
+# once, from the first.
 PAINTS = """() => {
     window.paints = [];
     let since = Infinity, asked = false;

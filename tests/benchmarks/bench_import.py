@@ -1,6 +1,6 @@
-"""What `import robokin` costs beside `import numpy`: python tests/benchmarks/bench_import.py
+"""The cost of `import robokin` relative to `import numpy`: python tests/benchmarks/bench_import.py
 
-Fresh processes, taken in turns so that a busy machine slows both alike; wanted: a ratio of at most
+It uses new processes in turns, so that a busy machine slows both equally. Aim: a ratio of at most
 1.15.
 """
 
@@ -15,7 +15,7 @@ TIMED = "import time; start = time.perf_counter(); import {}; print(time.perf_co
 
 
 def seconds(module, cache):
-    # Byte code is kept as it is on a student's machine, even where the environment forbids it.
+    # Keep byte code as on a student's machine, even if the environment forbids it.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     done = subprocess.run(
         [sys.executable, "-c", TIMED.format(module)],
@@ -32,7 +32,7 @@ def main():
         seconds("numpy", cache), seconds("robokin", cache)  # writes the byte code
         pairs = [(seconds("numpy", cache), seconds("robokin", cache)) for _ in range(RUNS)]
     numpy, robokin = (statistics.median(times) for times in zip(*pairs, strict=True))
-    # the least disturbed by a busy machine
+    # the one least disturbed by other load
     fastest = [min(times) for times in zip(*pairs, strict=True)]
     ratio = robokin / numpy
     print(

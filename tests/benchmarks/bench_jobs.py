@@ -1,8 +1,8 @@
-"""How long the jobs take: python tests/benchmarks/bench_jobs.py
+"""The time of the jobs: python tests/benchmarks/bench_jobs.py
 
-Wanted: greedy `visit` of 100 points in milliseconds, the exact optimum of 12 points within a
-second, and a sweep of the three-lever arm's free angle in steps of 0.001 degrees within 50 ms. Each
-beside the slower way to the same answer.
+Aims: greedy `visit` of 100 points in milliseconds, the exact optimum of 12 points within a second,
+and a sweep of the three-lever arm's free angle in steps of 0.001 degrees within 50 ms. Each is
+compared with a slower way to the same answer.
 """
 
 import time

@@ -1,4 +1,4 @@
-"""Explorers that ask a kernel, and `interact` with a re-plot of the same content beside them.
+"""Explorers that ask a kernel, compared with `interact` and a re-plot of the same content.
 
     python tests/benchmarks/bench_live.py
 

@@ -1,8 +1,9 @@
 """The methods of robokin/jobs/redundancy.py on the same 1000 targets, one after the other:
 python tests/benchmarks/bench_redundancy.py [targets] [seed]
 
-Which method moves least over many tasks is measured here and asserted nowhere: least movement is
-the bound of one single task (tests/test_redundancy.py), and what is near now may be a bad start.
+This measures which method moves least over many tasks; no test asserts it. Least movement is the
+minimum for a single task (tests/test_redundancy.py), and a near posture may be a bad start for the
+next one.
 """
 
 import sys
@@ -15,7 +16,7 @@ from robokin.jobs.redundancy import methods, race
 
 
 def targets(arm, n, seed):
-    """Gripper places of random postures that the arm serves within its limits."""
+    """Gripper places of random postures within the arm's limits."""
     K = arm.points(np.random.default_rng(seed).uniform(0, np.pi, (4 * n, 3)))[:, 3]
     return K[~np.isnan(arm.alpha_range(K)[0])][:n]
 

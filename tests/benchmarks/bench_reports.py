@@ -1,5 +1,5 @@
-"""Reports of the real labs 01 to 12, solved: how long each takes, and how large it is; and a
-summary of 30 notebooks.
+"""Reports of the solved labs 01 to 12: the time and the size of each; and a summary of 30
+notebooks.
 
     python tests/benchmarks/bench_reports.py [SLUG ...]
 
@@ -38,7 +38,7 @@ def solved(slug, folder):
     predictions, cells, checks = book.lab(slug).predictions, [], []
     for cell in notebook.cells:
         found = re.match(r'check\("([\w.]+)"', cell.source)
-        if found:  # at the end: a solution may give names of the lab another meaning
+        if found:  # at the end, since a solution may redefine names of the lab
             checks += [nbformat.v4.new_code_cell(solution(found[1])), cell]
         else:
             cells.append(cell)
@@ -56,12 +56,12 @@ def solved(slug, folder):
     notebook.cells = cells
     nbformat.write(notebook, folder / path.name)
     for name in ("tasks", "images"):
-        shutil.copytree(NOTEBOOKS / name, folder / name, dirs_exist_ok=True)  # a link is left out
+        shutil.copytree(NOTEBOOKS / name, folder / name, dirs_exist_ok=True)  # links are left out
     return folder / path.name
 
 
 def judged(folder):
-    """Seconds, and all that a summary says of the folder's notebooks but when it was made."""
+    """The seconds, and the content of a summary of the folder's notebooks, except its date."""
     begin = time.perf_counter()
     made = summary.summary(folder)
     seconds = time.perf_counter() - begin
@@ -70,7 +70,7 @@ def judged(folder):
 
 
 def thirty(slugs, folder, count=30):
-    """How many times the verdicts of the same notebooks differ."""
+    """The number of differences between verdicts on the same notebooks."""
     for k in range(count):
         place = folder / f"student {k}"
         place.mkdir(parents=True)

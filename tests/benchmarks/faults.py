@@ -1,14 +1,14 @@
-"""Do the tests notice a wrong page, and a wrong course? The hundred faults of `faults.toml` are put
-into a copy of the repository, one at a time, and the tests that are likely to notice run until one
-of them fails. (For the rest of the package there is `mutants.py`.)
+"""Do the tests notice faults in pages and in the course? The script inserts the hundred faults of
+`faults.toml` into a copy of the repository, one at a time, and runs the tests that are likely to
+notice until one of them fails. (`mutants.py` does this for the rest of the package.)
 
     python tests/benchmarks/faults.py --results before.jsonl          an hour or so
     python tests/benchmarks/faults.py --repo ../other --after before.jsonl
 
-White space, a comma before a closing bracket and parentheses round the one parameter of an arrow
-make no difference to `old`, so that a formatter hides no fault. A test that has failed runs once
-more without the fault, and has to pass; a run that takes too long counts as noticed. `--after`
-begins with the test that noticed then, wherever it stands now. Exit status 1: one slips through.
+White space, a comma before a closing bracket and parentheses around a single arrow parameter are
+ignored in `old`, so that a formatter hides no fault. A test that has failed runs again without the
+fault and must pass; a run that takes too long counts as noticed. `--after` begins with the test
+that noticed the fault last time, even if it has moved. Exit status 1: a fault was not noticed.
 """
 
 import argparse
@@ -27,7 +27,7 @@ from pathlib import Path
 
 HERE, KEYS, SECONDS = Path(__file__).resolve().parent, ("file", "old", "new"), 300
 NBVAL = ["--nbval", "--nbval-current-env", "--nbval-sanitize-with=tests/nbval_sanitize.cfg"]
-# pytest, with a plugin that writes down which test has failed
+# pytest with a plugin that records which test has failed
 RUN = """import sys, pytest
 class Watch:
     def pytest_runtest_logreport(self, report):
@@ -79,7 +79,7 @@ def main():
 
 
 def with_fault(sound, fault):
-    """The text of the file with the fault; None where the old text is not there exactly once."""
+    """The text of the file with the fault; None if the old text does not occur exactly once."""
     old = re.sub(r"\((\w+)\)=>", r"\1=>", re.sub(r"\s", "", fault["old"]))
     parts = []
     for piece in re.findall(r"\w+=>|.", re.sub(r",(?=[)\]}])", "", old)):
@@ -103,7 +103,7 @@ def hunt(repo, sound, faulted, fault):
             test, how = run(faulted, tests, left_out)
             if test is None:
                 break
-            # a cell needs those before it; what could not be collected is only collected
+            # a cell needs the cells before it; a test that could not be collected is only collected
             again = test.partition("::")[0] if ".ipynb" in test else test
             if how != "failed" or not run(sound, [again], ["--co"] * ("::" not in test))[0]:
                 return True, test, how
@@ -113,7 +113,7 @@ def hunt(repo, sound, faulted, fault):
 
 
 def where(repo, test):
-    """The test where it stands in this repository: its function may have gone to another file."""
+    """The test in this repository, where its function may have moved to another file."""
     file, _, name = test.partition("::")
     if file.endswith(".ipynb") or not name:
         return [file] if (repo / file).exists() else []
@@ -137,10 +137,10 @@ def run(place, tests, options):
             except subprocess.TimeoutExpired:
                 return tests[0], f"took longer than {SECONDS} s"
             finally:
-                with contextlib.suppress(ProcessLookupError):  # what it has left behind, too
+                with contextlib.suppress(ProcessLookupError):  # including its child processes
                     os.killpg(process.pid, signal.SIGKILL)
         failed = notes.read_text().splitlines() if notes.exists() else []
-    if status == 4 and any("[" in test for test in tests):  # no such parameters here
+    if status == 4 and any("[" in test for test in tests):  # these parameters do not exist here
         return run(place, [test.partition("[")[0] for test in tests], options)
     if failed or status in (0, 5):
         return (failed or [None])[0], "failed"

@@ -1,5 +1,5 @@
-"""Do the tests notice a wrong program? Small faults are put into the package, one at a time, and
-the tests that can see the changed module run until one fails.
+"""Do the tests notice wrong programs? The script inserts small faults into the package, one at a
+time, and runs the tests that can see the changed module until one fails.
 
     python tests/benchmarks/mutants.py                        300 of all modules, about 20 minutes
     python tests/benchmarks/mutants.py --count 60 robokin/quaternion.py robokin/transform.py
@@ -7,16 +7,16 @@ the tests that can see the changed module run until one fails.
     python tests/benchmarks/mutants.py --seed 7                           another sample
 
 Faults: another operator or comparison (`<` for `<=`), a negated or dropped condition, another
-constant, argmin for argmax and the like, a dropped call, keyword or statement, no result. Message
-text, docstrings and annotations are never touched. Faults that change nothing that anybody could
-see stand in `equivalent_mutants.toml`, each with its reason, and are left out; others take their
-place. A run that takes too long counts as noticed.
+constant, argmin for argmax and the like, a dropped call, keyword or statement, no result. Messages,
+docstrings and annotations are not changed. Faults without a visible effect are listed in
+`equivalent_mutants.toml`, each with its reason, and are replaced by others. A run that takes too
+long counts as noticed.
 
-Wanted: at least 97 % of 300 noticed. Each that is not is printed: a test is missing, or a reason.
+Aim: at least 97 % of 300 noticed. The others are printed: each needs a test or a reason.
 
 The processes that run the tests are forked from one that has loaded NumPy, SciPy, pytest and
-Hypothesis; each works on a copy of the package in a folder of its own, with few examples for
-Hypothesis, the same ones every time. Linux and macOS only.
+Hypothesis; each works on its own copy of the package, with few and always the same Hypothesis
+examples. Linux and macOS only.
 """
 
 import argparse
@@ -44,10 +44,10 @@ for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
 ROOT = Path(__file__).resolve().parent.parent.parent
 EQUIVALENT = Path(__file__).with_name("equivalent_mutants.toml")
 WORKERS = 2
-SECONDS = 120  # for all the tests of one mutant
+SECONDS = 120  # seconds for all tests of one mutant
 MEMORY = 8 << 30  # bytes of address space: a fault may ask for any amount
 
-# The tests that can see a module, the likeliest first: a file, or a file with what -k wants.
+# The tests that can see a module, the likeliest first: a file, or a file with an expression for -k.
 TESTS = {
     "robokin/quaternion.py": ["quaternion", "transform", "paths"],
     "robokin/transform.py": ["transform", "arm", "paths"],
@@ -82,7 +82,7 @@ TESTS = {
     "robokin/jobs/steppers/phase_table.py": ["steppers"],
     "robokin/jobs/steppers/rotor.py": ["steppers"],
 }
-# After these, for every module; drawing is slow, and sees little of them.
+# Run after these for every module, since drawing is slow and notices little.
 ALL = [
     "wrong_input",
     "read_only",
@@ -111,11 +111,11 @@ class Mutant:
         return self.module, self.line, self.change
 
     def rank(self, seed):
-        """Its place in the sample: the same whatever else is sampled."""
+        """Its rank in the sample, independent of the other faults."""
         return hashlib.sha256(repr((seed, *self.key, self.number)).encode()).hexdigest()
 
     def source(self):
-        """The whole module with the fault; None if that is no program."""
+        """The whole module with the fault; None if it is not a valid program."""
         tree = _put(copy.deepcopy(_tree(self.module)), self.where, self.new)
         try:
             source = ast.unparse(ast.fix_missing_locations(tree))
@@ -160,13 +160,13 @@ SWAPPED = {}
 for _pair in PAIRS.split(", "):
     _a, _b = _pair.split()
     SWAPPED |= {_a: _b, _b: _a}
-# Said to people or to the checker, and not worked with; `strict` only ever catches our own slips.
+# Used only for people or the type checker; `strict` only catches our own mistakes.
 SILENT_CALLS = {"TypeVar", "warn", "overload", "cast"}
 SILENT_KEYWORDS = {"strict"}
 
 
 def mutants(module):
-    """Every fault that could be put into a module, a path below the repository."""
+    """All possible faults in a module, given as a path below the repository."""
     counts = Counter()
     for statement, path in _statements(_tree(module)):
         line, bare = _line(statement), _bare(statement)
@@ -174,7 +174,7 @@ def mutants(module):
         for where, new, change in _faults(statement):
             changed = new if not where else _put(copy.deepcopy(bare), where, new)
             text = ast.unparse(changed)
-            if text not in seen:  # a fault that another one is already is none
+            if text not in seen:  # duplicates are skipped
                 seen.add(text)
                 counts[line, change] += 1
                 yield Mutant(module, line, change, counts[line, change], (*path, *where), new)
@@ -186,7 +186,7 @@ def _tree(module):
 
 
 def _statements(tree):
-    """Every statement that does something, with the way to it: a list of (field, index)."""
+    """Every statement with an effect, and the path to it: a list of (field, index)."""
 
     def walk(body, path, field):
         for i, statement in enumerate(body):
@@ -208,14 +208,14 @@ def _statements(tree):
 
 
 def _is_stub(function):
-    """Whether a function only says its type: an overload, a member of a protocol."""
+    """Whether a function only declares a type: an overload, or a member of a protocol."""
     body = [s for s in function.body if not isinstance(getattr(s, "value", None), ast.Constant)]
     overload = any("overload" in ast.unparse(d) for d in function.decorator_list)
     return overload or not body
 
 
 def _faults(statement):
-    """(way to the node, what takes its place, what in words) for the statement's own parts."""
+    """(path to the node, its replacement, the change in words) for the parts of the statement."""
     kind = type(statement)
     if kind in (ast.Expr, ast.Assign, ast.AugAssign, ast.Raise) and _can_go(statement):
         yield (), ast.Pass(), "removed"
@@ -240,7 +240,7 @@ def _faults(statement):
 def _can_go(statement):
     """Whether the module still makes sense without it."""
     if isinstance(statement, ast.Assign):
-        # a name that nobody gives is an error at once, and tells nothing
+        # an undefined name fails at once and shows nothing
         parts = [getattr(target, "elts", [target]) for target in statement.targets]
         return not any(
             isinstance(part, (ast.Name, ast.Starred)) for group in parts for part in group
@@ -249,7 +249,7 @@ def _can_go(statement):
 
 
 def _expressions(statement):
-    """The expressions of a statement that are worked with, not those of the statements in it."""
+    """The expressions of a statement itself, not those of inner statements."""
 
     def walk(node, where):
         if isinstance(node, (ast.JoinedStr, ast.stmt)):
@@ -285,7 +285,7 @@ def _expressions(statement):
 
 
 def _changes(node):
-    """What could stand in place of an expression."""
+    """Possible replacements of an expression."""
     if isinstance(node, ast.BinOp) and not (_is_text(node.left) or _is_text(node.right)):
         if type(node.op) in ARITHMETIC:
             yield _with(node, op=ARITHMETIC[type(node.op)]())
@@ -326,7 +326,7 @@ def _other_constants(value):
     elif isinstance(value, int):
         yield value + 1
     elif isinstance(value, float):
-        # A tolerance is a matter of powers of ten.
+        # Change a tolerance by powers of ten.
         yield value * (1e4 if 0 < abs(value) < 1e-4 else 2) if value else 1.0
 
 
@@ -420,8 +420,8 @@ def main():
 
 
 def run(sample):
-    """Run the tests on every mutant, a dict with its source; prints what nobody noticed, and the
-    shares.
+    """Run the tests on every mutant, a dict with its source; print the unnoticed ones and the
+    percentages.
     """
     _load()
     start, alive, results = time.monotonic(), {}, {}
@@ -463,7 +463,7 @@ def run(sample):
 
 
 def _load():
-    """What every test needs, loaded before forking; the package itself is not."""
+    """Load what every test needs before forking, but not the package itself."""
     import hypothesis
     import numpy  # noqa: F401
     import pytest  # noqa: F401
@@ -535,7 +535,7 @@ def _run_tests(home, runs, plugin):
     for run in runs:
         name = f"tests/{Path(run[0]).name}"
         if isinstance(plugin, _Sorted) and plugin.seconds.get(name) == float("inf"):
-            continue  # it cannot even be read
+            continue  # it cannot even be imported
         status = pytest.main([*options, *run], plugins=[plugin])
         if status not in (0, 5) and "-x" in options:  # 5: nothing was chosen
             return 1
@@ -543,7 +543,7 @@ def _run_tests(home, runs, plugin):
 
 
 class _Watch:
-    """A pytest plugin that writes down how long each test takes, and which fail."""
+    """A pytest plugin that records the time of each test, and which tests fail."""
 
     def __init__(self, path):
         self.path = path
@@ -559,7 +559,7 @@ class _Watch:
 
 
 class _Sorted:
-    """A pytest plugin that runs the quickest tests first, and leaves out what fails anyway."""
+    """A pytest plugin that runs the fastest tests first and skips those that fail anyway."""
 
     def __init__(self, seconds):
         self.seconds = seconds
@@ -570,8 +570,8 @@ class _Sorted:
 
 
 def _baseline(base, modules):
-    """How long each test takes without any fault: test -> seconds. What fails has no end: it is
-    named, and left out.
+    """The time of each test without a fault: test -> seconds. Failing tests are reported and
+    skipped.
     """
     start, path, alive = time.monotonic(), base / "seen", set()
     waiting = list({tuple(run) for module in modules for run in _tests(module)})
