@@ -583,7 +583,7 @@ def test_invisible_characters_are_escaped():
 
 
 def test_every_character_is_visible_or_escaped():
-    """By Python's tables: control characters, line ends and direction changes; and what it prints."""
+    """By Python's tables: control characters, line ends and changes of direction."""
     every = [chr(c) for c in range(0x110000)]
     turns = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
     told = [
@@ -616,7 +616,7 @@ PIECES += ("<b></i>", "\\begin{a}", "`", "*a_", "\x1b[31m", "\u202e", "- a\n", "
 @pytest.mark.parametrize("piece", PIECES)
 @pytest.mark.parametrize("size", [20_000, 1_000_000])
 def test_page_is_converted_quickly(piece, size, tmp_path):
-    """At most 2 s of CPU time per megabyte of any content, and for a short text."""
+    """At most 2 s of CPU time per megabyte of any content."""
     text = (piece * (size // len(piece) + 1))[:size]
     outputs = [
         new_output("stream", text=text),

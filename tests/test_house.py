@@ -1,5 +1,5 @@
-"""The house rules of the repository: who imports whom, what `import robokin` costs, what the README
-promises.
+"""The house rules of the repository: who imports whom, the cost of `import robokin`, and the
+promises of the README.
 """
 
 import ast
@@ -30,8 +30,8 @@ MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"} | {
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
-# Each module may import what stands beside the longest entry that it begins with (itself and its
-# own parts besides).
+# Each module may import the modules of the longest matching entry, besides itself and its own
+# parts.
 BASE = (
     "robokin._arrays",
     "robokin._validate",
@@ -71,7 +71,7 @@ HEAVY = DRAWING | {
     "importlib.resources",
 }
 
-# Libraries of the extras "labs" and "site", where they do what is not ours to write.
+# Libraries of the extras "labs" and "site" for work that we should not write ourselves.
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "markupsafe", "math_core", "nbconvert", "nbformat"},
@@ -115,8 +115,8 @@ def test_modules_import_only_lower_layers(module):
 
 
 def test_layer_check_detects_a_planted_import():
-    # The rule above is only as good as the reading: relative imports and names passed on by a
-    # package resolve.
+    # The rule above depends on the parser: relative imports and names that a package re-exports
+    # resolve.
     assert "robokin.arms.catalogue" in _imports("robokin.arms")
     assert {"numpy", "robokin.transform", "robokin.arms.arm"} <= _imports("robokin.arms.branches")
     assert "robokin.arms.spherical_wrist" in _imports("robokin.arms.catalogue")
@@ -231,7 +231,7 @@ def test_the_package_alone_goes_from_an_import_to_a_saved_page_in_eight_lines(tm
 
 
 def test_no_text_installs_robokin_from_an_index():
-    """Extras of pyproject.toml name the package; what people read names a clone."""
+    """Extras in pyproject.toml name the package; texts for people name a clone."""
     read = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
     read += [*MODULES.values(), *(ROOT / "notebooks").glob("**/*.ipynb")]
     for path in read:
@@ -298,9 +298,7 @@ def _arguments(command):
 
 
 def _imports(module):
-    """Every module that `module` imports, names that a package passes on counted as where they come
-    from.
-    """
+    """All modules that `module` imports; re-exported names count for their own module."""
     found = set()
     package = module if MODULES[module].name == "__init__.py" else module.rpartition(".")[0]
     for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):
@@ -313,7 +311,7 @@ def _imports(module):
 
 
 def _origin(source, name):
-    """The module that defines `name`, which `source` may pass on."""
+    """The module that defines `name`, which `source` may re-export."""
     if f"{source}.{name}" in MODULES:
         return f"{source}.{name}"
     if source in MODULES and MODULES[source].name == "__init__.py":

@@ -26,7 +26,7 @@ posix = pytest.mark.skipif(os.name != "posix", reason="needs a POSIX system")
 
 
 def command(*arguments, cwd, **options):
-    """Run the command; its result, of which nothing may be a traceback."""
+    """Run the command and return its result, which must not contain a traceback."""
     options = dict(stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=600) | options
     run = subprocess.run([sys.executable, "-m", "robokin.jobs", *arguments], cwd=cwd, **options)
     run.out, run.err = ((stream or b"").decode() for stream in (run.stdout, run.stderr))
@@ -212,14 +212,14 @@ def test_closed_streams_are_handled(tmp_path):
 
 @posix
 def test_simultaneous_runs_in_one_folder_are_refused(tmp_path):
-    """The second one leaves the log of the first alone and says so."""
+    """The second run does not touch the log of the first, and says so."""
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(600)})
     write(tmp_path / "others", a=example(2))
     line = [sys.executable, "-m", "robokin.jobs", "tasks"]
     with subprocess.Popen(
         line, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as first:
-        first.stdout.readline()  # it is at work, and then waits for a reader of its output
+        first.stdout.readline()  # it runs, and then waits for a reader of its output
         second = command("others", cwd=tmp_path)
         out, err = first.communicate(timeout=PATIENCE)
     assert second.returncode == 1 and "a.json: collected 1 of 2" in second.out
@@ -248,7 +248,7 @@ def test_unprintable_file_names_are_escaped(tmp_path):
 def test_special_files_are_reported(tmp_path):
     tasks = write(tmp_path / "tasks", good=example())
     (tasks / "folder.json").mkdir()
-    os.mkfifo(tasks / "pipe.json")  # reading it would wait for ever
+    os.mkfifo(tasks / "pipe.json")  # reading it would block for ever
     (tasks / "gone.json").symlink_to("nowhere")
     (tasks / "loop.json").symlink_to("loop.json")
     (tasks / "null.json").symlink_to("/dev/zero")
@@ -374,7 +374,7 @@ def test_import_robokin_does_not_import_jobs():
 
 
 def mutants(folder, count, seed=0):
-    """Fill a folder with `count` task files, most of them spoiled. Yields (name, words, case).
+    """Fill a folder with `count` task files, most of them invalid. Yields (name, words, case).
 
     words: what the reason must contain, None for a good task; case: the reference case that a good
     task is.
@@ -404,9 +404,7 @@ def mutants(folder, count, seed=0):
 
 
 def _bad_value(rng, where):
-    """A value that stands for no number; `where` says whether it lies in a place of numbers or of
-    arrays.
-    """
+    """A value that is not a number; `where` says whether it replaces a number or an array."""
     values = [
         None,
         True,

@@ -1,4 +1,4 @@
-"""The page's scripts: one form, types that hold, and types of the data that are Python's."""
+"""The page's scripts: one format, correct types, and data types equal to those of Python."""
 
 import ast
 import contextlib
@@ -27,7 +27,7 @@ SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
 
 
 def not_installed(error):
-    """Without a network a test is skipped; in CI it fails."""
+    """Without a network the test is skipped; in CI it fails."""
     report = pytest.fail if os.environ.get("CI") else pytest.skip
     report(f"Prettier and TypeScript are not installed, and there is no network: {error}")
 
@@ -69,7 +69,7 @@ def scanned():
 
 
 def test_functions_and_files_are_short():
-    """A function has at most 60 lines, those inside it counted; a script at most 350."""
+    """A function has at most 60 lines, including inner functions; a script at most 350."""
     functions = [
         (path.name, name, first, count)
         for path, found in scanned().items()
@@ -81,13 +81,13 @@ def test_functions_and_files_are_short():
     assert not {name: length for name, length in lengths.items() if length > 350}
 
 
-# What stands in both because one rule does: the test of test_twin.py that compares both.
+# Constants in both languages for the same rule: the test in test_twin.py that compares them.
 TWINS = {("STEPS", 64): "test_greatest_values", ("MOST", 200): "test_greatest_values"}
-PLAIN = {*range(-1, 101), 0.5, 200, 400}  # as often chosen by chance as on purpose
+PLAIN = {*range(-1, 101), 0.5, 200, 400}  # may be equal by chance
 
 
 def numbers_of(path):
-    """name -> value of the numbers that a module of Python names at its top."""
+    """name -> value of the top-level numbers of a Python module."""
     found = {}
     for node in ast.parse(path.read_text(encoding="utf-8")).body:
         pairs = []
@@ -107,7 +107,7 @@ def numbers_of(path):
 
 
 def test_no_constant_is_typed_in_python_and_in_a_script():
-    """The page gets it from Python, or a test compares both: by its name, by its value."""
+    """The page gets a constant from Python, or a test compares both: by name and by value."""
     ours = [pair for path in PACKAGE.rglob("*.py") for pair in numbers_of(path).items()]
     assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), "it sees them"
     names, values = dict(ours), {value for _, value in ours}
@@ -178,7 +178,7 @@ THINGS = {  # of one kind of thing, and the script that draws it
 
 
 def test_tsc_refuses_a_changed_key(tmp_path):
-    """One page or thing after the other: the scripts of that kind no longer fit, those of others
+    """For each kind of page or thing: its own scripts no longer type-check, those of other kinds
     do.
     """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
@@ -212,7 +212,7 @@ def test_all_kinds_of_things_are_listed():
 
 
 def test_explorer_pages_have_no_optional_keys():
-    """But for what `Live` adds."""
+    """Except for the keys that `Live` adds."""
     for table in get_args(page.PageExplorer):
         live = page.LivePage.__optional_keys__ & {*table.__annotations__}
         assert table.__optional_keys__ == live, table.__name__

@@ -1,6 +1,6 @@
-"""A handed-in notebook judged anew: what its answers are worth, whatever its author has written.
+"""A handed-in notebook judged again: the worth of its answers, whatever its author has written.
 
-The labs are written here, so that what every answer is worth is known beforehand.
+The labs are written here, so that the worth of every answer is known in advance.
 """
 
 import copy
@@ -65,7 +65,7 @@ def test_missing_raising_and_endless_answers_are_judged(tmp_path):
 
 @pytest.fixture(scope="module")
 def tricks(tmp_path_factory):
-    """A lab that does what a lab need not do, with things beside it, and what came of it."""
+    """A lab with unusual cells and files beside it, and its result."""
     folder = tmp_path_factory.mktemp("tricks")
     (folder / "robokin.py").write_text("raise SystemExit")  # is not taken
     for name in ("tasks", "tasks/.robokin", ".robokin"):
@@ -80,7 +80,7 @@ def tricks(tmp_path_factory):
         with open(name, "w"):
             pass
     sleeper = "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(1000)']"
-    anew = (  # starts itself anew, again and again, in a new session
+    anew = (  # restarts itself repeatedly in a new session
         "import os, time\nlast = time.time() + 60\nwhile time.time() < last:\n    if os.fork():\n"
         "        os._exit(0)\n    os.setsid()\n    time.sleep(0.1)"
     )
@@ -213,7 +213,7 @@ def slower(monkeypatch, factor):
 
 
 def test_cpu_limit_includes_child_processes(tmp_path, monkeypatch):
-    slower(monkeypatch, 10_000)  # no machine is as slow
+    slower(monkeypatch, 10_000)  # no machine is that slow
     lab = stored(
         tmp_path / "lab.ipynb",
         IMPORTS,
@@ -237,7 +237,7 @@ def test_cpu_limit_includes_child_processes(tmp_path, monkeypatch):
 
 
 def test_total_time_and_memory_are_limited(tmp_path):
-    """What is beyond them does not run, or raises; what came before counts."""
+    """Work beyond the limits does not run, or raises; earlier results count."""
     spin = "import time\nend = time.process_time() + 3\nwhile time.process_time() < end:\n    pass"
     lab = stored(
         tmp_path / "lab.ipynb",
@@ -272,7 +272,7 @@ def test_sleeping_cell_is_stopped_and_not_judged(tmp_path, monkeypatch):
     begun = time.monotonic()
     judged = judge_notebook(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=80))
     assert time.monotonic() - begun < 500
-    # the machine may be too slow for other cells as well: nothing else is sure
+    # the machine may be too slow for other cells too, so nothing else is certain
     assert {each.state for each in judged.exercises} == {"not judged"}
     assert {each.points for each in judged.exercises} == {0}
     assert all("too slow" in each.says[0] for each in judged.exercises)
@@ -426,8 +426,8 @@ def test_reading_an_invalid_notebook_takes_linear_time(text, tmp_path):
 
 
 def tried(path):
-    """Read a notebook; if it can be read, all that is done with it outside a kernel must work.
-    Whether it can be.
+    """Read a notebook and return whether it can be read; if so, all processing outside a kernel
+    must work.
     """
     try:
         given = handed_in(path)
@@ -487,7 +487,7 @@ def test_exercise_in_an_unparsable_cell_is_broken(source, tmp_path):
     lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
     assert tried(lab)
     given = handed_in(lab)
-    if "\ud800" in source:  # is no character, and is read as its escape
+    if "\ud800" in source:  # not a character, so it is read as an escape
         assert given.checks["irb140_motion.1"].answer == r"'\ud800'"
         return
     assert set(given.broken) == {"irb140_motion.1"} and given.broken["irb140_motion.1"]
@@ -574,7 +574,7 @@ def twice(x):
 
 
 def test_own_exercise_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, capsys):
-    """What lies beside the student's notebook is none of the teacher's."""
+    """Files beside the student's notebook are not the teacher's."""
     (tmp_path / "handed").mkdir()
     lab = stored(
         tmp_path / "handed" / "Ada.ipynb",

@@ -1,4 +1,4 @@
-"""Time laws: from rest at the start to the goal in time, and as smooth as they say."""
+"""Time laws: they start at 0, reach 1 in time, and have the documented smoothness."""
 
 import pickle
 
@@ -25,7 +25,7 @@ def test_laws_rise_monotonically_from_0_to_1(law, duration):
     assert (np.diff(s) > -1e-15).all() and (np.diff(s)[1:-1:50] > 0).all()
     assert s.min() >= 0 and s.max() <= 1
     assert abs(law(duration)(duration / 2) - 0.5) < 1e-15
-    assert np.allclose(s + s[::-1], 1, rtol=0, atol=1e-14)  # brakes as it starts
+    assert np.allclose(s + s[::-1], 1, rtol=0, atol=1e-14)  # decelerates as it accelerates
 
 
 @laws
@@ -123,7 +123,7 @@ def test_a_law_can_be_pickled(law):
 def test_custom_law_is_a_function_of_the_fraction_of_time():
     law = TimeLaw(4, lambda x: x**2)
     assert law([-1, 0, 1, 2, 4, 5]).tolist() == [0, 0, 1 / 16, 1 / 4, 1, 1]
-    assert TimeLaw(4, lambda x: 3 * x - 1)([0, 2, 4]).tolist() == [0, 0.5, 1]  # kept in [0, 1]
+    assert TimeLaw(4, lambda x: 3 * x - 1)([0, 2, 4]).tolist() == [0, 0.5, 1]  # clipped to [0, 1]
 
 
 @pytest.mark.parametrize("progress", [None, 3, "linear", [0, 1]])

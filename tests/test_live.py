@@ -1,5 +1,5 @@
-"""Views that ask a kernel, in a real JupyterLab: awake, they show what Python says of the last
-place of the hand; asleep, they show what the last run saw, and say so.
+"""Views that ask a kernel, in a real JupyterLab: awake, they show Python's answer for the last
+position; asleep, they show the stored answer, and say so.
 """
 
 import itertools
@@ -20,7 +20,7 @@ from robokin.jobs.obstacles import distances, keeps, plan, via_path
 from robokin.show import live, page, plan_explorer
 from robokin.show.plan_explorer import AWAY, FORBIDDEN, STEP
 
-quiet = test_browser.page  # keeps account of errors and of requests to elsewhere
+quiet = test_browser.page  # records errors and requests to other hosts
 ARM = three_lever(1.0)
 START = ARM.family((1.2, 1.7), 118 * deg)
 CELL = """\
@@ -38,7 +38,7 @@ Object.defineProperty(navigator, "clipboard", {value: clipboard});
 """
 
 
-# --- What a question is answered ------------------------------------------------------------------
+# --- Answers to questions ------------------------------------------------------------------
 
 
 def questions(count, seed=15):
@@ -217,7 +217,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     assert now - asked < 200, "places that were passed meanwhile are skipped"
     assert quiet.errors == [] and quiet.outside == []
 
-    # a kernel that begins anew knows nothing of the page
+    # a restarted kernel knows nothing of the page
     quiet.get_by_role("menuitem", name="Kernel", exact=True).click()
     quiet.get_by_role("menuitem", name="Restart Kernel").first.click()
     quiet.locator(".jp-Dialog .jp-mod-accept").click()
@@ -244,7 +244,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     assert quiet.errors == [] and quiet.outside == []
 
 
-# Moves of a pointer that nobody could follow, ten in every picture.
+# Pointer moves that are too fast to follow, ten in every picture.
 QUICK = """(node, count) => new Promise(done => {
   const r = node.getBoundingClientRect(), x = r.x + r.width / 2, y = r.y + r.height / 2;
   const tell = (type, clientX, clientY) =>
@@ -283,7 +283,9 @@ def asleep(tab):
 
 
 def shows_what_python_says(tab):
-    """Once all is answered: the words and numbers of this very question; gives its way."""
+    """When everything is answered, check the words and numbers of the last question; return its
+    way.
+    """
     still = "e => [e.dataset.asked, e.dataset.answered, e.querySelector('.rk-verdict').textContent]"
     seen = [None]
 

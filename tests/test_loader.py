@@ -192,7 +192,7 @@ def test_check_of_the_coordinates():
     # the inner bound, S3-r
     assert out_of_reach(arm, (0.3, 0, 0.1)) == ["the point is 183.8 mm too near to joint 2"]
     assert len(out_of_reach(arm, (2, 0, -1))) == 2
-    # rounding does not sink: 1e-12 of the reach
+    # the tolerance is 1e-12 of the reach
     assert out_of_reach(arm, (1, 0.5, -1.8e-12)) == [] and out_of_reach(arm, (1, 0.5, -2e-12))
     assert out_of_reach(arm, (1.9, 0, 0)) == [] and out_of_reach(arm, (0, 0, 0.5)) == []
     assert "were millimetres meant" in explain(arm, (1200, 0, 300), 1)
@@ -209,4 +209,4 @@ def test_wrong_arguments_are_refused():
         with pytest.raises(TypeError, match="loader_arm"):
             station_postures(arm, [(1, 0, 0)])
         with pytest.raises(TypeError, match="loader_arm"):
-            out_of_reach(arm, "a")  # the arm is the worse fault
+            out_of_reach(arm, "a")  # the arm is the more serious fault

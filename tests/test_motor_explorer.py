@@ -1,5 +1,5 @@
-"""The motor explorer in a real browser: it says and draws what `Stepper` says of the same motor,
-whatever hand moves it; without a kernel and without a network.
+"""The motor explorer in a real browser: it shows what `Stepper` computes for the same motor,
+however it is moved, without a kernel or a network.
 """
 
 import json
@@ -34,7 +34,9 @@ def told(motor):
 
 @pytest.fixture(scope="module")
 def rotor(context):
-    """The page's law: `rotor(name, motor, load, load_inertia, *arguments)` -> what it returns."""
+    """The page's functions: `rotor(name, motor, load, load_inertia, *arguments)` -> the returned
+    value.
+    """
     page = context.new_page()
     page.goto("about:blank")
     page.add_script_tag(content=f"{script('rotor')}\nwindow.rotor = $rotor;")
@@ -93,7 +95,7 @@ def test_ramps_of_the_page_equal_those_of_python(context, asked):
 
 
 def lost(shown):
-    """The lost steps that the explorer tells, and Python's answer to the code that it copies."""
+    """The lost steps in the explorer, and Python's result for the code that it copies."""
     seen = shown.look()
     said = re.search(r"(\d+)(?: of 48)? steps lost", seen.says)
     assert said or "every step" in seen.says

@@ -1,8 +1,8 @@
 """An obstacle that moves while the three-lever arm does, and one that two distances locate.
 
-Distances are checked as in test_obstacles.py by a second description of the arm, at places and
-times of its own. ROBOKIN_TASKS=500 runs the full number of random tasks;
-tests/benchmarks/obstacle_tasks.py prints what comes of them.
+As in test_obstacles.py, a second description of the arm checks distances, at its own places and
+times. ROBOKIN_TASKS=500 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints their
+results.
 """
 
 import os
@@ -36,7 +36,7 @@ def least_on_the_way(path, times, H, v, samples=2001):
 
 
 def test_clearance_from_a_moving_obstacle_is_a_tight_bound():
-    """Fast and slow, near and far, through the levers and past them; an arm that stands as well."""
+    """Fast and slow, near and far, through the levers and past them; also with a resting arm."""
     rng, swept = np.random.default_rng(7), 0
     for turn in (0.0, 0.5, 3.0):
         a = rng.uniform(0, np.pi, (60, 3))
@@ -87,13 +87,13 @@ def test_plans_keep_their_clearance_from_a_moving_obstacle(answers):
         assert (abs(np.diff(answer.path, axis=0)).sum(axis=1) <= np.diff(times) + 1e-9).all()
         sampled = least_on_the_way(answer.path, times, H, v)
         assert sampled.min() >= KEPT and (answer.clearance.min(axis=1) <= sampled).all()
-        assert (sampled - answer.clearance.min(axis=1) < 0.01).all()  # a bound, and a tight one
+        assert (sampled - answer.clearance.min(axis=1) < 0.01).all()  # a tight bound
         assert answer.cost >= answer.least - 1e-9
     assert {"direct", "wait", "search", "none"} == set(ways)
 
 
 def test_obstacle_motion_changes_the_plan(answers):
-    """Some of what is found fails beside the obstacle as it stands at the start or at the end."""
+    """Some of the plans fail for an obstacle that stays at its first or last place."""
     still = [
         min(clearance(ARM, answer.path, np.add(H, t * v)).min() for t in (times[0], times[-1]))
         for (_, _, H, v), (answer, times) in answers

@@ -1,7 +1,6 @@
-"""What every stored lab promises, read from its file; nbval runs the cells and compares their
-outputs.
+"""Laws of every stored lab, read from its file; nbval runs the cells and compares their outputs.
 
-Also: the script that re-executes the labs does so without needless changes.
+Also: the script that executes the labs again makes no unnecessary changes.
 """
 
 import ast
@@ -23,7 +22,7 @@ from PIL import Image
 
 from robokin.show import joiner
 
-# Not recursively: JupyterLab keeps checkpoints in a folder below.
+# Not recursive, since JupyterLab keeps checkpoints in a subfolder.
 LABS = sorted(NOTEBOOKS.glob("*.ipynb"))
 PATHS = [*LABS, *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]  # and the companions
 IMPORTS = {"ipywidgets", "matplotlib", "numpy", "robokin", "scipy", "sympy"} | set(
@@ -69,7 +68,7 @@ def test_lab_numbers_have_no_gaps():
 
 
 def test_cells_were_executed_from_top_to_bottom(code):
-    # nbval compares nothing in a cell without a count: a stripped notebook would pass it.
+    # nbval compares nothing in a cell without a count, so a stripped notebook would pass.
     assert all(cell.source.strip() for cell in code), "a code cell is empty"
     assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
 
@@ -117,7 +116,7 @@ def test_no_session_state_is_stored(path):
     )
     for cell in notebook["cells"]:
         assert set(cell["metadata"]) <= {"tags", "reason", "jupyter"}
-        if cell["metadata"].get("jupyter"):  # folded, in an exported page as well
+        if cell["metadata"].get("jupyter"):  # folded, also in an exported page
             assert cell["metadata"]["jupyter"] == {"source_hidden": True}
             assert "hide-input" in cell["metadata"]["tags"] and cell["cell_type"] == "code"
     ids = [cell["id"] for cell in notebook["cells"]]
@@ -142,7 +141,9 @@ def test_cells_fit_on_a_screen(code):
 
 def test_cells_are_plain_python_with_installed_imports(code):
     for cell in code:
-        for node in ast.walk(ast.parse(cell.source)):  # a SyntaxError: a magic, which no lab needs
+        for node in ast.walk(
+            ast.parse(cell.source)
+        ):  # a SyntaxError means a magic command, which no lab needs
             names = (
                 [node.module]
                 if isinstance(node, ast.ImportFrom)
@@ -155,8 +156,7 @@ def test_cells_are_plain_python_with_installed_imports(code):
 
 
 def test_names_in_code_are_ascii(code):
-    # A Cyrillic letter that looks like a Latin one is another name; an invisible character is a
-    # riddle.
+    # A Cyrillic letter that looks Latin makes another name; an invisible character is a trap.
     for cell in code:
         for token in tokenize.generate_tokens(io.StringIO(cell.source).readline):
             assert (
@@ -216,7 +216,7 @@ def test_labs_take_about_an_hour(lab):
 
 @every_lab
 def test_labs_open_with_a_moving_view(lab):
-    """A title with a claim, a folded set-up, and the thing itself in three lines."""
+    """A title with a claim, a folded set-up, and a view within three lines."""
     first, setup, thing, *_ = json.loads(lab.read_text(encoding="utf-8"))["cells"]
     assert re.search(r"\n\*\*[^*]+[.?!]\*\*", "".join(first["source"])), "no claim in bold"
     assert lab_sizes.folded(setup) and "import" in "".join(setup["source"])

@@ -1,9 +1,9 @@
 """A point obstacle beside the three-lever arm: reference cases, certified clearance, and plans that
-keep what they say.
+keep their promises.
 
 Distances are checked by a second description of the arm (complex numbers, levers as many points),
-not by robokin's. ROBOKIN_TASKS=2000 runs the full number of random tasks;
-tests/benchmarks/obstacle_tasks.py prints what comes of them.
+not by robokin's. ROBOKIN_TASKS=2000 runs all random tasks; tests/benchmarks/obstacle_tasks.py
+prints their results.
 """
 
 import os
@@ -86,8 +86,8 @@ def dense(path, samples=4001):
 
 
 def passes_over(q0, q1, H):
-    """Does lever AK pass over one of the points H (n, 2) on the way from q0 to q1? By the side on
-    which H lies.
+    """Whether lever AK passes over one of the points H (n, 2) on the way from q0 to q1, from the
+    side of H.
     """
     gamma, beta, alpha = dense([q0, q1], 721)[0].T
     first, second, third = (
@@ -132,7 +132,7 @@ def test_reference_cases(case):
     np.testing.assert_allclose(ARM.least(case["K1"], q0, limited=False)[0], q1, rtol=0, atol=1e-6)
     assert in_quadrilateral(ARM, q0, q1, H)["AK"] == case["inside_quadrilateral"]
     assert swept(ARM, q0, q1, H)["AK"] == case["swept_by_AK_joint_linear"]
-    # else the reference holds the least of samples, up to 0.0007
+    # otherwise the reference is the least of samples, within 0.0007
     if not case["swept_by_AK_joint_linear"]:
         least = clearance(ARM, [q0, q1], H)[0, 2]
         assert 0 < case["min_distance_AK_joint_linear"] - least < 5e-6
@@ -170,9 +170,7 @@ def test_via_points_are_perpendicular_and_on_the_side_of_the_base():
 
 
 def test_quadrilateral_test_works_for_any_drawing():
-    """Errata S3-k: the printed inequalities miss this point. A corner and a side count as
-    inside.
-    """
+    """Errata S3-k: the printed inequalities miss this point. Corners and sides count as inside."""
     q0 = ARM.least((0.8668, -0.5041), [1.2, 2.0, 1.0], limited=False)[0]
     q1 = ARM.least((1.2804, 0.1854), [1.5, 2.0, 1.0], limited=False)[0]
     (_, B, A, K), (_, B1, A1, K1) = ARM.points(q0), ARM.points(q1)
@@ -180,8 +178,8 @@ def test_quadrilateral_test_works_for_any_drawing():
     found = in_quadrilateral(ARM, q0, q1, H)
     assert found["AK"].tolist() == [True, True, True, True, False, False]
     assert found["BA"].shape == (6,) and found["BA"][0]
-    # against another way to count: the winding of the corners about the point, for a simple and a
-    # crossed outline
+    # compared with the winding number of the corners about the point, for a simple and a crossed
+    # outline
     rng = np.random.default_rng(4)
     for corners in (np.stack([A, K, K1, A1]), np.stack([B, A, A1, B1])):
         points = corners.min(axis=0) + rng.uniform(-0.1, 1.1, (500, 2)) * np.ptp(corners, axis=0)
@@ -196,7 +194,7 @@ def test_clearance_is_a_tight_bound(L):
     rng, arm = np.random.default_rng(6), three_lever(L)
     for _ in range(60):
         path, H = rng.uniform(0, np.pi, (4, 3)), L * rng.uniform(-3, 3, 2)
-        if rng.random() < 0.5:  # joints that rest, as the kinks of least movement leave them
+        if rng.random() < 0.5:  # resting joints, as at the kinks of least movement
             path[1:] = np.where(rng.random((3, 3)) < 0.6, path[0], path[1:])
         sampled = seen(dense(path), H, L)
         bound = clearance(arm, path, H)
@@ -204,7 +202,7 @@ def test_clearance_is_a_tight_bound(L):
         fast = abs(np.diff(path, axis=0)).sum(axis=1, keepdims=True) * 3 * L / 4000
         assert (sampled.min(axis=1) - bound <= fast + 2e-6 * L).all()
         np.testing.assert_allclose(distances(arm, path, H), seen(path, H, L), rtol=0, atol=1e-14)
-        # the clearance is known to 1e-6 of a lever, and `keeps` is surer than that
+        # the clearance is accurate to 1e-6 of a lever, and `keeps` is more accurate
         least, slack = bound.min(axis=1), 2.1e-6 * L
         for distance in least[least > slack]:
             for asked in (distance - slack, distance + slack):
@@ -214,8 +212,8 @@ def test_clearance_is_a_tight_bound(L):
 
 @pytest.mark.parametrize("levers", [(0.9, 1.1, 0.6), (0.5, 0.3, 1.6), (1.7, 0.9, 0.2)])
 def test_levers_with_different_lengths(levers):
-    """As above, the places of the levers from `arm.points`, which knows their lengths; and
-    plans among them keep what they say.
+    """As above, with the positions of the levers from `arm.points`; plans with these arms keep
+    their promises.
     """
     rng, arm = np.random.default_rng(16), three_lever(levers)
     share = np.linspace(0, 1, 301)[:, None]
@@ -260,8 +258,8 @@ def test_lever_that_passes_over_has_zero_clearance():
 
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
 def test_clearance_of_known_motions():
-    """Lever OB of an arm whose joint 1 alone turns, past the obstacle or not up to it; all beyond
-    B hangs together.
+    """Lever OB of an arm that turns only joint 1, past the obstacle or not up to it; everything
+    beyond B is rigid.
     """
     q, H = np.array([0.2, 2.0, 2.5]), np.array([0.3, 0.9])
     to = np.arctan2(H[1], H[0])  # 71.6 degrees
@@ -271,7 +269,7 @@ def test_clearance_of_known_motions():
         least = np.hypot(*H) * np.sin(angle)
         found = clearance(ARM, [q, end], H)[0]
         assert least - 2e-6 <= found[0] <= least, turn
-        # the others: the nearest of a turn of their end points about the base
+        # the others: the nearest point when their end points turn about the base
         s = np.linspace(0, min(turn, 2 * np.pi), 40_001)[:, None]
         sampled = seen(q + s * [1, 0, 0], H).min(axis=0)
         assert (sampled - found <= 2e-4).all() and (sampled >= found).all()
@@ -279,8 +277,8 @@ def test_clearance_of_known_motions():
 
 @pytest.mark.parametrize("H", [(0, 0), (1e-9, 0), (0.01, -0.02), (1e3, 2e3)])
 def test_clearance_where_the_distance_hardly_changes(H):
-    """An obstacle in the base sees the levers turn about it: half-way distances are all alike, and
-    a search that halves until it knows must not go on for ever.
+    """The levers turn about an obstacle in the base: all distances are equal, and the bisection
+    must not continue for ever.
     """
     a, b = np.array([0.1, 1.1, 1.9]), np.array([3.0, 1.1, 1.9])
     least = clearance(ARM, [a, b], H)[0]
@@ -291,7 +289,7 @@ def test_clearance_where_the_distance_hardly_changes(H):
 
 
 def test_clearance_of_a_constant_motion():
-    """The border: a distance that is just kept is kept, and not one above it."""
+    """The border: a distance that is exactly kept counts, and a larger one does not."""
     q, H = np.array([1.0, 2.0, 1.5]), (1.3, 1.2)
     least = seen(q, H).min()
     near = distances(ARM, q, H).min()
@@ -326,7 +324,7 @@ def test_batches_of_postures_and_obstacles():
 
 
 def test_long_paths_are_measured_in_blocks(monkeypatch):
-    """Whether stretches are looked at all together or a few at a time: the same answer."""
+    """The result is the same whether pieces are processed together or a few at a time."""
     rng = np.random.default_rng(13)
     path, H = rng.uniform(0, np.pi, (60, 3)), (0.9, 1.1)
     together, kept = clearance(ARM, path, H), keeps(ARM, path[:-1], path[1:], H, 0.1)
@@ -338,7 +336,7 @@ def test_long_paths_are_measured_in_blocks(monkeypatch):
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
 def test_excessive_work_is_refused(monkeypatch):
     q = np.array([1.0, 2.0, 1.5])
-    # a hundred turns are work, and not too much
+    # a hundred turns are much work, but not too much
     assert clearance(ARM, [q, q + [200 * np.pi, 0, 0]], (1.2, 1.3)).shape == (1, 3)
     many = np.tile(q, (WORK + 1, 1))
     with pytest.raises(ValueError, match=f"most {WORK} stre.*{WORK + 1} of 0 rad.*{WORK + 1} and"):
@@ -359,7 +357,7 @@ def test_excessive_work_is_refused(monkeypatch):
 
 
 def test_nearest_of_several_obstacles_counts():
-    """The same as each by itself, put together."""
+    """The result equals the combined results of the single obstacles."""
     rng = np.random.default_rng(15)
     for _ in range(40):
         path, H = rng.uniform(0, np.pi, (4, 3)), rng.uniform(-2.5, 2.5, (3, 2))
@@ -374,7 +372,7 @@ def test_nearest_of_several_obstacles_counts():
 
 @pytest.fixture(scope="module")
 def two_drawn():
-    """Random tasks with a second obstacle, which leaves start and target free."""
+    """Random tasks with a second obstacle that leaves start and target free."""
     rng, found = np.random.default_rng(16), []
     for q0, K1, H in tasks(max(TASKS // 2, 24), seed=17):
         second = rng.uniform(-2.5, 2.5, 2)
@@ -402,7 +400,7 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
 
 
 def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
-    """Told from the gripper's places and from the words."""
+    """Checked from the gripper's positions and from the words."""
     count = 0
     for q0, K1, H in two_drawn:
         answer = plan(ARM, q0, K1, H)
@@ -474,7 +472,7 @@ def test_plans_keep_their_clearance_or_find_no_path(answers):
 
 
 def test_words_name_the_nearest_lever(answers):
-    """And of levers that meet in the nearest point, the one nearer to the base."""
+    """If levers meet in the nearest point, the one nearer to the base."""
     told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
     for q0, K1, H, answer in answers:
         if "No path keeps" in answer.words:
@@ -491,7 +489,7 @@ def test_words_name_the_nearest_lever(answers):
             np.testing.assert_allclose(answer.path, paths[1], rtol=0, atol=1e-12)
             continue
         assert len(found) == len(paths) == 1 + bool(reached)
-        if reached:  # of circles that do not keep the distance the best is named
+        if reached:  # among circles that do not keep the distance, the best one is named
             assert clearance(ARM, paths[1], H).min() == max(
                 clearance(ARM, path, H).min() for path in reached
             )
@@ -509,8 +507,8 @@ def test_words_name_the_nearest_lever(answers):
 
 
 def test_search_path_is_taut(answers):
-    """Nothing of a path can be had for less in an obvious way: no via posture left out or pulled a
-    little towards its neighbours, and the target reached from the last one in no nearer posture.
+    """No obvious change makes a path shorter: omitting a via posture, pulling one towards its
+    neighbours, or a nearer posture at the target.
     """
     searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
     nearer = [is_taut(path, K1, H, KEPT) for H, K1, path in searched]
@@ -518,7 +516,7 @@ def test_search_path_is_taut(answers):
 
 
 def is_taut(path, K1, H, distance):
-    """Asserts it of the via postures; True if a nearer end is within reach."""
+    """Assert this for the via postures; return whether a nearer end is within reach."""
     assert not keeps(ARM, path[:-2], path[2:], H, distance).any()
     for a, via, b in zip(path, path[1:], path[2:], strict=False):
         between = np.clip(via, np.minimum(a, b), np.maximum(a, b))
@@ -537,12 +535,12 @@ def test_search_path_costs_no_more_than_brute_force(drawn):
         S = abs(np.diff(way_round(ARM, q0, K1, H, KEPT), axis=0)).sum()
         assert S < 1.03 * least, (i, S, least)
         ratios.append(S / least)
-    assert np.mean(ratios) < 0.985  # its via postures lie where they are best, not on a grid
+    assert np.mean(ratios) < 0.985  # its via postures are optimal, not on a grid
 
 
 def test_small_clearances_are_found(drawn):
-    """Where a step of the grid can jump over the obstacle. In the last three a goal further along
-    its curve saves movement.
+    """Tasks in which a step of the grid can jump over the obstacle. In the last three a goal
+    further along its curve saves movement.
     """
     found = []
     for q0, K1, H in [*drawn[:12], drawn[21], drawn[30], drawn[61]]:
@@ -556,7 +554,7 @@ def test_small_clearances_are_found(drawn):
 
 def test_search_reaches_targets_with_few_postures():
     """Near the stretched arm the family is short; at the stretched arm it is one posture; beyond it
-    there is none, and no way.
+    there is no posture and no path.
     """
     for r in (2.9, 2.9999, 2.99999999, 3.0):
         K1 = r * np.array([np.cos(1.0), np.sin(1.0)])
@@ -569,7 +567,7 @@ def test_search_reaches_targets_with_few_postures():
 
 
 def test_start_at_its_limits_is_accepted():
-    """Past a limit by rounding, too: the path begins where the arm stands."""
+    """Also past a limit by rounding: the path begins at the arm's posture."""
     for q0 in ([-5e-10, 2.0, 1.5], [np.pi + 5e-10, 2.0, 1.5], [0.0, np.pi, 2.0], [1.0, 0.3, np.pi]):
         path = way_round(ARM, q0, (1.8, 0.6), (1.0, -1.5), 0.1)
         assert (path[0] == q0).all() and within(ARM, path).all()
@@ -578,9 +576,7 @@ def test_start_at_its_limits_is_accepted():
 
 
 def test_search_finds_a_path_where_one_was_constructed():
-    """Tasks that are known to be solvable: the obstacle stands beside a path with two random
-    corners.
-    """
+    """Tasks with a known solution: the obstacle is beside a path with two random corners."""
     rng, solved, count = np.random.default_rng(8), 0, 0
     while count < 25:
         path = rng.uniform(0, np.pi, (4, 3))
@@ -632,8 +628,8 @@ def test_direct_way():
 
 
 def test_via_points_work_for_smaller_distances():
-    """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's way serves a
-    smaller distance.
+    """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's path works
+    for a smaller distance.
     """
     ways, radii = [], []
     for q0, K1, H in tasks(min(TASKS, 30)):
@@ -650,7 +646,7 @@ def test_via_points_work_for_smaller_distances():
 
 
 def test_first_circle_that_keeps_the_distance_is_used(answers):
-    """None smaller than the distance or than L/7; L/7 itself never keeps L/7 (errata S3-n)."""
+    """No circle is smaller than the distance or L/7; L/7 itself never keeps L/7 (errata S3-n)."""
     radii = []
     for q0, K1, H, answer in answers:
         tried = [via_path(ARM, q0, K1, H, r) for r in CIRCLES]
@@ -688,7 +684,7 @@ KNOWN = ARM.points(Q0)
         ((1.8, 0.6), (KNOWN[0] + KNOWN[1]) / 2, "At the start lever OB is already"),
         ((1.8, 0.6), (KNOWN[1] + KNOWN[2]) / 2, "At the start lever BA is already 0.0 mm"),
         (KNOWN[3], KNOWN[3], "At the start"),
-        # stretched over the obstacle: no posture at the target is free
+        # stretched over the obstacle, so no posture at the target is free
         ((2.99, 0.1), (1.5, 0.05), "finds no way"),
     ],
 )
@@ -700,7 +696,7 @@ def test_impossible_plans_give_a_reason(target, obstacle, words):
 
 
 def test_distance_that_is_barely_kept_counts():
-    """The borders of base, start, target and direct way belong to what is allowed."""
+    """Distances at the borders of base, start, target and direct way are allowed."""
     target, H = (1.75, 0.5), (1.75, 0.75)
     at_start, direct = distances(ARM, Q0, H).min(), [Q0, ARM.least(target, Q0)[0]]
     for distance, obstacle, words in (
@@ -736,7 +732,7 @@ def test_postures_along_a_path():
 
 def test_S_grows_linearly_along_a_path():
     path = np.array([(0, 1, 0), (0.5, 0, -1), (-1, 0.2, 0)])
-    q = along(path, np.linspace(0, 1, 43))  # S is 2.5 and 2.7: a sample stands on no corner
+    q = along(path, np.linspace(0, 1, 43))  # S is 2.5 and 2.7, so no sample is at a corner
     S = abs(np.diff(q, axis=0)).sum(axis=-1)
     inner = np.delete(S, np.searchsorted(np.linspace(0, 1, 43), 2.5 / 5.2) - 1)
     np.testing.assert_allclose(inner, 5.2 / 42, rtol=1e-12)

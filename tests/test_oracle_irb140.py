@@ -1,4 +1,4 @@
-"""The IRB-140 against the reference cases that were computed independently of robokin and of its
+"""The IRB-140 compared with reference cases that were computed independently of robokin and of its
 document.
 """
 
@@ -38,7 +38,7 @@ T = np.arange(0, TOTAL, STEP)
 @pytest.mark.parametrize("case", CASES, ids=[f"{i}-{case['kind']}" for i, case in enumerate(CASES)])
 def test_ik_returns_every_solution_in_its_row(case):
     rows = compare(IRB140, case, mm)
-    if "q" in case and not case["singular"]["wrist"]:  # the joint values that the pose was made of
+    if "q" in case and not case["singular"]["wrist"]:  # the original joint values of the pose
         assert np.nanmin(turns(rows, case["q"]).max(-1)) < 1e-6
 
 
@@ -98,7 +98,7 @@ def test_motion(law):
     q = follow(IRB140, IRB140.ik(poses), IRB140.branch(*case["flags"]))
     for sample in case["samples"]:
         i = int(round(sample["t"] / STEP))
-        if i == len(T):  # t = 20 lies one step past the document's last sample
+        if i == len(T):  # t = 20 is one step past the document's last sample
             continue
         given = transform(sample["T"], mm)
         assert abs(poses[i].as_matrix() - given.as_matrix()).max() < 1e-12

@@ -1,4 +1,6 @@
-"""The page: its colours stand once, its script is joined from modules, its numbers come back."""
+"""The page: its colours are defined once, its script is joined from modules, its numbers can be
+decoded.
+"""
 
 import base64
 import re
@@ -32,7 +34,9 @@ def test_scripts_contain_no_colours(path):
 def test_style_sheets_contain_no_colours(path):
     text = path.read_text(encoding="utf-8")
     if path.name == "elements.css":
-        text = text.replace("#fff", "", 1)  # behind still pictures, whose colours are a figure's
+        text = text.replace(
+            "#fff", "", 1
+        )  # behind still pictures, which have the colours of figures
     assert not re.findall(COLOUR, text) and not re.findall(r"\b(?:white|black)\b(?!-)", text)
     assert "font-family" not in text and path.with_suffix(".js").is_file(), "no module has it"
 
@@ -75,7 +79,7 @@ def test_text_has_enough_contrast_in_both_themes():
 
 @pytest.fixture
 def modules(tmp_path, monkeypatch):
-    """Write modules into a folder of their own; the joiner reads those."""
+    """Write modules into a separate folder for the joiner."""
     (tmp_path / "js").mkdir()
     monkeypatch.setattr(joiner, "files", lambda _: tmp_path)
 
@@ -96,7 +100,7 @@ def modules(tmp_path, monkeypatch):
 
 
 def run(script, ending):
-    """What `ending` gives behind the script, in Node."""
+    """The result of `ending` after the script, in Node."""
     code = f"{script}\nconsole.log(JSON.stringify({ending}));"
     done = subprocess.run([NODE, "-e", code], text=True, capture_output=True, check=True)
     return done.stdout.strip()
@@ -236,7 +240,7 @@ def test_style_sheet_follows_those_of_imported_modules(modules):
 
 
 def test_joined_style_sheets_equal_the_files_in_a_browser(browser):
-    """All rules of all sheets, as Chromium writes them back."""
+    """All rules of all style sheets, as Chromium serialises them."""
     tab = browser.new_page()
     tab.set_content("<style id=sheet></style>")
     rules = """text => {

@@ -41,7 +41,7 @@ def difference(a, b):
 
 
 def twist(a, b):
-    """From pose a to pose b: the shift and the rotation vector, (..., 6)."""
+    """From pose a to pose b: the translation and the rotation vector, (..., 6)."""
     angle, axis = (b.rotation @ a.rotation.inverse()).as_angle_axis()
     return np.concatenate([b.translation - a.translation, axis * angle[..., None]], axis=-1)
 
@@ -107,8 +107,9 @@ def test_zero_blend_is_lin_lin(corner):
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
 def test_distance_of_the_path_from_via(corner, b):
-    """Errata S1-l: the parabola's middle lies |a - 2 b + c| / 4 from via, half of the way to the
-    chord; the quintic's at 3/4 of that distance."""
+    """Errata S1-l: the parabola's middle is |a - 2 b + c| / 4 from via, half of the distance to the
+    chord; the quintic's is at 3/4 of that distance.
+    """
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
     chord = np.linalg.norm((first + last) / 2 - VIA.translation)
     middle = blend(START, VIA, GOAL, b, 0.5, corner).translation
@@ -149,7 +150,7 @@ def test_corner_is_the_bezier_curve_of_its_control_poses(corner):
     assert np.allclose(
         blend(START, VIA, GOAL, b, s, corner).translation, bernstein(points, x), rtol=0, atol=1e-14
     )
-    # About one common axis rotations add like numbers: there the same polynomials give the angle.
+    # Rotations about a common axis add like numbers, so the same polynomials give the angle.
     turned = [
         Transform(Quaternion.from_angle_axis(angle, (0, 0.6, 0.8))) for angle in (0.3, 1.5, 0.9)
     ]
@@ -164,9 +165,7 @@ def test_corner_is_the_bezier_curve_of_its_control_poses(corner):
 
 
 def jump(f, at, h, order):
-    """How far a derivative of f jumps at one place, from samples on either side (second order in
-    h).
-    """
+    """The jump of a derivative of f at a place, from samples on both sides (second order in h)."""
     weights = {1: [-1.5, 2, -0.5], 2: [2, -5, 4, -1]}[order]
     k = np.arange(len(weights)) * h
     after = np.tensordot(weights, f(at + k), 1) / h**order
@@ -277,7 +276,7 @@ def test_start_may_equal_goal(corner):
 
 @corners
 def test_a_straight_corner_stays_straight(corner):
-    """Via in the middle of start and goal: no corner, and no change of the motion."""
+    """Via in the middle between start and goal: no corner, and no change of the motion."""
     s = np.linspace(0, 1, 101)
     T = blend(START, lin(START, GOAL, 0.5), GOAL, 0.3, s, corner)
     assert difference(T, lin(START, GOAL, s)) < 1e-14

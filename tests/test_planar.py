@@ -1,5 +1,5 @@
-"""The three-lever arm of source 003 against its reference cases, its family of postures, and the
-least movement.
+"""The three-lever arm of source 003: reference cases, the family of postures, and the least
+movement.
 """
 
 import os
@@ -25,8 +25,8 @@ def ours(angles):
 
 
 def chain(L, q):
-    """O, B, A, K as complex numbers: every lever turns on from the one before by an interior angle,
-    clockwise.
+    """O, B, A, K as complex numbers: each lever turns clockwise from the previous one by an
+    interior angle.
     """
     gamma, beta, alpha = q
     first = L * np.exp(1j * gamma)
@@ -63,7 +63,7 @@ def test_least_movement_equals_the_oracle(case):
     kept, _ = arm.least(case["K"], ours(case["previous"]))
     if case["gamma_in_range"]:
         np.testing.assert_allclose(kept, q, rtol=0, atol=1e-12)
-    else:  # the limit on gamma costs something, or leaves nothing
+    else:  # the limit on gamma increases S, or leaves no posture
         assert np.isnan(kept).all() or (within(arm, kept).all() and abs(kept - q).max() > 1e-6)
 
 
@@ -99,9 +99,7 @@ def test_out_of_range_gives_a_reason(case):
 
 
 def test_worked_example():
-    """Errata S3-h: the sweep stops beside the kink beta = 110 degrees, the exact minimum lies on
-    it.
-    """
+    """Errata S3-h: the sweep ends beside the kink beta = 110 degrees; the minimum is on it."""
     previous = ours(EXAMPLE["previous_deg"]) * deg
     q, S = ARM.least(EXAMPLE["target"], previous)
     assert S / deg == pytest.approx(18.300924618, abs=1e-9) == EXAMPLE["cost_deg"]
@@ -135,8 +133,8 @@ def test_family_reaches_its_point_over_its_whole_range(shape):
         point = np.append(K[i], 0.0)
         for same in (point, Transform(translation=point)):
             np.testing.assert_array_equal(arm.family(same, alpha[i]), q[i])
-    # the range with gamma limited: where some alpha is left, it is exactly where all angles lie in
-    # 0 to 180 degrees
+    # the range with limited gamma, if it is not empty, is exactly where all angles are in 0 to 180
+    # degrees
     low, high = arm.alpha_range(K)
     with np.errstate(invalid="ignore"):
         inside = (alpha > low[..., None] + 1e-9) & (alpha < high[..., None] - 1e-9)
@@ -180,13 +178,14 @@ def test_exact_minimum_is_never_above_the_sweep(limited):
         ~exists
     ).sum() + n / 1000
     assert np.nanmin(above) > -1e-14
-    # one step of alpha, each angle moving at most three times as fast: the two cannot lie far apart
+    # in one step of alpha each angle changes at most three times as much, so the two cannot be far
+    # apart
     assert 0 < np.nanmax(above) < 0.05 * deg and np.nanmedian(above) < 0.005 * deg
 
 
 def test_exact_minimum_between_the_kinks():
-    """A minimum at which no angle stays as it was and alpha is at no end of its range exists, and
-    is found.
+    """There is a minimum at which no angle keeps its value and alpha is not at an end of its range,
+    and it is found.
     """
     K, previous = np.array([1.8, 0.6]), np.array([175, 30, 40]) * deg
     q, S = ARM.least(K, previous, limited=False)
@@ -272,7 +271,7 @@ def test_points_off_the_plane_are_out_of_reach():
 
 @pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])
 def test_out_of_reach_words_agree_with_the_postures(way):
-    """The last point that is reached on the way up, or out, is found by halving."""
+    """The last reachable point on the way up, or out, is found by bisection."""
 
     def at(far):
         return np.array([1.5, 0, 0]) + far * np.array(way)
@@ -300,7 +299,7 @@ def test_out_of_reach_and_the_family_agree_at_the_borders():
 
 
 def test_plane_tolerance_is_the_rounding_error_of_the_arm():
-    """A point beside the plane by less than 1e-12 of the reach is on it, whatever the size."""
+    """A point off the plane by less than 1e-12 of the reach is on it, for any size."""
     for size in (1e-3, 1.0, 1e3):
         two, three = two_link(size, size), three_lever(size)
         assert not np.isnan(two.ik((size, 0, 1e-12 * size))).any()
@@ -310,7 +309,7 @@ def test_plane_tolerance_is_the_rounding_error_of_the_arm():
 
 
 def test_sweep_keeps_gamma_within_its_limits_by_default():
-    """Without the limits some points have a nearer posture, with gamma outside 0 to 180 degrees."""
+    """Without limits some points have a nearer posture with gamma outside 0 to 180 degrees."""
     previous = np.array([0.0, 90, 120]) * deg
     better = 0
     for K in np.random.default_rng(5).uniform(-2.5, 2.5, (200, 2)) * ARM.lever:
@@ -357,7 +356,7 @@ def test_no_posture_of_the_family_moves_less_than_least():
 
 @pytest.mark.parametrize("lengths", [1.0, (0.9, 1.1, 0.6)])
 def test_alpha_range_has_two_ends_or_none(lengths):
-    """Where gamma stays below 0 all along the family, the upper end was given without a lower."""
+    """With gamma below 0 along the whole family, the range had an upper end but no lower one."""
     arm = three_lever(lengths)
     KO, phi = np.meshgrid(np.linspace(0, 3.2, 60), np.linspace(-np.pi, np.pi, 60))
     K = np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
@@ -417,8 +416,8 @@ def test_unequal_levers_reach_their_points(lengths):
 
 @unequal
 def test_unequal_families_end_where_the_triangle_ends(lengths):
-    """The highest alpha is 180 degrees; the lowest one is where OA is as long as OB and BA
-    together, or 0 where K is too near for that.
+    """The highest alpha is 180 degrees; at the lowest one OA is as long as OB and BA together, or
+    it is 0 if K is too near for that.
     """
     (a, b, c), rng = lengths, np.random.default_rng(34)
     arm, K = three_lever(lengths), ring(rng, lengths, 400)
@@ -454,7 +453,7 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
     turns = abs((found - q[far] + np.pi) % (2 * np.pi) - np.pi)
     assert far.sum() > 1000 and turns.max() < 1e-5 and np.median(turns) < 1e-14
     assert np.isnan(arm.family(K[~far], q[~far, 2])).all()
-    # B on the other side of OK: always nearer, and almost up to the border
+    # B on the other side of OK: always nearer than the border, and almost up to it
     q[:, 1] *= 0.05
     q[:, 2] *= 0.05
     q[::2, 2] = np.pi - q[::2, 2]
@@ -481,13 +480,13 @@ def test_no_posture_of_unequal_levers_moves_less_than_the_least(lengths):
 
 
 def test_a_minimum_that_equal_levers_do_not_have():
-    """gamma - beta + alpha is least between the ends of this family, and no angle stays."""
+    """gamma - beta + alpha is least inside this family, and no angle keeps its value."""
     arm, K = three_lever((1.313, 0.534, 0.247)), np.array([1.057, 0.0])
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K, np.linspace(low, high, 20_001))
     level = (rows @ [1, -1, 1]).argmin()
     assert 100 < level < 19_900
-    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum, near by
+    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum nearby
     q, S = arm.least(K, before, limited=False)
     sums = abs(rows - before).sum(axis=-1)
     assert abs(q - before).min() > 1e-3 and sums.min() - 1e-7 < S <= sums.min()

@@ -1,4 +1,6 @@
-"""The player: what the page gets is what the arrays say, and what the browser draws follows it."""
+"""The player: the data of the page agree with the arrays, and the drawing in the browser agrees
+with the data.
+"""
 
 import base64
 import json
@@ -37,7 +39,7 @@ from robokin.show.palette import css
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
-# The chain of 001, tasks 3 and 4, and what errata S1 says of it.
+# The chain of 001, tasks 3 and 4, and its numbers in errata S1.
 START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
@@ -212,7 +214,7 @@ def test_printed_number_plot_and_player_agree(blended, motions):
 
 
 def test_plot_and_player_report_the_same_flaws(motions):
-    """Of one motion with a corner, a turn by 360°, samples past both kinds of limit and a gap."""
+    """One motion with a corner, a turn by 360°, samples past both kinds of limit, and a gap."""
     q = motions[0].copy()
     q[1500:, 3] += 2 * np.pi
     q[:, 1] += 130 * deg
@@ -264,7 +266,7 @@ def test_joint_values_may_be_lists():
 
 
 def test_given_speeds_of_a_recording_are_drawn_and_checked(motions):
-    """A recording whose speeds are exact, by whatever means, keeps them."""
+    """A recording with exact speeds keeps them."""
     exact = record(IRB140, T, motions[1])
     slow = replace(exact, v=exact.v / 2)
     speeds = [animate(one).data["arms"][0]["speed"][0] for one in (exact, slow)]
@@ -325,7 +327,7 @@ def test_jump_by_two_pi_is_a_break_and_not_a_speed(motions):
 
 
 def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
-    """As lab 12's (int): each tooth is smaller than a tenth of a radian, and far from the next."""
+    """As with lab 12's (int): each tooth is below a tenth of a radian and far from the next."""
     t = np.linspace(0, 5, 500)
     teeth = [82, 146, 199, 246, 289, 328]
     q = np.zeros((500, 6))
@@ -432,9 +434,7 @@ def test_planar_arm_is_seen_perpendicularly():
 
 
 def test_everything_drawn_is_in_view(blended, motions):
-    """The few points handed over span, from any side, all postures (to the 5 mm they are rounded
-    to).
-    """
+    """The few points in the data bound all postures from any side, up to a rounding of 5 mm."""
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
     flange = IRB140.fk(motions[:, ::20])  # with its axes, as long as the page draws them
@@ -491,8 +491,8 @@ def test_several_arms_share_clock_and_scales(motions):
 
 
 def test_extreme_motion_does_not_coarsen_the_others(motions):
-    """A step for each motion: ten times the speed for one slider value leaves the others as fine as
-    they are alone.
+    """Each motion has its own step: ten times the speed for one slider value does not make the
+    others coarser.
     """
     alone = animate(IRB140, T, motions[1:3], slider=("blend", FRACTIONS[1:3]))
     wild = motions[1:].copy()
@@ -813,7 +813,7 @@ ODD = 'a $\\frac{ b$ \ud800 <b> & "c"'
 
 
 def test_titles_and_names_are_plain_text(motions):
-    """No formulas, no markup, and half a character is shown as the sign for one that cannot be."""
+    """No formulas and no markup; a lone surrogate becomes the replacement character."""
     player = animate(
         [IRB140, IRB140],
         T,
@@ -912,7 +912,7 @@ def test_player_names_its_scene(blended, path):
 
 @pytest.fixture
 def page(browser):
-    """A page that must not complain and must not ask the network for anything."""
+    """A page that must not report errors or send requests."""
     page = browser.new_page(viewport={"width": 900, "height": 900})
     complaints = []
     page.on(
@@ -939,7 +939,7 @@ def show(page, player, tmp_path):
 
 
 def ink(page, selector):
-    """A fingerprint of what a canvas shows, after the next picture."""
+    """A hash of the content of a canvas after the next picture."""
     return page.evaluate(
         """selector => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() =>
         done(document.querySelector(selector).toDataURL()))))""",
@@ -1078,8 +1078,8 @@ def test_removed_player_requests_no_more_frames(page, blended, tmp_path):
 
 @pytest.mark.parametrize("width", [360, 800, 1400])
 def test_limit_labels_do_not_overlap(page, tmp_path, width):
-    """Six joints go from limit to limit: at most three labels a panel, with units, none over
-    another.
+    """Six joints move from limit to limit: at most three labels per panel, with units, without
+    overlap.
     """
     s = np.sin(np.outer(T, np.arange(1, 7)) / 4)
     q = IRB140.limits.mean(axis=-1) + s * np.diff(IRB140.limits, axis=-1).T / 2 * 0.99
@@ -1124,9 +1124,7 @@ def test_page_without_scripts_shows_the_still(browser, blended, tmp_path):
 
 
 def test_marks_move_on_the_page(page, motions, tmp_path):
-    """A resting arm: what changes with time and slider is the mark; where it is NaN, there is
-    none.
-    """
+    """A resting arm: only the mark changes with time and slider; where it is NaN, it is missing."""
     q = np.broadcast_to(motions[1, 0], (2, 2001, 6))
     path = np.stack([CIRCLING, CIRCLING + [0, 0, 0.2]])
     path[:, 1500:] = np.nan
@@ -1155,7 +1153,7 @@ def test_marks_move_on_the_page(page, motions, tmp_path):
 
 
 def test_arms_on_bases_stand_apart_in_one_picture_and_readings_change(page, tmp_path):
-    """Two resting arms and what is written: where, and when it changes."""
+    """Two resting arms and their words: the places, and the times at which they change."""
     arm, t = spbu_arm(0.5, 0.4), np.linspace(0, 4, 41)
     q = np.broadcast_to([0.2, 0.4, 0.3], (41, 3))
     count = np.floor(t)
@@ -1208,8 +1206,8 @@ PAINTED = """selector => {
 
 
 def test_picture_returns_after_a_moment_without_size(page, blended, tmp_path):
-    """As while JupyterLab changes its theme: asked for while it is hidden, and then of the old
-    size again, so that nobody is told of another one.
+    """As during a theme change in JupyterLab: requested while hidden, and then with the old size
+    again, so that no resize is reported.
     """
     canvases = (".rk-scene", ".rk-curves")
     move = """() => {
@@ -1298,8 +1296,8 @@ def test_page_that_cannot_draw_keeps_the_still(page, blended, tmp_path):
 
 
 def test_scene_projects_points_and_can_be_held(page, blended):
-    """For handles over the canvas: `cameras` project as the picture does; while the scene is held,
-    a target that leaves it moves nothing else.
+    """For handles over the canvas: `cameras` project like the picture; while the scene is held, a
+    target that leaves it moves nothing else.
     """
     scene = blended.data["scene"] | {"grows": True, "unit": blended.data["unit"]}
     page.set_content(
@@ -1335,8 +1333,8 @@ def test_scene_projects_points_and_can_be_held(page, blended):
 
 
 def test_solid_floor_hides_what_is_below(page):
-    """A tool that goes under its base: the floor lies lower still, or with `floor` at height 0.
-    Then less is seen of the arm below it, and as much of the arm above it.
+    """A tool below its base: the floor is even lower, or with `floor` at height 0. Then less of the
+    arm below it is visible, and the arm above it is unchanged.
     """
     t, turn = np.linspace(0, 2, 41), np.linspace(0, 1, 41)[:, None]
     q = turn * np.array([60, 100, 70]) * deg - np.array([0, 20, 20]) * deg
@@ -1373,7 +1371,7 @@ def test_solid_floor_hides_what_is_below(page):
 
 
 def test_first_picture_after_an_early_request_has_its_colours(page, blended):
-    """Asked for in the very task that made the player, before any canvas has told its size."""
+    """Requested in the same task that made the player, before any canvas has a size."""
     page.set_content(
         "<script>new MutationObserver((_, watch) => {const input = document.querySelector('input');"
         "if (input) {watch.disconnect(); input.dispatchEvent(new Event('input'));}})"

@@ -1,8 +1,8 @@
-"""What others can see is read-only and a copy of what came in.
+"""Visible arrays are read-only copies of the arguments.
 
-A student's assignments are tried on everything that can be reached from the machines and from the
-values of a lesson, in a process of its own and before anything was computed there: each raises or
-changes nothing, and `ik` is right afterwards.
+Assignments like a student's are tried on everything reachable from the robots and from the values
+of a lesson, in a separate process and before anything was computed there: each raises or changes
+nothing, and `ik` is right afterwards.
 """
 
 import copy
@@ -89,7 +89,7 @@ def plan():
     return obstacles.plan(three_lever(0.5), HOME, (0.6, 0.5), (0.2, 1.1))
 
 
-# name -> what makes it. The machines come first, before anything asked for their inverse.
+# name -> the function that makes it. The robots come first, before their inverse is used.
 ROOTS = {
     **{name: lambda arm=arm: arm for name, arm in MACHINES.items()},
     "three_lever": lambda: three_lever(0.5),
@@ -130,7 +130,7 @@ ROOTS = {
     "LEVERS": lambda: obstacles.LEVERS,
 }
 
-# What keeps an array: name -> (what makes it, the array given)
+# Values that keep an array: name -> (the function that makes it, the array given)
 KEEPS = {
     "Quaternion": (Quaternion, [[0.6, 0.8, 0, 0], [1, 0, 0, 0]]),
     "Quaternion.from_matrix": (Quaternion.from_matrix, np.eye(3)),
@@ -163,7 +163,7 @@ KEEPS = {
     "posture of a plan": (lambda q: obstacles.plan(three_lever(0.5), q, (0.6, 0.5)), HOME),
 }
 
-# What gives an array: the caller may write into it, and it is given alike the next time.
+# Functions that return an array: the caller may change it without changing the next result.
 GIVES = {
     "ik": lambda: IRB140.ik(A),
     "within": lambda: within(IRB140, np.ones(6)),
@@ -190,7 +190,7 @@ MOVE = steppers.synchronised([0, 0, 0], [40, -20, 8])
 
 @pytest.fixture(scope="module")
 def tried():
-    """What two new processes say: one in which everything is tried, and one in which nothing is."""
+    """The output of two new processes: one with all attempts, and one without."""
     runs = [
         subprocess.Popen([sys.executable, __file__, how], stdout=subprocess.PIPE, text=True)
         for how in ("attack", "look")
@@ -219,7 +219,7 @@ def test_arguments_are_copied(name):
     given = np.array(given, dtype=float)
     value = make(given)
     before = dict(_seen(value))
-    given += 1  # the caller's own array: nobody has sealed it
+    given += 1  # the caller's own array is still writable
     assert before and dict(_seen(value)) == before
 
 
@@ -266,7 +266,7 @@ def _values(value):
 
 @pytest.fixture(scope="module")
 def examples():
-    """One value of each class, with what is worked out at the first use: class -> value."""
+    """One value of each class, including values cached on first use: class -> value."""
     found = {}
     for make in ROOTS.values():
         for value in _values(make()):
@@ -294,7 +294,7 @@ def test_copies_are_read_only_too(examples, kind, how):
 
 
 def test_attack_detects_writable_arrays():
-    # The checks above would see what they are there for: the arrays, lists and names of an object.
+    # The checks above detect writable arrays, lists and names of an object.
     class Open:
         def __init__(self):
             self.array, self.items, self.word = np.zeros(2), [{"x": 1}], "a"
@@ -335,8 +335,8 @@ def main(how):
 
 
 def _attack(fetch, path, changed, known):
-    """Try to write whatever can be reached from the value that `fetch` gives; what went through is
-    put back and noted in `changed`.
+    """Try to write everything reachable from the value that `fetch` returns; successful writes are
+    undone and recorded in `changed`.
     """
     value = fetch()
     if id(value) in known or path.count(".") + path.count("[") > 12:
@@ -353,7 +353,7 @@ def _attack(fetch, path, changed, known):
         for key in list(value):
             _attack(lambda key=key: value[key], f"{path}[{key!r}]", changed, known)
     elif _ours(value):
-        stored = list(getattr(value, "__dict__", ()))  # what is there comes before what is made
+        stored = list(getattr(value, "__dict__", ()))  # existing values come before computed ones
         for name in [*stored, *sorted(set(dir(value)) - set(stored))]:
             if not name.startswith("__"):
                 _attack_name(value, name, path, changed)
@@ -429,7 +429,7 @@ def _attack_name(value, name, path, changed):
 
 
 def _seen(value, path="", depth=0):
-    """Everything that can be seen of a value: pairs of path and text."""
+    """Everything visible of a value: pairs of path and text."""
     if isinstance(value, (tuple, list)):
         for i, item in enumerate(value):
             yield from _seen(item, f"{path}[{i}]", depth + 1)

@@ -1,5 +1,5 @@
-"""What a recording says of a motion: the derivatives that `differentiate` gives, and where they
-say nothing.
+"""The content of a recording: the derivatives of `differentiate`, and the places where they are
+meaningless.
 """
 
 import pickle
@@ -133,7 +133,7 @@ def test_the_speeds_on_both_sides_of_a_corner_are_those_of_the_two_pieces():
     u = t - 1.5
     q = np.zeros((301, 6))
     q[:, 0] = np.where(u < 0, 0.5 * u + 0.1 * u**2, -0.3 * u + 0.2 * u**2)
-    q[:, 1] = 0.2 * u**2  # takes no part
+    q[:, 1] = 0.2 * u**2  # does not jump
     [jump] = record(IRB140, t, q).jumps
     assert (jump.first, jump.last) == (150, 150) and jump.time == 1.5 and jump.motion == ()
     assert jump.before[0] == pytest.approx(0.5, abs=1e-9)
@@ -156,8 +156,8 @@ def test_a_corner_between_two_samples_is_found_between_them():
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.7, 0.98])
 @pytest.mark.parametrize("sample", [4, 50, 94])
 def test_faint_part_of_a_corner_belongs_to_it(share, sample):
-    """A corner shortly behind (or before) a sample changes the speeds of two pairs of intervals,
-    one of them by 2 % of the jump: too little for a jump of its own.
+    """A corner shortly after (or before) a sample changes the speeds of two pairs of intervals, one
+    of them by 2 % of the jump: too little for a separate jump.
     """
     t = np.linspace(0, 1, 100)
     corner = t[sample] + share * (t[sample + 1] - t[sample])
@@ -278,7 +278,7 @@ TEETH = {
 @pytest.mark.parametrize("on", ON.values(), ids=ON)
 @pytest.mark.parametrize("t", [np.linspace(0, 3, 300), UNEVEN], ids=["even", "uneven"])
 def test_every_tooth_of_a_sawtooth_is_a_jump(t, on, teeth, size):
-    """Joint 2 falls back at every tooth; joint 1 goes on without. The size of each is known."""
+    """Joint 2 falls back at every tooth; joint 1 does not. The size of each tooth is known."""
     up = size * np.searchsorted(teeth, np.arange(300))
     q = np.zeros((300, 6))
     q[:, 0], q[:, 1] = np.sin(t), on(t) + up
@@ -287,19 +287,21 @@ def test_every_tooth_of_a_sawtooth_is_a_jump(t, on, teeth, size):
     assert found.jumps == () and np.flatnonzero(found.gaps).tolist() == teeth
     for jump in found.leaps:
         assert jump.by[1] == pytest.approx(size, abs=0.013) and (np.delete(jump.by, 1) == 0).all()
-    # The speeds are those of the motion under the teeth, and no jump divided by a step.
+    # The speeds are those of the underlying motion, not a jump divided by a step.
     exact = np.gradient(on(t), t)
     assert np.nanmax(abs(found.v[:, 1] - exact)) < 0.4 and abs(size) / 0.015 > 3
 
 
 def test_sawtooth_that_returns_to_its_start():
-    """In three samples it may be a sine, whose samples are the same."""
+    """With three samples it may be a sine with the same samples."""
     t = np.linspace(0, 2, 201)
     for period, leaps in ((3, False), (4, True), (7, True), (30, True)):
         q = 0.05 * (np.arange(201) % period)[:, None] * [1, 0.5]
         falls = np.flatnonzero(np.diff(q[:, 0]) < 0)
         found = record(two_link(1, 1), t, q)
-        inside = [jump for jump in found.leaps if 2 < jump.first < 197]  # the ends are another law
+        inside = [
+            jump for jump in found.leaps if 2 < jump.first < 197
+        ]  # the ends follow another law
         assert [jump.first for jump in inside] == [i for i in falls if 2 < i < 197] * leaps
         for jump in inside:
             np.testing.assert_allclose(jump.by, [-0.05 * period, -0.025 * period], atol=1e-9)
@@ -367,7 +369,7 @@ QUICK = {
 
 @pytest.mark.parametrize("motion", QUICK.values(), ids=QUICK)
 def test_motion_of_two_steps_is_not_a_jump(motion):
-    """Wherever the samples fall, between rest and rest; there and back it takes four."""
+    """Wherever the samples fall, from rest to rest; back and forth takes four."""
     samples = np.arange(-30, 31.0)
     least = 4 if motion is QUICK["there and back"] else 2
     for width in (least, least + 0.5, least + 1, 2 * least, 5 * least):
@@ -400,7 +402,7 @@ def test_noise_is_not_a_jump(size):
     t = np.linspace(0, 20, 5001)
     q = np.sin(np.outer(t, [1, 1.5])) + size * rng.normal(size=(4, 5001, 2))
     assert record(two_link(1, 1), t, q).leaps == ()
-    q[:, 3000:, 0] += 100 * size  # but what stands out of it is
+    q[:, 3000:, 0] += 100 * size  # but an outlier in it is
     assert [jump.first for jump in record(two_link(1, 1), t, q).leaps] == [2999] * 4
 
 
@@ -426,7 +428,7 @@ def test_beside_a_gap_a_jump_has_the_value_of_its_sample():
     q = np.zeros((101, 6))
     q[:, 0] = t
     q[50:, 0] += 3
-    q[48] = np.nan  # between the gap and the jump stands one sample
+    q[48] = np.nan  # one sample is between the gap and the jump
     [leap] = record(IRB140, t, q).leaps
     assert (leap.first, leap.last) == (49, 50)
     assert leap.before[0] == t[49] and leap.after[0] == pytest.approx(3.495)

@@ -1,7 +1,7 @@
-"""Ways to choose the posture of the three-lever arm: what each promises, and that none undercuts
-the least movement.
+"""Methods that choose the posture of the three-lever arm: the promise of each, and that none moves
+less than the least movement.
 
-Where the gripper is says `chain` (complex numbers), not robokin; Jacobians are inverted by NumPy.
+`chain` (complex numbers) computes the gripper's position, not robokin; NumPy inverts Jacobians.
 """
 
 import numpy as np
@@ -59,7 +59,7 @@ def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
     assert np.nanmin(more) > -1e-8
     if name == "least movement":
         assert not failed.any() and np.nanmax(more) < 1e-12
-    else:  # the bound is no echo: nearly all of the others move more
+    else:  # the bound is not trivial: nearly all others move more
         assert np.nanmedian(more) > 0.01
     far = methods(H, 0)[name](arm, 4 * K, before)
     assert np.isnan(far[np.hypot(*(4 * K).T) > arm.reach]).all()
@@ -86,7 +86,7 @@ def test_gradient_projection_moves_to_the_middle_without_the_gripper(arm):
     away = [np.linalg.norm(q[both] - middle, axis=-1) for q in (plain, pulled)]
     assert (away[1] < away[0]).mean() > 0.9 and both.sum() > 150
     assert np.isnan(pulled).any(axis=-1).sum() < np.isnan(plain).any(axis=-1).sum()
-    # where the gripper is already nothing moves: the wish is looked after on the way only
+    # nothing moves if the gripper is already there: the secondary objective acts only on the way
     stay = gradient_projection(arm, chain(arm, before), before)
     np.testing.assert_array_equal(stay, before)
 
@@ -158,7 +158,7 @@ def test_joints_stop_at_their_limits(arm, monkeypatch):
         redundancy, "distances", lambda arm, q, H: seen.append(q) or distances(arm, q, H)
     )
     distance_rule(H)(arm, K, before)
-    on_the_way = np.array(seen[::3])  # it asks for three in every step, the first where it stands
+    on_the_way = np.array(seen[::3])  # it tries three in every step, the first at the current place
     assert on_the_way.min() == 0 and on_the_way.max() == np.pi and len(on_the_way) > 50
 
 
@@ -178,7 +178,7 @@ def test_batch_equals_single_tasks(arm):
 def test_a_race_goes_from_task_to_task():
     arm = ARMS["equal"]
     K, before = tasks(arm, 25)
-    K[7] = (3.0, 0.2)  # out of everyone's reach: the arm stays
+    K[7] = (3.0, 0.2)  # out of reach for every method: the arm stays
     runs = race(methods(H, 0), arm, K, before[0])
     assert list(runs) == NAMES
     again, failures = methods(H, 0), 0

@@ -1,6 +1,6 @@
-"""`python -m robokin.course report`: a lab judged anew, as one page to hand in.
+"""`python -m robokin.course report`: a lab judged again, as one page to hand in.
 
-The labs are written here, so that what every answer is worth is known beforehand.
+The labs are written here, so that the worth of every answer is known in advance.
 """
 
 import io
@@ -35,7 +35,7 @@ animate(IRB140, t, q, title="A turn of every joint")"""
 
 @pytest.fixture(scope="module")
 def hostile(tmp_path_factory):
-    """One lab with nearly all that can go wrong, judged once: path, page, what the page says."""
+    """One lab with nearly every possible problem, judged once: path, page, data of the page."""
     folder = tmp_path_factory.mktemp("hostile")
     lab = stored(
         folder / "Ada's homework.ipynb",
@@ -97,7 +97,7 @@ def test_oddities_are_reported(hostile):
     ):
         assert said in hostile.text, said
     assert "ZeroDivisionError" in hostile.text and "x" * 1000 in hostile.text
-    # a player and three predictions are made anew: the lab was handed in without them
+    # a player and three predictions are made again, since the lab was handed in without them
     assert len(hostile.text.encode()) < hostile.lab.stat().st_size + 500_000 + 200_000
 
 
@@ -210,7 +210,9 @@ def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     assert page.read_text() == "mine" and "nothing is overwritten" in said.err
     assert "bad.ipynb: not a notebook" in said.err and "lost.ipynb: No such file" in said.err
     page.unlink()
-    assert main(["report", str(lab), "--name", "Ada"]) == 0  # no lab of ours: no exercises
+    assert (
+        main(["report", str(lab), "--name", "Ada"]) == 0
+    )  # not one of our labs, so without exercises
     said = capsys.readouterr()
     assert "my_lab_Ada.html" in said.out and said.err == ""
     text = page.read_text(encoding="utf-8")

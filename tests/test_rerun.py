@@ -1,7 +1,8 @@
-"""A lab is read in loops: every cell can be run again, and every value after `# try` tried.
+"""Readers run cells repeatedly: every cell can run again, and every value after `# try` can be
+tried.
 
-Here one value for each `# try`; `python tests/rerun.py --seed 1` tries all of them, and the cells
-in a random order besides.
+This tests one value for each `# try`; `python tests/rerun.py --seed 1` tries all of them, and runs
+the cells in a random order, too.
 """
 
 import json
@@ -18,8 +19,8 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:Deprecati
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_cells_run_again_with_other_values(path):
-    """No cell shows another thing when it is run again; no value breaks a cell or makes words
-    lie.
+    """No cell shows something else when it runs again, and no value breaks a cell or makes its
+    words false.
     """
     _, tried, again = rerun.faults(path, sample=True)
     assert tried == [] and again == []
@@ -50,7 +51,7 @@ def test_failing_values_and_typed_numbers_are_detected(tmp_path):
     assert count == 2 and "a = 0: cell 2: ZeroDivisionError" in fault
     [fault] = faults("a = 1  # try other values")[1]
     assert "invalid syntax" in fault
-    # a cell that the value reaches may need one that it does not reach
+    # a cell that depends on the value may need one that does not
     assert faults("a = 1  # try 2", "b = 3", "print(a + b)") == (1, [])
     # a name that a cell sets anew is not the one that the value reached
     assert faults("a = 1  # try 0", "a = 2", "print(1 / a)") == (1, [])

@@ -1,4 +1,4 @@
-"""Where each capability of the documents and each finding of the second reading is dealt with.
+"""The place that treats each capability of the documents and each finding of the second reading.
 
 The tables at the end of the companions have the 97 capabilities (S0-01 to S4-11), the file
 data/second_reading.csv the findings (A1 to H12). Every target exists; what a row calls by the
@@ -52,7 +52,7 @@ def has_section(path, section):
 
 
 def found(name):
-    """What a dotted name below robokin stands for; None if nothing."""
+    """The object with a dotted name below robokin; None if there is none."""
     for module in ("robokin", "robokin.arms", "robokin.motion", "robokin.show", "robokin.course"):
         value = importlib.import_module(module)
         for part in name.removeprefix("robokin.").split("."):
@@ -127,7 +127,7 @@ def test_findings_are_resolved_at_their_targets(line):
 
 
 def test_every_box_of_the_flow_charts_leads_to_the_source_of_its_function():
-    """Companion 003, figures 29 to 33. That the names drawn exist, its own cells hold."""
+    """Companion 003, figures 29 to 33. Its own cells check that the drawn names exist."""
     path, figures = COMPANIONS["003"], []
     for figure, names in re.findall(r"^\| (29|3[0-3]) \|[^|]+\|([^|]+)\|", prose(path), re.M):
         figures.append(figure)

@@ -124,7 +124,7 @@ def test_the_angle_of_a_target_is_not_wrapped():
 
 
 def test_direction_of_half_a_turn_exists_only_in_targets():
-    """Errata S1-t: 0.01 degrees to either side of START turn the rotation the one or the other way
+    """Errata S1-t: 0.01 degrees to either side of START make the rotation turn one way or the other
     to VIA.
     """
     middles = []

@@ -51,7 +51,7 @@ def site(tmp_path_factory):
 
 
 class Parsed(HTMLParser):
-    """What a page loads, where its links lead and what can be led to; its text, without scripts."""
+    """The addresses that a page loads, its links, its anchors, and its text without scripts."""
 
     def __init__(self, text):
         super().__init__()
@@ -212,8 +212,8 @@ def address(site):
 
 @pytest.fixture(scope="module")
 def page(browser, address):
-    """One page for all, that keeps account: `errors` of the console, `outside` what it asked for
-    elsewhere.
+    """One page for all tests with records: `errors` of the console, and `outside`, requests to
+    other hosts.
     """
     context = browser.new_context(viewport={"width": 1366, "height": 900}, color_scheme="light")
     page = context.new_page()
@@ -261,7 +261,9 @@ def test_arm_can_be_dragged(page, address, lab):
     awake(page)
     players = [one for one in page.locator(PLAYER).all() if one.locator("canvas").count()]
     assert players
-    held = page.locator(f"{PLAYER} .rk-handle:not([inert] *)")  # what asks a kernel is inert here
+    held = page.locator(
+        f"{PLAYER} .rk-handle:not([inert] *)"
+    )  # views that ask a kernel are disabled here
     slides = f"{PLAYER} :is(.rk-slide input[type=range], .rk-long input):not([inert] *)"
     held = (held if held.count() else page.locator(slides)).first
     held.scroll_into_view_if_needed()

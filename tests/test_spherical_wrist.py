@@ -1,5 +1,5 @@
-"""The inverse kinematics of every arm in the catalogue: nothing wrong, nothing missing, everything
-in its place.
+"""The inverse kinematics of every arm in the catalogue: no wrong row, no missing row, every row in
+its place.
 """
 
 import dataclasses
@@ -39,8 +39,8 @@ six = pytest.mark.parametrize("machine", SIX, ids=repr)
 
 
 def solved(arm, T, rows):
-    """Every existing row reaches the pose within 1e-12 of the reach; the others are wholly NaN,
-    none in part.
+    """Check that every existing row reaches the pose within 1e-12 of the reach, and that the others
+    are NaN throughout.
 
     Returns which rows exist.
     """
@@ -54,7 +54,7 @@ def solved(arm, T, rows):
 
 
 def expected(machine, T):
-    """Which of the rows must exist, from distances alone: (..., 8) bool, and how far from the edge
+    """Which rows must exist, from distances alone: (..., 8) bool, and the distance from the border
     of existence.
     """
     w = machine.wrist
@@ -99,7 +99,7 @@ def test_20000_random_poses(machine):
     assert rows.shape == (20_000, len(arm.branches), len(arm.links))
     exists = solved(arm, T, rows)
     drawn = gap(arm, rows, q[:, None]).max(axis=-1)
-    # near a singularity a joint value is known to fewer digits
+    # near a singularity a joint value has fewer digits
     assert np.nanmin(drawn, axis=1).max() < 1e-7
     assert np.median(np.nanmin(drawn, axis=1)) < 1e-14
     if machine.wrist:
@@ -164,16 +164,16 @@ def test_wrist_singular_poses(machine, bend):
     row = rows[np.arange(500), same]
     assert turns(row[:, [0, 1, 2, 4]], q[:, [0, 1, 2, 4]]).max() < 1e-8
     spin = arm.jacobian(q)[:, 3:]
-    # axes 4 and 6 point the same way, or against each other
+    # axes 4 and 6 point in the same or in opposite directions
     sense = np.sign((spin[..., 3] * spin[..., 5]).sum(-1))
     fixed = row[:, 3] - q[:, 3] + sense * (row[:, 5] - q[:, 5])
     assert turns(fixed, 0).max() < 1e-8
     if bend in (0, np.pi, -np.pi):
-        # Joint 4 is free: 0 by agreement. Near a stretched arm the pose's own rounding already
+        # Joint 4 is free and 0 by convention. Near a stretched arm the rounding of the pose already
         # bends the wrist.
         assert (row[:, 3] == 0).mean() > 0.98
         assert turns(row[:, 4], bend).max() < 1e-8
-        assert (exists.sum(1) % 4 == 0).all()  # both rows of the wrist, though they coincide
+        assert (exists.sum(1) % 4 == 0).all()  # both rows of the wrist, although they coincide
         settled = arm.geometry.choose_free_joints(row, q)
         assert np.quantile(turns(settled, q).max(-1), 0.995) < 1e-8
         assert rotation_gap(arm.fk(settled), T).max() < 1e-9
@@ -212,7 +212,7 @@ def stretched(machine, count, rng, folded=False):
 @six
 @pytest.mark.parametrize("folded", [False, True])
 def test_stretched_and_folded_postures_are_reachable(machine, folded):
-    """A cosine beyond 1 by rounding alone is 1. The two elbow rows coincide, and both are there."""
+    """A cosine above 1 by rounding counts as 1. The two elbow rows coincide, and both exist."""
     arm = machine.arm
     if arm is IRB140:
         folded = not folded  # at q3 = 90 degrees the forearm points back down the upper arm
@@ -221,7 +221,7 @@ def test_stretched_and_folded_postures_are_reachable(machine, folded):
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
     drawn = gap(arm, rows, q[:, None]).max(axis=-1)
-    # The PUMA's levers differ by half a millimetre: folded, its joint 2 is known to few digits.
+    # The PUMA's links differ by half a millimetre, so when folded its joint 2 has few digits.
     atol = 1e-6 if abs(machine.wrist["upper"] - machine.wrist["fore"]) > 0.01 else 0.01
     assert np.nanmin(drawn, axis=1).max() < atol
     own = np.nanargmin(drawn, axis=1)
@@ -231,7 +231,7 @@ def test_stretched_and_folded_postures_are_reachable(machine, folded):
 
 @six
 def test_pose_slightly_beyond_the_stretched_arm_is_out_of_reach(machine):
-    """1e-9 of the reach outside is outside, 1e-9 inside is inside."""
+    """A pose 1e-9 of the reach outside is outside, and 1e-9 inside is inside."""
     arm, w = machine.arm, machine.wrist
     q = stretched(machine, 200, np.random.default_rng(10), folded=arm is IRB140)
     T = arm.fk(q)
@@ -303,8 +303,8 @@ def test_shoulder_singular_poses(machine):
 
 
 def test_the_pumas_shoulder_rows_meet_where_its_wrist_touches_the_cylinder():
-    """Its wrist centre cannot come nearer to axis 1 than d3; there front and back are one, and each
-    is repeated.
+    """Its wrist centre cannot come nearer to axis 1 than d3; there front and back coincide, and the
+    row is repeated.
     """
     rng = np.random.default_rng(13)
     d3 = 0.15005
@@ -350,8 +350,8 @@ def test_limit_poses_and_whole_turns(machine):
 
 
 def test_equal_levers_folded_on_the_shoulder():
-    """The wrist centre at joint 2 itself, which only equal levers reach: joint 2 is free, and no
-    row is half there.
+    """The wrist centre is at joint 2, which only equal links reach: joint 2 is free, and no row is
+    partly NaN.
     """
     arm = itmo_arm(0.1, 0.2, 0.2, 0.05)
     q = random_joints(arm, np.random.default_rng(15), (200,))
@@ -363,7 +363,7 @@ def test_equal_levers_folded_on_the_shoulder():
 
 @machines
 def test_sign_at_zero_gives_finite_rows(machine):
-    """-0.0 and +0.0 in a pose are one place."""
+    """-0.0 and +0.0 in a pose are the same position."""
     arm = machine.arm
     T = arm.fk(np.zeros(len(arm.links)))
     for sign in (0.0, -0.0):
@@ -379,7 +379,7 @@ def test_sign_at_zero_gives_finite_rows(machine):
 
 
 def compare(arm, case, unit=1.0):
-    """One reference case: rows in their places by flags, none more, none fewer."""
+    """One reference case: exactly its rows, in their places by flags."""
     T = transform(case["T"], unit)
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
@@ -394,7 +394,7 @@ def compare(arm, case, unit=1.0):
         assert sorted(places) == np.flatnonzero(exists).tolist()
         for place, q in zip(places, wanted, strict=True):
             assert turns(rows[place], q).max() < atol
-    else:  # a coinciding row stands in each of its places
+    else:  # a coinciding row is in each of its places
         for shoulder, elbow, _ in {tuple(arm.branches[i]) for i in np.flatnonzero(exists)}:
             assert exists[[arm.branch(shoulder, elbow, 1), arm.branch(shoulder, elbow, -1)]].all()
     return rows
@@ -482,9 +482,7 @@ def random_arm(rng):
 
 @pytest.mark.parametrize("seed", range(40))
 def test_every_suitable_chain_is_inverted(seed):
-    """Signs, offsets before and beside the arm, a bow in the forearm, a tilted wrist, any tool: all
-    are data.
-    """
+    """Signs, forward and lateral offsets, a bent forearm, a tilted wrist, any tool: all are data."""
     rng = np.random.default_rng(seed)
     arm = random_arm(rng)
     q = rng.uniform(-np.pi, np.pi, (200, 6))

@@ -1,5 +1,5 @@
-"""Pulses, frequencies, pulse trains and phases of the log loader's motors, and what their rotors
-make of them (003, II.3, paper 1; errata S3-s, S3-t).
+"""Pulses, frequencies, pulse trains and phases of the log loader's motors, and the response of
+their rotors (003, II.3, paper 1; errata S3-s, S3-t).
 """
 
 import itertools
@@ -420,7 +420,7 @@ def test_the_documents_two_tables():
     assert (phases("wave", "unipolar") == printed("+... .+.. ..+. ...+")).all()
     bipolar = phases("two-phase", "bipolar")
     assert ((bipolar == 1) == printed("+.+. .++. .+.+ +..+")).all()
-    # each + has its - at the winding's other end
+    # each + has a - at the other end of the winding
     assert (bipolar == -1).sum(axis=1).tolist() == [2, 2, 2, 2]
 
 
@@ -484,7 +484,9 @@ STARTS = Stepper()  # the motor of table 1
 
 
 def places(motor):
-    """Where each winding pulls: evenly round the ring, or half of it where currents turn."""
+    """The direction of each winding's pull: evenly around the ring, or half of it for bipolar
+    currents.
+    """
     whole_turn = 180 if motor.motor == "bipolar" else 360
     return np.arange(motor.windings) * whole_turn / motor.windings * deg
 
@@ -517,7 +519,7 @@ def test_the_step_is_a_turn_by_phases_and_teeth(motor):
         poles = 2 if motor.motor == "bipolar" else 1
         assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
     else:
-        # the rotor goes on by the difference between its teeth and the poles: a vernier
+        # the rotor advances by the difference between its teeth and the poles, like a vernier
         poles, teeth = 2 * motor.windings, motor.periods
         assert step == pytest.approx((360 / poles - 360 / teeth) / halves)
         assert step < 10 or motor.windings == 3
@@ -538,7 +540,7 @@ def test_two_windings_hold_sqrt_2_times_the_torque(motor, strong):
 def test_motor_holds_exactly_up_to_its_holding_torque(motor):
     below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
     assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
-    # the load has drawn it back to where the sine is steepest
+    # the load has pulled it back to the maximum of the sine
     bent = motor.periods * (motor.run([], []).angle[0] - below.angle[0])
     assert np.sin(bent) == pytest.approx(
         0.99 * motor.holding_torque / motor.torque / abs(motor.pulls[0])
@@ -549,7 +551,7 @@ def test_motor_holds_exactly_up_to_its_holding_torque(motor):
 
 @every_motor
 def test_motor_moves_exactly_up_to_its_starting_torque(motor):
-    # So much time between the pulses that only torques count.
+    # The pulses are so far apart that only torques matter.
     slow = replace(motor, inertia=4e-4 * motor.periods, damping=4e-3 * motor.periods, rise=0.0)
     t, signs = even(len(motor.currents), 0.15)
     lost = [slow.run(t, signs, load=k * motor.starting_torque).lost for k in (0.96, 1.04)]
@@ -586,7 +588,7 @@ def test_run_equals_scipy_integration(name):
     motor, frequency, load, load_inertia = RUNS[name]
     t, signs = even(12, frequency)
     run = motor.run(t, signs, load, load_inertia)
-    # The law written anew: one sine for each winding, the currents as equations of their own.
+    # The model written again: one sine for each winding, and separate equations for the currents.
     at, inertia = places(motor), motor.inertia + load_inertia
     table = phases(motor.drive, motor.motor, motor.windings)
     table = table[:, ::2] if motor.motor == "bipolar" else table
@@ -664,8 +666,8 @@ def test_reverse_run_is_the_mirror_image():
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_rotor_is_refused_where_load_or_torque_turn_it_too_fast(sign):
-    """A torque T turns it at T / damping in the end; both count, whichever way the load pulls, and
-    the refusal names the one that is too great.
+    """The final speed under a torque T is T / damping. Both torques count, whichever way the load
+    pulls, and the message names the one that is too large.
     """
     motor = Stepper(torque=1e3, damping=2, inertia=1e-3, rise=0)
     assert motor.run([1e-3], [1], load=2 * sign * FASTEST).lost != 0

@@ -1,5 +1,5 @@
-"""`python -m robokin.course summary`: the teacher's table, against one that is counted here. What
-students put into it on purpose: test_summary_attacked.py.
+"""`python -m robokin.course summary`: the teacher's table, compared with one counted here.
+test_summary_attacked.py has attacks by students.
 """
 
 import functools
@@ -37,7 +37,7 @@ def notebook(path, *cells):
 
 
 def drawn_report(name, slug, dice):
-    """A report with verdicts and guesses that are drawn."""
+    """A report with random verdicts and guesses."""
     data = report_of(name, slug)
     for each in data["exercises"]:
         state = dice.choice(("holds", "does not hold", "does not hold", "unanswered", "failed"))
@@ -53,8 +53,8 @@ def drawn_report(name, slug, dice):
 
 @pytest.fixture(scope="module")
 def handed(tmp_path_factory):
-    """A folder of thirty students' reports, one of them cut off, among files that are none; and
-    what was drawn for each.
+    """A folder with thirty students' reports, one of them truncated, among other files; and the
+    random data of each.
     """
     folder, dice = tmp_path_factory.mktemp("handed"), random.Random(14)
     drawn = {name: drawn_report(name, SLUGS[k % 3], dice) for k, name in enumerate(NAMES)}
@@ -266,7 +266,7 @@ def test_foreign_files_are_not_overwritten(handed, tmp_path):
 
 
 def test_student_pages_keep_foreign_files(tmp_path, capsys):
-    """The folder with what was handed in is the one that is written into, as in README."""
+    """The folder of handed-in work is also the output folder, as in README."""
     for who in ("Ada B", "ada_b", "Zoë"):
         put(tmp_path / f"{who}.html", report_of(who))
     put(tmp_path / "summary_pages" / f"{SLUG}_Zoë.html", "mine")
@@ -348,7 +348,9 @@ def test_table_has_all_students_and_labs(tmp_path):
 
 
 def test_the_same_page_in_several_folders_counts_once(tmp_path):
-    """In the folder with the student's name, else in the first; the others say which it is."""
+    """The one in the folder with the student's name, otherwise the first; the others say which one
+    it is.
+    """
     for folder in ("Bob", "Ada_123_file/lab", "Adam", "Zoë"):
         put(tmp_path / folder / "lab.html", report_of("Ada"))
     put(tmp_path / "Bob" / "lab of Eve.html", report_of("Eve"))

@@ -1,5 +1,5 @@
-"""What a student could put into a report, a name or a folder: the teacher's table takes it, or
-names it with a reason; a browser runs none of it, and a spreadsheet neither.
+"""Anything that a student could put into a report, a name or a folder: the teacher's table accepts
+it, or reports it with a reason; neither a browser nor a spreadsheet runs it.
 """
 
 import csv
@@ -19,7 +19,7 @@ from robokin.course import summary, summary_pages
 from robokin.course.__main__ import main
 from robokin.course.reported import report_data
 
-# What is handed in and what a cell shows of it. SERVER: a server that must never be asked.
+# A handed-in value and its text in a cell. SERVER: a server that must never get a request.
 HOSTILE = {
     "<script>window.ran = 1</script>": None,
     "</script><script>fetch('SERVER')</script>": None,
@@ -108,7 +108,7 @@ def server():
 
 
 def attacked(folder, values):
-    """A report for each value, which stands in all its texts and in its file's name."""
+    """A report for each value, with the value in all its texts and in its file name."""
     for k, value in enumerate(values):
         data = report_of(f"{k:02} {value}", remarks=[value, value])
         data |= dict.fromkeys(("title", "file", "robokin", "numbers"), value)
@@ -162,7 +162,7 @@ def test_student_text_never_runs(browser, server, tmp_path):
         assert [text.replace("`", "") for text in found["remarks"]] == [shown] * 2
         assert found["colours"] == [red] and not found["odd"] and not found["ran"]
     assert all(url.startswith("file:") for url in requests) and asked == [] == said
-    # the second wall: what is in the page in spite of all that asks nobody and runs nothing
+    # the second protection: if something gets into the page, it sends no request and does not run
     view.goto((tmp_path / "summary.html").as_uri())
     hole = f"<img src='{address}/hole.png' onerror='window.ran=1'><link rel=stylesheet href='"
     hole += f"{address}/hole.css'><style>.not {{ color: green }}</style>"

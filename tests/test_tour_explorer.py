@@ -1,5 +1,5 @@
-"""The explorer of tours: what Python answers to a hand (laws over random tasks), and what the page
-shows of it, in JupyterLab beside a kernel and asleep in a file.
+"""The explorer of tours: Python's answers (laws over random tasks), and what the page shows, in
+JupyterLab with a kernel and asleep in a file.
 """
 
 import itertools
@@ -56,7 +56,7 @@ def test_random_tasks_with_unreachable_points_are_answered(kind):
             assert all(inside[1 + i] for i in tour["order"])
             assert (np.diff([0, *tour["times"]]) >= 0).all()
             assert tour["t"][-1] <= T * (1 + 1e-6)
-            # the way of the arm ends where it should, at the time that is told
+            # the arm's path ends at the right place, at the reported time
             stops = spbu_arm(l1, l2).fk(tour["q"].astype(float)).translation
             step = 2 if kind == "collect" else 1
             assert np.allclose(stops[::step][0], p0, rtol=0, atol=1e-5)
@@ -238,7 +238,7 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     jupyter.run_all(page, "tours.ipynb")
     root = page.locator(".robokin-player[data-awake]")
     root.wait_for()
-    # from here on this very one: a view that JupyterLab makes anew has its first numbers again
+    # use this view from now on: a view that JupyterLab creates again has its first numbers
     root.evaluate("root => root.setAttribute('data-held', '')")
     root = page.locator(".robokin-player[data-awake][data-held]")
     before = len(page.complaints)  # of JupyterLab itself
@@ -260,8 +260,8 @@ ANSWER = """(root, detail) =>
 
 @pytest.fixture
 def slow(browser, tmp_path):
-    """The explorer in a page, awake; its place, and two functions: what was asked so far, and an
-    answer to one of that.
+    """The explorer in a page, awake: its element, and two functions: the questions so far, and an
+    answer to one of them.
     """
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser)
@@ -312,7 +312,7 @@ def test_late_answer_does_not_undo_changes(slow):
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
 def test_questions_before_a_kernel_are_repeated(slow, between):
-    """Else the tours are those of other points than the ones shown, until the hand moves on."""
+    """Otherwise the tours belong to other points than those shown, until the next move."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")
     (lost,) = asked()

@@ -1,5 +1,5 @@
-"""Statements of labs 01 to 06 that a reader has refuted once: each is read where it stands, and its
-number is computed a second way.
+"""Statements of labs 01 to 06 that a reader once refuted: each is read from its lab, and its number
+is computed in a second way.
 """
 
 import contextlib
@@ -44,15 +44,15 @@ X, Y, Z = np.eye(3)
 
 @cache
 def sources(lab):
-    """Of a lab, given by how its file begins: {id of a cell: its source}."""
+    """The cells of a lab, given by the beginning of its file name: {id of a cell: its source}."""
     (path,) = [*NOTEBOOKS.glob(f"{lab}_*.ipynb"), *NOTEBOOKS.glob(f"documents/{lab}_*.ipynb")]
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     return {cell["id"]: "".join(cell["source"]) for cell in cells}
 
 
 def run(lab, *ids, name=None, value=None):
-    """Run cells of a lab; with `name = value` in place of what the last one has. What they define,
-    and what the last one prints.
+    """Run cells of a lab, with `name = value` changed in the last one. Return the names that they
+    define, and the output of the last one.
     """
     names, said = {}, io.StringIO()
     for n in ids:
@@ -74,13 +74,13 @@ def tries(lab, cell, name):
 
 
 def number(pattern, text):
-    """The one number in a text that stands where the pattern has its group."""
+    """The number in a text that matches the group of the pattern."""
     (found,) = re.findall(pattern, text)
     return float(found.replace("\N{MINUS SIGN}", "-"))
 
 
 def options(name):
-    """Question, options and the number of the right one of a prediction."""
+    """The question, the options and the index of the right one of a prediction."""
     return filled(find(name, "predictions"))
 
 
@@ -163,7 +163,7 @@ def test_a_wrap_spoils_two_central_differences_and_one_of_neighbours():
 
 
 def test_what_to_try_doubles_the_false_speed_and_leaves_the_true_ones():
-    """The duration, which it was, scales both alike."""
+    """The duration, which was varied before, scales both equally."""
     (name,) = re.findall(r"Try other values of `(\w+)`", sources("02")["speed-look"])
     found = [run("02", "setup", "speed-code")[0]]
     for value in tries("02", "speed-code", name):
@@ -305,7 +305,10 @@ def test_the_explorer_shows_the_numbers_of_the_table():
     assert explorer.data["laws"][explorer.data["start_values"]["law"]] == "quintic"
     assert explorer.data["samples"] == number(r"in (\d+) samples", text)
     tops = []
-    for count in (8001, 1001):  # as the explorer, which finds what lies between; the table's
+    for count in (
+        8001,
+        1001,
+    ):  # the explorer's values include those between samples; the table's do not
         t = np.linspace(0, 20, count)
         q = follow(IRB140, IRB140.ik(blend(*path, linear(20.0)(t))), g["row"])
         speed, push = (abs(differentiate(q, t, n)).max(axis=0) for n in (1, 2))
@@ -483,7 +486,7 @@ def test_what_becomes_of_the_200_is_true_of_one_option():
     q[:, 4] = 1e-9
     rotations = ITMO6R.frames(q).as_matrix()[..., :3, :3]
     h33 = (rotations[:, 3].swapaxes(1, 2) @ rotations[:, 6])[:, 2, 2]
-    assert 0 < (h33 > 1).sum() < 200  # a negative number under the root, for some and not for all
+    assert 0 < (h33 > 1).sum() < 200  # a negative number under the root for some but not all
     # The lab's chain rounds in another order than the package's: a share, not a count.
     lost = number(r"NaN, in (\d+)% of the postures", choices[right].reason)
     assert lost == pytest.approx(100 * (h33 > 1).mean(), abs=8)

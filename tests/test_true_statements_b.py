@@ -1,5 +1,5 @@
-"""What labs 07 to 12 say, computed again in another way: each test reads the number where it stands
-(in a cell or a prediction), so that text and number cannot drift apart.
+"""Statements of labs 07 to 12, computed again in another way: each test reads the number from its
+cell or prediction, so that text and number cannot diverge.
 """
 
 import functools
@@ -58,7 +58,9 @@ def as_number(word):
 
 
 def run(lab, *names, changed=()):
-    """The names of some cells of a lab, run in this order; `changed` replaces text in them."""
+    """Run some cells of a lab in this order and return their names; `changed` replaces text in
+    them.
+    """
     made = {}
     for name in names:
         source = cells(lab)[name]
@@ -69,7 +71,7 @@ def run(lab, *names, changed=()):
 
 
 def tries(lab, cell):
-    """What stands after `# try`, as values."""
+    """The values after `# try`."""
     (line,) = [x for x in cells(lab)[cell].splitlines() if "# try" in x]
     return eval("[" + line.split("# try")[1] + "]", {"np": np, "mm": mm, "deg": deg})
 
@@ -253,7 +255,7 @@ def test_dice_turn_more_and_by_how_much():
     turned, dice = dict.fromkeys(stand, 0.0), np.random.default_rng(seed)
 
     def least(place, before):
-        """By a sweep of the whole family, then finer beside its best row."""
+        """A sweep over the whole family, then a finer one near its best row."""
         low, high = ARM.alpha_range(place)
         for count in (8001, 101, 101):
             alphas = np.linspace(low, high, count)
@@ -316,7 +318,7 @@ def lever_distance(q, H, lever=slice(None)):
 
 
 def least_distance(path, H, count=2001):
-    """On a whole path: samples, each least one refined."""
+    """On a whole path: samples, with each minimum refined."""
     found = []
     for a, b in pairwise(np.asarray(path)):
         s = np.linspace(0, 1, count)
@@ -455,7 +457,7 @@ def test_the_drawing_is_found_in_few_motions_drawn_as_the_question_says():
     path = pytest.importorskip("matplotlib.path").Path
 
     def found_in(tasks):
-        """How many H are inside, and how many of them the drawing's test finds."""
+        """How many H are inside, and how many of them the document's test finds."""
         inside = found = 0
         for (A, K), (A1, K_1), H in tasks:
             if path([A, K, K_1, A1]).contains_point(H):

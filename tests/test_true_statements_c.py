@@ -1,5 +1,5 @@
-"""Statements that fresh readers refuted in the second round: each is read where it stands, in a
-cell, a figure's words or a prediction, and computed again in another way.
+"""Statements that fresh readers refuted in the second round: each is read from its cell, figure or
+prediction, and computed again in another way.
 """
 
 import json
@@ -39,7 +39,7 @@ def flat(lab, cell):
 
 
 def shown(lab, cell):
-    """What the stored output of a cell says in words."""
+    """The words in the stored output of a cell."""
     (path,) = NOTEBOOKS.glob(f"{lab}_*.ipynb")
     (found,) = [
         each for each in json.loads(path.read_text(encoding="utf-8"))["cells"] if each["id"] == cell
@@ -63,7 +63,7 @@ def numbers(pattern, text):
 
 
 def mistakes(lab, name):
-    """What is said about the mistakes of this name."""
+    """The sentences about the mistakes with this name."""
     return [
         (each, each.says)
         for exercise in find_exercises(lab)
@@ -163,7 +163,7 @@ def test_the_corner_of_the_target_and_the_configuration_past_its_limit():
     assert "With this configuration joint 2 is always past its limit" in flat("02", "limits-look")
     times = np.linspace(0, 20, 4001)
     q2 = made["IRB140"].ik(made["target"](times, 20))[:, made["IRB140"].branch(+1, -1, +1), 1]
-    least = (IRB140.limits[1, 0] - q2).min()  # in between it cannot fall by more than a step does
+    least = (IRB140.limits[1, 0] - q2).min()  # in between it cannot fall by more than in a step
     assert least > 10 * abs(np.diff(q2)).max() > 0
 
 
@@ -328,7 +328,7 @@ def test_all_but_one_row_become_forbidden_and_how_far_the_two_values_are_apart()
 
 
 def test_how_many_lines_a_finer_look_leaves():
-    """In steps a fifth as long, each row unwrapped by itself from values inside the limits on."""
+    """With steps a fifth as long, each row unwrapped separately from values inside the limits."""
     drawn = book.lab("puma560_branches").module("predictions")["random_poses"]
     ends = drawn(np.random.default_rng(7), (2, 3000))
     ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]

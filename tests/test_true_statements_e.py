@@ -41,7 +41,7 @@ def about(axis, angle):
 
 
 def written(lab):
-    """What is said in a lab's files, in one line, whether they are Markdown or Python."""
+    """The text of a lab's files in one line, Markdown and Python."""
     (ours,) = [NOTEBOOKS / "exercises" / lab]
     files = [*ours.glob("*.md"), *(ours.parents[2] / "robokin" / "course").glob(f"{lab}.py")]
     text = " ".join(each.read_text(encoding="utf-8") for each in files)

@@ -1,5 +1,5 @@
-"""Three levers on a turning base: points in space against a chain of complex numbers and a plane
-turned by hand.
+"""Three levers on a turning base: points in space compared with a chain of complex numbers and a
+plane rotated by hand.
 """
 
 import numpy as np
@@ -55,7 +55,7 @@ def test_least_reaches_the_point_within_the_limits(arm, shape):
 
 @arms
 def test_no_other_posture_moves_less(arm):
-    """By brute force over both turns and 2001 alphas; and each turn is the better one sometimes."""
+    """By brute force over both turns and 2001 alphas; each turn is sometimes the better one."""
     points, before = tip(arm, postures(arm, (300,))), postures(arm, (300,), seed=2)
     plane = arm.geometry.plane
     q, S = arm.least(points, before)

@@ -1,8 +1,8 @@
-"""The twin: the page's own kinematics in JavaScript against Python, in a real browser.
+"""The twin: the page's own kinematics in JavaScript compared with Python, in a real browser.
 
-Everything twice: with the browser's sines, cosines and arctangents as they are, and with noise in
-their last bit, since another browser may round them otherwise. What exists is exactly equal all the
-same; how near the numbers are says each test.
+Everything runs twice: with the browser's sines, cosines and arctangents, and with noise in their
+last bit, since another browser may round differently. The same rows exist in any case; each test
+states the tolerance of the numbers.
 """
 
 import base64
@@ -57,7 +57,7 @@ from robokin.show.twin import arm_data
 
 SCRIPTS = Path(robokin.show.__file__).parent / "js"
 TURN = 2 * np.pi
-# axis 1 does not go through the arm's plane, so that the point keeps away from it
+# axis 1 is not in the arm's plane, so that the point stays away from it
 BESIDE = elbow_arm(
     "Beside",
     dh_links(a=[0.05, 0.43, 0.38], alpha=np.array([90, 0, 0]) * deg, d=[0.6, 0.15, 0]),
@@ -153,7 +153,7 @@ def twin(browser, request):
 
 
 def close(got, want, tolerance, modulo=None):
-    """Missing numbers in the same places, the others within the tolerance, and some there."""
+    """NaN in the same places, the others within the tolerance, and at least some numbers."""
     assert got.shape == want.shape
     missing = np.isnan(want)
     assert (np.isnan(got) == missing).all() and not missing.all()
@@ -175,8 +175,8 @@ def tiny(rng, n):
 
 
 def beyond(rng, n):
-    """How far past a border, in reaches: powers of ten, and around and at the slack of 1e-12, where
-    the last bit of a distance decides.
+    """Distances past a border, in reaches: powers of ten, and values near and at the tolerance of
+    1e-12, where the last bit of a distance decides.
     """
     size = rng.choice([-1, 1], n) * 10.0 ** -rng.uniform(3, 16, n)
     size = np.where(rng.random(n) < 0.5, size, rng.uniform(-3, 3, n) * 1e-12)
@@ -216,7 +216,7 @@ def places(arm, rng):
     n = SHARES["border"]
     borders = np.where(rng.random(n) < 0.5, upper + fore, abs(upper - fore))
     some["border"] = around(n, borders + beyond(rng, n) * arm.reach)
-    if lateral:  # a part of them as near to axis 1 as the arm comes
+    if lateral:  # some of them as near to axis 1 as the arm can come
         turn, r = rng.uniform(-np.pi, np.pi, 400), abs(lateral) + beyond(rng, 400) * arm.reach
         some["border"][:400, :2] = np.stack([r * np.cos(turn), r * np.sin(turn)], axis=-1)
         some["border"][:400, 2] = height + rng.uniform(-0.9, 0.9, 400) * upper
@@ -257,7 +257,7 @@ def postures(arm, rng):
 
 @cache
 def poses(name):
-    """Poses of the arm's kind for every kind of trouble: dict of kind -> batch."""
+    """Target poses for every kind of difficulty: dict of kind -> batch."""
     arm, rng = ARMS[name], np.random.default_rng(5)
     found = {kind: _asked(arm, arm.fk(q), rng) for kind, q in postures(arm, rng).items()}
     for kind, points in places(arm, rng).items():
@@ -300,7 +300,7 @@ NEAR = "return nested(a, arm.chain.length).map(q => distance_from_singularity(ar
 
 @every_arm
 def test_rows(twin, name):
-    """Which rows exist is exactly equal, in order; the joints differ by what an arctangent may."""
+    """The same rows exist, in order; the joints differ only by the error of an arctangent."""
     arm = ARMS[name]
     assert sum(len(numbers(pose)) for pose in poses(name).values()) == sum(SHARES.values())
     for kind, pose in poses(name).items():
@@ -312,7 +312,8 @@ def test_rows(twin, name):
             assert np.isnan(got).all() == np.isnan(want).all()
             assert (np.isnan(got) == np.isnan(want)).all()
             continue
-        # pi and -pi are one angle; which of them atan2 decides, or its last bit where angles add
+        # pi and -pi are the same angle; atan2 decides between them, or its last bit when angles are
+        # added
         close(got, want, 1e-14 * (1 + 4 * twin.noisy), modulo=TURN)
         turning = abs(got[..., arm.turning])
         assert np.nanmax(turning) <= np.pi * (1 + 1e-15 * (1 + twin.noisy))
@@ -343,8 +344,8 @@ def test_rows(twin, name):
 
 
 def half_turns(arm, rng, *shape):
-    """Rows whose joints stand whole quarters of a turn apart: half turns lie exactly between two
-    values, and many rows are equally far. Some are missing.
+    """Rows whose joints differ by quarter turns: half turns are exactly between two values, and
+    many rows are equally far. Some are missing.
     """
     q = rng.integers(-8, 9, (*shape, len(arm.links))) * (np.pi / 2)
     q[..., arm.prismatic] = rng.integers(-4, 5, q[..., arm.prismatic].shape) * 0.05
@@ -353,7 +354,7 @@ def half_turns(arm, rng, *shape):
 
 
 def at_limits(arm, rng, n):
-    """Joints at a limit, at the slack past it, and whole turns from there."""
+    """Joints at a limit, at the tolerance past it, and whole turns from there."""
     slack = rng.choice([0, 1e-9, -1e-9, 0.9e-9, 1.1e-9, -1.1e-9, 0.1, -0.1], (n, len(arm.links)))
     end = rng.integers(0, 2, slack.shape)
     q = arm.limits[np.arange(len(arm.links)), end] + slack
@@ -416,7 +417,7 @@ def test_follow(twin, name):
     """
     arm, rng = ARMS[name], np.random.default_rng(7)
     rows = half_turns(arm, rng, 60, 12, len(arm.branches))
-    rows[:10, :4] = np.nan  # nothing to begin with
+    rows[:10, :4] = np.nan  # no posture to begin with
     starts = rng.integers(0, len(arm.branches), 60)
     want = np.stack([follow(arm, r, k) for r, k in zip(rows, starts.tolist(), strict=True)])
     close(follows(twin, arm, rows, starts), want, 1e-13)
@@ -466,7 +467,7 @@ def chained(name, i, row):
 
 @every_arm
 def test_whole_chain(twin, name):
-    """Blend, inverse and motion in one: near a singularity the inverse makes much of rounding."""
+    """Blend, inverse and motion: near a singularity the inverse amplifies rounding errors."""
     arm = ARMS[name]
     body = (
         "const poses = nested(a, b[0]).map(posed), law = quintic(1);"
@@ -483,7 +484,7 @@ def test_whole_chain(twin, name):
         want.append(chained(name, i, row))
         given = [flat.shape[1], [0.0, 0.1, 0.25, 0.5][i % 4], i % 2, row]
         got.append(twin(body, arm, flat, given, t, shape=want[-1].shape))
-    # a joint that starts half a turn away may do so on either side, with noise
+    # with noise, a joint that starts half a turn away may do so on either side
     close(np.array(got), np.array(want), 1e-6, modulo=TURN if twin.noisy else None)
 
 
@@ -512,7 +513,7 @@ def test_rotations(twin):
     close(got[..., 3], a.wxyz[:, 1:], 0)
     got = twin(body + "quaternion(matrix(q[i])));", *given, shape=(n, 4))
     close(got, Quaternion.from_matrix(b.as_matrix()).wxyz, 1e-15)
-    # a half turn has two ways round; in the last bit of the product both are right
+    # a half turn has two directions; depending on the last bit of the product both are right
     got = twin(body + "slerp(one, q[i], c[i]));", *given, shape=(n, 4))
     close(got, a.slerp(b, s).wxyz, 1e-14)
 
@@ -796,8 +797,8 @@ def test_words_of_ties(twin):
 
 @pytest.mark.parametrize("lengths", [0.3, (0.27, 0.33, 0.18), (0.2, 0.15, 0.5), (0.5, 0.4, 0.1)])
 def test_three_levers(twin, lengths):
-    """The family of a point, its ends, and the least turn. An arctangent decides where the family
-    ends, so that a point within rounding of a border of gamma is left out.
+    """The family of a point, its ends, and the least movement. An arctangent decides where the
+    family ends, so points within rounding of a border of gamma are skipped.
     """
     arm, rng = three_lever(lengths), np.random.default_rng(13)
     L, n, borders = arm.lever, 1500, np.array([arm.geometry.inner, arm.reach]) / arm.lever
@@ -850,7 +851,7 @@ def test_three_levers(twin, lengths):
 
 
 def test_other_levers_are_another_arm(twin):
-    """What the page makes of other lengths is what Python would have handed over."""
+    """The page computes the same data for other lengths as Python."""
     arm, rng = arm_data(three_lever((0.3, 0.2, 0.4))), np.random.default_rng(15)
     for lengths in rng.uniform(0.1, 2, (20, 3)).tolist():
         got = twin.page.evaluate("([arm, levers]) => withLevers(arm, levers)", [arm, lengths])
@@ -865,7 +866,7 @@ LEVERS = three_lever(0.3), three_lever((0.27, 0.33, 0.18))
 
 @pytest.mark.parametrize("arm", [*ARMS.values(), *LEVERS], ids=lambda arm: arm.name)
 def test_data_have_full_precision(arm):
-    """JSON holds it, and every number comes back to the last bit."""
+    """JSON can represent it, and every number is preserved to the last bit."""
     data = arm_data(arm)
     assert json.loads(json.dumps(data, allow_nan=False)) == json.loads(json.dumps(data))
     back = json.loads(json.dumps(data))
@@ -882,7 +883,7 @@ class Own:
 
 @pytest.mark.parametrize("arm", [Arm("Own", Own(), IRB140.limits), UR5], ids=lambda arm: arm.name)
 def test_an_unknown_geometry(twin, arm):
-    """A page gets the chain and the limits: it can turn the joints, and ask for nothing."""
+    """The page gets the chain and the limits: it can turn the joints, but has no inverse."""
     data = arm_data(arm)
     assert data["geometry"] == {"kind": None} and "branches" not in data
     q = np.random.default_rng(14).uniform(-1, 1, (20, 6))

@@ -82,7 +82,7 @@ def test_x3_equal_to_zero_is_harmless(x3):
     tiny = arm.ik((x3, 0.0))  # base at the tip, or as good as
     np.testing.assert_allclose(arm.fk(tiny).translation, [(x3, 0, 0)] * 2, atol=1e-15)
     assert abs(tiny[:, 1]) == pytest.approx(np.pi, abs=2e-9)
-    if x3:  # then link 1 stands square to the way, to its right and to its left
+    if x3:  # then link 1 is perpendicular to the line, to its right and to its left
         ahead = 0 if x3 > 0 else np.pi
         assert turns(tiny[:, 0], [ahead - np.pi / 2, ahead + np.pi / 2]).max() < 1e-9
 

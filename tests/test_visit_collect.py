@@ -1,5 +1,5 @@
-"""Visit and collect: the document's examples and errata S0, the reference tasks, and laws that any
-answer obeys.
+"""Visit and collect: the document's examples and errata S0, the reference tasks, and laws of every
+answer.
 """
 
 import copy
@@ -125,8 +125,8 @@ def on_a_circle(azimuths, radius=4, z=2):
 
 
 class Walk:
-    """The arm of a task, sent from point to point. A free joint is None until a point gives it a
-    value.
+    """The arm of a task, moved from point to point. A free joint is None until a point determines
+    it.
     """
 
     def __init__(self, task, short_way=False):
@@ -179,7 +179,7 @@ def walked(task, order, short_way=False):
 
 
 def cheapest_next(task, short_way=False):
-    """The order that goes to the cheapest point left, while it fits."""
+    """The order that always takes the cheapest remaining point, while it fits."""
     walk, order = Walk(task, short_way), []
     while len(order) < len(task.points):
         ways = {i: walk.copy().to(i) for i in range(len(task.points)) if i not in order}
@@ -299,7 +299,7 @@ def test_results_are_consistent(case):
 
 @pytest.mark.parametrize("k", [1e-5, 1, 1e5])
 def test_tolerance_scales_with_the_reach(k):
-    """Errata S0-l: what is past a border by less than 1e-12 of the reach is on it, at any size."""
+    """Errata S0-l: a point past a border by less than 1e-12 of the reach is on it, at any size."""
     behind = np.sqrt(25 - 16)  # where the inner border for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (
         (5, 4, (0, 0, 9), (0, 0, 1), 0),
@@ -434,7 +434,9 @@ def test_container_on_the_axis():
     task = make(
         p0=(0, 0, 6.5), points=[(2, 0, 4), (0, 2, 4), (-2, 0, 4), (0, -2, 4)], T=100, kind="collect"
     )
-    way = travel_time(task.q[0], task.q[1], task.speeds)  # all points are as far without the turn
+    way = travel_time(
+        task.q[0], task.q[1], task.speeds
+    )  # without the turn all points are equally far
     quarter = np.pi / 2 / 0.2
     assert 4 * 2 * way == pytest.approx(23.36, abs=0.005)
     result = collect(task)
@@ -447,7 +449,8 @@ def test_container_on_the_axis():
     t, q = itinerary(task, result)
     assert (abs(np.diff(q, axis=0)) / np.diff(t)[:, None]).max() == pytest.approx(0.2)
     assert (q[2::2, 0] == q[1::2, 0]).all(), "back at the container joint 1 stays"
-    # From the one end of the turn to the other takes less: cheapest next is not the optimum here.
+    # Going from one end of the turn to the other takes less, so the cheapest next point is not
+    # optimal here.
     assert walked(task, (3, 0, 1, 2))[-1] == pytest.approx(2 * way + 3 * (quarter + way))
     assert walked(task, (3, 0, 1, 2))[-1] < result.time
     assert "p0 is on axis 1" in report(task, result) and "not always the best" in report(
@@ -492,7 +495,7 @@ def test_free_joints_keep_their_values(number, kind, short_way):
     for i in result.order:
         places += [task.points[i], task.p0] if kind == "collect" else [task.points[i]]
     np.testing.assert_allclose(spbu_arm(task.l1, task.l2).fk(q).translation, places, atol=1e-9)
-    # no joint is ever faster than it can, and the slowest is as fast as it can
+    # no joint exceeds its limit, and the slowest runs at its limit
     needed = (abs(np.diff(q, axis=0)) / task.speeds).max(axis=-1, initial=0)
     np.testing.assert_allclose(needed, np.diff(t), rtol=1e-9, atol=1e-12)
 
@@ -560,7 +563,7 @@ def test_above_floor_refuses_such_moves():
     assert result.order == (2, 1) and result.left == (0,) and "dips" not in report(brought, result)
     assert answer(task, above_floor=True) == visit(task, above_floor=True)
     assert answer(brought, above_floor=True) == result
-    # unless it is asked for, nothing is refused
+    # by default nothing is refused
     assert answer(task) == visit(task) and answer(brought) == collect(brought)
     assert collect(brought).order == (2, 0, 1)
     only = make(p0=(6, 0, 1), points=places[:1], T=100)
@@ -651,8 +654,8 @@ def test_lowest_is_the_same_in_both_directions(l1, l2):
 
 
 def test_floor_check_is_certain():
-    """Moves between points on the floor or just above it: the shallowest dips are found, and none
-    that is not there. The reference halves the bracket round the least of a dense sample.
+    """Moves between points on the floor or just above it: the shallowest dips are found, and no
+    false ones. The reference bisects the bracket around the minimum of a dense sample.
     """
     from scipy.optimize import minimize_scalar
 
@@ -732,7 +735,7 @@ def test_time_equal_to_T_counts():
     "T, served", [(0, ()), (-0.0, ()), (3, ()), (4, (0,)), (4.379, (0,)), (4.38, (0, 1))]
 )
 def test_visit_ends_when_the_nearest_does_not_fit(T, served):
-    """Errata S0-f: the printed program goes round for ever."""
+    """Errata S0-f: the printed program never ends."""
     assert visit(make(T=T)).order == best_visit(make(T=T)).order == served
     assert visit(make(T=T)).left == tuple({0, 1} - set(served))
 
@@ -741,7 +744,7 @@ def test_nothing_served_takes_no_time():
     result = visit(make(T=0))
     assert result == best_visit(make(T=0)) == collect(make(T=0)) == Result((), (), (0, 1))
     assert result.time == 0.0
-    # but where the arm already is, it is
+    # except where the arm already is
     at_start = make(T=0, points=[(2, 3, 2), (1, 1, 1), (1, 1, 1)])
     assert visit(at_start).order == collect(at_start).order == best_visit(at_start).order == (1, 2)
 
@@ -767,11 +770,11 @@ def test_ties_go_to_the_lowest_index():
 
 
 def test_extreme_times():
-    """Speeds and times at the ends of the floats: an answer, no warning."""
+    """Speeds and times at the limits of floats give an answer without a warning."""
     never = make(speeds=(5e-324,) * 3, T=1.7e308)
     assert visit(never).order == collect(never).order == best_visit(never).order == ()
     at_once = make(speeds=(1.7e308,) * 3, T=0)
-    assert visit(at_once).order == ()  # quick, and yet not in no time
+    assert visit(at_once).order == ()  # fast, but more than zero time
     assert visit(make(speeds=(1.7e308,) * 3, T=1e-300)).order == (0, 1)
 
 
@@ -793,7 +796,7 @@ def test_the_optimum_is_the_best_of_all_orders(seed):
     rng = np.random.default_rng(seed)
     n = 2 + seed % 5
     task = drawn(rng, n, T=rng.uniform(5, 60), l1=4, l2=5 if seed % 2 else 4)
-    if seed % 3 == 0:  # with points that stand twice
+    if seed % 3 == 0:  # with duplicate points
         task = make(
             **vars_of(task) | {"points": np.concatenate([task.points[:-1], task.points[:1]])},
             T=task.T,
@@ -999,8 +1002,8 @@ def test_the_exact_optimum_of_sixteen_points():
 
 
 def test_wrong_joint_values_are_found():
-    """Errata S0-e: these pass all seven printed checks, 5.7154 m beside the point seen in the arm's
-    own plane.
+    """Errata S0-e: these pass all seven printed checks, although they are 5.7154 m from the point
+    in the arm's own plane.
     """
     wrong = (-0.549597363236, 1.568403110925, 0.373893819911)
     assert misfit(5, 4, wrong, (2, 3, 2)) > 5.7154
@@ -1135,7 +1138,7 @@ def test_all_faults_are_listed(name, tmp_path):
     with pytest.raises(TaskError) as caught:
         read_task(path)
     assert list(caught.value.faults) == found and str(caught.value) == "; ".join(found)
-    if set(data) == set(KEYS):  # the same words for a task that a lesson makes
+    if set(data) == set(KEYS):  # the same messages for a task made in a lesson
         with pytest.raises(ValueError) as caught:
             Task(*(data[key] for key in KEYS))
         assert list(caught.value.faults) == found
@@ -1205,7 +1208,7 @@ def test_duplicate_keys_are_a_fault(tmp_path):
     assert caught.value.faults[0] == "T: given 2 times" and caught.value.faults[1].startswith(
         "T: wanted"
     )
-    # what is inside a value that is not looked at is let be, whatever its keys
+    # the content of an ignored value is not checked
     path.write_text(text[:-1] + ', "note": {"T": 1, "T": 2}, "note": 1}')
     assert read_task(path).remarks == ("unknown keys, ignored: 'note'",)
     path.write_text('{"note": {"T": 1, "T": 2}, ' + text[1:])

@@ -1,8 +1,8 @@
 """Wrong calls: every public callable, every argument replaced in turn by every wrong thing below.
 
-Nothing but ValueError and TypeError may come of it, said by robokin and not by what it is built on;
-no call may take longer than `SECONDS`, and NumPy may not complain. What a message says is held by
-`test_wrong_input.py`.
+Each call must raise only ValueError or TypeError with a message of robokin and not of NumPy; no
+call may take longer than `SECONDS`, and NumPy must not warn. `test_wrong_input.py` checks the
+messages.
 """
 
 import datetime
@@ -85,7 +85,7 @@ OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
 
 def _fields(value):
-    """What a dataclass is made of."""
+    """The arguments of a dataclass."""
     return {name: getattr(value, name) for name in value.__dataclass_fields__}
 
 
@@ -564,7 +564,7 @@ CALLS = {
     ),
 }
 
-# What is made for us to answer with, and what says in words what is wrong with anything.
+# Results that only we make, and functions that describe what is wrong with anything.
 LENIENT = (
     "Recording",
     "Jump",
@@ -597,13 +597,13 @@ def ragged():
 
 
 class Sulky:
-    """What cannot even be shown."""
+    """An object whose repr fails."""
 
     def __repr__(self):
         raise RuntimeError("no")
 
 
-# name -> a function, since some of them can be used but once
+# name -> a function, since some of them can be used only once
 WRONG = {
     "None": lambda: None,
     "no word": lambda: "",
@@ -703,7 +703,7 @@ WRONG = {
 }
 
 
-# Whatever has a truth is a flag: only what has none can be wrong.
+# Anything with a truth value works as a flag: only a value without one is wrong.
 FLAGS = ("None", "a word", "object", "masked", "record array", "empty rows", "seven numbers")
 
 
@@ -782,7 +782,7 @@ def test_wrong_calls_are_refused_with_our_messages(name, page):
             if complaint.startswith(FOREIGN) and isinstance(value, bool):
                 complaint = ""  # a flag is asked for its truth, and an array has none
             elif complaint and name.split()[0].endswith("__getitem__"):
-                # `[]` speaks NumPy's language, and Python's: what is out of range is an IndexError
+                # `[]` follows NumPy and Python: out of range is an IndexError
                 complaint = "" if "IndexError" in complaint or FOREIGN in complaint else complaint
             elif kind == "object" and not complaint and name not in LENIENT and "__" not in name:
                 complaint = _against_the_rule(argument, value, error)
@@ -807,7 +807,7 @@ def test_every_public_callable_is_called_wrongly():
 
 
 def test_detector_of_foreign_errors_works():
-    # The checks above would see what they are there for.
+    # The checks above detect planted errors.
     with np.errstate(all="warn"):
         for call, seen in (
             (lambda x: next(i for i in iter(int, 1) if i), "took longer"),
@@ -822,7 +822,7 @@ def test_detector_of_foreign_errors_works():
 
 
 class TooLong(BaseException):
-    """Raised by the watch in the middle of a call."""
+    """Raised by the time limit in the middle of a call."""
 
 
 def _outcome(call, arguments, seconds=SECONDS):
@@ -830,7 +830,9 @@ def _outcome(call, arguments, seconds=SECONDS):
     error, complaint, start = None, "", time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warnings.simplefilter("ignore", UserWarning)  # hints: likely a slip, and legal
+        warnings.simplefilter(
+            "ignore", UserWarning
+        )  # warnings about probable mistakes, which are legal
         try:
             with _watch(seconds):
                 call(**arguments)
@@ -847,9 +849,7 @@ def _outcome(call, arguments, seconds=SECONDS):
 
 
 class _watch:
-    """Raises TooLong after so many seconds of work (what else the machine does is not counted),
-    where the system has such an alarm.
-    """
+    """Raise TooLong after some seconds of CPU time, if the system has such an alarm."""
 
     def __init__(self, seconds):
         self.seconds = seconds
@@ -869,13 +869,13 @@ class _watch:
 
 
 def _foreign(error):
-    """Whether the words of an error are not robokin's own: "" if they are."""
+    """The foreign words in an error message, or "" if it is robokin's own."""
     text = "; ".join(str(fault)[:200] for fault in getattr(error, "faults", [error])[:3])
     if not text or len(text) > 500:
         return f"{type(error).__name__} of {len(text)} letters"
     last = traceback.extract_tb(error.__traceback__)[-1]
     ours = last.filename.startswith(PACKAGE) and last.line.startswith("raise")
-    # An operator between two that do not fit is refused by Python itself.
+    # Python itself refuses an operator between incompatible operands.
     python = isinstance(error, TypeError) and last.name == "<lambda>" and "operand" in text
     return "" if ours or python else f"{FOREIGN}: {type(error).__name__}: {text}"[:200]
 

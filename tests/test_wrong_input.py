@@ -1,5 +1,5 @@
-"""Wrong input: the exception of the one rule whose message holds the evidence, or the right
-answer. A table, one line per call.
+"""Wrong input: the right exception with the evidence in its message, or the right answer. A table
+with one line per call.
 """
 
 from types import SimpleNamespace
@@ -48,7 +48,7 @@ ONE = SimpleNamespace(links=(Link(),), target=Transform, reach=1.0)
 
 
 class Failing:
-    """What offers itself as an array and cannot be one."""
+    """An object that claims to be an array but cannot be one."""
 
     def __array__(self, *_, **__):
         raise RuntimeError("no array today")
@@ -283,7 +283,7 @@ def test_wrong_input_is_named_in_the_error(name):
     assert len(text) < 200 and "\n" not in text
 
 
-# What should be an object of a class and is not.
+# Arguments that should be objects of a class and are not.
 OF_ANOTHER_KIND = {
     "slerp to an array",
     "matrix as rotation",
