@@ -482,7 +482,7 @@ def random_arm(rng):
 
 @pytest.mark.parametrize("seed", range(40))
 def test_every_suitable_chain_is_inverted(seed):
-    """Signs, forward and lateral offsets, a bent forearm, a tilted wrist, any tool: all are data."""
+    """Signs, offsets, a bent forearm, a tilted wrist, any tool: all are data."""
     rng = np.random.default_rng(seed)
     arm = random_arm(rng)
     q = rng.uniform(-np.pi, np.pi, (200, 6))
