@@ -7,14 +7,14 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .._arrays import Floats
-from .._validate import floats, instance, length, short
+from .._validate import floats, instance, length, short, whole
 from ..arms.arm import Arm
 from ..motion.derivatives import rising
 from ..motion.recording import Jump, Recording, record
 from ..transform import Transform
 from .checks import in_sight, plain, several
 from .numbers import tidy
-from .page import Slider, Switch
+from .page import Slider, Switch, Watch
 from .things import Faces, Mark, Target, Thing
 from .things.thing import as_place, as_reading
 
@@ -165,6 +165,40 @@ def things(
     found += [polygons] if polygons.corners else []
     given = several(more, "things", "a list of things", error=TypeError)
     return found + [instance(one, Thing, "things") for one in given]  # type: ignore[type-abstract]
+
+
+def quantities(given: Any, arms: int, lead: tuple[int, ...], samples: int) -> dict[str, Floats]:
+    """Return the quantities by name: (arms, motions, samples) each."""
+    if not isinstance(given, Mapping):
+        raise ValueError(f"quantities: wanted a dict name -> numbers, got {short(given)}")
+    found = {}
+    for name, value in several(given.items(), "quantities", "a dict name -> numbers"):
+        name = plain(name, "quantities")
+        each = [value] if arms == 1 else value
+        if not isinstance(each, (list, tuple)) or len(each) != arms:
+            wanted = f"a list with one array for each of {arms} arms"
+            raise ValueError(f"quantity {name}: wanted {wanted}, got {short(value)}")
+        rows = [floats(one, f"quantity {name}", finite=False) for one in each]
+        for row in rows:
+            if row.shape not in ((samples,), (*lead, samples)):
+                wanted = f"shape {(samples,)} or {(*lead, samples)}"
+                raise ValueError(f"quantity {name}: wanted {wanted}, got {row.shape}")
+        stack = np.stack([np.broadcast_to(row, (*lead, samples)) for row in rows])
+        found[name] = stack.reshape(arms, -1, samples)
+    return found
+
+
+def watch(panel: Any, joints: Any, names: list[str], arms: Sequence[Arm]) -> Watch:
+    """Return the panel and the joints to watch as page data."""
+    kinds = ["q", "v", "a", *names]
+    panel = (names or kinds)[0] if panel is None else panel
+    if panel not in kinds:
+        raise ValueError(f"watch: wanted one of {', '.join(kinds)}, got {short(panel)}")
+    chosen = None
+    if joints is not None:
+        most = max(len(arm.links) for arm in arms)
+        chosen = [whole(j, "joints", 1, most) - 1 for j in several(joints, "joints", "numbers")]
+    return {"panel": kinds.index(panel), "joints": chosen}
 
 
 def bases(value: Any, count: int) -> Floats | None:

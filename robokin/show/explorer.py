@@ -56,7 +56,6 @@ WORDS: Mapping[str, str] = {
     "takeVia": "via along the base's {axis} axis",
     "law": "time law",
     "corner": "corner",
-    "time": "time",
     "costs": "The sum S of the angles' changes over the free angle alpha.",
     "costTitle": "S, the sum of the angles' changes",
     "costAxis": "free angle alpha",
@@ -117,12 +116,6 @@ def pose_data(pose: Pose) -> PagePose:
     if isinstance(pose, ScaraPose):
         return {"place": pose.position.tolist(), "angle": float(pose.angle)}
     return {"place": pose.translation.tolist(), "rotation": pose.rotation.wxyz.tolist()}
-
-
-def flags(arm: ClosedFormArm, k: int) -> str:
-    """The name of branch k."""
-    flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
-    return f"{k}: {flags}"
 
 
 # --- What the page gets ---------------------------------------------------------------------------

@@ -29,7 +29,6 @@ from .explorer import (
     as_transform,
     code_name,
     control,
-    flags,
     imports,
     inverted,
     number,
@@ -38,6 +37,7 @@ from .explorer import (
     sizes,
     units,
 )
+from .findings import flags
 from .levers_explorer import levers_explorer
 from .page import FactRow, JointPage, TargetPage
 

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from .._arrays import Floats, Ints
-from ..arms.arm import Arm
+from ..arms.arm import Arm, ClosedFormArm
+from ..arms.branches import unwrapped
 from ..motion.recording import Recording
 from ..units import mm
 from .camera import flange
@@ -76,6 +77,35 @@ def closest(arm: Arm, q: Floats, via: Floats, unit: float) -> list[list[float] |
             if np.isfinite(d)
             else None
         )
+    return found
+
+
+def flags(arm: ClosedFormArm, k: int) -> str:
+    """The name of branch k, such as "2: +1 −1 +1"."""
+    flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
+    return f"{k}: {flags}"
+
+
+def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
+    """For each motion q (motions, samples, n) the rows of `ik` to which its postures belong: the
+    first sample of each and its name. None: the arm has no inverse, or has only one row.
+
+    Where rows coincide, at a singularity, the posture keeps the row that it had.
+    """
+    if not isinstance(arm, ClosedFormArm) or len(arm.branches) < 2:
+        return None
+    solved = arm.ik(arm.fk(q))  # (motions, samples, rows, n)
+    away = abs(unwrapped(arm, solved, q[..., None, :]) - q[..., None, :]).max(axis=-1)
+    belongs = away < 1e-6  # a NaN does not
+    found = []
+    for motion in belongs:
+        runs: list[tuple[int, str]] = []
+        row = None
+        for i, here in enumerate(motion):
+            if here.any() and (row is None or not here[row]):
+                row = int(here.argmax())
+                runs.append((i, f"row {flags(arm, row)}"))
+        found.append(runs)
     return found
 
 

@@ -6,11 +6,11 @@ from itertools import pairwise
 import numpy as np
 
 from .._arrays import Floats
-from .._validate import instance, whole
+from .._validate import instance, positive, short, whole
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import follow, unwrapped
 from ..arms.scara import ScaraPose
-from ..motion.laws import quintic
+from ..motion.laws import TimeLaw, linear, quintic, trapezoidal
 from ..motion.maximum import refined_maximum
 from ..motion.paths import blend
 from ..motion.recording import FEW, LEAP, record
@@ -26,7 +26,6 @@ from .explorer import (
     as_transform,
     code_name,
     control,
-    flags,
     imports,
     inverted,
     number,
@@ -34,23 +33,37 @@ from .explorer import (
     sizes,
     units,
 )
+from .findings import flags
 from .page import Corner, Law, MotionPage
 from .palette import DASHES
 from .player import still_picture
 from .things import Target
 
 SAMPLES = 241  # samples of a motion: enough for its speeds, few enough to follow the pointer
-LAWS: Sequence[Law] = ("quintic", "trapezoidal", "linear")
+LAWS: Mapping[Law, Callable[[float], TimeLaw]] = {
+    "quintic": quintic,
+    "trapezoidal": trapezoidal,
+    "linear": linear,
+}
+LONGEST = 20.0  # s
 CORNERS: Sequence[Corner] = ("parabola", "quintic")
 
 
 def motion_explorer(
-    arm: ClosedFormArm, start: Pose, via: Pose, goal: Pose, row: int | None = None
+    arm: ClosedFormArm,
+    start: Pose,
+    via: Pose,
+    goal: Pose,
+    row: int | None = None,
+    *,
+    law: Law = "quintic",
+    duration: float = 5.0,
 ) -> "Explorer":
     """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
     for the via point, the blend and the duration, menus for the time law, the corner and the
-    branch. Arm, curves and numbers follow. A click on a curve sets the clock. It opens on branch
-    `row`, by default the first one with the most usable samples.
+    branch. Arm, curves and numbers follow; it plays, and a click on a curve sets the clock. It
+    opens with this time law and duration (s), on branch `row`, by default the first one with the
+    most usable samples.
 
     The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
     batch of poses, or an unknown row. TypeError: poses of another type, or an arm without `ik`.
@@ -62,9 +75,14 @@ def motion_explorer(
         if instance(pose, kind, name).shape:
             raise ValueError(f"{name}: wanted one single pose, got a batch of shape {pose.shape}")
     unit, size = length_unit(extent(arm))
-    law = quintic(5.0)
-    t = np.linspace(0, law.duration, SAMPLES)
-    rows = arm.ik(blend(start, via, goal, 0.1, law(t)))
+    if law not in LAWS:
+        raise ValueError(f"law: wanted one of {', '.join(LAWS)}, got {short(law)}")
+    seconds = positive(duration, "duration", f"at most {LONGEST:g} s")
+    if seconds > LONGEST:
+        raise ValueError(f"duration: wanted at most {LONGEST:g} s, got {short(duration)}")
+    progress = LAWS[law](seconds)
+    t = np.linspace(0, seconds, SAMPLES)
+    rows = arm.ik(blend(start, via, goal, 0.1, progress(t)))
     motions = [follow(arm, rows, k) for k in range(len(arm.branches))]
     usable = [(record(arm, t, q).excess <= 0).all(axis=-1).sum() for q in motions]
     row = int(np.argmax(usable)) if row is None else whole(row, "row", 0, len(usable) - 1)
@@ -72,13 +90,15 @@ def motion_explorer(
     step = 1 if size == mm else 0.001
     controls = [control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
     controls.append(control("blend", "", 0, 0.5, 0.01, 3))
-    controls.append(control("duration", "s", 0.5, 20, 0.5, 2))
+    controls.append(control("duration", "s", 0.5, LONGEST, 0.5, 2))
     posed = {name: as_transform(pose) for name, pose in stations.items()}
     through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
-    speed, j, of = _fastest(arm, lambda x: blend(start, via, goal, 0.1, law(x)), t, motions[row])
+    speed, j, of = _fastest(
+        arm, lambda x: blend(start, via, goal, 0.1, progress(x)), t, motions[row]
+    )
     summary = (
-        f"{arm.name} on a blended motion past a via point that can be moved, 5 s, blend 0.1, "
-        f"branch {flags(arm, row)}: greatest speed{of} {number(speed, 1)} "
+        f"{arm.name} on a blended motion past a via point that can be moved, {seconds:g} s, "
+        f"blend 0.1, branch {flags(arm, row)}: greatest speed{of} {number(speed, 1)} "
         f"{units(arm)[j]['name']}/s (joint {j + 1})."
     )
     page = arm_page(
@@ -98,7 +118,13 @@ def motion_explorer(
         "start": pose_data(start),
         "via": pose_data(via),
         "goal": pose_data(goal),
-        "start_values": {"blend": 0.1, "duration": 5.0, "law": 0, "corner": 0, "row": row},
+        "start_values": {
+            "blend": 0.1,
+            "duration": seconds,
+            "law": list(LAWS).index(law),
+            "corner": 0,
+            "row": row,
+        },
         "laws": list(LAWS),
         "corners": list(CORNERS),
         "branches": [flags(arm, k) for k in range(len(usable))],

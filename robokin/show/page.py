@@ -69,25 +69,40 @@ class PageScene(TypedDict):
 
 
 class Axis(TypedDict):
-    """The scales of revolute or of prismatic joints in one panel. `of` maps a motion to its scale;
-    with None all motions have the first.
-    """
+    """The scale of revolute or of prismatic joints in one panel."""
 
     unit: str
-    scales: list[Scale]
-    of: list[int] | None
+    scale: Scale
 
 
 class PagePanel(TypedDict):
-    """One panel of curves. `own`: each motion has its own scale. `near`: the limits to show for
-    each arm, [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if there
-    are such joints.
+    """One panel of curves, with one scale for all motions. `near`: the limits to show for each arm,
+    [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if there are such
+    joints.
     """
 
     label: str
-    own: bool
     near: list[list[list[int]]]
     axes: dict[str, Axis]
+
+
+class PageQuantity(TypedDict):
+    """A panel of a number that belongs to no joint, such as a distance: its name with the unit, its
+    scale, and the numbers of each arm.
+    """
+
+    label: str
+    scale: Scale
+    values: list[Packed]
+
+
+class Watch(TypedDict):
+    """What to look at: the panel that is large (its index, quantities after the three panels of
+    joints) and the joints that are not faint, from 0; None: all of them.
+    """
+
+    panel: int
+    joints: list[int] | None
 
 
 class Greatest(TypedDict):
@@ -114,10 +129,12 @@ class Flaws(TypedDict):
 class PageArm(Greatest, Flaws):
     """One arm and its motions: `Packed` joint values, speeds and accelerations; [lower, upper]
     joint limits; speed limits; for each motion [smallest distance from "via", x, y, z of that
-    place], or None.
+    place], or None; for each motion of an arm with an inverse [first sample, name] of the rows of
+    `ik` to which its postures belong.
     """
 
     name: str
+    rows: list[list[tuple[int, str]]] | None
     chain: list[PageLink]
     motion: list[Packed]
     limits: list[list[float]]
@@ -143,6 +160,8 @@ class Page(TypedDict):
     dashes: list[list[float]]
     scene: PageScene
     panels: list[PagePanel]
+    quantities: list[PageQuantity]
+    watch: Watch
     decimals: list[int]
     sampled: str
     arms: list[PageArm]

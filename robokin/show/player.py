@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats
+from .._arrays import ArrayLike, Floats, Ints
 from .._validate import instance, short
 from ..arms.arm import Arm
 from ..motion.recording import Recording
@@ -31,10 +31,12 @@ from .page import (
     Page,
     PageArm,
     PagePanel,
+    PageQuantity,
     PageScene,
     Slider,
     Switch,
     Unit,
+    Watch,
     inert,
     output,
     still_image,
@@ -69,6 +71,9 @@ def animate(
     faces: Iterable[ArrayLike] = (),
     readings: Mapping[str, ArrayLike] = NO_READINGS,
     things: Iterable[Thing] = (),
+    watch: str | None = None,
+    joints: Iterable[int] | None = None,
+    quantities: Mapping[str, Any] = NO_READINGS,
 ) -> "Player":
     """Return a `Player` of the motion q (samples, n) at the times t (samples,). It displays itself
     at the end of a cell.
@@ -95,6 +100,11 @@ def animate(
     readings numbers that change, to write behind the names of points: a dict name -> (samples,),
              or with the leading axes of q; a whole number stays until the next sample has another
     things   anything else to draw, of the kinds in `robokin.show.things` or of your own
+    watch    the panel that is large: "q", "v", "a", or the name of a quantity; None: the first
+             quantity or, without one, q. The reader can choose another one
+    joints   the joints to watch, counted from one; the curves of the others are faint. None: all
+    quantities  numbers with a panel of their own, such as a distance: a dict "name, unit" ->
+             (samples,), or with the leading axes of q; for several arms a list with one for each
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, if it depends on slider and switch only, (..., 1, 3); a
@@ -110,12 +120,16 @@ def animate(
     tracks, names = arguments.tracks(arm, t, q, lead, names)
     count = len(tracks[0].t)
     drawn = arguments.things(targets, points, circles, faces, readings, things)
+    numbers = arguments.quantities(quantities, len(tracks), lead, count)
+    looked = arguments.watch(watch, joints, list(numbers), [track.arm for track in tracks])
     for thing in drawn:
         thing.fit(lead, count)
     title = " and ".join(dict.fromkeys(names)) if title is None else plain(title, "title")
     solid = yes(floor, "floor")
     stands = arguments.bases(bases, len(tracks))
-    data = page_data(names, tracks, drawn, sliding, switching, title, solid, stands)
+    data = page_data(
+        names, tracks, drawn, numbers, looked, sliding, switching, title, solid, stands
+    )
     motions = [(track.arm, track.q[0]) for track in tracks]
     still = still_picture(names, motions, drawn, data["scene"], title, data["alt"], stands)
     film = Film(tracks[0].t, motions, drawn, data["scene"], title, stands)
@@ -195,6 +209,8 @@ def page_data(
     names: Sequence[str],
     tracks: Sequence[Recording],
     things: Sequence[Thing],
+    quantities: Mapping[str, Floats],
+    watch: Watch,
     slider: Slider | None,
     switch: Switch | None,
     title: str,
@@ -226,6 +242,7 @@ def page_data(
                 packed(x[:, kept], finest, (arm.prismatic, ~arm.prismatic))
                 for x, finest in zip(curve, FINEST, strict=True)
             ],
+            "rows": findings.rows(arm, track.q[:, kept]),
             "via": None if via is None else findings.closest(arm, track.q, via[..., 3::4], length),
             **findings.greatest(track, u, unit["name"], digits),
             **findings.flaws(track, kept, u, unit["name"]),
@@ -247,59 +264,43 @@ def page_data(
         "unit": unit,
         "dashes": DASHES,
         "scene": scene,
-        "panels": [_panel(arms, [c[k] for c in curves], unit, k) for k in range(3)],
+        "panels": [_panel(arms, [c[k] for c in curves], unit, k, watch) for k in range(3)],
+        "quantities": [_quantity(name, x, kept) for name, x in quantities.items()],
+        "watch": watch,
         "decimals": digits,
         "sampled": findings.sampled(t),
         "arms": drawn,
     }
 
 
-def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int) -> PagePanel:
+def _panel(
+    arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int, watch: Watch
+) -> PagePanel:
     """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
 
-    All motions share one scale, unless most of them would fill less than a third of it; then each
-    has its own. The panel shows the limits that any motion comes near to, so that they stay while a
-    slider moves.
+    All motions share one scale, and the panel shows the limits that any motion comes near to, so
+    that both stay while a slider moves. Limits of joints that are not to be watched are not shown.
     """
     per = ("", "/s", "/s²")[order]
     # (motions, n) each
     ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]
-    ranges, own = {}, False
+    ranges = {}
     for key in ("turn", "shift"):
-        low, high = (
-            np.concatenate(
-                [
-                    pair[k][:, arm.prismatic == (key == "shift")]
-                    for arm, pair in zip(arms, ends, strict=True)
-                ],
-                axis=1,
-            )
-            for k in (0, 1)
+        least, greatest = (
+            [x[:, arm.prismatic == (key == "shift")] for arm, x in zip(arms, both, strict=True)]
+            for both in zip(*ends, strict=True)
         )
-        if low.shape[1]:
-            low, high = (
-                np.nan_to_num(np.fmin.reduce(low, axis=1)),
-                np.nan_to_num(np.fmax.reduce(high, axis=1)),
+        if sum(x.shape[1] for x in least):
+            ranges[key] = (
+                float(np.nan_to_num(np.fmin.reduce(np.concatenate(least, axis=1), axis=None))),
+                float(np.nan_to_num(np.fmax.reduce(np.concatenate(greatest, axis=1), axis=None))),
             )
-            own |= bool(np.median(high - low) < (high.max() - low.min()) / 3)
-            ranges[key] = low, high
-    if not own:
-        ranges = {key: ([low.min()], [high.max()]) for key, (low, high) in ranges.items()}
-    chosen = [
-        scales(both)
-        for both in zip(*(zip(*pair, strict=True) for pair in ranges.values()), strict=True)
-    ]
-    word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
     axes: dict[str, Axis] = {}
-    seen = {}  # (motions, 2): lowest and highest tick
-    for key, of in zip(ranges, zip(*chosen, strict=True), strict=True):
-        unique = sorted(set(of))
-        axes[key] = {
-            "unit": ("°" if key == "turn" else unit["name"]) + per,
-            "scales": unique,
-            "of": [unique.index(scale) for scale in of] if own else None,
-        }
-        seen[key] = np.array([(low, low + step * (count - 1)) for low, step, count, _ in of])
+    seen = {}  # lowest and highest tick
+    for key, chosen in zip(ranges, scales(list(ranges.values())), strict=True):
+        axes[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scale": chosen}
+        low, step, count, _ = chosen
+        seen[key] = low, low + step * (count - 1)
     near = []
     for arm, pair in zip(arms, ends, strict=True):
         limits = arm.limits if order == 0 else arm.speed_limits if order == 1 else None
@@ -307,11 +308,27 @@ def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int
         if limits is not None:
             limits = limits if order == 0 else limits[:, None] * [-1, 1]
             limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
-            ticks = np.stack([seen["shift" if x else "turn"] for x in arm.prismatic], axis=1)
-            shown = np.any(near_limits(limits, *pair, ticks[..., 0], ticks[..., 1]), axis=0)
+            ticks = np.array([seen["shift" if x else "turn"] for x in arm.prismatic])
+            shown = np.any(near_limits(limits, *pair, ticks[:, 0], ticks[:, 1]), axis=0)
+        if watch["joints"] is not None:
+            shown[[j for j in range(len(shown)) if j not in watch["joints"]]] = False
         near.append(np.argwhere(shown).tolist())
-    label = f"{word}, {next(iter(axes.values()))['unit']}"
-    return {"label": label, "own": own, "near": near, "axes": axes}
+    word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
+    return {
+        "label": f"{word}, {next(iter(axes.values()))['unit']}",
+        "near": near,
+        "axes": axes,
+    }
+
+
+def _quantity(name: str, values: Floats, kept: Ints) -> PageQuantity:
+    """The panel of a quantity (arms, motions, samples)."""
+    finite = values[np.isfinite(values)]
+    return {
+        "label": name,
+        "scale": scale(*((finite.min(), finite.max()) if len(finite) else (0, 1))),
+        "values": [packed(one[:, kept, None], FINEST[0]) for one in values],
+    }
 
 
 # --- The still picture ----------------------------------------------------------------------------

@@ -47,8 +47,11 @@ export function stood(pen, arm, base = [0, 0, 0]) {
  * @param {Stood} one
  * @param {number} [from]  a height
  */
-export const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) =>
+export function drawRods({g, cam, chain, joints, thick, scene, rods, past = []}, from) {
+  for (const j of past)
+    spot(g, cam.to(origin(joints[j])), 1.7 * thick, clear(colors.alarm, 0.3), colors.alarm, 2);
   drawArm(g, cam, chain, rods, joints, thick, scene.size, from);
+}
 
 /**
  * Draws the arm, and its path in front of it and behind it.

@@ -1,106 +1,96 @@
-// The curves: columns of panels with a common time axis.
+// The curves: panels with a common time axis, one of them large.
 
-import {colors, font, jointColor, number, prepared, stroke, tiled, write} from "./canvas.js";
-import {dashes, drawPanel} from "./panel.js";
+import {clear, colors, font, jointColor, number, prepared, stroke, write} from "./canvas.js";
+import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 
-/** @import {Box, Context} from "./canvas.js" */
+/** @import {Context} from "./canvas.js" */
 /** @import {Scale} from "./page.js" */
 /** @import {Panel, Place, Times} from "./panel.js" */
 
-/** @typedef {{title: string, panels: Panel[]}} Column  of panels over one time axis */
+/**
+ * Panels over one time axis. `large`: the index of the one to watch; `names`: of the arms, if there
+ * are several.
+ * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
+ */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
-/** @typedef {{g: Context, patterns: number[][], times: Times, ticks: Scale, now: number}} Shown */
-/** @typedef {[left: number, width: number, t0: number, t1: number, x: number, y: number]} Span */
+/** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  of a legend */
+
+const HEAD = 22, // px above a plot, for the name of its panel
+  LEAST = 34, // px of a small plot
+  LARGE = 182; // px of the large plot
 
 /**
- * Draws columns of panels.
+ * Draws panels.
  *
- * draw(columns, times, ticks, now)  one picture
- * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or,
- *                                   with `held`, in that column whatever the place; and the number
- *                                   of the column
+ * draw(curves, times, ticks, now)  one picture
+ * timeAt(x)                        the time of a place on the canvas
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
  */
 export function curvesView(canvas, patterns) {
-  /** @type {Span[]} */
-  let spans = [];
+  let span = [0, 1, 0, 1]; // left, width, first and last time
 
   /**
-   * @param {Column[]} columns
+   * @param {Curves} curves
    * @param {Times} times
    * @param {Scale} ticks
    * @param {number} now
    */
-  function draw(columns, times, ticks, now) {
+  function draw({panels, large, names}, times, ticks, now) {
     const ready = prepared(canvas);
     if (!ready) return;
     const [g, w, h] = ready,
-      [across, rows] = tiled(columns.length, w),
-      [width, height] = [w / across, h / rows];
-    spans = columns.map((column, c) =>
-      drawColumn(
-        {g, patterns, times, ticks, now},
-        column,
-        [(c % across) * width, Math.floor(c / across) * height, width, height],
-        columns.length > 1,
-      ),
-    );
+      t0 = times[0],
+      t1 = times[times.length - 1];
+    const left = Math.max(48, 14 + widest(g, panels)),
+      right = w - (panels.some(p => p.axes.length > 1) ? 46 : 16);
+    span = [left, right - left, t0, t1];
+    /** @type {Place} */
+    const x = t => left + ((right - left) * (t - t0)) / (t1 - t0);
+    const begin = legend(g, entries(patterns, panels, names), left, right),
+      end = h - 24;
+    let top = begin;
+    for (const [k, height] of heights(panels.length, large, end - begin)) {
+      /** @type {[number, number, number, number]} */
+      const sides = [left, right, top + HEAD, top + HEAD + height];
+      drawPanel({g, patterns, times, x, sides, several: names.length > 1}, panels[k], ticks, now);
+      top += HEAD + height;
+    }
+    tellTimes(g, ticks, [t0, t1], x, end + 16);
   }
 
-  /**
-   * @param {number} px
-   * @param {number} py
-   * @param {number} [held]
-   * @returns {[time: number, column: number]}
-   */
-  function timeAt(
-    px,
-    py,
-    held = spans.findLastIndex(([, , , , left, above]) => px >= left && py >= above),
-  ) {
-    const [left, width, t0, t1] = spans[Math.max(0, held)];
-    return [t0 + (t1 - t0) * Math.min(1, Math.max(0, (px - left) / width)), Math.max(0, held)];
-  }
-
-  return {draw, timeAt};
+  return {
+    draw,
+    /** @param {number} px */
+    timeAt: px => {
+      const [left, width, t0, t1] = span;
+      return t0 + (t1 - t0) * Math.min(1, Math.max(0, (px - left) / width));
+    },
+  };
 }
 
 /**
- * Draws one column in its box.
- * @param {Shown} shown
- * @param {Column} column
- * @param {Box} box
- * @param {boolean} titled
- * @returns {Span}
+ * [index, height of the plot] of the panels for which there is room: always the large one, which
+ * gets at least half, and as many of the others as fit, the first ones first.
+ * @param {number} count
+ * @param {number} large
+ * @param {number} room
+ * @returns {[number, number][]}
  */
-function drawColumn({g, patterns, times, ticks, now}, column, box, titled) {
-  const [left, above, width, height] = box,
-    {panels, title} = column,
-    t0 = times[0],
-    t1 = times[times.length - 1];
-  const right = panels.some(p => p.axes.length > 1) ? 46 : 16,
-    room = Math.max(48, 14 + widest(g, column)),
-    inner = left + room,
-    wide = width - room - right;
-  const below = legend(g, patterns, column, inner, wide, above + (titled ? 36 : 14));
-  if (titled) write(g, title, inner, above + 14, colors.ink, 13, "left", "600");
-  const bottom = above + height - 24,
-    tall = (bottom - below) / panels.length;
-  /** @type {Place} */
-  const x = t => inner + (wide * (t - t0)) / (t1 - t0);
-  panels.forEach((panel, k) => {
-    const top = below + k * tall + 26,
-      end = top + (below + (k + 1) * tall - top - 4);
-    drawPanel({g, patterns, times, x, sides: [inner, inner + wide, top, end]}, panel, ticks, now);
-  });
-  tellTimes(g, ticks, [t0, t1], x, bottom + 16);
-  return [inner, wide, t0, t1, left, above];
+export function heights(count, large, room) {
+  const others = Array.from({length: count}, (_, k) => k).filter(k => k !== large),
+    fit = Math.max(0, Math.floor((room - HEAD - LARGE) / (HEAD + LEAST))),
+    small = others.slice(0, fit);
+  const plots = room - HEAD * (small.length + 1),
+    most = small.length ? Math.max(LARGE, plots / 2) : plots;
+  return [large, ...small]
+    .sort((p, q) => p - q)
+    .map(k => [k, k === large ? most : (plots - most) / small.length]);
 }
 
 /**
- * Writes the numbers below a column; the last one has the unit.
+ * Writes the numbers below the panels; the last one has the unit.
  * @param {Context} g
  * @param {Scale} ticks
  * @param {[first: number, last: number]} span
@@ -119,54 +109,66 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
 /**
  * The width of the numbers beside the panels.
  * @param {Context} g
- * @param {Column} column
+ * @param {Panel[]} panels
  */
-function widest(g, {panels}) {
+function widest(g, panels) {
   g.font = font(11);
-  return Math.max(
-    ...panels.flatMap(
-      ({
-        axes: [
-          {
-            scale: [low, step, count, decimals],
-          },
-        ],
-      }) =>
-        [low, low + (count - 1) * step].map(value => g.measureText(number(value, decimals)).width),
-    ),
-  );
+  const widths = panels.flatMap(panel => {
+    const [low, step, count, decimals] = panel.axes[0].scale;
+    return [low, low + (count - 1) * step].map(x => g.measureText(number(x, decimals)).width);
+  });
+  return Math.max(...widths);
 }
 
 /**
- * Writes the legend above the panels, evenly in as many rows as necessary.
- * @param {Context} g
+ * The joints, and the arms if there are several.
  * @param {number[][]} patterns
- * @param {Column} column
+ * @param {Panel[]} panels
+ * @param {string[]} names
+ * @returns {Entry[]}
+ */
+function entries(patterns, panels, names) {
+  const lines = panels.flatMap(panel => panel.lines).filter(({joint}) => joint >= 0),
+    joints = [...new Set(lines.map(({joint}) => joint))].sort((p, q) => p - q);
+  return [
+    ...joints.map(j => ({
+      text: `q${j + 1}`,
+      color: clear(jointColor(j), lines.some(line => line.joint === j && !line.faint) ? 1 : FAINT),
+      width: 2.2,
+      dash: dashes(patterns, j, 2.2),
+    })),
+    ...(names.length > 1 ? names : []).map((text, arm) => ({
+      text,
+      color: colors.ink,
+      width: strength(arm),
+      dash: [],
+    })),
+  ];
+}
+
+/**
+ * Writes the legend above the panels, in as many rows as necessary.
+ * @param {Context} g
+ * @param {Entry[]} legend
  * @param {number} left
- * @param {number} width
- * @param {number} y
+ * @param {number} right
  * @returns {number}  where the panels may begin
  */
-function legend(g, patterns, column, left, width, y) {
-  const joints = column.panels[0].curves.length,
-    rows = Math.ceil((joints * 38) / width),
-    inRow = Math.ceil(joints / rows);
-  const each = Math.min(56, width / inRow),
-    long = each - 30;
-  for (let j = 0; j < joints; j++) {
-    const x = left + (j % inRow) * each,
-      row = y + 16 * Math.floor(j / inRow);
-    stroke(
-      g,
-      [
-        [x, row - 4],
-        [x + long, row - 4],
-      ],
-      jointColor(j),
-      2.2,
-      dashes(patterns, j, 2.2),
-    );
-    write(g, `q${j + 1}`, x + long + 4, row, colors.ink, 12);
+function legend(g, legend, left, right) {
+  let x = left,
+    y = 13;
+  for (const {text, color, width, dash} of legend) {
+    g.font = font(12);
+    const wide = 30 + g.measureText(text).width;
+    if (x > left && x + wide > right + 8) [x, y] = [left, y + 16];
+    /** @type {[number, number][]} */
+    const sample = [
+      [x, y - 4],
+      [x + 24, y - 4],
+    ];
+    stroke(g, sample, color, width, dash);
+    write(g, text, x + 28, y, colors.ink, 12);
+    x += wide + 8;
   }
-  return y + 16 * (rows - 1) + 2;
+  return legend.length ? y + 2 : 0;
 }

@@ -4,10 +4,11 @@
 import {fill} from "./blanks.js";
 import {most, motionOf, nearDecimals, topsOf} from "./blended.js";
 import {number} from "./canvas.js";
+import {clockRow, runningClock} from "./clock.js";
 import {scrubbing} from "./controls.js";
 import {copyButton} from "./copy.js";
 import {curvesView} from "./curves.js";
-import {element, waiting} from "./elements.js";
+import {choice, element, waiting} from "./elements.js";
 import {matrix} from "./kinematics.js";
 import {panelOf} from "./motion_panels.js";
 import {decimalsOf} from "./peaks.js";
@@ -26,7 +27,8 @@ import {frame} from "./target.js";
 
 /** @typedef {MotionPage} MotionData */
 /** @typedef {Record<(typeof STATIONS)[number], PagePose>} Stations */
-/** @typedef {Stations & StartValues & {time: number}} Asked  `time`: as a share of the duration */
+/** @typedef {Stations & StartValues} Asked */
+/** @typedef {Asked & {time: number, playing: boolean}} State  `time` in seconds */
 /**
  * The greatest speeds and accelerations of a motion, including those between the samples if they
  * are `sure`.
@@ -51,10 +53,17 @@ const CHOICES = /** @type {const} */ (["law", "corner", "row"]);
 function motionExplorer(stage, data) {
   const {arm, words} = data,
     stations = structuredClone({start: data.start, via: data.via, goal: data.goal});
-  /** @type {Asked} */
-  const state = {...stations, ...data.start_values, time: 0};
+  /** @type {State} */
+  const state = {...stations, ...data.start_values, time: 0, playing: false};
   const canvas = element("canvas", {class: "rk-curves", role: "img", "aria-label": words.curves}),
     curves = curvesView(canvas, data.dashes);
+  const parts = clockRow(),
+    watch = choice("large panel", data.panels);
+  parts.row.append(element("label", {}, "watch", watch));
+  stage.title.replaceWith(
+    element("div", {class: "rk-head"}, stage.title.cloneNode(true), parts.row),
+  );
+  const clock = runningClock(parts, stage.frame, state, () => [0, state.duration], stage.changed);
   const inputs = inputsOf(stage, data, state),
     numbers = numberTable(data),
     copy = copyButton(words, () => inCode(data, state));
@@ -62,27 +71,26 @@ function motionExplorer(stage, data) {
   stage.below.append(
     element("div", {class: "rk-columns"}, ...inputs.rows),
     numbers.node,
-    element("div", {class: "rk-row"}, stage.says, copy),
+    element("div", {class: "rk-row"}, element("div", {}, stage.says, stage.hint), copy),
   );
-  scrubbing(canvas, event => {
-    [state.time] = curves.timeAt(event.offsetX, event.offsetY, 0).map(t => t / state.duration);
-    stage.changed();
-  });
+  scrubbing(canvas, event => clock.set(curves.timeAt(event.offsetX)));
+  watch.addEventListener("change", stage.changed);
   stage.handles.set(stationHandles(stage, state, data));
   const held = holding(stage),
     motion = motions(data, state);
   /** @type {?Parameters<CurvesView["draw"]>} */
   let drawn = null;
   stage.run(
-    () => {
+    now => {
+      clock.pass(now);
       const found = motion.now(),
         {t, q, v, a} = found,
-        i = Math.round(state.time * (data.samples - 1));
+        i = Math.round((state.time / state.duration) * (data.samples - 1));
       inputs.tell();
-      const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order));
-      for (const panel of panels) panel.now = panel.curves.map(curve => curve[i]);
+      clock.tell();
+      const panels = [q, v, a].map((rows, order) => panelOf(data, found, rows, order, i));
       const ticks = scale(0, state.duration);
-      drawn = [[{title: arm.name, panels}], t, ticks, state.time * state.duration];
+      drawn = [{panels, large: +watch.value, names: []}, t, ticks, state.time];
       numbers.tell(motion.tops(held()));
       stage.say([nearWords(data, found.near), ...notes(data, found)].join(" "));
       stage.scene.things = STATIONS.map(name => frame(name, poseOf(state[name])));
@@ -94,16 +102,20 @@ function motionExplorer(stage, data) {
 }
 
 /**
- * The sliders and menus of a motion, and of the time.
+ * The sliders and menus of a motion.
  * @param {Stage} stage
  * @param {MotionData} data
- * @param {Asked} state
+ * @param {State} state
  */
 function inputsOf(stage, {words, unit, controls, laws, corners, branches}, state) {
   const sliders = controls.map((spec, k) =>
     slider(spec, value => {
       if (k < 3) state.via.place[k] = value * unit.size;
-      else state[NUMBERS[k - 3]] = Math.min(Math.max(value, spec.low), spec.high);
+      else {
+        const share = state.time / state.duration;
+        state[NUMBERS[k - 3]] = Math.min(Math.max(value, spec.low), spec.high);
+        state.time = share * state.duration;
+      }
       stage.changed();
     }),
   );
@@ -114,21 +126,12 @@ function inputsOf(stage, {words, unit, controls, laws, corners, branches}, state
       stage.changed();
     }),
   );
-  const scrub = slider(
-    {name: words.time, unit: "s", low: 0, high: 1, step: 0.001, decimals: 2},
-    value => {
-      state.time = Math.min(Math.max(value / state.duration, 0), 1);
-      stage.changed();
-    },
-  );
   return {
-    rows: [...sliders, ...menus, scrub].map(each => each.row),
+    rows: [...sliders, ...menus].map(each => each.row),
     tell() {
-      const {via, duration, time} = state;
+      const {via} = state;
       sliders.forEach((s, k) => s.set(k < 3 ? via.place[k] / unit.size : state[NUMBERS[k - 3]]));
       menus.forEach((m, k) => m.set(state[CHOICES[k]]));
-      scrub.reach(duration);
-      scrub.set(time * duration);
     },
   };
 }
@@ -160,7 +163,7 @@ function holding(stage) {
  * now(): the motion for the present question, computed again if that has changed; tops(held): its
  * greatest speeds and accelerations.
  * @param {MotionData} data
- * @param {Asked} state
+ * @param {State} state
  */
 function motions(data, state) {
   let known = "";
@@ -169,7 +172,7 @@ function motions(data, state) {
   /** @type {?number[][]} */
   let refined = null;
   const now = () => {
-    const {time, ...asked} = state, // the clock alone does not change the motion
+    const {time, playing, ...asked} = state, // the clock alone does not change the motion
       key = JSON.stringify(asked);
     if (!found || key !== known) [known, found, refined] = [key, motionOf(data, state), null];
     return found;

@@ -4,7 +4,7 @@ import {scale} from "./ticks.js";
 
 /** @import {Motion} from "./blended.js" */
 /** @import {MotionData} from "./motion_explorer.js" */
-/** @import {Panel} from "./panel.js" */
+/** @import {Line, Panel} from "./panel.js" */
 
 /**
  * A panel of curves: joint values (order 0), speeds or accelerations.
@@ -12,47 +12,53 @@ import {scale} from "./ticks.js";
  * @param {Motion} motion
  * @param {number[][]} rows
  * @param {number} order
+ * @param {number} now  a sample
  * @returns {Panel}
  */
-export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order) {
+export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order, now) {
   const curves = units.map((u, j) => Float64Array.from(rows, row => row[j] / u.size));
-  const axes = [false, true]
+  const kinds = [false, true].filter(shifts => arm.prismatic.includes(shifts));
+  const axes = kinds
     .map(shifts => units.flatMap((_, j) => (arm.prismatic[j] === shifts ? [j] : [])))
-    .filter(joints => joints.length)
     .map(joints => {
       const [low, high] = ends(joints.map(j => curves[j]));
       return {
-        joints,
         unit: units[joints[0]].name + ["", "/s", "/s\u00B2"][order],
         scale: scale(low, high),
       };
     });
-  const limits =
-    order === 0
-      ? [0, 1].map(side => arm.limits.map((pair, j) => pair[side] / units[j].size))
-      : null;
-  const near = limits
-    ? curves.flatMap((curve, j) =>
-        [0, 1]
-          .filter(side => {
-            const sign = side ? 1 : -1,
-              room = 0.03 * (limits[1][j] - limits[0][j]);
-            return curve.some(x => sign * (x - limits[side][j]) > -room);
-          })
-          .map(side => [j, side]),
-      )
-    : [];
+  /** @type {Line[]} */
+  const lines = curves.map((values, j) => {
+    const [low, high] = arm.limits[j].map(x => x / units[j].size);
+    return {
+      values,
+      opening: null,
+      joint: j,
+      arm: 0,
+      axis: kinds.indexOf(arm.prismatic[j]),
+      faint: false,
+      gaps,
+      limits: order === 0 ? [low, high] : null,
+      now: values[now],
+    };
+  });
+  const near = lines.flatMap(({limits, values}, k) => (limits ? nearOf(limits, values, k) : []));
   const marks = order > 0 ? jumps.map(({time}) => ({time, text: ""})) : [];
-  return {
-    label: `${panels[order]}, ${axes[0].unit}`,
-    axes,
-    curves,
-    gaps,
-    limits,
-    near,
-    marks,
-    now: [],
-  };
+  return {label: `${panels[order]}, ${axes[0].unit}`, axes, lines, near, marks};
+}
+
+/**
+ * The limits that a curve passes or comes near to.
+ * @param {[number, number]} limits
+ * @param {Float64Array} values
+ * @param {number} line
+ * @returns {Panel["near"]}
+ */
+function nearOf(limits, values, line) {
+  const room = 0.03 * (limits[1] - limits[0]);
+  return [0, 1]
+    .filter(side => values.some(x => (side ? 1 : -1) * (x - limits[side]) > -room))
+    .map(side => [line, side]);
 }
 
 /** The least and the greatest of some curves. @param {Float64Array[]} curves */

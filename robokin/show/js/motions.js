@@ -2,36 +2,44 @@
 
 import {number} from "./canvas.js";
 import {fk, origin} from "./kinematics.js";
-import {recording, thingsAt} from "./recordings.js";
+import {isPast} from "./panel.js";
+import {recording, series, thingsAt} from "./recordings.js";
 
 /** @import {Page, PageArm, Unit} from "./page.js" */
 /** @import {Point} from "./canvas.js" */
-/** @import {Panel} from "./panel.js" */
+/** @import {Line, Mark, Panel} from "./panel.js" */
 /** @import {Recording} from "./recordings.js" */
 
 /** @typedef {ReturnType<typeof armIn>} Track  an arm in one motion */
 /** @typedef {{i: number, share: number}} Moment  a sample, and the share of the way to the next */
 
 /**
- * choose(motion): everything that changes with slider and switch; things(motion, sample, share):
- * the things that exist at that moment.
+ * choose(value, choice): everything that changes with slider and switch; things(motion, sample,
+ * share): the things that exist at that moment.
  * @param {Page} data
  */
 export function motionsOf(data) {
-  const {unit, slider, times} = data;
-  const count = (slider ? slider.values.length : 1) * (data.switch ? data.switch.values.length : 1);
-  const recordings = data.arms.map(arm => recording(arm, count, times.length, data));
+  const {unit, slider, times} = data,
+    values = slider ? slider.values.length : 1;
+  const count = values * (data.switch ? data.switch.values.length : 1);
+  const recordings = data.arms.map(arm => recording(arm, count, times.length, data)),
+    quantities = data.quantities.map(quantity =>
+      quantity.values.map(packed => series(packed, count, times.length, data.nothing)),
+    );
   return {
-    /** @param {number} motion */
-    choose(motion) {
+    /**
+     * @param {number} value
+     * @param {number} choice
+     */
+    choose(value, choice) {
+      const motion = choice * values + value,
+        opening = slider ? choice * values : 0;
       const arms = data.arms.map((arm, k) => armIn(motion, arm, recordings[k], times.length, unit));
-      const columns = data.arms.map((arm, k) => ({
-        title: arm.name,
-        panels: data.panels.map((_, order) =>
-          panelOf(data, k, order, motion, recordings[k], arms[k].gaps),
-        ),
-      }));
-      return {motion, arms, columns};
+      const panels = [0, 1, 2].map(order => jointPanel(data, order, motion, opening, recordings));
+      data.quantities.forEach((_, k) =>
+        panels.push(quantityPanel(data, k, motion, opening, quantities[k])),
+      );
+      return {motion, arms, panels};
     },
     things: thingsAt(data.scene.things, data.nothing),
   };
@@ -44,7 +52,7 @@ export function motionsOf(data) {
  * @param {number} samples
  * @param {Unit} unit
  */
-function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
+function armIn(motion, {name, chain, gaps, via, rows}, recorded, samples, unit) {
   const breaks = new Set(gaps[motion]),
     near = via && via[motion];
   const trace = Array.from({length: samples}, (_, i) => tipOf(chain, recorded.q(motion, i)));
@@ -54,6 +62,8 @@ function armIn(motion, {name, chain, gaps, via}, recorded, samples, unit) {
     gaps: breaks,
     places: trace,
     trace: broken(trace, breaks),
+    /** The row of `ik` at a sample, in words. @type {(i: number) => string} */
+    row: i => rows?.[motion]?.findLast(([first]) => first <= i)?.[1] ?? "",
     /** @type {(i: number, share: number) => number[]} */
     q: (i, share) => recorded.q(motion, i, share),
     near: near && {
@@ -69,37 +79,112 @@ export const tipOf = (chain, q) => (q.every(Number.isFinite) ? origin(fk(chain, 
 export const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? [p, null] : [p]));
 
 /**
+ * The panel of joint values (order 0), speeds or accelerations of all arms.
  * @param {Page} data
- * @param {number} k  which arm
- * @param {number} order  0: joint values, 1: speeds, 2: accelerations
+ * @param {number} order
  * @param {number} motion
- * @param {Recording} recorded
- * @param {Set<number>} gaps
+ * @param {number} opening
+ * @param {Recording[]} recordings
  * @returns {Panel}
  */
-function panelOf(data, k, order, motion, recorded, gaps) {
-  const {label, own, axes, near} = data.panels[order],
-    arm = data.arms[k];
-  return {
-    label: label + (own && data.slider ? `   (scale follows ${data.slider.label})` : ""),
-    axes: Object.entries(axes).map(([kind, {unit, scales, of}]) => ({
-      unit,
-      scale: scales[of ? of[motion] : 0],
-      joints: arm.chain.flatMap((link, j) => (link.prismatic === (kind === "shift") ? [j] : [])),
-    })),
-    curves: recorded.quantity(order, motion),
-    gaps,
-    limits:
-      order === 0
-        ? arm.limits
-        : order === 1 && arm.speedLimits
-          ? [arm.speedLimits.map(x => -x), arm.speedLimits]
-          : null,
-    near: near[k],
-    marks: [
-      ...(arm.leaps[motion] || []).map(([time, text]) => ({time, text: order ? "" : text})),
-      ...(arm.jumps[motion] || []).map(([time, text]) => ({time, text: order === 2 ? text : ""})),
-    ],
-    now: [],
-  };
+function jointPanel(data, order, motion, opening, recordings) {
+  const {label, axes, near} = data.panels[order],
+    kinds = Object.keys(axes);
+  /** @type {Line[]} */
+  const lines = [];
+  /** @type {Panel["near"]} */
+  const limits = [];
+  data.arms.forEach((arm, k) => {
+    const first = lines.length,
+      values = recordings[k].quantity(order, motion),
+      before = motion === opening ? null : recordings[k].quantity(order, opening),
+      gaps = new Set(arm.gaps[motion]);
+    arm.chain.forEach((link, joint) =>
+      lines.push({
+        values: values[joint],
+        opening: before && before[joint],
+        joint,
+        arm: k,
+        axis: kinds.indexOf(link.prismatic ? "shift" : "turn"),
+        faint: !!data.watch.joints && !data.watch.joints.includes(joint),
+        gaps,
+        limits: limitsOf(arm, order, joint),
+        now: NaN,
+      }),
+    );
+    for (const [joint, side] of near[k]) limits.push([first + joint, side]);
+  });
+  const marks = data.arms.flatMap(arm => marksOf(data, arm, order, motion));
+  return {label, axes: Object.values(axes), lines, near: unlike(lines, limits), marks};
 }
+
+/**
+ * The limits without those that another arm has, too.
+ * @param {Line[]} lines
+ * @param {Panel["near"]} limits
+ * @returns {Panel["near"]}
+ */
+function unlike(lines, limits) {
+  const seen = new Set();
+  return limits.filter(([k, side]) => {
+    const key = [lines[k].joint, side, lines[k].limits?.[side]].join();
+    return !seen.has(key) && seen.add(key);
+  });
+}
+
+/** @type {(arm: PageArm, order: number, joint: number) => ?[number, number]} */
+function limitsOf({limits: [low, high], speedLimits}, order, joint) {
+  if (order === 0) return [low[joint], high[joint]];
+  return order === 1 && speedLimits ? [-speedLimits[joint], speedLimits[joint]] : null;
+}
+
+/**
+ * The marks of an arm's jumps: of position in all panels, of speed in that of speeds and
+ * accelerations. The words of each stand in one panel.
+ * @param {Page} data
+ * @param {PageArm} arm
+ * @param {number} order
+ * @param {number} motion
+ * @returns {Mark[]}
+ */
+function marksOf(data, {name, leaps, jumps}, order, motion) {
+  const whose = data.arms.length > 1 ? `${name}: ` : "";
+  /** @type {(at: number) => (jump: [number, string]) => Mark} */
+  const mark =
+    at =>
+    ([time, text]) => ({time, text: at === order ? whose + text : ""});
+  return [...(leaps[motion] || []).map(mark(0)), ...(jumps[motion] || []).map(mark(2))];
+}
+
+/**
+ * The panel of a quantity that belongs to no joint, for all arms.
+ * @param {Page} data
+ * @param {number} k  which quantity
+ * @param {number} motion
+ * @param {number} opening
+ * @param {((motion: number) => Float64Array)[]} of  of each arm
+ * @returns {Panel}
+ */
+function quantityPanel(data, k, motion, opening, of) {
+  const {label, scale} = data.quantities[k];
+  const lines = of.map((values, arm) => ({
+    values: values(motion),
+    opening: motion === opening ? null : values(opening),
+    joint: -1,
+    arm,
+    axis: 0,
+    faint: false,
+    gaps: new Set(data.arms[arm].gaps[motion]),
+    limits: null,
+    now: NaN,
+  }));
+  return {label, axes: [{unit: "", scale}], lines, near: [], marks: []};
+}
+
+/**
+ * The joints of an arm that are past a limit of position now.
+ * @param {Panel} panel  of joint values
+ * @param {number} arm
+ */
+export const pastNow = ({lines}, arm) =>
+  lines.filter(line => line.arm === arm && isPast(line, line.now)).map(({joint}) => joint);

@@ -108,15 +108,24 @@ export interface PageScene {
 
 export interface Axis {
   unit: string;
-  scales: Scale[];
-  of: number[] | null;
+  scale: Scale;
 }
 
 export interface PagePanel {
   label: string;
-  own: boolean;
   near: number[][][];
   axes: Record<string, Axis>;
+}
+
+export interface PageQuantity {
+  label: string;
+  scale: Scale;
+  values: Packed[];
+}
+
+export interface Watch {
+  panel: number;
+  joints: number[] | null;
 }
 
 export interface Greatest {
@@ -141,6 +150,7 @@ export interface PageArm {
   leaps: Record<string, [number, string][]>;
   notes: Record<string, string[]>;
   name: string;
+  rows: [number, string][][] | null;
   chain: PageLink[];
   motion: Packed[];
   limits: number[][];
@@ -161,6 +171,8 @@ export interface Page {
   dashes: number[][];
   scene: PageScene;
   panels: PagePanel[];
+  quantities: PageQuantity[];
+  watch: Watch;
   decimals: number[];
   sampled: string;
   arms: PageArm[];

@@ -1,4 +1,4 @@
-// One panel of curves: the curves of some joints over time, with their limits and breaks.
+// One panel of curves over time, with their limits and breaks.
 
 import {
   clear,
@@ -11,36 +11,59 @@ import {
   upright,
   write,
 } from "./canvas.js";
-import {panelWords, shade} from "./panel_words.js";
+import {lineColor, panelWords, shade} from "./panel_words.js";
 
 /** @import {Box, Context, Pixel} from "./canvas.js" */
 /** @import {Scale} from "./page.js" */
 
 /**
+ * @typedef {object} Line  one curve
+ * @property {Float64Array} values  over the times
+ * @property {?Float64Array} opening  the curve of the opening motion, if this is another motion
+ * @property {number} joint  from 0; -1: of a quantity that belongs to no joint
+ * @property {number} arm  from 0
+ * @property {number} axis  of the panel
+ * @property {boolean} faint  not one to watch
+ * @property {Set<number>} gaps  samples after which the line breaks
+ * @property {?[low: number, high: number]} limits
+ * @property {number} now  its present value
+ */
+/**
  * @typedef {object} Panel
  * @property {string} label
- * @property {{unit: string, scale: Scale, joints: number[]}[]} axes
- * @property {Float64Array[]} curves  of each joint, over the times
- * @property {Set<number>} gaps  samples after which the lines break
- * @property {?number[][]} limits  [low, high], of each joint
- * @property {number[][]} near  [joint, 0 low or 1 high]: the limits to show
+ * @property {{unit: string, scale: Scale}[]} axes
+ * @property {Line[]} lines
+ * @property {[line: number, side: number][]} near  the limits to show, side 0 low or 1 high
  * @property {Mark[]} marks
- * @property {number[]} now  of each joint
  * @property {string} [where]  in what size and theme it was when places for its words were found
  * @property {Note[]} [words]
  */
-/** @typedef {{time: number, text: string}} Mark  a broken line; a text is written beside it */
+/** @typedef {{time: number, text: string}} Mark  a vertical line with dashes, and its words */
 /** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
 /** @typedef {ArrayLike<number>} Times  in s, rising */
 /** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
- * The ground of a panel: the places of its times, the dashes of the joints' lines, its sides.
- * @typedef {{g: Context, patterns: number[][], times: Times, x: Place, sides: Sides}} Ground
+ * The ground of a panel: the places of its times, the dashes of the joints' lines, its sides, and
+ * whether it shows several arms.
+ * @typedef {{
+ *   g: Context, patterns: number[][], times: Times, x: Place, sides: Sides, several: boolean,
+ * }} Ground
  */
+
+export const FAINT = 0.28; // opacity of a curve that is not to be watched
+const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no words inside
+const PAST = 1e-3; // a value past a limit by no more than this is rounding
+
+/** The width of the lines of an arm. @type {(arm: number) => number} */
+export const strength = arm => (arm ? 1.1 : 2.2);
 
 /** @type {(patterns: number[][], j: number, width: number) => number[]} */
 export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
+
+/** Whether a line is past one of its limits at a value. @type {(line: Line, v: number) => boolean} */
+export const isPast = ({limits}, value) =>
+  !!limits && (value < limits[0] - PAST || value > limits[1] + PAST);
 
 /**
  * @param {Ground} ground
@@ -51,45 +74,57 @@ export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(
 export function drawPanel(ground, panel, ticks, now) {
   const {g, times, x, sides} = ground,
     [left, right, top, bottom] = sides,
-    limits = panel.limits ?? [];
-  /** @type {Place[]} */
-  const ys = [];
-  const scales = panel.axes.map(({scale: [low, step, count], joints}) => {
+    {lines} = panel;
+  const scales = panel.axes.map(({scale: [low, step, count]}) => {
     /** @type {Place} */
     const y = v => bottom - ((bottom - top) * (v - low)) / (step * (count - 1));
-    for (const j of joints) ys[j] = y;
     return y;
   });
-  write(g, panel.label, left - 40, top - 8, colors.ink, 12, "left", "600");
+  const ys = lines.map(({axis}) => scales[axis]);
+  write(g, panel.label, left + 1, top - 6, colors.ink, 12, "left", "600");
   g.save();
   g.beginPath();
   g.rect(left, top - 1, right - left, bottom - top + 2);
   g.clip();
   drawGrid(ground, panel.axes[0].scale, scales[0], ticks);
-  for (const [j, side] of panel.near)
-    band(g, ys[j](limits[side][j]), side ? 1 : -1, left, right, jointColor(j));
+  for (const [k, side] of panel.near)
+    band(g, ys[k](lines[k].limits?.[side] ?? 0), side ? 1 : -1, left, right, lineColor(lines[k]));
   for (const {time} of panel.marks) upright(g, x(time), top, bottom, colors.alarm, 1.2, [3, 3]);
-  ys.forEach((y, j) => curve(ground, panel, j, y));
+  drawLines(ground, lines, ys);
   g.restore();
   g.lineWidth = 1;
   g.strokeStyle = colors.rim;
   g.strokeRect(left, top, right - left, bottom - top);
   drawScales(ground, panel, scales);
-  for (const [text, [px, py, , h], color, size, weight] of panelWords(
-    g,
-    panel,
-    ys,
-    times,
-    x,
-    sides,
-  ))
-    write(g, text, px, py + h - 2, color, size, "left", weight);
+  if (bottom - top >= SMALL)
+    for (const note of panelWords(g, panel, ys, times, x, sides)) {
+      const [text, [px, py, , h], color, size, weight] = note;
+      write(g, text, px, py + h - 2, color, size, "left", weight);
+    }
   upright(g, x(now), top, bottom, colors.ink, 1.4);
-  ys.forEach((y, j) => {
-    const at = y(panel.now[j]);
-    if (at > top - 3 && at < bottom + 3) spot(g, [x(now), at], 4, jointColor(j));
+  lines.forEach((line, k) => {
+    const at = ys[k](line.now);
+    if (line.faint || !(at > top - 3 && at < bottom + 3)) return;
+    const past = isPast(line, line.now);
+    spot(g, [x(now), at], past ? 5.5 : 4, past ? colors.alarm : lineColor(line));
   });
   for (const {time, text} of panel.marks) if (text) drawMark(ground, x(time));
+}
+
+/**
+ * Draws the curves, those to watch above the others.
+ * @param {Ground} ground
+ * @param {Line[]} lines
+ * @param {Place[]} ys
+ */
+function drawLines(ground, lines, ys) {
+  lines.forEach((line, k) => {
+    if (line.opening && !line.faint) opening(ground, line, line.opening, ys[k]);
+  });
+  for (const faint of [true, false])
+    lines.forEach((line, k) => {
+      if (line.faint === faint) curve(ground, line, ys[k]);
+    });
 }
 
 /**
@@ -120,17 +155,18 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
  * @param {Panel} panel
  * @param {Place[]} scales
  */
-function drawScales({g, sides: [left, right, top]}, {axes}, scales) {
-  axes.forEach(({scale: [low, step, count, decimals], unit, joints}, k) => {
+function drawScales({g, sides: [left, right, top, bottom]}, {axes, lines}, scales) {
+  axes.forEach(({scale: [low, step, count, decimals], unit}, k) => {
+    const joints = [...new Set(lines.filter(line => line.axis === k).map(({joint}) => joint))];
     const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft,
       px = k ? right + 6 : left - 6;
-    for (let i = 0; i < count; i++) {
+    for (let i = 0; i < count; i += bottom - top < SMALL ? count - 1 : 1) {
       const value = low + i * step;
       write(g, number(value, decimals), px, scales[k](value) + 4, color, 11, k ? "left" : "right");
     }
     if (!k) return;
     const text = `${joints.map(j => `q${j + 1}`).join(" and ")}, ${unit}`;
-    write(g, text, right + 42, top - 8, color, 12, "right", "600");
+    write(g, text, right - 1, top - 6, color, 12, "right", "600");
   });
 }
 
@@ -177,31 +213,49 @@ function band(g, at, side, left, right, color) {
 }
 
 /**
+ * The places of a line's values, null where it breaks.
  * @param {Ground} ground
- * @param {Panel} panel
- * @param {number} j
+ * @param {Line} line
+ * @param {Float64Array} values
  * @param {Place} y
  */
-function curve({g, patterns, times, x}, panel, j, y) {
-  const color = jointColor(j);
+function placed({times, x}, {gaps}, values, y) {
   /** @type {(?Pixel)[]} */
   const points = [];
-  /** @type {(?Pixel)[]} */
-  const beyond = [];
-  panel.curves[j].forEach((value, i) => {
-    /** @type {?Pixel} */
-    const p = Number.isNaN(value) ? null : [x(times[i]), y(value)];
-    const over =
-      p && panel.limits && (value < panel.limits[0][j] - 1e-3 || value > panel.limits[1][j] + 1e-3);
-    points.push(p);
-    beyond.push(over ? p : null);
-    if (panel.gaps.has(i)) {
-      points.push(null);
-      beyond.push(null);
-    }
+  values.forEach((value, i) => {
+    points.push(Number.isNaN(value) ? null : [x(times[i]), y(value)]);
+    if (gaps.has(i)) points.push(null);
   });
-  if (beyond.some(p => p)) stroke(g, beyond, clear(colors.alarm, 0.35), 7);
+  return points;
+}
+
+/**
+ * @param {Ground} ground
+ * @param {Line} line
+ * @param {Float64Array} values
+ * @param {Place} y
+ */
+function opening(ground, line, values, y) {
+  const points = placed(ground, {...line, gaps: new Set()}, values, y);
+  stroke(ground.g, points, clear(lineColor(line), FAINT), 1.2);
+}
+
+/**
+ * @param {Ground} ground
+ * @param {Line} line
+ * @param {Place} y
+ */
+function curve(ground, line, y) {
+  const {g, patterns, several} = ground,
+    points = placed(ground, line, line.values, y),
+    width = several ? strength(line.arm) : 2;
+  if (!line.faint && line.limits) {
+    const past = line.values.map(value => (isPast(line, value) ? value : NaN));
+    if (past.some(Number.isFinite))
+      stroke(g, placed(ground, line, past, y), clear(colors.alarm, 0.4), 8);
+  }
   g.lineCap = "butt";
-  stroke(g, points, color, 2, dashes(patterns, j, 2));
+  const color = line.faint ? clear(lineColor(line), FAINT) : lineColor(line);
+  stroke(g, points, color, width, line.joint < 0 ? [] : dashes(patterns, line.joint, width));
   g.lineCap = "round";
 }

@@ -3,7 +3,10 @@
 import {colors, font, hit, jointColor, number} from "./canvas.js";
 
 /** @import {Box, Context} from "./canvas.js" */
-/** @import {Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
+/** @import {Line, Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
+
+/** The colour of a line. @type {(line: Line) => string} */
+export const lineColor = ({joint}) => (joint < 0 ? colors.accent : jointColor(joint));
 
 /** Joint colours that are readable as text. @type {(color: string) => string} */
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
@@ -12,7 +15,7 @@ export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
  * The words of a panel, placed once for a size and a theme and not in every picture.
  * @param {Context} g
  * @param {Panel} panel
- * @param {Place[]} ys  of each joint
+ * @param {Place[]} ys  of each line
  * @param {Times} times
  * @param {Place} x
  * @param {Sides} sides
@@ -61,7 +64,7 @@ function noted(g, marks, x, [left, right, top]) {
  * curves. At most three; without such a place only the band is shown.
  * @param {Context} g
  * @param {Panel} panel
- * @param {Place[]} ys  of each joint
+ * @param {Place[]} ys  of each line
  * @param {Times} times
  * @param {Place} x
  * @param {Sides} sides
@@ -70,17 +73,19 @@ function noted(g, marks, x, [left, right, top]) {
 function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
   /** @type {Note[]} */
   const found = [];
-  const limits = panel.limits ?? [],
-    each = (right - left) / times.length,
-    lines = panel.near.map(([j, side]) => ys[j](limits[side][j]));
+  /** @type {(k: number, side: number) => number} */
+  const limitOf = (k, side) => panel.lines[k].limits?.[side] ?? NaN;
+  const each = (right - left) / times.length,
+    lines = panel.near.map(([k, side]) => ys[k](limitOf(k, side)));
   g.font = font(10);
-  panel.near.forEach(([j, side], k) => {
-    const limit = limits[side][j],
+  panel.near.forEach(([which, side], k) => {
+    const line = panel.lines[which],
+      limit = limitOf(which, side),
       at = lines[k],
-      unit = unitOf(panel, j);
+      {unit} = panel.axes[line.axis];
     const value = number(limit, +!Number.isInteger(limit)),
       gap = unit[0] === "\u00B0" ? "" : " ";
-    const text = `q${j + 1} limit ${value}${gap}${unit}`;
+    const text = `q${line.joint + 1} limit ${value}${gap}${unit}`;
     const w = g.measureText(text).width,
       taken = [...notes, ...found].map(([, place]) => place);
     /** @type {?Box} */
@@ -91,10 +96,10 @@ function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
       const crossed = 20 * lines.filter(line => line > y && line < y + 11).length;
       /** @type {number[]} */
       const beside = [];
-      panel.curves.forEach((curve, i) => {
+      panel.lines.forEach(({values}, i) => {
         const on = ys[i];
-        curve.forEach((v, k) => {
-          if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[k]));
+        values.forEach((v, sample) => {
+          if (on(v) > y - 1 && on(v) < y + 12) beside.push(x(times[sample]));
         });
       });
       for (let px = left + 5; px + w + 5 < right; px += 6) {
@@ -103,10 +108,7 @@ function limitWords(g, panel, ys, times, x, [left, right, top, bottom], notes) {
         if (cost < least) [best, least] = [[px, y, w, 11], cost];
       }
     }
-    if (best && found.length < 3) found.push([text, best, shade(jointColor(j)), 10]);
+    if (best && found.length < 3) found.push([text, best, shade(lineColor(line)), 10]);
   });
   return found;
 }
-
-/** @type {(panel: Panel, j: number) => string} */
-const unitOf = ({axes}, j) => axes.find(({joints}) => joints.includes(j))?.unit ?? "";

@@ -1,15 +1,16 @@
 // The player: recorded motions of arms in space beside their curves. page.py has its data.
 
-import {number, replaceStill, tiled} from "./canvas.js";
+import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
-import {broken, motionsOf, tipOf} from "./motions.js";
+import {broken, motionsOf, pastNow, tipOf} from "./motions.js";
 import {orbit, pictures, sceneCanvas, scrubbing} from "./controls.js";
 import {clockRow, runningClock} from "./clock.js";
-import {choice, element, range, waiting} from "./elements.js";
+import {choice, control, element, range, waiting} from "./elements.js";
+import {numberTable} from "./player_table.js";
 
-/** @import {Page, PageArm} from "./page.js" */
-/** @import {Column} from "./curves.js" */
+/** @import {Page} from "./page.js" */
+/** @import {Panel} from "./panel.js" */
 /** @import {Moment, Track} from "./motions.js" */
 
 /** @typedef {ReturnType<typeof furniture>} Parts */
@@ -32,26 +33,27 @@ function start(root, data) {
   const inSpace = sceneView(parts.scene, scene),
     overTime = curvesView(parts.curves, data.dashes);
   const state = {time: data.times[0], value: 0, choice: 0, view: [...scene.view], playing: false};
-  const motions = motionsOf(data);
-  let shown = motions.choose(0);
+  const motions = motionsOf(data),
+    names = data.arms.length > 1 ? data.arms.map(arm => arm.name) : [];
+  let shown = motions.choose(0, 0);
 
   function choose() {
-    shown = motions.choose(
-      state.choice * (data.slider ? data.slider.values.length : 1) + state.value,
-    );
+    shown = motions.choose(state.value, state.choice);
     tell(parts, data, shown, state.value);
+    ask();
   }
   /** @param {number} now */
   function draw(now) {
     clock.pass(now);
-    sized(parts, inSpace, data.arms.length, scene.bases ? 1 : data.arms.length);
+    sized(parts, inSpace, scene.bases ? 1 : data.arms.length);
     const moment = momentAt(data.times, state.time),
-      arms = shown.arms.map(arm => armAt(arm, moment));
-    shown.columns.forEach((column, k) => shownAt(column, moment, shown.arms[k].gaps));
+      {panels} = shown;
+    for (const panel of panels) showAt(panel, moment);
+    const arms = shown.arms.map((arm, k) => ({...armAt(arm, moment), past: pastNow(panels[0], k)}));
     scene.things = motions.things(shown.motion, moment.i, moment.share);
     clock.tell();
     const room = inSpace.draw(state.view, arms, `t = ${number(state.time, 2)} s`);
-    overTime.draw(shown.columns, data.times, data.ticks, state.time);
+    overTime.draw({panels, large: +parts.watch.value, names}, data.times, data.ticks, state.time);
     return room;
   }
 
@@ -64,25 +66,19 @@ function start(root, data) {
     () => [data.times[0], data.times[data.times.length - 1]],
     ask,
   );
-  const {slider, menu} = parts;
+  const {slider, menu, watch} = parts;
   slider?.addEventListener("input", () => {
     state.value = +slider.value;
     choose();
-    ask();
   });
   menu?.addEventListener("change", () => {
     state.choice = +menu.value;
     choose();
-    ask();
   });
+  watch.addEventListener("change", ask);
   orbit(parts.scene, scene, state, ask);
-  /** @type {number | undefined} */
-  let held;
-  scrubbing(parts.curves, (event, first) => {
-    const [time, column] = overTime.timeAt(event.offsetX, event.offsetY, first ? undefined : held);
-    held = column;
-    clock.set(time);
-  });
+  scrubbing(parts.curves, event => clock.set(overTime.timeAt(event.offsetX)));
+  reserve(parts, data);
   tell(parts, data, shown, state.value);
 }
 
@@ -90,69 +86,96 @@ function start(root, data) {
 
 /** @param {Page} data */
 function furniture(data) {
-  const {slider, switch: menu} = data;
+  const {slider, switch: menu, arms} = data,
+    table = element("div", {class: "rk-table"});
   const parts = {
     scene: sceneCanvas(data.scene, data.alt),
     curves: element("canvas", {
       class: "rk-curves",
       role: "img",
       "aria-label":
-        `Curves over time of ${data.arms.map(arm => arm.name).join(" and ")}: joint values, ` +
-        "speeds, accelerations. The greatest values stand in the table.",
+        `Curves over time of ${arms.map(arm => arm.name).join(" and ")}: ` +
+        `${labelsOf(data).join(", ")}. The greatest values are in the table.`,
     }),
     ...clockRow(),
-    table: element("div", {class: "rk-table"}),
-    notes: element("ul", {class: "rk-notes"}),
+    watch: choice("large panel", labelsOf(data)),
+    table,
+    says: element("div", {class: "rk-says", role: "status"}),
     slider: slider && range(slider.label, slider.values.length - 1),
     value: element("span", {class: "rk-value"}),
     menu: menu && choice(menu.label, menu.values),
   };
+  parts.watch.value = String(data.watch.panel);
+  parts.row.append(element("label", {}, "watch", parts.watch), folding("numbers", table));
   // above the pictures, so that a small screen shows the slider and the arm together
-  const rows = [parts.row];
+  const rows = [parts.row, parts.says];
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider && parts.slider)
     rows[0].append(element("label", {class: "rk-long"}, slider.label, parts.slider, parts.value));
   if (menu && parts.menu) rows[0].append(element("label", {}, menu.label, parts.menu));
+  const size = data.scene.bases ? " rk-wide" : arms.length > 1 ? " rk-several" : "";
   const frame = element(
     "div",
-    {class: "rk", role: "group", "aria-label": data.title},
+    {class: "rk rk-player", role: "group", "aria-label": data.title},
     element("div", {class: "rk-title"}, data.title),
     ...rows,
-    element(
-      "div",
-      {class: `rk-views${data.arms.length > 1 ? " rk-wide" : ""}`},
-      parts.scene,
-      parts.curves,
-    ),
-    parts.table,
-    parts.notes,
+    element("div", {class: `rk-views${size}`}, parts.scene, parts.curves),
+    table,
   );
   return {...parts, frame};
 }
 
+/** The names of the panels. @param {Page} data */
+const labelsOf = ({panels, quantities}) => [...panels, ...quantities].map(({label}) => label);
+
 /**
- * Sets the height of a canvas with the whole width to what its arms fill.
- * @param {Pick<Parts, "scene" | "curves">} parts
- * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
- * @param {number} arms  so many have curves
- * @param {number} count  so many pictures are there
+ * A button that shows and hides a part of the page; on paper the part is always shown.
+ * @param {string} name
+ * @param {HTMLElement} part
  */
-function sized({scene, curves}, inSpace, arms, count) {
-  const [, rows] = tiled(arms, curves.clientWidth),
-    whole = scene.offsetTop !== curves.offsetTop;
-  curves.style.height = rows > 1 ? `${rows * 330}px` : "";
-  const width = scene.clientWidth;
-  if (!whole || !width) {
-    scene.style.height = "";
-    return;
-  }
-  const most = tiled(count, width)[1] * (count > 1 ? 290 : 340),
-    filled = Math.max(190, inSpace.height(count, width));
-  scene.style.height = `${Math.round(Math.min(most, filled))}px`;
+function folding(name, part) {
+  const button = control("button", {type: "button", class: "rk-word", "aria-expanded": "false"});
+  button.textContent = name;
+  part.hidden = true;
+  button.addEventListener("click", () => {
+    part.hidden = !part.hidden;
+    button.setAttribute("aria-expanded", String(!part.hidden));
+  });
+  return button;
 }
 
 /**
- * Shows the numbers of a motion, as a table and in words.
+ * Sets the height of a scene that has the whole width to what its arms fill.
+ * @param {Pick<Parts, "scene" | "curves">} parts
+ * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
+ * @param {number} count  of pictures in it
+ */
+function sized({scene, curves}, inSpace, count) {
+  const width = scene.clientWidth,
+    whole = scene.offsetTop !== curves.offsetTop;
+  if (!width) return;
+  const most = width > 640 ? 230 : count > 1 ? 420 : 320;
+  scene.style.height = whole
+    ? `${Math.round(Math.min(most, Math.max(190, inSpace.height(count, width))))}px`
+    : "";
+}
+
+/**
+ * Keeps room for the sentences of every motion, so that the pictures stay in place while a slider
+ * moves.
+ * @param {Parts} parts
+ * @param {Page} data
+ */
+function reserve({says}, {arms}) {
+  const motions = arms[0].speed.length;
+  const lines = Array.from({length: motions}, (_, motion) =>
+    arms.reduce((n, {via, notes}) => n + +!!via?.[motion] + (notes[motion] || []).length, 0),
+  );
+  says.style.minHeight = `${1.5 * Math.min(2, Math.max(...lines))}em`;
+}
+
+/**
+ * Shows the numbers of a motion, as sentences and in the table.
  * @param {Parts} parts
  * @param {Page} data
  * @param {{arms: Track[], motion: number}} shown
@@ -162,64 +185,20 @@ function tell(parts, data, {arms, motion}, value) {
   const {slider} = data;
   /** @type {(arm: {name: string}) => string} */
   const whose = arm => (data.arms.length > 1 ? `${arm.name}: ` : "");
-  const near = arms
-    .flatMap(arm => (arm.near ? [`${whose(arm)}path passes via at ${arm.near.text}`] : []))
-    .concat(data.sampled)
-    .join("; ");
-  const most = Math.max(...data.arms.map(arm => arm.chain.length));
-  const head = element(
-    "tr",
-    {},
-    element("th", {scope: "col"}, near),
-    ...Array.from({length: most}, (_, j) => element("th", {scope: "col"}, `joint ${j + 1}`)),
+  const near = arms.flatMap(arm =>
+    arm.near ? [`${whose(arm)}The path passes ${arm.near.text} from via.`] : [],
   );
-  const body = data.arms.flatMap(arm => lines(data, arm, whose(arm), motion));
-  parts.table.replaceChildren(
-    element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)),
+  const notes = data.arms.flatMap(arm =>
+    (arm.notes[motion] || []).map(text => element("li", {}, whose(arm) + text)),
   );
-  parts.notes.replaceChildren(
-    ...data.arms.flatMap(arm =>
-      (arm.notes[motion] || []).map(text => element("li", {}, whose(arm) + text)),
-    ),
+  parts.says.replaceChildren(
+    ...near.map(text => element("div", {}, text)),
+    element("ul", {class: "rk-notes"}, ...notes),
   );
+  parts.table.replaceChildren(numberTable(data, whose, motion));
   if (!slider) return;
   parts.value.textContent = number(slider.values[value], slider.decimals);
   parts.slider?.setAttribute("aria-valuetext", parts.value.textContent);
-}
-
-/**
- * The rows of an arm in the table.
- * @param {Page} data
- * @param {PageArm} arm
- * @param {string} whose
- * @param {number} motion
- */
-function lines({unit, decimals}, arm, whose, motion) {
-  const units = [...new Set(arm.chain.map(link => (link.prismatic ? unit.name : "\u00B0")))];
-  /**
-   * @param {string} name
-   * @param {string} time
-   * @param {boolean} limited
-   * @param {(j: number) => HTMLElement} cell
-   */
-  const line = (name, time, limited, cell) => {
-    const per = units.map(u => `${u}/${time}`).join(" or "),
-      text = `${whose}${name}, ${per}${limited ? " (of limit)" : ""}`;
-    const cells = arm.chain.map((_, j) => cell(j));
-    return element("tr", {}, element("th", {scope: "row"}, text), ...cells);
-  };
-  return [
-    line("greatest speed", "s", !!arm.share, j => {
-      const share = arm.share ? ` (${arm.share[motion][j]}\u00A0%)` : "";
-      return element("td", {}, number(arm.speed[motion][j], decimals[0]) + share);
-    }),
-    line("greatest acceleration", "s\u00B2", false, j => {
-      const most = arm.acceleration[motion][j];
-      return typeof most === "string"
-        ? element("td", {class: "rk-jump"}, most)
-        : element("td", {}, number(most, decimals[1]));
-    }),
-  ];
 }
 
 // --- A moment ------------------------------------------------------------------------------------
@@ -247,18 +226,18 @@ function armAt(arm, {i, share}) {
     ...arm,
     q,
     faded,
+    row: faded ? "" : arm.row(i),
     tail: [...broken(arm.places.slice(0, i + 1), arm.gaps), tipOf(arm.chain, q)],
   };
 }
 
 /**
- * @param {Column} column
+ * @param {Panel} panel
  * @param {Moment} moment
- * @param {Set<number>} gaps
  */
-function shownAt(column, {i, share}, gaps) {
-  for (const panel of column.panels)
-    panel.now = panel.curves.map(curve =>
-      share && !gaps.has(i) ? curve[i] + share * (curve[i + 1] - curve[i]) : curve[i],
-    );
+function showAt(panel, {i, share}) {
+  for (const line of panel.lines) {
+    const {values, gaps} = line;
+    line.now = share && !gaps.has(i) ? values[i] + share * (values[i + 1] - values[i]) : values[i];
+  }
 }

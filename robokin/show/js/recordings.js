@@ -83,6 +83,19 @@ export function recording(arm, motions, samples, {unit, nothing}) {
 }
 
 /**
+ * A number over the samples, of each motion.
+ * @param {Packed} packed
+ * @param {number} motions
+ * @param {number} samples
+ * @param {number} nothing  the whole number for no value
+ * @returns {(motion: number) => Float64Array}
+ */
+export function series(packed, motions, samples, nothing) {
+  const all = unpacked(packed, motions, samples, nothing);
+  return motion => all.subarray(motion * samples, (motion + 1) * samples);
+}
+
+/**
  * From things that may move to a function (motion, sample, share) -> the things that exist then.
  * @param {PageThing[]} things
  * @param {number} nothing  the whole number for no value

@@ -32,6 +32,8 @@ import {compass} from "./triad.js";
  * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where
  *   `past` a limit
  * @property {boolean} [framed]  show the frame of every link
+ * @property {number[]} [past]  the joints that are past a limit
+ * @property {string} [row]  the row of `ik` to which the posture belongs
  * @property {Draw} [under]  draws what else there is, below the arm
  * @property {Draw} [over]  the same above it
  */
@@ -90,7 +92,7 @@ export function sceneView(canvas, scene) {
     if (!ready) return false;
     const [g, w, h] = ready,
       pictures = scene.bases ? [arms] : arms.map(arm => [arm]);
-    const [columns, rows] = tiled(pictures.length, w),
+    const [columns, rows] = arranged(scene, space, pictures.length, w, h),
       cw = w / columns,
       ch = h / rows;
     cameras = pictures.map((shown, i) => {
@@ -125,6 +127,28 @@ export function sceneView(canvas, scene) {
       held = on;
     },
   };
+}
+
+/**
+ * The numbers of columns and rows in which so many pictures are largest.
+ * @param {Scene} scene
+ * @param {Space} space
+ * @param {number} count
+ * @param {number} width
+ * @param {number} height
+ * @returns {[number, number]}
+ */
+function arranged(scene, space, count, width, height) {
+  /** @type {[number, number]} */
+  let best = [1, count],
+    most = 0;
+  for (let columns = 1; columns <= count; columns++) {
+    const rows = Math.ceil(count / columns),
+      box = inside([0, 0, width / columns, height / rows]);
+    const {scale} = camera(scene.view, space.corners, box);
+    if (scale > most * 1.01) [best, most] = [[columns, rows], scale];
+  }
+  return best;
 }
 
 /**
@@ -217,6 +241,18 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   const found = {labels: [], taken: []};
   for (const kind in KINDS) KINDS[kind].above({...pen, near: first.near}, only(kind), found);
   all.forEach(drawFlange);
+  for (const {
+    cam: {to},
+    joints,
+    past = [],
+  } of all)
+    for (const j of past)
+      found.labels.push({
+        text: `q${j + 1} past its limit`,
+        at: to(origin(joints[j])),
+        color: colors.alarm,
+        weight: "600",
+      });
   placeLabels(
     g,
     found.labels,
@@ -225,6 +261,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
   );
   compass(g, cam, [x + w - 34, y + h - 34]);
   if (named) write(g, first.name, x + 10, y + 18, colors.ink, 13, "left", "600");
+  if (first.row && arms.length === 1) write(g, first.row, x + 10, y + h - 24, colors.ink, 12);
   if (arms.some(arm => arm.faded))
     write(
       g,

@@ -126,6 +126,7 @@ function partsOf({kind, title: text, meant}, canvas, layer) {
     space = element("div", {class: "rk-space"}, canvas, layer);
   const side = element("div", {class: "rk-side"}),
     below = element("div", {class: "rk-below"});
+  const hint = element("p", {class: "rk-meant"}, meant);
   const halves = kind === "motion" ? " rk-halves" : "";
   const frame = element(
     "div",
@@ -133,10 +134,10 @@ function partsOf({kind, title: text, meant}, canvas, layer) {
     title,
     element("div", {class: `rk-views rk-asked${halves}`}, space, side),
     below,
-    element("p", {class: "rk-meant"}, meant),
+    hint,
   );
   const says = element("p", {class: "rk-says", role: "status"});
-  return {frame, title, space, side, below, says};
+  return {frame, title, space, side, below, says, hint};
 }
 
 /**
@@ -241,11 +242,6 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   }); // JupyterLab does not pass it to the field
   return {
     row,
-    /** @param {number} most */
-    reach(most) {
-      range.max = String(most);
-      range.step = String(most / 1000);
-    },
     /** @param {number} value */
     set(value) {
       const text = String(+value.toFixed(decimals));
