@@ -160,7 +160,9 @@ function drawScales({g, sides: [left, right, top, bottom]}, {axes, lines}, scale
     const joints = [...new Set(lines.filter(line => line.axis === k).map(({joint}) => joint))];
     const color = k && joints.length === 1 ? shade(jointColor(joints[0])) : colors.soft,
       px = k ? right + 6 : left - 6;
-    for (let i = 0; i < count; i += bottom - top < SMALL ? count - 1 : 1) {
+    const apart = (bottom - top) / (count - 1),
+      every = bottom - top < SMALL ? count - 1 : Math.ceil(14 / apart);
+    for (let i = 0; i < count; i += every) {
       const value = low + i * step;
       write(g, number(value, decimals), px, scales[k](value) + 4, color, 11, k ? "left" : "right");
     }

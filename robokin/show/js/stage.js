@@ -126,7 +126,7 @@ function partsOf({kind, title: text, meant}, canvas, layer) {
     space = element("div", {class: "rk-space"}, canvas, layer);
   const side = element("div", {class: "rk-side"}),
     below = element("div", {class: "rk-below"});
-  const hint = element("p", {class: "rk-meant"}, meant);
+  const hint = folded(meant);
   const halves = kind === "motion" ? " rk-halves" : "";
   const frame = element(
     "div",
@@ -138,6 +138,17 @@ function partsOf({kind, title: text, meant}, canvas, layer) {
   );
   const says = element("p", {class: "rk-says", role: "status"});
   return {frame, title, space, side, below, says, hint};
+}
+
+/**
+ * A text whose first sentence is shown; a click opens the others.
+ * @param {string} text
+ */
+function folded(text) {
+  const [first, ...more] = text.split(/(?<=\.) /);
+  if (!more.length) return element("p", {class: "rk-meant"}, text);
+  const summary = control("summary", {}, first);
+  return element("details", {class: "rk-meant"}, summary, more.join(" "));
 }
 
 /**
