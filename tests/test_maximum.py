@@ -39,7 +39,7 @@ def test_minimum_is_the_maximum_of_the_negative():
 
     found = refined_maximum(lambda t: -apart(t), 0, 5, 4)
     assert -found.value == pytest.approx(apart(np.linspace(2, 3, 1_000_001)).min(), abs=1e-6)
-    assert -found.value < apart(np.linspace(0, 5, 240)).min() - 1e-5  # the samples miss it
+    assert -found.value < apart(np.linspace(0, 5, 240)).min() - 1e-5  # the samples miss the minimum
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 """An obstacle that moves while the three-lever arm moves, and an obstacle located from two
 distances.
 
-As in test_obstacles.py, an independent model of the arm checks the distances, at positions and
-times of its own. ROBOKIN_TASKS=500 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints
+As in test_obstacles.py, an independent model of the arm checks the distances, at its own positions
+and times. ROBOKIN_TASKS=500 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints
 their results.
 """
 
