@@ -82,7 +82,10 @@ def test_functions_and_files_are_short():
 
 
 # Constants in both languages for the same rule: the test in test_twin.py that compares them.
-TWINS = {("STEPS", 64): "test_greatest_values", ("MOST", 200): "test_greatest_values"}
+TWINS = {
+    ("STEPS", 64): "test_page_refines_the_same_maxima",
+    ("MOST", 200): "test_page_refines_the_same_maxima",
+}
 PLAIN = {*range(-1, 101), 0.5, 200, 400}  # may be equal by chance
 
 

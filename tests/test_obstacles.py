@@ -154,8 +154,8 @@ def test_clearance_and_via_points_equal_the_reference_cases(case):
 
 
 def test_via_points_are_perpendicular_and_on_the_side_of_the_base():
-    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here, not square and
-    one outside.
+    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here: neither is
+    perpendicular, and one is on the wrong side.
     """
     H, K, K1 = np.array([1.5, 1]), np.array([1.2, 1.7]), np.array([1.9, 0.3])
     K2, K3 = via_points(K, K1, H, 1 / 7)
@@ -406,7 +406,7 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
 
 
 def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
-    """Checked with the gripper's positions and with the words of the plan."""
+    """Checked against the gripper's positions and the words of the plan."""
     count = 0
     for q0, K1, H in two_drawn:
         answer = plan(ARM, q0, K1, H)
@@ -586,7 +586,7 @@ def test_start_at_the_joint_limits_is_accepted():
 
 
 def test_search_finds_a_path_where_one_was_constructed():
-    """Tasks with a known solution: the obstacle is beside a path with two random corners."""
+    """Tasks with a known solution: the obstacle is next to a path with two random corners."""
     rng, solved, count = np.random.default_rng(8), 0, 0
     while count < 25:
         path = rng.uniform(0, np.pi, (4, 3))
@@ -962,8 +962,7 @@ def test_unchecked_path_shows_the_nearest_approach():
             lever, least, place = nearest_approach(ARM, path, near, H)
             each = near.min(axis=0) if len(path) > 1 else distances(ARM, q0, H)
             assert least == each[lever] == each.min()
-            # between two samples a point of the arm moves by at most its reach times the angle
-            # turned
+            # between two samples a point moves by at most the reach times the angle turned
             moved = 3 * abs(np.diff(path, axis=0)).sum() / 120
             assert -1e-9 <= np.hypot(*(place - H)) - least <= moved + 2e-6
             through += len(path) > 1

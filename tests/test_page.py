@@ -1,5 +1,5 @@
-"""The page: its colours are defined once, its script is joined from modules, its numbers can be
-decoded.
+"""The page: its colours are defined once, its script is joined from modules, its packed values can
+be decoded.
 """
 
 import base64

@@ -330,8 +330,8 @@ def test_jump_by_two_pi_breaks_the_curve_and_is_not_a_speed(motions):
 
 
 def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
-    """As in lab 12, where C truncates to (int): each tooth is below a tenth of a radian and far
-    from the next one.
+    """As in lab 12, where C casts to (int): each tooth is below a tenth of a radian and far from
+    the next one.
     """
     t = np.linspace(0, 5, 500)
     teeth = [82, 146, 199, 246, 289, 328]

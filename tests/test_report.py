@@ -201,7 +201,7 @@ def test_a_name_becomes_part_of_a_file_name(name, kept):
     assert safe(name) == kept
 
 
-def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
+def test_other_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     lab = stored(tmp_path / "my lab.ipynb", new_markdown_cell("# Notes"), "print(1 + 1)")
     page = tmp_path / "my_lab_Ada.html"

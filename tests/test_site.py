@@ -367,7 +367,7 @@ def test_the_answers_of_the_oral_questions_are_folded(page, address):
     assert first.is_visible()
 
 
-def test_foreign_files_are_kept(tmp_path):
+def test_other_files_are_kept(tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
     run = command(tmp_path)
     assert run.returncode == 1 and "nothing is overwritten" in run.stderr

@@ -274,7 +274,7 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     rows = IRB140.ik(T)
     solved(IRB140, T, rows)
     assert np.nanmin(gap(IRB140, rows, q[:, None]).max(-1), axis=1).max() < 1e-7
-    # The line of listing 1, with its own names:
+    # The line of listing 1, with the listing's names:
     triangle_angle = np.arcsin(np.clip(0.38 * front * np.sin(q[:, 2] - np.pi / 2) / d, -1, 1))
     lift_angle = np.arctan2(centre[:, 2] - 0.352, rho - front * 0.07)
     printed = -front * (np.pi / 2 + triangle_angle - lift_angle)

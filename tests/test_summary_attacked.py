@@ -44,7 +44,7 @@ HOSTILE = {
     "<details open ontoggle=window.ran=1>": None,
     "&lt;b&gt; &amp; &#60;script&#62;": None,
     "{{ 7 * 7 }} {% raw %} ${7*7}": None,
-    "`<img src=x onerror=window.ran=1>`": "<img src=x onerror=window.ran=1>",  # backquotes mark code
+    "`<img src=x onerror=window.ran=1>`": "<img src=x onerror=window.ran=1>",  # shown as code
     "javascript:window.ran=1": None,
     '=HYPERLINK("SERVER";"holds")': None,
     "=cmd|' /C calc'!A0": None,
@@ -61,7 +61,7 @@ HOSTILE = {
     "half \ud83d of a pair": r"half \ud83d of a pair",
     "tag \U000e0041": r"tag \U000e0041",
     "z\u0335\u0321\u0300" * 20: None,
-    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # this word needs its zero-width non-joiner
+    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs its zero-width non-joiner
     "../../summary": None,
     "CON": None,
 }

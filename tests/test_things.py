@@ -45,7 +45,7 @@ def test_scenes_have_the_values_of_the_earlier_version(name):
     assert NOW[name] == today(EARLIER[name])
 
 
-def test_things_argument_gives_the_same_page_as_the_other_arguments():
+def test_things_argument_gives_the_same_scene_as_the_other_arguments():
     goal, belt = IRB140.fk(TURNED[-1]), [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
     apart = animate(
         IRB140,
@@ -242,6 +242,6 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     page.locator("input[type=range]").last.evaluate(
         "x => { x.value = x.max; x.dispatchEvent(new Event('input')); }"
     )
-    page.wait_for_function(f"({RED})() < 1300")  # one of them is gone
+    page.wait_for_function(f"({RED})() < 1300")  # one of the flags is gone
     assert page.evaluate(RED) > 900
     page.close()

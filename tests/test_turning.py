@@ -1,5 +1,5 @@
-"""Three levers on a turning base: points in space compared with a chain of complex numbers and a
-plane rotated by hand.
+"""Three levers on a turning base: points in space compared with a chain of complex numbers in a
+plane that is rotated here.
 """
 
 import numpy as np

@@ -1,5 +1,5 @@
-"""Wrong input: the right exception with the evidence in its message, or the right answer. A table
-with one line per call.
+"""Wrong input raises the right exception with the evidence in its message; unusual input gives the
+right answer. The tables have one line per call.
 """
 
 from types import SimpleNamespace
@@ -195,7 +195,7 @@ WRONG = {
         r"\(2,\).*\(3,\)",
     ),
     "batch of links": (lambda: Link(Transform.identity((2,))), r"before: .*shape=\(2,\)"),
-    # kinds of numbers
+    # types of numbers
     "numbers as words": (lambda: IRB140.fk(["0"] * 6), "wanted numbers"),
     "complex numbers": (lambda: Transform(translation=(1j, 0, 0)), "translation: wanted numbers"),
     "masked numbers": (lambda: IRB140.fk(np.ma.zeros(6)), "masked"),
@@ -283,7 +283,7 @@ def test_wrong_input_is_named_in_the_error(name):
     assert len(text) < 200 and "\n" not in text
 
 
-# Arguments that should be objects of a class and are not.
+# Calls with an argument that should be an object of a class and is not.
 OF_ANOTHER_KIND = {
     "slerp to an array",
     "matrix as rotation",
@@ -343,6 +343,6 @@ RIGHT = {
 
 
 @pytest.mark.parametrize("name", RIGHT)
-def test_right_answer(name):
+def test_unusual_input_gives_the_right_answer(name):
     with np.errstate(over="raise", divide="raise", invalid="raise"):
         assert RIGHT[name]()
