@@ -283,9 +283,8 @@ def test_singular_start_keeps_joints_inside_their_limits():
     q[40:, 4] = np.linspace(0, 0.5, 20)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
     assert abs(path[:, :3] - q[:, :3]).max() < 1e-9
-    assert (
-        abs(path - q).max() < 1e-6
-    )  # joints 4 and 6 already have the values that the first bend needs
+    # joints 4 and 6 already have the values that the first bend needs
+    assert abs(path - q).max() < 1e-6
 
 
 @machines

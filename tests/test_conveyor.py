@@ -91,9 +91,7 @@ def seconds(point):
 def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
-        y = (
-            WINDOW[0] - offsets[one.objects] + v * one.meets
-        )  # where the belt has carried the object
+        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt has carried them
         assert (y >= WINDOW[0] + k * pitch - 1e-9).all()
         assert (y <= WINDOW[-1] + k * pitch + 1e-9).all()
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)

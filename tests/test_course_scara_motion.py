@@ -427,9 +427,8 @@ def test_every_name_has_a_feasible_blend(more):
         for factor, name in ((0.99, "too fast"), (1.021, "slower than needed")):
             design = {"blend": more * b, "duration": needed * factor}
             assert check("scara_motion.3", design, who=who).mistake == name
-        over_table = (
-            mine["start_z"] + mine["goal_z"]
-        )  # heights above the table, not above via: noticed for every name
+        # heights above the table instead of above via are noticed for every name
+        over_table = mine["start_z"] + mine["goal_z"]
         assert np.sqrt(over_table / both) > 1.025
 
 

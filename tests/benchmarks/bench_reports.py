@@ -54,9 +54,8 @@ def solved(slug, folder):
     notebook.cells = cells
     nbformat.write(notebook, folder / path.name)
     for name in ("tasks", "images"):
-        shutil.copytree(
-            NOTEBOOKS / name, folder / name, dirs_exist_ok=True
-        )  # the links do not matter
+        # copied, since a judged lab cannot use symbolic links
+        shutil.copytree(NOTEBOOKS / name, folder / name, dirs_exist_ok=True)
     return folder / path.name
 
 
