@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
-READ = 170  # words a minute
+READ = 170  # words per minute
 
 
 class Size(NamedTuple):

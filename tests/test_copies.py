@@ -34,7 +34,7 @@ WRITES = ("fsync", "link", "makedirs", "rename", "replace", "unlink")
 
 @pytest.fixture(autouse=True)
 def _own_trust(tmp_path, monkeypatch):
-    """Keep the signatures that these tests make apart from the developer's own."""
+    """Keep the signatures of these tests out of the developer's own trust database."""
     monkeypatch.setenv("JUPYTER_DATA_DIR", str(tmp_path / "jupyter"))
     monkeypatch.setenv("JUPYTER_CONFIG_DIR", str(tmp_path / "jupyter"))
 

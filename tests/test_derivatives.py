@@ -81,7 +81,7 @@ def test_input_is_not_changed():
     assert values.tolist() == t.tolist() == [0, 1, 2, 3, 4]
 
 
-def test_order_has_a_limit_with_an_explanation():
+def test_order_above_10_is_refused_with_a_reason():
     values, t = RNG.normal(size=(30, 4)), uneven(30)
     assert np.isfinite(differentiate(values, t, 10)).all()
     for order in (11, 10**6, 10**400):

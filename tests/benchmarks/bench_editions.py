@@ -24,7 +24,7 @@ import tarfile
 import tempfile
 from functools import partial
 from pathlib import Path
-from time import process_time  # of our own process, so other load does not count
+from time import process_time  # time of our own process, so other load does not count
 
 for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
     os.environ[f"{_library}_NUM_THREADS"] = "1"

@@ -258,7 +258,7 @@ def eaik_ik(arm, pose, here):
 
 
 def eaik_rows(result):
-    """Its exact solutions (not its least-squares ones) as rows (N, most, 6), padded with NaN."""
+    """The exact solutions of EAIK (not its least-squares ones) as rows (N, most, 6), with NaN."""
     rows = np.full((len(result), max(one.num_solutions() for one in result), 6), np.nan)
     for row, one in zip(rows, result, strict=True):
         exact = one.Q[~np.asarray(one.is_LS, dtype=bool)]

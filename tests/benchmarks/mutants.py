@@ -1,5 +1,5 @@
 """Do the tests notice wrong programs? The script inserts small faults into the package, one at a
-time, and runs the tests that can see the changed module until one fails.
+time, and runs the tests that use the changed module until one fails.
 
     python tests/benchmarks/mutants.py                        300 of all modules, about 20 minutes
     python tests/benchmarks/mutants.py --count 60 robokin/quaternion.py robokin/transform.py
@@ -15,8 +15,8 @@ long counts as noticed.
 Aim: at least 97 % of 300 noticed. The others are printed: each needs a test or a reason.
 
 The processes that run the tests are forked from one that has loaded NumPy, SciPy, pytest and
-Hypothesis; each works on its own copy of the package, with few and always the same Hypothesis
-examples. Linux and macOS only.
+Hypothesis; each works on its own copy of the package, with a few Hypothesis examples that are
+always the same. Linux and macOS only.
 """
 
 import argparse
