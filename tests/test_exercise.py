@@ -1,5 +1,5 @@
-"""Own exercises: made in a cell, read from a file, and in a folder of labs in ROBOKIN_EXERCISES. A
-teacher's errors are reported in a sentence with file and line, and the other exercises work.
+"""Exercises that teachers write: in a cell, in a file, or in a folder of labs in ROBOKIN_EXERCISES.
+A teacher's errors are reported in a sentence with file and line, and the other exercises work.
 """
 
 import os
@@ -62,7 +62,7 @@ def reach(l1, l2, elbow):
 
 
 def same(a, b):
-    raise AssertionError("a name of a notebook is no part of an exercise")
+    raise AssertionError("an exercise used a name of the notebook by accident")
 
 
 form = law = same
@@ -71,9 +71,9 @@ form = law = same
 # --- Made in a cell -------------------------------------------------------------------------------
 
 
-def test_exercise_from_a_solution_and_cases():
-    """The names of the notebook are available, but its `form`, `law` and `same` are never used by
-    accident.
+def test_exercise_needs_only_a_solution_and_cases():
+    """The notebook's names are available to the solution, but its `form`, `law` and `same` are
+    never used by accident.
     """
     mine = exercise(reach, cases)
     verdict = check(mine, lambda a, b, q: np.hypot(a + b * np.cos(q), b * np.sin(q)))
@@ -87,7 +87,7 @@ def test_exercise_from_a_solution_and_cases():
     assert not check(mine, ...).answered
 
 
-def test_own_exercises_do_not_count_as_progress(monkeypatch):
+def test_exercises_from_a_cell_do_not_count_as_progress(monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     assert check(exercise(reach, cases), reach).holds
     assert "Nothing" in progress()
@@ -121,7 +121,7 @@ def test_slip_that_undoes_a_mistake_explains_nothing():
     mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
     mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
     assert check(mine, lambda x: x / 1000 if x < 5000 else np.nan).mistake == "mm for m"
-    verdict = check(mine, lambda x: x)  # the limit left out
+    verdict = check(mine, lambda x: x)  # without the limit
     assert not verdict.holds and verdict.mistake is None
 
 
@@ -130,7 +130,7 @@ def book_text(markdown):
 
 
 TURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))
-# the result of a solution, an equal answer, a wrong one, and one of another type
+# kind -> the result of a solution, an equal answer, a wrong answer, and one of another type
 KINDS = {
     "a number": ("2 * x", lambda x: 2 * x + 1e-9, lambda x: 3 * x, lambda x: [x, x]),
     "a whole number": ("round(x)", lambda x: float(round(x)), lambda x: x, lambda x: f"{x:.0f}"),
@@ -203,7 +203,7 @@ def test_unchanged_inputs_are_not_reported(given):
 
 
 class Gauge:
-    """A value whose == does not compare values."""
+    """A class whose == does not compare values."""
 
     def __init__(self, value):
         self.value = value
@@ -250,7 +250,7 @@ def test_invalid_exercises_are_refused_at_once(solution, cases, says):
 
 
 def write(folder, **files):
-    """Files of a lab: reach_md="...", reach_py="..."."""
+    """Write files of a lab: reach_md="...", reach_py="..."."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in files.items():
         content = text if isinstance(text, bytes) else text.encode()
@@ -260,14 +260,14 @@ def write(folder, **files):
 
 @pytest.fixture
 def place(tmp_path, monkeypatch):
-    """A folder of labs."""
+    """An empty folder for labs, named in ROBOKIN_EXERCISES."""
     monkeypatch.setenv(book.ELSEWHERE, str(tmp_path))
     monkeypatch.setattr(course, "_verdicts", {})
     return tmp_path
 
 
 def test_exercise_files_are_read_again_after_a_change(tmp_path):
-    """Also with the byte-order mark and line ends of Windows."""
+    """The files have a byte-order mark and the line endings of Windows."""
     text = f"\ufeff{HEAD.format(number=1)}{REACH}".replace("\n", "\r\n")
     write(tmp_path, reach_md=text, reach_py="from .more import cases\n__all__ = ['cases']\n")
     write(tmp_path, more_py=CASES)
@@ -279,7 +279,7 @@ def test_exercise_files_are_read_again_after_a_change(tmp_path):
     assert "18 cases" in repr(check(exercise(str(tmp_path / "reach.md")), reach))
 
 
-def test_folder_of_own_labs_is_found(place):
+def test_folder_of_a_teachers_labs_is_found(place):
     write(
         place / "two_links",
         reach_md=HEAD.format(number=2) + REACH,
@@ -317,7 +317,7 @@ def test_progress_lists_exercises_without_an_objective(place):
 
 
 def test_labs_without_a_notebook_come_last(tmp_path, monkeypatch):
-    """As for an installation that points to a clone."""
+    """The labs are found as in an installation that points to a clone."""
     for name in ("apple", "pear", "zebra"):
         write(tmp_path / "exercises" / name)
     for name in ("00_zebra.ipynb", "01_pear.ipynb", "02_gone.ipynb"):
@@ -399,7 +399,7 @@ def altered(*changes, text=REACH):
     return HEAD.format(number=1) + text
 
 
-# Markdown, Python, and the message: the file and line (with ".md" or ".py"), and the reason
+# fault -> Markdown, Python, and the message: file and line (with ".md" or ".py"), and the reason
 BROKEN = {
     "no head": ("Reach\n", CASES, ".md, line 1: wanted '# 1. TITLE'"),
     "no solution": (
@@ -529,7 +529,7 @@ def test_faults_in_teacher_files_are_reported_and_the_others_work(what, place):
             hint("mine.1")
 
 
-# the Python file, and the message about its cases, which are made when needed
+# fault -> the Python file, and the message about its cases, which are made when needed
 UNDRAWN = {
     "cases that raise": ("    return 1 / 0\n", "It raises ZeroDivisionError: division by zero."),
     "cases that return nothing": ("    list(rng.uniform(0, 1, 3))\n", "It raises TypeError"),
@@ -624,7 +624,9 @@ def test_incomparable_results_are_different():
 
 
 def test_changed_solution_names_all_edits_that_no_longer_fit(place):
-    """Of a test: those that fit none of its right programs."""
+    """In an exercise that asks for a test, these are the edits that fit none of its correct
+    programs.
+    """
     text = altered(("l1**2 + l2**2\n", "l1 * l1 + l2 * l2\n"))
     write(place / "mine", reach_md=text, reach_py=CASES)
     rights = RIGHTS.replace("return x + x", "return 2 * x")
@@ -652,7 +654,7 @@ def test_empty_folder_is_reported(place):
 
 
 OPTION = "- `whole` **1 m.** It is not {length} m. *twice as long:* a second case."
-# predictions.md, predictions.py, and the message
+# fault -> predictions.md, predictions.py, and the message
 UNPREDICTED = {
     "no facts": (PREDICTED, None, "line 3: no facts: a function p1() in its Python file"),
     "other facts": (PREDICTED, "def p2():\n    pass\n", "line 3: no facts: a function p1()"),
@@ -691,7 +693,7 @@ def test_invalid_prediction_is_reported_and_the_others_work(what, place):
     assert [*book.lab("mine").predictions] == ([] if code is None else ["p3"])
 
 
-def test_duplicate_prediction_or_missing_right_answer_is_reported(place):
+def test_duplicate_prediction_or_missing_correct_option_is_reported(place):
     write(
         place / "mine",
         predictions_md=PREDICTED + PREDICTED.replace("# Predictions\n", ""),
@@ -810,8 +812,8 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("solution", "case", "changes"), CHANGES)
-def test_wrong_programs_equal_their_texts_and_have_no_side_effects(solution, case, changes):
-    """In any order, alone and in pairs, from pieces that are compiled once."""
+def test_edited_programs_match_their_texts_and_have_no_side_effects(solution, case, changes):
+    """The edits are applied in any order, alone and in pairs, to pieces that are compiled once."""
     steps = edits.Steps(solution, {})
     own = []
     for old, new in changes.items():

@@ -1,8 +1,8 @@
 """The command `python -m robokin.jobs FOLDER`: reports, log, exit status, and a folder of mutated
 task files.
 
-Make such a folder to look at, here with 10 000 files: `python tests/test_jobs_command.py 10000
-/tmp/mutants`. The test takes ROBOKIN_MUTANTS files, 300 if the variable is not set.
+`python tests/test_jobs_command.py 10000 /tmp/mutants` writes 10 000 such files to a folder. The
+test uses ROBOKIN_MUTANTS files, or 300 if the variable is not set.
 """
 
 import copy
@@ -35,7 +35,7 @@ def command(*arguments, cwd, **options):
 
 
 def write(folder, **files):
-    """A folder of task files: name=dict or bytes."""
+    """Write task files to a folder (name=dict or bytes) and return it."""
     folder.mkdir(exist_ok=True)
     for name, data in files.items():
         (folder / f"{name}.json").write_bytes(
@@ -64,7 +64,7 @@ INFO: 3 files: 2 answered, 1 skipped
 """
 
 
-def test_example_files_are_answered(tmp_path):
+def test_example_files_give_the_documented_reports(tmp_path):
     run = command(str(TASKS), cwd=tmp_path)
     assert (run.returncode, run.out.splitlines(), run.err) == (1, REPORTS.splitlines(), "")
     assert [entry.name for entry in tmp_path.iterdir()] == ["output.log"]
@@ -83,20 +83,22 @@ def test_example_files_are_answered(tmp_path):
     assert max(numbers[2][3:]) == pytest.approx(1.331260245755, abs=1e-12)
 
 
-def test_success_returns_0_and_renews_the_log(tmp_path):
+def test_success_returns_0_and_replaces_the_log(tmp_path):
     (tmp_path / "output.log").write_text("yesterday\n" * 1000)
     run = command(
         "tasks", cwd=write(tmp_path / "tasks", b=example(2), a=example(3), c=example(T=4)).parent
     )
     assert run.returncode == 0 and run.err == ""
-    assert re.findall(r"Task (\w)\.json", run.out) == ["a", "b", "c"], "in order of the names"
+    assert re.findall(r"Task (\w)\.json", run.out) == ["a", "b", "c"], (
+        "the tasks are not in alphabetical order"
+    )
     assert "visited 1 of 2 points in 3.04867394355 s (T = 4 s)" in run.out, (
-        "errata S0-f: this one hung"
+        "errata S0-f: the printed program hangs on this task"
     )
     assert "yesterday" not in (tmp_path / "output.log").read_text()
 
 
-def test_help_and_usage_errors(tmp_path):
+def test_help_and_usage_errors_explain_the_command(tmp_path):
     run = command("-h", cwd=tmp_path)
     assert run.returncode == 0
     for word in (
@@ -212,14 +214,14 @@ def test_closed_streams_are_handled(tmp_path):
 
 @posix
 def test_simultaneous_runs_in_one_folder_are_refused(tmp_path):
-    """The second run does not touch the log of the first, and says so."""
+    """The second run does not change the log of the first, and reports that."""
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(600)})
     write(tmp_path / "others", a=example(2))
     line = [sys.executable, "-m", "robokin.jobs", "tasks"]
     with subprocess.Popen(
         line, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as first:
-        first.stdout.readline()  # it runs, and then waits for a reader of its output
+        first.stdout.readline()  # the first run has begun, and waits until its output is read
         second = command("others", cwd=tmp_path)
         out, err = first.communicate(timeout=PATIENCE)
     assert second.returncode == 1 and "a.json: collected 1 of 2" in second.out
@@ -227,7 +229,7 @@ def test_simultaneous_runs_in_one_folder_are_refused(tmp_path):
     assert first.returncode == 0 and b"cannot" not in err
     log = (tmp_path / "output.log").read_text()
     assert "a.json" not in log and "INFO: 600 files: 600 answered, 0 skipped" in log
-    assert command("others", cwd=tmp_path).returncode == 0, "the folder is free again"
+    assert command("others", cwd=tmp_path).returncode == 0, "the folder is still locked"
     assert "a.json" in (tmp_path / "output.log").read_text()
 
 
@@ -281,7 +283,9 @@ def test_interrupts_and_internal_errors_are_handled(tmp_path, monkeypatch, capsy
     out = capsys.readouterr().out
     assert "Task a.json skipped:\n\tthis program failed, ArithmeticError: of the test" in out
     assert "Task b.json: collected 1 of 2" in out and "Traceback" not in out
-    assert "Traceback" in (tmp_path / "output.log").read_text(), "for whoever mends it"
+    assert "Traceback" in (tmp_path / "output.log").read_text(), (
+        "the log lacks the traceback, which a developer needs"
+    )
 
     def stop(task, **options):
         raise KeyboardInterrupt
@@ -304,10 +308,10 @@ def test_log_of_the_caller_is_not_used(tmp_path, monkeypatch, capsys, caplog):
     assert not module.answers.handlers and not module.end.handlers
 
 
-# ---- What a reader should know
+# ---- Hints about the content of a file
 
 
-def test_oddities_of_a_file_are_reported(tmp_path):
+def test_oddities_in_a_file_are_reported(tmp_path):
     tasks = write(
         tmp_path / "tasks",
         degrees=example(**{"q'": [20, 20, 20]}),
@@ -374,10 +378,10 @@ def test_import_robokin_does_not_import_jobs():
 
 
 def mutants(folder, count, seed=0):
-    """Fill a folder with `count` task files, most of them invalid. Yields (name, words, case).
+    """Write `count` task files to a folder, most of them invalid; yield (name, words, case).
 
-    words: what the reason must contain, None for a good task; case: the reference case that a good
-    task is.
+    words: text that the reason must contain, None for a good task; case: the reference case from
+    which the file was made, and the kind of task.
     """
     rng = np.random.default_rng(seed)
     folder = Path(folder)
@@ -511,14 +515,14 @@ def _not_utf8(data, rng):
 
 def _huge_time(data, rng):
     data["T"] = [1e300, 10**300, 1.7976931348623157e308][rng.integers(3)]
-    return data, f"({len(data['pi'])} of {len(data['pi'])})"  # everything is served
+    return data, f"({len(data['pi'])} of {len(data['pi'])})"  # all points are served
 
 
 def _shown(point):
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
-# kind -> (dict, bytes or None for a folder; words of the reason, None for a good task)
+# kind -> (a dict, bytes, or None for a folder; words in the reason, or None for a good task)
 MUTATIONS = {
     "good": lambda data, rng: (data, None),
     "good with more keys": lambda data, rng: (data | {"q": [], "note": [[["x"]]]}, None),
@@ -591,7 +595,7 @@ def test_mutated_files_are_reported_with_a_reason(tmp_path):
     assert reports[-1].strip() == f"INFO: {count} files: {count - bad} answered, {bad} skipped"
     assert 0.1 * count < bad < 0.95 * count
     assert f"{count // 100 * 100 - 100 * (count % 100 == 0)} of {count} files" in run.err, (
-        "progress"
+        "the progress is not reported"
     )
     kept = [
         line
