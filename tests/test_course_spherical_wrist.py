@@ -199,7 +199,7 @@ def test_the_programs_are_what_they_are_called():
         ),
         (
             lambda p: bool(np.allclose(p(zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
-            "refuses a right program",
+            "refuses a correct program",
         ),
     ],
 )
