@@ -190,7 +190,7 @@ def _tasks(count, turn, gap):
 
 @pytest.mark.parametrize(
     "turn, gap, mistake",
-    [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a right program")],
+    [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a correct program")],
 )
 def test_a_test_that_asks_more_than_is_promised(turn, gap, mistake):
     def strict(safe):

@@ -636,7 +636,7 @@ def test_changed_solution_names_all_edits_that_no_longer_fit(place):
         ("twice.md", 36, "another sum", ("x + x", "return x")),
     ):
         assert lab.broken[name].split("\n") == [
-            f"{place / 'mine' / name}, line {line + k}: {mistake!r}: `{piece}` stands 0 times in "
+            f"{place / 'mine' / name}, line {line + k}: {mistake!r}: `{piece}` occurs 0 times in "
             "the solution, wanted once"
             for k, piece in enumerate(pieces)
         ]

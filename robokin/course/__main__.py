@@ -26,7 +26,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
-        install = f"pip install '.[{options.extra}]' in the top folder of a clone of robokin"
+        install = f"pip install '.[{options.extra}]' at the top of a clone of robokin"
         print(f"{error}; install it with {install}", file=sys.stderr)
         return 1
 

@@ -34,7 +34,7 @@ def build(folder: Path, teaching: bool = True) -> str:
     """
     missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
     if missing:
-        install = "pip install '.[site]' in the top folder of a clone of robokin"
+        install = "pip install '.[site]' at the top of a clone of robokin"
         raise ValueError(f"{', '.join(missing)}: not installed; use {install}")
     labs = Path(robokin.__file__).parents[1] / "notebooks"
     if not any(labs.glob("*.ipynb")):
