@@ -713,7 +713,7 @@ def test_running_a_lab_does_not_count_as_a_change():
 def test_outcomes_match_the_files(school, capsys):
     command = ["copy", str(school.folder), "--from", str(school.labs)]
     assert main(command) == 0
-    assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 as they were\n"
+    assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 unchanged\n"
     school.write("one.ipynb", written(notebook("mine")))
     (school.folder / "two.ipynb").unlink()
     (school.labs / "tasks/task.json").unlink()
@@ -721,11 +721,11 @@ def test_outcomes_match_the_files(school, capsys):
         school.newer(name, "second")
     assert main(command) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "tasks/task.json: no longer among the labs; it stays",
+        "tasks/task.json: no longer a lab; the file stays",
         "one.ipynb: yours stays; the newer one is one.new.ipynb",
         "three.ipynb: new",
-        "two.ipynb: back, as there is a newer one",
-        f"{school.folder}: 2 new, 1 kept; 0 as they were",
+        "two.ipynb: back, since there is a newer one",
+        f"{school.folder}: 2 new, 1 kept; 0 unchanged",
     ]
     assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
     assert school.says("one.new.ipynb") == "# one.ipynb second"
@@ -823,7 +823,7 @@ def test_full_disk_is_reported_and_recovered_from(school, capsys):
         assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
     said = capsys.readouterr()
     assert said.err.splitlines()[0] == "new.ipynb: No space left on device"
-    assert "3 failed; 1 as they were" in said.out
+    assert "3 failed; 1 unchanged" in said.out
     assert set(school.copy().values()) == {"new", "replaced"}
     assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
 
@@ -921,7 +921,7 @@ def test_unusable_folders_are_refused_with_a_reason(school, tmp_path, capsys, mo
         refused(tmp_path / "file", school.labs) == "wanted a folder, got a file or a broken link\n"
     )
     for folder in (school.labs, school.labs / "deep" / "er", tmp_path, school.labs / ".." / "labs"):
-        assert "wanted a folder apart from the labs" in refused(folder, school.labs)
+        assert "wanted a folder separate from the labs" in refused(folder, school.labs)
     assert "no labs in" in refused(tmp_path / "new", tmp_path)
     monkeypatch.setattr(copies, "__file__", str(tmp_path / "site" / "robokin" / "course" / "x.py"))
     assert "not installed from a clone; give --from" in refused(tmp_path / "new")
@@ -950,20 +950,20 @@ def test_labs_are_copied_even_if_they_cannot_be_trusted(school, monkeypatch, cap
         nbformat.sign, "NotebookNotary", mock.Mock(side_effect=OSError("no rights"))
     )
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
-    assert "not trusted: 'no rights'" in capsys.readouterr().err
+    assert "still pictures: 'no rights'" in capsys.readouterr().err
     assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"
 
 
 def test_simultaneous_copies_do_no_harm(school):
     with copies.alone(school.folder / ".robokin" / "lock"):
-        with pytest.raises(ValueError, match="another process is at work"):
+        with pytest.raises(ValueError, match="another process is using it"):
             school.copy()
     for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
         school.newer(name, "second")
     with ThreadPoolExecutor(2) as pool:
         both = [pool.submit(school.copy) for _ in range(2)]
         errors = [each.exception() for each in both]
-        assert all(e is None or "another process is at work" in str(e) for e in errors), errors
+        assert all(e is None or "another process is using it" in str(e) for e in errors), errors
         assert None in errors
     assert all(school.says(f"{n}.ipynb").endswith("second") for n in ("one", "two", "three"))
     assert school.copy() == {}

@@ -192,7 +192,7 @@ def _tasks(count, turn, gap):
 
 @pytest.mark.parametrize(
     "turn, gap, mistake",
-    [(80, 0.004, "refuses a right program"), (170, 0.03, "refuses a right program")],
+    [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a correct program")],
 )
 def test_test_that_asks_more_than_promised_is_named(turn, gap, mistake):
     def strict(safe):

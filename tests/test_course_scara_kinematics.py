@@ -176,7 +176,7 @@ def test_weak_limit_test_reports_what_it_accepts():
     def strict(inside):
         return not inside(SCARA.limits.T, SCARA.limits)
 
-    assert check("scara_kinematics.3", strict).mistake == "refuses a right program"
+    assert check("scara_kinematics.3", strict).mistake == "refuses a correct program"
 
 
 def spoiled(past, tables, at=(7,), said=bool):

@@ -199,7 +199,7 @@ def test_programs_match_their_names():
         ),
         (
             lambda p: bool(np.allclose(p(zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
-            "refuses a right program",
+            "refuses a correct program",
         ),
     ],
 )

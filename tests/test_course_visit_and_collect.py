@@ -85,7 +85,7 @@ def test_correct_tests_pass(answer):
         ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7),
-            "refuses a right program",
+            "refuses a correct program",
         ),
         (
             lambda inverse: all(
@@ -107,7 +107,7 @@ def test_correct_tests_pass(answer):
         (judge_on(BOX), "refuses every program"),
         (
             lambda inverse: all(np.allclose(inverse(p), ARM.ik(p)[0]) for p in POINTS),
-            "refuses a right program",
+            "refuses a correct program",
         ),
     ],
 )

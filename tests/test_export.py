@@ -168,7 +168,7 @@ def test_bad_notebook_is_reported_with_its_reason(tmp_path):
     path.write_text(json.dumps(good))
     assert read(path).cells[0].source == "1", "an old notebook with ids was not read"
     for bad, reason in (
-        ([], "no table of names and values"),
+        ([], "its JSON is not an object"),
         (good | {"nbformat": 5}, "version 5"),
         (good | {"cells": [{"cell_type": "code", "source": "1"}]}, "metadata"),
         (good | {"cells": [cell | {"outputs": [{"output_type": "x" * 5000}]}]}, "x"),

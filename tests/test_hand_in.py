@@ -268,7 +268,7 @@ def test_complete_session_writes_a_report(tmp_path):
             kernel.run(source)
         page = tmp_path / "00_start_here_Ada.html"
         said = kernel.run(REPORT)
-        assert said.startswith("Running your lab anew.") and page.name in said
+        assert said.startswith("Running your lab again.") and page.name in said
         assert "start_here.1: failed" in said and "1 of 1 predictions made" in said
         data = report_data(page.read_text(encoding="utf-8"))
         assert data["who"] == "Ada" and data["exercises"][0]["state"] == "failed"

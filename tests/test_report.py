@@ -81,11 +81,11 @@ def test_verdicts_match_the_answers(hostile):
 def test_oddities_are_reported(hostile):
     remarks = "\n".join(hostile.data["remarks"])
     for said in (
-        'scara_motion.2: the stored output says "holds"; worked out anew it is "does not hold".',
+        'scara_motion.2: the stored output says "holds"; judged again, it is "does not hold".',
         "scara_motion.3: the notebook uses the numbers of 'your name', not of 'Ada Lovelace'.",
         "(ZeroDivisionError)",
         "The kernel died in this cell.",
-        "what it shows was too much",
+        "its output was too long",
         ": Stopped after 4 s.",
         "is shown as it was typed",
     ):

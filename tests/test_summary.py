@@ -94,7 +94,7 @@ def test_table_lists_handed_in_work(handed, tmp_path, capsys):
     left_out = {
         "student 29/report.html": ("student 29", "a report that cannot be read"),
         "student 3/03_irb140_motion.ipynb": ("student 3", "not a notebook"),
-        "student 5/other.HTML": ("student 5", "a page that is no report"),
+        "student 5/other.HTML": ("student 5", "a page that is not a report"),
         "student 6/notes.ipynb": ("student 6", f"a notebook without a known exercise. {book.MORE}"),
     }
     rows = table_in(tmp_path)
@@ -372,7 +372,7 @@ def test_the_same_page_in_several_folders_counts_once(tmp_path):
         "Bob/lab.html": ("Bob", same(counts["Ada"])),
         "Zoë/lab.html": ("Zoë", same(counts["Ada"])),
         "Carl/lab of Eve.html": ("Carl", same(counts["Eve"])),
-        "Carl/other.html": ("Eve", f"{counts['Eve']} of Eve for {SLUG} is as new and counts"),
+        "Carl/other.html": ("Eve", f"{counts['Eve']} of Eve for {SLUG} is equally new and counts"),
         "b.html": ("../x", same("a.html")),
         "lab.html": ("Ada", f"{counts['Ada']} of Ada for {SLUG} is newer and counts"),
     }

@@ -217,9 +217,9 @@ GOOD = report_of("Ada")
 TEXT = json.dumps(GOOD)
 NEVER = "irb140_motion." + "9" * 5000
 BROKEN = {  # file name -> (its content, a part of the reason)
-    "empty.html": ("", "no report"),
-    "page.html": ("<p>Hello</p>", "no report"),
-    "utf16.html": (page(GOOD).encode("utf-16"), "no report"),
+    "empty.html": ("", "not a report"),
+    "page.html": ("<p>Hello</p>", "not a report"),
+    "utf16.html": (page(GOOD).encode("utf-16"), "not a report"),
     "no lab.html": (
         GOOD | {"lab": None, "exercises": [], "predictions": []},
         "without a known exercise",
@@ -240,7 +240,7 @@ BROKEN = {  # file name -> (its content, a part of the reason)
     "evil id.html": (one(GOOD, "exercises", id=f"{SLUG}.<img src=x>"), "exercises: wanted each"),
     "no entry.html": (GOOD | {"exercises": [None]}, "exercises: wanted each id"),
     "no list.html": (GOOD | {"exercises": {}}, "exercises: wanted a list"),
-    "nobody.html": (GOOD | {"who": None}, "who: wanted a text"),
+    "nobody.html": (GOOD | {"who": None}, "who: wanted a string"),
     "blank.html": (GOOD | {"who": " \u3000"}, "who: wanted a name"),
     "unseen.html": (GOOD | {"who": "\u200c\u200d"}, "who: wanted a name"),
     "long who.html": (GOOD | {"who": "A" * 201}, "at most 200 characters"),
@@ -257,7 +257,7 @@ BROKEN = {  # file name -> (its content, a part of the reason)
     "state.html": (one(GOOD, "exercises", state="perfect"), "state: wanted"),
     "odd state.html": (one(GOOD, "exercises", state=["holds"]), "state: wanted"),
     "says.html": (one(GOOD, "exercises", says={}), "says: wanted a list"),
-    "mistake.html": (one(GOOD, "exercises", mistake=5), "mistake: wanted a text"),
+    "mistake.html": (one(GOOD, "exercises", mistake=5), "mistake: wanted a string"),
     "right.html": (one(GOOD, "predictions", choice="a", right=1), "right: wanted one"),
     "no choice.html": (one(GOOD, "predictions", right=True), "for the choice None"),
     "remarks.html": (GOOD | {"remarks": ["x"] * 201}, "at most 200 entries"),
@@ -279,7 +279,7 @@ def test_bad_file_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
         put(tmp_path / "good" / str(k) / file, report_of(name))
     for k, (file, (content, _)) in enumerate(BROKEN.items()):
         put(tmp_path / f"broken {k}" / file, content)
-    more = {"link.html": "symbolic link", "folder": "symbolic link", "pipe.html": "no ordinary"}
+    more = {"link.html": "symbolic link", "folder": "symbolic link", "pipe.html": "not an ordinary"}
     outside = put(tmp_path / "outside" / "x.html", report_of("Mallory"))
     folder = tmp_path / "in"
     folder.mkdir()
