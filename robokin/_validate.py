@@ -19,8 +19,8 @@ from ._arrays import Bools, Floats
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
-AXES = 30  # axes of an argument; a result may have two more, and NumPy broadcasts up to 32
-GREATEST = 10**8  # values in one array: more would exhaust a laptop's memory
+AXES = 30  # most axes of an argument; a result may have two more, and NumPy broadcasts up to 32
+GREATEST = 10**8  # greatest number of values in one array: more would exhaust a laptop's memory
 
 
 def floats(value: Any, name: str, last: int | None = None, finite: bool = True) -> Floats:

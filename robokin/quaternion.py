@@ -25,7 +25,8 @@ class Batch(Sealed):
     only.
     """
 
-    __array_ufunc__ = None  # makes `array @ value` a TypeError instead of an array of objects
+    # Otherwise `array @ value` would return an array of objects instead of raising a TypeError.
+    __array_ufunc__ = None
 
     @property
     @abstractmethod

@@ -219,8 +219,9 @@ class Elbow(NamedTuple):
         return self.fore_angle - self.upper_angle + self.sign3 * q[..., 2]
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """dict of name -> bool (...). Shoulder: the point is on axis 1 or as near to it as it can
-        be (within 1e-6 of the reach). Elbow: the arm is stretched or folded (within 1e-6 rad).
+        """The singularities of the posture: dict of name -> bool (...). Shoulder: the point is on
+        axis 1 or as near to it as it can be (within 1e-6 of the reach). Elbow: the arm is stretched
+        or folded (within 1e-6 rad).
         """
         return {
             "shoulder": abs(self.radius(q)) < SINGULAR * self.reach,

@@ -55,9 +55,9 @@ Exit status: 0    every task solved
              130  stopped with Ctrl+C"""
 BIG = 1_000_000  # bytes: a file up to this size is solved quickly
 
-log = logging.getLogger("robokin.jobs")  # to output.log
-answers = log.getChild("answers")  # also to standard output
-end = log.getChild("end")  # also to standard error; the run ends here
+log = logging.getLogger("robokin.jobs")  # writes to output.log
+answers = log.getChild("answers")  # writes also to standard output
+end = log.getChild("end")  # writes also to standard error; then the run ends
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -151,8 +151,8 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
 
 
 class Output(logging.StreamHandler[TextIO]):
-    """Write lines "LEVEL: message" to a stream. If it cannot be written, report this once and note
-    it in `lost`; the other outputs go on.
+    """Write lines "LEVEL: message" to a stream. If the stream cannot be written, report this once
+    and note it in `lost`; the other outputs continue.
     """
 
     def __init__(self, title: str, stream: TextIO, lost: list[str]) -> None:

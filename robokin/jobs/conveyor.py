@@ -22,7 +22,7 @@ from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
 # These limits keep every call below a few seconds:
-MOST = 1_000  # objects
+MOST = 1_000  # objects on the belt
 PLACES = 500  # places in a window
 ARMS = 100
 

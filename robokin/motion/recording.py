@@ -360,7 +360,7 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
         for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
             first, last = run[0], run[-1]
             # A corner between two samples appears in two changes, in one of them perhaps only
-            # faintly. (There are always two more changes on each side of a certain jump.)
+            # faintly. (There are always two more changes on each side of a jump in `sure`.)
             first -= part[c, first - 1].any()
             last += part[c, last + 1].any()
             time = float((t[first + 1] + t[last + 1]) / 2)

@@ -77,8 +77,8 @@ class Plan(Sealed):
                inf without an obstacle
     least      S of the direct motion in radians, a lower bound for all paths; NaN if the target is
                out of reach
-    radius     of the circle around the obstacle on which the via points lie, in metres; NaN if the
-               path has no via points
+    radius     radius of the circle around the obstacle on which the via points lie, in metres; NaN
+               for any other way
 
     Arrays are read-only copies. ValueError: parts that do not match.
     """

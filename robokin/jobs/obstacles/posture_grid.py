@@ -278,7 +278,8 @@ def _proven_moves(
         (here, there), (q0, q1) = (
             (x[:-1], x[1:]) for x in (np.moveaxis(each, joint, 0) for each in (room, grid))
         )
-        proven.append((here + there - carried[joint] * step) / 2 >= distance)  # lab 10, section 4
+        # the bound of lab 10, section 4
+        proven.append((here + there - carried[joint] * step) / 2 >= distance)
         open_ = ~proven[joint] & (here >= distance) & (there >= distance)
         asked.append((open_, q0[open_], q1[open_]))
     q0, q1 = (np.concatenate([each[k] for each in asked]) for k in (1, 2))

@@ -12,7 +12,7 @@ from ...arms.geometry import FREE, ROUNDING
 from ...units import deg, wrapped
 
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
-SAMPLES = 1001  # postures along a straight line
+SAMPLES = 1001  # number of postures along a straight line
 SLACK = 1e-9  # a position within this of a whole pulse counts as that pulse
 COUNTED = 2**52  # pulses from zero: a float represents each one exactly
 LISTED = 10_000_000  # greatest number of pulses that one call lists
@@ -56,7 +56,8 @@ def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     for i in np.flatnonzero(~np.isnan(alpha)):
         alpha[i] = before = before if free[i] else float(wrapped(alpha[i], before))
     gamma = np.where(gamma < -90 * deg, gamma + 360 * deg, gamma)
-    return np.stack([alpha, gamma, abs(beta)], axis=-1)  # folded: beta is 0 up to rounding
+    # In a folded arm beta is 0 except for rounding, and could be negative.
+    return np.stack([alpha, gamma, abs(beta)], axis=-1)
 
 
 def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
@@ -125,7 +126,7 @@ class Move(Sealed):
 
     @property
     def duration(self) -> float:
-        """Seconds."""
+        """The duration of the move in seconds."""
         return float(self.t[-1])
 
     @property

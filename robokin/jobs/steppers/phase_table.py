@@ -78,6 +78,6 @@ def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
 
 
 def read_windings(motor: str, windings: int | None) -> int:
-    """Return the number of windings of a motor, by default that of the document."""
+    """Return the number of windings of a motor, by default that of the document's motor."""
     fewest = _FEWEST[choice(motor, "motor", tuple(COLUMNS))]
     return whole(_DOCUMENTS[motor] if windings is None else windings, "windings", fewest, 6)

@@ -14,8 +14,8 @@ ROTORS = ("active", "passive")
 SETTLED = 8.0  # time constants after which a rotor is at rest
 NEARLY = 3.0  # time constants until a current is within 5 % of its value
 FINE = (0.1, 0.25)  # integration step, as a fraction of the shortest mechanical time and of `rise`
-INTEGRATED = 100_000  # steps of one run
-FASTEST = 1e9  # rad/s
+INTEGRATED = 100_000  # greatest number of steps of one run
+FASTEST = 1e9  # rad/s: the greatest speed that a load or torque may cause
 SLOWEST = 10  # pulses per second: the search for a start frequency begins here
 
 
@@ -25,10 +25,10 @@ class Stepper(Sealed):
 
     rotor     "active": a permanent magnet of two poles. "passive": soft iron with 2 n + 2 teeth
               between 2 n poles; the sign of a current has no effect, so the motor is unipolar
-    motor, windings, drive  as for `phases`
+    motor, windings, drive  as in `phases`
     torque    the greatest torque of one winding, N m
-    inertia   of the rotor, kg m^2
-    damping   torque per speed, N m s
+    inertia   the rotor's moment of inertia, kg m^2
+    damping   braking torque per angular speed, N m s
     rise      time constant L/R of a winding's current, s; with 0 the current changes at once
 
     Each winding with the current i (1: full) pulls with torque * i * sin(psi - N theta), where psi
@@ -123,7 +123,7 @@ class Stepper(Sealed):
         even `SLOWEST` is too fast. It is found by bisection: a motor with little damping may also
         lose steps far below it, by resonance.
 
-        load, load_inertia  as for `run`. Source of the term: 003, II.3.1.
+        load, load_inertia  as in `run`. Source of the term: 003, II.3.1.
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
@@ -303,8 +303,8 @@ def _integration_steps(
 
 def _resting(motor: Stepper, load: float) -> Floats:
     """(rows,) rad: the rest position of the rotor in each row under a load, the first within half a
-    period of 0 and the others after it. If a row cannot hold the load: the position where it pulls
-    most.
+    period of 0 and the others after it. If a row cannot hold the load, it is the position where the
+    row pulls most.
     """
     pulls = motor.pulls
     bent = np.arcsin(np.clip(load / (motor.torque * abs(pulls)), -1, 1))

@@ -11,7 +11,7 @@ from ..._validate import TWO_TURNS, broadcast, floats, length, short, warn_if_de
 from ...arms import spbu_arm, within
 from ...arms.geometry import FREE, ROUNDING
 
-SHORTEST, LONGEST = 1e-6, 1e6  # m; a link outside this range is probably in wrong units
+SHORTEST, LONGEST = 1e-6, 1e6  # m; a link outside this range is probably in the wrong unit
 UNDER = 1e-9  # fraction of the reach: a tool below the floor by no more than this counts as on it
 
 
@@ -29,7 +29,7 @@ def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
     l1, l2 = _links(l1, l2)
     x, y, z = components(floats(points, "points", 3))
     slack = ROUNDING * (l1 + l2)
-    with np.errstate(over="ignore"):  # a point 1e308 m away is too far, without a warning
+    with np.errstate(over="ignore"):  # no warning for a point 1e308 m away
         rho = np.hypot(x, y)
         d = np.hypot(rho, z)
         # The lowest elbow is on the floor behind the axis, l1 away: (rho + l1)^2 + z^2 >= l2^2,
@@ -63,7 +63,7 @@ def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
     # -0.0 becomes 0: atan2 distinguishes them, a point does not
     p = floats(points, "points", 3) + 0.0
     near = FREE * (l1 + l2)
-    with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`
+    with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`, without a warning
         q = np.array(spbu_arm(l1, l2).ik(p)[..., 0, :])
         rho = np.hypot(p[..., 0], p[..., 1])
         q[rho <= near, 0] = np.nan
@@ -81,7 +81,7 @@ def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
     arm = spbu_arm(*_links(l1, l2))
     posture, p = floats(q, "q", 3, finite=False), floats(points, "points", 3)
     broadcast("q and points", posture.shape, p.shape)
-    posture = with_free_joints(posture, 0.0)  # a free joint may have any value, so 0 too
+    posture = with_free_joints(posture, 0.0)  # a free joint may have any value, including 0
     with np.errstate(over="ignore"):
         gap = np.linalg.norm(arm.fk(posture).translation - p, axis=-1)
     return np.where(within(arm, posture).all(axis=-1) | np.isnan(gap), gap, np.inf)

@@ -15,7 +15,7 @@ from .task import Task, TaskError
 # These limits keep every call below a few seconds:
 EXACT_LIMIT = 16  # points; each additional point doubles the time and memory of the exact optimum
 NEAREST_LIMIT = 10_000  # points; the repeated search for the nearest compares n^2 / 2 moves
-ABOVE_LIMIT = 1_000  # the same if each of these moves also needs its lowest place
+ABOVE_LIMIT = 1_000  # points, if each of these moves also needs its lowest place
 
 
 @dataclass(frozen=True)
@@ -192,8 +192,8 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
     order: list[int] = []
     times: list[float] = []
     total, here, p0 = 0.0, task.q[0], task.q[0]
-    # The remaining points and their postures, contiguous for each joint; the last one replaces one
-    # that is served.
+    # The remaining points and their postures, contiguous for each joint; the last point replaces
+    # each one that is served.
     left, q = np.arange(n), np.array(task.q[1:], order="F")
     while len(left):
         costs = joint_travel_time(here, q, task.speeds, short_way)
@@ -204,7 +204,7 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
         best = np.flatnonzero(_nearly_least(costs, costs.min()) & fits(total + costs, task.T))
         if not len(best):
             break
-        k = best[left[best].argmin()]  # the first of the cheapest
+        k = best[left[best].argmin()]  # of the cheapest points, the one with the lowest index
         total += float(costs[k])
         order.append(int(left[k]))
         times.append(total)

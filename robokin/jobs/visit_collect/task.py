@@ -17,10 +17,10 @@ from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside,
 
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
 # These limits keep every call below a few seconds:
-TASK_LIMIT = 300_000  # points in any task
-FILE_LIMIT = 40_000_000  # bytes
+TASK_LIMIT = 300_000  # greatest number of points in a task
+FILE_LIMIT = 40_000_000  # bytes in a file
 # These limits keep messages readable:
-FAULTS_SHOWN = 10  # faults of one kind
+FAULTS_SHOWN = 10  # faults of one kind that are listed
 
 
 class TaskError(ValueError):
