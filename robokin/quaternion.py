@@ -117,7 +117,7 @@ class Quaternion(Batch):
         with np.errstate(over="ignore", invalid="ignore"):
             error = abs(m @ m.mT - np.eye(3)).max(initial=0)
         if not error <= UNIT:
-            differs = f"M where M M^T differs from the identity by {error:.3g}"
+            differs = f"a matrix M for which M M^T differs from the identity by {error:.3g}"
             raise ValueError(f"matrix: wanted a rotation, got {differs}")
         x, y, z = (components(m[..., k, :]) for k in range(3))
         volume = sum(a * b for a, b in zip(cross(x, y), z, strict=True))  # the determinant

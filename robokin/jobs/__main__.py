@@ -46,12 +46,12 @@ written. Progress goes to standard error.
 
 A key given twice is a reason to skip a file. Unknown keys, speeds that look like
 degrees and moves on which the tool dips under the floor are warnings. A file may
-have {TASK_LIMIT} points ("visit", or "collect" with p0 on axis 1: {NEAREST_LIMIT}). The
-first {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of a kind.
+have up to {TASK_LIMIT} points ("visit", or "collect" with p0 on axis 1: {NEAREST_LIMIT}).
+The first {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of each kind.
 
 Exit status: 0    every task solved
              1    a file skipped, or the output or the log could not be written
-             2    nothing to do: wrong use, no such folder, no *.json in it
+             2    nothing to do: wrong usage, no such folder, no *.json in it
              130  stopped with Ctrl+C"""
 BIG = 1_000_000  # bytes: a file up to this size is solved quickly
 

@@ -124,7 +124,7 @@ def _wait(
     if begin == 0:
         words = "The direct way is clear: the obstacle is not on it at that time."
         return "direct", words, np.stack([start, goal]), np.array([0, takes])
-    words = f"The arm waits for {begin:.2f} s and goes directly then."
+    words = f"The arm waits for {begin:.2f} s and then goes directly."
     return "wait", words, np.stack([start, start, goal]), np.array([0, begin, begin + takes])
 
 
@@ -160,6 +160,6 @@ def _search(
                 times = np.append(ticks[: tick + 1], arrive[i])
                 kept = shortcuts(arm, path, (H + times[:, None] * v)[None], distance)
                 if kept is not None:
-                    words = f"Waiting is not enough; a search finds a way of {arrive[i]:.2f} s."
+                    words = f"Waiting is not enough; a search finds a path of {arrive[i]:.2f} s."
                     return "search", words, path[kept], times[kept]
     return None

@@ -110,7 +110,7 @@ class Plan(Sealed):
             raise ValueError(f"least: wanted one sum of angle changes, got {short(self.least)}")
         radius = floats(self.radius, "radius", finite=False)
         if radius.ndim or np.isnan(radius) == (self.way == "via points") or radius <= 0:
-            wanted = f"wanted one length with way 'via points' only, here {self.way!r}"
+            wanted = f"wanted one length for way 'via points', NaN for others, here {self.way!r}"
             raise ValueError(f"radius: {wanted}, got {short(self.radius)}")
         object.__setattr__(self, "radius", float(radius))
         object.__setattr__(self, "path", frozen(path))
