@@ -232,9 +232,9 @@ def test_uneven_spacing_loses_objects():
     "change, message",
     [
         (dict(pitch=0.5), "pitch: wanted at least the window's 0.8 m, got 0.5 m"),
-        (dict(offsets=[0.2, 0.1]), "offsets: wanted 1 to 1000 rising numbers in m"),
+        (dict(offsets=[0.2, 0.1]), "offsets: wanted 1 to 1000 increasing numbers in m"),
         (dict(ways=WAYS[1:]), "ways: wanted 161 times in s, one for each place of the window"),
-        (dict(v=1e-320), "v: wanted a speed at which the objects come"),
+        (dict(v=1e-320), "v: wanted a speed at which the objects arrive"),
         (dict(first_come="no"), "first_come: wanted True or False, got 'no'"),
     ],
 )
@@ -245,5 +245,5 @@ def test_invalid_lines_are_refused(change, message):
 
 def test_invalid_spreads_are_refused():
     for spread in (-0.1, 1.1):
-        with pytest.raises(ValueError, match="spread: wanted a share from 0 to 1"):
+        with pytest.raises(ValueError, match="spread: wanted a fraction from 0 to 1"):
             spaced(COUNT, GAP, spread)

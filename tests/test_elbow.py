@@ -146,18 +146,18 @@ def test_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
     "l1, l2, point, words",
     [
         (5, 4, (9, 0.1, 0), "is too far: 0.0005555 m beyond the stretched arm, l1 + l2 = 9 m"),
-        (5, 4, (1, 1, -0.25), "is under floor: z = -0.25 m"),
+        (5, 4, (1, 1, -0.25), "is under the floor: z = -0.25 m"),
         (
             5,
             4,
             (0.5, 0, 0.5),
-            "is too close to origin: |p| = 0.707106781 m is less than l1 - l2 = 1 m",
+            "is too close to the origin: |p| = 0.707106781 m is less than l1 - l2 = 1 m",
         ),
         (
             4,
             5,
             (0, 0.7071, 0.7071),
-            "is too close to origin: |p|^2 = 0.99998082 m^2 is less than "
+            "is too close to the origin: |p|^2 = 0.99998082 m^2 is less than "
             "l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
         ),
     ],
@@ -169,7 +169,7 @@ def test_reason_for_an_unreachable_point_is_reported(l1, l2, point, words):
 def test_all_reasons_are_listed():
     assert [text.split(":")[0] for text in out_of_workspace(5, 4, (0, 0, -20))] == [
         "is too far",
-        "is under floor",
+        "is under the floor",
     ]
     assert out_of_workspace(5, 4, (2, 3, 2)) == []
 
@@ -244,7 +244,7 @@ def test_invalid_arms_and_points_are_refused():
         (lambda: workspace(5, [4, 4], (1, 1, 1)), r"l2: .*\[4, 4\]"),
         (lambda: workspace(5, np.nan, (1, 1, 1)), "l2.*nan"),
         (lambda: workspace(5, 4, (1, 1)), r"points: wanted shape \(\.\.\., 3\), got \(2,\)"),
-        (lambda: out_of_workspace(5, 4, [(1, 1, 1)] * 2), r"one single point \(3,\), got \(2, 3\)"),
+        (lambda: out_of_workspace(5, 4, [(1, 1, 1)] * 2), r"a single point \(3,\), got \(2, 3\)"),
         (lambda: spbu_arm(5, 4).ik((1, np.inf, 1)), "inf"),
         (lambda: spbu_arm(0, 4), "l1: wanted one positive length"),
         (lambda: spbu_arm(5, 0), "l2: wanted one positive length"),

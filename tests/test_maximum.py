@@ -50,11 +50,11 @@ def test_minimum_is_the_maximum_of_the_negative():
         ((np.sin, 0, np.inf, 2), ValueError, "high: wanted finite"),
         ((np.sin, 0, 1, -1), ValueError, "decimals: wanted a whole number"),
         ((lambda x: x[:-1], 0, 1, 2), ValueError, r"wanted shape \(65,\), got \(64,\)"),
-        ((lambda x: x * np.nan, 0, 1, 2), ValueError, "wanted values, got none"),
+        ((lambda x: x * np.nan, 0, 1, 2), ValueError, "wanted at least one value, got only NaN"),
         (
             (lambda x: -np.log(abs(x - np.sqrt(0.5)) + 1e-300), 0, 1, 2),
             ValueError,
-            "a greatest value that stands",
+            "a maximum that converges",
         ),
     ],
 )

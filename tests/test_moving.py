@@ -211,7 +211,10 @@ WRONG = {
     "velocity as a number": (lambda: plan_moving(ARM, Q0, GOAL, FAR, 1, 1), "velocity: wanted"),
     "distance": (lambda: plan_moving(ARM, Q0, GOAL, FAR, V, 1, -0.1), "distance: .*-0.1"),
     "degrees": (lambda: plan_moving(ARM, [90, 90, 90], GOAL, FAR, V, 1), "posture: .* to 180"),
-    "both sensors at one point": (lambda: locate(FAR, FAR, 1, 1), "Q: wanted a point apart from P"),
+    "both sensors at one point": (
+        lambda: locate(FAR, FAR, 1, 1),
+        "Q: wanted a point different from P",
+    ),
     "a distance of 0": (lambda: locate(FAR, GOAL, 0, 1), "from_P: wanted one positive length"),
     "a distance of NaN": (lambda: locate(FAR, GOAL, 1, np.nan), "from_Q: .*nan"),
 }

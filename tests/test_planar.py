@@ -264,9 +264,9 @@ def test_errors_name_the_wrong_argument(call, words):
 
 
 def test_points_off_the_plane_are_out_of_reach():
-    assert np.isnan(
-        ARM.family((1.5, 1, 0.1), 2.0)
-    ).all() and "beside the plane" in ARM.out_of_reach((1.5, 1, 0.1))
+    assert np.isnan(ARM.family((1.5, 1, 0.1), 2.0)).all() and "off the plane" in ARM.out_of_reach(
+        (1.5, 1, 0.1)
+    )
 
 
 @pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])

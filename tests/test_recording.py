@@ -554,7 +554,7 @@ def test_parts_of_a_batch_keep_their_jumps(motions):
 def test_a_single_recording_has_no_parts(motions):
     one = record(IRB140, T, motions[0])
     for call in (lambda: len(one), lambda: one[0], lambda: list(one)):
-        with pytest.raises(TypeError, match="one single Recording"):
+        with pytest.raises(TypeError, match="a single Recording"):
             call()
 
 

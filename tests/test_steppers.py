@@ -307,13 +307,13 @@ def test_moves_are_read_only_data():
 @pytest.mark.parametrize(
     "t, positions, complaint",
     [
-        ([], np.empty((0, 2)), "t: wanted times that rise from 0"),
-        (0.0, [[1]], "t: wanted times that rise from 0"),
-        ([1, 2], [[0], [1]], r"t: wanted times that rise from 0, got \[1.0, 2.0\]"),
-        ([-1, 0], [[0], [1]], "t: wanted times that rise from 0"),
-        ([0, 1, 1], [[0], [1], [2]], "t: wanted times that rise from 0"),
-        ([0, 2, 1], [[0], [1], [2]], "t: wanted times that rise from 0"),
-        ([[0, 1]], [[0], [1]], "t: wanted times that rise from 0"),
+        ([], np.empty((0, 2)), "t: wanted times that increase from 0"),
+        (0.0, [[1]], "t: wanted times that increase from 0"),
+        ([1, 2], [[0], [1]], r"t: wanted times that increase from 0, got \[1.0, 2.0\]"),
+        ([-1, 0], [[0], [1]], "t: wanted times that increase from 0"),
+        ([0, 1, 1], [[0], [1], [2]], "t: wanted times that increase from 0"),
+        ([0, 2, 1], [[0], [1], [2]], "t: wanted times that increase from 0"),
+        ([[0, 1]], [[0], [1]], "t: wanted times that increase from 0"),
         ([0, np.nan], [[0], [1]], "t: wanted finite"),
         ([0, np.inf], [[0], [1]], "t: wanted finite"),
         ("ab", [[0], [1]], "t: wanted numbers"),
@@ -369,7 +369,7 @@ def test_wrong_arguments_are_refused():
         (lambda: frequencies([1], 0), "limit: wanted one positive number"),
         (lambda: straight(ARM, [B[0]] * 2, B[1], PER_DEGREE), r"start: wanted one .*\(2, 3\)"),
         (lambda: straight(ARM, *B, 1e300), r"per_degree: wanted at most 2\*\*52"),
-        (lambda: out_of_reach(ARM, [B[0]] * 2), r"point: wanted one single point \(3,\)"),
+        (lambda: out_of_reach(ARM, [B[0]] * 2), r"point: wanted a single point \(3,\)"),
         (lambda: phases("full", "bipolar"), "drive: wanted one of"),
         (lambda: phases([], "bipolar"), "drive: wanted one of"),
         (lambda: phases("wave", "tripolar"), "motor: wanted one of"),
@@ -381,17 +381,20 @@ def test_wrong_arguments_are_refused():
         (lambda: Stepper(rotor="iron"), "rotor: wanted one of"),
         (lambda: Stepper(windings=2), "windings: wanted"),
         (lambda: Stepper(inertia=0), "inertia: wanted one positive number"),
-        (lambda: Stepper(rise=-1e-3), "rise: wanted no negative number"),
+        (lambda: Stepper(rise=-1e-3), "rise: wanted a number that is not negative"),
         (lambda: Stepper().run([2, 1], [1, 1]), "times and signs: wanted times .* not fall"),
         (lambda: Stepper().run([-1], [1]), "times and signs: wanted times .* from 0 on"),
         (lambda: Stepper().run([1, 2], [1]), "as many signs"),
         (lambda: Stepper().run([1], [0.5]), r"\+1 and -1"),
         (lambda: Stepper().run([1e4], [1]), "times: wanted a run of at most 100000 steps"),
-        (lambda: Stepper().run([1], [1], load_inertia=-1), "load_inertia: wanted no negative"),
+        (
+            lambda: Stepper().run([1], [1], load_inertia=-1),
+            "load_inertia: wanted a number that is not negative",
+        ),
         (lambda: Stepper().run([1], [1], load=1e300), "load: wanted one that turns"),
         (lambda: ramp(0, 10, 20, 1), "pulses: wanted a whole number from 1 to"),
-        (lambda: ramp(5, 30, 20, 1), "start and end: wanted a frequency that rises, got 30 to 20"),
-        (lambda: ramp(5, 10, 20, -1), "seconds: wanted no negative number"),
+        (lambda: ramp(5, 30, 20, 1), "start and end: wanted start <= end, got 30 and 20"),
+        (lambda: ramp(5, 10, 20, -1), "seconds: wanted a number that is not negative"),
         (lambda: energised(table, [[1]]), r"\+1 and -1"),
         (lambda: energised(table, [1], row=1.5), "row: wanted a whole number.*1.5"),
         (lambda: energised(table, [1], row=True), "row: wanted a whole number.*True"),
@@ -674,7 +677,9 @@ def test_load_or_torque_that_turns_the_rotor_too_fast_is_refused(sign):
     """
     motor = Stepper(torque=1e3, damping=2, inertia=1e-3, rise=0)
     assert motor.run([1e-3], [1], load=2 * sign * FASTEST).lost != 0
-    with pytest.raises(ValueError, match=r"^load: wanted one that turns the rotor at 1e"):
+    with pytest.raises(
+        ValueError, match=r"^load: wanted one that turns the rotor at no more than 1e"
+    ):
         motor.run([1e-3], [1], load=2.002 * sign * FASTEST)
     strong = {"damping": 1, "inertia": 1e-9, "rise": 0}
     assert Stepper(torque=FASTEST, **strong).run([1e-9], [1], load=sign).lost == 0

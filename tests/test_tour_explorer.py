@@ -412,7 +412,9 @@ def _out_of_reach(page, root):
     drag(page, root, "2", 10, 190, drop=False)
     assert "rk-away" in handle(page, "2").get_attribute("class")
     assert (
-        page.locator(".rk-notes li").first.inner_text().startswith("Point 2 is under floor: z = −")
+        page.locator(".rk-notes li")
+        .first.inner_text()
+        .startswith("Point 2 is under the floor: z = −")
     )
     rest = Task(
         within.l1,

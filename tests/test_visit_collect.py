@@ -199,9 +199,8 @@ def test_example_1_is_refused_with_numbered_faults():
     with pytest.raises(TaskError) as caught:
         read_task(TASKS / "example_1.json")
     assert caught.value.faults == (
-        "point 0 = p0 (0, 0.7071, 0.7071) is too close to origin: |p|^2 = 0.99998082 m^2 is less "
-        "than "
-        "l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
+        "point 0 = p0 (0, 0.7071, 0.7071) is too close to the origin: |p|^2 = 0.99998082 m^2 is "
+        "less than l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
     )
     assert (
         EXAMPLES["example1"]["p_sq"] == "0.99998082"
@@ -572,13 +571,17 @@ def test_above_floor_avoids_moves_below_the_floor():
     assert collect(brought).order == (2, 0, 1)
     only = make(p0=(6, 0, 1), points=places[:1], T=100)
     assert report(only, visit(only, above_floor=True)) == (
-        "could not visit any points, what is in time dips under the floor (T = 100 s)"
+        "could not visit any points, since every move that is in time dips under the floor "
+        "(T = 100 s)"
     )
     assert best_visit(only, above_floor=True).order == ()
     short = make(p0=(6, 0, 1), points=places[:1], T=1)
     assert "not enough time" in report(short, visit(short, above_floor=True))
     needed = 2 * visit(only).time
-    for T, why in ((needed * 0.99, "not enough time"), (needed, "what is in time dips")):
+    for T, why in (
+        (needed * 0.99, "not enough time"),
+        (needed, "since every move that is in time dips"),
+    ):
         given = vars_of(brought) | {"points": places[:1]}
         assert why in report(make(**given, T=T), Result((), (), (0,)))
         given["kind"] = "visit"
@@ -963,17 +966,22 @@ def test_many_faults_are_counted():
     )
     found = faults(GOOD | {"pi": bad, "p0": [0, 0, -1]})
     assert time.process_time() - began < 5
-    kinds = ("wanted an array of 3", "is too far", "is under floor", "is too close to origin")
+    kinds = (
+        "wanted an array of 3",
+        "is too far",
+        "is under the floor",
+        "is too close to the origin",
+    )
     assert [sum(kind in text for text in found) for kind in kinds] == [10, 10, 10, 10]
     assert (
         found[0].startswith("pi[40000]: wanted")
-        and found[10] == "and 29990 more points that are no such array"
+        and found[10] == "and 29990 more points that are not such arrays"
     )
-    assert found[11] == "point 0 = p0 (0, 0, -1) is under floor: z = -1 m"
+    assert found[11] == "point 0 = p0 (0, 0, -1) is under the floor: z = -1 m"
     assert [text for text in found if text.startswith("and")][1:] == [
         "and 39991 more points are too far",
-        "and 19992 more points are under floor",
-        "and 1 more points are too close to origin",
+        "and 19992 more points are under the floor",
+        "and 1 more points are too close to the origin",
     ]
     assert len(found) == 44 and sum(map(len, found)) < 10_000
     with pytest.raises(TaskError) as caught:
@@ -1114,7 +1122,7 @@ WRONG = {
     "under floor": (
         (),
         {"p0": [2, 3, -2]},
-        [r"point 0 = p0 \(2, 3, -2\) is under floor: z = -2 m"],
+        [r"point 0 = p0 \(2, 3, -2\) is under the floor: z = -2 m"],
     ),
     "all at once": (
         {"L2", "task"},
@@ -1127,9 +1135,9 @@ WRONG = {
         [
             "T: ",
             r"pi\[1\]: ",
-            "point 0 = p0 .* under floor",
+            "point 0 = p0 .* under the floor",
             r"point 1 = pi\[0\] .* too far",
-            r"point 3 = pi\[2\] .* too close to origin",
+            r"point 3 = pi\[2\] .* too close to the origin",
         ],
     ),
 }
@@ -1259,7 +1267,7 @@ def test_too_large_files_are_refused(tmp_path):
     path = tmp_path / "x.json"
     with path.open("wb") as file:
         file.truncate(40_000_001)
-    with pytest.raises(TaskError, match="is too big: 40 MB, and 40 MB are read"):
+    with pytest.raises(TaskError, match="is too big: 40 MB, wanted at most 40 MB"):
         read_task(path)
     with path.open("wb") as file:
         file.truncate(40_000_000)
@@ -1399,11 +1407,11 @@ def test_wrong_calls_are_refused():
         (
             lambda: out_of_workspace(5, 4, [(1, 1, 1)]),
             ValueError,
-            r"point: wanted one single point \(3,\), got \(1, 3\)",
+            r"point: wanted a single point \(3,\), got \(1, 3\)",
         ),
         (lambda: make(kind="fetch"), TaskError, "task: .*fetch"),
-        (lambda: make(remarks="odd"), ValueError, "remarks: wanted a list of texts, got 'odd'"),
-        (lambda: make(remarks=[1]), ValueError, "remarks: wanted words, got 1"),
+        (lambda: make(remarks="odd"), ValueError, "remarks: wanted a list of strings, got 'odd'"),
+        (lambda: make(remarks=[1]), ValueError, "remarks: wanted a string, got 1"),
         (
             lambda: Result((0,), (), (1,)),
             ValueError,
@@ -1423,7 +1431,7 @@ def test_wrong_calls_are_refused():
 def test_results_of_other_tasks_are_refused(given):
     order, left = given
     for method in (itinerary, report):
-        with pytest.raises(ValueError, match="result: wanted one of this task with its 2 points"):
+        with pytest.raises(ValueError, match="result: wanted a result of this task with 2 points"):
             method(make(), Result(order, range(len(order)), left))
     itinerary(make(), Result((1,), (5.0,), (0,)))
 
