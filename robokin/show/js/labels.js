@@ -7,7 +7,7 @@ import {font, hit, write} from "./canvas.js";
 /** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
 
 /**
- * Writes each label beside its point where it covers least of other labels, lines and the edge.
+ * Writes each label beside its point, where it covers other labels, lines and the edge least.
  * @param {Context} g
  * @param {Label[]} labels
  * @param {Pixel[]} taken
