@@ -32,9 +32,9 @@ STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
 
 def project(points: ArrayLike, view: View = VIEW) -> Floats:
-    """Parallel projection of points (..., 3) onto the picture: (..., 2) in metres, to the right and
-    up. `view` is the azimuth about the base's z axis, measured from its x axis, and the elevation,
-    in radians.
+    """The parallel projection of points (..., 3) onto the picture: (..., 2) in metres, to the right
+    and up. `view` is the azimuth about the base's z axis, measured from its x axis, and the
+    elevation, in radians.
     """
     (ca, ce), (sa, se) = np.cos(view), np.sin(view)
     across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])

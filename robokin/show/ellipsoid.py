@@ -15,7 +15,7 @@ from .palette import ALARM, INK, TRACE
 from .plots import Figure, _samples, _sentence, _words
 from .scene import Scene, number
 
-MOST = 3  # postures side by side
+MOST = 3  # maximum number of postures side by side
 MARK = 0.16  # half the length of the line along a nearly lost direction, in arm lengths
 ROUND = np.linspace(0, 2 * np.pi, 73)
 
@@ -98,7 +98,7 @@ def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
     """Draw an ellipsoid: its filled outline, the three ellipses through pairs of its semi-axes (3,
     3), and the semi-axes.
     """
-    flat = scene.project(axes.T).T  # (2, 3)
+    flat = scene.project(axes.T).T  # shape (2, 3)
     ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
     ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
     outline = (scene.project(centre)[:, None] + ring).T

@@ -25,7 +25,7 @@ KINDS = {
     ("active", "bipolar"): "magnet (active), bipolar",
     ("passive", "unipolar"): "soft iron (passive), unipolar",
 }
-ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # current +, current -, north pole
+ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # for + current, - current, N pole
 PLUS, MINUS = "+", "\N{MINUS SIGN}"
 WORDS = {
     "motor": "rotor, feed",

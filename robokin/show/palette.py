@@ -72,7 +72,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
             for i, (style, dark) in enumerate(
                 zip(
                     JOINT_STYLES,
-                    # dark, joints 1 to 6
+                    # the dark colours of joints 1 to 6
                     ("#3D9BDC", "#F0803C", "#2BBF94", "#DE97BF", "#F0B840", "#8CCBF2"),
                     strict=True,
                 )

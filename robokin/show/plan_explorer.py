@@ -30,7 +30,7 @@ from .twin import arm_data
 
 STEP = 12 * deg  # between neighbouring postures of the cube
 MOMENTS = 41  # number of postures of a motion that the page gets
-FORBIDDEN, AWAY = 255, 254  # cells of the cube: too near to the obstacle; free, but not reached
+FORBIDDEN, AWAY = 255, 254  # cells of the cube: too near the obstacle; free, but not reached
 WAYS = ("the plan", "two via points", "direct")
 UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names that `unchecked_path` uses
 TITLE = "From K to K1, past an obstacle H"
@@ -197,7 +197,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
     name, unit = length_unit(size)
     marks = [Mark(first["target"]), Mark(first["obstacle"], radius=first["distance"])]
     scene = scene_data([arm], [_moments(np.array(known.path))[None]], marks, size, grows=True)
-    scene["things"] = []  # the page creates them
+    scene["things"] = []  # the page adds the things
     L = arm.lever
     return {
         "kind": "plan",
@@ -230,7 +230,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     turn = np.linspace(0, 2 * np.pi, 73)
     disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     plane.fill(*disc.T, color="0.88")
-    # few lines of one colour keep the file small
+    # a few lines in one colour keep the file small
     plane.add_collection(LineCollection(list(points[::4]), color=PALE, linewidth=0.8))
     plane.plot(*points[:, 3].T, color=blue)
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")

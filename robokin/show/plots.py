@@ -138,8 +138,8 @@ def plot_postures(
     if moves:
         scene.trace(tool.translation)
         scene.triad(tool[first], length=0.07 * size, width=2.4)
-        # These two names are where the postures differ most, on the half next to the base, since
-        # the tool has names of its own.
+        # The names "first" and "last" are where the two postures differ most, on the half next to
+        # the base, since the tool has names of its own.
         half = slice(1, len(arm.links) + 1)
         ends = arm_points(arm, q[[first, last]])[:, half]
         where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()

@@ -102,7 +102,7 @@ class Sketch(Figure):
         self.ax.annotate(
             "",
             (arc[-1, 0], arc[-1, 1]),
-            (arc[-4, 0], arc[-4, 1]),  # so near that only the arrowhead shows
+            (arc[-4, 0], arc[-4, 1]),  # so close that only the arrowhead shows
             arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0},
         )
         self._text(arc[90], name, arc[90] - at)

@@ -51,7 +51,7 @@ export const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) =>
   drawArm(g, cam, chain, rods, joints, thick, scene.size, from);
 
 /**
- * Draws the arm, and its path in front of it and behind it.
+ * Draws the arm, its whole path below it, and the path so far above it.
  * @param {Stood} one
  */
 export function drawStood(one) {

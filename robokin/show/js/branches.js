@@ -61,7 +61,7 @@ const inside = (arm, q, near) =>
   });
 
 /**
- * The joint values to show to people: inside the limits and nearest to q, otherwise those that
+ * The joint values to show to readers: inside the limits and nearest to q, otherwise those that
  * exceed the limits least.
  * @param {ArmData} arm
  * @param {number[]} q

@@ -1,4 +1,4 @@
-// Lines, shapes and words on a canvas, in the colours of the page; numbers for people.
+// Lines, shapes and words on a canvas, in the colours of the page; formatted numbers.
 
 /** @typedef {[number, number]} Pixel  CSS pixels from the upper left corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */

@@ -103,7 +103,7 @@ export function pictures(root, canvases, draw) {
   }; // draws at once, since printing does not wait
   function look() {
     if (root.isConnected) {
-      readColors(canvases[0]); // inside .rk, which defines them
+      readColors(canvases[0]); // inside .rk, which defines the colours
       theme.observe(document.body, {attributeFilter: ["data-jp-theme-light"]});
       for (const one of media) one.addEventListener("change", turned);
       ask();

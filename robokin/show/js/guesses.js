@@ -1,4 +1,4 @@
-// The page's part of saving guesses (guesses.py): the model of a widget without a view, one for
+// The page's part in saving guesses (guesses.py): the model of a widget without a view, one for
 // each kernel. A page may show several notebooks; each guess goes to the kernel of its notebook.
 
 /** @typedef {[string, string, string]} Made  a prediction, the choice, and its time */

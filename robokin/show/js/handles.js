@@ -8,11 +8,11 @@ import {element, control} from "./elements.js";
 /** @import {Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 
-const NEAR = 12; // px: least distance of a handle from the edge of the scene
+const NEAR = 12; // px: smallest distance of a handle from the edge of the scene
 
 /**
- * The distance in metres of arrows and arcs from the thing that they move, for a camera. In pixels
- * it is the same at every scale.
+ * The distance in metres between a thing and the arrows and arcs that move it, for a camera. In
+ * pixels it is the same at every scale.
  * @param {Camera} camera
  */
 export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
@@ -78,7 +78,8 @@ export function handleLayer(canvas, camera, hold, changed) {
     place() {
       /** @type {Pixel[]} */
       const taken = [];
-      // The held one keeps its offset, so that it stays under the pointer; the others make room.
+      // The grabbed handle keeps its offset, so that it stays under the pointer; the others make
+      // room.
       const first = [...handles].sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, camera(), handle.id === held ? null : taken, canvas));

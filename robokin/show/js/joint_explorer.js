@@ -1,5 +1,5 @@
-// The joint explorer: the reader drags joints. All words and all numbers of the arm come from
-// Python (page.py: JointPage).
+// The joint explorer: the reader drags joints. All words and the data of the arm come from Python
+// (page.py: JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";

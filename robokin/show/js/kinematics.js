@@ -3,7 +3,7 @@
 // arms/arm.py and arms/dexterity.py.
 //
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
-// ("point"). An arm is the result of `arm_data` in twin.py; scripts contain no numbers of arms.
+// ("point"). An arm is the result of `arm_data` in twin.py; the scripts contain no data of arms.
 
 /** @import {ArmData, Inverse, PageLink, PagePose, With} from "./page.js" */
 

@@ -1,4 +1,4 @@
-// The motion explorer: a blended motion with stations to drag. All words and all numbers of the arm
+// The motion explorer: a blended motion with stations to drag. All words and the data of the arm
 // come from Python (page.py: MotionPage).
 
 import {fill} from "./blanks.js";

@@ -4,9 +4,9 @@ import {refinedMaximum} from "./motion.js";
 
 const NODES = [-2, -1, 0, 1, 2],
   FINE = 2e-4, // node spacing, as a fraction of the whole motion
-  SHARE = 200; // and at most 1 / SHARE of a stretch
+  SHARE = 200; // the spacing is also at most 1 / SHARE of a stretch
 
-/** The decimals that rounding errors leave valid. @type {(x: number) => number} */
+/** The number of decimals that rounding errors do not affect. @type {(x: number) => number} */
 export const decimalsOf = x => (Math.abs(x) < 1e4 ? 1 : 0);
 
 /**

@@ -16,7 +16,7 @@ const LETTERS = "abcdef";
  */
 export const ask = (id, data) => waiting(id).forEach(root => new Prediction(root, data));
 
-/** A question in `root`. */
+/** A question that is shown in `root`. */
 class Prediction {
   /**
    * @param {HTMLElement} root

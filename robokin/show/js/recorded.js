@@ -1,4 +1,4 @@
-// The recording of a motion: its speeds and accelerations, and the jumps of position and speed, as
+// The recording of a motion: its speeds and accelerations, and the jumps in position and speed, as
 // in motion/recording.py.
 
 import {differentiate} from "./motion.js";

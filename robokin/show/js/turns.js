@@ -26,7 +26,7 @@ export const aboutAxis = ([x, y, z], angle) => {
 };
 
 /**
- * A quaternion of length 1.
+ * A quaternion scaled to length 1.
  * @param {number[]} q
  */
 export const normal = q => {

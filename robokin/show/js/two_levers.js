@@ -30,7 +30,7 @@ export function twoLevers(upper, fore, d, {ROUNDING}) {
 }
 
 /**
- * The border that is exceeded most, from the metres beyond each border.
+ * The border that is exceeded most; `borders` maps names to the metres beyond them.
  * @param {Object<string, number>} borders
  * @returns {Gap}
  */
