@@ -199,7 +199,7 @@ def test_old_browser_shows_the_still_and_a_reason(browser, call, still):
 def test_unterminated_literal_is_refused_with_file_and_line(modules):
     for text in ("const a = 'b;", "const a = `b${c;", "const a = `b;", "/* b", "let a = /b;"):
         modules(top=f"// words\n{text}\n")
-        with pytest.raises(ValueError, match=r"top\.js, line 2: .* does not end"):
+        with pytest.raises(ValueError, match=r"top\.js, line 2: .* is not closed"):
             page.script("top")
 
 
@@ -210,7 +210,7 @@ def test_unterminated_literal_is_refused_with_file_and_line(modules):
         ('import {a as b} from "./base.js";', r"top\.js, line 2"),
         ('import * as base from "./base.js";', r"top\.js, line 2"),
         ('import {a} from "https://x.y/base.js";', r"top\.js, line 2"),
-        ("import {a,\n  b}", r"top\.js, line 3: an import does not end"),
+        ("import {a,\n  b}", r"top\.js, line 3: an import has no semicolon"),
         ("export default 3;", r"top\.js, line 2: wanted an export of one name"),
         ("export {a};", r"top\.js, line 2"),
         ('import {a} from "./none.js";', r"top\.js, line 2: there is no module none\.js"),

@@ -860,7 +860,7 @@ def test_titles_and_names_are_plain_text(motions):
             r"wanted shape \(2, 2001, 6\) \(slider, samples, joints\)",
         ),
         ({"slider": ("blend", [0.1])}, ValueError, "at least two"),
-        ({"slider": ("blend", [0.1, 0.1])}, ValueError, "rising"),
+        ({"slider": ("blend", [0.1, 0.1])}, ValueError, "increasing"),
         ({"slider": "blend"}, ValueError, r"slider: wanted \(name, values\)"),
         ({"slider": 3}, ValueError, r"slider: wanted \(name, values\)"),
         ({"switch": ("corner", ["one"])}, ValueError, "at least two words"),
@@ -879,7 +879,7 @@ def test_titles_and_names_are_plain_text(motions):
         ({"targets": None}, TypeError, "targets: wanted Transforms, got None"),
         ({"targets": "start"}, TypeError, "targets: wanted Transforms"),
         ({"title": 3}, ValueError, "title: wanted a string"),
-        ({"title": "x" * 3000}, ValueError, "title: wanted at most 2000 letters"),
+        ({"title": "x" * 3000}, ValueError, "title: wanted at most 2000 characters"),
         ({"points": [(1, 2, 3, 4)]}, ValueError, "points: wanted places"),
         ({"points": None}, ValueError, "points: wanted a list"),
         ({"circles": [3]}, ValueError, "circles: wanted"),
@@ -897,7 +897,7 @@ def test_errors_name_the_wrong_argument_and_what_is_wanted(change, kind, message
 def test_invalid_recordings_are_refused(motions):
     one = record(IRB140, T, motions[1])
     for wrong, message in (
-        (lambda: animate(one, T), "wanted none beside recordings"),
+        (lambda: animate(one, T), "wanted neither with recordings"),
         (lambda: animate(one, slider=("x", [1, 2])), r"wanted shape \(2, 2001, 6\)"),
         (lambda: animate(record(IRB140, T[:2], motions[1, :2])), "at least three times"),
         (lambda: animate([one, record(IRB140, 2 * T, motions[1])]), "the same times"),
