@@ -806,7 +806,7 @@ def test_progress_lists_solved_exercises():
     check("made.1", right)
     check("made.2", 0.9, who="Ada")
     lines = progress().splitlines()
-    assert [line.split()[0] for line in lines] == ["What", "made:", "holds", "begun", "not"]
+    assert [line.split()[0] for line in lines] == ["Checked", "made:", "holds", "begun", "not"]
     assert progress("made") == progress()
     check("made.1", stub)
     assert progress().splitlines() == lines, "an exercise that was solved once counts as practised"

@@ -59,7 +59,7 @@ def test_missing_raising_and_endless_answers_are_judged(tmp_path):
     assert 'irb140_motion.2: the stored output says "holds"' in remarks
     assert "irb140_motion.1" not in remarks and "RuntimeError" in remarks
     assert "Left out, since they belong to other labs: scara_motion.1." in remarks
-    assert "StdinNotImplementedError" in remarks and "could be read" not in remarks
+    assert "StdinNotImplementedError" in remarks and "could not be read" not in remarks
     assert judged.notebook.cells[-2].outputs[0].text == "awaited\n"
     assert all(guess.right is None for guess in judged.predictions)
 
@@ -125,7 +125,7 @@ def test_modified_package_in_a_notebook_does_not_judge(tricks):
     assert one.state == "does not hold"
     said = 'irb140_motion.1: the notebook\'s own output says "holds"; the check says'
     assert any(remark.startswith(said) for remark in tricks.judged.remarks)
-    assert two.state == "failed" and "no verdict" in two.says[0]
+    assert two.state == "failed" and "not a verdict" in two.says[0]
     assert three.state == "does not hold" and "ValueError" in str(three)
     assert not any("AssertionError" in remark for remark in tricks.judged.remarks)
     for text in (str(tricks.judged.exercises), str(tricks.judged.remarks)):
