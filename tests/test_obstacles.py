@@ -862,7 +862,7 @@ def test_grids_with_too_many_postures_are_refused():
     wide = type(ARM)("wide", ARM.geometry, [(-20.0, 20.0)] * 3)
     with pytest.raises(ValueError, match=rf"arm: .*{WORK} grid postures .*got 9.6.* with 1 obst"):
         way_round(wide, Q0, GOAL, FAR, 0.1)
-    with pytest.raises(ValueError, match="of 50 obstacles, got 2.3"):
+    with pytest.raises(ValueError, match=r"got 2\.3.* with 50 obstacles"):
         way_round(ARM, Q0, GOAL, [FAR] * 50, 0.1)
     narrow = type(ARM)("narrow", ARM.geometry, [(0.0, 3.2)] * 3)
     assert way_round(narrow, Q0, GOAL, FAR, 0.1) is not None
