@@ -106,5 +106,5 @@ def test_two_samples_are_refused():
         differentiate([1, 2], [0, 1])
     assert differentiate([1, 2, 5], [0, 1, 2]).tolist() == [0, 2, 4]
     for t in ([0, 1, 1], [0, 2, 1]):
-        with pytest.raises(ValueError, match="rising"):
+        with pytest.raises(ValueError, match="increasing"):
             differentiate([1, 2, 5], t)

@@ -241,7 +241,7 @@ def test_unprintable_file_names_are_escaped(tmp_path):
     run = command(
         "tasks", cwd=tmp_path, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     )
-    assert run.returncode == 0 and run.out.count("\nINFO: ") == 4 and "4 answered" in run.out
+    assert run.returncode == 0 and run.out.count("\nINFO: ") == 4 and "4 solved" in run.out
     assert "Task a\\nINFO: b.json: visited" in run.out and "Task caf\\udce9.json" in run.out
     assert "Task задача.json" in (tmp_path / "output.log").read_text(encoding="utf-8")
 

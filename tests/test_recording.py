@@ -619,7 +619,7 @@ def test_continuous_turning_causes_no_warning(recwarn):
         (lambda q: record("IRB140", T, q), TypeError, "arm: wanted an Arm"),
         (lambda q: record(None, T, q), TypeError, "arm: wanted an Arm"),
         (lambda q: record(IRB140, T[:-1], q), ValueError, r"wanted shape \(..., 2000, 6\)"),
-        (lambda q: record(IRB140, T[::-1], q), ValueError, "rising"),
+        (lambda q: record(IRB140, T[::-1], q), ValueError, "increasing"),
         (lambda q: record(IRB140, [0.0], q[:1]), ValueError, "at least two times"),
         (lambda q: record(IRB140, T, q[0]), ValueError, "q: wanted shape"),
         (lambda q: record(IRB140, T, q[:, :5]), ValueError, r"q: wanted shape \(..., 6\)"),
