@@ -1,4 +1,4 @@
-"""The page's scripts: one format, correct types, and data types equal to those of Python."""
+"""The scripts of the page: one format, correct types, and the same data types as in Python."""
 
 import ast
 import contextlib
@@ -27,13 +27,13 @@ SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
 
 
 def not_installed(error):
-    """Without a network the test is skipped; in CI it fails."""
+    """Skip the test if there is no network; in CI, let it fail."""
     report = pytest.fail if os.environ.get("CI") else pytest.skip
     report(f"Prettier and TypeScript are not installed, and there is no network: {error}")
 
 
 def run(name, *arguments):
-    """What a tool says, "" if it finds nothing."""
+    """The output of a tool, or "" if it finds no faults."""
     try:
         done = tool(name, *arguments)
     except NoNetwork as error:
@@ -48,7 +48,7 @@ def test_prettier_finds_no_changes():
 
 def test_tsc_finds_no_errors():
     said = run("tsc")
-    assert not said, f"{said}\nThe same by hand: python tests/javascript.py tsc"
+    assert not said, f"{said}\nRun it yourself: python tests/javascript.py tsc"
 
 
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
@@ -59,7 +59,7 @@ def test_no_line_is_longer_than_100_columns(path):
 
 @cache
 def scanned():
-    """tests/js/scan.cjs of every script: its functions and the constants at its top."""
+    """The output of tests/js/scan.cjs for every script: its functions and top-level constants."""
     try:
         command = [NODE, HERE / "scan.cjs", tools(), *SCRIPTS]
     except NoNetwork as error:
@@ -75,15 +75,18 @@ def test_functions_and_files_are_short():
         for path, found in scanned().items()
         for name, first, count in found["functions"]
     ]
-    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, "it sees them"
+    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, "too few found"
     assert not [each for each in functions if each[-1] > 60]
     lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in SCRIPTS}
     assert not {name: length for name, length in lengths.items() if length > 350}
 
 
-# Constants in both languages for the same rule: the test in test_twin.py that compares them.
-TWINS = {("STEPS", 64): "test_greatest_values", ("MOST", 200): "test_greatest_values"}
-PLAIN = {*range(-1, 101), 0.5, 200, 400}  # may be equal by chance
+# A constant that both languages define -> the test in test_twin.py that compares the two.
+TWINS = {
+    ("STEPS", 64): "test_page_refines_the_same_maxima",
+    ("MOST", 200): "test_page_refines_the_same_maxima",
+}
+PLAIN = {*range(-1, 101), 0.5, 200, 400}  # values that may be equal by chance
 
 
 def numbers_of(path):
@@ -106,10 +109,14 @@ def numbers_of(path):
     return found
 
 
-def test_no_constant_is_typed_in_python_and_in_a_script():
-    """The page gets a constant from Python, or a test compares both: by name and by value."""
+def test_no_constant_is_defined_in_python_and_in_a_script():
+    """The page gets each constant from Python, or a test compares both. This looks for equal names
+    and equal values.
+    """
     ours = [pair for path in PACKAGE.rglob("*.py") for pair in numbers_of(path).items()]
-    assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), "it sees them"
+    assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), (
+        "constants were not found"
+    )
     names, values = dict(ours), {value for _, value in ours}
     twins = (ROOT / "tests" / "test_twin.py").read_text(encoding="utf-8")
     for path, found in scanned().items():
@@ -120,7 +127,7 @@ def test_no_constant_is_typed_in_python_and_in_a_script():
             if (name, value) in TWINS:
                 assert f"def {TWINS[name, value]}(" in twins
                 continue
-            assert names.get(name) != value, f"{path.name}: {name} stands in Python, too"
+            assert names.get(name) != value, f"{path.name}: {name} is also defined in Python"
             assert value in PLAIN or value not in values, f"{path.name}: {name} = {text}"
         for value in {x for x in values if x not in PLAIN and abs(x) > 1000}:
             loose = re.findall(rf"(?<![\w.])-?{abs(value):g}(?![\w.])", path.read_text())
@@ -128,7 +135,7 @@ def test_no_constant_is_typed_in_python_and_in_a_script():
 
 
 def types_in(text):
-    """What stands in the braces behind the tags of JSDoc comments, and the rest of an @import."""
+    """The types in braces after the tags of JSDoc comments."""
     for comment in re.findall(r"/\*\*.*?\*/", text, re.S):
         comment = re.sub(r"\n\s*\*(?!/)", "\n", comment)
         for tag in re.finditer(r"@\w+\s*\{", comment):
@@ -153,7 +160,7 @@ def test_untyped_declarations_are_detected():
 def test_no_declaration_is_untyped(path):
     text = path.read_text(encoding="utf-8")
     assert not [each for each in types_in(text) if LOOSE.search(each)]
-    assert not re.findall(r"@ts-\w+", text), "a fault is mended, not hidden"
+    assert not re.findall(r"@ts-\w+", text), "correct the fault instead of hiding it"
 
 
 def test_page_types_equal_those_of_python():
@@ -162,7 +169,7 @@ def test_page_types_equal_those_of_python():
         assert stored == text, f"{path.name}: run python tests/javascript.py types"
 
 
-KEYS = {  # of one kind of page, and a script that takes it
+KEYS = {  # kind of page -> a key that only this kind has, and a script that uses it
     "joint": ("rows: FactRow[];", "joint_explorer.js"),
     "levers": ("target: PagePose;", "levers_explorer.js"),
     "target": ("turning: number[];", "target_explorer.js"),
@@ -170,7 +177,7 @@ KEYS = {  # of one kind of page, and a script that takes it
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
 }
-THINGS = {  # of one kind of thing, and the script that draws it
+THINGS = {  # kind of thing -> a key that only this kind has, and the script that draws it
     "faces": ("corners: number[][][];", "faces.js"),
     "mark": ("radius: number;", "mark.js"),
     "target": ("pose: number[] | PageWay;", "target.js"),
@@ -178,8 +185,8 @@ THINGS = {  # of one kind of thing, and the script that draws it
 
 
 def test_tsc_refuses_a_changed_key(tmp_path):
-    """For each kind of page or thing: its own scripts no longer type-check, those of other kinds
-    do.
+    """If a key of one kind of page or thing changes, the scripts for that kind fail the type check
+    and those for other kinds pass it.
     """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
         shutil.copy(path, tmp_path)
@@ -212,7 +219,7 @@ def test_all_kinds_of_things_are_listed():
 
 
 def test_explorer_pages_have_no_optional_keys():
-    """Except for the keys that `Live` adds."""
+    """The keys that `Live` adds are an exception."""
     for table in get_args(page.PageExplorer):
         live = page.LivePage.__optional_keys__ & {*table.__annotations__}
         assert table.__optional_keys__ == live, table.__name__
@@ -221,7 +228,7 @@ def test_explorer_pages_have_no_optional_keys():
 @pytest.mark.parametrize(
     "arm", [IRB140, SCARA, spbu_arm(0.4, 0.3), two_link(0.3, 0.4), three_lever((0.3, 0.2, 0.4))]
 )
-def test_arm_data_have_the_keys_of_their_type(arm):
+def test_arm_data_has_the_keys_of_its_type(arm):
     data = twin.arm_data(arm)
     tables = {get_args(t.__annotations__["kind"])[:1]: t for t in get_args(twin.Inverse)}
     inverse = tables[get_args(Literal[data["geometry"]["kind"]])]

@@ -1,4 +1,4 @@
-"""Things in a scene: their data, and how a kind is added."""
+"""Things in a scene: their data, and how a new kind is added."""
 
 import json
 import os
@@ -21,7 +21,7 @@ NOW = scenes()
 
 
 def today(scene):
-    """A scene of commit 11a2279 under the keys of today."""
+    """A scene of commit 11a2279 with today's keys."""
     kept = {key: scene[key] for key in ("size", "flat", "grid", "seen", "floor", "view")}
     things = [
         {"kind": "target", "name": old["name"], "pose": old.get("way", old.get("pose"))}
@@ -40,12 +40,12 @@ def today(scene):
 
 
 @pytest.mark.parametrize("name", EARLIER)
-def test_scenes_have_the_numbers_of_the_earlier_edition(name):
+def test_scenes_have_the_values_of_the_earlier_version(name):
     assert NOW.keys() == EARLIER.keys()
     assert NOW[name] == today(EARLIER[name])
 
 
-def test_things_argument_equals_the_other_arguments():
+def test_things_argument_gives_the_same_scene_as_the_other_arguments():
     goal, belt = IRB140.fk(TURNED[-1]), [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
     apart = animate(
         IRB140,
@@ -62,7 +62,7 @@ def test_things_argument_equals_the_other_arguments():
     assert together.data["scene"] == apart.data["scene"]
 
 
-def test_arguments_may_change_afterwards():
+def test_things_copy_their_arguments():
     at, belt = np.array([1.0, 0, 0]), np.eye(3)
     mark, faces = Mark(at, "p"), Faces([belt])
     at[:], belt[:] = 7, 7
@@ -85,7 +85,7 @@ def test_nan_reading_shows_only_the_name():
     [
         (lambda: Mark((1, 2, 3, 4)), ValueError, "at: wanted places"),
         (lambda: Mark((1, 2, np.nan)), ValueError, "at: wanted finite"),
-        (lambda: Mark((0, 0), 7), ValueError, "name: wanted words, got 7"),
+        (lambda: Mark((0, 0), 7), ValueError, "name: wanted a string, got 7"),
         (lambda: Mark((0, 0), "p", -1), ValueError, "radius: wanted one positive length"),
         (lambda: Mark((0, 0), "p", None, "x"), ValueError, "reading: wanted numbers"),
         (lambda: Target((0, 0, 1), "p"), TypeError, "target p: wanted a Transform"),
@@ -204,7 +204,9 @@ RED = """() => {
 
 
 def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
-    """By the recipe of CONTRIBUTING, in a copy: types, formatting, still, film and page."""
+    """The recipe of CONTRIBUTING is followed in a copy of robokin; types, formatting, still, film
+    and page are checked.
+    """
     for name in ("robokin", "tests"):
         ignore = shutil.ignore_patterns("__pycache__", "*.ipynb", "benchmarks", "course")
         shutil.copytree(ROOT / name, tmp_path / name, ignore=ignore)
@@ -240,6 +242,6 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     page.locator("input[type=range]").last.evaluate(
         "x => { x.value = x.max; x.dispatchEvent(new Event('input')); }"
     )
-    page.wait_for_function(f"({RED})() < 1300")  # one of them is gone
+    page.wait_for_function(f"({RED})() < 1300")  # one of the flags is gone
     assert page.evaluate(RED) > 900
     page.close()

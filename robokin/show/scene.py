@@ -29,7 +29,7 @@ from .palette import (
     TRACE,
 )
 
-FAR, DOTS = 1e4, 200_000  # pixels; points along a polyline
+FAR, DOTS = 1e4, 200_000  # limits: pixels from the origin; points along a polyline
 
 
 class Scene:
@@ -40,12 +40,12 @@ class Scene:
         scene.arm(arm, q);  scene.trace(points);  scene.triad(pose, "goal");  scene.finish()
 
     size  metres; the size of the subject, which scales triads and the base
-    flat  look straight down
+    flat  whether to look straight down
     like  optional, the scene of a player's page (`camera.scene_data`): the same view, floor and
           scale
-    Matplotlib's own 3-D axes leave wide margins, cut off what stands out and need equal limits
-    forced; a parallel projection is one matrix product, and `set_aspect("equal")` keeps the
-    proportions.
+    Matplotlib's own 3-D axes leave wide margins, cut off whatever extends beyond them, and do not
+    keep equal scales by themselves; a parallel projection is one matrix product, and
+    `set_aspect("equal")` keeps the proportions.
     """
 
     def __init__(
@@ -59,12 +59,12 @@ class Scene:
         self.ax, self.size, self.like = ax, size, like
         self.view: View = like["view"]
         self.flat = like["flat"] is not None
-        # the axes of the grid
+        # the coordinate axes along the grid
         self.across = [k for k in range(3) if k != (like["flat"] if self.flat else 2)]
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
         # points that the floor must be under
         self.corners: list[Floats] = [np.zeros((1, 3))]
-        # words, where, colour, size
+        # for each label: its words, place, colour and size
         self.labels: list[tuple[str, Floats, str, float]] = []
         # projected lines and their widths, which labels avoid
         self.drawn: list[tuple[Floats, float]] = []
@@ -186,7 +186,7 @@ class Scene:
         self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0))
 
     def mark(self, centre: Floats, radius: float) -> None:
-        """Draw a point (3,), or with a radius a ball; nothing if it is NaN."""
+        """Draw a point (3,), or a ball if the radius is not 0; draw nothing if it is NaN."""
         if not np.isfinite(centre).all():
             return
         if radius:
@@ -270,8 +270,8 @@ class Scene:
         self.ax.set_ylim(y0 - spare / 2 - below / scale, y1 + spare / 2 + above / scale)
 
     def _floor(self) -> tuple[Floats, Floats, float]:
-        """The corners (2,), (2,) of the floor, in whole steps and under everything drawn, and the
-        step of its grid.
+        """Two opposite corners (2,) of the floor, which is under everything drawn and whole steps
+        wide, and the step of its grid.
         """
         if "floor" in self.like:
             return *np.array(self.like["floor"])[:, self.across], self.like["grid"]
@@ -388,7 +388,7 @@ class Scene:
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Format a number for people: three significant digits, a real minus sign, no negative zero."""
+    """Format a number for readers: significant digits, a real minus sign, no negative zero."""
     value = round(float(value), 9)  # so that rounding noise cannot decide a tie
     text = f"{value:.{digits}g}"
     if "e+" in text:

@@ -22,8 +22,8 @@ const HEAD = 22, // px above a plot, for the name of its panel
 /**
  * Draws panels.
  *
- * draw(curves, times, ticks, now)  one picture
- * timeAt(x)                        the time of a place on the canvas
+ * draw(curves, times, ticks, now)  draws one picture
+ * timeAt(x)                        the time at a place on the canvas
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
@@ -90,7 +90,7 @@ export function heights(count, large, room) {
 }
 
 /**
- * Writes the numbers below the panels; the last one has the unit.
+ * Writes the times below the panels; the last one has the unit.
  * @param {Context} g
  * @param {Scale} ticks
  * @param {[first: number, last: number]} span

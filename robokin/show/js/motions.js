@@ -11,7 +11,7 @@ import {recording, series, thingsAt} from "./recordings.js";
 /** @import {Recording} from "./recordings.js" */
 
 /** @typedef {ReturnType<typeof armIn>} Track  an arm in one motion */
-/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the way to the next */
+/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the step to the next */
 
 /**
  * choose(value, choice): everything that changes with slider and switch; things(motion, sample,

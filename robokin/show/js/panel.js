@@ -38,14 +38,14 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * @property {string} [where]  in what size and theme it was when places for its words were found
  * @property {Note[]} [words]
  */
-/** @typedef {{time: number, text: string}} Mark  a vertical line with dashes, and its words */
+/** @typedef {{time: number, text: string}} Mark  a dashed vertical line with a text beside it */
 /** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
-/** @typedef {ArrayLike<number>} Times  in s, rising */
-/** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
+/** @typedef {ArrayLike<number>} Times  increasing times in s */
+/** @typedef {(value: number) => number} Place  where a time or a value is on the canvas */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
- * The ground of a panel: the places of its times, the dashes of the joints' lines, its sides, and
- * whether it shows several arms.
+ * What a panel is drawn on: the canvas, the dashes of the joints' lines, the times and their
+ * places, and the sides of the panel; and whether it shows several arms.
  * @typedef {{
  *   g: Context, patterns: number[][], times: Times, x: Place, sides: Sides, several: boolean,
  * }} Ground
@@ -68,7 +68,7 @@ export const isPast = ({limits}, value) =>
 /**
  * @param {Ground} ground
  * @param {Panel} panel
- * @param {Scale} ticks  of the time
+ * @param {Scale} ticks  the scale of the time axis
  * @param {number} now
  */
 export function drawPanel(ground, panel, ticks, now) {
@@ -150,7 +150,7 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
 }
 
 /**
- * Writes the numbers of the scales: of the first on the left, of another on the right.
+ * Writes the numbers of the scales: the first scale on the left, a second one on the right.
  * @param {Ground} ground
  * @param {Panel} panel
  * @param {Place[]} scales
@@ -172,7 +172,7 @@ function drawScales({g, sides: [left, right, top, bottom]}, {axes, lines}, scale
   });
 }
 
-/** Draws two tips at the ends of a mark's line. @type {(ground: Ground, x: number) => void} */
+/** Draws a triangle at each end of a mark's line. @type {(ground: Ground, x: number) => void} */
 function drawMark({g, sides: [, , top, bottom]}, x) {
   for (const [y, tip] of [
     [top, top + 7],

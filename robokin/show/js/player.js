@@ -16,14 +16,14 @@ import {numberTable} from "./player_table.js";
 /** @typedef {ReturnType<typeof furniture>} Parts */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {Page} data
  */
 export const play = (id, data) => waiting(id).forEach(root => start(root, data));
 
 /**
- * A player in `root`.
+ * Starts a player in `root`.
  * @param {HTMLElement} root
  * @param {Page} data
  */
@@ -107,7 +107,8 @@ function furniture(data) {
   };
   parts.watch.value = String(data.watch.panel);
   parts.row.append(element("label", {}, "watch", parts.watch), folding("numbers", table));
-  // above the pictures, so that a small screen shows the slider and the arm together
+  // the controls are above the pictures, so that a small screen shows the slider and the arm
+  // together
   const rows = [parts.row, parts.says];
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider && parts.slider)
@@ -148,7 +149,7 @@ function folding(name, part) {
  * Sets the height of a scene that has the whole width to what its arms fill.
  * @param {Pick<Parts, "scene" | "curves">} parts
  * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
- * @param {number} count  of pictures in it
+ * @param {number} count  the number of pictures in the scene
  */
 function sized({scene, curves}, inSpace, count) {
   const width = scene.clientWidth,
@@ -179,7 +180,7 @@ function reserve({says}, {arms}) {
  * @param {Parts} parts
  * @param {Page} data
  * @param {{arms: Track[], motion: number}} shown
- * @param {number} value  of the slider
+ * @param {number} value  the index of the slider value
  */
 function tell(parts, data, {arms, motion}, value) {
   const {slider} = data;
@@ -213,7 +214,7 @@ function momentAt(times, time) {
 }
 
 /**
- * The arm for the scene; without a posture, the last one before it, faded.
+ * The arm for the scene; if there is no posture, the last one before it, faded.
  * @param {Track} arm
  * @param {Moment} moment
  */
