@@ -6,7 +6,7 @@ import {colors, font, hit, jointColor, number} from "./canvas.js";
 /** @import {Line, Mark, Note, Panel, Place, Sides, Times} from "./panel.js" */
 
 /** The colour of a line. @type {(line: Line) => string} */
-export const lineColor = ({joint}) => (joint < 0 ? colors.accent : jointColor(joint));
+export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint));
 
 /** Joint colours that are readable as text. @type {(color: string) => string} */
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
