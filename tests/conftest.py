@@ -70,7 +70,9 @@ def browser():
 
     expect.set_options(timeout=1000 * PATIENCE)
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
+        chromium = playwright.chromium.launch(
+            executable_path=path, headless=True, args=FLAGS, timeout=1000 * PATIENCE
+        )
         chromium.new_context = patient(chromium.new_context)
         chromium.new_page = patient(chromium.new_page)
         yield chromium

@@ -161,6 +161,7 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["types"]:
         for path, text in written().items():
             path.write_text(text, encoding="utf-8")
+            print(path.relative_to(ROOT).as_posix())
         sys.exit()
     run = tool(*sys.argv[1:])
     sys.stdout.write(run.stdout)

@@ -1297,7 +1297,7 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
         (lambda: target_explorer(unknown), TypeError, "arm: Unknown has no inverse for pages"),
         (lambda: motion_explorer(SCARA, START, VIA, GOAL), TypeError, "start: wanted a ScaraPose"),
         (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), TypeError, "goal: wanted"),
-        (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted one"),
+        (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted a single"),
         (lambda: motion_explorer(IRB140, START, VIA, GOAL, 8), ValueError, "row: wanted"),
     ):
         with pytest.raises(kind, match=words):

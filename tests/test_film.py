@@ -6,6 +6,7 @@ from PIL import Image
 
 from robokin import IRB140, SCARA, Transform, deg
 from robokin.show import animate, film, joint_explorer
+from robokin.show.things import Mark
 
 T = np.linspace(0, 4, 401)
 WAY = np.linspace(0, 1, 401)[:, None] * np.array([90, 30, -40, 60, 50, 20]) * deg
@@ -66,6 +67,29 @@ def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
     assert dark[-1] < dark[:20].min() / 3
 
 
+def test_labels_of_moving_things_are_beside_them():
+    """Also the label of a thing that is missing in the second half."""
+    at = np.arange(0, 401, 40)
+    still = np.repeat(WAY[:1], len(T), axis=0)
+    way = [0.3, 0.5, 0.9] + T[:, None] / 4 * [0.4, -0.8, -0.4]
+    for places, shown in ((way, 11), (np.where(T[:, None] > 2, np.nan, way), 6)):
+        things = Mark(places, "", 1e-6), Mark(places), Mark(places, "a moving label")
+        speck, point, named = (
+            animate(IRB140, T, still, things=[thing]).film._frames(at) for thing in things
+        )
+        found = []
+        for k, (one, two, three) in enumerate(zip(speck, point, named, strict=True)):
+            place, word = _changed(one, two), _changed(two, three)
+            assert (len(place) > 20) == (len(word) > 100) == (k < shown)
+            if k >= shown:
+                assert not len(place) and not len(word)
+                continue
+            found.append(place.mean(axis=0))
+            away = abs(word - found[-1])
+            assert away.max() < 150 and away.sum(axis=-1).min() < 40, "near its point"
+        assert len(found) == shown and np.linalg.norm(found[-1] - found[0]) > 50
+
+
 def test_foreign_files_are_kept_and_large_films_refused(tmp_path, monkeypatch):
     player = animate(IRB140, T, WAY)
     mine = tmp_path / "mine.gif"
@@ -82,3 +106,8 @@ def test_foreign_files_are_kept_and_large_films_refused(tmp_path, monkeypatch):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["again.gif", "mine.gif"]
     with pytest.raises(ValueError, match="wanted a name that ends in .html"):
         joint_explorer(IRB140).save(tmp_path / "explorer.gif")
+
+
+def _changed(one, other):
+    """The pixels (k, 2), row and column, in which two pictures differ."""
+    return np.argwhere(abs(one.astype(int) - other).max(axis=-1) > 60)

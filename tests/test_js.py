@@ -16,7 +16,7 @@ from conftest import NODE, ROOT
 from javascript import HERE, NoNetwork, page_types, tool, tools, written
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
-from robokin.show import page, twin
+from robokin.show import page, things, twin
 from robokin.show.things import PageThing
 from robokin.show.things.thing import PageReading, PageWay
 
@@ -43,12 +43,14 @@ def run(name, *arguments):
 
 def test_prettier_finds_no_changes():
     said = run("prettier", "--check", FOLDER, SITE / "site.js")
-    assert not said, f"{said}\nRun: python tests/javascript.py prettier --write robokin/show/js"
+    assert not said, (
+        f"{said}\nRun: .venv/bin/python tests/javascript.py prettier --write robokin/show/js"
+    )
 
 
 def test_tsc_finds_no_errors():
     said = run("tsc")
-    assert not said, f"{said}\nRun it yourself: python tests/javascript.py tsc"
+    assert not said, f"{said}\nRun it yourself: .venv/bin/python tests/javascript.py tsc"
 
 
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
@@ -166,7 +168,7 @@ def test_no_declaration_is_untyped(path):
 def test_page_types_equal_those_of_python():
     for path, text in written().items():
         stored = path.read_text(encoding="utf-8")
-        assert stored == text, f"{path.name}: run python tests/javascript.py types"
+        assert stored == text, f"{path.name}: run .venv/bin/python tests/javascript.py types"
 
 
 KEYS = {  # kind of page -> a key that only this kind has, and a script that uses it
@@ -177,16 +179,12 @@ KEYS = {  # kind of page -> a key that only this kind has, and a script that use
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
 }
-THINGS = {  # kind of thing -> a key that only this kind has, and the script that draws it
-    "faces": ("corners: number[][][];", "faces.js"),
-    "mark": ("radius: number;", "mark.js"),
-    "target": ("pose: number[] | PageWay;", "target.js"),
-}
+THINGS = {get_args(table.__annotations__["kind"])[0]: table for table in get_args(PageThing)}
 
 
 def test_tsc_refuses_a_changed_key(tmp_path):
-    """If a key of one kind of page or thing changes, the scripts for that kind fail the type check
-    and those for other kinds pass it.
+    """For each kind of page or thing: its own scripts no longer type-check, those of other kinds
+    do. Of a page one key is changed, of a thing every key except its kind.
     """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
         shutil.copy(path, tmp_path)
@@ -194,12 +192,15 @@ def test_tsc_refuses_a_changed_key(tmp_path):
     (tmp_path / "tsconfig.json").write_text(json.dumps(settings))
     types = page_types()
     program = [NODE, tools() / "typescript" / "bin" / "tsc", "--project", tmp_path]
-    others = {f"{kind}_explorer.js" for kind in KEYS} | {script for _, script in THINGS.values()}
-    changes = [(f"{kind.capitalize()}Page", *pair) for kind, pair in KEYS.items()]
-    changes += [(f"Page{kind.capitalize()}", *pair) for kind, pair in THINGS.items()]
+    others = {f"{kind}_explorer.js" for kind in KEYS} | {f"{kind}.js" for kind in THINGS}
+    changes = [(f"{kind.capitalize()}Page", key, file) for kind, (key, file) in KEYS.items()]
+    changes += [(table.__name__, "", f"{kind}.js") for kind, table in THINGS.items()]
     for table, key, script in changes:
-        at = types.index(key, types.index(f"interface {table} {{"))
-        (tmp_path / "page.d.ts").write_text(f"{types[:at]}un{types[at:]}")
+        at = types.index(f"interface {table} {{")
+        end = types.index("\n}", at)
+        changed = re.sub(rf"^  (?!kind:)(?={re.escape(key)})", "  un", types[at:end], flags=re.M)
+        assert changed != types[at:end], (table, key)
+        (tmp_path / "page.d.ts").write_text(types[:at] + changed + types[end:])
         done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True)
         refused = set(re.findall(r"^(\w+\.js)\(", done.stdout, re.M))
         assert script in refused and done.returncode, done.stdout
@@ -213,9 +214,14 @@ def test_scenes_have_no_optional_keys():
 
 
 def test_all_kinds_of_things_are_listed():
+    """A kind is a module in things/, a script in js/, data in PageThing, and a class."""
     modules = {path.stem for path in (PACKAGE / "show" / "things").glob("[!_]*.py")} - {"thing"}
-    listed = {get_args(table.__annotations__["kind"])[0] for table in get_args(PageThing)}
-    assert listed == modules == set(THINGS)
+    where = "in PageThing of things/__init__.py: its kinds are those of the modules in things/"
+    assert THINGS.keys() == modules, where
+    assert not {kind for kind in THINGS if not (FOLDER / f"{kind}.js").exists()}, "a script in js/"
+    classes = {getattr(things, name) for name in things.__all__} - {things.PageThing, things.Thing}
+    exported = {each.__module__.rpartition(".")[2] for each in classes}
+    assert exported == modules, "in __all__ of things/__init__.py: a class of each module"
 
 
 def test_explorer_pages_have_no_optional_keys():

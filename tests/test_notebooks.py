@@ -105,9 +105,11 @@ def test_stored_scripts_are_up_to_date(path):
     assert len(found) == len(views)
     for key, script, module in set(found):
         wanted, today = joiner.compressed(module)
-        assert key == wanted, module
+        assert key == wanted, f"{module}: run .venv/bin/python tests/execute_notebooks.py"
         unpacked = [zlib.decompress(base64.b64decode(one)) for one in (script, today)]
-        assert unpacked[0] == unpacked[1], module
+        assert unpacked[0] == unpacked[1], (
+            f"{module}: run .venv/bin/python tests/execute_notebooks.py"
+        )
 
 
 def test_no_session_state_is_stored(path):

@@ -2,9 +2,11 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from scenes import TURNED, T, scenes
 
 from robokin import IRB140, Transform
 from robokin.show import animate
-from robokin.show.things import Faces, Mark, Target
+from robokin.show.things import Faces, Mark, PageThing, Target
 
 EARLIER = json.loads((ROOT / "tests/data/scenes_11a2279.json").read_text(encoding="utf-8"))
 NOW = scenes()
@@ -185,7 +187,7 @@ export const flag = {
 PLAYER = """
 import sys
 from robokin.show import animate
-from robokin.show.things.flag import Flag
+from robokin.show.things import Flag
 from scenes import CIRCLING, GONE, IRB140, T, TURNED
 things = [Flag((0.9, 0, 0.4), "still"), Flag(CIRCLING, "moves")] + [Flag(GONE - 0.3, "gone")]
 animate(IRB140, T, TURNED, things=things).save(sys.argv[1])
@@ -214,8 +216,15 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     (show / "things" / "flag.py").write_text(FLAG_PY)
     (show / "js" / "flag.js").write_text(FLAG_JS)
     listed = show / "things" / "__init__.py"
-    text = listed.read_text().replace("from .mark", "from .flag import PageFlag\nfrom .mark")
-    listed.write_text(text.replace("PageFaces | PageMark", "PageFaces | PageMark | PageFlag"))
+    text = listed.read_text()
+    for place, entry in (
+        ("^from .thing import", "from .flag import Flag, PageFlag\nfrom .thing import"),
+        (r"^__all__ = \[", '__all__ = ["Flag", '),
+        (r"^PageThing: TypeAlias = \(?\s*", r"\g<0>PageFlag | "),  # the first to be drawn
+    ):
+        text, count = re.subn(place, entry, text, flags=re.M)
+        assert count == 1, place
+    listed.write_text(text)
 
     def run(*command):
         done = subprocess.run(
@@ -227,10 +236,13 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
             capture_output=True,
         )
         assert not done.returncode, done.stdout + done.stderr
+        return done.stdout
 
-    run("tests/javascript.py", "types")
+    said = run("tests/javascript.py", "types").split()
+    assert said == ["robokin/show/js/page.d.ts", "robokin/show/js/kinds.js"]
     assert "PageFlag" in (show / "js" / "page.d.ts").read_text()
-    assert "{faces, mark, flag, target}" in (show / "js" / "kinds.js").read_text()
+    names = [get_args(table.__annotations__["kind"])[0] for table in get_args(PageThing)]
+    assert f"{{flag, {', '.join(names)}}}" in (show / "js" / "kinds.js").read_text()
     run("tests/javascript.py", "tsc")
     run("-c", PLAYER, tmp_path / "player.html")
     run("-c", PLAYER, tmp_path / "player.gif")

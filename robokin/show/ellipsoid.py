@@ -10,6 +10,7 @@ from .._validate import warn_if_degrees
 from ..arms.arm import Arm
 from ..arms.dexterity import velocity_ellipsoid
 from ..units import length_unit
+from . import layers
 from .camera import arm_points, extent, flange, is_flat
 from .palette import ALARM, INK, TRACE
 from .plots import Figure, _samples, _sentence, _words
@@ -71,7 +72,13 @@ def plot_velocity_ellipsoid(
             if seen_as > 1e-9 and lengths[i, k] < longest / 20:
                 tip = tool[i] + MARK * size * way
                 ends = [tool[i] - MARK * size * way, tip]
-                scene.line(ends, color=ALARM, linewidth=1.4, linestyle=(0, (4, 2)), zorder=6.5)
+                scene.line(
+                    ends,
+                    color=ALARM,
+                    linewidth=1.4,
+                    linestyle=(0, (4, 2)),
+                    zorder=layers.PATH + 0.5,
+                )
                 scene.label(words[i][k], tip, ALARM)
             elif lengths[i, k] > 0:
                 scene.label(words[i][k], tip, TRACE)
@@ -104,13 +111,22 @@ def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
     outline = (scene.project(centre)[:, None] + ring).T
     scene.drawn.append((outline, 1))  # labels avoid it
     scene.ax.add_patch(
-        Polygon(outline, facecolor=TRACE, edgecolor=TRACE, alpha=0.18, linewidth=1.2, zorder=5.5)
+        Polygon(
+            outline,
+            facecolor=TRACE,
+            edgecolor=TRACE,
+            alpha=0.18,
+            linewidth=1.2,
+            zorder=layers.LAST + 0.5,
+        )
     )
     for a, b in ((0, 1), (1, 2), (0, 2)):
         ellipse = np.outer(np.cos(ROUND), axes[:, a]) + np.outer(np.sin(ROUND), axes[:, b])
-        scene.line(centre + ellipse, corner=False, color=TRACE, linewidth=0.7, zorder=5.6)
+        scene.line(
+            centre + ellipse, corner=False, color=TRACE, linewidth=0.7, zorder=layers.LAST + 0.6
+        )
     for axis in axes.T:
-        scene.line([centre - axis, centre + axis], color=TRACE, linewidth=1.8, zorder=7)
+        scene.line([centre - axis, centre + axis], color=TRACE, linewidth=1.8, zorder=layers.FRAMES)
 
 
 def _alt(arm: Arm, title: str | None, words: list[list[str]]) -> str:

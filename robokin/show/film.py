@@ -26,7 +26,7 @@ TRACED = 1001  # maximum number of points in a tool's path
 
 class Film:
     """A film of the first motion of a player, the one that it opens with. Fixed things are drawn
-    once; only arms and moving things are drawn for each frame.
+    once; only arms and moving things, with their labels, are drawn for each frame.
     """
 
     def __init__(
@@ -87,11 +87,13 @@ class Film:
             canvas.restore_region(behind)
             for scene, own in scenes:
                 before = list(scene.ax.get_children())
+                fixed = [*scene.drawn], [*scene.labels], [*scene.boxes]
                 self._moving(scene, [(*self.motions[i], feet[i]) for i in own], sample)
                 new = [each for each in scene.ax.get_children() if each not in before]
                 for artist in sorted(new, key=lambda each: each.get_zorder()):
                     scene.ax.draw_artist(artist)
                     artist.remove()
+                scene.drawn, scene.labels, scene.boxes = fixed
             yield np.array(canvas.buffer_rgba())[..., :3]
 
     def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
@@ -108,10 +110,11 @@ class Film:
     def _moving(
         self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]], sample: int
     ) -> None:
-        """Draw the arms and the moving things at one sample."""
+        """Draw the arms and the moving things, with their labels, at one sample."""
         for arm, q, base in arms:
             scene.arm(arm, q[sample], "last", base)
             scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
         for thing in self.things:
             if thing.moves:
                 thing.draw(scene, sample)
+        scene.place_labels()

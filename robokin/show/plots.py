@@ -25,6 +25,7 @@ from ..arms.arm import Arm
 from ..motion.recording import Recording, record
 from ..transform import Transform
 from ..units import deg, length_unit, mm
+from . import layers
 from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
 from .checks import in_sight, plain, several
@@ -192,7 +193,12 @@ def plot_frames(
     if not any(at_base):
         scene.triad(Transform(), "base", length=size, color=SCALE)
     if chain:
-        scene.line(np.concatenate([np.zeros((1, 3)), origins]), color=FAINT, linewidth=4, zorder=2)
+        scene.line(
+            np.concatenate([np.zeros((1, 3)), origins]),
+            color=FAINT,
+            linewidth=4,
+            zorder=layers.BETWEEN,
+        )
     for i, (frame, name) in enumerate(zip(frames, names, strict=True)):
         scene.drop(frame.translation)
         scene.triad(frame, name, length=size, width=2.6, letters=True, at=_naming_axis(frames, i))

@@ -1,4 +1,6 @@
-"""The place of the obstacle, and how near the levers come to it."""
+"""Measures how near the levers come to the obstacle, and where it is; `planner` decides what is
+safe.
+"""
 
 from collections.abc import Callable
 

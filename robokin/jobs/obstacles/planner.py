@@ -1,5 +1,7 @@
-"""The control system of source 003: it plans the direct motion, a path through two via points, or a
-search.
+"""Decides which plan is safe, with the distances that `collision` measures.
+
+This is the control system of source 003: it plans the direct motion, a path over two via points, or
+a search.
 """
 
 from contextlib import suppress

@@ -1,4 +1,6 @@
-"""Unchecked paths past an obstacle, and the place where the levers come nearest on a path."""
+"""Paths that need not be safe (`planner` decides that), and the place where the levers come
+nearest on a path.
+"""
 
 import numpy as np
 

@@ -96,14 +96,18 @@ class Thing(ABC):
 
     @abstractmethod
     def seen(self, axis: float) -> Floats:
-        """Points (k, 3) that the camera must see; NaN is ignored. `axis` is the length (m) of the
-        axes of frames.
+        """Points (k, 3) of the whole motion, which place the camera; NaN is ignored. `axis` is the
+        length (m) of the axes of frames. (`seen` in a script gives the points of one moment; only
+        scenes that grow ask for them.)
         """
 
     @abstractmethod
     def draw(self, scene: "Scene", sample: int | None) -> None:
-        """Draw the thing into a figure at a sample of the first motion; with None, draw what does
-        not change.
+        """Draw the thing into a figure; draw nothing if its place is NaN. (A page leaves out such
+        a thing before it calls the script.)
+
+        sample  an index into the samples of the first motion: -1 in the still picture; in a film,
+                that of the frame, or None for a thing that does not move
         """
 
     @property
