@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import Floats, Ints
+from .._arrays import Bools, Floats, Ints
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import unwrapped
 from ..motion.recording import Recording
@@ -109,6 +109,13 @@ def rows(arm: Arm, q: Floats) -> list[list[tuple[int, str]]] | None:
     return found
 
 
+def spells(t: Floats, holds: Bools) -> str:
+    """When something holds: "from 0.00 to 6.72 s", or the first of several such times."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
+    first = f"from {tidy(t[edges[0]], 2):.2f} to {tidy(t[edges[1] - 1], 2):.2f} s"
+    return first if len(edges) == 2 else f"{first} and {len(edges) // 2 - 1} more times"
+
+
 def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
     """The flaws of each motion that has any: gaps between kept samples, jumps to mark with their
     words, and sentences.
@@ -154,12 +161,13 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
                     f"q{j + 1} is past its limit in {(excess > 0).sum()} of {count} samples, "
-                    f"by up to {amount(np.nanmax(excess), j)}."
+                    f"{spells(track.t, excess > 0)}, by up to {amount(np.nanmax(excess), j)}."
                 )
         for j, excess in enumerate(track.speed_excess[c].T):
             if (excess > 0).any():
                 notes.setdefault(c, []).append(
-                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples."
+                    f"q{j + 1} is past its speed limit in {(excess > 0).sum()} of {count} samples, "
+                    f"{spells(track.t, excess > 0)}."
                 )
         if track.missing[c].any():
             notes.setdefault(c, []).append(

@@ -100,7 +100,7 @@ function furniture(data) {
     ...clockRow(),
     watch: choice("large panel", labelsOf(data)),
     table,
-    says: element("div", {class: "rk-says", role: "status"}),
+    says: element("div", {class: "rk-says"}),
     slider: slider && range(slider.label, slider.values.length - 1),
     value: element("span", {class: "rk-value"}),
     menu: menu && choice(menu.label, menu.values),
@@ -135,7 +135,12 @@ const labelsOf = ({panels, quantities}) => [...panels, ...quantities].map(({labe
  * @param {HTMLElement} part
  */
 function folding(name, part) {
-  const button = control("button", {type: "button", class: "rk-word", "aria-expanded": "false"});
+  const button = control("button", {
+    type: "button",
+    class: "rk-word",
+    "aria-label": name,
+    "aria-expanded": "false",
+  });
   button.textContent = name;
   part.hidden = true;
   button.addEventListener("click", () => {
@@ -172,7 +177,7 @@ function reserve({says}, {arms}) {
   const lines = Array.from({length: motions}, (_, motion) =>
     arms.reduce((n, {via, notes}) => n + +!!via?.[motion] + (notes[motion] || []).length, 0),
   );
-  says.style.minHeight = `${1.5 * Math.min(2, Math.max(...lines))}em`;
+  says.style.minHeight = `${1.4 * Math.min(2, Math.max(...lines))}em`;
 }
 
 /**

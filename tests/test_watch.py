@@ -1,0 +1,269 @@
+"""What a player lets its reader watch: the large panel, the joints, named quantities, the opening
+curve, limits that are passed, and the row of `ik`; and how much of a screen all this needs.
+"""
+
+import numpy as np
+import pytest
+from conftest import awake
+from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
+
+from robokin import IRB140, PUMA560, deg, follow, lin, mm, ptp, quintic, three_lever
+from robokin.show import animate, motion_explorer
+from robokin.show.joiner import script
+
+CLOCK = np.linspace(0, 6, 601)
+TURNING = ptp([0, 0, 0, 0, 30 * deg, 0], [1, 0.5, 0.4, 1, 1, 2], quintic(6)(CLOCK))
+PLAIN = {"targets": [START, VIA, GOAL], "slider": ("blend", FRACTIONS)}
+HALVES = ptp([0, 0, 0, 0, 30 * deg, 0], [1, 0.4, 1.4, 1, 1, 2], quintic(6)(CLOCK))  # q3 to 80°
+
+
+@pytest.fixture(scope="module")
+def motions():
+    return chain(FRACTIONS[:, None])
+
+
+@pytest.fixture
+def page(browser):
+    """A page of the width of a JupyterLab output beside its file browser, on a screen of 1366."""
+    page = browser.new_page(viewport={"width": 914, "height": 647})
+    said = []
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.on("console", lambda m: said.append(m.text) if m.type in ("error", "warning") else None)
+    # the frames of panels, and what is written on the canvases
+    page.add_init_script("""
+        window.frames_ = []; window.written = [];
+        const {strokeRect, fillText} = CanvasRenderingContext2D.prototype;
+        CanvasRenderingContext2D.prototype.strokeRect = function (...box) {
+          if (this.canvas.className === "rk-curves") frames_.push(box);
+          return strokeRect.apply(this, box); };
+        CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
+          written.push(text); return fillText.call(this, text, ...place); };""")
+    yield page
+    page.close()
+    assert said == []
+
+
+def opened(page, view, tmp_path):
+    view.save(tmp_path / "view.html")
+    page.goto((tmp_path / "view.html").as_uri())
+    page.add_style_tag(content="body { margin: 0; max-width: none; padding: 0 }")
+    awake(page)
+    return anew(page)
+
+
+def anew(page):
+    """The frames of the panels and the words of one picture."""
+    page.evaluate("frames_.length = written.length = 0")
+    page.set_viewport_size({"width": 1827 - page.viewport_size["width"], "height": 647})
+    ink(page, ".rk-curves")
+    return page.evaluate("[frames_, written]")
+
+
+# --- Room -----------------------------------------------------------------------------------------
+
+
+def two_arms(motions):
+    return animate([IRB140, IRB140], T, [motions, motions[::-1]], names=["A", "B"], **PLAIN)
+
+
+def in_one_space(_):
+    return animate([IRB140] * 2, CLOCK, [TURNING] * 2, names=["A", "B"], bases=[[0, 0], [0, 1]])
+
+
+VIEWS = {
+    "one arm": (lambda q: animate(IRB140, T, q, **PLAIN), 560),
+    "two arms": (two_arms, 600),
+    "one space": (in_one_space, 640),
+    "motion explorer": (lambda _: motion_explorer(IRB140, START, VIA, GOAL), 560),
+}
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_view_fits_on_the_screen_with_a_large_panel(page, motions, tmp_path, view):
+    make, height = VIEWS[view]
+    frames, _ = opened(page, make(motions), tmp_path)
+    box = page.locator(".rk").bounding_box()
+    assert box["width"] > 880 and box["height"] <= height
+    assert max(h for _, _, _, h in frames) >= 180
+
+
+def test_sentences_do_not_move_the_pictures(page, tmp_path):
+    q = np.stack([HALVES, TURNING])  # the first one passes a limit
+    opened(page, animate(IRB140, CLOCK, q, slider=("x", [0, 1])), tmp_path)
+    before = page.locator(".rk-scene").bounding_box()
+    assert "q3 is past its limit" in page.locator(".rk-says").inner_text()
+    page.get_by_label("x", exact=True).fill("1")
+    assert page.locator(".rk-says").inner_text() == ""
+    assert page.locator(".rk-scene").bounding_box() == before
+
+
+@pytest.mark.parametrize("count", [1, 3, 4, 6])
+def test_panels_share_the_room(page, count):
+    """The large one gets its height wherever there is so much; a small one is never too low."""
+    for room in (150, 210, 300, 480, 900):
+        for large in range(count):
+            shown = page.evaluate(
+                "([code, ...given]) => new Function(code + 'return $curves')().heights(...given)",
+                [script("player"), count, large, room],
+            )
+            heights = dict(shown)
+            assert large in heights and list(heights) == sorted(heights)
+            assert sum(heights.values()) + 22 * len(heights) == pytest.approx(room)
+            assert heights[large] >= min(180, room - 22)
+            assert all(h >= 34 for k, h in heights.items() if k != large)
+
+
+# --- What is large, and what is faint -------------------------------------------------------------
+
+
+def test_reader_chooses_the_large_panel(page, motions, tmp_path):
+    opened(page, animate(IRB140, T, motions, watch="a", **PLAIN), tmp_path)
+    menu = page.get_by_label("large panel")
+    assert menu.input_value() == "2"
+    for large in range(3):
+        menu.select_option(str(large))
+        frames, words = anew(page)
+        heights = [h for _, _, _, h in frames]
+        assert len(heights) == 3 and np.argmax(heights) == large
+        assert {"angle, °", "speed, °/s", "acceleration, °/s²"} <= set(words)
+
+
+def panels_of(page, player, value, choice=0):
+    """The panels of the page's own motion: for each line its numbers and marks."""
+    return page.evaluate(
+        """([code, data, value, choice]) => {
+          const {$motions} = new Function(code + 'return {$motions}')();
+          const {panels} = $motions.motionsOf(data).choose(value, choice);
+          return panels.map(({label, axes, lines, near, marks}) => ({label, axes, near, marks,
+            lines: lines.map(line => ({...line, gaps: [...line.gaps], values: [...line.values],
+              opening: line.opening && [...line.opening]}))})); }""",
+        [script("player"), player.data, value, choice],
+    )
+
+
+def test_other_joints_are_faint_and_show_no_limits(page):
+    player = animate(IRB140, CLOCK, HALVES, joints=[1, 2])
+    for panel in panels_of(page, player, 0):
+        assert [line["faint"] for line in panel["lines"]] == [j > 1 for j in range(6)]
+        assert panel["near"] == []
+    [position, *_] = panels_of(page, animate(IRB140, CLOCK, HALVES, joints=[3]), 0)
+    assert position["near"] == [[2, 1]]
+
+
+def test_scales_stay_and_the_opening_curve_is_a_ghost(page, motions):
+    player = animate(IRB140, T, motions, **PLAIN)
+    first = panels_of(page, player, 0)
+    assert all(line["opening"] is None for panel in first for line in panel["lines"])
+    for value in range(1, len(FRACTIONS)):
+        for panel, begun in zip(panels_of(page, player, value), first, strict=True):
+            assert panel["axes"] == begun["axes"]
+            for line, old in zip(panel["lines"], begun["lines"], strict=True):
+                assert line["opening"] == old["values"] != line["values"]
+
+
+def test_quantity_is_a_panel(page, motions, tmp_path):
+    away = np.linalg.norm(IRB140.fk(motions).translation - VIA.translation, axis=-1) / mm
+    player = animate(IRB140, T, motions, quantities={"distance to via, mm": away}, **PLAIN)
+    [data] = player.data["quantities"]
+    low, step, count, _ = data["scale"]
+    assert low <= away.min() and away.max() <= low + step * (count - 1)
+    [numbers] = data["values"]
+    found = unpacked(numbers, 1, len(player.data["times"]))[..., 0]
+    assert abs(found - away[:, kept(player)]).max() <= 0.51 * max(numbers["steps"])
+    assert player.data["watch"]["panel"] == 3
+    frames, words = opened(page, player, tmp_path)
+    assert "distance to via, mm" in words and max(h for *_, h in frames) >= 180
+    one = animate(IRB140, T, motions, quantities={"distance to via, mm": away[0]}, **PLAIN)
+    for value in range(len(FRACTIONS)):  # the same for every value of the slider
+        [line] = panels_of(page, one, value)[3]["lines"]
+        assert np.allclose(line["values"], away[0, kept(one)], atol=0.5)
+
+
+# --- The arm tells --------------------------------------------------------------------------------
+
+
+def test_arm_shows_the_joints_past_a_limit(page, tmp_path):
+    player = animate(IRB140, CLOCK, HALVES)
+    opened(page, player, tmp_path)
+    past = HALVES[:, 2] > 50 * deg
+    assert 0 < past.sum() < len(past)
+    [note] = player.data["arms"][0]["notes"]["0"]
+    assert f"from {CLOCK[past.argmax()]:.2f} to 6.00 s" in note
+    seen = []
+    for tick in range(0, 401, 20):
+        page.get_by_label("time", exact=True).fill(str(tick))
+        _, words = anew(page)
+        seen.append("q3 past its limit" in words)
+        assert not any("past its limit" in word and word[:2] != "q3" for word in words)
+    moments = np.interp(np.linspace(0, 6, 21), CLOCK, HALVES[:, 2])
+    assert seen == (moments > 50 * deg).tolist()
+
+
+@pytest.mark.parametrize("arm", [IRB140, PUMA560], ids=lambda arm: arm.name)
+def test_row_of_every_posture_is_named(arm):
+    """All rows of one pose, one after the other."""
+    pose = arm.fk([0.3, -0.4, 0.5, 0.6, 0.7, 0.8])
+    rows = arm.ik(pose)
+    q = np.repeat(rows, 10, axis=0)
+    t = 0.1 * np.arange(len(q))
+    player = animate(arm, t, q)
+    said, samples = player.data["arms"][0]["rows"], kept(player, t)
+    signs = [" ".join(f"{flag:+d}" for flag in flags) for flags in arm.branches]
+    wanted = [
+        [int((samples >= 10 * k).argmax()), f"row {k}: {sign}".replace("-", "−")]
+        for k, sign in enumerate(signs)
+    ]
+    assert [list(map(list, motion)) for motion in said] == [wanted]
+
+
+def test_row_stays_through_a_singularity_and_is_missing_without_an_inverse():
+    """Joint 5 crosses zero at sample 50: two rows coincide there, and the wrist's flag changes."""
+    q = ptp([0.2, 0.1, 0.3, 0, -0.5, 0], [0.2, 0.1, 0.3, 0, 0.5, 0], np.linspace(0, 1, 101))
+    [runs] = animate(IRB140, np.linspace(0, 1, 101), q).data["arms"][0]["rows"]
+    assert [words[:5] for _, words in runs] == ["row 1", "row 0"]
+    assert runs[0][0] == 0 and runs[1][0] in (50, 51)
+    levers = animate(three_lever(1.0), CLOCK, np.full((601, 3), 1.0) + CLOCK[:, None] / 20)
+    assert levers.data["arms"][0]["rows"] is None
+    plain = animate(SCARA, CLOCK, np.full((601, 4), 0.1) + CLOCK[:, None] / 100)
+    assert plain.data["arms"][0]["rows"] is None
+
+
+def test_row_stands_under_the_arm(page, tmp_path):
+    q = follow(IRB140, IRB140.ik(lin(START, GOAL, np.linspace(0, 1, 101))), ROW)
+    _, words = opened(page, animate(IRB140, np.linspace(0, 2, 101), q), tmp_path)
+    signs = " ".join(f"{flag:+d}" for flag in IRB140.branches[ROW]).replace("-", "−")
+    assert f"row {ROW}: {signs}" in words
+
+
+def test_marks_belong_to_one_arm(page):
+    """Two arms share each panel; the words of a jump say whose it is, and a limit stands once."""
+    jump = TURNING.copy()
+    jump[300:, 3] += 1
+    player = animate([IRB140] * 2, CLOCK, [TURNING, jump], names=["smooth", "torn"])
+    panels = panels_of(page, player, 0)
+    for panel in panels:
+        assert [line["arm"] for line in panel["lines"]] == [0] * 6 + [1] * 6
+        assert [line["joint"] for line in panel["lines"]] == [*range(6)] * 2
+    words = [mark["text"] for panel in panels for mark in panel["marks"] if mark["text"]]
+    assert words and all(text.startswith("torn: ") for text in words)
+    both = animate([IRB140] * 2, CLOCK, [HALVES, HALVES], names=["A", "B"])
+    assert panels_of(page, both, 0)[0]["near"] == [[2, 1]]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"watch": "speed"}, "watch: wanted one of q, v, a, got 'speed'"),
+        ({"watch": 1}, "watch: wanted one of"),
+        ({"joints": [0]}, "joints: wanted a whole number from 1 to 6"),
+        ({"joints": 3}, "joints: wanted numbers"),
+        ({"quantities": [1, 2]}, "quantities: wanted a dict"),
+        ({"quantities": {"d": np.zeros(5)}}, r"quantity d: wanted shape \(601,\)"),
+        ({"quantities": {3: np.zeros(601)}}, "quantities: wanted a string"),
+    ],
+)
+def test_wrong_wishes_are_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        animate(IRB140, CLOCK, TURNING, **given)
+    with pytest.raises(ValueError, match="quantity d: wanted a list with one array for each of 2"):
+        animate([IRB140] * 2, CLOCK, [TURNING] * 2, quantities={"d": np.zeros(601)})
