@@ -1,8 +1,8 @@
 """robokin: the kinematics of robot arms, to read, run and drag.
 
-Metres and radians inside; `352 * mm` and `90 * deg` on the way in. Figures and players come from
-`robokin.show`. Arms have no masses and no forces; `robokin.jobs.steppers` integrates the torque on
-a motor's rotor.
+Lengths are in metres and angles in radians; write `352 * mm` and `90 * deg` for arguments. Figures
+and players come from `robokin.show`. Arms have no masses and no forces; only
+`robokin.jobs.steppers` integrates a torque, that on a motor's rotor.
 """
 
 from .arms import (

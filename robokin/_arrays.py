@@ -28,7 +28,7 @@ BLOCK = 16_000  # numbers in one work array: 128 kB, which the memory allocator 
 
 
 def sealed(array: Array) -> Array:
-    """Make this array read-only in place and return it. Nobody else may hold a reference to it."""
+    """Make this array read-only in place and return it. Nothing else may hold a reference to it."""
     array.setflags(write=False)
     return array
 
@@ -39,8 +39,8 @@ def frozen(array: Array) -> Array:
 
 
 class Sealed:
-    """The base of a frozen dataclass that holds arrays, directly or in tuples. Copies and unpickled
-    objects are read-only too, although NumPy does not copy the flag.
+    """Base class of frozen dataclasses that hold arrays, directly or in tuples. Copies and
+    unpickled objects are read-only too, although NumPy does not copy the flag.
     """
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -49,8 +49,8 @@ class Sealed:
 
 
 def components(array: Floats) -> tuple[Any, ...]:
-    """Split the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, with which the same
-    formulas are several times faster than with arrays of size one.
+    """Split the last axis: (..., k) -> k arrays (...); (k,) -> k plain numbers, which make the same
+    formulas several times faster than arrays of size one.
     """
     if array.ndim == 1:
         return tuple(array.tolist())
@@ -76,8 +76,8 @@ def by_blocks(
     *rest, N).
 
     work(*blocks)  takes the components of some rows of each array, as a tuple of k arrays (rows,).
-                   It answers with a list of parts, each a number or an array that fits
-                   (*rest, rows), or a pair of such, for the two places of the last axis of `rest`.
+                   It returns a list of parts. A part is a number, an array that broadcasts to
+                   (*rest, rows), or a pair of these for the two entries of the last axis of `rest`.
 
     A block has a few thousand rows. A larger one would not fit into the processor's cache, and
     every step would wait for memory or ask the system for new pages.

@@ -1,7 +1,7 @@
 """Checks of the arguments of public functions, and their error messages.
 
-There is one rule. Numbers or words that cannot be used raise a `ValueError`, whether the kind, the
-shape or the value is wrong. An argument that should be an object of a class (an arm, a pose, a
+There is one rule. Numbers or strings that cannot be used raise a `ValueError`, whether the kind,
+the shape or the value is wrong. An argument that should be an object of a class (an arm, a pose, a
 task) and is not raises a `TypeError`. Both messages read `name: wanted ..., got ...`. A legal value
 that is probably a mistake (degrees for radians) causes a warning and is accepted.
 """
@@ -19,8 +19,8 @@ from ._arrays import Bools, Floats
 T = TypeVar("T")
 FLOAT = np.dtype(float)
 TWO_TURNS = 4 * np.pi
-AXES = 30  # axes of an argument; a result may have two more, and NumPy broadcasts up to 32
-GREATEST = 10**8  # values in one array: more would exhaust a laptop's memory
+AXES = 30  # most axes of an argument; a result may have two more, and NumPy broadcasts up to 32
+GREATEST = 10**8  # greatest number of values in one array: more would exhaust a laptop's memory
 
 
 def floats(value: Any, name: str, last: int | None = None, finite: bool = True) -> Floats:
@@ -79,13 +79,13 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
 
 
 def bools(value: Any, name: str) -> Bools:
-    """Return `value` as a boolean array. ValueError: it holds anything else than True or False."""
+    """Return `value` as a boolean array. ValueError: it holds anything other than True or False."""
     try:
         array = np.asarray(value)
-    except Exception:  # an object may offer itself as an array and fail in any way
+    except Exception:  # an object may claim to be an array and raise any error
         array = np.array(0)
     if array.dtype != bool or masked(value):
-        raise ValueError(f"{name}: wanted True or False, one or an array, got {short(value)}")
+        raise ValueError(f"{name}: wanted True or False, or an array of them, got {short(value)}")
     return array
 
 
@@ -105,12 +105,12 @@ def shape_of(value: Any, name: str) -> tuple[int, ...]:
 def text(value: Any, name: str) -> str:
     """Return `value`. ValueError: it is not a string."""
     if not isinstance(value, str):
-        raise ValueError(f"{name}: wanted words, got {short(value)}")
+        raise ValueError(f"{name}: wanted a string, got {short(value)}")
     return value
 
 
 def choice(value: Any, name: str, options: Sequence[str]) -> str:
-    """Return `value`. ValueError: it is not one of these words."""
+    """Return `value`. ValueError: it is not one of the options."""
     if not (isinstance(value, str) and value in options):
         raise ValueError(f"{name}: wanted one of {tuple(options)}, got {short(value)}")
     return value
@@ -139,7 +139,7 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int
     """Warn (UserWarning) if angles that should be in radians are probably in degrees: one of them
     exceeds two turns, or eight turns in a batch, which may be a motion that keeps turning.
 
-    posture  1 if the last axis holds the joints of one posture, 0 if each angle stands alone
+    posture  1 if the last axis holds the joints of one posture, 0 if the angles are independent
     """
     limit = TWO_TURNS if angles.ndim <= posture else 4 * TWO_TURNS
     far = abs(angles) > limit
@@ -149,15 +149,15 @@ def warn_if_degrees(angles: Floats, name: str, stacklevel: int = 3, posture: int
 
 
 def short(value: Any) -> str:
-    """Return a wrong argument in at most sixty characters, for a message."""
+    """Return a wrong argument as text of at most sixty characters, for a message."""
     if isinstance(value, np.ndarray):
         return f"array of shape {value.shape}"
     try:
         text = (
             reprlib.repr(value) if isinstance(value, (str, list, tuple, dict, int)) else repr(value)
         )
-    except Exception:  # `repr` may raise; the message must not
-        text = f"one {type(value).__name__}"
+    except Exception:  # `repr` may raise any error, but this function must not
+        text = f"an object of type {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
@@ -172,17 +172,17 @@ def _numbers(value: Any, name: str) -> Floats:
         if array.dtype is FLOAT:
             return array
         if array.dtype.kind == "O" and array.size and all(map(_is_real, array.flat)):
-            return array.astype(float)  # integers that are too large for NumPy, fractions
-    except Exception:  # an object may offer itself as an array and fail in any way
+            return array.astype(float)  # integers that are too large for NumPy, or fractions
+    except Exception:  # an object may claim to be an array and raise any error
         raise ValueError(f"{name}: wanted numbers, got {short(value)}") from None
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{name}: wanted numbers, got {short(value)}")
-    with np.errstate(over="ignore"):  # from numbers with more than 64 bits
+    with np.errstate(over="ignore"):  # a number with more than 64 bits may overflow
         return array.astype(float)
 
 
 def masked(value: Any) -> bool:
-    """Whether it is a masked array. Naming `np.ma` would import it, which takes 8 ms."""
+    """Whether `value` is a masked array. To use `np.ma` here would import it, which takes 8 ms."""
     return isinstance(value, np.ndarray) and hasattr(value, "mask")
 
 

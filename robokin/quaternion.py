@@ -1,8 +1,8 @@
 """Unit quaternions: rotations in space, one or a whole batch of them.
 
 Conventions: scalar first (w, x, y, z), Hamilton product, active rotations, right-hand rule. The
-quaternions q and -q are one rotation. Angles in radians. The leading axes of every array are the
-batch.
+quaternions q and -q are the same rotation. Angles in radians. The leading axes of every array are
+the batch.
 """
 
 from abc import abstractmethod
@@ -25,7 +25,8 @@ class Batch(Sealed):
     only.
     """
 
-    __array_ufunc__ = None  # makes `array @ value` a TypeError instead of an array of objects
+    # Otherwise `array @ value` would return an array of objects instead of raising a TypeError.
+    __array_ufunc__ = None
 
     @property
     @abstractmethod
@@ -37,7 +38,7 @@ class Batch(Sealed):
 
     def __len__(self) -> int:
         if not self.shape:
-            raise TypeError(f"one single {type(self).__name__} has no length")
+            raise TypeError(f"a single {type(self).__name__} has no length")
         return self.shape[0]
 
     def __iter__(self) -> Iterator[Self]:
@@ -46,11 +47,11 @@ class Batch(Sealed):
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class Quaternion(Batch):
-    """A rotation of any batch shape, as a unit quaternion `wxyz` of shape (..., 4).
+    """A rotation, or a batch of rotations of any shape, as unit quaternions `wxyz` (..., 4).
 
     `a @ b` composes (b first, then a) and `a @ points` rotates points of shape (..., 3). `wxyz` is
-    read-only. ValueError: not finite, or a length that is not 1 within 1e-6. Source: 001, all
-    listings (there `*`); the product is Hamilton's.
+    read-only. ValueError: numbers that are not finite, or a length that is not 1 within 1e-6.
+    Source: 001, all listings, which write `*`; the product is Hamilton's.
 
     >>> half = Quaternion.from_angle_axis(np.pi, (0, 0, 1))
     >>> (half @ (1, 2, 3)).round(3)
@@ -65,7 +66,7 @@ class Quaternion(Batch):
 
     @classmethod
     def _of(cls, wxyz: Floats) -> "Quaternion":
-        """Make one from unit quaternions without a check; NaN rows are accepted."""
+        """Make a Quaternion from unit quaternions, without checks; NaN rows are accepted."""
         self = object.__new__(cls)
         vars(self)["wxyz"] = sealed(wxyz)
         return self
@@ -88,7 +89,7 @@ class Quaternion(Batch):
 
     @classmethod
     def _turn(cls, angle: Floats, axis: Floats) -> "Quaternion":
-        """As `from_angle_axis`, but without a check: a NaN angle gives a NaN rotation."""
+        """Like `from_angle_axis`, but without checks: a NaN angle gives a NaN rotation."""
         return cls._of(stack(half_angles(angle, components(axis))))
 
     @classmethod
@@ -103,11 +104,12 @@ class Quaternion(Batch):
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Quaternion":
-        """From rotation matrices (..., 3, 3). ValueError: not orthogonal within 1e-6, or a
-        reflection.
+        """The rotations of matrices (..., 3, 3). ValueError: a matrix that is not orthogonal within
+        1e-6, or a reflection.
 
-        The matrix gives all four components after a division by any one of them. We divide by the
-        largest one (Shepperd 1978, J. Guidance and Control 1, p. 223), which is at least 1/2.
+        The matrix gives each product of two components, and so all four after a division by any one
+        of them. We divide by the largest (Shepperd 1978, J. Guidance and Control 1, p. 223), which
+        is at least 1/2.
         """
         m = floats(matrix, "matrix", 3)
         if m.ndim < 2 or m.shape[-2] != 3:
@@ -115,7 +117,7 @@ class Quaternion(Batch):
         with np.errstate(over="ignore", invalid="ignore"):
             error = abs(m @ m.mT - np.eye(3)).max(initial=0)
         if not error <= UNIT:
-            differs = f"one whose R R^T differs from 1 by {error:.3g}"
+            differs = f"a matrix M for which M M^T differs from the identity by {error:.3g}"
             raise ValueError(f"matrix: wanted a rotation, got {differs}")
         x, y, z = (components(m[..., k, :]) for k in range(3))
         volume = sum(a * b for a, b in zip(cross(x, y), z, strict=True))  # the determinant
@@ -185,10 +187,10 @@ class Quaternion(Batch):
         return roll, np.arctan2(-zx, np.hypot(xx, yx)), yaw
 
     def angle_to(self, other: "Quaternion") -> Floats:
-        """The angle in [0, pi] of the rotation from these to `other`: (...) in radians.
+        """The angle in [0, pi] of the rotation from this one to `other`: (...) in radians.
 
-        The batches are broadcast. Small angles are accurate to the last digits, which the arccos of
-        the product's scalar part is not. The `angle_to` of source 001 is a different function: the
+        The batches are broadcast. Small angles are accurate to the last digits, unlike the arccos
+        of the product's scalar part. The `angle_to` of source 001 is a different function: the
         signed angle between two vectors about an axis.
         """
         instance(other, Quaternion, "other")

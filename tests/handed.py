@@ -1,5 +1,5 @@
-"""Handed-in work made by hand: notebooks, and reports as pages with any data; and helpers that read
-the result of `summary`.
+"""Helpers that make handed-in work (notebooks, and report pages with any data) and read the result
+of `summary`.
 """
 
 import csv
@@ -37,7 +37,7 @@ def report_of(who, slug=SLUG, made=MADE, **changes):
 
 
 def page(data):
-    """A page with data like a report; a text is inserted unchanged."""
+    """A page that contains `data` as a report does; a string is taken as JSON text."""
     text = data if isinstance(data, str) else json.dumps(data)
     data = text.replace("<", "\\u003c")
     return f"<!DOCTYPE html>\n<html><head>{DATA}{data}</script></head></html>"
@@ -59,7 +59,7 @@ def stored(path, *cells):
 
 
 def put(path, content):
-    """Write bytes, a text or a report's data into a file; its folders are made."""
+    """Write bytes, a string or a report's data to a file, and create the folders above it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     text = page(content) if isinstance(content, dict) else content
     with open(os.fsencode(path), "wb") as file:
@@ -77,7 +77,7 @@ def page_in(folder):
 
 
 def rows_of(page, table):
-    """The cells of the tables of that class, as text."""
+    """The rows of all tables with the CSS class `table`, each as a list of strings."""
     found = []
     for text in re.findall(rf'<table class="{table}">(.*?)</table>', page, re.S):
         for row in re.findall("<tr>(.*?)</tr>", text, re.S):

@@ -1,11 +1,11 @@
-"""The tools of the page's scripts, Prettier and TypeScript, in the versions of js/package-lock.json
-and with PyPI's Node:
+"""Run Prettier and TypeScript on the scripts of the page, in the versions of js/package-lock.json
+and with Node from PyPI:
 
     python tests/javascript.py prettier --write robokin/show/js
     python tests/javascript.py tsc
     python tests/javascript.py types    # writes page.d.ts and kinds.js in robokin/show/js
 
-npm installs them once for each lock file into the user's cache, so that the tree stays clean.
+npm installs them once per lock file in the user's cache, so that the working tree stays clean.
 """
 
 import hashlib
@@ -37,7 +37,7 @@ class NoNetwork(Exception):
 
 def tools():
     """The folder of the installed packages. Several processes may install them at the same time:
-    each uses its own folder, and the first one to finish renames it.
+    each uses its own folder, and the first one to finish renames its folder.
     """
     cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "robokin-js"
     home = cache / hashlib.sha256((HERE / "package-lock.json").read_bytes()).hexdigest()[:16]
@@ -56,20 +56,20 @@ def tools():
 
 
 def tool(name, *arguments):
-    """A run of "prettier" or "tsc" at the top of the repository."""
+    """Run "prettier" or "tsc" in the top folder of the repository; return the finished process."""
     program, *settings = PROGRAMS[name]
     command = [NODE, tools() / program, *settings, *arguments]
     return subprocess.run(command, cwd=ROOT, text=True, capture_output=True)
 
 
 def written():
-    """The scripts that are written from Python: path -> text."""
+    """The scripts that are generated from Python: path -> text."""
     js = ROOT / "robokin/show/js"
     return {js / "page.d.ts": page_types(), js / "kinds.js": kinds()}
 
 
 def kinds():
-    """js/kinds.js: the scripts of the kinds of `things.PageThing`."""
+    """The text of js/kinds.js, which imports the script of each kind of `things.PageThing`."""
     names = [get_args(get_type_hints(table)["kind"])[0] for table in KINDS]
     imports = "".join(f'import {{{name}}} from "./{name}.js";\n' for name in sorted(names))
     return (
@@ -80,7 +80,7 @@ def kinds():
 
 
 def page_types():
-    """js/page.d.ts: the TypedDicts of what pages are given, as TypeScript has them."""
+    """The text of js/page.d.ts: the TypedDicts of the page data as TypeScript types."""
     tables = {
         name: table
         for module in (
@@ -133,7 +133,7 @@ PLAIN |= {type(None): "null"}
 
 
 def _typed(kind, alias=True):
-    """A Python type in TypeScript's words."""
+    """A Python type as TypeScript writes it."""
     origin, inner = get_origin(kind), get_args(kind)
     if alias and kind in ALIASES.values():
         return next(name for name, known in ALIASES.items() if known == kind)
@@ -154,13 +154,14 @@ def _typed(kind, alias=True):
         return f"[{', '.join(map(_typed, inner))}]"
     if origin is dict and inner[0] is str:
         return f"Record<string, {_typed(inner[1])}>"
-    raise TypeError(f"no words for {kind}")
+    raise TypeError(f"no TypeScript type for {kind}")
 
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["types"]:
         for path, text in written().items():
             path.write_text(text, encoding="utf-8")
+            print(path.relative_to(ROOT).as_posix())
         sys.exit()
     run = tool(*sys.argv[1:])
     sys.stdout.write(run.stdout)

@@ -1,11 +1,11 @@
-"""The length of each lab, compared with what fits into an hour.
+"""Compare the length of each lab with what a student can read in an hour.
 
     python tests/lab_sizes.py                      all labs
-    python tests/lab_sizes.py notebooks/05_...     these
+    python tests/lab_sizes.py notebooks/05_...     only these
 
-It counts the part before "Your turn": words of the text without formulas, and code cells with their
-lines, except folded ones. The minutes are one per 170 words, one for each code cell, two for each
-prediction and twelve for each exercise.
+The script counts the part before "Your turn": the words of the text without formulas, and the code
+cells with their lines, except folded cells. It allows one minute per 170 words, one for each code
+cell, two for each prediction and twelve for each exercise.
 """
 
 import json
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
-READ = 170  # words a minute
+READ = 170  # words per minute
 
 
 class Size(NamedTuple):
@@ -61,12 +61,12 @@ def measure(path: Path) -> Size:
 
 
 def folded(cell) -> bool:
-    """Whether a code cell shows its output only."""
+    """Whether a code cell shows only its output."""
     return cell["metadata"].get("jupyter", {}).get("source_hidden", False)
 
 
 def words(text: str) -> list[str]:
-    """The words of a text, a table's among them; formulas and addresses are none."""
+    """The words of a text, including those in tables, but without formulas and addresses."""
     text = re.sub(r"\$\$.*?\$\$|\$[^$]+\$", " ", text, flags=re.S)
     text = re.sub(r"\]\([^)]*\)", "] ", text)
     return re.findall(r"\w[\w'’.-]*", text)
@@ -89,7 +89,7 @@ def main() -> int:
 
 
 def too_long(name: str, size: Size) -> list[str]:
-    """The exceeded limits, in words."""
+    """A message for each limit that the lab exceeds."""
     over = [f"{field} above {most}" for field, most in MOST._asdict().items()
             if getattr(size, field) > most]  # fmt: skip
     over += [f"minutes above {MINUTES}"] * (round(size.minutes, 6) > MINUTES)

@@ -1,8 +1,9 @@
 """The arms on which every law is tested, each with a second description that is independent of
 robokin.
 
-An arm is added by one line of `MACHINES`. `chain(q)` is its forward kinematics as a product of 4 x
-4 matrices written from its document; `wrist` is what an independent count of solutions needs.
+To add an arm, add a line to `MACHINES`. `chain(q)` is its forward kinematics as a product of 4 x 4
+matrices, written from its document; `wrist` holds the lengths that are needed to count the
+solutions independently.
 """
 
 import json
@@ -43,24 +44,24 @@ def transform(matrix, scale=1.0):
 
 
 def random_joints(arm, rng, shape):
-    """Joint values of the full circle; a prismatic joint's lie inside its stroke."""
+    """Random joint values: from the full circle, or from the stroke of a prismatic joint."""
     low = np.where(arm.prismatic, arm.limits[:, 0], -np.pi)
     high = np.where(arm.prismatic, arm.limits[:, 1], np.pi)
     return rng.uniform(low, high, (*shape, len(arm.links)))
 
 
 def turns(a, b):
-    """The difference of angles, modulo whole turns."""
+    """The absolute difference between angles, modulo whole turns."""
     return abs((np.asarray(a) - b + np.pi) % (2 * np.pi) - np.pi)
 
 
 def gap(arm, q, p):
-    """The difference of joint values, revolute ones modulo whole turns."""
+    """The absolute difference between joint values, modulo whole turns for revolute joints."""
     return np.where(arm.prismatic, abs(np.asarray(q) - p), turns(q, p))
 
 
 def rotation_gap(a, b):
-    """The greatest difference of the elements of two rotations' matrices."""
+    """The greatest difference between corresponding elements of two rotation matrices."""
     return abs(a.rotation.as_matrix() - b.rotation.as_matrix()).max(axis=(-1, -2))
 
 
@@ -69,14 +70,14 @@ def position_gap(a, b):
 
 
 def reach(arm):
-    """The lengths of all links together."""
+    """The total length of all links."""
     return sum(
         np.linalg.norm(part.translation) for link in arm.links for part in (link.before, link.after)
     )
 
 
 def rot(axis, angle):
-    """4 x 4 rotation about x, y or z, written out."""
+    """The 4 x 4 matrix of a rotation about x, y or z, written out."""
     c, s = np.cos(angle), np.sin(angle)
     i = "xyz".index(axis)
     j, k = (i + 1) % 3, (i + 2) % 3
@@ -100,7 +101,7 @@ def dh(q, a, alpha, d, theta):
 
 
 def irb140_chain(q):
-    """Source: 001, listing 1."""
+    """The IRB-140. Source: 001, listing 1."""
     return (
         shift(0, 0, 0.352)
         @ rot("z", q[0])
@@ -118,7 +119,7 @@ def irb140_chain(q):
 
 
 def puma_chain(q):
-    """Source: oracle/README.md, standard DH."""
+    """The PUMA 560. Source: oracle/README.md, standard DH."""
     r = np.pi / 2
     return dh(
         q,
@@ -130,7 +131,7 @@ def puma_chain(q):
 
 
 def itmo_chain(q, d1=0.1, a2=0.1, d4=0.2, d6=0.2):
-    """Source: oracle/itmo6r.json, key "arm"."""
+    """The six-axis arm of ITMO. Source: oracle/itmo6r.json, key "arm"."""
     r = np.pi / 2
     return dh(
         q, (0, a2, 0, 0, 0, 0), (r, 0, r, -r, r, 0), (d1, 0, 0, d4, 0, d6), (0, 0, r, 0, 0, 0)
@@ -138,7 +139,7 @@ def itmo_chain(q, d1=0.1, a2=0.1, d4=0.2, d6=0.2):
 
 
 def scara_chain(q):
-    """Source: 001, listing 4."""
+    """The SCARA. Source: 001, listing 4."""
     return (
         shift(0, 0, 0.2202)
         @ rot("z", q[0])
@@ -150,8 +151,8 @@ def scara_chain(q):
     )
 
 
-#: No closed form of ours. Universal Robots, DH parameters for calculations of kinematics and
-#: dynamics: UR5 (CB3, series 3); a and d in m, alpha in rad.
+#: An arm for which robokin has no closed form. Source: Universal Robots, DH parameters for
+#: calculations of kinematics and dynamics: UR5 (CB3, series 3); a and d in m, alpha in rad.
 UR5_TABLE = np.array(
     [
         (0, 0.089159, np.pi / 2),

@@ -2,14 +2,14 @@
 
     python tests/rerun.py                               all labs and companions, every value
     python tests/rerun.py notebooks/05_scara_motion.ipynb ...
-    python tests/rerun.py --sample                      one value a cell, as the tests do
-    python tests/rerun.py --seed 7                      again in a random order, besides
+    python tests/rerun.py --sample                      one value per line, as the tests do
+    python tests/rerun.py --seed 7                      also in a random order
 
-1. Top to bottom. On the way, every value after `# try` in place of the one before it, and all
-   cells again that it reaches: no exception; and in a figure that changes, no title, label or
-   alternative text has a number that was typed in. Each value runs in a fork of the process, as the
-   cells above have left it.
-2. Then every cell again alone, last to first: the same outputs.
+1. All cells run from top to bottom. At a line with `# try`, each value after it replaces the value
+   before it, and every cell that depends on the line runs again. No cell may raise an exception,
+   and in a figure that changes, no title, label or alternative text may contain a number that was
+   typed in. Each value is tried in a fork of the process, in the state that the cells above left.
+2. Then each cell runs again alone, from last to first, and must give the same output.
 """
 
 import argparse
@@ -28,9 +28,10 @@ import types
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-FORKS = hasattr(os, "fork")  # a value is tried in a fork
+FORKS = hasattr(os, "fork")  # each value is tried in a fork
 TRY = re.compile(r"^(?P<head>\s*[A-Za-z_][\w, \[\]]*? = )(?P<value>.*?)  # try (?P<more>.+)$")
-# Numbers that are names. All others in a figure's words are results or inputs, and are computed.
+# Numbers that belong to a name. All other numbers in the text of a figure are results or inputs,
+# and must be computed.
 NAMES = re.compile(
     r"IRB-140|PUMA ?560|\b[23]-?D\b|\b(?:source|companion) 00\d\b"
     r"|\b(?:[Jj]oint|[Aa]xis|[Aa]rm|[Rr]ow|[Ll]ab|[Ll]ever|[Ll]ink|[Mm]otor|[Cc]oil|[Pp]hase|[Ff]rame"
@@ -38,26 +39,27 @@ NAMES = re.compile(
     r"(?: \d\b(?:,| and| to| or)?)+"
     r"|[A-Za-zα-ωΑ-Ω]_?\{?\d\}?(?!\d)|[A-Za-zα-ω]+\d\b"
 )  # q1, C2, K1, z_0, l2
-FIXED = (types.ModuleType, types.FunctionType, type, str, float, int, tuple)  # and robokin's
+# Types whose values never change; nor do those of robokin.
+FIXED = (types.ModuleType, types.FunctionType, type, str, float, int, tuple)
 SETS = (ast.Assign, ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef, ast.Expr)
 ASKED = re.compile(r"^(predict|check|progress|hint|solution|variant)\(")
 
 
 class Cell:
-    """A code cell: what it says, what it reads, and which names it leaves or changes."""
+    """A code cell: its source, and the names that it reads, sets and changes."""
 
     def __init__(self, source: str) -> None:
         self.source = source
         tree = ast.parse(source)
         self.reads: set[str] = set()  # before the cell sets them itself
         self.writes: set[str] = set()
-        self.changed: set[str] = set()  # where it stands: values[3] = 1, names.append("C")
+        self.changed: set[str] = set()  # in place: values[3] = 1, names.append("C")
         sure: set[str] = set()
         for statement in tree.body:
             reads, writes = _globals(compile(ast.Module([statement], []), "cell", "exec"))
             self.reads |= reads - sure
             self.writes |= writes
-            sure |= writes if isinstance(statement, SETS) else set()  # others may be left out
+            sure |= writes if isinstance(statement, SETS) else set()  # other statements may not run
         for node in ast.walk(tree):
             if isinstance(node, ast.Attribute) or (
                 isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
@@ -97,7 +99,7 @@ class Cell:
 
 
 class Run:
-    """A lab in this process: `space` is what its kernel would hold."""
+    """A lab in this process: `space` is the namespace that its kernel would have."""
 
     def __init__(self, path: Path) -> None:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
@@ -107,7 +109,7 @@ class Run:
         self.space = module.__dict__
 
     def run(self, k: int, source: str | None = None) -> "Shown":
-        """What cell k prints, and the value of its last expression."""
+        """Run cell k; return what it prints and the value of its last expression."""
         source = self.cells[k].source if source is None else source
         body = ast.parse(source).body
         last = body.pop() if body and isinstance(body[-1], ast.Expr) else None
@@ -123,14 +125,14 @@ class Run:
         return Shown(printed.getvalue(), value)
 
     def reached(self, k: int) -> list[int]:
-        """The cells after k that what cell k leaves behind reaches, and those that they need."""
+        """The cells after k that use what cell k sets or changes, and the cells that these need."""
         names, found = self._left(k), []
         later = [n for n in range(k + 1, len(self.cells)) if not ASKED.match(self.cells[n].source)]
         for n in later:
             if self.cells[n].reads & names:
                 found.append(n)
                 names = names | self._left(n)
-            else:  # what it sets is as it was
+            else:  # the names that it sets get the same values as before
                 names = names - self.cells[n].writes
         for n in reversed(later):
             wanted = set().union(*(self.cells[m].reads for m in found if m > n))
@@ -139,7 +141,7 @@ class Run:
         return found
 
     def _left(self, k: int) -> set[str]:
-        """The names that cell k makes or changes. What cannot change is no value to change."""
+        """The names that cell k sets, and those whose mutable values it changes."""
         fixed = {
             name
             for name, value in self.space.items()
@@ -149,8 +151,8 @@ class Run:
 
 
 class Shown:
-    """What a cell shows: printed text, the text of its result; of a figure or a player its words
-    and what is drawn.
+    """What a cell shows: its printed text and the text of its result; for a figure or a player also
+    the words in it and what is drawn.
     """
 
     def __init__(self, printed: str, value) -> None:
@@ -182,9 +184,9 @@ def _figure(fig) -> tuple[list[str], str]:
 def faults(
     path: Path, sample: bool = False, seed: int | None = None
 ) -> tuple[int, list[str], list[str]]:
-    """(how many values were tried, what goes wrong with them, what goes wrong when each cell is run
-    again alone: last to first, and with a `seed` in a random order, too). `sample`: one value for
-    each line.
+    """Return the number of values tried, the faults that they cause, and the faults when each cell
+    runs again alone: from last to first and, with a `seed`, also in a random order. With `sample`,
+    one value is tried for each line.
     """
     lab, wrong, reports, shown = Run(path), [], [], []
     with _in(path.parent):
@@ -225,7 +227,7 @@ def _again(lab: Run, order: list[int], shown: list["Shown"]) -> list[str]:
 
 
 def _told(lab: Run, shown: list["Shown"], name: str, report) -> list[str]:
-    """What is wrong with a value, by what its cells showed."""
+    """The faults that a tried value causes, judged by what the cells showed."""
     if isinstance(report, str):
         return [f"{name}: {report}"]
     return [
@@ -239,7 +241,7 @@ def _told(lab: Run, shown: list["Shown"], name: str, report) -> list[str]:
 
 
 def _forked(lab: Run, k: int, source: str):
-    """The figures that a changed cell k and the cells that it reaches show, or what went wrong."""
+    """The figures that the changed cell k and the cells it reaches show, or an error message."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:
@@ -266,8 +268,8 @@ def _forked(lab: Run, k: int, source: str):
 
 
 def _globals(code: types.CodeType) -> tuple[set[str], set[str]]:
-    """The names that a piece of a cell reads from the kernel and sets there. What a function reads
-    counts where it is defined.
+    """The global names that a piece of code reads, and those that it sets. The names that a
+    function reads count where the function is defined.
     """
     reads, writes = set(), set()
     for step in dis.get_instructions(code):

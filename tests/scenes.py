@@ -1,7 +1,7 @@
 """Players and explorers whose scenes are compared with those of an earlier edition.
 
-tests/data/scenes_11a2279.json is reference data: this file, run with the package of commit 11a2279,
-which kept `targets`, `marks` and `faces` apart, wrote it:
+tests/data/scenes_11a2279.json is reference data. This script wrote it with the package of commit
+11a2279, in which `targets`, `marks` and `faces` were still separate:
 
     git archive 11a2279 robokin | tar -x -C /tmp/old
     PYTHONPATH=/tmp/old python tests/scenes.py tests/data/scenes_11a2279.json
@@ -34,7 +34,7 @@ VIA = Transform(AHEAD, (0.6, 0.1, 0.7))
 
 
 def players():
-    """Every kind of thing, standing still and moving with time, slider and switch."""
+    """Players with every kind of thing: at rest, and moving with time, a slider and a switch."""
     moving = Transform(AHEAD, CIRCLING)
     yield (
         "all",
@@ -89,7 +89,7 @@ def explorers():
 
 
 def scenes():
-    """name -> the scene of its page; of explorers the name begins with "explorer"."""
+    """name -> the scene of its page; the name of an explorer begins with "explorer"."""
     found = {f"player, {name}": made.data["scene"] for name, made in players()}
     return found | {f"explorer, {name}": made.data["scene"] for name, made in explorers()}
 

@@ -56,16 +56,16 @@ def test_fk_equals_the_matrix_chain_of_the_document(machine, shape):
 
 
 @machines
-def test_fk_at_home(machine):
+def test_fk_at_home_equals_the_matrix_chain(machine):
     n = len(machine.arm.links)
     assert np.allclose(
         machine.arm.fk([0] * n).as_matrix(), machine.chain([0] * n), rtol=0, atol=2e-16
     )
 
 
-def test_irb140_home_pose():
-    """By hand from the lengths of listing 1: 70 + 380 + 65 forward, 352 + 350 up; the flange's z
-    axis points forward.
+def test_irb140_home_pose_follows_from_its_lengths():
+    """Computed by hand from the lengths of listing 1: 70 + 380 + 65 forward, 352 + 350 up; the
+    flange's z axis points forward.
     """
     T = IRB140.fk(np.zeros(6))
     assert np.allclose(T.translation, [0.515, 0, 0.702], rtol=0, atol=1e-15)
@@ -81,7 +81,7 @@ def test_frames_go_from_base_to_flange(machine, shape):
     assert frames.shape == (*shape, len(arm.links) + 1)
     assert (frames[..., 0].as_matrix() == np.eye(4)).all()
     assert (frames[..., -1].as_matrix() == arm.fk(q).as_matrix()).all()
-    for i in range(len(arm.links)):  # joint i moves the frames after it and no other
+    for i in range(len(arm.links)):  # joint i moves the frames after it and no others
         moved = q.copy()
         moved[..., i] += 0.1
         change = abs(arm.frames(moved).as_matrix() - frames.as_matrix()).max((-1, -2))
@@ -98,7 +98,7 @@ def test_jacobian_is_the_derivative_of_fk(machine, shape):
     assert J.shape == (*shape, 6, n)
     ahead, back = arm.fk(q[..., None, :] + h * np.eye(n)), arm.fk(q[..., None, :] - h * np.eye(n))
     linear = (ahead.translation - back.translation) / (2 * h)
-    # the turn, in base coordinates
+    # the rotation, in base coordinates
     angle, axis = (ahead.rotation @ back.rotation.inverse()).as_angle_axis()
     angular = axis * angle[..., None] / (2 * h)
     assert np.allclose(J[..., :3, :], np.moveaxis(linear, -2, -1), rtol=0, atol=1e-9)
@@ -128,7 +128,7 @@ def test_jacobian_loses_rank_at_reported_singularities(machine):
 @machines
 def test_nan_joint_value_gives_nan_frames(machine):
     n = len(machine.arm.links)
-    q = np.where(np.eye(n, dtype=bool), np.nan, 0.3)  # row i lacks joint i
+    q = np.where(np.eye(n, dtype=bool), np.nan, 0.3)  # in row i, joint i is missing
     frames = machine.arm.frames(q)
     for i in range(n):
         assert np.isfinite(frames.as_matrix()[i, : i + 1]).all()
@@ -154,7 +154,7 @@ def test_branch_flags_are_unique(machine):
 
 def test_dh_links_equal_the_product_of_four_matrices():
     a, alpha, d, theta, q = RNG.normal(size=(5, 4))
-    frame = (1, 0, 0, 0), (0, 0, 0)  # a quaternion and an origin, on components
+    frame = (1, 0, 0, 0), (0, 0, 0)  # a quaternion and an origin, as plain numbers
     for link, q_i in zip(dh_links(a, alpha, d, theta), q, strict=True):
         _, frame = link._carry(frame, q_i)
     m = np.eye(4)
@@ -172,8 +172,10 @@ def test_dh_links_equal_the_product_of_four_matrices():
 
 
 @pytest.mark.parametrize("modified", [False, True])
-def test_dh_tables_with_prismatic_joints_in_both_forms(modified):
-    """Craig's form has Rot(x, alpha) Trans(a, 0, 0) of the link before, and ahead of the joint."""
+def test_both_dh_forms_accept_prismatic_joints(modified):
+    """In Craig's form, Rot(x, alpha) Trans(a, 0, 0) belongs to the previous link and comes before
+    the joint.
+    """
     a, alpha, d, theta, q = RNG.normal(size=(5, 6))
     shifts = [False, True, False, True, True, False]
     links = dh_links(a, alpha, d, theta, prismatic=shifts, modified=modified)
@@ -189,7 +191,7 @@ def test_dh_tables_with_prismatic_joints_in_both_forms(modified):
 
 
 def test_dh_table_of_a_scara_gives_its_forward_kinematics():
-    """Both turns of x by 180 degrees: the stroke goes down, and the tool's z axis points up."""
+    """The x axis turns by 180 degrees twice: the stroke goes down, the tool's z axis points up."""
     links = dh_links(
         a=np.array([200, 250, 0, 0]) * mm,
         alpha=np.array([0, 0, 180, 180]) * deg,
@@ -205,8 +207,8 @@ def test_dh_table_of_a_scara_gives_its_forward_kinematics():
 
 def test_craig_table_of_the_puma_gives_fk_and_ik():
     """Craig, Introduction to Robotics, figure 3.21 (link parameters of the PUMA 560), with the
-    catalogue's lengths. Craig's joints 1 and 2 stand half a turn from the catalogue's (his axis 2
-    points the other way), and his base is at the shoulder; the flange is the same.
+    catalogue's lengths. Craig's joints 1 and 2 differ from the catalogue's by half a turn (his axis
+    2 points the other way), and his base is at the shoulder; the flange is the same.
     """
     half = 180 * deg
     links = dh_links(
@@ -282,8 +284,9 @@ def test_arm_without_an_inverse_explains_what_to_use():
     for arm, others in ((UR5, ""), (three_lever(0.4), "alpha_range, family, ")):
         for name in ("ik", "branch", "branches"):
             assert not hasattr(arm, name)
-            has = f"has no closed-form inverse, so no {name}; it has {others}fk, frames, jacobian"
-            with pytest.raises(AttributeError, match=f"{arm.name} {has}"):
+            has = f"{others}fk, frames, jacobian"
+            words = f"{arm.name} has no closed-form inverse and therefore no {name}; it has {has}"
+            with pytest.raises(AttributeError, match=words):
                 getattr(arm, name)
     with pytest.raises(AttributeError, match="'Arm' object has no attribute 'anything'"):
         UR5.anything  # noqa: B018
@@ -310,7 +313,7 @@ def test_whole_turns_do_not_change_fk():
     assert rotation_gap(a, b).max() < 1e-13 and position_gap(a, b).max() < 1e-13
 
 
-# The numbers of the robots as printed in their sources, in degrees and millimetres.
+# The limits and speeds of the robots as printed in their sources, in degrees and millimetres.
 PUBLISHED = {
     "IRB-140": (  # 001, listing 7; speeds: our choice, below public models
         IRB140,

@@ -44,8 +44,8 @@ MIXED = Arm(
 
 
 def representatives(arm, q):
-    """All values q + 2 pi k of each joint that lie inside its limits, by trial; k = 0 alone for a
-    prismatic joint.
+    """All values q + 2 pi k of each joint that lie inside its limits, found by trial; only k = 0
+    for a prismatic joint.
     """
     out = []
     for value, (low, high), slides in zip(q, arm.limits, arm.prismatic, strict=True):
@@ -74,7 +74,7 @@ def test_within_accepts_the_limit_and_rejects_nan():
     with pytest.warns(UserWarning, match="q: 13.2645 rad .* were degrees meant"):
         assert within(IRB140, IRB140.limits[:, 1] + 2 * np.pi).all()
     past = IRB140.limits[:, 1] + 1e-6
-    # their circles leave no gap
+    # the limits of these joints span a full turn or more
     assert within(IRB140, past).tolist() == [True, False, False, True, False, True]
     assert within(IRB140, [0, np.nan, 0, 0, 0, np.nan]).tolist() == [
         True,
@@ -94,8 +94,8 @@ def test_prismatic_joints_have_no_whole_turns():
 
 
 def test_limits_beyond_half_a_turn_are_respected():
-    """Errata S1-f: the listing sees 160 degrees for joint 3, past its 50, and rejects; it stands at
-    -200.
+    """Errata S1-f: the listing rejects joint 3 at 160 degrees, past its limit of 50, though the
+    joint is at -200.
     """
     drawn = np.array([10, 20, -200, 30, 40, 50]) * deg
     rows = IRB140.ik(IRB140.fk(drawn))
@@ -110,7 +110,7 @@ def test_limits_beyond_half_a_turn_are_respected():
 
 
 def nearest_by_trial(arm, rows, q):
-    """Every row with every combination of whole turns; each joint inside its limits if possible."""
+    """The nearest of all rows with all whole turns; each joint inside its limits if possible."""
     best = np.full(len(arm.links), np.nan)
     for row in rows[~np.isnan(rows).any(-1)]:
         choice = []
@@ -189,8 +189,8 @@ def joint_path(arm, q0, q1, samples=201):
 @six
 @pytest.mark.parametrize("middle", [0.0, np.pi])
 def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
-    """q5 crosses 0 (or pi) while q4 and q6 stand still: a fixed row turns both by half a turn,
-    follow by nothing.
+    """q5 crosses 0 (or pi) while q4 and q6 stand still: in a fixed row both jump by half a turn,
+    with `follow` neither moves.
     """
     arm = machine.arm
     rng = np.random.default_rng(24)
@@ -212,7 +212,9 @@ def test_follow_passes_straight_through_the_wrist_singularity(machine, middle):
 @six
 @pytest.mark.parametrize("sine", [1e-14, 3e-13, 1e-11, 1e-10])
 def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
-    """So near to it joint 4 is rounding noise in every row; a motion does not follow the noise."""
+    """So near the singularity, joint 4 is rounding noise in every row; a motion does not follow the
+    noise.
+    """
     arm = machine.arm
     rng = np.random.default_rng(25)
     q = np.repeat(rng.uniform(-1, 1, (1, 6)) + [0, 0, 0.3, 0, 0, 0], 41, axis=0)
@@ -226,8 +228,8 @@ def test_rounding_noise_at_the_wrist_singularity_turns_no_joint(machine, sine):
 
 
 def test_follow_leaves_home_without_a_jump():
-    """The IRB-140's home pose is a wrist singularity: the motion begins with the joints that its
-    second sample has.
+    """The IRB-140's home pose is a wrist singularity: the motion begins with the joint values of
+    its second sample.
     """
     goal = Transform(
         Quaternion.from_angle_axis(90 * deg, (0, 1, 0))
@@ -250,7 +252,7 @@ def test_follow_leaves_home_without_a_jump():
             rotation_gap(IRB140.fk(path), poses).max() < 1e-9
             and position_gap(IRB140.fk(path), poses).max() < 1e-12
         )
-    back = follow(IRB140, rows[::-1], IRB140.branch(1, 1, 1))  # and into it
+    back = follow(IRB140, rows[::-1], IRB140.branch(1, 1, 1))  # the motion into the singularity
     assert abs(np.diff(back, axis=0)).max() < 0.1
     assert rotation_gap(IRB140.fk(back[-1]), IRB140.fk(HOME)) < 1e-12
 
@@ -273,15 +275,16 @@ def test_joints_4_and_6_share_the_rotation_in_the_singularity():
 
 
 def test_singular_start_keeps_joints_inside_their_limits():
-    """Only free joints may look ahead to the sample that determines them: joint 1 crosses 180
-    degrees in between.
+    """Only free joints may take the value of the later sample that determines them: joint 1 crosses
+    180 degrees in between.
     """
     q = np.zeros((60, 6)) + [0, 0.2, -0.1, 0.3, 0, 0.4]
     q[:, 0] = 3.0 + np.linspace(0, 0.5, 60)
     q[40:, 4] = np.linspace(0, 0.5, 20)
     path = follow(IRB140, IRB140.ik(IRB140.fk(q)), IRB140.branch(1, 1, 1))
     assert abs(path[:, :3] - q[:, :3]).max() < 1e-9
-    assert abs(path - q).max() < 1e-6  # and joints 4 and 6 wait where the first bend needs them
+    # joints 4 and 6 already have the values that the first bend needs
+    assert abs(path - q).max() < 1e-6
 
 
 @machines
@@ -331,7 +334,7 @@ def test_follow_starts_inside_the_limits_if_possible():
     rows = IRB140.ik(IRB140.fk(drawn + np.linspace(0, 0.1, 11)[:, None]))
     path = follow(IRB140, rows, int(np.nanargmin(turns(rows[0], drawn).max(-1))))
     assert np.allclose(path[0], drawn, rtol=0, atol=1e-12)
-    puma = np.array([10, 200, -200, 160, 40, 50]) * deg  # wrapped, joints 2 and 3 read -160 and 160
+    puma = np.array([10, 200, -200, 160, 40, 50]) * deg  # wrapped, joints 2 and 3 are -160 and 160
     rows = PUMA560.ik(PUMA560.fk(puma + np.linspace(0, 0.1, 11)[:, None]))
     path = follow(PUMA560, rows, int(np.nanargmin(turns(rows[0], puma).max(-1))))
     assert np.allclose(path[0], puma, rtol=0, atol=1e-12)
@@ -353,9 +356,9 @@ def test_follow_continues_after_nan_from_the_last_sample():
     inside = np.flatnonzero(~gone)
     last, first = inside[inside < 150][-1], inside[inside > 150][0]
     assert last < 140 and first > 160
-    assert np.allclose(path[first], path[last], atol=0.15)  # the same line back
+    assert np.allclose(path[first], path[last], atol=0.15)  # the arm comes back along the same line
     assert np.allclose(path[-1], path[0], rtol=0, atol=1e-9)
-    assert np.nanmax(abs(np.diff(path, axis=0))) < 0.2  # the stretched arm is fast
+    assert np.nanmax(abs(np.diff(path, axis=0))) < 0.2  # the joints of a stretched arm are fast
     shifted = rows.copy()
     shifted[:first] = np.nan
     assert np.allclose(follow(IRB140, shifted, 0)[first:], rows[first:, 0], rtol=0, atol=1e-9)
@@ -415,7 +418,7 @@ def test_follow_accepts_one_sample():
 TURNED = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))  # the flange's z axis ahead, as at home
 
 
-def test_explain_a_usable_row():
+def test_explain_describes_a_usable_row():
     text = explain(IRB140, IRB140.fk([0.1, 0.2, 0.1, 0.3, 0.5, 0.2]), 0)
     assert (
         text.startswith("Row 0 (+1, +1, +1) is usable")
@@ -424,7 +427,7 @@ def test_explain_a_usable_row():
     )
 
 
-def test_explain_how_far_out_of_reach():
+def test_explain_reports_the_distance_out_of_reach():
     # 12.3 mm beyond the stretched arm, ahead of the shoulder
     centre = np.array([0.07 + 0.73 + 0.0123, 0, 0.352])
     pose = Transform(TURNED, centre + [0.065, 0, 0])
@@ -433,7 +436,7 @@ def test_explain_how_far_out_of_reach():
         assert "does not exist" in explain(IRB140, pose, row) and "metres" not in explain(
             IRB140, pose, row
         )
-    # reaching back over the shoulder: 140 mm more
+    # an arm that reaches back over the shoulder is short of 140 mm more
     assert "152.3 mm beyond" in explain(IRB140, pose, 4)
     near = Transform(TURNED, np.array([0.07 + 0.02, 0, 0.352]) + [0.065, 0, 0])
     assert "10.0 mm too near" in explain(IRB140, near, 0)
@@ -445,7 +448,7 @@ def test_explain_how_far_out_of_reach():
 def test_explain_suspects_millimetres():
     text = explain(IRB140, Transform(TURNED, (515, 0, 702)), 0)
     assert "does not exist" in text and "millimetres" in text and "mm" in text
-    # no sense in mm either
+    # makes no sense in mm either
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (515e3, 0, 702e3)), 0)
     assert "millimetres" not in explain(IRB140, Transform(TURNED, (2, 0, 0.7)), 0)
 
@@ -464,7 +467,7 @@ def test_explain_names_every_joint_past_its_limit():
     assert "joint 2" in text and "-100.0°" in text and "10.0°" in text and "-90°" in text
 
 
-def test_explain_a_sliding_joint_in_millimetres():
+def test_explain_reports_prismatic_joints_in_millimetres():
     pose = SCARA.fk([0.2, 0.5, 0.1, 200 * mm])
     text = explain(SCARA, pose, 0)
     assert (
@@ -546,7 +549,7 @@ def test_wrong_arguments_are_named_in_the_error(call, evidence):
         call()
 
 
-def test_the_blend_stays_on_one_row():
+def test_blend_stays_on_one_row():
     """Far from all singularities `follow` returns the row on which it starts, unwrapped."""
     start = Transform(Quaternion.from_angle_axis(90 * deg, (-1, 0, 0)), (0.2, 0.4, 0.2))
     via = Transform(Quaternion.from_angle_axis(45 * deg, (0, 1, 0)), (0.65, -0.1, 0.8))
@@ -560,14 +563,14 @@ def test_the_blend_stays_on_one_row():
         assert abs(np.diff(path, axis=0)).max() < 0.05
 
 
-# Values for people
+# values for people
 # --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("arm", [m.arm for m in MACHINES] + [MIXED], ids=lambda arm: arm.name)
 def test_representative_is_inside_or_least_past_the_limits(arm):
-    """By trying whole turns: the inside value nearest to q, otherwise the one least past the
-    limits.
+    """Compared with a trial of all whole turns: the value inside the limits nearest to q, otherwise
+    the one least past the limits.
     """
     rng = np.random.default_rng(31)
     q = rng.uniform(-11, 11, (400, len(arm.links)))
@@ -589,7 +592,9 @@ def test_representative_is_inside_or_least_past_the_limits(arm):
 
 
 def test_representative_has_the_least_excess():
-    """A5: lab 02 showed q3 at -300.5, 70 past; lab 07 q5 at 259.8 where -100.2 is 0.2 past."""
+    """Lab 02 once showed q3 at -300.5 degrees, 70 past its limit, and lab 07 showed q5 at 259.8,
+    although -100.2 is only 0.2 past.
+    """
     q = np.zeros(6)
     for k in (-1, 0, 1):
         q[2] = (-300.5 + 360 * k) * deg
@@ -634,7 +639,7 @@ def test_degrees_cause_a_warning_and_long_motions_do_not():
 
 
 def test_follow_of_a_batch_equals_single_motions():
-    """One is singular throughout, one begins late, one is missing."""
+    """One motion is singular throughout, one begins late, one is missing."""
     s = np.linspace(0, 1, 30)[:, None]
     plain = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]) + 0.5 * s
     stuck = np.array([0.1, 0.2, 0.3, 0.9, 0.0, 0.6]) + [0.5, 0.3, 0.2, 0.4, 0, 0.3] * s

@@ -1,4 +1,5 @@
-"""The players in a real browser: live in JupyterLab, trusted and untrusted, exported, saved.
+"""Players in a real browser: live in JupyterLab, in trusted and untrusted notebooks, exported and
+saved.
 
 The tests read what a person would see: the pixels of the canvases and the words of the table.
 """
@@ -23,8 +24,8 @@ PLAYER = "div.robokin-player"
 LIVE = ("00_start_here", "03_irb140_motion")
 LABS = [path.stem for path in sorted(NOTEBOOKS.glob("*.ipynb"))]
 COMPANIONS = [f"documents/{path.stem}" for path in sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
-# Finds faults of players, all checked in the same frames: each slider changes the picture, and
-# returns to the first picture at its first value; the clock runs and stops.
+# Finds faults in all players, in the same frames: each slider must change the picture and restore
+# the first picture at its first value, and the clock must run and stop.
 ALIVE = """async selector => {
   const wrong = {}, players = [...document.querySelectorAll(selector)];
   const frames = () => new Promise(done =>
@@ -50,7 +51,7 @@ ALIVE = """async selector => {
     const first = await see();
     set(slider => { slider.value = slider.max; });
     const last = await see();
-    set(slider => { slider.stepDown(); });  // the two ends may be one motion
+    set(slider => { slider.stepDown(); });  // both ends may show the same motion
     const before = await see();
     set(slider => { slider.value = slider.min; });
     const again = await see();
@@ -80,8 +81,8 @@ NEXT_FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnima
 
 @pytest.fixture
 def page(browser):
-    """A page with records: `page.errors` from its console, and `page.outside`, addresses that are
-    not on this machine.
+    """A page that records the errors in its console (`page.errors`) and the requests to other
+    machines (`page.outside`).
     """
     context = browser.new_context(viewport={"width": 1280, "height": 1000})
     page = context.new_page()
@@ -112,7 +113,7 @@ def page(browser):
 
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory):
-    """A player with a slider and a switch as `save` writes it."""
+    """The file of a player with a slider and a switch, as `save` writes it."""
     path = tmp_path_factory.mktemp("saved") / "player.html"
     t = np.linspace(0, 4, 401)
     q = [
@@ -146,9 +147,9 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
         page,
     )
     awake(page)
-    player = players.filter(has=page.get_by_label("playing speed")).first  # no explorer
+    player = players.filter(has=page.get_by_label("playing speed")).first  # not an explorer
     player.scroll_into_view_if_needed()
-    assert player.locator("img").count() == 0, "the still picture gives way"
+    assert player.locator("img").count() == 0, "the still picture is still there"
     for slider in _sliders(player):
         _moves(page, player, slider)
     _plays(page, player)
@@ -158,14 +159,14 @@ def test_player_works_in_jupyterlab(browser, jupyter, page, lab):
 def test_opening_a_lab_does_not_mark_it_as_changed(jupyter, page):
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     for lab in LIVE:
-        # the only field that no stored lab can have right for everybody: the reader's Python
+        # the reader's Python version: the only field that no stored lab can have right for all
         name = _variant(jupyter, f"opened_{lab}.ipynb", lab)
         notebook = json.loads((jupyter.labs / name).read_text())
         notebook["metadata"]["language_info"]["version"] = platform.python_version()
         (jupyter.labs / name).write_text(json.dumps(notebook))
         jupyter.open(page, name)
         page.get_by_text("| Idle").first.wait_for()
-        page.wait_for_timeout(1500)  # the status of widgets and language comes after it
+        page.wait_for_timeout(1500)  # the status of widgets and language comes later
         assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class"), name
     page.locator(".jp-CodeCell .cm-content").first.click()
     page.keyboard.type("# mine")
@@ -219,7 +220,7 @@ def test_arrow_keys_reach_the_slider_and_not_the_notebook(jupyter, page):
     for key in ("ArrowDown", "ArrowLeft", "ArrowLeft"):
         slider.press(key)
     page.evaluate(NEXT_FRAME)
-    assert _seen(player) == seen, "the same value shows the same"
+    assert _seen(player) == seen, "the same value shows another picture"
     assert (
         page.evaluate(active) == cell
         and page.evaluate("() => document.activeElement.type") == "range"
@@ -264,11 +265,11 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
     for question in page.locator(".rk-ask").all():
         _opens(question)
     played = []
-    for player in players.all():  # including those behind a question
+    for player in players.all():  # including players behind a question
         if player.locator(":scope > .rk-ask").count():
             continue
         player.locator("canvas").first.wait_for()
-        asleep = player.locator(".rk-asleep").count()  # without a kernel
+        asleep = player.locator(".rk-asleep").count()  # there is no kernel
         if player.locator(".rk-handle").count() and not asleep:
             _answers(page, player)
             continue
@@ -277,7 +278,7 @@ def test_players_of_exported_labs_work_offline(page, exported, lab):
         player.evaluate("e => e.classList.add('played')")
         played.append(player)
     if played:
-        for slider in _sliders(played[0]):  # by key and mouse
+        for slider in _sliders(played[0]):  # with keys and mouse
             _moves(page, played[0], slider)
         assert page.evaluate(ALIVE, ".played") == {}
         _plays(page, played[0])
@@ -305,7 +306,7 @@ def test_saved_player_sends_no_requests(page, saved):
     assert page.errors == []
 
 
-def test_the_keyboard_reaches_every_control(page, saved):
+def test_keyboard_reaches_every_control(page, saved):
     page.goto(saved.as_uri())
     awake(page)
     controls = page.locator(PLAYER).locator("button, input, select, .rk-scene")
@@ -332,13 +333,13 @@ def _seen(player):
         "e => [...e.querySelectorAll('canvas')].map(canvas => canvas.toDataURL())"
     )
     assert pixels and all(len(one) > 2000 for one in pixels), "a canvas is empty"
-    table = player.locator("table")  # the levers' explorer has sentences in its place
+    table = player.locator("table")  # the explorer of the levers has sentences instead
     words = (table.first if table.count() else player).inner_text()
     return SimpleNamespace(pixels=pixels, numbers=words)
 
 
 def _settled(page, player):
-    """What is visible when the page is at rest, since views above may still move or widen it."""
+    """What is visible once the player is at rest: views above it may still move or widen it."""
     seen = _seen(player)
     for _ in range(20):
         page.wait_for_timeout(300)
@@ -351,7 +352,7 @@ def _settled(page, player):
 def _sliders(player):
     player.locator("canvas").first.wait_for()
     sliders = player.locator("input[type=range]:not([inert] *)").all()
-    assert sliders, "a player has at least its time"
+    assert sliders, "a player lacks even its time slider"
     return sliders
 
 
@@ -389,7 +390,7 @@ def _moves(page, player, slider):
 
 
 def _answers(page, player):
-    """An explorer responds to its sliders and to a key on a handle, in the picture and in words."""
+    """A slider and a key on a handle change the picture and the words of an explorer."""
     for held in (player.locator("input[type=range]").first, player.locator(".rk-handle").first):
         held.scroll_into_view_if_needed()
         held.focus()
@@ -407,16 +408,16 @@ def _answers(page, player):
 
 
 def _plays(page, player):
-    """The play button sets the arm in motion and stops it."""
+    """The play button starts and stops the arm."""
     button = player.get_by_role("button", name=re.compile("play|pause", re.I)).first
     seen = _seen(player)
     button.click()
-    until(lambda: _seen(player).pixels != seen.pixels, "play moves nothing", page)
+    until(lambda: _seen(player).pixels != seen.pixels, "the play button moves nothing", page)
     button.click()
     page.evaluate(NEXT_FRAME)
     seen = _seen(player)
     page.wait_for_timeout(200)
-    assert _seen(player) == seen, "pause does not stop it"
+    assert _seen(player) == seen, "the pause button does not stop the arm"
 
 
 def _html_outputs(lab):
@@ -428,7 +429,7 @@ def _html_outputs(lab):
 
 
 def _opens(question):
-    """A prediction answers a guess."""
+    """Make a guess; the prediction must answer it."""
     assert not question.locator(".rk-answer").inner_text()
     typed = question.locator("fieldset input[type=number]")
     if typed.count():

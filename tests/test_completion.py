@@ -14,7 +14,7 @@ POSE = {"rotation", "translation", "inverse", "lerp", "as_matrix", "shape"}
 ARRAY = {"shape", "T", "max", "reshape"}
 ARM = {"fk", "frames", "jacobian", "limits", "name"}
 
-# what stands before the dot -> what must be offered, and what must not
+# the text before the dot -> names that must be offered, and names that must not
 OFFERED = {
     "lin(T, T, .5)": (POSE, ARRAY - {"shape"}),
     "blend(T, T, T, .1, .5)": (POSE, ARRAY - {"shape"}),

@@ -1,5 +1,5 @@
-"""Laws of all content in notebooks/exercises and in the folders of ROBOKIN_EXERCISES, including
-those that are too slow for every check.
+"""Laws for all content in notebooks/exercises and in the folders of ROBOKIN_EXERCISES, including
+laws that are too slow for every check.
 """
 
 import contextlib
@@ -28,7 +28,7 @@ UNJUDGED = "It cannot be judged."
 
 
 def test_all_content_can_be_read():
-    """If a line of a solution has changed, write the new piece left of the arrow in each edit."""
+    """If a line of a solution changes, write its new text to the left of the arrow in each edit."""
     told = [line for lab in book.labs().values() for line in lab.broken.values()]
     if told:
         pytest.fail("\n".join(told), pytrace=False)
@@ -36,7 +36,7 @@ def test_all_content_can_be_read():
 
 @pytest.mark.parametrize("lab", book.labs())
 def test_content_files_are_short(lab):
-    """At most 350 lines, and no name that pytest would take for tests."""
+    """A file has at most 350 lines, and no name that pytest would take for a test module."""
     for file in book.labs()[lab].folder.glob("*.[mp][dy]"):
         assert len(file.read_text(encoding="utf-8").splitlines()) <= 350, file
         assert not file.stem.startswith("test_") and not file.stem.endswith("_test"), file
@@ -60,10 +60,10 @@ def test_mistakes_have_unique_names_and_sentences(name):
 
 
 def outcomes(exercise, variant):
-    """The results of a wrong program in all cases."""
+    """The results of a wrong program for all cases."""
     [made] = run(lambda: _outcomes(exercise, variant), [()])
     if unended(made):
-        pytest.fail(f"{variant.name!r} does not come to an end", pytrace=False)
+        pytest.fail(f"{variant.name!r} does not end", pytrace=False)
     return made.result
 
 
@@ -80,15 +80,15 @@ def _outcomes(exercise, variant):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_solutions_keep_the_law(name):
+def test_solutions_satisfy_the_law(name):
     exercise = EXERCISES[name]
     right = [exercise.formed(Outcome(wanted), k) for k, wanted in enumerate(exercise.wanted)]
     assert [exercise.wrong(o, k) for k, o in enumerate(right)] == [None] * len(exercise.cases)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_mistakes_run_are_wrong_and_get_their_own_names(name):
-    """A name that an edit needs, and that is not there, shows itself as an error in each case."""
+def test_each_mistake_runs_is_wrong_and_gets_its_own_name(name):
+    """If an edit uses a name that does not exist, the program raises an error in every case."""
     exercise = EXERCISES[name]
     for variant in exercise.own:
         got = outcomes(exercise, variant)
@@ -112,7 +112,9 @@ def test_programs_of_test_exercises_can_be_built(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_wrong_programs_do_not_fail_with_name_errors(name):
-    """The test that the solution writes calls each; one that only raises would be caught, too."""
+    """The solution's test calls each program. It would also catch a program that only raises a
+    NameError, but for the wrong reason.
+    """
     exercise, space = EXERCISES[name], {}
     exec(compile(exercise.solution, name, "exec"), space)
     test = space[function_name(name, 1, exercise.solution)]

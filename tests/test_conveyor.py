@@ -1,4 +1,4 @@
-"""The conveyor: laws of its trips, compared with formulas and a simple second program."""
+"""The conveyor: laws of its trips, and comparisons with formulas and a simple second program."""
 
 from math import acos, asin, atan2, ceil, floor, hypot, sqrt
 
@@ -33,7 +33,7 @@ LINES = [  # spread, belt speed in mm/s, arms, metres between them, first come, 
 
 @pytest.fixture(params=LINES, ids=lambda line: f"spread {line[0]:g}, {line[1]} mm/s, {line[2]}")
 def line(request):
-    """offsets, belt speed, metres between arms, the trips of each arm, the rule."""
+    """A line: (offsets, belt speed, metres between arms, trips of each arm, rule)."""
     spread, v, arms, pitch, first_come, seed = request.param
     offsets = spaced(COUNT, GAP, spread, seed=seed)
     trips = serve(offsets, v * mm, WINDOW, WAYS, arms=arms, pitch=pitch, first_come=first_come)
@@ -72,7 +72,7 @@ def test_different_seeds_give_different_orders():
 
 
 def posture(point):
-    """Joint values by the triangle, with `math` alone."""
+    """Joint values from the triangle of the levers, with `math` alone."""
     x, y, z = point
     l1, l2, rho, d = 0.5, 0.4, hypot(x, y), hypot(x, y, z)
     return (
@@ -83,7 +83,7 @@ def posture(point):
 
 
 def seconds(point):
-    """From the bin to a point: the quintic law is at most 15/8 times as fast as on average."""
+    """The time from the bin to a point: the peak speed of the quintic law is 15/8 of its mean."""
     there = zip(posture(BIN), posture(point), strict=True)
     return 15 / 8 * max(abs(a - b) for a, b in there) / SPEED
 
@@ -91,7 +91,7 @@ def seconds(point):
 def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
-        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt carried it
+        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt has carried them
         assert (y >= WINDOW[0] + k * pitch - 1e-9).all()
         assert (y <= WINDOW[-1] + k * pitch + 1e-9).all()
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)
@@ -120,7 +120,7 @@ def test_each_object_is_picked_once_or_missed_by_all(line):
 
 
 def test_next_arm_picks_what_the_previous_one_left(line):
-    """D9: three arms had one clock, and arm 2 took object 4 beside arm 1."""
+    """Three arms once shared one clock, and arm 2 took object 4 while it was still at arm 1."""
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips[1:], 1):
         left_the_window = (offsets[one.objects] + (k - 1) * pitch + WINDOW[-1] - WINDOW[0]) / v
@@ -156,28 +156,30 @@ def test_greedy_rule_equals_a_simple_program(line):
             free = meet + WAYS[j]
             left.remove(i)
         last = (offsets[left] + k * pitch + WINDOW[:, None] - WINDOW[0]) / v - WAYS[:, None]
-        assert (last < free).all()  # it stops only when it can reach none of the rest
+        assert (last < free).all()  # the arm stops only when it can reach none of the rest
 
 
 def test_one_place_picks_every_kth_of_evenly_spaced_objects():
-    """With no window to give time, an arm of cycle c takes every ceil(c v / g)-th object."""
+    """Without a window that gives it time, an arm with the cycle time c takes every
+    ceil(c v / g)-th object.
+    """
     for v in (0.05, 0.1, 0.13, 0.29, 0.4):
         (one,) = serve(spaced(COUNT, GAP), v, [0.0], [0.6])
         k = ceil(2 * 0.6 * v / GAP)
-        first = ceil(0.6 * v / GAP) - 1  # the first that it can be there for
+        first = ceil(0.6 * v / GAP) - 1  # the first object that the arm can reach in time
         assert one.objects.tolist() == list(range(first, COUNT, k))
 
 
 @pytest.mark.parametrize("spread", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("first_come", [False, True])
 def test_unlimited_window_picks_one_object_per_cycle(spread, first_come):
-    """A way of w s to every place: v / g objects a second come; 1 / (2 w) at most are taken."""
+    """If every place is w s away, v / g objects come per second and at most 1 / (2 w) are taken."""
     way, v = 0.6, 0.4
-    assert v / GAP > 1 / (2 * way)  # more than it can take
+    assert v / GAP > 1 / (2 * way)  # more objects than the arm can take
     window = np.linspace(0, 100, 500)
     (one,) = serve(spaced(COUNT, GAP, spread), v, window, 0 * window + way, first_come=first_come)
-    assert sorted(one.objects.tolist()) == list(range(COUNT))  # and none leaves the window
-    step = (window[1] - window[0]) / v  # it meets at places of the window
+    assert sorted(one.objects.tolist()) == list(range(COUNT))  # no object leaves the window
+    step = (window[1] - window[0]) / v  # objects are picked only at the sampled places
     cycle = np.diff(one.meets)
     assert (cycle >= 2 * way - 1e-9).all() and (cycle[50:] <= 2 * way + step + 1e-9).all()
     slow = 0.1
@@ -187,7 +189,7 @@ def test_unlimited_window_picks_one_object_per_cycle(spread, first_come):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_one_place_with_uneven_objects_equals_a_simple_walk(seed):
+def test_one_place_with_uneven_objects_equals_a_simple_loop(seed):
     """Objects that come while the arm is away are missed."""
     offsets, v, way = spaced(COUNT, GAP, 1.0, seed=seed), 0.2, 0.5
     (one,) = serve(offsets, v, [0.0], [way])
@@ -209,11 +211,11 @@ def test_number_of_arms_respects_the_lower_bound():
             == COUNT
         )
         assert count >= floor(2 * WAYS.min() * v * mm / GAP) + 1
-        assert spread or count == 3  # even objects: the bound, rounded up, is enough here
+        assert spread or count == 3  # with equal gaps, the rounded-up bound is enough here
 
 
-def test_uneven_spacing_reduces_the_speed():
-    """One arm takes all even objects at 120 mm/s, and fewer the more uneven they are."""
+def test_uneven_spacing_loses_objects():
+    """At 120 mm/s one arm takes all evenly spaced objects, and fewer the more the gaps differ."""
     lost = [
         np.mean(
             [
@@ -230,9 +232,9 @@ def test_uneven_spacing_reduces_the_speed():
     "change, message",
     [
         (dict(pitch=0.5), "pitch: wanted at least the window's 0.8 m, got 0.5 m"),
-        (dict(offsets=[0.2, 0.1]), "offsets: wanted 1 to 1000 rising numbers in m"),
+        (dict(offsets=[0.2, 0.1]), "offsets: wanted 1 to 1000 increasing numbers in m"),
         (dict(ways=WAYS[1:]), "ways: wanted 161 times in s, one for each place of the window"),
-        (dict(v=1e-320), "v: wanted a speed at which the objects come"),
+        (dict(v=1e-320), "v: wanted a speed at which the objects arrive"),
         (dict(first_come="no"), "first_come: wanted True or False, got 'no'"),
     ],
 )
@@ -243,5 +245,5 @@ def test_invalid_lines_are_refused(change, message):
 
 def test_invalid_spreads_are_refused():
     for spread in (-0.1, 1.1):
-        with pytest.raises(ValueError, match="spread: wanted a share from 0 to 1"):
+        with pytest.raises(ValueError, match="spread: wanted a fraction from 0 to 1"):
             spaced(COUNT, GAP, spread)

@@ -2,7 +2,7 @@
 
 A history is a possible sequence of events in a student's folder: edits, runs, other files, newer
 labs, and copies that are interrupted at any write or coincide with a save. `History` records
-independently what the student wrote and what the labs contain, and checks after every step.
+independently what the student wrote and what the labs contain, and checks both after every step.
 """
 
 import builtins
@@ -34,7 +34,7 @@ WRITES = ("fsync", "link", "makedirs", "rename", "replace", "unlink")
 
 @pytest.fixture(autouse=True)
 def _own_trust(tmp_path, monkeypatch):
-    """No signature of these tests among the developer's."""
+    """Keep the signatures of these tests out of the developer's own trust database."""
     monkeypatch.setenv("JUPYTER_DATA_DIR", str(tmp_path / "jupyter"))
     monkeypatch.setenv("JUPYTER_CONFIG_DIR", str(tmp_path / "jupyter"))
 
@@ -73,7 +73,7 @@ def written(data):
 
 
 def cells(content):
-    """The text of the cells, or None if the bytes are not a notebook."""
+    """The type and text of each cell, or None if the bytes are not a notebook."""
     try:
         return [(c["cell_type"], "".join(c["source"])) for c in json.loads(content)["cells"]]
     except (ValueError, KeyError, TypeError):
@@ -100,10 +100,11 @@ def laid(content):
 
 
 class Writes:
-    """Replaces `os` and `open` in `copies`: counts file operations, and at count `end` raises an
-    `error`: before or after the operation takes effect, or in the middle of a write; once, or
-    (`dead`) permanently, like a killed process. `at`: count -> an action just before. With `near`,
-    a path, it counts from the moment when that is moved or written.
+    """Replaces `os` and `open` in `copies`, counts file operations, and raises `error` at the
+    operation with the number `end`: before or after the operation takes effect, or in the middle of
+    a write. With `dead`, all later operations fail, too, as in a killed process. `at` maps a number
+    to an action just before that operation. With a path `near`, the count begins when this path is
+    moved or written.
     """
 
     def __init__(self, end=None, after=False, dead=False, error=KeyboardInterrupt):
@@ -112,7 +113,7 @@ class Writes:
 
     def __getattr__(self, name):
         if name == "fsync":
-            return lambda _: self.step(lambda: None)  # it takes its time
+            return lambda _: self.step(lambda: None)  # a real fsync is slow
         value = getattr(os, name)
         return (lambda *a, **k: self.step(lambda: value(*a, **k), *a)) if name in WRITES else value
 
@@ -169,11 +170,11 @@ class History:
     """A source of labs, a student's folder, and the laws that must hold.
 
     mine       [path, bytes] that the student wrote and has not changed or deleted since; the path
-               is None while only the next copy can bring it back (a save that met a killed copy)
-    untouched  places of labs where ours lies, run or not
-    offered    lab -> what of it was last handed out; several where a copy was interrupted
-    outputs    lab -> the bytes that were last handed out, if that is sure
-    links      the student's links, and where they lead
+               is None while only the next copy can restore it (after a save during a killed copy)
+    untouched  paths of labs that the student has not changed, whether run or not
+    offered    lab -> the content that was last handed out; several if a copy was interrupted
+    outputs    lab -> the bytes that were last handed out, if that is certain
+    links      the student's links -> their targets
     """
 
     def __init__(self, seed, top):
@@ -182,7 +183,7 @@ class History:
         self.number = 0
         self.mine, self.untouched, self.offered, self.before = [], set(), {}, {}
         self.links, self.versions, self.valid, self.outputs = {}, {}, set(), {}
-        store = MemorySignatureStore()  # SQLite takes its time
+        store = MemorySignatureStore()  # SQLite is slow
         self.notary = partial(NotebookNotary, store_factory=lambda: store, secret=b"secret")
         for name in ("one.ipynb", TWO, "documents/three.ipynb", "tasks/task.json"):
             self._lab(name)
@@ -202,7 +203,7 @@ class History:
         self.copies()
         before = self.files(hidden=True)
         assert not [o for o in copy(self.folder, self.source) if o.what in ("new", "replaced")]
-        assert self.files(hidden=True) == before, "a copy without news changes nothing"
+        assert self.files(hidden=True) == before, "a copy without newer labs changed something"
 
     # What the teacher does
 
@@ -284,7 +285,7 @@ class History:
             self.save(f"my {self.token()}{Path(path).suffix}", self._read(path))
 
     def accept(self):
-        """The newer one, laid beside, takes the place of the student's."""
+        """The student replaces a lab with the newer one that lies beside it."""
         path = self._pick(".new.ipynb")
         place = path and path.replace(".new.", ".")
         if path and self._plain(place):
@@ -304,7 +305,7 @@ class History:
             self.save(path, content[: self.random.randrange(len(content) - 3)] + b" ")
 
     def folder_or_link(self):
-        """A folder, or a link, where a lab was or will be."""
+        """The student puts a folder or a link where a lab was or will be."""
         path = self.random.choice([TWO, "four.ipynb", "documents/three.ipynb"])
         place = self.folder / path
         if place.is_dir() or place.is_symlink() or not self._folder_there(path):
@@ -321,7 +322,7 @@ class History:
             self.links[path] = str(self.folder / target)
 
     def folder_elsewhere(self):
-        """A folder of labs is moved, and a link is in its place."""
+        """The student moves a folder of labs and puts a link in its place."""
         place, other = self.folder / "documents", self.folder / "elsewhere"
         if "documents" in self.links or os.path.lexists(other) or not place.is_dir():
             return
@@ -338,7 +339,7 @@ class History:
         self.links["documents"] = str(other)
 
     def save(self, path, content, ours=False):
-        """The student's file, written as JupyterLab writes: into the file that is there."""
+        """Save the student's file as JupyterLab does: by writing into the existing file."""
         self._write(self.folder / path, content)
         self._forget(path)
         if ours:
@@ -354,7 +355,7 @@ class History:
     # Copies
 
     def copies(self):
-        """A copy that nothing disturbs, and what holds after it."""
+        """Make an undisturbed copy, and check what must be true after it."""
         before, laid_before = self.files(), {p: self.offered.get(p, {None}) for p in self.labs()}
         outcomes = copy(self.folder, self.source)
         assert not [o for o in outcomes if o.what == "failed"], outcomes
@@ -362,8 +363,8 @@ class History:
         inside = [p for p in self.files(hidden=True) if p.startswith(".robokin/")]
         assert sorted(inside) == [".robokin/lock", ".robokin/manifest.json"]
         self.look()
-        assert not [m for m in self.mine if m[0] is None], "what was saved is not given back"
-        assert all(os.lstat(self.folder / p).st_nlink == 1 for p in after), "two names of one file"
+        assert not [m for m in self.mine if m[0] is None], "a saved file was not restored"
+        assert all(os.lstat(self.folder / p).st_nlink == 1 for p in after), "a file has two names"
         mine = [m[0] for m in self.mine]
         for path in self.labs():
             newest = (self.source / path).read_bytes()
@@ -374,20 +375,20 @@ class History:
             same = laid_before[path] == {says}
             here = after.get(path)
             sides = self._sides(path, after)
-            if path in self.untouched:  # also where an interrupted copy had moved it
-                assert here and said(path, here) == says, f"{path}: not touched, not the newest"
+            if path in self.untouched:  # even if an interrupted copy had moved it
+                assert here and said(path, here) == says, f"{path}: unchanged, but not the newest"
                 if self.outputs.get(path) not in (None, newest):
                     assert path.endswith(".json") or json.loads(here) == laid(newest)
             elif path in mine or self._strange(path):
                 beside = [said(path, after[side]) for side in sides]
-                assert says in beside or not newer, f"{path}: no newer beside"
+                assert says in beside or not newer, f"{path}: no newer lab beside it"
             elif not os.path.lexists(self.folder / path):
                 assert not newer and path not in before, f"{path} does not come back"
             elif path not in before:
-                assert not same, f"{path} was deleted and came back without news"
+                assert not same, f"{path} was deleted and came back unchanged"
                 if said(path, here) == says:
                     self.untouched.add(path)
-                else:  # a killed copy had it; since then the student has deleted theirs
+                else:  # restored after a killed copy; the student has since deleted theirs
                     assert "unsure" in laid_before[path] and b"student" in here
                     self.mine.append([path, here])
             for side in sides:
@@ -407,11 +408,11 @@ class History:
         for path, content in self.mine:
             if path.endswith(".ipynb") and b"student" in content and cells(content):
                 assert not trusted(self.folder / path, self.notary), (
-                    f"{path} is the student's and was signed"
+                    f"{path} is the student's, but was signed"
                 )
 
     def interrupted(self):
-        """A copy that is stopped somewhere."""
+        """Make a copy that stops at some operation."""
         if self.random.random() < 0.5:
             self.newer()
         error = self.random.choice([KeyboardInterrupt, OSError(28, "No space left on device")])
@@ -420,8 +421,9 @@ class History:
         self._unsure()
 
     def meets_a_save(self):
-        """A copy while the student saves what it is about to replace: into the file, by a new file
-        in its place, or in two halves; once or twice; sometimes it is killed on top of it.
+        """Make a copy while the student saves the file that it is about to replace: into the file,
+        as a new file in its place, or in two halves; once or twice. Sometimes the copy is also
+        killed.
         """
         mine = [m[0] for m in self.mine]
         path = self.random.choice([p for p in self.labs() if p not in mine] or [None])
@@ -436,7 +438,7 @@ class History:
         def save(how):
             content = contents.pop()
             if not os.path.lexists(place) and saved:
-                self.mine.append([None, saved.pop()])  # it was not the student who moved it
+                self.mine.append([None, saved.pop()])  # the copy, not the student, has moved it
             if self._plain(path):
                 self.mine = [m for m in self.mine if m[1] != place.read_bytes()]
             place.parent.mkdir(exist_ok=True)
@@ -472,7 +474,7 @@ class History:
         if saved:
             self._forget(path)
             here = self._plain(path) and self._read(path) == saved[0]
-            assert here or writes.end, f"{path}: the student saved it, and it is elsewhere"
+            assert here or writes.end, f"{path}: the file that the student saved has moved"
             self.mine.append([path if here else None, saved[0]])
         self._unsure()
 
@@ -482,7 +484,7 @@ class History:
         return Writes(end, self.random.random() < 0.5, dead, error)
 
     def _unsure(self):
-        """After a copy that was disturbed: it may have handed out anything, or nothing."""
+        """Record that a disturbed copy may have handed out any lab, or none."""
         files = self.files()
         for path in self.labs():
             says = said(path, (self.source / path).read_bytes())
@@ -493,23 +495,23 @@ class History:
                 if self._plain(place) and not mine and said(path, files[place]) == says:
                     self.untouched.add(place)
 
-    # What has to hold
+    # What must always be true
 
     def look(self):
-        """Nothing of the student's work is lost, and no valid notebook is broken."""
+        """Assert that none of the student's work is lost and that no valid notebook is broken."""
         files = self.files(hidden=True)
         for each in self.mine:
             path, content = each
             if path is None:
                 where = [p for p in files if files[p] == content]
-                assert where, "what was saved is lost"
+                assert where, "a saved file is lost"
                 each[0] = next((p for p in where if not p.startswith(".robokin")), None)
             else:
                 assert files.get(path) == content, f"{path} is not what the student wrote"
         for path, content in files.items():
             if ".yours" in path and not path.startswith(".robokin"):
-                assert content in [m[1] for m in self.mine], f"{path} is nothing of the student's"
-                assert content != files.get(re.sub(r"\.yours\d*", "", path)), f"{path} twice"
+                assert content in [m[1] for m in self.mine], f"{path} is not the student's work"
+                assert content != files.get(re.sub(r"\.yours\d*", "", path)), f"{path} exists twice"
         for path, target in self.links.items():
             assert os.readlink(self.folder / path) == target
         for path, content in files.items():
@@ -519,7 +521,7 @@ class History:
                 nbformat.validate(nbformat.reads(content.decode(), as_version=4))
                 self.valid.add(content)
 
-    # Small things
+    # Helpers
 
     def token(self):
         self.number += 1
@@ -575,7 +577,7 @@ class History:
         self.untouched.discard(path)
 
     def _edited(self, content):
-        """The student changes a cell, adds one, or changes their order."""
+        """The notebook after the student has changed or added a cell."""
         if cells(content) is None:
             return written(notebook(f"student {self.token()}"))
         data = json.loads(content)
@@ -635,12 +637,12 @@ def test_no_work_is_lost_on_a_file_system_without_links(seed, tmp_path, monkeypa
         raise PermissionError(1, "Operation not permitted")
 
     monkeypatch.setattr(os, "link", link)
-    # without links the moment between a look and a move stays open
+    # without links, a save between the check and the move cannot be noticed
     monkeypatch.setattr(History, "meets_a_save", History.copies)
     History(seed, tmp_path).run(steps=25)
 
 
-# --- One thing at a time --------------------------------------------------------------------------
+# --- Single cases ---------------------------------------------------------------------------------
 
 
 class Class:
@@ -658,7 +660,7 @@ class Class:
         place.write_bytes(written(notebook(f"{name} {says}") if "ipynb" in name else says))
 
     def copy(self):
-        """Path -> its outcome, if anything happened."""
+        """Path -> the outcome of a copy, for the files to which anything happened."""
         return {o.path: o.what for o in copy(self.folder, self.labs) if o.what != "same"}
 
     def says(self, name):
@@ -711,7 +713,7 @@ def test_running_a_lab_does_not_count_as_a_change():
 def test_outcomes_match_the_files(school, capsys):
     command = ["copy", str(school.folder), "--from", str(school.labs)]
     assert main(command) == 0
-    assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 as they were\n"
+    assert capsys.readouterr().out == f"{school.folder}: nothing new; 3 unchanged\n"
     school.write("one.ipynb", written(notebook("mine")))
     (school.folder / "two.ipynb").unlink()
     (school.labs / "tasks/task.json").unlink()
@@ -719,15 +721,15 @@ def test_outcomes_match_the_files(school, capsys):
         school.newer(name, "second")
     assert main(command) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "tasks/task.json: no longer among the labs; it stays",
+        "tasks/task.json: no longer a lab; the file stays",
         "one.ipynb: yours stays; the newer one is one.new.ipynb",
         "three.ipynb: new",
-        "two.ipynb: back, as there is a newer one",
-        f"{school.folder}: 2 new, 1 kept; 0 as they were",
+        "two.ipynb: back, since there is a newer one",
+        f"{school.folder}: 2 new, 1 kept; 0 unchanged",
     ]
     assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
     assert school.says("one.new.ipynb") == "# one.ipynb second"
-    # one laid beside is the student's, too, when touched; when not, it is replaced
+    # a newer lab beside it is the student's, too, once changed; unchanged, it is replaced
     for says, beside in (("third", "one.new.ipynb"), ("fourth", "one.new2.ipynb")):
         school.newer("one.ipynb", says)
         assert school.copy() == {"one.ipynb": "kept", "tasks/task.json": "gone"}
@@ -744,7 +746,7 @@ def test_outcomes_match_the_files(school, capsys):
 
 
 @pytest.mark.parametrize("after, dead", [(True, False), (False, True)])
-def test_copy_may_stop_at_any_write(tmp_path, after, dead, monkeypatch):
+def test_copy_may_be_stopped_at_any_write(tmp_path, after, dead, monkeypatch):
     notary = NotebookNotary(store_factory=MemorySignatureStore, secret=b"secret")
     monkeypatch.setattr(nbformat.sign, "NotebookNotary", lambda: notary)
     school = Class(tmp_path, "one.ipynb", "two.ipynb")
@@ -774,7 +776,7 @@ def test_copy_may_stop_at_any_write(tmp_path, after, dead, monkeypatch):
     assert ends > 30
 
 
-def test_files_moved_by_a_killed_copy_are_returned_once(school, tmp_path):
+def test_files_moved_by_a_killed_copy_are_restored_once(school, tmp_path):
     old, ends = school.folder / ".robokin" / "old" / "one.ipynb", 0
     mine, later = written(notebook("mine")), written(notebook("mine, later"))
     while True:
@@ -800,7 +802,7 @@ def test_partial_files_of_a_killed_copy_are_removed(school):
     assert school.copy() == {} and not rest.exists()
 
 
-def test_link_to_a_folder_created_meanwhile_is_kept(school, tmp_path, monkeypatch):
+def test_link_created_during_a_copy_is_kept(school, tmp_path, monkeypatch):
     write, place = copies.write, school.folder / "one.ipynb"
 
     def meanwhile(path, content):
@@ -821,13 +823,13 @@ def test_full_disk_is_reported_and_recovered_from(school, capsys):
         assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
     said = capsys.readouterr()
     assert said.err.splitlines()[0] == "new.ipynb: No space left on device"
-    assert "3 failed; 1 as they were" in said.out
+    assert "3 failed; 1 unchanged" in said.out
     assert set(school.copy().values()) == {"new", "replaced"}
     assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
 
 
 def test_disk_that_fills_up_reports_written_files(school, monkeypatch):
-    """Whichever file is the last: exactly the reported files are there."""
+    """Whichever file is the last that fits on the disk, exactly the reported files exist."""
     write, names = copies.write, ("new.ipynb", "one.ipynb", "two.ipynb")
     for name in names:
         school.newer(name, "second")
@@ -888,13 +890,13 @@ def test_copy_without_a_manifest_loses_nothing(school, text):
     done = school.copy()
     assert (".robokin/manifest.json" in done) == (text is not None)
     assert done["one.ipynb"] == "kept" and school.says("one.new.ipynb") == "# one.ipynb first"
-    assert done["two.ipynb"] == "replaced", "what we would lay is ours"
-    assert school.says("tasks/task.json") == "first", "an older one may be the student's"
+    assert done["two.ipynb"] == "replaced", "a file that equals ours counts as ours"
+    assert school.says("tasks/task.json") == "first", "an older file may be the student's"
     assert school.says("tasks/task.new.json") == "second"
     assert (school.folder / "one.ipynb").read_bytes() == mine and school.copy() == {}
 
 
-def test_lab_may_have_new_in_its_name(tmp_path):
+def test_name_of_a_lab_may_contain_new(tmp_path):
     school = Class(tmp_path, "one.ipynb", "one.new.ipynb")
     (school.labs / "one.new.ipynb").write_bytes((school.labs / "one.ipynb").read_bytes())
     school.copy()
@@ -911,7 +913,7 @@ def test_unusable_folders_are_refused_with_a_reason(school, tmp_path, capsys, mo
         assert main(["copy", str(folder), *(["--from", str(source[0])] if source else [])]) == 1
         said = capsys.readouterr()
         assert not said.out and len(said.err.splitlines()) == 1
-        assert sorted(tmp_path.rglob("*")) == before, "nothing is made"
+        assert sorted(tmp_path.rglob("*")) == before, "a file or folder was created"
         return said.err.removeprefix(f"{folder}: ")
 
     (tmp_path / "file").write_text("mine")
@@ -919,7 +921,7 @@ def test_unusable_folders_are_refused_with_a_reason(school, tmp_path, capsys, mo
         refused(tmp_path / "file", school.labs) == "wanted a folder, got a file or a broken link\n"
     )
     for folder in (school.labs, school.labs / "deep" / "er", tmp_path, school.labs / ".." / "labs"):
-        assert "wanted a folder apart from the labs" in refused(folder, school.labs)
+        assert "wanted a folder separate from the labs" in refused(folder, school.labs)
     assert "no labs in" in refused(tmp_path / "new", tmp_path)
     monkeypatch.setattr(copies, "__file__", str(tmp_path / "site" / "robokin" / "course" / "x.py"))
     assert "not installed from a clone; give --from" in refused(tmp_path / "new")
@@ -948,20 +950,20 @@ def test_labs_are_copied_even_if_they_cannot_be_trusted(school, monkeypatch, cap
         nbformat.sign, "NotebookNotary", mock.Mock(side_effect=OSError("no rights"))
     )
     assert main(["copy", str(school.folder), "--from", str(school.labs)]) == 1
-    assert "not trusted: 'no rights'" in capsys.readouterr().err
+    assert "still pictures: 'no rights'" in capsys.readouterr().err
     assert school.says("one.ipynb").endswith("second"), "a still picture is better than no lab"
 
 
 def test_simultaneous_copies_do_no_harm(school):
     with copies.alone(school.folder / ".robokin" / "lock"):
-        with pytest.raises(ValueError, match="another process is at work"):
+        with pytest.raises(ValueError, match="another process is using it"):
             school.copy()
     for name in ("one.ipynb", "two.ipynb", "three.ipynb"):
         school.newer(name, "second")
     with ThreadPoolExecutor(2) as pool:
         both = [pool.submit(school.copy) for _ in range(2)]
         errors = [each.exception() for each in both]
-        assert all(e is None or "another process is at work" in str(e) for e in errors), errors
+        assert all(e is None or "another process is using it" in str(e) for e in errors), errors
         assert None in errors
     assert all(school.says(f"{n}.ipynb").endswith("second") for n in ("one", "two", "three"))
     assert school.copy() == {}
@@ -974,7 +976,7 @@ def test_copied_labs_are_valid_and_trusted(tmp_path):
     outcomes = copy(tmp_path / "student")
     given = {p.relative_to(NOTEBOOKS).as_posix() for p in NOTEBOOKS.rglob("*") if p.is_file()}
     given = {p for p in given if not any(part.startswith(".") for part in p.split("/"))}
-    given = {p for p in given if not p.startswith("exercises/")}  # they have the solutions
+    given = {p for p in given if not p.startswith("exercises/")}  # they contain the solutions
     wanted = sorted(p for p in given - {"documents/teaching.ipynb"} if not p.endswith(".log"))
     assert [o.path for o in outcomes] == wanted and {o.what for o in outcomes} == {"new"}
     for path in wanted:
@@ -1005,7 +1007,7 @@ def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupy
     button.click()
     until(lambda: player.evaluate(canvases) != still, "the player does not play", page)
     page.get_by_text("| Idle").first.wait_for()
-    page.wait_for_timeout(1500)  # the language's word comes after it
+    page.wait_for_timeout(1500)  # the status of the language comes later
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class")
     page.close()

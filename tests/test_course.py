@@ -1,4 +1,4 @@
-"""The engine of the course: the verdicts on answers of every kind, for exercises made here, and the
+"""The engine of the course: verdicts on answers of every kind, for exercises defined here, and the
 isolation of answers. The exercises of each lab have their own test file.
 """
 
@@ -115,13 +115,15 @@ def my_test(program):
 
 
 def made(text, number="1", title="a pose", **code):
-    """An exercise in a teacher's format: its Markdown below the hints, and its Python."""
+    """An exercise from a teacher's files: `text` is its Markdown below the hints, `code` its
+    Python.
+    """
     words = WORDS.format(number=number, title=title)
     return book.made(markdown.exercise("made.md", words + text), code)
 
 
 def function(program, cases, mistakes="", **code):
-    """A function to write, with its right program."""
+    """An exercise that asks for a function, with its correct program."""
     parts = f"\n## Solution\n\n```python\n{program}\n```\n\n## Mistakes\n\n{mistakes}"
     return made(parts, cases=cases, **code)
 
@@ -186,7 +188,7 @@ def right(height, angle):
     return turn @ TIP
 
 
-def test_right_answer_holds_and_reports_the_number_of_cases():
+def test_correct_answer_passes_and_reports_the_number_of_cases():
     verdict = check("made.1", right)
     assert verdict.holds and verdict and verdict.answered and verdict.points == 1
     assert verdict.mistake is None and verdict.case is None
@@ -194,7 +196,7 @@ def test_right_answer_holds_and_reports_the_number_of_cases():
 
 
 def stub(height, angle):
-    """The words without markup."""
+    """A stub with a docstring."""
     ...
 
 
@@ -279,7 +281,7 @@ def test_endless_loop_is_reported_when_its_cpu_time_is_up(answer, monkeypatch):
     verdict = check("made.1", answer)
     assert 0.4 < time.process_time() - begin < 2
     assert verdict.mistake == "never ends" and not verdict.holds
-    assert check("made.1", right).holds  # and the caller continues
+    assert check("made.1", right).holds  # the caller continues
 
 
 @pytest.fixture
@@ -311,7 +313,7 @@ def test_interrupt_by_the_reader_is_passed_on():
 
 
 def test_time_limit_stops_the_answer_and_not_the_caller(monkeypatch):
-    """Even if the machine is so busy that the limit passes before the caller continues."""
+    """This is true even if the machine is so busy that the time is up before the caller goes on."""
     monkeypatch.setattr(answers, "SECONDS", 0.01)
     start = _thread.start_new_thread
 
@@ -360,7 +362,9 @@ def test_many_slow_cases_are_reported_together(monkeypatch):
     assert not answers.unended(outcomes[0])
     monkeypatch.setattr(answers, "TOTAL", 30)
     monkeypatch.setattr(answers, "SECONDS", 0.2)
-    assert [o.name for o in answers.run(works, [(0.05,)] * 10)] == [None] * 10, "each has its own"
+    assert [o.name for o in answers.run(works, [(0.05,)] * 10)] == [None] * 10, (
+        "each call has its own limit"
+    )
 
 
 def test_verdicts_without_threads_are_the_same_and_the_host_is_called(monkeypatch):
@@ -383,7 +387,7 @@ def test_time_limit_leaves_no_thread_behind(monkeypatch):
     out, before = sys.stdout, _thread._count()
     told = set()
     for k in range(40):
-        pause = 0.001 * k  # some end just before the limit, others just after
+        pause = 0.001 * k  # some answers end just before the limit, others just after
 
         def ends(height, pause=pause):
             end = time.thread_time() + pause
@@ -395,7 +399,7 @@ def test_time_limit_leaves_no_thread_behind(monkeypatch):
         assert outcome.name in (None, "never ends") and sys.stdout is out
         told.add(outcome.name)
         assert sum(range(1000)) == 499500
-    assert None in told  # which of the others are caught in time depends on the machine
+    assert None in told  # how many of the others are stopped depends on the machine
     for answer in (loops, stubborn):
         assert answers.run(answer, [(0, 1)] * 3) == [answers.NEVER]
     time.sleep(0.05)
@@ -461,14 +465,14 @@ def test_unused_input_is_named():
 
 
 def inside(lab, mistakes=""):
-    """Exercise 4: True or False."""
+    """Make exercise 4, whose answer is True or False."""
     cases = [(float(x), float(low)) for x in range(-4, 5) for low in (-2, 1)]
     program = "def inside(x, low):\n    return low <= x and x <= 3"
     lab.exercises["4"] = function(program, lambda rng: cases, mistakes)
 
 
 def test_program_that_is_almost_always_true_uses_its_inputs(lab):
-    """With only one case, most wrong tests would seem to use no input."""
+    """With only one case, most wrong programs would seem to use no input."""
     inside(lab)
     assert check("made.4", lambda x, low: low <= x <= 3).holds
     assert check("made.4", lambda x, low: x <= low + 5).mistake is None
@@ -497,7 +501,7 @@ def test_pairs_of_mistakes_are_not_named_for_boolean_answers(lab):
     )
 
 
-def test_two_mistakes_of_a_pose_are_both_named():
+def test_two_mistakes_in_a_pose_are_both_named():
     turn = Quaternion.from_angle_axis
     verdict = check("made.1", lambda h, a: Transform(turn(a, (0, 0, 1)), (0.2, 0.1, 0.5)))
     assert verdict.mistake == "height is not used", "two pairs agree: neither is named"
@@ -505,8 +509,10 @@ def test_two_mistakes_of_a_pose_are_both_named():
     assert verdict.mistake == "no tip, and degrees for radians"
 
 
-def test_nearly_right_answer_gets_its_error(lab):
-    """No mistake is named that does not change the right program, however tolerant `same` is."""
+def test_nearly_correct_answer_reports_its_error(lab):
+    """A mistake that does not change the correct program's results is never named, however tolerant
+    `same` is.
+    """
     loose = lambda a, b: np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-2)  # noqa: E731
     lab.exercises["4"] = made(POSE, **KEPT | {"same": loose})
     for name in ("made.1", "made.4"):
@@ -570,7 +576,7 @@ def integers(rng):
     return [(float(a), float(b)) for a in range(-2, 3) for b in range(-2, 3)]
 
 
-# the result of a right program, its cases, and a student's wrong version
+# slip -> the result of a correct program, its cases, and a student's wrong version
 WRITTEN = {
     "element-wise product": ("a @ b", matrices, lambda a, b: a * b),
     "order of a product": ("a @ b", matrices, lambda a, b: b @ a),
@@ -639,7 +645,7 @@ def test_all_common_slips_are_tried():
     common = list(exercise._common())
     general = {name for name, *_ in (*RESULTS, *INPUTS)}
     assert {each.name for each in common} == edits.SLIPS.keys() | general
-    assert edits.SLIPS.keys() <= WRITTEN.keys(), "each is named where it is made"
+    assert edits.SLIPS.keys() <= WRITTEN.keys(), "a slip has no case in WRITTEN"
     signs = [each.says for each in common if each.name == "sign"]
     assert any("`a`" in says for says in signs) and any("`b`" in says for says in signs)
 
@@ -647,7 +653,7 @@ def test_all_common_slips_are_tried():
 # --- Values, and tests that catch -----------------------------------------------------------------
 
 
-def test_value_is_judged_with_the_numbers_of_the_student():
+def test_value_is_judged_with_the_students_numbers():
     assert check("made.2", 0.4, who="Ada").holds
     assert not check("made.2", ..., who="Ada").answered
     assert "Whose numbers" in repr(check("made.2", 0.4))
@@ -656,7 +662,7 @@ def test_value_is_judged_with_the_numbers_of_the_student():
     assert check("made.2", "long", who="Ada").mistake == "another kind or shape"
 
 
-def test_test_exercise_must_accept_and_refuse():
+def test_answer_to_a_test_exercise_must_accept_and_refuse():
     def good(program):
         return program(3) == 6 and program(2) == 4
 
@@ -672,7 +678,9 @@ def test_test_exercise_must_accept_and_refuse():
     assert check("made.3", lambda program: "yes").mistake == "another kind or shape"
     assert not check("made.3", lambda program: ...).answered
     verdict = check("made.3", lambda program: not good(program))
-    assert verdict.mistake == "True and False exchanged", "it is no use where a program raises"
+    assert verdict.mistake == "True and False exchanged", (
+        "exchanged, whether or not a program raises"
+    )
     verdict = check("made.3", lambda program: not _quietly(good, program))
     assert verdict.mistake == "True and False exchanged" and verdict.points == 0
 
@@ -721,8 +729,8 @@ def test_error_in_the_test_itself_is_reported():
     assert "plain" in verdict.case
 
 
-def test_test_that_counts_its_calls_does_not_hold(monkeypatch):
-    """It is right by chance, so it is tried repeatedly."""
+def test_test_that_counts_its_calls_does_not_pass(monkeypatch):
+    """Such a test is right only by chance, so it is tried repeatedly."""
     held, told = 0, set()
     for seed in range(200):
         dice = random.Random(seed)
@@ -776,7 +784,7 @@ def test_markup_in_an_answer_is_escaped():
     assert "<script" not in text and "&lt;script" in text
 
 
-# --- Beside the checks ----------------------------------------------------------------------------
+# --- Hints, solutions, progress and numbers -------------------------------------------------------
 
 
 def test_hints_are_given_one_at_a_time():
@@ -787,24 +795,24 @@ def test_hints_are_given_one_at_a_time():
         hint("made.7")
 
 
-def test_shown_solution_holds():
+def test_shown_solution_passes():
     text = solution("made.1")
     assert text.startswith("# --- 1: a pose\n")
     assert check("made.1", edits.run(text)["pose"]).holds
 
 
-def test_progress_lists_what_holds():
+def test_progress_lists_solved_exercises():
     assert "Nothing" in progress()
     check("made.1", right)
     check("made.2", 0.9, who="Ada")
     lines = progress().splitlines()
-    assert [line.split()[0] for line in lines] == ["What", "made:", "holds", "begun", "not"]
+    assert [line.split()[0] for line in lines] == ["Checked", "made:", "holds", "begun", "not"]
     assert progress("made") == progress()
     check("made.1", stub)
-    assert progress().splitlines() == lines, "what held once is practised"
+    assert progress().splitlines() == lines, "an exercise that was solved once counts as practised"
 
 
-def test_numbers_do_not_depend_on_the_spelling_of_a_name(lab):
+def test_numbers_do_not_depend_on_case_and_spaces_of_a_name(lab):
     from robokin.course.variants import Numbers, dice
 
     lab.given = lambda who: Numbers({"x": dice("made", who).randrange(10**6)}, {"x": ("mm", 1)})

@@ -1,4 +1,4 @@
-"""The exercises of lab 01: right answers in different styles, and wrong ones with their names."""
+"""The exercises of lab 01: correct answers in different styles pass, and mistakes are named."""
 
 import functools
 import re
@@ -48,7 +48,7 @@ def by_the_package(table, q, part):
 
 
 @pytest.mark.parametrize("answer", [solved, row_by_row, by_the_package])
-def test_any_right_way_to_look_from_the_flange_is_accepted(answer):
+def test_correct_views_from_the_flange_pass(answer):
     assert check("frames_and_quaternions.1", answer).holds
 
 
@@ -81,7 +81,7 @@ def joined(table, q, part):
         ("d and a exchanged", lambda t, q, p: invert(flange(t[:, [0, 2, 1, 3]], q)) @ p),
     ],
 )
-def test_a_wrong_look_from_the_flange_is_named(name, answer):
+def test_mistakes_in_views_from_the_flange_are_named(name, answer):
     verdict = check("frames_and_quaternions.1", answer)
     assert not verdict.holds and verdict.mistake == name, verdict
 
@@ -103,12 +103,12 @@ def swung(yaw, tilt):
     return Quaternion.from_angle_axis(yaw, Z) @ Quaternion.from_angle_axis(tilt, X)
 
 
-def test_a_camera_looks_at_the_part_for_every_name():
+def test_camera_can_look_at_the_part_for_every_name():
     for k in range(200):
         who = f"student {k}"
         eye, part = places(who)
         z = (part - eye) / np.linalg.norm(part - eye)
-        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "neither level nor straight down"
+        assert z[2] < 0 and np.hypot(*z[:2]) > 0.2, "the camera looks level or straight down"
         yaw, rise = np.arctan2(z[1], z[0]), np.arcsin(z[2])
         turns = [columns(z), swung(yaw - np.pi / 2, rise - np.pi / 2)]
         answers = [Transform(turn, eye) for turn in turns]
@@ -139,7 +139,7 @@ def unit(row):
 
 
 def by_its_properties(lead):
-    """It checks unit length, equal steps and the whole rotation, without a reference program."""
+    """A test of unit length, equal steps and the whole rotation, without a reference program."""
     rng = np.random.default_rng(0)
     for turn in (0, 0.1, 0.4, 1, 2, 3):
         a = unit(rng.normal(size=4))
@@ -156,7 +156,7 @@ def by_its_properties(lead):
     return True
 
 
-def test_a_test_by_properties_holds_and_a_naive_one_is_told_what_slips_through():
+def test_property_test_passes_and_naive_test_reports_what_it_accepts():
     assert check("frames_and_quaternions.3", by_its_properties).holds
     a, b = (Quaternion.from_angle_axis(x * deg, Z).wxyz for x in (10, 130))
 
@@ -170,7 +170,7 @@ def test_a_test_by_properties_holds_and_a_naive_one_is_told_what_slips_through()
 
 
 def compared(turns, shares=(0, 0.1, 0.25, 0.5, 0.9, 1), given=np.array):
-    """A test that compares with robokin's slerp, for turns of these angles."""
+    """A test that compares with robokin's slerp, for rotations by these angles."""
     rng = np.random.default_rng(5)
     pairs = []
     for turn in turns:
@@ -191,7 +191,7 @@ def compared(turns, shares=(0, 0.1, 0.25, 0.5, 0.9, 1), given=np.array):
     return leads_well
 
 
-def test_a_test_may_pass_lists_and_has_to_try_large_turns_and_the_way():
+def test_slerp_test_may_pass_lists_and_must_try_large_rotations():
     large = (0, 1e-3, 30, 80, 120, 176)
     assert check("frames_and_quaternions.3", compared(large)).holds
     assert check("frames_and_quaternions.3", compared(large, given=list)).holds
@@ -202,7 +202,7 @@ def test_a_test_may_pass_lists_and_has_to_try_large_turns_and_the_way():
     assert check("frames_and_quaternions.3", compared(large, (0, 1))).mistake == "accepts: lerp"
 
 
-def test_axes_that_differ_are_told_so_that_they_differ():
+def test_different_axes_are_reported_with_different_numbers():
     def little_off(table, q, part):
         return solved(table, q, part) @ np.diag([1, 1 + 1e-5, 1, 1])
 
@@ -211,12 +211,12 @@ def test_axes_that_differ_are_told_so_that_they_differ():
     assert axis != is_axis
 
 
-def test_a_camera_that_looks_straight_up_is_not_called_upside_down():
+def test_camera_that_looks_straight_up_is_not_called_upside_down():
     eye, _ = places("Ada")
     verdict = check("frames_and_quaternions.2", Transform(Quaternion.identity(), eye), who="Ada")
     assert "level" in " ".join(verdict.says) and "points up" not in " ".join(verdict.says)
 
 
-def test_text_is_no_matrix():
+def test_matrix_of_strings_is_refused():
     text = check("frames_and_quaternions.1", lambda t, q, p: solved(t, q, p).astype(str))
     assert text.mistake == "another kind or shape"

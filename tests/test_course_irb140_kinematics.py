@@ -1,4 +1,4 @@
-"""Lab 2: right answers pass, every mistake is refused and named; predictions are computed."""
+"""Lab 02: correct answers pass, mistakes are refused and named, and predictions are recomputed."""
 
 import re
 
@@ -22,7 +22,7 @@ FOUR = Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm)
 
 
 def by_chain(q, length, turn):
-    "As in the lab, with lists, the gripper in two steps."
+    "The chain as in the lab, with lists and the gripper in two steps."
     steps = [
         Transform(turned(q[0], Z), [0, 0, 0.352]),
         Transform(turned(q[1], -Y), [0.070, 0, 0]),
@@ -60,13 +60,13 @@ def by_parts(q, length, turn):
 
 
 @pytest.mark.parametrize("right", [by_chain, by_joint_6, by_matrices, by_parts])
-def test_right_tips_hold(right):
+def test_correct_tips_pass(right):
     verdict = check(TIP, right)
     assert verdict.holds, verdict
 
 
 @pytest.mark.parametrize("mistake", LAB.exercises["1"].own, ids=lambda m: m.name)
-def test_a_wrong_tip_is_refused_and_named(mistake):
+def test_mistakes_in_tips_are_refused_and_named(mistake):
     verdict = check(TIP, LAB.exercises["1"].steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name and mistake.says in verdict.says
     assert "should" in verdict.case
@@ -87,28 +87,28 @@ GENERAL = {
 
 
 @pytest.mark.parametrize("name", GENERAL)
-def test_general_mistakes_in_a_tip_are_named(name):
+def test_common_slips_in_tips_are_named(name):
     assert check(TIP, GENERAL[name]).mistake == name
 
 
-# --- 2: four ways ---------------------------------------------------------------------------------
+# --- 2: four solutions ----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("side", (-40, 0, 100))
 @pytest.mark.parametrize("ahead", (680, 700, 760))
-def test_poses_with_four_ways_hold(ahead, side):
+def test_poses_with_four_solutions_pass(ahead, side):
     pose = Transform(turned(180 * deg, Y), np.array([ahead, side, 287]) * mm)
     assert (~np.isnan(IRB140.ik(pose)[:, 0])).sum() == 4
     assert check(POSE, pose).holds
 
 
-def test_limits_do_not_count():
+def test_solutions_past_a_limit_count():
     pose = Transform(turned(170 * deg, X), np.array([720, 0, 100]) * mm)
     assert not within(IRB140, IRB140.ik(pose)).all(axis=1).sum() == 4
     assert check(POSE, pose).holds
 
 
-def test_too_near_in_front_counts_as_well():
+def test_pose_too_near_for_the_front_solutions_passes():
     centre = (
         np.array([70 + 20, 0, 352]) * mm
     )  # 20 mm from the shoulder: the arm cannot fold that far
@@ -127,7 +127,7 @@ WRONG_POSES = {
 
 
 @pytest.mark.parametrize("name", WRONG_POSES)
-def test_wrong_poses_are_named(name):
+def test_mistakes_in_poses_are_named(name):
     verdict = check(POSE, WRONG_POSES[name])
     assert not verdict.holds and verdict.mistake == name
 
@@ -135,16 +135,16 @@ def test_wrong_poses_are_named(name):
 @pytest.mark.parametrize(
     "answer", [4, np.zeros(6), FOUR.as_matrix(), FOUR.translation, "four", [FOUR]]
 )
-def test_other_kinds_of_pose_are_told(answer):
+def test_answers_that_are_not_poses_are_reported(answer):
     assert check(POSE, answer).mistake == "another kind or shape"
 
 
-def test_the_pose_explorer_knows_the_goal():
+def test_pose_explorer_knows_the_goal():
     task = pose_explorer(POSE).data["task"]
     assert task["wanted"] == 4 and "{count}" in task["open"]
 
 
-def test_the_page_of_the_pose_says_when_the_task_is_fulfilled(browser, tmp_path):
+def test_pose_explorer_reports_when_the_task_is_fulfilled(browser, tmp_path):
     path = tmp_path / "pose.html"
     pose_explorer(POSE).save(path)
     page = browser.new_page(viewport={"width": 900, "height": 800})
@@ -163,11 +163,11 @@ def test_the_page_of_the_pose_says_when_the_task_is_fulfilled(browser, tmp_path)
     page.close()
 
 
-# --- 3: a target of one's own ---------------------------------------------------------------------
+# --- 3: an individual target ----------------------------------------------------------------------
 
 
 def design(who, factor=1.1, height=None):
-    "A right design, found in another way than in the solution: the fastest of a few heights."
+    "A correct design, found by another method than in the solution: the fastest of a few heights."
     numbers = variant("irb140_kinematics", who)
     p, best = np.linspace(0, 1, 801), []
     for z in (0.65, 0.7, 0.75, 0.8) if height is None else (height,):
@@ -194,7 +194,7 @@ def test_variants_differ():
     assert len({repr(variant("irb140_kinematics", k)) for k in range(50)}) > 45
 
 
-def test_the_first_guesses_fail_for_everyone():
+def test_first_guesses_fail_for_every_student():
     for k in range(20):
         task_1 = {"height": 0.5, "flags": (1, 1, 1), "duration": 20}
         assert check(DESIGN, task_1, who=k).mistake.startswith("past a limit: joint")
@@ -202,7 +202,7 @@ def test_the_first_guesses_fail_for_everyone():
         assert check(DESIGN, high, who=k).mistake == "out of reach"
 
 
-def test_wrong_designs_are_named():
+def test_mistakes_in_designs_are_named():
     good = design("anna")
     longest = design("anna", 1.19)
     assert check(DESIGN, good, who="anna").holds and check(DESIGN, longest, who=" Anna ").holds
@@ -226,7 +226,7 @@ def test_wrong_designs_are_named():
         who="anna",
     )
     assert left.mistake.startswith("too fast: joint") and not re.search(r"\?", " ".join(left.says))
-    for key in ("height", "duration"):  # text is no number
+    for key in ("height", "duration"):  # a string is not a number
         text = check(DESIGN, good | {key: str(good[key])}, who="anna")
         assert text.mistake == "another kind or shape" and key in text.says[0]
     assert check(DESIGN, {"height": 0.7}, who="anna").mistake == "another kind or shape"
@@ -240,7 +240,7 @@ def test_wrong_designs_are_named():
     assert check(DESIGN, lists, who="anna").holds
 
 
-def test_a_fault_tells_time_joint_and_number():
+def test_fault_reports_time_joint_and_excess():
     says = " ".join(check(DESIGN, design("anna") | {"flags": (1, 1, 1)}, who="anna").says)
     assert re.search(r"Joint 1 is past its limit of −?-?180° by \d+\.\d° at t = \d\.\d\d s", says)
 
@@ -259,30 +259,30 @@ def jacobian(q, k, point=(0, 0, 0)):
     return np.linalg.norm(np.cross(axis, IRB140.fk(q) @ point - frame.translation))
 
 
-def test_p1_by_the_axes():
+def test_p1_agrees_with_the_joint_axes():
     still = [k + 1 for k in range(6) if jacobian(np.zeros(6), k) < 1e-12]
     assert still == [4, 6] and "joints 4 and 6" in filled(LAB.predictions["p1"])[1][key("p1")].text
 
 
-def test_p2_by_the_axes():
+def test_p2_agrees_with_the_joint_axes():
     q = np.random.default_rng(2).uniform(*IRB140.limits.T)
     assert max(jacobian(q, k, (0, 0, -0.065)) for k in (3, 4, 5)) < 1e-12 and key("p2") == 2
 
 
-def test_p3_by_the_plane_of_the_arm():
+def test_p3_agrees_with_the_plane_of_the_arm():
     text = filled(LAB.predictions["p3"])[1][key("p3")].text
     q1 = float(text.rstrip("°").replace("−", "-")) * deg
     front = np.arctan2(-230.94, 400)
     assert abs(abs(q1 - front) - np.pi) < 1e-3
 
 
-def test_p4_by_half_turns():
+def test_p4_agrees_with_half_turns_of_the_wrist():
     text = filled(LAB.predictions["p4"])[1][key("p4")].text
     wrist = [float(x.strip("°").replace("−", "-")) for x in text.split(", ")]
     assert wrist == [25 - 180, -35, -50 + 180]
 
 
-def test_p5_by_the_distance_from_the_shoulder():
+def test_p5_agrees_with_the_distance_from_the_shoulder():
     for shoulder, end in ((0.07, "last"), (-0.07, "first")):
         xs = np.arange(250, 900)
         poses = [FACTS["pull"](x * mm) for x in xs]
@@ -292,7 +292,7 @@ def test_p5_by_the_distance_from_the_shoulder():
     assert key("p5") == 0
 
 
-def test_p6_by_the_jacobian():
+def test_p6_agrees_with_the_jacobian():
     columns = [
         [*np.cross(e, IRB140.fk(np.zeros(6)).translation - p), *e]
         for e, p in (
@@ -304,21 +304,21 @@ def test_p6_by_the_jacobian():
     assert np.linalg.matrix_rank(columns) == 2 and key("p6") == 3
 
 
-def test_p7_by_the_limits_alone():
+def test_p7_agrees_with_the_limits():
     rows = IRB140.ik(FACTS["task_1"]()[2])[:, 0]
     low, high = IRB140.limits.T
     past = ((rows > high + 1e-9) | (rows < low - 1e-9)).any(axis=1)
     assert past[:673].all() and not past[673:].any() and key("p7") == 2
 
 
-def test_p8_by_the_size_of_a_turn():
+def test_p8_equals_a_full_turn_per_time_step():
     facts = LAB.predictions["p8"].facts()
     for name, step in (("coarse", 0.01), ("fine", 0.005)):
         assert facts[name] == pytest.approx(2 * np.pi / step, rel=1e-3)
     assert key("p8") == 2
 
 
-def test_p9_by_the_law_of_cosines():
+def test_p9_agrees_with_the_law_of_cosines():
     a, b, d = 0.38, 0.35, 0.1
     angle = np.arccos((b**2 + d**2 - a**2) / (2 * b * d))
     assert angle > np.pi / 2 and key("p9") == 3
@@ -330,6 +330,6 @@ def test_p9_by_the_law_of_cosines():
     assert facts["miss"] == pytest.approx(chord * d / b / mm)
 
 
-def test_p10_by_counting():
+def test_p10_agrees_with_a_count():
     assert [q for q in range(-400, 401) if (q - 30) % 360 == 0] == [-330, 30, 390]
     assert key("p10") == 2

@@ -1,5 +1,5 @@
-"""The exercises and predictions of lab 03: right answers hold in every style, wrong ones are named,
-and the key of every prediction is computed in a second way.
+"""The exercises and predictions of lab 03: correct answers in every style pass, mistakes are named,
+and the key of every prediction is computed by another method.
 """
 
 import json
@@ -75,12 +75,12 @@ def _by_hand(distance, corner):
 @pytest.mark.parametrize(
     "answer", [_by_table, _by_bisection, _by_the_middle, _by_one_call, _by_hand]
 )
-def test_a_blend_found_in_another_way_holds(answer):
+def test_blends_found_by_other_methods_pass(answer):
     verdict = check("irb140_motion.1", answer)
     assert verdict.holds, verdict
 
 
-def test_the_blend_of_the_document_that_the_task_names():
+def test_blend_in_the_task_equals_that_of_the_document():
     exercise = LAB.exercises["1"]
     wanted = exercise.right(0.05, "parabola")
     assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
@@ -140,7 +140,7 @@ def _by_rounding(q0, q1, s):
 
 
 @pytest.mark.parametrize("answer", [_by_nearest, _by_loops, _by_recursion, _by_masks, _by_rounding])
-def test_a_short_way_found_in_another_way_holds(answer):
+def test_short_paths_found_by_other_methods_pass(answer):
     verdict = check("irb140_motion.2", answer)
     assert verdict.holds, verdict
 
@@ -153,7 +153,7 @@ def test_a_short_way_found_in_another_way_holds(answer):
         (2, False, "only two turns, without"),
     ],
 )
-def test_too_few_turns_are_told(most, limited, name):
+def test_too_few_turns_are_reported(most, limited, name):
     def few(q0, q1, s):
         low, high = IRB140.limits.T
         values = q1 + 2 * np.pi * np.array(sorted(range(-most, most + 1), key=abs))[:, None]
@@ -165,7 +165,7 @@ def test_too_few_turns_are_told(most, limited, name):
     assert not verdict.holds and verdict.mistake.startswith(name), verdict
 
 
-def test_a_value_a_little_off_is_told_so():
+def test_value_slightly_off_is_called_nearly_right():
     D = 1503 * mm  # typed with too few digits
 
     def typed(distance, corner):
@@ -176,7 +176,7 @@ def test_a_value_a_little_off_is_told_so():
     assert verdict.mistake == "nearly right", verdict
 
 
-def test_the_right_motion_has_its_laws():
+def test_correct_motion_satisfies_its_laws():
     exercise = LAB.exercises["2"]
     for q0, q1, s in exercise.cases:
         end = exercise.right(q0, q1, np.array([0.0, 1.0]))
@@ -193,7 +193,7 @@ def test_the_right_motion_has_its_laws():
         assert np.allclose(motion, ptp(q0, end[1], s), rtol=0, atol=1e-12)
 
 
-# --- both functions -------------------------------------------------------------------------------
+# --- 1 and 2 --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("number", FUNCTIONS)
@@ -208,7 +208,7 @@ def test_every_listed_mistake_is_named(number):
 
 
 @pytest.mark.parametrize("number", FUNCTIONS)
-def test_a_stranger_is_refused_without_a_name(number):
+def test_unknown_mistake_is_refused_without_a_name(number):
     def stranger(*case):
         if number == "1":
             return 0.2 + 0.1 * np.sin(50 * case[0]) + 0.03 * (case[1] == "quintic")
@@ -234,7 +234,7 @@ def test_a_stranger_is_refused_without_a_name(number):
         ("1", lambda d, corner: 0.123, "one answer to everything"),
     ],
 )
-def test_another_kind_of_answer(number, answer, name):
+def test_answers_of_another_kind_are_named(number, answer, name):
     verdict = check(f"irb140_motion.{number}", answer)
     assert not verdict.holds and verdict.mistake == name, verdict
 
@@ -284,7 +284,7 @@ def _by_several_motions(speeds):
 
 
 def _by_summing_up(speeds):
-    """Integrates the speeds, and looks at single samples."""
+    """A test that integrates the speeds and looks at single samples."""
     t = 1 + np.cumsum(np.tile([0.01, 0.01, 0.005], 300))
     phase = np.linspace(0, 3, 6)
     q = 3 * np.sin(1.2 * t[:, None] + phase) + 1
@@ -304,12 +304,12 @@ def _by_summing_up(speeds):
 @pytest.mark.parametrize(
     "test", [_by_one_sine, _by_assertions, _by_several_motions, _by_summing_up]
 )
-def test_a_fair_test_of_another_style_holds(test):
+def test_fair_tests_in_other_styles_pass(test):
     verdict = check("irb140_motion.3", test)
     assert verdict.holds, verdict
 
 
-def test_right_programs_keep_their_promise_and_wrong_ones_do_not():
+def test_correct_programs_keep_their_promise_and_wrong_ones_do_not():
     exercise = LAB.exercises["3"]
     rng = np.random.default_rng(2)
     for _ in range(5):
@@ -338,7 +338,7 @@ def test_right_programs_keep_their_promise_and_wrong_ones_do_not():
         (dict(rows=[0, -1]), "no unwrap"),
     ],
 )
-def test_what_a_weak_test_accepts_is_named(test, slips):
+def test_wrong_program_that_a_weak_test_accepts_is_named(test, slips):
     def weak(speeds, turns=np.pi, even=False, begin=2.0, within=1e-3, ends=0.1, rows=None):
         step = np.full(600, 0.008) if even else np.tile([0.005, 0.01], 300)
         t = begin + np.cumsum(step) - step[0]
@@ -356,7 +356,7 @@ def test_what_a_weak_test_accepts_is_named(test, slips):
     assert not verdict.holds and verdict.mistake == f"accepts: {slips}", verdict
 
 
-def test_differentiate_is_a_right_program_only_after_unwrapping():
+def test_differentiate_is_correct_only_after_unwrapping():
     t = np.linspace(0, 2, 201)
     q = 3 + np.outer(t, np.arange(6))
     assert abs(differentiate(_wrapped(q), t)).max() > 100
@@ -381,7 +381,7 @@ def _line_speeds(a, b, x, seconds):
     return np.linalg.solve(IRB140.jacobian(IRB140.ik(a.lerp(b, x))[ROW]), twist)
 
 
-def test_the_keys_found_in_another_way():
+def test_prediction_keys_agree_with_other_methods():
     speeds = abs(np.array([_line_speeds(LEFT, RIGHT, x, 20) for x in np.arange(0, 1, 0.02)]))
     assert (speeds.max(axis=0) > 1.1 * speeds.min(axis=0)).all()
     assert _right("p1") == "None of them."
@@ -434,7 +434,7 @@ def test_the_keys_found_in_another_way():
     assert _right("p10").startswith(f"{hole.argmax()}:")
 
 
-def test_nothing_outside_the_predictions_gives_an_answer_away():
+def test_nothing_outside_the_predictions_reveals_an_answer():
     seen = "\n".join(
         "".join(cell["source"])
         + "".join("".join(o.get("text", "")) for o in cell.get("outputs", ()))
@@ -447,7 +447,7 @@ def test_nothing_outside_the_predictions_gives_an_answer_away():
     assert not re.search(r"quicker|no joint keeps|doubles whenever|after the first NaN", seen)
 
 
-def test_the_poses_are_those_of_the_lab():
+def test_poses_equal_those_of_the_lab():
     space = {}
     exec("".join(CELLS["setup"]["source"]).split("row =")[0], space)
     for name in ("start", "via", "goal", "left", "right"):

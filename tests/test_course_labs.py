@@ -1,5 +1,5 @@
-"""Laws of the exercises and predictions of every lab. test_course_<lab>.py has the tests for a
-single lab.
+"""Laws for the exercises and predictions of every lab. The tests for a single lab are in
+test_course_<lab>.py.
 """
 
 import json
@@ -38,7 +38,7 @@ def code(lab):
 
 
 @every_lab
-def test_a_lab_asks_what_its_file_has_in_this_order(lab):
+def test_lab_asks_its_predictions_and_exercises_in_order(lab):
     asked = re.findall(r'^predict\("([\w.]+)"\)$', code(lab), re.M)
     assert asked == [p for p in PREDICTIONS if p.startswith(f"{lab}.")]
     checked = re.findall(r'^check\("([\w.]+)",', code(lab), re.M)
@@ -47,7 +47,7 @@ def test_a_lab_asks_what_its_file_has_in_this_order(lab):
 
 
 @every_lab
-def test_titles_and_what_is_optional_are_those_of_the_lab(lab):
+def test_exercise_titles_and_optional_predictions_match_the_lab(lab):
     sources = ["".join(c["source"]) for c in cells(lab)]
     text = "\n".join(sources)
     for n, exercise in book.lab(lab).exercises.items():
@@ -58,14 +58,14 @@ def test_titles_and_what_is_optional_are_those_of_the_lab(lab):
 
 
 @every_lab
-def test_every_objective_is_practised_and_stands_in_the_lab(lab, monkeypatch):
+def test_every_objective_is_practised_and_named_in_the_lab(lab, monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     made = book.lab(lab)
     assert len(made.objectives) == (1 if lab == SMALL else 3)
     numbers = set(range(1, len(made.objectives) + 1))
     assert {e.objective for e in made.exercises.values()} == numbers
     kinds = {type(e) for e in made.exercises.values()}
-    assert kinds - {Function}, "one of another kind than a function"
+    assert kinds - {Function}, "every exercise asks for a function"
     assert "not yet" in progress(lab) and all(f"{lab}.{n}" in progress(lab) for n in made.exercises)
     words = " ".join("".join(c["source"]) for c in cells(lab) if c["cell_type"] == "markdown")
     plain = re.sub(r"[*\s]+", " ", words)
@@ -74,8 +74,8 @@ def test_every_objective_is_practised_and_stands_in_the_lab(lab, monkeypatch):
 
 
 @every_lab
-def test_the_last_cell_of_your_turn_hands_in(lab):
-    """It uses the lab's student name, which an earlier cell or its own first line sets."""
+def test_last_cell_of_your_turn_makes_the_report(lab):
+    """The cell uses the student's name, which an earlier cell or its own first line sets."""
     sources = ["".join(c["source"]) for c in cells(lab)]
     end = next(k for k, text in enumerate(sources) if text.startswith("## In short"))
     assert re.search(r"^report\(who\)$", sources[end - 1], re.M)
@@ -85,7 +85,7 @@ def test_the_last_cell_of_your_turn_hands_in(lab):
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_the_untouched_lab_is_not_answered_yet(name):
+def test_untouched_lab_is_not_answered_yet(name):
     lab, _, number = name.partition(".")
     kept = [
         "".join(c["outputs"][0]["data"]["text/plain"])
@@ -96,7 +96,7 @@ def test_the_untouched_lab_is_not_answered_yet(name):
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_hints_rise_and_the_solution_holds(name):
+def test_hints_are_distinct_and_the_solution_passes(name):
     exercise = book.find(name, "exercises")
     assert len(exercise.hints) == 3 and len(set(exercise.hints)) == 3
     assert all(text in hint(name, k) for k, text in enumerate(exercise.hints, 1))
@@ -116,8 +116,8 @@ def zeros(value):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_no_exercise_accepts_nothing(name):
-    """Zeros, NaN, the input itself, an empty answer."""
+def test_no_exercise_accepts_a_trivial_answer(name):
+    """Zeros, NaN, the input itself and an empty answer are refused."""
     exercise = book.find(name, "exercises")
     like = exercise.wanted[0]
     nothing = {
@@ -134,7 +134,7 @@ def test_no_exercise_accepts_nothing(name):
 
 
 @pytest.mark.parametrize("name", [e for e in EXERCISES if e not in FUNCTIONS])
-def test_no_value_and_no_test_is_right_by_chance(name):
+def test_no_trivial_value_or_test_passes(name):
     if name in CATCHES:
         for answer in (lambda p: True, lambda p: False, lambda p: 1 / 0, lambda p: "x"):
             assert not check(name, answer).holds
@@ -145,7 +145,7 @@ def test_no_value_and_no_test_is_right_by_chance(name):
 
 
 def of_the_solution(name):
-    """(the test that the solution writes, its call of `check` with `yours` in its place)"""
+    """The test that the solution defines and passes to `check`."""
     lab = name.partition(".")[0]
     [call] = re.findall(rf'^check\("{re.escape(name)}", ?(?:answer=)?(\w+)\)$', code(lab), re.M)
     space = {"check": check}
@@ -154,8 +154,8 @@ def of_the_solution(name):
 
 
 @pytest.mark.parametrize("name", CATCHES)
-def test_no_test_holds_by_a_trick(name, monkeypatch):
-    """Tests that count their calls, ignore errors, return nothing, or answer only sometimes."""
+def test_no_test_passes_by_a_trick(name, monkeypatch):
+    """The tricks: to count the calls, ignore errors, return nothing, or answer only sometimes."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1
@@ -191,7 +191,7 @@ def test_no_test_holds_by_a_trick(name, monkeypatch):
 
 
 @pytest.mark.parametrize("name", PREDICTIONS)
-def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
+def test_prediction_has_one_correct_option_and_a_reason_for_each(name):
     prediction = book.find(name, "predictions")
     question, options, right = filled(prediction)
     typed = prediction.unit is not None
@@ -208,15 +208,15 @@ def test_a_prediction_has_one_right_answer_and_a_reason_for_each(name):
     asked = question + "".join(option.text for option in options)
     assert not re.search(r"\bnan\b|\bjust\b|\bsimply\b", asked)
     said = asked + "".join(option.reason + option.second for option in options)
-    assert not re.search(r"[{}$\\]", said), "a blank that is not filled, or a formula"
+    assert not re.search(r"[{}$\\]", said), "an unfilled blank or a formula"
     for k, option in enumerate(options):
-        if typed:  # the numbers of all confusions are distinguishable
+        if typed:  # the values of all options are distinguishable
             assert chosen_option(prediction, options, right, float(option.text)) == k
-    assert shown(prediction.view()), "a view that shows nothing"
+    assert shown(prediction.view()), "the view shows nothing"
 
 
 @pytest.mark.parametrize("name", PREDICTIONS)
-def test_nothing_behind_a_prediction_stands_open(name):
+def test_reasons_of_predictions_do_not_appear_in_the_lab(name):
     lab, _, number = name.partition(".")
     _, options, right = filled(book.find(name, "predictions"))
     open_words = []
@@ -232,7 +232,7 @@ def test_nothing_behind_a_prediction_stands_open(name):
             assert not hidden or " ".join(hidden.split()) not in text
 
 
-def test_in_a_kernel_an_endless_answer_is_told_and_the_kernel_lives():
+def test_endless_answer_is_reported_and_the_kernel_survives():
     notebook = nbformat.v4.new_notebook(
         cells=[
             nbformat.v4.new_code_cell(source)
@@ -248,13 +248,13 @@ def test_in_a_kernel_an_endless_answer_is_told_and_the_kernel_lives():
     )
     NotebookClient(notebook, timeout=PATIENCE, kernel_name="python3").execute()
     told, alive, after = (cell["outputs"][0] for cell in notebook.cells[1:])
-    assert "does not come to an end, or" in told["data"]["text/plain"]
+    assert "It never ends, or" in told["data"]["text/plain"]
     assert alive["text"] == "2\n"
     assert "begun" in after["data"]["text/plain"]
 
 
 @pytest.mark.parametrize("name", ["answers", "", "..", None, 7, "irb140_motion.1"])
-def test_what_is_no_lab_is_refused(name):
+def test_names_that_are_not_labs_are_refused(name):
     """Names of course modules are refused, too, since a name comes from a handed-in file."""
     with pytest.raises(ValueError, match="lab: wanted one of start_here, "):
         book.lab(name)

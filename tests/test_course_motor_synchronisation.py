@@ -1,4 +1,4 @@
-"""The exercises of lab 11: right answers in different styles hold, wrong ones are named."""
+"""The exercises of lab 11: correct answers in different styles pass, and mistakes are named."""
 
 import math
 import re
@@ -23,7 +23,9 @@ def short(d):
 
 
 def posture(alpha, guard=True, beta=lambda b: b):
-    """A program with its own alpha; without a guard math.acos raises."""
+    """A program that computes alpha with the given function; without the guard, math.acos raises an
+    error.
+    """
 
     def program(point, before):
         x, y, z = map(float, point)
@@ -59,7 +61,7 @@ def by_package(point, before):
     return [[alpha, q[1] % TURN, abs(q[2])]]
 
 
-def test_two_turns_are_not_enough():
+def test_removing_only_two_turns_is_not_enough():
     def few(x, y, before):
         ends = [math.atan2(y, x) + k * TURN for k in range(-2, 3)]
         return before if x == y == 0 else min(ends, key=lambda a: abs(a - before))
@@ -69,7 +71,7 @@ def test_two_turns_are_not_enough():
 
 
 @pytest.mark.parametrize("answer", [posture(right), posture(by_loops), by_package])
-def test_a_right_posture_holds_however_it_is_written(answer):
+def test_correct_postures_pass_in_every_style(answer):
     assert check("motor_synchronisation.1", answer).holds
 
 
@@ -86,7 +88,7 @@ def test_a_right_posture_holds_however_it_is_written(answer):
         (lambda p, b: np.degrees(posture(right)(p, b)), "degrees for radians"),
     ],
 )
-def test_a_wrong_posture_is_named(answer, name):
+def test_mistakes_in_postures_are_named(answer, name):
     verdict = check("motor_synchronisation.1", answer)
     assert not verdict.holds and name in verdict.mistake
 
@@ -102,16 +104,16 @@ def pulses(q, gears):
 
 
 @pytest.mark.parametrize("who", [f"student {k}" for k in range(30)])
-def test_every_name_has_a_move_that_can_be_driven(who):
+def test_every_name_has_a_feasible_move(who):
     own, q, gear = move(who)
     for gears in ([gear] * 3, [gear, gear + 1, gear + 2]):
         drive = {"gears": gears, "frequencies": list(frequencies(pulses(q, gears), own["most"]))}
         assert check("motor_synchronisation.2", drive, who=who).holds
     alpha = (q[:, 0] + np.pi) % TURN - np.pi
-    assert abs(np.diff(alpha)[0]) > np.pi, "the move passes 180°"
+    assert abs(np.diff(alpha)[0]) > np.pi, "the move does not cross 180°"
 
 
-def test_wrong_drives_are_named():
+def test_mistakes_in_drives_are_named():
     own, q, gear = move("Ada")
     gears, most = [gear] * 3, own["most"]
     n = pulses(q, gears)
@@ -130,7 +132,7 @@ def test_wrong_drives_are_named():
         assert check("motor_synchronisation.2", drive, who="Ada").mistake == name
 
 
-def test_a_test_of_one_direction_or_one_table_is_told_what_it_misses():
+def test_test_of_one_direction_or_one_table_reports_what_it_misses():
     space = {}
     exec(solution("motor_synchronisation.3"), space)
     whole = space["windings_are_right"]
@@ -145,7 +147,7 @@ def test_a_test_of_one_direction_or_one_table_is_told_what_it_misses():
 
 
 def looking(rows):
-    """A test by fields that looks at these of the rows; `rows` gives the numbers of two or more."""
+    """A test of the magnetic fields in some rows; `rows` selects two or more of the row numbers."""
     signs = np.array([1] * 11 + [-1] * 21 + [1] * 3 + [-1, 1])
 
     def test(windings):
@@ -182,7 +184,7 @@ def looking(rows):
         (lambda k: k[:15], "it stops half way"),
     ],
 )
-def test_a_test_has_to_look_at_every_row(rows, name):
+def test_test_must_look_at_every_row(rows, name):
     verdict = check("motor_synchronisation.3", looking(rows))
     test = looking(rows)
     exercise = LAB.exercises["3"]
@@ -192,7 +194,7 @@ def test_a_test_has_to_look_at_every_row(rows, name):
     assert not verdict.holds and verdict.mistake.startswith("accepts: ")
 
 
-def test_faults_of_a_drive_tell_numbers_that_differ_and_not_the_answer():
+def test_drive_faults_report_different_numbers_and_not_the_answer():
     own, q, gear = move("Ada")
     n = pulses(q, [gear] * 3)
     high = {"gears": [9 * gear] * 3, "frequencies": frequencies(n, own["most"])}
@@ -209,8 +211,8 @@ def test_faults_of_a_drive_tell_numbers_that_differ_and_not_the_answer():
     assert check("motor_synchronisation.2", text, who="Ada").mistake == "another kind or shape"
 
 
-def test_lost_steps_come_in_fours_by_another_integration_too():
-    # p10, with SciPy and without the windings' time constant: the answer does not hang on it
+def test_lost_steps_come_in_fours_with_another_integrator():
+    # p10, with SciPy and without the windings' time constant, which does not affect the answer
     def lost(frequency):
         theta, omega, since, ends = (
             0.0,

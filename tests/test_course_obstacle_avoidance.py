@@ -1,4 +1,4 @@
-"""The exercises of lab 10: right answers hold in every style, wrong ones are named, and individual
+"""The exercises of lab 10: correct answers in every style pass, mistakes are named, and individual
 tasks can be solved.
 """
 
@@ -47,7 +47,7 @@ def _to_the_left(c, H):
 @pytest.mark.parametrize(
     "right", [_angle_sum, _upward, _to_the_left, lambda c, H: Outline(c).contains_point(H)]
 )
-def test_inside_in_every_style(right):
+def test_correct_inside_tests_pass_in_every_style(right):
     assert check("obstacle_avoidance.1", right).holds
 
 
@@ -73,8 +73,8 @@ def _returns_early(c, H):
 
 
 def _winding(c, H):
-    """The nonzero rule instead of the even-odd rule: the middle of a star drawn in one line is
-    inside.
+    """The nonzero rule instead of the even-odd rule: the middle of a star drawn with a single line
+    counts as inside.
     """
     z = (c - H) @ [1, 1j]
     return abs(np.angle(np.roll(z, -1) / z).sum()) > 3
@@ -94,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """Neither end point of a side counts."""
+    """The crossings of the sides, where neither end point of a side counts."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
@@ -115,13 +115,13 @@ def _by_products(c, H):
         (lambda c, H: (c.min(0) <= H).all() and (H <= c.max(0)).all(), "the box around it"),
     ],
 )
-def test_a_wrong_inside_is_named(wrong, named):
+def test_mistakes_in_inside_tests_are_named(wrong, named):
     verdict = check("obstacle_avoidance.1", wrong)
     assert not verdict.holds and verdict.mistake == named
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas"])
-def test_what_one_knows_already_does_not_pass_the_bar(who):
+def test_paths_known_from_the_lab_do_not_pass_the_bar(who):
     task = variant("obstacle_avoidance", who)
     start = np.array(task["start"]) * deg
     end = arm.least(task["target"], start)[0]
@@ -145,8 +145,8 @@ def test_what_one_knows_already_does_not_pass_the_bar(who):
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas", "your name"])
-def test_a_bar_is_passed_by_folding_and_by_points_near_enough(who):
-    """And what the sentence in the hints says of points h apart is true."""
+def test_paths_around_dense_points_pass_the_bar(who):
+    """The hint about points at a distance h from each other is true, too."""
     task = variant("obstacle_avoidance", who)
     start, (first, last) = np.array(task["start"]) * deg, np.array(task["bar"])
     for count in (10, 16):
@@ -158,7 +158,7 @@ def test_a_bar_is_passed_by_folding_and_by_points_near_enough(who):
         assert check("obstacle_avoidance.2", path, who=who).holds
 
 
-def test_a_path_of_text_is_no_path_and_numbers_that_differ_are_printed_so():
+def test_path_of_strings_is_refused_and_different_numbers_print_differently():
     task = variant("obstacle_avoidance", "Ada")
     start = np.array(task["start"]) * deg
     path = np.array([start, arm.least(task["target"], start)[0]])
@@ -172,7 +172,9 @@ def test_a_path_of_text_is_no_path_and_numbers_that_differ_are_printed_so():
 
 @cache
 def _tasks(count, turn, gap):
-    """Paths, H, a distance, whether it is kept: `gap` from the least distance."""
+    """(path, H, distance, whether the path keeps it); the distance differs from the least one by
+    `gap`.
+    """
     rng, made = np.random.default_rng(2), []
     while len(made) < count:
         first = rng.uniform(0.3, 2.8, 3)
@@ -190,18 +192,18 @@ def _tasks(count, turn, gap):
 
 @pytest.mark.parametrize(
     "turn, gap, mistake",
-    [(80, 0.004, "refuses a right program"), (170, 0.03, "refuses a right program")],
+    [(80, 0.004, "refuses a correct program"), (170, 0.03, "refuses a correct program")],
 )
-def test_a_test_that_asks_more_than_is_promised(turn, gap, mistake):
+def test_test_that_asks_more_than_promised_is_named(turn, gap, mistake):
     def strict(safe):
         return all(bool(safe(path, H, d)) == truth for path, H, d, truth in _tasks(60, turn, gap))
 
     assert check("obstacle_avoidance.3", strict).mistake == mistake
 
 
-def test_a_test_of_first_and_last_postures_is_not_enough():
+def test_test_of_first_and_last_postures_is_not_enough():
     rng, tasks = np.random.default_rng(4), []
-    while len(tasks) < 80:  # the arm is nearest to H where it begins or ends
+    while len(tasks) < 80:  # the arm is nearest to H in its first or last posture
         path = rng.uniform(0.7, 2.2, (2, 3))
         points = arm.points(path[rng.integers(2)])
         i = rng.integers(3)
@@ -217,13 +219,13 @@ def test_a_test_of_first_and_last_postures_is_not_enough():
     assert verdict.mistake == "accepts: the postures only", verdict
 
 
-def test_the_distances_of_the_checks_are_those_of_the_package():
+def test_distances_in_the_checks_equal_those_of_the_package():
     from robokin.jobs.obstacles import distances
 
     q = np.random.default_rng(1).uniform(0, np.pi, (50, 3))
     assert np.allclose(lever_distances(q, [1.2, 1.3]), distances(arm, q, (1.2, 1.3)), atol=1e-12)
 
 
-def test_a_test_with_one_easy_task_is_not_enough():
+def test_test_with_one_easy_task_is_not_enough():
     verdict = check("obstacle_avoidance.3", lambda safe: safe([[1, 1, 1], [2, 2, 2]], [9, 9], 0.1))
     assert not verdict.holds and verdict.mistake.startswith("accepts: ")

@@ -1,5 +1,5 @@
-"""The exercises of lab 07: right answers in different styles hold, and wrong ones are named. Laws
-of all labs are in test_course_labs.py.
+"""The exercises of lab 07: correct answers in different styles pass, and mistakes are named. The
+laws for all labs are in test_course_labs.py.
 """
 
 import re
@@ -46,7 +46,7 @@ def by_row(turn_back, order):
 
 
 @pytest.mark.parametrize("answer", [by_flags, by_row(True, 1), by_row(True, np.inf)])
-def test_right_names_hold(answer):
+def test_correct_names_pass(answer):
     verdict = check("puma560_branches.1", answer)
     assert verdict.holds, verdict
 
@@ -68,7 +68,7 @@ def test_right_names_hold(answer):
         ),
     ],
 )
-def test_wrong_names_are_named(answer, mistake):
+def test_mistakes_in_names_are_named(answer, mistake):
     verdict = check("puma560_branches.1", answer)
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
@@ -90,7 +90,7 @@ def doubled(q, direction, most):
 
 
 @pytest.mark.parametrize("answer", [doubled, lambda q, d, most: 1 / max(abs(rates(q, d) / most))])
-def test_right_speeds_hold(answer):
+def test_correct_speeds_pass(answer):
     verdict = check("puma560_branches.2", answer)
     assert verdict.holds, verdict
 
@@ -110,7 +110,7 @@ def test_right_speeds_hold(answer):
         (lambda q, d, most: most.mean() / abs(rates(q, d)).max(), "one most for all joints"),
     ],
 )
-def test_wrong_speeds_are_named(answer, mistake):
+def test_mistakes_in_speeds_are_named(answer, mistake):
     verdict = check("puma560_branches.2", answer)
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
@@ -126,7 +126,7 @@ def test_wrong_speeds_are_named(answer, mistake):
         (lambda fastest: 1.02 * fastest, "the joint speed for the duration"),
     ],
 )
-def test_a_duration_is_told_what_it_is(change, mistake):
+def test_durations_get_the_expected_verdict(change, mistake):
     # near 1 rad/s a joint speed cannot be distinguished from a duration
     who = next(name for name in map(str, range(99)) if abs(lab.given(name)["fastest"] - 1) > 0.3)
     numbers = lab.given(who)
@@ -138,7 +138,7 @@ def test_a_duration_is_told_what_it_is(change, mistake):
     assert verdict.holds == (mistake is None) and verdict.mistake == mistake, verdict
 
 
-def test_the_peak_of_ptp_is_not_that_of_a_line():
+def test_peak_speed_of_ptp_is_not_that_of_a_line():
     numbers = lab.given("Chen")
     judged = judged_line(numbers)
     row = int(judged.least(1.0).argmin())
@@ -148,7 +148,7 @@ def test_the_peak_of_ptp_is_not_that_of_a_line():
 
 
 @pytest.mark.parametrize("factor", [0.5, 0.9, 1.06, 1.08, 1.3, 3])
-def test_no_fault_of_a_line_tells_the_answer_or_guesses(factor):
+def test_line_faults_do_not_reveal_the_answer(factor):
     for who in ("Ada", "Bo", "Chen", "Dora", "Emil"):
         numbers = lab.given(who)
         least = judged_line(numbers).least(numbers["fastest"])
@@ -165,7 +165,7 @@ def test_no_fault_of_a_line_tells_the_answer_or_guesses(factor):
                 assert verdict.mistake == "too slow", (who, verdict)
 
 
-def test_distances_and_speeds_are_told_in_sensible_numbers():
+def test_distances_and_speeds_are_reported_as_sensible_numbers():
     names, speeds = lab.exercises["1"], lab.exercises["2"]
     for k, (q,) in enumerate(names.cases):
         told = names.code["law"]((q,), "nothing", names.wanted[k])
@@ -176,7 +176,7 @@ def test_distances_and_speeds_are_told_in_sensible_numbers():
     assert should != is_at
 
 
-def test_an_offset_left_out_and_a_bend_a_little_off_are_seen():
+def test_missing_offset_and_slightly_wrong_bend_are_detected():
     def of(q, ahead, bend):
         front = ahead(q) > 0
         return said(front, front != (np.sin(bend(q)) > 0), q[4] > 0)

@@ -1,5 +1,5 @@
-"""The exercises and predictions of lab 04: right answers hold in every style, wrong ones are named,
-every student's task can be solved, and every prediction's key is computed a second time.
+"""The exercises and predictions of lab 04: correct answers in every style pass, mistakes are named,
+every student's task can be solved, and every prediction's key is computed by another method.
 """
 
 import re
@@ -45,7 +45,7 @@ def _by_cosines(q):
 
 
 @pytest.mark.parametrize("answer", [_by_direction, _by_rows, _by_complex_numbers, _by_cosines])
-def test_another_elbow_found_in_another_way_holds(answer):
+def test_other_elbows_found_by_other_methods_pass(answer):
     verdict = check("scara_kinematics.1", answer)
     assert verdict.holds, verdict
 
@@ -70,13 +70,13 @@ def test_every_listed_mistake_is_named():
         (lambda q: q, None),
     ],
 )
-def test_a_wrong_elbow_gets_its_name(answer, name):
+def test_mistakes_in_elbows_are_named(answer, name):
     verdict = check("scara_kinematics.1", answer)
     assert not verdict.holds
     assert name is None or name in (verdict.mistake or ""), verdict
 
 
-def test_a_stranger_is_refused_without_a_name():
+def test_unknown_mistake_is_refused_without_a_name():
     verdict = check("scara_kinematics.1", lambda q: q * np.array([0.3, -1.1, 0.9, 1]))
     assert not verdict.holds and verdict.mistake is None
 
@@ -115,7 +115,7 @@ def test_every_student_can_solve_the_task():
         ({"angle": ...}, None),
     ],
 )
-def test_a_wrong_circle_gets_its_name(change, name):
+def test_mistakes_in_circles_are_named(change, name):
     who = next(
         w
         for n, w in _every_task().items()
@@ -136,7 +136,7 @@ def test_a_wrong_circle_gets_its_name(change, name):
     assert name is None or verdict.mistake == name, verdict
 
 
-def test_the_task_is_the_one_that_the_lab_draws():
+def test_task_is_the_one_that_the_lab_draws():
     numbers = variant("scara_kinematics", "Ada")
     targets = CIRCLE["own_circle"](numbers, 0.3, 0.5)
     centre = 0.3 * np.array([np.cos(numbers["bearing"]), np.sin(numbers["bearing"])])
@@ -148,7 +148,7 @@ def test_the_task_is_the_one_that_the_lab_draws():
 # --- 3 --------------------------------------------------------------------------------------------
 
 
-def test_right_and_wrong_programs_are_what_their_names_say():
+def test_correct_and_wrong_programs_match_their_names():
     rng = np.random.default_rng(4)
     limits = SCARA.limits
     q = rng.uniform(*limits.T, (40, 4))
@@ -163,7 +163,7 @@ def test_right_and_wrong_programs_are_what_their_names_say():
                 assert not program(spoiled, limits)
 
 
-def test_a_weak_test_is_told_what_it_lets_through():
+def test_weak_limit_test_reports_what_it_accepts():
     def one_sided(inside):
         good = np.tile(SCARA.limits.mean(axis=1), (25, 1))
         bad = good.copy()
@@ -176,11 +176,11 @@ def test_a_weak_test_is_told_what_it_lets_through():
     def strict(inside):
         return not inside(SCARA.limits.T, SCARA.limits)
 
-    assert check("scara_kinematics.3", strict).mistake == "refuses a right program"
+    assert check("scara_kinematics.3", strict).mistake == "refuses a correct program"
 
 
 def spoiled(past, tables, at=(7,), said=bool):
-    """A test that changes one value at a time by a given amount."""
+    """A test that moves one value at a time past its limit by a given amount."""
 
     def inside_is_right(inside):
         for limits in tables:
@@ -206,7 +206,7 @@ FOUR = [(-2, 2), (-3, 1), (-7, 7), (0, 0.2)]
 SIX = [(-0.5, 4), (-9, 9), (0.1, 2), (-3, 3), (-7, 1), (-2, 5)]
 
 
-def test_a_limit_test_has_to_try_small_excesses_and_six_joints():
+def test_limit_test_must_try_small_excesses_and_six_joints():
     def close(answer):
         return bool(np.isclose(answer, True))
 
@@ -223,7 +223,7 @@ def test_a_limit_test_has_to_try_small_excesses_and_six_joints():
     assert ends.mistake == "accepts: start and end only"
 
 
-def test_a_posture_far_turned_or_a_little_off_is_judged_as_it_is():
+def test_whole_turns_pass_and_small_errors_are_called_nearly_right():
     def turned(q):
         return np.array(_by_direction(q)) + [12 * np.pi, 0, -12 * np.pi, 0]
 
@@ -237,7 +237,7 @@ def test_a_posture_far_turned_or_a_little_off_is_judged_as_it_is():
     assert place != is_at
 
 
-# --- Predictions, a second way --------------------------------------------------------------------
+# --- Predictions by another method ----------------------------------------------------------------
 
 
 def _right(name):
@@ -245,17 +245,17 @@ def _right(name):
     return options[right].text
 
 
-def test_the_tool_turns_with_both_joints():
+def test_p1_tool_turns_with_both_joints():
     a, b = (SCARA.fk(q).rotation for q in ([0, 0, 0, 0], [30 * deg, 30 * deg, -60 * deg, 0]))
     assert np.allclose(a.as_matrix(), b.as_matrix()) and _right("p1") == "By −60°."
 
 
-def test_the_mirror_image():
+def test_p3_agrees_with_inverse_kinematics():
     q1 = SCARA.ik(ScaraPose([0.2, 0.2, 0.1]))[1, 0]
     assert _right("p3") == f"{q1 / deg:.1f}°."
 
 
-def test_the_arcsine():
+def test_p4_arcsine_misses_the_target():
     l1, l2, d = 0.2, 0.25, 0.13
     q2 = np.arccos((d**2 - l1**2 - l2**2) / (2 * l1 * l2))
     q1 = -np.arcsin(l2 * np.sin(q2) / d)
@@ -263,18 +263,18 @@ def test_the_arcsine():
     assert abs(end - d) == pytest.approx(0.028, abs=5e-4) and "28 mm" in _right("p4")
 
 
-def test_the_place_behind_the_arm():
+def test_p5_only_one_elbow_reaches_behind_the_arm():
     rows = SCARA.ik(FACTS["BEHIND"])
     assert within(SCARA, rows).all(axis=-1).tolist() == [True, False]
     assert _right("p5").startswith("Elbow +1 alone")
 
 
-def test_the_hole_with_another_stop():
+def test_p6_radius_of_the_hole_follows_from_the_limit():
     x, y, _ = SCARA.fk([0, 120 * deg, 0, 0]).translation
     assert float(_right("p6")) == pytest.approx(np.hypot(x, y) / mm, abs=0.05)
 
 
-def test_the_areas_by_a_grid():
+def test_p7_areas_agree_with_a_grid():
     across = np.arange(-458, 460, 4.0)
     x, y = np.meshgrid(across, across)
     grid = ScaraPose(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm)
@@ -287,7 +287,7 @@ def test_the_areas_by_a_grid():
     assert _right("p7").startswith("Joint 2")
 
 
-def test_one_turn_of_the_tool():
+def test_p8_only_one_elbow_keeps_its_limits():
     omega = np.linspace(0, 2 * np.pi, 101)
     place = np.stack([0.2 + 0.07 * np.cos(omega), 0.07 * np.sin(omega), 0 * omega + 0.1], axis=-1)
     rows = SCARA.ik(ScaraPose(place, omega))
@@ -295,7 +295,7 @@ def test_one_turn_of_the_tool():
     assert np.allclose(ends, [315, 405], atol=0.05) and _right("p8") == "Elbow +1 alone."
 
 
-def test_the_last_millimetres():
+def test_p9_agrees_with_inverse_kinematics():
     q2 = SCARA.ik(ScaraPose([0.44, 0, 0.1]))[0, 1]
     assert round(q2 / deg) == 24 and _right("p9") == "By about 24°."
     assert _right("p2").startswith("540° with lerp, 180°")

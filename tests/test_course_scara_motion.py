@@ -1,5 +1,5 @@
-"""The exercises and predictions of lab 05: right answers hold in every style, wrong ones are named,
-and the keys of the predictions are computed in a second way.
+"""The exercises and predictions of lab 05: correct answers in every style pass, mistakes are named,
+and the keys of the predictions are computed by another method.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ TURN = 2 * np.pi
 LOW, HIGH = SCARA.limits.T
 
 
-# --- 1: the least turn of the tool ----------------------------------------------------------------
+# --- 1: the least rotation of the tool ------------------------------------------------------------
 
 
 def _by_list(q0, position, angle):
@@ -47,7 +47,7 @@ def _by_rounding(q0, position, angle):
 
 
 @pytest.mark.parametrize("answer", [_by_list, _by_rounding])
-def test_the_least_turn_found_in_another_way_holds(answer):
+def test_least_rotation_found_by_other_methods_passes(answer):
     assert check("scara_motion.1", answer).holds
 
 
@@ -228,7 +228,7 @@ def _stroke_in_both_angles(q0, position, angle):
 
 
 @pytest.mark.parametrize(("most", "name"), [(2, "only two turns"), (3, "only three turns")])
-def test_too_few_turns_are_told(most, name):
+def test_too_few_turns_are_reported(most, name):
     def few(q0, position, angle):
         q = _posture(q0, position, angle)
         ends = [angle + k * TURN - q[0] - q[1] for k in sorted(range(-most, most + 1), key=abs)]
@@ -239,7 +239,7 @@ def test_too_few_turns_are_told(most, name):
     assert check("scara_motion.1", few).mistake == name
 
 
-def test_the_case_tells_degrees_and_the_elbow():
+def test_case_reports_degrees_and_the_elbow():
     case = check("scara_motion.1", _zero_is_negative).case
     assert "joint 2 stands at 0.0° in q0, which counts as positive" in case
     case = check("scara_motion.1", _degrees_without_limits).case
@@ -278,7 +278,7 @@ def test_the_case_tells_degrees_and_the_elbow():
         (_in_360, "360"),
     ],
 )
-def test_a_wrong_turn_is_named(answer, word):
+def test_mistakes_in_the_rotation_are_named(answer, word):
     verdict = check("scara_motion.1", answer)
     assert not verdict.holds and verdict.case
     assert verdict.mistake and word in verdict.mistake, verdict
@@ -313,7 +313,7 @@ def _in_degrees_and_mm(q):
 
 
 @pytest.mark.parametrize("answer", [_loops, _middles, _extremes, _slack, _in_degrees_and_mm])
-def test_a_right_limit_test_holds_in_every_style(answer):
+def test_correct_limit_tests_pass_in_every_style(answer):
     assert check("scara_motion.2", answer).holds
 
 
@@ -357,13 +357,13 @@ def _ends(q):
         (lambda q: not ((q < LOW - 1e-4) | (q > HIGH + 1e-4)).any(), "a margin too wide, and NaN"),
     ],
 )
-def test_a_wrong_limit_test_is_named(answer, word):
+def test_mistakes_in_limit_tests_are_named(answer, word):
     verdict = check("scara_motion.2", answer)
     assert not verdict.holds and verdict.case and word in verdict.mistake, verdict
 
 
 @pytest.mark.parametrize("joint", [1, 2, 3])
-def test_a_joint_left_out_is_told_and_not_called_wrapped(joint):
+def test_untested_joint_is_reported_and_not_called_wrapped(joint):
     def one_left_out(q):
         q = q.copy()
         q[~np.isnan(q).any(axis=1), joint - 1] = 0.1
@@ -385,11 +385,11 @@ def _limited(low=LOW, high=HIGH):
         (lambda q: _limited()(np.round(q / [deg, deg, deg, 1e-9]) * [deg, deg, deg, 1e-9]), None),
     ],
 )
-def test_no_near_variant_gets_the_name_of_another_program(answer, name):
+def test_similar_program_does_not_get_the_name_of_another(answer, name):
     assert check("scara_motion.2", answer).mistake == name
 
 
-def test_a_case_of_the_limit_test_prints_the_excess():
+def test_case_of_the_limit_test_reports_the_excess():
     law = LAB.module("limits_kept")["law"]
     q = np.tile([0.1, 0.5, 0.2, 0.1], (3, 1))
     for joint, value, told in (
@@ -405,7 +405,7 @@ def test_a_case_of_the_limit_test_prints_the_excess():
     assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in law((bad,), False, True)
 
 
-# --- 3: a blend of one's own ----------------------------------------------------------------------
+# --- 3: an individual blend -----------------------------------------------------------------------
 
 
 def _least(mine):
@@ -414,24 +414,25 @@ def _least(mine):
 
 
 @pytest.mark.parametrize("more", [1.0001, 1.05, 1.1])
-def test_every_name_can_be_served(more):
+def test_every_name_has_a_feasible_blend(more):
     for who in range(40):
         mine = variant("scara_motion", who)
         b, both = _least(mine)
         assert 0.05 < b < 0.45
         needed = np.sqrt(both / (more * b * mine["acceleration"]))
-        assert needed > 5  # rounded up to a tenth of a second it is within 2 %
+        assert needed > 5  # so that rounding up to a tenth of a second adds less than 2 %
         for duration in (needed, needed * 1.019, np.ceil(10 * needed) / 10):
             design = {"blend": more * b, "duration": duration}
             assert check("scara_motion.3", design, who=who).holds, (who, mine)
         for factor, name in ((0.99, "too fast"), (1.021, "slower than needed")):
             design = {"blend": more * b, "duration": needed * factor}
             assert check("scara_motion.3", design, who=who).mistake == name
-        over_table = mine["start_z"] + mine["goal_z"]  # and not over via: told for every name
+        # heights above the table instead of above via are noticed for every name
+        over_table = mine["start_z"] + mine["goal_z"]
         assert np.sqrt(over_table / both) > 1.025
 
 
-def test_joints_1_to_3_stay_inside_whatever_the_heights():
+def test_joints_1_to_3_stay_inside_their_limits_for_all_blends():
     start, via, goal = (LAB.module("shared")[name] for name in ("START", "VIA", "GOAL"))
     for b in np.linspace(0, 0.5, 11):
         path = blend(start, via, goal, b, np.linspace(0, 1, 1001))
@@ -441,7 +442,7 @@ def test_joints_1_to_3_stay_inside_whatever_the_heights():
         assert np.allclose(SCARA.ik(higher)[..., :3], SCARA.ik(path)[..., :3], rtol=0, atol=1e-12)
 
 
-def test_a_wrong_design_is_named():
+def test_mistakes_in_the_design_are_named():
     mine = variant("scara_motion", "Ada")
     b, both = _least(mine)
 
@@ -464,7 +465,7 @@ def test_a_wrong_design_is_named():
 # --- The predictions ------------------------------------------------------------------------------
 
 
-def test_the_right_answers_in_another_way():
+def test_prediction_keys_agree_with_other_calculations():
     right = {name: filled(p)[1][filled(p)[2]].text for name, p in LAB.predictions.items()}
     assert right["p1"] == "Joint 3 alone." and right["p2"] == "Joint 4 alone."
     assert right["p3"] == "x and y." and right["p4"] == "On LIN alone."
@@ -475,7 +476,7 @@ def test_the_right_answers_in_another_way():
     assert "0.35" in right["p9"] and right["p10"] == "Half of it."
 
 
-def test_a_corner_is_an_enlargement_from_via():
+def test_corners_are_scaled_copies_about_via():
     start, via, goal = (LAB.module("shared")[name] for name in ("START", "VIA", "GOAL"))
     x = np.linspace(0, 1, 11)
     for corner in ("parabola", "quintic"):
@@ -497,11 +498,11 @@ def test_a_corner_is_an_enlargement_from_via():
         (lambda t: t * 1000**0.5, "mm for m"),
         (lambda t: 1.3 * t, "slower than needed"),
         (lambda t: 0.9 * t, "too fast"),
-        (lambda t: 0.508 * t, "too fast"),  # not 0.5, which nobody can explain
+        (lambda t: 0.508 * t, "too fast"),  # not exactly half, so the cause is unknown
         (lambda t: 1.97 * t, "slower than needed"),
     ],
 )
-def test_a_slip_in_the_duration_is_named(spoil, name):
+def test_slips_in_the_duration_are_named(spoil, name):
     mine = variant("scara_motion", "Ada")
     h1, h2 = (mine[z] - mine["via_z"] for z in ("start_z", "goal_z"))
     b = 1.01 * (40.2 * mm - mine["via_z"]) / 2 * (h1 + h2) / (h1 * h2)
@@ -511,7 +512,7 @@ def test_a_slip_in_the_duration_is_named(spoil, name):
     assert not verdict.holds and verdict.mistake == name
 
 
-def test_a_posture_s_test_for_a_motion_hears_about_arrays():
+def test_single_posture_test_gets_a_hint_about_arrays():
     def one_posture(q):
         return all(LOW[i] <= x <= HIGH[i] for i, x in enumerate(q))
 

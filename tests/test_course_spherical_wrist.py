@@ -1,5 +1,5 @@
-"""The exercises and predictions of lab 06: right answers hold in every style, wrong ones are named,
-and the key of every prediction is computed in a second way.
+"""The exercises and predictions of lab 06: correct answers in every style pass, mistakes are named,
+and the key of every prediction is computed by another method.
 """
 
 import itertools
@@ -50,7 +50,7 @@ def _by_transforms(a, alpha, d, offset, q):
 
 
 def _by_loops(a, alpha, d, offset, q):
-    """Rotation and origin apart, point by point."""
+    """The axes with rotation and origin computed separately, point by point."""
     rotation, origin, out = np.eye(3), np.zeros(3), ([], [])
     for i in range(len(a)):
         out[0].append(origin + 0.3 * rotation[:, 2])
@@ -67,13 +67,13 @@ def _by_loops(a, alpha, d, offset, q):
 @pytest.mark.parametrize(
     "answer", [_with_the_package, _elsewhere_on_the_axis, _by_transforms, _by_loops]
 )
-def test_axes_found_in_another_way_hold(answer):
+def test_axes_found_by_other_methods_pass(answer):
     verdict = check("spherical_wrist.1", answer)
     assert verdict.holds, verdict
 
 
 @pytest.mark.parametrize("mistake", AXES.own, ids=lambda m: m.name)
-def test_wrong_axes_are_named(mistake):
+def test_mistakes_in_axes_are_named(mistake):
     verdict = check("spherical_wrist.1", AXES.steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name
     assert mistake.says in verdict.says
@@ -96,7 +96,7 @@ def test_wrong_axes_are_named(mistake):
         ),
     ],
 )
-def test_other_wrong_axes_are_recognised(answer, name):
+def test_other_mistakes_in_axes_are_recognised(answer, name):
     verdict = check("spherical_wrist.1", answer)
     assert not verdict.holds and name in verdict.mistake
 
@@ -117,12 +117,12 @@ def _of_length_five(*case):
         (_of_length_five, "the direction is not a unit vector"),
     ],
 )
-def test_what_is_no_direction_is_named(answer, name):
+def test_vectors_that_are_not_directions_are_named(answer, name):
     verdict = check("spherical_wrist.1", answer)
     assert verdict.mistake == name and "not a unit vector" in verdict.case
 
 
-def test_the_verdict_shows_the_two_arrays_as_they_were_returned():
+def test_verdict_shows_the_returned_arrays():
     wrong = check("spherical_wrist.1", lambda *c: -np.array(_by_loops(*c)))
     shown = next(line for line in wrong.case.split("\n") if "you return" in line)
     assert shown.strip().startswith("you return points [[") and "directions [[" in shown
@@ -133,7 +133,7 @@ def test_the_verdict_shows_the_two_arrays_as_they_were_returned():
 
 
 def rebuilt(phi, theta, psi):
-    """The matrix, also of NaN and of degrees taken for radians."""
+    """The rotation matrix of these angles, even if they are NaN or in degrees."""
     return rot(2, phi)[:3, :3] @ rot(1, theta)[:3, :3] @ rot(2, psi)[:3, :3]
 
 
@@ -153,7 +153,7 @@ def _judges(angles, exact):
     return test
 
 
-def test_the_programs_are_what_they_are_called():
+def test_programs_match_their_names():
     for angles in ([0.3, 1.0, 3.0], [0, np.pi], [1e-9, 1e-7, 1e-5, np.pi - 1e-7]):
         judge = _judges(angles, 1e-10)
         assert all(judge(program) for program in RIGHTS)
@@ -200,16 +200,16 @@ def test_the_programs_are_what_they_are_called():
         ),
         (
             lambda p: bool(np.allclose(p(zyz(3, 0, 2), 1), (0, 0, 5 - 2 * np.pi))),
-            "refuses a right program",
+            "refuses a correct program",
         ),
     ],
 )
-def test_a_test_that_is_not_enough_is_told_so(test, mistake):
+def test_weak_tests_report_what_they_accept(test, mistake):
     assert check("spherical_wrist.2", test).mistake == mistake
 
 
 def _with_slack(program):
-    """A careful test except for the relative tolerance of allclose."""
+    """A careful test, except that it keeps the relative tolerance of allclose."""
     for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
         for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3)]:
             for wrist in (1, -1):
@@ -222,7 +222,7 @@ def _with_slack(program):
 
 
 def _blind(program):
-    """A careful test except for NaN."""
+    """A careful test, except that it does not detect NaN."""
     for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-9, np.pi):
         for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1), (0.2, 2.2)]:
             for wrist in (1, -1):
@@ -239,7 +239,7 @@ def _blind(program):
     ("test", "name", "why"),
     [(_with_slack, "psi off by 1e-8 rad", "rtol=0"), (_blind, "NaN for the free angle", "NaN")],
 )
-def test_loose_comparisons_are_told(test, name, why):
+def test_loose_comparisons_are_reported(test, name, why):
     verdict = check("spherical_wrist.2", test)
     assert verdict.mistake == f"accepts: {name}" and any(why in line for line in verdict.says)
 
@@ -268,11 +268,11 @@ def _by_assertion(make):
     return test
 
 
-def test_a_test_may_say_no_by_an_assertion():
+def test_test_may_refuse_with_an_assertion():
     assert check("spherical_wrist.2", _by_assertion(lambda h: (h, from_a_chain(h)))).holds
 
 
-def test_a_test_without_matrices_of_a_chain_is_told_so():
+def test_test_without_matrices_of_a_chain_is_named():
     verdict = check("spherical_wrist.2", _by_assertion(lambda h: (h,)))
     assert verdict.mistake == "accepts: a better root alone"
     assert any("matrices of a chain" in line for line in verdict.says)
@@ -282,7 +282,7 @@ def test_a_test_without_matrices_of_a_chain_is_told_so():
 
 
 @pytest.mark.parametrize("who", ["Ada", "Bo", "Žydrė", "student 17", 4711])
-def test_every_line_can_be_run_and_not_by_its_level_tool(who):
+def test_every_line_is_feasible_but_not_with_a_level_tool(who):
     n = LAB.given(who)
     least, fastest = max(passage(n, *tilt) for tilt in across(n["slope"], 0.99 * n["most_tilt"]))
     up, side = next(
@@ -307,7 +307,7 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
     verdict = check("spherical_wrist.3", line | {"up": side, "side": up}, who=who)
     if passage(n, -side, -up)[0] >= n["least_distance"]:
         assert "With up and side exchanged it would do" in verdict.says[0]
-    elif 50 > abs(n["slope"]) / deg > 40:  # then the two tilts coincide
+    elif 50 > abs(n["slope"]) / deg > 40:  # the two tilts nearly coincide
         assert verdict.holds or verdict.mistake in ("tilted to the wrong side", "too fast")
     elif not verdict.holds and verdict.mistake not in ("too fast", "too slow"):
         assert verdict.mistake in ("up and side exchanged", "tilted along the line", "out of reach")
@@ -324,7 +324,7 @@ def test_every_line_can_be_run_and_not_by_its_level_tool(who):
     assert not check("spherical_wrist.3", {"up": 0}, who=who).holds
 
 
-# --- The keys of the predictions, another way -----------------------------------------------------
+# --- The keys of the predictions, by another method -----------------------------------------------
 
 
 def right(name):
@@ -332,18 +332,18 @@ def right(name):
     return options[k].text
 
 
-def test_keys_of_the_first_half():
+def test_keys_of_the_first_predictions_agree_with_other_methods():
     q = np.array([[0, 60, -60, 0, 45, 0], [0, 60, -60, 90, 45, 0]]) * deg
     moved = np.linalg.norm(np.diff(ITMO6R.frames(q).translation, axis=0)[0], axis=-1)
     assert right("p1") == f"{np.flatnonzero(moved > 1e-9)[0]} alone."
     assert float(right("p2")) == pytest.approx(200 * np.sqrt(2), abs=0.5)
-    # in the arm's plane: 100 mm at 110°, then 200 mm at 150°, counted ahead
+    # the distance ahead in the arm's plane: 100 mm at 110°, then 200 mm at 150°
     ahead = 100 * np.cos(110 * deg) + 200 * np.cos(150 * deg)
     assert ahead < 0 and right("p3").startswith("−150°")
     assert right("p4") == "(0.30, 0.40, 0.87): as before."
 
 
-def test_keys_of_the_second_half():
+def test_keys_of_the_last_predictions_agree_with_other_methods():
     pairs = [(30, 40, 50), (-150, -40, -130)]
     one, two = (
         turned(a * deg, (0, 0, 1)) @ turned(b * deg, (0, 1, 0)) @ turned(c * deg, (0, 0, 1))
@@ -360,11 +360,11 @@ def test_keys_of_the_second_half():
     assert right("p8").startswith("6077°/s") and 6077.1 < fast[2] < 6077.2
 
 
-def test_a_test_has_to_look_at_the_middle_angle_too():
+def test_test_must_look_at_the_middle_angle():
     whole = _judges([0, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10)
 
     def first_and_last(program):
-        """It takes a matching theta and ignores the program's answer."""
+        """A test that takes a matching theta and ignores that of the program."""
 
         def mended(h, wrist):
             phi, _, psi = program(h, wrist)
@@ -378,7 +378,7 @@ def test_a_test_has_to_look_at_the_middle_angle_too():
     assert first_and_last(arcsin) and not whole(arcsin)
 
 
-def test_text_is_no_number_and_numbers_that_differ_are_printed_so():
+def test_strings_are_refused_and_different_numbers_print_differently():
     good = {"up": 0.01, "side": 0.0, "duration": 2.0}
     for key in good:
         text = check("spherical_wrist.3", good | {key: str(good[key])}, who="Ada")

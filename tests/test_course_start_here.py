@@ -1,5 +1,5 @@
-"""The exercise and the prediction of lab 00: right answers hold in every style, wrong ones are
-named, and the prediction's key is computed a second time.
+"""The exercise and the prediction of lab 00: correct answers in every style pass, mistakes are
+named, and the prediction's key is computed by another method.
 """
 
 import numpy as np
@@ -17,13 +17,13 @@ def place(q):
 
 
 def searched(seed):
-    """A posture with random joints 2 to 6 whose tool is mirrored and raised by a search."""
+    """A posture that solves the task, found by a search over random joint values."""
     dice = np.random.default_rng(seed)
     low, high = IRB140.limits.T
     while True:
         q = dice.uniform(low, high)
         x, y, z = place(q)
-        q[0] += np.pi / 4 - np.arctan2(y, x)  # turns the place to the diagonal
+        q[0] += np.pi / 4 - np.arctan2(y, x)  # turns the tool to the diagonal
         q[0] = (q[0] + np.pi) % (2 * np.pi) - np.pi
         if abs(z - 600) < 4.5 and np.hypot(x, y) > 100:
             return q
@@ -38,9 +38,11 @@ def searched(seed):
         *(searched(seed) for seed in range(3)),
     ],
 )
-def test_every_posture_that_does_it_holds(answer):
+def test_every_posture_that_solves_the_task_passes(answer):
     x, y, z = place(answer)
-    assert abs(x - y) <= 5 and x > 0 and abs(z - 600) <= 5, "as the task says it"
+    assert abs(x - y) <= 5 and x > 0 and abs(z - 600) <= 5, (
+        "the posture does not do what the task asks"
+    )
     verdict = check("start_here.1", answer)
     assert verdict.holds and verdict.points == 1, verdict
 
@@ -63,7 +65,7 @@ def test_every_posture_that_does_it_holds(answer):
         (["45", "-17", "a", "0", "30", "0"], "another kind or shape"),
     ],
 )
-def test_a_wrong_posture_gets_its_name(answer, name):
+def test_mistakes_in_the_posture_are_named(answer, name):
     verdict = check("start_here.1", answer)
     assert verdict.answered and not verdict.holds and verdict.mistake == name, verdict
     assert verdict.says and verdict.points < 1
@@ -74,14 +76,14 @@ def test_one_miss_of_three_costs_a_third():
     assert check("start_here.1", np.array([40, -20, -10, 0, 30, 0]) * deg).points == 0.33
 
 
-def test_a_posture_that_is_missing_is_not_answered():
+def test_missing_posture_is_not_answered():
     for answer in (..., None):
         assert not check("start_here.1", answer).answered
     assert "45" in solution("start_here.1")
 
 
-def test_p1_left_becomes_right():
-    """The key by a turn about z, without forward kinematics of the second posture."""
+def test_p1_agrees_with_a_rotation_about_z():
+    """The key follows from a rotation about z, without forward kinematics of the second posture."""
     question, options, right = filled(book.lab("start_here").predictions["p1"])
     x, y, z = place(np.array([40, -20, -10, 0, 30, 0]) * deg)
     for number in (x, y, z):
@@ -91,5 +93,5 @@ def test_p1_left_becomes_right():
     wanted = "x = {:.0f} mm, y = {:.0f} mm".format(*there).replace("-", "\N{MINUS SIGN}")
     assert options[right].text.startswith(wanted)
     reasons = " ".join(option.reason for option in options)
-    for angle in ("140°", "\N{MINUS SIGN}140°", "50°"):  # the places of the other options
+    for angle in ("140°", "\N{MINUS SIGN}140°", "50°"):  # the directions of the other options
         assert f"at {angle}" in reasons

@@ -1,5 +1,5 @@
-"""The exercises of lab 09: right answers in different styles, wrong ones with their verdicts, and
-individual numbers.
+"""The exercises of lab 09: correct answers in different styles pass, mistakes are named, and the
+individual numbers can be solved.
 """
 
 import cmath
@@ -29,7 +29,7 @@ def levers(K, alpha, lengths):
 
 
 def by_complex_numbers(K, alpha, lengths):
-    """OB is counter-clockwise from OK; the rest follows from the positions."""
+    """The levers in complex numbers: OB is counter-clockwise from OK, and the rest follows."""
     a, b, c = (float(x) for x in lengths)
     k, KB = complex(*K), abs(b - c * cmath.exp(1j * alpha))
     if abs(k) > a + KB or abs(k) < abs(a - KB):
@@ -45,7 +45,7 @@ def wrapped_into_half_turns(K, alpha, lengths):
 
 
 @pytest.mark.parametrize("answer", [levers, by_complex_numbers, wrapped_into_half_turns])
-def test_levers_of_any_lengths_in_unlike_styles(answer):
+def test_correct_levers_pass_in_different_styles(answer):
     assert check("three_levers.1", answer).holds
 
 
@@ -75,7 +75,7 @@ def angle_between(a, b, c):
 
 
 def of_the_lab(K, alpha, lengths):
-    """The lab's formulas, its clip among them, with OB for L."""
+    """The lab's formulas, including its clip, with OB for L."""
     L, KO = lengths[0], np.hypot(*K)
     KB = 2 * L * np.sin(alpha / 2)
     gamma = angle_between(KO, L, KB) + np.arctan2(K[1], K[0])
@@ -87,7 +87,7 @@ def first_of_the_lab(K, alpha, lengths):
 
 
 def whole_arm(K, alpha, lengths):
-    """NaN only where no alpha reaches the point."""
+    """The levers, with NaN only where no alpha reaches the point."""
     a, b, c = lengths
     KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))
     if not max(0, 2 * max(lengths) - sum(lengths)) <= KO <= sum(lengths):
@@ -102,7 +102,7 @@ def folded(K, alpha, lengths):
 
 
 def added(K, alpha, lengths):
-    """A plus sign in the law of cosines, and beta_2 from that KB."""
+    """The levers with a wrong plus sign in the law of cosines, and beta_2 from that KB."""
     a, b, c = lengths
     KO, KB = np.hypot(*K), np.sqrt(b**2 + c**2 + 2 * b * c * np.cos(alpha))
     gamma = law(KO, a, KB) + np.arctan2(K[1], K[0])
@@ -129,7 +129,7 @@ def added(K, alpha, lengths):
         (lambda *case: np.nan_to_num(levers(*case)), "zeros instead of NaN, beside alpha"),
     ],
 )
-def test_wrong_levers_are_named(answer, mistake):
+def test_mistakes_in_levers_are_named(answer, mistake):
     verdict = check("three_levers.1", answer)
     assert not verdict.holds and verdict.mistake == mistake
 
@@ -172,11 +172,11 @@ def one_task(program):
     return abs(q - ARM.least(K, previous)[0]).max() < 0.1 * deg
 
 
-def test_tests_for_least_movement():
+def test_tests_for_least_movement_get_the_expected_verdicts():
     assert check("three_levers.2", asserting).holds
     stays = check("three_levers.2", without_the_gripper)
     assert not stays.holds and stays.mistake == "accepts: it stays where it is"
-    assert check("three_levers.2", the_same_angles).mistake == "refuses a right program"
+    assert check("three_levers.2", the_same_angles).mistake == "refuses a correct program"
     assert not check("three_levers.2", one_task).holds
 
 
@@ -198,21 +198,21 @@ def least_test(at=1e-5, limit=1e-6, plus=0.02 * deg, relative=0.0):
     [
         (least_test(), None),
         (least_test(relative=1e-5), None),
-        (least_test(at=1e-9, relative=1e-5), "refuses a right program"),
+        (least_test(at=1e-9, relative=1e-5), "refuses a correct program"),
         (least_test(at=1e-3), "accepts: rounded to hundredths of a degree"),
-        (least_test(limit=0), "refuses a right program"),
-        (least_test(plus=0.01 * deg), "refuses a right program"),
+        (least_test(limit=0), "refuses a correct program"),
+        (least_test(plus=0.01 * deg), "refuses a correct program"),
         (least_test(plus=0.05 * deg), "accepts: S up to 0.028° above the least"),
         (least_test(plus=0.15 * deg), "accepts: a step of 0.1°"),
     ],
 )
-def test_what_is_promised_is_what_is_tested(test, mistake):
+def test_tolerances_of_tests_agree_with_the_promise(test, mistake):
     verdict = check("three_levers.2", test)
     assert verdict.holds == (mistake is None) and verdict.mistake == mistake
 
 
 @pytest.mark.parametrize("who", range(8))
-def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
+def test_individual_task_can_be_solved_but_not_greedily(who):
     numbers = variant("three_levers", who)
     greedy = [q[2] for q in PLAN["greedy"](numbers)]
     verdict = check("three_levers.3", {"first": greedy[0], "second": greedy[1]}, who=who)
@@ -241,17 +241,17 @@ def test_numbers_of_ones_own_can_be_met_and_greed_cannot(who):
         ({"first": 2.4, "second": np.pi}, "gamma past its limit at the second target"),
     ],
 )
-def test_a_plan_that_fails_is_told_why(answer, mistake):
+def test_failing_plans_get_the_reason(answer, mistake):
     verdict = check("three_levers.3", answer, who="Ada")
     assert not verdict.holds and verdict.mistake == mistake and verdict.says
 
 
-def test_a_plan_of_text_is_no_plan():
+def test_plan_of_strings_is_refused():
     text = check("three_levers.3", {"first": "2.4", "second": 2.0}, who="Ada")
     assert text.mistake == "another kind or shape"
 
 
-def test_a_posture_a_little_off_is_told_in_numbers_that_differ():
+def test_posture_slightly_off_is_reported_with_different_numbers():
     told = check("three_levers.1", lambda *case: levers(*case) + [3e-6, 0, 0]).case
     place, off = re.search(r"gripper at \((.*)\) m, (.*) m from K", told).groups()
     assert float(off) > 0 and place.count(",") == 1
@@ -265,7 +265,7 @@ def test_a_posture_a_little_off_is_told_in_numbers_that_differ():
 
 
 def first_and_last_angle(program):
-    """It checks gamma and alpha, but not beta."""
+    """A test that checks gamma and alpha, but not beta."""
     for K, previous, S in tasks(140):
         q = np.array(program(K, previous))
         whole = ARM.family(K, np.clip(q[2], *ARM.alpha_range(K)))
@@ -274,8 +274,8 @@ def first_and_last_angle(program):
     return True
 
 
-def test_a_test_has_to_ask_from_unlike_postures():
-    """Also a second time: programs with a memory are created again for each check."""
+def test_test_must_start_from_different_postures():
+    """The second check gives the same verdict: programs with a memory are made anew for each."""
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
 
@@ -298,12 +298,12 @@ def test_a_test_has_to_ask_from_unlike_postures():
     assert judged(rng.uniform(0.2, 3, (100, 3))) != judged(np.ones((100, 3)))
 
 
-def test_a_test_has_to_look_at_every_angle():
+def test_test_must_look_at_every_angle():
     assert "beta" in check("three_levers.2", first_and_last_angle).mistake
 
 
 @pytest.mark.parametrize("share", [0.95, 0.99])
-def test_a_margin_inside_the_border_of_a_triangle_is_no_border(share):
+def test_margin_inside_the_border_of_a_triangle_is_refused(share):
     def far(K, alpha, lengths):
         a, b, c = lengths
         KB = np.sqrt(b**2 + c**2 - 2 * b * c * np.cos(alpha))

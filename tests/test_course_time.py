@@ -1,4 +1,4 @@
-"""Slow right answers hold: only their own CPU time counts, separately for each case."""
+"""Slow correct answers pass: only their own CPU time counts, separately for each case."""
 
 import numpy as np
 import pytest
@@ -40,11 +40,11 @@ def by_brentq(distance, corner):
 
 
 @pytest.mark.parametrize("answer", [by_bisection, by_brentq])
-def test_a_search_over_blend_holds(answer):
+def test_searches_over_blend_pass(answer):
     assert check("irb140_motion.1", answer).holds
 
 
-def test_150_random_tasks_for_every_program_hold():
+def test_test_with_150_random_tasks_per_program_passes():
     arm = three_lever(1.0)
     rng = np.random.default_rng(3)
 

@@ -1,4 +1,4 @@
-"""Numbers read from answers and written into sentences."""
+"""Numbers that are read from answers and written into sentences."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ numbers = st.floats(-1e4, 1e4)
 
 
 @given(numbers, numbers)
-def test_numbers_that_differ_are_printed_so_that_they_differ(a, b):
+def test_different_numbers_print_differently(a, b):
     one, two = apart(a, b, 1)
     if abs(a - b) > 1e-11:
         assert one != two
@@ -22,7 +22,7 @@ def test_numbers_that_differ_are_printed_so_that_they_differ(a, b):
     assert abs((float(one) - float(two)) - (a - b)) <= 1.1 * 10.0 ** -len(one.partition(".")[2])
 
 
-def test_a_row_takes_the_digits_that_its_first_difference_needs():
+def test_rows_get_the_digits_that_their_first_difference_needs():
     assert apart([0.766, 0.643, 0], [0.766, 0.6430004, 0], 3) == (
         "0.7660000, 0.6430000, 0.0000000",
         "0.7660000, 0.6430004, 0.0000000",
@@ -32,18 +32,18 @@ def test_a_row_takes_the_digits_that_its_first_difference_needs():
     assert apart(2, 3, 0) == ("2", "3") and apart(-0.0001, 3, 1) == ("0.0", "3.0")
 
 
-def test_absurd_numbers_read_well():
+def test_huge_and_missing_numbers_are_readable():
     assert apart(0.5, 1.489e31, 3) == ("0.500", "1.5 · 10³¹")
     assert apart(np.nan, np.inf) == ("nan", "inf")
 
 
 @pytest.mark.parametrize("value", ["0.3", ["0.3", 1], True, [None], {}, b"1", [object()], "x", 1j])
-def test_text_is_no_number(value):
+def test_strings_are_not_numbers(value):
     with pytest.raises((TypeError, ValueError)):
         floats(value)
 
 
-def test_numbers_of_any_kind_are_floats():
+def test_numbers_of_any_kind_become_floats():
     assert floats([1, 2.5]).tolist() == [1, 2.5] and floats(np.float32(0.5)) == 0.5
     assert one_number([[3]]) == 3 and floats([1 + 0j, np.nan]).dtype == float
     with pytest.raises(ValueError, match="one number"):
@@ -59,7 +59,7 @@ FUNCTIONS = [
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_text_for_numbers_is_another_kind_of_answer(name):
+def test_strings_for_numbers_are_another_kind_of_answer(name):
     exercise = book.find(name, "exercises")
 
     def right(*case):
@@ -92,6 +92,6 @@ def test_text_for_numbers_is_another_kind_of_answer(name):
         ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
     ],
 )
-def test_text_for_a_number_of_a_design_is_another_kind(name, answer):
+def test_string_for_a_number_of_a_design_is_another_kind(name, answer):
     verdict = check(name, answer, who="Ada")
     assert verdict.mistake == "another kind or shape" and verdict.answered

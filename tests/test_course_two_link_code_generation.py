@@ -78,7 +78,7 @@ SLIPS = {
 }
 
 
-def test_slips_of_the_pen_are_named():
+def test_slips_in_a_short_program_are_named():
     named = 0
     for name, lines in SLIPS.items():
         verdict = judged(**lines)
@@ -88,7 +88,7 @@ def test_slips_of_the_pen_are_named():
     assert named >= len(SLIPS) - 6  # a negative root for every tip gives NaN without an explanation
 
 
-def test_known_programs_and_nearly_right_ones_keep_their_names():
+def test_known_and_nearly_correct_programs_get_their_names():
     assert judged().holds
     assert judged(xr="px - u", yr="py + v", xl="px + u", yl="py - v").mistake == (
         "the sides exchanged"
@@ -123,7 +123,7 @@ def test_known_programs_and_nearly_right_ones_keep_their_names():
         ),  # metres, even for a small arm
     ],
 )
-def test_a_rim_a_little_beside_is_seen(reach, name):
+def test_slightly_wrong_rim_is_detected(reach, name):
     def elbow(base, tip, l1, l2, side):
         dx, dy = np.subtract(tip, base)
         d2 = dx * dx + dy * dy
@@ -136,7 +136,7 @@ def test_a_rim_a_little_beside_is_seen(reach, name):
     assert check("two_link_code_generation.1", elbow).mistake == name
 
 
-def test_an_elbow_past_the_rim_is_told_in_numbers_that_differ():
+def test_elbow_past_the_rim_is_reported_with_different_numbers():
     space = {}
     exec(solution("two_link_code_generation.1"), space)
 
@@ -149,7 +149,7 @@ def test_an_elbow_past_the_rim_is_told_in_numbers_that_differ():
     assert tip != rim and not verdict.holds
 
 
-def test_a_test_of_elbows_has_to_look_at_all_four_numbers():
+def test_test_of_elbows_must_look_at_all_four_numbers():
     space = {}
     exec(solution("two_link_code_generation.3"), space)
     whole = space["elbows_are_right"]

@@ -1,5 +1,5 @@
-"""The exercises of lab 08: right answers in different styles hold, and wrong ones are named. Laws
-of all labs are in test_course_labs.py.
+"""The exercises of lab 08: correct answers in different styles pass, and mistakes are named. The
+laws for all labs are in test_course_labs.py.
 """
 
 import math
@@ -63,7 +63,7 @@ def asserting(inverse):
         asserting,
     ],
 )
-def test_a_right_test_holds(answer):
+def test_correct_tests_pass(answer):
     verdict = check("visit_and_collect.1", answer)
     assert verdict.holds, verdict
 
@@ -85,7 +85,7 @@ def test_a_right_test_holds(answer):
         ),
         (
             judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7),
-            "refuses a right program",
+            "refuses a correct program",
         ),
         (
             lambda inverse: all(
@@ -107,16 +107,16 @@ def test_a_right_test_holds(answer):
         (judge_on(BOX), "refuses every program"),
         (
             lambda inverse: all(np.allclose(inverse(p), ARM.ik(p)[0]) for p in POINTS),
-            "refuses a right program",
+            "refuses a correct program",
         ),
     ],
 )
-def test_a_wrong_test_is_told_what_slips_through(answer, mistake):
+def test_weak_tests_report_the_program_they_accept(answer, mistake):
     verdict = check("visit_and_collect.1", answer)
     assert not verdict.holds and verdict.mistake == mistake
 
 
-def test_a_test_is_told_which_point_it_refused():
+def test_verdict_on_a_test_reports_the_refused_point():
     everywhere = check("visit_and_collect.1", judge_on(BOX))
     assert "this point is not in the workspace: it is too far" in everywhere.says[-1]
     strict = judge_on(np.vstack([POINTS, AXIS]), near=lambda gap: np.linalg.norm(gap) < 1e-7)
@@ -153,7 +153,7 @@ def twice(q, speeds):
 
 
 @pytest.mark.parametrize("answer", [loops, twice])
-def test_right_arrivals_hold(answer):
+def test_correct_arrivals_pass(answer):
     verdict = check("visit_and_collect.2", answer)
     assert verdict.holds, verdict
 
@@ -205,7 +205,7 @@ def filled_backward(q, speeds):
         ),
     ],
 )
-def test_wrong_arrivals_are_named(answer, mistake):
+def test_mistakes_in_arrivals_are_named(answer, mistake):
     verdict = check("visit_and_collect.2", answer)
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
@@ -228,7 +228,7 @@ def traps(who, **changed):
     } | changed
 
 
-def test_everybody_can_build_the_traps():
+def test_every_student_can_build_the_traps():
     for k in range(60):
         verdict = check("visit_and_collect.3", traps(k), who=k)
         assert verdict.holds, verdict
@@ -239,7 +239,7 @@ def mirrored(points):
     return (np.array(points) * [1, -1, 1]).tolist()
 
 
-def test_traps_in_other_styles_hold():
+def test_traps_in_other_styles_pass():
     numbers = variant("visit_and_collect", "your name")
     assert numbers["p0"] == [4.0, -1.5, 1.25]
     good = traps("your name")
@@ -273,13 +273,13 @@ OPENING = [[4 * np.cos(a), 4 * np.sin(a), 2] for a in (1.0, -1.1, -1.2, -1.3)]
         ("worth", "perhaps", "another kind or shape"),
     ],
 )
-def test_what_is_no_trap_is_told(task, points, mistake):
+def test_points_that_are_not_a_trap_are_reported(task, points, mistake):
     answer = traps("your name", **{task: points})
     verdict = check("visit_and_collect.3", answer, who="your name")
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
 
-def test_a_worth_lost_in_part_is_told():
+def test_partly_lost_worth_is_reported():
     numbers = variant("visit_and_collect", "your name") | {"worth": [3, 2, 3, 4]}
     points = np.array(turned(numbers, [0.5, -1.35, -1.5, -1.2]))
     name, says = TRAPS["trap_fault"]("worth", points, numbers)
@@ -289,7 +289,7 @@ def test_a_worth_lost_in_part_is_told():
 
 
 def test_no_set_of_points_beats_cheapest_first():
-    """The exercise's statement about "collect" is compared with all choices."""
+    """The exercise's statement about "collect" is tested against all choices."""
     numbers = variant("visit_and_collect", 3)
     rng = np.random.default_rng(3)
     for _ in range(100):
@@ -297,7 +297,7 @@ def test_no_set_of_points_beats_cheapest_first():
         assert len(greedy) == len(best)
 
 
-def test_the_numbers_behind_the_predictions():
+def test_numbers_behind_the_predictions_are_correct():
     assert FACTS["p7"]()["height"] == 3.0  # 3-4-5
     assert -1.017 < FACTS["p8"]()["low"] < -1.016
     facts = FACTS["p9"]()
@@ -308,7 +308,7 @@ def test_the_numbers_behind_the_predictions():
     beaten = ("container on axis 1", "prices", "unlike speeds", "emptied at the end")
     assert [changes[k] > 0 for k in beaten] == [1, 1, 0, 1]
     stops = SHARED["STOPS"]
-    for seed in range(5):  # against the package's own optimum
+    for seed in range(5):  # compared with the package's own optimum
         task = SHARED["drawn"](seed)
         legs = travel_time(task.q[:, None], task.q, task.speeds)
         arrivals = legs[stops[:, :-1], stops[:, 1:]].cumsum(axis=-1)

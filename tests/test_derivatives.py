@@ -1,4 +1,4 @@
-"""`differentiate` against polynomials, whose derivatives are known."""
+"""`differentiate`, compared with polynomials, whose derivatives are known."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_error_is_quadratic_in_the_step(order, exact):
     inner = [errors[i][0] / errors[i + 1][0] for i in (0, 1)]
     outer = [errors[i][1] / errors[i + 1][1] for i in (0, 1)]
     assert all(abs(ratio - 4) < 0.2 for ratio in inner)
-    # one order less for the second derivative at the ends
+    # the second derivative at the ends is one order less accurate
     assert all(ratio > (3.8 if order == 1 else 1.8) for ratio in outer)
 
 
@@ -56,7 +56,7 @@ def test_batches_are_differentiated_along_their_samples(shape):
 @pytest.mark.parametrize(
     "t", [np.arange(20.0), np.linspace(0, 1, 20), uneven(20)], ids=["whole", "even", "uneven"]
 )
-def test_nan_spreads_only_to_its_neighbours(t):
+def test_nan_affects_only_neighbouring_samples(t):
     values = np.stack([t**2, 3 * t], axis=-1)
     values[10, 0] = np.nan
     for order, missing in ((1, [9, 10, 11]), (2, [8, 9, 10, 11, 12])):
@@ -81,7 +81,7 @@ def test_input_is_not_changed():
     assert values.tolist() == t.tolist() == [0, 1, 2, 3, 4]
 
 
-def test_order_has_a_limit_with_an_explanation():
+def test_order_above_10_is_refused_with_a_reason():
     values, t = RNG.normal(size=(30, 4)), uneven(30)
     assert np.isfinite(differentiate(values, t, 10)).all()
     for order in (11, 10**6, 10**400):
@@ -106,5 +106,5 @@ def test_two_samples_are_refused():
         differentiate([1, 2], [0, 1])
     assert differentiate([1, 2, 5], [0, 1, 2]).tolist() == [0, 2, 4]
     for t in ([0, 1, 1], [0, 2, 1]):
-        with pytest.raises(ValueError, match="rising"):
+        with pytest.raises(ValueError, match="increasing"):
             differentiate([1, 2, 5], t)

@@ -1,4 +1,4 @@
-"""The distance from singularities, measured with one length."""
+"""The distance from singularities, with all lengths divided by the same length."""
 
 from types import SimpleNamespace
 
@@ -44,8 +44,8 @@ def test_total_length_is_that_of_the_stretched_chain():
     assert total_length(three_lever(0.4)) == pytest.approx(1.2)
 
 
-def test_product_for_two_links_is_the_area_of_their_parallelogram():
-    """det J = l1 l2 sin q2, in units of the reach squared."""
+def test_product_of_two_singular_values_is_the_area_of_the_parallelogram():
+    """det J = l1 l2 sin q2, divided by the square of the reach."""
     arm = two_link(0.3, 0.5)
     q = RNG.uniform(-3, 3, (200, 2))
     wanted = 0.3 * 0.5 * abs(np.sin(q[:, 1])) / 0.8**2
@@ -53,10 +53,10 @@ def test_product_for_two_links_is_the_area_of_their_parallelogram():
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_singular_values_are_the_extreme_stretches_of_small_steps(machine):
-    """For any direction of a small joint step, the length of the tool's step is between the
-    smallest and the greatest singular value; computed by differences of FK, with lengths divided by
-    the reach.
+def test_singular_values_bound_the_tool_step_of_small_joint_steps(machine):
+    """For a small unit joint step in any direction, the length of the tool's step is between the
+    smallest and the greatest singular value. The steps are differences of FK, with lengths divided
+    by the reach.
     """
     arm = machine.arm
     q = random_joints(arm, RNG, (5,))
@@ -77,7 +77,7 @@ def test_singular_values_are_the_extreme_stretches_of_small_steps(machine):
     assert (seen.max(0) > 0.5 * values[:, 0]).all()
 
 
-def test_zero_at_singularities_and_nan_for_nan():
+def test_distance_is_zero_at_singularities_and_nan_for_nan():
     for arm, q in (
         (IRB140, np.zeros(6)),  # the wrist
         (PUMA560, [0.3, -0.4, -np.pi / 2 + np.arctan2(20.3, 431.8), 0.2, 0.7, 0]),  # stretched
@@ -115,7 +115,7 @@ def test_joints_of_spread_postures_are_uncorrelated():
     assert (shares[:, :7] == np.arange(1, 301)[:, None] * roots % 1).all()
 
 
-def test_only_rows_of_the_task_count():
+def test_number_of_singular_values_follows_from_the_task():
     assert singular_values(two_link(1, 1), [0.1, 0.2]).shape == (2,)
     assert singular_values(SCARA, [0.1, 0.2, 0.3, 0.1]).shape == (4,)
     assert singular_values(IRB140, np.full((3, 6), 0.2)).shape == (3, 6)

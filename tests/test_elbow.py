@@ -1,5 +1,5 @@
-"""The positioning arm of source 000 against its reference cases, its own matrices, and errata
-S0.
+"""The positioning arm of source 000, compared with its reference cases, the matrices of the
+document, and errata S0.
 """
 
 import numpy as np
@@ -33,8 +33,8 @@ def test_ik_returns_every_solution_in_its_row(case):
         assert np.isnan(rows).all()
         return
     found = [turns(rows, s["q"]).max(axis=-1) < tolerance for s in case["solutions"]]
-    assert np.any(found, axis=0).all(), "a row that is no solution"
-    assert np.any(found, axis=1).all(), "a solution without a row"
+    assert np.any(found, axis=0).all(), "a row is not a solution"
+    assert np.any(found, axis=1).all(), "a solution has no row"
     for solution, places in zip(case["solutions"], found, strict=True):
         assert (
             within(arm, rows[places]).all(axis=-1).tolist()
@@ -43,8 +43,8 @@ def test_ik_returns_every_solution_in_its_row(case):
         np.testing.assert_allclose(
             arm.fk(solution["q"]).as_matrix(), solution["T"], rtol=0, atol=1e-9
         )
-    # front and back by the side of the point at joint 1; the two elbow rows lie on both sides of
-    # the stretched arm
+    # The front rows face the point and the back rows face away from it. The two elbow rows lie on
+    # opposite sides of the stretched arm.
     heading = np.array(case["p"])[:2] @ [np.cos(rows[:, 0]), np.sin(rows[:, 0])]
     if not case["singular"]["axis"]:
         assert (np.sign(heading) == [1, 1, -1, -1]).all()
@@ -65,7 +65,7 @@ def test_principal_branch_is_row_0(case):
 
 
 @cases
-def test_the_four_verdicts_of_the_workspace(case):
+def test_workspace_verdicts_equal_the_reference(case):
     inside = workspace(case["l1"], case["l2"], case["p"])
     assert dict(zip(VERDICTS, inside.tolist(), strict=True)) == case["workspace"]
     assert inside.all() == case["inside_workspace"]
@@ -85,8 +85,8 @@ def test_fk_equals_the_product_of_the_document_matrices(l1, l2):
         np.testing.assert_allclose(T[:3, 3], wanted, rtol=0, atol=1e-14)
 
 
-def test_alpha_of_the_text_puts_the_tool_below_the_floor():
-    """Errata S0-a: the text says +90 degrees, the matrices have -90."""
+def test_alpha_in_the_text_puts_the_tool_below_the_floor():
+    """Errata S0-a: alpha is +90 degrees in the text and -90 degrees in the matrices."""
     q = (0.3, 0.4, -0.2)
     assert spbu_arm(5, 4).fk(q).translation[2] == pytest.approx(3.810627646834, abs=1e-12)
     text = dh(q, (0, 5, 4), (RIGHT, 0, 0), (0, 0, 0), (0, -RIGHT, RIGHT))
@@ -115,7 +115,7 @@ def test_ik_reaches_the_point_and_contains_the_original_joints(l1, l2, shape):
 
 @lengths
 def test_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
-    """Errata S0-b, S0-c: the inequalities are exact, and the one for l1 < l2 says that q2 >= -90
+    """Errata S0-b, S0-c: the inequalities are exact, and the one for l1 < l2 means q2 >= -90
     degrees.
     """
     arm, reach = spbu_arm(l1, l2), l1 + l2
@@ -146,35 +146,35 @@ def test_workspace_is_where_the_principal_branch_is_inside_its_limits(l1, l2):
     "l1, l2, point, words",
     [
         (5, 4, (9, 0.1, 0), "is too far: 0.0005555 m beyond the stretched arm, l1 + l2 = 9 m"),
-        (5, 4, (1, 1, -0.25), "is under floor: z = -0.25 m"),
+        (5, 4, (1, 1, -0.25), "is under the floor: z = -0.25 m"),
         (
             5,
             4,
             (0.5, 0, 0.5),
-            "is too close to origin: |p| = 0.707106781 m is less than l1 - l2 = 1 m",
+            "is too close to the origin: |p| = 0.707106781 m is less than l1 - l2 = 1 m",
         ),
         (
             4,
             5,
             (0, 0.7071, 0.7071),
-            "is too close to origin: |p|^2 = 0.99998082 m^2 is less than "
+            "is too close to the origin: |p|^2 = 0.99998082 m^2 is less than "
             "l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
         ),
     ],
 )
-def test_reason_of_an_unreachable_point(l1, l2, point, words):
+def test_reason_for_an_unreachable_point_is_reported(l1, l2, point, words):
     assert out_of_workspace(l1, l2, point) == [words]
 
 
 def test_all_reasons_are_listed():
     assert [text.split(":")[0] for text in out_of_workspace(5, 4, (0, 0, -20))] == [
         "is too far",
-        "is under floor",
+        "is under the floor",
     ]
     assert out_of_workspace(5, 4, (2, 3, 2)) == []
 
 
-def test_two_solutions_inside_the_domain():
+def test_two_solutions_may_be_inside_the_domain():
     """Errata S0-d: the domain does not make the solution unique."""
     arm = spbu_arm(5, 4)
     rows = arm.ik((0.1, 0, 5))
@@ -197,8 +197,8 @@ def test_two_solutions_inside_the_domain():
     ],
 )
 def test_border_is_reachable(l1, l2, point):
-    """Errata S0-l: the printed program refuses a stretched arm by rounding, and fails at the origin
-    (S0-k).
+    """Errata S0-l: because of rounding, the printed program refuses a stretched arm. It also fails
+    at the origin (S0-k).
     """
     assert workspace(l1, l2, point).all()
     arm = spbu_arm(l1, l2)
@@ -244,7 +244,7 @@ def test_invalid_arms_and_points_are_refused():
         (lambda: workspace(5, [4, 4], (1, 1, 1)), r"l2: .*\[4, 4\]"),
         (lambda: workspace(5, np.nan, (1, 1, 1)), "l2.*nan"),
         (lambda: workspace(5, 4, (1, 1)), r"points: wanted shape \(\.\.\., 3\), got \(2,\)"),
-        (lambda: out_of_workspace(5, 4, [(1, 1, 1)] * 2), r"one single point \(3,\), got \(2, 3\)"),
+        (lambda: out_of_workspace(5, 4, [(1, 1, 1)] * 2), r"a single point \(3,\), got \(2, 3\)"),
         (lambda: spbu_arm(5, 4).ik((1, np.inf, 1)), "inf"),
         (lambda: spbu_arm(0, 4), "l1: wanted one positive length"),
         (lambda: spbu_arm(5, 0), "l2: wanted one positive length"),

@@ -1,8 +1,8 @@
-"""Errata of source 001, section S1: every value it states, from the package's own functions on the
+"""Errata of source 001, section S1: the package's functions reproduce every value in it, on the
 document's samples.
 
-T = 20 s, step 0.01 s, t = arange(0, 20, 0.01); speeds and accelerations by the document's forward
-difference.
+T = 20 s, step 0.01 s, t = arange(0, 20, 0.01). Speeds and accelerations are the document's forward
+differences.
 """
 
 import numpy as np
@@ -40,7 +40,7 @@ GOAL = pose(300, 300, 500, 90, (0, 1, 0))
 
 
 def task1(s):
-    """The target law of listing 1 at s = t / total."""
+    """The target poses of listing 1 at s = t / total."""
     first = s < 0.5
     position = np.stack(
         [
@@ -58,7 +58,7 @@ def followed(poses, *flags):
 
 
 def forward(q):
-    """The document's speeds and accelerations."""
+    """The speeds and accelerations as the document computes them."""
     return np.diff(q, axis=0) / STEP, np.diff(q, n=2, axis=0) / STEP**2
 
 
@@ -66,7 +66,7 @@ def numbers(text):
     return np.array([float(word) for word in text.split()])
 
 
-# Named poses: within 1e-9 rad
+# Named poses, within 1e-9 rad
 # ----------------------------------------------------------------------------------------
 
 
@@ -106,12 +106,12 @@ def numbers(text):
     ],
     ids=["LIN s", "LIN e", "LIN middle", "chain s", "chain i", "chain e"],
 )
-def test_named_pose(target, q):
+def test_named_poses_have_the_published_joint_values(target, q):
     rows = IRB140.ik(target)
     row, other = rows[IRB140.branch(1, 1, -1)], rows[IRB140.branch(1, 1, 1)]
     assert abs(row - numbers(q)).max() < 1e-9
     assert within(IRB140, row).all() and within(IRB140, other).all()
-    # "[1,1,1]: q3 +- pi, q4 sign, q5 +- pi", in the document's count from zero
+    # "[1,1,1]: q3 +- pi, q4 sign, q5 +- pi" in the document, which counts joints from zero
     assert turns(other, row * [1, 1, 1, 1, -1, 1] + [0, 0, 0, np.pi, 0, np.pi]).max() < 1e-9
 
 
@@ -135,7 +135,7 @@ def test_named_pose(target, q):
         ),
     ],
 )
-def test_named_pose_of_task_1(s, q):
+def test_poses_of_task_1_have_the_published_joint_values(s, q):
     row = IRB140.ik(task1(np.array(s)))[IRB140.branch(1, 1, 1)]
     assert turns(row, numbers(q)).max() < 1e-9
 
@@ -152,7 +152,7 @@ def test_middle_of_ptp_is_not_the_middle_of_lin():
     assert abs(lin(LIN_S, LIN_E, 0.5).translation / mm - [200, 50, 700]).max() < 1e-12
 
 
-# Greatest speeds and accelerations: to the digits printed
+# Greatest speeds and accelerations, to all printed digits
 # ------------------------------------------------------------
 
 GREATEST = {
@@ -188,7 +188,7 @@ GREATEST = {
 
 
 def printed_blend(start, via, goal, b, s):
-    """Listing 12 as it stands, without the bound on b: beyond 0.5 its `lin` extrapolates."""
+    """Listing 12 as printed, without the bound on b: beyond 0.5 its `lin` extrapolates."""
     x = (s - 0.5 + b) / (2 * b)
     first, last = start.lerp(via, 1 - 2 * b), via.lerp(goal, 2 * b)
     return first.lerp(via, x).lerp(via.lerp(last, x), x)
@@ -204,7 +204,7 @@ GREATEST["printed 0.55"] = (
 
 
 @pytest.mark.parametrize("name", GREATEST)
-def test_greatest_speed_and_acceleration(name):
+def test_greatest_speeds_and_accelerations_equal_the_published_ones(name):
     poses, flags, speeds, accelerations, digit = GREATEST[name]
     v, a = forward(followed(poses, *flags))
     assert v.shape == (1999, 6) and a.shape == (1998, 6)
@@ -212,7 +212,7 @@ def test_greatest_speed_and_acceleration(name):
     assert abs(abs(a).max(0) - numbers(accelerations)).max() < 0.6 * digit
 
 
-# The errata, each with its counterexample
+# The errata with their counterexamples
 # ----------------------------------------------------------------------------
 
 
@@ -224,7 +224,7 @@ def jumps(angles):
     )
 
 
-def test_s1_e_a_fixed_row_jumps_by_a_whole_turn_and_follow_does_not():
+def test_s1_e_fixed_row_jumps_by_a_whole_turn_and_follow_does_not():
     front, back = IRB140.branch(1, 1, 1), IRB140.branch(1, 1, -1)
     motions = {
         "task 1": task1(S),
@@ -233,15 +233,15 @@ def test_s1_e_a_fixed_row_jumps_by_a_whole_turn_and_follow_does_not():
     }
     rows = {name: IRB140.ik(poses) for name, poses in motions.items()}
     assert jumps(rows["LIN"][:, front]) == [(5.61, 5)]
-    # At t = 12.5 joints 3 and 5 stand at half a turn: +pi or -pi, so that the errata see joint 5
-    # jump one step earlier.
+    # At t = 12.5 joints 3 and 5 are at half a turn, which may be +pi or -pi; in the errata joint 5
+    # jumps one step earlier.
     assert jumps(rows["LIN-LIN"][:, front]) in (
         [(7.33, 5), (12.49, 5), (12.5, 3)],
         [(7.33, 5), (12.5, 3), (12.5, 5)],
     )
     assert turns(rows["LIN-LIN"][1250, front, [3, 5]], np.pi).max() < 1e-9
-    # At t = 0 of task 1 joint 3 (from zero) is +pi or -pi: rounding decides, so the jump may or may
-    # not be there.
+    # At t = 0 of task 1, rounding decides whether joint 3 (counted from zero) is +pi or -pi, so
+    # there may or may not be a jump.
     assert jumps(rows["task 1"][:, front]) in ([], [(0.0, 3)])
     spike = abs(np.diff(rows["LIN"][:, front], axis=0)).max() / STEP
     assert 627 < spike < 629
@@ -250,7 +250,7 @@ def test_s1_e_a_fixed_row_jumps_by_a_whole_turn_and_follow_does_not():
         assert jumps(follow(IRB140, row, front)) == jumps(follow(IRB140, row, back)) == []
 
 
-def test_s1_h_673_samples_of_task_1_lie_past_a_limit():
+def test_s1_h_673_samples_of_task_1_are_past_a_limit():
     inside = within(IRB140, followed(task1(S), 1, 1, 1))
     outside = ~inside.all(-1)
     assert outside.sum() == 673 and round(T[outside].max(), 2) == 6.72 and outside[0]
@@ -261,7 +261,7 @@ def test_s1_h_673_samples_of_task_1_lie_past_a_limit():
     ).all()
 
 
-def test_s1_j_beyond_a_half_the_printed_blend_leaves_both_ends():
+def test_s1_j_printed_blend_above_one_half_leaves_both_ends():
     ends = printed_blend(START, VIA, GOAL, 0.55, np.array([0.0, 1.0])).translation / mm
     assert abs(ends[0] - [198.181818, 402.045455, 197.954545]).max() < 1e-6
     assert abs(ends[1] - [298.181818, 302.045455, 497.954545]).max() < 1e-6
@@ -272,13 +272,13 @@ def test_s1_j_beyond_a_half_the_printed_blend_leaves_both_ends():
 
 
 @pytest.mark.parametrize("b", [0.1, 0.25, 0.5])
-def test_s1_l_up_to_a_half_the_printed_blend_is_ours(b):
+def test_s1_l_printed_blend_up_to_one_half_equals_ours(b):
     corner = S[abs(S - 0.5) < b]
     ours, printed = blend(START, VIA, GOAL, b, corner), printed_blend(START, VIA, GOAL, b, corner)
     assert abs(ours.as_matrix() - printed.as_matrix()).max() < 1e-14
 
 
-def test_s1_m_the_speed_jumps_at_the_unblended_corner():
+def test_s1_m_speed_jumps_at_the_unblended_corner():
     q = followed(lin_lin(START, VIA, GOAL, S), 1, 1, -1)
     v, a = forward(q)
     jump = v[1000] - v[999]
@@ -286,7 +286,7 @@ def test_s1_m_the_speed_jumps_at_the_unblended_corner():
         ".107946862582 .457852830604 .920011415539 .030116525407 -.456073919364 -.216939050457"
     )
 
-    # the errata state the limit for a vanishing step; of their digits seven hold
+    # the errata state the limit for a vanishing step; seven of their digits are correct
     def jump_of(step):
         near = np.array([-2 * step, -step, 0, step, 2 * step])
         p = followed(lin_lin(START, VIA, GOAL, 0.5 + near / 20), 1, 1, -1)
@@ -296,11 +296,11 @@ def test_s1_m_the_speed_jumps_at_the_unblended_corner():
 
     assert abs(jump_of(2e-5) - wanted).max() < 1e-7
     assert abs(jump - wanted).max() < 0.01
-    # ... and the "acceleration" there is this jump over the step: with half the step it doubles.
+    # The "acceleration" there is this jump divided by the step, so it doubles with half the step.
     assert np.allclose(abs(a).max(0), abs(jump) / STEP, rtol=1e-9)
 
 
-def test_s1_n_ptp_turns_joint_6_the_long_way_unless_asked():
+def test_s1_n_ptp_turns_joint_6_the_long_way_without_nearest():
     row = IRB140.branch(1, 1, 1)
     start, goal = IRB140.ik(LIN_S)[row], IRB140.ik(LIN_E)[row]
     short = nearest(IRB140, goal[None], start)
@@ -317,6 +317,6 @@ def test_s1_n_ptp_turns_joint_6_the_long_way_unless_asked():
         assert np.allclose(v, (q - start) / 20, rtol=0, atol=1e-12)
 
 
-def test_s1_u_the_documents_samples_end_one_step_early():
+def test_s1_u_samples_of_the_document_end_one_step_early():
     assert len(T) == 2000 and round(T[-1], 10) == 19.99
     assert np.linalg.norm(lin(LIN_S, LIN_E, S)[-1].translation - LIN_E.translation) > 0.1 * mm

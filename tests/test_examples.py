@@ -22,7 +22,7 @@ HOW = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 
 def public():
-    """name -> object: the functions and classes of the packages and of the jobs, and the modules
+    """name -> object for the functions and classes of the packages and jobs, and for the modules
     that define them.
     """
     found = {}
@@ -45,7 +45,7 @@ def examples(name):
     """The examples in the docstring of a public name, and of its methods."""
     value = PUBLIC[name]
     module = value if inspect.ismodule(value) else inspect.getmodule(value)
-    if module.__package__ in JOBS:  # for a job that is a package, its public names
+    if module.__package__ in JOBS:  # the examples of a job use its public names
         module = PUBLIC[module.__package__]
     names = {key: item for key, item in vars(module).items() if key[0] != "_"} | NAMES
     finder = doctest.DocTestFinder(recurse=not inspect.ismodule(value), exclude_empty=True)
@@ -53,7 +53,7 @@ def examples(name):
 
 
 @pytest.mark.parametrize("name", [name for name in PUBLIC if examples(name)])
-def test_the_example_is_true(name):
+def test_docstring_examples_are_correct(name):
     said = io.StringIO()
     runner = doctest.DocTestRunner(optionflags=HOW)
     for test in examples(name):
@@ -61,6 +61,6 @@ def test_the_example_is_true(name):
     assert runner.summarize(verbose=False).failed == 0, said.getvalue()
 
 
-def test_a_wrong_example_would_be_seen():
+def test_wrong_example_is_detected():
     test = doctest.DocTestParser().get_doctest(">>> deg * 180\n3.0\n", dict(NAMES), "x", None, 0)
     assert doctest.DocTestRunner(optionflags=HOW).run(test, out=lambda _: None).failed == 1

@@ -1,5 +1,5 @@
-"""Own exercises: made in a cell, read from a file, and in a folder of labs in ROBOKIN_EXERCISES. A
-teacher's errors are reported in a sentence with file and line, and the other exercises work.
+"""Exercises that teachers write: in a cell, in a file, or in a folder of labs in ROBOKIN_EXERCISES.
+A teacher's errors are reported in a sentence with file and line, and the other exercises work.
 """
 
 import os
@@ -62,7 +62,7 @@ def reach(l1, l2, elbow):
 
 
 def same(a, b):
-    raise AssertionError("a name of a notebook is no part of an exercise")
+    raise AssertionError("an exercise used a name of the notebook by accident")
 
 
 form = law = same
@@ -71,9 +71,9 @@ form = law = same
 # --- Made in a cell -------------------------------------------------------------------------------
 
 
-def test_exercise_from_a_solution_and_cases():
-    """The names of the notebook are available, but its `form`, `law` and `same` are never used by
-    accident.
+def test_exercise_needs_only_a_solution_and_cases():
+    """The notebook's names are available to the solution, but its `form`, `law` and `same` are
+    never used by accident.
     """
     mine = exercise(reach, cases)
     verdict = check(mine, lambda a, b, q: np.hypot(a + b * np.cos(q), b * np.sin(q)))
@@ -87,7 +87,7 @@ def test_exercise_from_a_solution_and_cases():
     assert not check(mine, ...).answered
 
 
-def test_own_exercises_do_not_count_as_progress(monkeypatch):
+def test_exercises_from_a_cell_do_not_count_as_progress(monkeypatch):
     monkeypatch.setattr(course, "_verdicts", {})
     assert check(exercise(reach, cases), reach).holds
     assert "Nothing" in progress()
@@ -121,7 +121,7 @@ def test_slip_that_undoes_a_mistake_explains_nothing():
     mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
     mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
     assert check(mine, lambda x: x / 1000 if x < 5000 else np.nan).mistake == "mm for m"
-    verdict = check(mine, lambda x: x)  # the limit left out
+    verdict = check(mine, lambda x: x)  # without the limit
     assert not verdict.holds and verdict.mistake is None
 
 
@@ -130,7 +130,7 @@ def book_text(markdown):
 
 
 TURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))
-# the result of a solution, an equal answer, a wrong one, and one of another type
+# kind -> the result of a solution, an equal answer, a wrong answer, and one of another type
 KINDS = {
     "a number": ("2 * x", lambda x: 2 * x + 1e-9, lambda x: 3 * x, lambda x: [x, x]),
     "a whole number": ("round(x)", lambda x: float(round(x)), lambda x: x, lambda x: f"{x:.0f}"),
@@ -203,7 +203,7 @@ def test_unchanged_inputs_are_not_reported(given):
 
 
 class Gauge:
-    """A value whose == does not compare values."""
+    """A class whose == does not compare values."""
 
     def __init__(self, value):
         self.value = value
@@ -226,7 +226,7 @@ def test_changed_inputs_of_any_type_are_reported():
     ("solution", "cases", "says"),
     [
         ("x = 1\n", cases, "solution, line 1: wanted a program that defines a function"),
-        ("def f(x):\n    return (x\n", cases, "solution, line 2: no Python: '(' was never closed"),
+        ("def f(x):\n    return (x\n", cases, "solution, line 2: not Python: '(' was never closed"),
         (3, cases, "solution: wanted a function or its text, got 3"),
         (len, cases, "solution: wanted a function or its text"),
         ("def f(x):\n    return x", None, "exercise f: wanted a function cases(rng)"),
@@ -250,7 +250,7 @@ def test_invalid_exercises_are_refused_at_once(solution, cases, says):
 
 
 def write(folder, **files):
-    """Files of a lab: reach_md="...", reach_py="..."."""
+    """Write files of a lab: reach_md="...", reach_py="..."."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in files.items():
         content = text if isinstance(text, bytes) else text.encode()
@@ -260,14 +260,14 @@ def write(folder, **files):
 
 @pytest.fixture
 def place(tmp_path, monkeypatch):
-    """A folder of labs."""
+    """An empty folder for labs, named in ROBOKIN_EXERCISES."""
     monkeypatch.setenv(book.ELSEWHERE, str(tmp_path))
     monkeypatch.setattr(course, "_verdicts", {})
     return tmp_path
 
 
 def test_exercise_files_are_read_again_after_a_change(tmp_path):
-    """Also with the byte-order mark and line ends of Windows."""
+    """The files have a byte-order mark and the line endings of Windows."""
     text = f"\ufeff{HEAD.format(number=1)}{REACH}".replace("\n", "\r\n")
     write(tmp_path, reach_md=text, reach_py="from .more import cases\n__all__ = ['cases']\n")
     write(tmp_path, more_py=CASES)
@@ -279,7 +279,7 @@ def test_exercise_files_are_read_again_after_a_change(tmp_path):
     assert "18 cases" in repr(check(exercise(str(tmp_path / "reach.md")), reach))
 
 
-def test_folder_of_own_labs_is_found(place):
+def test_folder_of_a_teachers_labs_is_found(place):
     write(
         place / "two_links",
         reach_md=HEAD.format(number=2) + REACH,
@@ -297,7 +297,7 @@ def test_folder_of_own_labs_is_found(place):
     assert "Right." in repr(predict("two_links.p1", "a"))
     assert "not 0.5 m" in repr(predict("two_links.p1", "b"))
     assert "begun    two_links.2, two_links.10: tell how far" in progress()
-    with pytest.raises(ValueError, match="no numbers of one's own"):
+    with pytest.raises(ValueError, match="no individual numbers"):
         variant("two_links", "Ada")
 
 
@@ -307,7 +307,7 @@ def test_ids_of_our_labs_cannot_be_replaced(place):
     assert book.find("scara_motion.1", "exercises").task != "How far the tip is from the base."
     [told] = book.lab("scara_motion").broken.values()
     assert told == (
-        f"{place / 'scara_motion'}: not read, for {book.OURS / 'scara_motion'} has this name, too"
+        f"{place / 'scara_motion'}: not read, since {book.OURS / 'scara_motion'} has the same name"
     )
 
 
@@ -317,7 +317,7 @@ def test_progress_lists_exercises_without_an_objective(place):
 
 
 def test_labs_without_a_notebook_come_last(tmp_path, monkeypatch):
-    """As for an installation that points to a clone."""
+    """The labs are found as in an installation that points to a clone."""
     for name in ("apple", "pear", "zebra"):
         write(tmp_path / "exercises" / name)
     for name in ("00_zebra.ipynb", "01_pear.ipynb", "02_gone.ipynb"):
@@ -330,7 +330,7 @@ def test_labs_without_a_notebook_come_last(tmp_path, monkeypatch):
 def test_installation_without_a_clone_says_what_to_do(tmp_path, monkeypatch):
     monkeypatch.setattr(book, "OURS", tmp_path / "exercises")
     monkeypatch.delenv(book.ELSEWHERE, raising=False)
-    says = "no labs are here. Install robokin from its clone, or let ROBOKIN_EXERCISES name"
+    says = "no labs found. Install robokin from its clone, or set ROBOKIN_EXERCISES"
     assert says in repr(check("scara_motion.1", 3)) and not check("scara_motion.1", 3).answered
     calls = (hint, shown, predict, progress, lambda name: variant(name, "Ada"))
     for call in calls:
@@ -399,7 +399,7 @@ def altered(*changes, text=REACH):
     return HEAD.format(number=1) + text
 
 
-# Markdown, Python, and the message: the file and line (with ".md" or ".py"), and the reason
+# fault -> Markdown, Python, and the message: file and line (with ".md" or ".py"), and the reason
 BROKEN = {
     "no head": ("Reach\n", CASES, ".md, line 1: wanted '# 1. TITLE'"),
     "no solution": (
@@ -415,7 +415,7 @@ BROKEN = {
     "a solution that is no Python": (
         altered(("np.cos(elbow)\n", "np.cos(elbow\n")),
         CASES,
-        ".md, line 17: no Python: '(' was never closed",
+        ".md, line 17: not Python: '(' was never closed",
     ),
     "a solution without a function": (
         altered(("def reach(l1, l2, elbow):", "if True:"), ("return ", "x = ")),
@@ -440,12 +440,12 @@ BROKEN = {
     "an edit whose piece is missing": (
         altered(("`l2**2` →", "`l3**2` →")),
         CASES,
-        ".md, line 27: 'one link squared': `l3**2` stands 0 times in the solution, wanted once",
+        ".md, line 27: 'one link squared': `l3**2` occurs 0 times in the solution, wanted once",
     ),
     "an edit whose piece stands twice": (
         altered(("`l2**2` →", "`**2` →")),
         CASES,
-        ".md, line 27: 'one link squared': `**2` stands 2 times in the solution, wanted once",
+        ".md, line 27: 'one link squared': `**2` occurs 2 times in the solution, wanted once",
     ),
     "an edit whose pieces overlap": (
         altered(("`l2**2` → `l2`", "`l2**2` → `l2`, `+ l2` → `- l2`")),
@@ -455,7 +455,7 @@ BROKEN = {
     "an edit that gives no Python": (
         altered(("`l2**2` → `l2`", "`l2**2` → `l2 **`")),
         CASES,
-        ".md, line 27: 'one link squared': no Python: invalid syntax",
+        ".md, line 27: 'one link squared': not Python: invalid syntax",
     ),
     "a wrong program of another name": (
         altered(("- `l2**2` → `l2`\n", "```python\ndef reaches(a, b, c):\n    return a\n```\n")),
@@ -480,7 +480,7 @@ BROKEN = {
         ".py, line 5: ZeroDivisionError: division by zero",
     ),
     "a Python file that is not UTF-8": (altered(), CASES.encode() + b"'\xe9'\n", ".py"),
-    "another one of the number": (altered(), CASES, ".md, line 1: 1 is the number of a.md, too"),
+    "another one of the number": (altered(), CASES, ".md, line 1: 1 is also the number of a.md"),
     "right programs without one": (
         altered(text=f"{REACH}\n## Right programs\n\n**plain.** None.\n"),
         CASES,
@@ -494,7 +494,7 @@ BROKEN = {
     "a right program that is no Python": (
         altered(("return x + x", "return x +"), text=RIGHTS),
         None,
-        ".md, line 26: 'by sums': no Python: invalid syntax",
+        ".md, line 26: 'by sums': not Python: invalid syntax",
     ),
     "a right program of another name": (
         altered(("twice(x):\n    return x + x", "double(x):\n    return x + x"), text=RIGHTS),
@@ -529,14 +529,14 @@ def test_faults_in_teacher_files_are_reported_and_the_others_work(what, place):
             hint("mine.1")
 
 
-# the Python file, and the message about its cases, which are made when needed
+# fault -> the Python file, and the message about its cases, which are made when needed
 UNDRAWN = {
     "cases that raise": ("    return 1 / 0\n", "It raises ZeroDivisionError: division by zero."),
     "cases that return nothing": ("    list(rng.uniform(0, 1, 3))\n", "It raises TypeError"),
     "no cases at all": ("    return []\n", "wanted tuples of l1, l2, elbow, got []"),
     "cases of another kind": ("    return [1, 2]\n", "wanted tuples of l1, l2, elbow, got [1, 2]"),
     "cases of too few": ("    return [(1, 2)]\n", "wanted tuples of l1, l2, elbow, got [(1, 2)]"),
-    "cases that never end": ("    while True:\n        pass\n", "It does not come to an end"),
+    "cases that never end": ("    while True:\n        pass\n", "It never ends"),
 }
 
 
@@ -567,7 +567,7 @@ def test_failing_cases_are_reported(what, place, monkeypatch):
     ("change", "says"),
     [
         (("np.sqrt(squares + mixed)", "np.nothing(mixed)"), "It raises AttributeError"),
-        (("    squares = l1", "    while True:\n        pass\n    squares = l1"), "to an end"),
+        (("    squares = l1", "    while True:\n        pass\n    squares = l1"), "It never ends"),
         (("return np.sqrt(squares + mixed)", "print(mixed)"), "It prints"),
     ],
 )
@@ -624,7 +624,9 @@ def test_incomparable_results_are_different():
 
 
 def test_changed_solution_names_all_edits_that_no_longer_fit(place):
-    """Of a test: those that fit none of its right programs."""
+    """In an exercise that asks for a test, these are the edits that fit none of its correct
+    programs.
+    """
     text = altered(("l1**2 + l2**2\n", "l1 * l1 + l2 * l2\n"))
     write(place / "mine", reach_md=text, reach_py=CASES)
     rights = RIGHTS.replace("return x + x", "return 2 * x")
@@ -636,7 +638,7 @@ def test_changed_solution_names_all_edits_that_no_longer_fit(place):
         ("twice.md", 36, "another sum", ("x + x", "return x")),
     ):
         assert lab.broken[name].split("\n") == [
-            f"{place / 'mine' / name}, line {line + k}: {mistake!r}: `{piece}` stands 0 times in "
+            f"{place / 'mine' / name}, line {line + k}: {mistake!r}: `{piece}` occurs 0 times in "
             "the solution, wanted once"
             for k, piece in enumerate(pieces)
         ]
@@ -652,21 +654,21 @@ def test_empty_folder_is_reported(place):
 
 
 OPTION = "- `whole` **1 m.** It is not {length} m. *twice as long:* a second case."
-# predictions.md, predictions.py, and the message
+# fault -> predictions.md, predictions.py, and the message
 UNPREDICTED = {
-    "no facts": (PREDICTED, None, "line 3: no facts: a function p1() in its Python file"),
-    "other facts": (PREDICTED, "def p2():\n    pass\n", "line 3: no facts: a function p1()"),
+    "no facts": (PREDICTED, None, "line 3: no facts: wanted a function p1() in its Python file"),
+    "other facts": (PREDICTED, "def p2():\n    pass\n", "line 3: no facts: wanted a function p1()"),
     "no confusion": (
         PREDICTED.replace(" *twice as long:* a second case.", ""),
         "",
-        "line 3: p1: wanted answers with unlike names, and a confusion for each but the right one",
+        "line 3: p1: wanted answers with different names, all but one with a confusion",
     ),
     "two names alike": (
         PREDICTED.replace("`whole`", "`half`"),
         "",
-        "line 3: p1: wanted answers with unlike names, and a confusion for each but the right one",
+        "line 3: p1: wanted answers with different names, all but one with a confusion",
     ),
-    "one answer": (PREDICTED.replace(OPTION, ""), "", "line 3: p1: wanted answers with unlike"),
+    "one answer": (PREDICTED.replace(OPTION, ""), "", "line 3: p1: wanted answers with different"),
     "an answer that is none": (
         PREDICTED.replace("**1 m.**", "1 m."),
         "",
@@ -691,7 +693,7 @@ def test_invalid_prediction_is_reported_and_the_others_work(what, place):
     assert [*book.lab("mine").predictions] == ([] if code is None else ["p3"])
 
 
-def test_duplicate_prediction_or_missing_right_answer_is_reported(place):
+def test_duplicate_prediction_or_missing_correct_option_is_reported(place):
     write(
         place / "mine",
         predictions_md=PREDICTED + PREDICTED.replace("# Predictions\n", ""),
@@ -702,7 +704,7 @@ def test_duplicate_prediction_or_missing_right_answer_is_reported(place):
     lab = book.lab("mine")
     lab.read()
     file = place / "mine" / "predictions.md"
-    assert [*lab.broken.values()] == [f"{file}, line 10: p1 is there twice"]
+    assert [*lab.broken.values()] == [f"{file}, line 10: p1 occurs twice"]
     with pytest.raises(BadFile, match=r"line 3: p1\(\): wanted 'right' to be one of half, whole"):
         predict("mine.p1")
 
@@ -810,8 +812,8 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("solution", "case", "changes"), CHANGES)
-def test_wrong_programs_equal_their_texts_and_have_no_side_effects(solution, case, changes):
-    """In any order, alone and in pairs, from pieces that are compiled once."""
+def test_edited_programs_match_their_texts_and_have_no_side_effects(solution, case, changes):
+    """The edits are applied in any order, alone and in pairs, to pieces that are compiled once."""
     steps = edits.Steps(solution, {})
     own = []
     for old, new in changes.items():

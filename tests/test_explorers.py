@@ -1,5 +1,5 @@
-"""Explorers in a real browser: they show what Python computes, whether moved by mouse, finger or
-keys; and their stored form in a notebook.
+"""Explorers in a real browser, where they show what Python computes whether moved by mouse, finger
+or keys, and their stored form in a notebook.
 
 The tests read what a person would see: boxes, tables, words, handles, and the pixels and words on
 canvases. For more digits they run "Copy as Python".
@@ -101,7 +101,7 @@ READ = """async rk => {
   const all = what => [...rk.querySelectorAll(what)];
   const frame = () => new Promise(requestAnimationFrame);
   while (!all("input[type=range]").every(e => e.hasAttribute("aria-valuetext"))) await frame();
-  await frame(), await frame();  // the first picture is drawn: its sliders have their values
+  await frame(), await frame();  // until the first picture is drawn with its sliders
   const plain = text => text.replaceAll("\\u2212", "-");
   const named = (what, value) =>
     Object.fromEntries(all(what).map(e => [e.ariaLabel.split(",")[0], value(e)]));
@@ -135,21 +135,21 @@ READ = """async rk => {
 
 
 class Open:
-    """An explorer in a page, and the hand that moves it."""
+    """An explorer in a page, with methods that move it and read what it shows."""
 
     def __init__(self, page, explorer, arm=None):
         self.page, self.arm, self.data = page, arm, explorer.data
         self.rk = page.locator(".rk")
 
     def look(self):
-        """The state shown after the next picture."""
+        """The state that the next picture shows."""
         seen = SimpleNamespace(**self.rk.evaluate(READ))
         assert min(seen.bytes) > 3000, "a canvas is blank"
         assert "NaN" not in str(vars(seen)) and "undefined" not in str(vars(seen))
         return seen
 
     def code(self, seen=None):
-        """The names after running the lines of "Copy as Python"."""
+        """The namespace after the lines of "Copy as Python" have run."""
         space = {"arm": self.arm}
         exec((seen or self.look()).code, space)
         return space
@@ -174,7 +174,7 @@ class Open:
             self.handle(name).press(key)
 
     def take(self, name):
-        """Press the mouse on a handle, and return the place."""
+        """Press the mouse button on a handle, and return its position."""
         self.handle(name).focus()  # in front of its neighbours
         x, y = self.look().handles[name]["at"]
         self.page.mouse.move(x, y)
@@ -182,7 +182,7 @@ class Open:
         return np.array([x, y])
 
     def drag(self, name, *stops, each=None):
-        """Drag a handle to places on the screen, looking at each; return the last look."""
+        """Drag a handle to places on the screen and read the state at each; return the last one."""
         self.take(name)
         for stop in stops:
             self.page.mouse.move(*stop, steps=3)
@@ -203,7 +203,9 @@ def context(browser):
 
 @pytest.fixture
 def opened(context, tmp_path):
-    """`opened(explorer, arm)`: it as a saved page in a tab; nothing may complain there."""
+    """`opened(explorer, arm)` saves the explorer and opens its page in a tab. The console must stay
+    free of errors.
+    """
     pages = []
 
     def made(explorer, arm=None, within=context):
@@ -274,7 +276,7 @@ def test_joint_explorer_shows_the_flange(opened, arm):
         assert poses[-1][j] / shown.data["units"][j]["size"] == pytest.approx(value, abs=1e-3)
         assert np.delete(poses[-1] == poses[-2], j).all(), "another joint moved"
     different = {tuple(q) for q in poses}
-    assert len({tuple(one.pixels) for one in seen}) == len(different) > 5, "a frozen picture"
+    assert len({tuple(one.pixels) for one in seen}) == len(different) > 5, "the picture is frozen"
 
 
 def test_joint_explorer_names_singularities(opened):
@@ -303,7 +305,7 @@ def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
 
 
 def same(arm, q, rows, atol):
-    """Whether both are the same postures, ignoring whole turns; NaN equals NaN."""
+    """Whether both hold the same postures, ignoring whole turns; NaN equals NaN."""
     gap = q - rows
     gap = np.where(arm.prismatic, gap, gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
     return np.array_equal(np.isnan(q), np.isnan(rows)) and bool(
@@ -312,12 +314,14 @@ def same(arm, q, rows, atol):
 
 
 def shows_every_branch(shown, exact=True):
-    """The table, the choice, the words and the picture agree with Python's for the target shown."""
+    """Assert that the table, the choice, the words and the picture agree with what Python computes
+    for the target shown.
+    """
     arm, seen = shown.arm, shown.look()
     space = shown.code(seen)
     target, n = space["target"], len(arm.links)
     boxes = np.array([seen.boxes[c["name"]] for c in shown.data["controls"]])
-    assert np.allclose(boxes, _values(shown, target), atol=0.0506), "the boxes tell another target"
+    assert np.allclose(boxes, _values(shown, target), atol=0.0506), "the boxes show another target"
     rows, units = arm.ik(target), np.array([unit["size"] for unit in shown.data["units"]])
     exists, inside = ~np.isnan(rows[:, 0]), within(arm, rows)
     cells = [row[2 : 2 + n] for row in seen.rows]
@@ -341,7 +345,9 @@ def shows_every_branch(shown, exact=True):
         [told, least] = [
             np.min(np.maximum(low - x, x - high)) for x in (table[k, j], rows[k, j] + turns)
         ]
-        assert abs(told - least) < np.max(fine) * units[j], "not where it is least past its limit"
+        assert abs(told - least) < np.max(fine) * units[j], (
+            "another value is less far past the limit"
+        )
     assert [past[2 : 2 + n] for past in seen.past] == (exists[:, None] & ~inside).tolist()
     verdicts = [row[1] for row in seen.rows]
     assert [verdict.startswith("usable") for verdict in verdicts] == usable.tolist()
@@ -373,7 +379,7 @@ def shows_every_branch(shown, exact=True):
     )
     if exact:
         assert seen.says == says
-    else:  # but for the last digits
+    else:  # the numbers may differ in their last digits
         numbers = r"-?\d+\.?\d*"
         assert re.sub(numbers, "", seen.says) == re.sub(numbers, "", says)
     if chosen >= 0:
@@ -382,9 +388,7 @@ def shows_every_branch(shown, exact=True):
 
 
 def _values(shown, target):
-    """The expected numbers in the boxes of a target, in mm and degrees, computed without the
-    explorer.
-    """
+    """The numbers expected in the boxes of a target, in mm and degrees, without the explorer."""
     size = shown.data["unit"]["size"]
     if isinstance(target, ScaraPose):
         turned = np.array([target.angle]) / deg
@@ -426,7 +430,7 @@ def test_target_explorer_lists_every_branch(opened, arm):
 
 def test_chosen_branch_stays_and_its_reason_is_shown(opened):
     shown = opened(target_explorer(IRB140), IRB140)
-    shown.choose("branch", 7)  # behind "nearest"
+    shown.choose("branch", 7)  # the entry after "nearest" and seven rows
     assert shows_every_branch(shown).seen.chosen == 6
     shown.type("x", 255)
     assert shows_every_branch(shown).seen.chosen == 6
@@ -438,14 +442,16 @@ def test_chosen_branch_stays_and_its_reason_is_shown(opened):
 
 
 def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
-    """Lab 02: q3 at 59.5°, 9.5 past, was shown as -300.5°, 70 past, after a drag through -229°."""
+    """In lab 02, after a drag through -229°, q3 at 59.5° (9.5° past its limit) was once shown as
+    -300.5° (70° past).
+    """
     shown = opened(target_explorer(IRB140), IRB140)
     pose = IRB140.fk(np.array([30, 10, 59.5, 20, 30, 40]) * deg)
     turns = np.array(pose.rotation.as_roll_pitch_yaw()) / deg
     values = dict(zip("xyz", pose.translation / mm, strict=True))
     values |= dict(zip(("roll", "pitch", "yaw"), turns, strict=True))
     tables = []
-    for row in (0, 1, 3, 6):  # for any previous joints
+    for row in (0, 1, 3, 6):  # whatever the posture before
         shown.choose("branch", row + 1)
         for name, value in (("x", 300), ("y", 0), ("z", 700), ("roll", 0), ("yaw", 0)):
             shown.type(name, value)
@@ -459,8 +465,10 @@ def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
     assert all((table == tables[0]).all() for table in tables)
 
 
-def test_lab_07_at_x_zero(opened):
-    """There q5 was shown as 259.8° where -100.2° is 0.2 past its limit."""
+def test_q5_has_the_least_excess_in_lab_07_at_x_zero(opened):
+    """In lab 07 at x = 0, q5 was once shown as 259.8°, although -100.2° is only 0.2° past its
+    limit.
+    """
     shown = opened(target_explorer(PUMA560), PUMA560)
     for x in (600, 0, -600, 0):
         shown.type("x", x)
@@ -496,7 +504,7 @@ def test_click_on_a_row_or_its_button_chooses_it_once(browser):
 
 
 def test_home_key_on_an_arc_restores_the_first_rotation(opened):
-    """The sliders changed the same array that Home restores."""
+    """The sliders once changed the array that Home restores."""
     shown = opened(target_explorer(IRB140), IRB140)
     first = shown.look().boxes
     for name in ("roll", "pitch", "yaw"):
@@ -507,7 +515,9 @@ def test_home_key_on_an_arc_restores_the_first_rotation(opened):
 
 
 def test_sliders_change_the_lengths_of_levers(opened):
-    """Three more sliders: arm, curve and words follow, and the Python lines contain the lengths."""
+    """The arm, the curve and the words follow the three additional sliders, and the Python lines
+    contain the lengths.
+    """
     arm = three_lever((0.9, 1.1, 0.6))
     shown = opened(target_explorer(arm), arm)
     assert opened(target_explorer(LEVERS)).look().boxes.keys() == {"x", "y", "alpha"}
@@ -541,8 +551,9 @@ SMOOTH = np.polynomial.chebyshev
 
 
 def greatest(motion, law, fraction, samples):
-    """Greatest speeds and accelerations (2, n) of a motion without a gap, between the samples, too:
-    of one polynomial for each stretch in which no acceleration jumps. `motion(t)`: its postures.
+    """The greatest speeds and accelerations (2, n) of a motion without a gap, even between the
+    samples. They are those of one polynomial for each interval in which no acceleration jumps.
+    `motion(t)` returns the postures.
     """
     corner = brentq(lambda x: law(x) - (0.5 - fraction), 0, law.duration / 2)
     ends = {0, corner, *(law.duration * np.array([1, 3]) / 4), law.duration - corner, law.duration}
@@ -561,8 +572,8 @@ def greatest(motion, law, fraction, samples):
 
 
 def shows_the_motion(shown, exact=True, held=False):
-    """Table and words agree with the motion in the code; it and the look. `held`: a hand still
-    holds something.
+    """Assert that table and words agree with the motion in the code; return the motion and the
+    state shown. `held`: a handle is still held.
     """
     arm, seen = shown.arm, shown.look()
     space = shown.code(seen)
@@ -586,7 +597,7 @@ def shows_the_motion(shown, exact=True, held=False):
     with np.errstate(all="ignore"):
         recording = record(arm, t, q)
     v, a = recording.v, recording.a
-    if fraction == 0:  # each half for itself: no difference is taken across the corner
+    if fraction == 0:  # each half separately: no difference is taken across the corner
         half = SAMPLES // 2
         v = np.array(
             [*differentiate(q[: half + 1], t[: half + 1])[:-1], *differentiate(q[half:], t[half:])]
@@ -629,7 +640,7 @@ def test_motion_passes_the_via_point_in_the_boxes(opened, arm):
     looks = [shows_the_motion(shown)]
     cells = [cell.split(" ")[0] for cell in looks[0].seen.rows[0][1:]]
     told = re.search(r"greatest speed (\S+) \S+ \(joint (\d)\)\.$", shown.data["summary"])
-    assert told[1] == cells[int(told[2]) - 1] == max(cells, key=float), "Python says another one"
+    assert told[1] == cells[int(told[2]) - 1] == max(cells, key=float), "Python names another joint"
     for change in (
         lambda: shown.type("via x", looks[0].seen.boxes["via x"] + 20),
         lambda: shown.slide("blend", 0.25),
@@ -648,7 +659,7 @@ def test_motion_passes_the_via_point_in_the_boxes(opened, arm):
         change()
         looks.append(shows_the_motion(shown))
         assert looks[-1].seen.code != looks[-2].seen.code, "nothing changed"
-        assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "frozen curves"
+        assert looks[-1].seen.pixels[1] != looks[-2].seen.pixels[1], "the curves are frozen"
 
 
 def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
@@ -668,7 +679,7 @@ def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
 
 
 def test_maxima_through_a_singularity_are_labelled_as_sampled(opened):
-    """At via axes 4 and 6 are one line: how joints 4 and 6 share a turn there is a choice."""
+    """At via, axes 4 and 6 coincide, so that joints 4 and 6 can share a rotation in any way."""
     ahead = Quaternion.from_angle_axis(90 * deg, (0, 1, 0))
     stations = [Transform(ahead, (0.515, y, 0.702)) for y in (-0.2, 0, 0.2)]
     shown = opened(motion_explorer(IRB140, *stations), IRB140)
@@ -676,7 +687,7 @@ def test_maxima_through_a_singularity_are_labelled_as_sampled(opened):
     for blend_ in (0.1, 0):
         shown.type("blend", blend_)
         assert [row[0].endswith(f"of {SAMPLES} samples") for row in shown.look().rows] == [True] * 2
-    shown.type("via z", 690)  # beside it
+    shown.type("via z", 690)  # beside the singularity
     shows_the_motion(shown)
 
 
@@ -690,7 +701,7 @@ def test_click_on_a_curve_sets_the_clock(opened):
         seen = shown.look()
         times.append(seen.boxes["time"])
         pixels.add(seen.pixels[0])
-        assert seen.rows == before.rows and seen.code == before.code, "only the clock moves"
+        assert seen.rows == before.rows and seen.code == before.code, "more than the clock changes"
     assert np.diff(times) == pytest.approx(times[1] - times[0], abs=0.02)
     assert 1 < times[0] < times[2] < 5 and len(pixels) == 3
     canvas.click(position={"x": box["width"] - 1, "y": 100})
@@ -701,15 +712,15 @@ def test_click_on_a_curve_sets_the_clock(opened):
 
 
 def follows_the_pointer(shown, name, key, parts):
-    """Drag a handle along the curve on which a key moves it: it stays under the pointer, shows what
-    the keys have shown, and `parts`, the values that may change, are the only ones that do. The way
-    on the screen in px; None where it hardly moves there: its axis points at the eye.
+    """Drag a handle along the curve on which a key moves it, and assert that it stays under the
+    pointer, shows what the keys have shown, and changes no values except `parts`. Return the length
+    of the path on the screen in px, or None if it hardly moves because its axis points at the eye.
     """
     start = shown.look()
     if start.handles[name]["outside"]:
         return None
     places, codes = [], []
-    shown.take(name)  # while it is held the camera stays
+    shown.take(name)  # the camera does not move while a handle is held
     for _ in range(3):
         shown.press(name, key)
         seen = shown.look()
@@ -719,7 +730,9 @@ def follows_the_pointer(shown, name, key, parts):
     shown.press(name, "Home")
     shown.page.mouse.up()
     back = shown.look()
-    assert back.code == start.code and back.pixels == start.pixels, f"{name}: Home is another place"
+    assert back.code == start.code and back.pixels == start.pixels, (
+        f"{name}: Home leads to another position"
+    )
     long = np.linalg.norm(places[2] - places[0])
     if long < 8:
         return None
@@ -730,7 +743,7 @@ def follows_the_pointer(shown, name, key, parts):
         for part, value in key_look.boxes.items():
             step = abs(codes[2].boxes[part] - codes[0].boxes[part])
             assert abs(look.boxes[part] - value) <= 4 * step / long + 0.15, (name, part)
-    assert last.code == seen[-1].code and last.rows != start.rows, "not the last position"
+    assert last.code == seen[-1].code and last.rows != start.rows, "the last position is not shown"
     moved = {part for part in last.boxes if last.boxes[part] != start.boxes[part]}
     assert moved and moved <= parts, f"{name} moves {moved}"
     shown.press(name, "Home")
@@ -772,7 +785,7 @@ def test_target_follows_the_pointer_along_arrows_and_arcs(opened, arm):
         shown.press(name, "ArrowRight")
         after = shown.code()["target"]
         shown.press(name, "Home")
-        if arm is IRB140:  # the axes are the target's own
+        if arm is IRB140:  # the axes are those of the target
             move = before.inverse() @ after
             angle, axis = move.rotation.as_angle_axis()
             way = np.eye(3)["xyz".index(name[-1])]
@@ -820,7 +833,7 @@ def _place(target):
     return target.translation if isinstance(target, Transform) else np.array(target)
 
 
-# Moves the target to where the arm is singular: joint 1 is free, or the links are stretched.
+# Values of a target at which the arm is singular: joint 1 is free, or the links are stretched.
 SINGULAR = {
     IRB140: {"x": 0, "y": 0, "roll": 0, "pitch": 0},
     SCARA: {"x": SCARA.reach / mm, "y": 0},
@@ -839,18 +852,18 @@ def test_drag_out_of_reach_and_through_a_singularity_recovers(opened, arm):
         now = shows_every_branch(shown, exact=False)
         kinds.append(now.exists.any())
         pixels.add(tuple(now.seen.pixels))
-        # The dot of the flange is in the middle of the target and nowhere else.
+        # The dot of the flange must be in the middle of the target.
         assert _color(shown, now.seen.handles["free"]["at"]) == hub or not now.exists.any()
         if not now.exists.any():
             assert all(row[1] == "does not exist" for row in now.seen.rows)
-            assert re.search(r"\d+(\.\d+)? m", now.seen.says), "by how much"
+            assert re.search(r"\d+(\.\d+)? m", now.seen.says), "the distance is missing"
             assert arm is FLAT or _color(shown, now.seen.handles["free"]["at"]) != hub
 
     out = [start + (way, way / 2) for way in (0, 30, 60, 120, 200, 300)]
-    across = [start + (-way, 0) for way in (15, 35, 45, 60)]  # over the first axis
+    across = [start + (-way, 0) for way in (15, 35, 45, 60)]  # across axis 1
     shown.drag("free", *out, *out[::-1], *across, start, each=each)
-    assert kinds[0] and kinds[-1], "it begins and ends in reach"
-    assert not all(kinds), "and is out of reach between"
+    assert kinds[0] and kinds[-1], "the drag does not begin and end within reach"
+    assert not all(kinds), "the drag never goes out of reach"
     assert len(pixels) > 7
     shown.press("free", "Home")
     for name, value in SINGULAR[arm].items():
@@ -860,7 +873,7 @@ def test_drag_out_of_reach_and_through_a_singularity_recovers(opened, arm):
 
 
 def _color(shown, at):
-    """The colour of the scene at a place on the page."""
+    """The colour of the scene at a point on the page."""
     return shown.rk.locator(".rk-scene").evaluate(
         """(canvas, [x, y]) => {
           const r = canvas.getBoundingClientRect(), k = canvas.width / r.width;
@@ -908,7 +921,9 @@ SIZES = """rk => [...rk.querySelectorAll("canvas")].map(c =>
 
 @pytest.mark.parametrize("kind", CANVASES)
 def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
-    """Separately: the curves kept the colours of the previous theme."""
+    """Each canvas is compared separately, since the curves once kept the colours of the previous
+    theme.
+    """
     shown = opened(*CANVASES[kind]())
     shown.page.emulate_media(color_scheme="light")
     light = shown.look().pixels
@@ -926,7 +941,7 @@ def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_last_of_many_moves_is_shown(opened, kind):
-    """Many large moves before one picture: only the last position of the pointer counts."""
+    """If many large moves come before one picture, only the last position of the pointer counts."""
     shown = opened(KINDS[kind](), IRB140)
     for name in shown.look().handles:
         shown.take(name)
@@ -941,14 +956,14 @@ def test_last_of_many_moves_is_shown(opened, kind):
         shown.page.mouse.move(x + 60, y + 25)
         again = shown.look()
         gap = np.array(once.handles[name]["at"]) - again.handles[name]["at"]
-        assert np.linalg.norm(gap) < 1.5, f"{name} was not yet there"
+        assert np.linalg.norm(gap) < 1.5, f"{name} had not arrived yet"
         shown.page.mouse.up()
         shown.page.mouse.move(x + 200, y + 200)
-        assert shown.look().code == again.code, f"{name} moves although it was let go"
+        assert shown.look().code == again.code, f"{name} moves after its release"
         shown.press(name, "Home")
 
 
-# --- Fingers, keys, readers -----------------------------------------------------------------------
+# --- Touch, keyboard and screen readers -----------------------------------------------------------
 
 
 def test_touch_moves_a_handle_or_scrolls_the_page(browser, opened):
@@ -983,7 +998,7 @@ def test_touch_moves_a_handle_or_scrolls_the_page(browser, opened):
         assert np.linalg.norm(way) > 8 or kind == "joint"
         swipe(100, 640, 0, -200)
         shown.page.wait_for_function("scrollY > 50")
-        assert shown.look().code == after.code, "scrolling moves something"
+        assert shown.look().code == after.code, "scrolling moves a handle"
     context.close()
 
 
@@ -1009,7 +1024,7 @@ def test_keyboard_reaches_and_moves_every_handle(opened, kind):
         if not node["ignored"] and node.get("role", {}).get("value") in roles:
             names.append((node["role"]["value"], node["name"]["value"]))
     assert len(names) >= count and all(name.strip() for _, name in names)
-    assert len(set(names)) == len(names), "two are called the same"
+    assert len(set(names)) == len(names), "two controls have the same name"
     assert (
         shown.rk.locator("[role=status]").count() == 1 and shown.rk.get_attribute("role") == "group"
     )
@@ -1023,14 +1038,18 @@ def test_keyboard_reaches_and_moves_every_handle(opened, kind):
             shown.press(name, key)
             now = shown.look()
             assert now.code != start.code, f"{name}: {key} does nothing"
-            assert now.handles[name]["name"] != handle["name"], "the change is not told"
+            assert now.handles[name]["name"] != handle["name"], (
+                "the name does not contain the new value"
+            )
             steps.append(np.array([now.boxes[k] - start.boxes[k] for k in start.boxes]))
             if "turn" not in name:
                 assert now.pixels != start.pixels
             shown.press(name, "Home")
-            assert shown.look().code == start.code, f"{name}: Home does not bring it back"
+            assert shown.look().code == start.code, f"{name}: Home does not restore it"
         if "turn" not in name and kind != "motion":
-            assert np.allclose(steps[1], 10 * steps[0], atol=0.6), f"{name}: ten times as far"
+            assert np.allclose(steps[1], 10 * steps[0], atol=0.6), (
+                f"{name}: Shift does not multiply the step by ten"
+            )
 
     scene = shown.rk.locator(".rk-scene")
     scene.press("ArrowLeft")
@@ -1065,13 +1084,13 @@ def test_sliders_and_menus_have_names_and_value_texts(opened):
     assert scara.rk.get_by_role("slider", name="angle, °", exact=True).count() == 1
 
 
-def test_ellipsoid_and_axes_can_be_switched(opened):
+def test_ellipsoid_and_axes_can_be_switched_on_and_off(opened):
     for kind in ("joint", "target"):
         shown = opened(KINDS[kind](), IRB140)
         before = shown.look()
         for name in ("ellipsoid of tool velocities, free to turn", "joint axes"):
             box = shown.rk.get_by_role("checkbox", name=name)
-            box.click()  # turned joints show their axes from the beginning
+            box.click()  # the joint explorer shows its axes from the beginning
             drawn = shown.look()
             assert drawn.pixels != before.pixels and drawn.code == before.code
             box.click()
@@ -1089,7 +1108,7 @@ def test_ghost_postures_show_all_joints(opened):
           pen.moveTo = function (x, y) { line = [[x, y]]; return moveTo.call(this, x, y); };
           pen.lineTo = function (x, y) { line.push([x, y]); return lineTo.call(this, x, y); };
           pen.stroke = function (...a) {
-            if (this.getLineDash().join() === "3,7") all.push(line);  // the posture before
+            if (this.getLineDash().join() === "3,7") all.push(line);  // the previous posture
             return stroke.apply(this, a);
           };
           document.querySelector("[data-handle=free]").dispatchEvent(
@@ -1100,10 +1119,12 @@ def test_ghost_postures_show_all_joints(opened):
     [line] = [np.array(line) for line in lines]
     lengths = np.linalg.norm(np.diff(line, axis=0), axis=1)
     lengths = lengths[lengths > 1]
-    assert len(lengths) == 3 and np.ptp(lengths) < 0.01, "three equal levers"
+    assert len(lengths) == 3 and np.ptp(lengths) < 0.01, (
+        "the ghost does not show three equal levers"
+    )
 
 
-def test_arm_fills_the_scene_at_opening(opened):
+def test_arm_fills_the_scene_on_opening(opened):
     for make in (joint_explorer, target_explorer):
         for arm in (IRB140, SCARA, PUMA560):
             shown = opened(make(arm), arm)
@@ -1152,7 +1173,7 @@ def test_axe_detects_a_planted_problem(opened):
     assert "button-name" in {rule["id"] for rule in found}
 
 
-# --- What is copied, memory, room on the page -----------------------------------------------------
+# --- Copied code, memory, room on the page --------------------------------------------------------
 
 
 def test_copied_python_lines_run(browser, opened, tmp_path):
@@ -1180,7 +1201,7 @@ def test_copied_python_lines_run(browser, opened, tmp_path):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_thousand_moves_leak_nothing(opened, kind):
+def test_thousands_of_moves_do_not_leak_memory(opened, kind):
     shown, heap = opened(KINDS[kind](), IRB140), []
     name = {"joint": "q2", "target": "free", "motion": "via"}[kind]
     walk = """(node, count) => new Promise(done => {
@@ -1201,14 +1222,14 @@ def test_thousand_moves_leak_nothing(opened, kind):
         shown.press(name, "Home")
         heap.append(_heap(shown.page))
     assert shown.look().boxes == start.boxes
-    # a leak remains after each thousand moves; uncollected garbage does not
+    # a leak grows with each thousand moves; uncollected garbage does not
     assert min(heap[2:]) - heap[0] < 2, f"{heap} MB"
 
 
 def _heap(page):
     """Megabytes of JavaScript in use after garbage collection."""
     session = page.context.new_cdp_session(page)
-    for _ in range(3):  # what is freed may free more
+    for _ in range(3):  # freed objects may free others
         session.send("HeapProfiler.collectGarbage")
     used = session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
     session.detach()
@@ -1231,7 +1252,7 @@ ROOM = """rk => {
     "width, height, scale", [(1366, 768, 1), (900, 900, 1), (683, 384, 2), (390, 844, 2)]
 )
 def test_scene_and_sliders_fit_into_narrow_and_wide_pages(browser, opened, width, height, scale):
-    """(683, 384, 2) is 1366 x 768 at 200 %."""
+    """(683, 384, 2) is a screen of 1366 x 768 at a zoom of 200 %."""
     context = browser.new_context(
         viewport={"width": width, "height": height}, device_scale_factor=scale
     )
@@ -1264,7 +1285,7 @@ def test_printed_page_keeps_the_picture(opened, kind):
 # --- Wrong calls ----------------------------------------------------------------------------------
 
 
-def test_wrong_calls_name_what_is_wanted():
+def test_errors_for_wrong_calls_name_what_is_wanted():
     two = IRB140.fk(np.zeros((2, 6)))
     inverse = type("Unknown", (type(FLAT.geometry),), {})
     unknown = ClosedFormArm("unknown", inverse(0.3, 0.2, (0, 0)), FLAT.limits)
@@ -1276,7 +1297,7 @@ def test_wrong_calls_name_what_is_wanted():
         (lambda: target_explorer(unknown), TypeError, "arm: Unknown has no inverse for pages"),
         (lambda: motion_explorer(SCARA, START, VIA, GOAL), TypeError, "start: wanted a ScaraPose"),
         (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), TypeError, "goal: wanted"),
-        (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted one"),
+        (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted a single"),
         (lambda: motion_explorer(IRB140, START, VIA, GOAL, 8), ValueError, "row: wanted"),
     ):
         with pytest.raises(kind, match=words):
@@ -1352,7 +1373,7 @@ def test_stored_still_picture_has_words_that_nbval_compares(stored, tmp_path):
     run = nbval(once)
     assert run.returncode == 0, run.stdout[-3000:]
     changed = once.replace(b"8 of 8 branches are usable", b"7 of 8 branches are usable")
-    assert changed != once and nbval(changed).returncode != 0, "the words are compared"
+    assert changed != once and nbval(changed).returncode != 0, "nbval does not compare the words"
 
 
 def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, stored):
@@ -1364,7 +1385,7 @@ def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, s
     for i, kind in enumerate(CELLS, 1):
         cells.nth(i).scroll_into_view_if_needed()
         cells.nth(i).locator(".rk canvas").first.wait_for()
-        assert cells.nth(i).locator("img").count() == 0, "the still picture gives way"
+        assert cells.nth(i).locator("img").count() == 0, "the still picture is still there"
         shown[kind] = cells.nth(i).locator(".rk")
     rk = shown["target"]
     rk.scroll_into_view_if_needed()
@@ -1389,14 +1410,16 @@ def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, s
     other = scara.evaluate(READ)
     again.locator("[data-handle=free]").press("ArrowLeft")
     assert again.evaluate(READ)["rows"] != other["rows"]
-    assert scara.evaluate(READ)["rows"] == other["rows"], "two views of one object are two"
+    assert scara.evaluate(READ)["rows"] == other["rows"], (
+        "a view moves another view of the same object"
+    )
 
     rk = shown["motion"]
     rk.scroll_into_view_if_needed()
     pictures = {True: set(), False: set()}
     for k in range(20):
         light = bool(k % 2)
-        if k % 4 < 2:  # by JupyterLab, which takes long
+        if k % 4 < 2:  # with JupyterLab's menu, which takes a long time
             page.get_by_role("menuitem", name="Settings", exact=True).click()
             menu = page.locator(".lm-Menu-item")
             menu.filter(has_text=re.compile(r"^Theme$")).click()
@@ -1430,7 +1453,7 @@ def test_untrusted_notebook_shows_stills_and_instructions(jupyter, page, stored)
 
 
 def _copied(jupyter, stored, title):
-    """A copy of the notebook with another title, so that its signature is its own."""
+    """A copy of the notebook with another title, and therefore with its own signature."""
     name = f"{title.replace(' ', '_')}.ipynb"
     text = stored.read_text(encoding="utf-8").replace("# Explorers", f"# {title}")
     (jupyter.labs / name).write_text(text, encoding="utf-8")

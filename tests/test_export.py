@@ -1,4 +1,4 @@
-"""`python -m robokin.course export`: one page for a lab that works without a network."""
+"""`python -m robokin.course export` makes a single page of a lab that works without a network."""
 
 import json
 import re
@@ -34,7 +34,7 @@ class Fetches(HTMLParser):
 
 
 def formulas(path):
-    """(TeX, whether it stands in a line of its own) for each formula of a notebook."""
+    """(TeX, whether it is on a line by itself) for each formula of a notebook."""
     for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "markdown":
             text = re.sub(r"```.*?```|`[^`\n]*`", "", "".join(cell["source"]), flags=re.S)
@@ -49,7 +49,7 @@ def test_every_formula_becomes_mathml(path):
         assert made.startswith("<math") and ('display="block"' in made) == block
         read = re.sub(r"<[^>]*>|&\w+;", "", made)
         assert not re.search(r"[\\$&]", read), f"{tex}: {read}"
-        # it contains every number and every word
+        # the MathML contains every number
         said = re.sub(r"\\[A-Za-z]+", " ", tex)
         for number in re.findall(r"\d+", re.sub(r"\[[\d.]+\w*\]", "", said)):
             assert number in read, f"{tex}: {number} is lost"
@@ -107,7 +107,7 @@ def test_command_reports_a_bad_file_and_exports_the_others(tmp_path):
     ):
         assert re.search(rf"{re.escape(str(path))}: .*{reason}", run.stderr), run.stderr
     assert [p.name for p in (tmp_path / "pages").iterdir()] == ["00_start_here.html"], (
-        "the folder is made"
+        "wanted only the page of the good notebook"
     )
     assert "00_start_here.html" in run.stdout and " kB" in run.stdout
 
@@ -118,16 +118,16 @@ def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     mine.write_text("mine")
     assert main(["export", str(START)]) == 1
     assert "nothing is overwritten" in capsys.readouterr().err
-    assert main(["export", str(START), "--to", str(mine)]) == 1, "a file is no folder"
+    assert main(["export", str(START), "--to", str(mine)]) == 1, "a file was accepted as a folder"
     assert mine.name in capsys.readouterr().err and mine.read_text() == "mine"
     mine.unlink()
     assert main(["export", str(START)]) == 0
     first = mine.read_text(encoding="utf-8")
-    assert main(["export", str(START)]) == 0, "a page of ours is made anew"
+    assert main(["export", str(START)]) == 0, "our own page was not replaced"
     again = mine.read_text(encoding="utf-8")
     nonce = re.compile("[0-9a-f]{32}")
     assert nonce.sub("", again) == nonce.sub("", first)
-    assert nonce.search(again)[0] != nonce.search(first)[0], "each page has its own"
+    assert nonce.search(again)[0] != nonce.search(first)[0], "two pages have the same nonce"
 
 
 def test_links_lead_to_the_neighbouring_pages(tmp_path):
@@ -155,7 +155,7 @@ def test_page_follows_the_preferred_color_scheme(browser, tmp_path):
         shown.locator(".rk canvas").first.wait_for()
         seen += [shown.evaluate(LIGHT, selector) for selector in ("body", ".rk")]
         shown.emulate_media(color_scheme="dark", media="print")
-        assert shown.evaluate(LIGHT, "body") > 0.9, "paper is white"
+        assert shown.evaluate(LIGHT, "body") > 0.9, "the printed page is dark"
         context.close()
     assert min(seen[:2]) > 0.9 and max(seen[2:]) < 0.2
 
@@ -166,9 +166,9 @@ def test_bad_notebook_is_reported_with_its_reason(tmp_path):
     good = {"metadata": {}, "nbformat": 4, "nbformat_minor": 0}
     good["cells"] = [cell | {"execution_count": None}]
     path.write_text(json.dumps(good))
-    assert read(path).cells[0].source == "1", "an old notebook with ids"
+    assert read(path).cells[0].source == "1", "an old notebook with ids was not read"
     for bad, reason in (
-        ([], "no table of names and values"),
+        ([], "its JSON is not an object"),
         (good | {"nbformat": 5}, "version 5"),
         (good | {"cells": [{"cell_type": "code", "source": "1"}]}, "metadata"),
         (good | {"cells": [cell | {"outputs": [{"output_type": "x" * 5000}]}]}, "x"),

@@ -1,4 +1,4 @@
-"""A player saved as an animated picture: its frames are the motion."""
+"""A player saved as an animated picture, whose frames show the motion."""
 
 import numpy as np
 import pytest
@@ -6,13 +6,14 @@ from PIL import Image
 
 from robokin import IRB140, SCARA, Transform, deg
 from robokin.show import animate, film, joint_explorer
+from robokin.show.things import Mark
 
 T = np.linspace(0, 4, 401)
 WAY = np.linspace(0, 1, 401)[:, None] * np.array([90, 30, -40, 60, 50, 20]) * deg
 
 
 def frames(player, path):
-    """The pictures of a saved film, and how long each lasts in ms."""
+    """The frames of a saved film, and their durations in ms."""
     player.save(path)
     with Image.open(path) as picture:
         found, lasts = [], []
@@ -24,19 +25,22 @@ def frames(player, path):
 
 
 def alike(one, other):
-    """Up to the colours of single pixels, since each film has its own palette."""
+    """Whether two frames are equal except for single pixels: each film has its own palette."""
     return (abs(one.astype(int) - other).max(axis=-1) > 40).mean() < 2e-3
 
 
 def test_frames_show_the_motion_at_their_times(tmp_path):
-    """Backwards, the same pictures appear in reverse order; while the arm rests they are equal."""
+    """The reversed motion shows the same pictures in reverse order; while the arm is at rest, the
+    pictures are equal.
+    """
     there, lasts = frames(animate(IRB140, T, WAY), tmp_path / "there.gif")
     assert there.shape[1:] == (450, 640, 3) and len(there) == 4 * film.RATE + 1
     assert sum(lasts[:-1]) == 4000 and min(lasts) > 1000 / film.RATE - 10
     back, _ = frames(animate(IRB140, T, WAY[::-1]), tmp_path / "back.gif")
     assert all(map(alike, there, back[::-1]))
     assert not any(map(alike, there[:-4], there[4:]))
-    uneven = np.concatenate([T[:201], 2 + 3 * (T[201:] - 2)])  # the second half three times as slow
+    # the second half takes three times as long
+    uneven = np.concatenate([T[:201], 2 + 3 * (T[201:] - 2)])
     slow, _ = frames(animate(IRB140, uneven, WAY), tmp_path / "slow.gif")
     assert alike(slow[len(slow) // 4], there[len(there) // 2])
 
@@ -59,8 +63,31 @@ def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
     assert not alike(moved[0], moved[-1])
     gone = np.where(T[:, None] > 2, np.nan, WAY)
     found, _ = frames(animate(IRB140, T, gone), tmp_path / "gone.gif")
-    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # the arm, and a few words
+    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # dark pixels: the arm, and a few words
     assert dark[-1] < dark[:20].min() / 3
+
+
+def test_labels_of_moving_things_are_beside_them():
+    """Also the label of a thing that is missing in the second half."""
+    at = np.arange(0, 401, 40)
+    still = np.repeat(WAY[:1], len(T), axis=0)
+    way = [0.3, 0.5, 0.9] + T[:, None] / 4 * [0.4, -0.8, -0.4]
+    for places, shown in ((way, 11), (np.where(T[:, None] > 2, np.nan, way), 6)):
+        things = Mark(places, "", 1e-6), Mark(places), Mark(places, "a moving label")
+        speck, point, named = (
+            animate(IRB140, T, still, things=[thing]).film._frames(at) for thing in things
+        )
+        found = []
+        for k, (one, two, three) in enumerate(zip(speck, point, named, strict=True)):
+            place, word = _changed(one, two), _changed(two, three)
+            assert (len(place) > 20) == (len(word) > 100) == (k < shown)
+            if k >= shown:
+                assert not len(place) and not len(word)
+                continue
+            found.append(place.mean(axis=0))
+            away = abs(word - found[-1])
+            assert away.max() < 150 and away.sum(axis=-1).min() < 40, "near its point"
+        assert len(found) == shown and np.linalg.norm(found[-1] - found[0]) > 50
 
 
 def test_foreign_files_are_kept_and_large_films_refused(tmp_path, monkeypatch):
@@ -79,3 +106,8 @@ def test_foreign_files_are_kept_and_large_films_refused(tmp_path, monkeypatch):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["again.gif", "mine.gif"]
     with pytest.raises(ValueError, match="wanted a name that ends in .html"):
         joint_explorer(IRB140).save(tmp_path / "explorer.gif")
+
+
+def _changed(one, other):
+    """The pixels (k, 2), row and column, in which two pictures differ."""
+    return np.argwhere(abs(one.astype(int) - other).max(axis=-1) > 60)

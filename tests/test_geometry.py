@@ -1,4 +1,4 @@
-"""Geometries: links and inverse from the same numbers, one tolerance, reasons in words."""
+"""Geometries: links and inverse from the same lengths, one tolerance, and reasons in words."""
 
 import dataclasses
 
@@ -51,8 +51,8 @@ def arms_of(rng):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_ik_and_fk_agree_for_links_of_any_lengths(seed):
-    """Hand-written inverses agree with their chain: every row leads back to the pose, and the
-    original posture is one of them.
+    """Closed-form inverses agree with their chain: every row leads back to the pose, and the
+    original posture is one of the rows.
     """
     rng = np.random.default_rng(seed)
     for arm in arms_of(rng):
@@ -122,8 +122,8 @@ def test_arm_without_closed_form_has_another_type():
         type(IRB140)("none", arm.geometry, arm.limits)
 
 
-# Beyond the border: (arm, a pose for a distance beyond it). One rule of tolerance decides in `ik`
-# and in `explain`.
+# The borders of the workspace: for a distance beyond each, the answers of `ik` and `explain`. Both
+# must use the same tolerance.
 def stretched(arm, at):
     return lambda beyond: arm.ik(at(beyond)), lambda beyond: explain(arm, at(beyond), 0)
 
@@ -147,7 +147,7 @@ BORDERS = {
 
 
 def puma_beyond(x):
-    """The wrist centre, which is the flange's origin, on the line from joint 2 through it."""
+    """A pose whose wrist centre, the origin of the flange, is x beyond the stretched arm."""
     T = PUMA560.fk([0, 0, -90 * deg + np.arctan2(20.3, 431.8), 0.1, 0.2, 0.3])
     ahead = (T.translation - [0, 0, 0.67183]) * [1, 0, 1]
     return Transform(T.rotation, T.translation + x * ahead / np.linalg.norm(ahead))
@@ -158,9 +158,9 @@ def away(x):
 
 
 @pytest.mark.parametrize("name", BORDERS)
-def test_gap_follows_one_rule_for_all_geometries(name):
-    """`explain` gives a reason exactly for the rows that `ik` leaves out, from a rounding error to
-    a metre beyond (in between the first edition said "does not exist: .").
+def test_ik_and_explain_agree_on_the_border_of_every_geometry(name):
+    """`explain` gives a reason exactly for the rows that are NaN in `ik`, from a rounding error to
+    10 mm beyond the border. (In between, the first edition said "does not exist: .".)
     """
     ik, words = BORDERS[name]
     reached = []
@@ -174,15 +174,17 @@ def test_gap_follows_one_rule_for_all_geometries(name):
             if beyond > 1e-4:
                 number = float(said.split(" is ")[1].split(" mm")[0])
                 assert number == pytest.approx(beyond * 1000, rel=0.3, abs=0.051)
-    assert sorted(reached, reverse=True) == reached, "one border: reached before it, not after it"
+    assert sorted(reached, reverse=True) == reached, "there is more than one border"
     assert reached[25] and reached[26] and not reached[-1]
 
 
 @pytest.mark.parametrize("exponent", range(2, 17))
-def test_equal_links_keep_their_digits_near_the_shoulder(exponent):
-    """The law of cosines loses half of the digits there: the error was as large as the distance."""
+def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
+    """The law of cosines loses half of the digits there: the error was once as large as the
+    distance.
+    """
     d = 10.0**-exponent
-    # From 1e-13 of the reach on a point counts as on axis 1, where joint 1 is free.
+    # Within 1e-13 of the reach, a point counts as on axis 1, where joint 1 is free.
     tolerance = 4e-15 if exponent < 12 else 4e-13
     angle = np.linspace(0, TURN, 13)
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1) * d
@@ -208,7 +210,7 @@ def test_equal_links_keep_their_digits_near_the_shoulder(exponent):
 
 
 def test_free_joints_of_folded_equal_links_follow_the_motion():
-    """The tip is at the base: joint 1 may have any value, so a motion keeps it."""
+    """The tip is at the base, where joint 1 may have any value, so a motion keeps its value."""
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose((0.0, 0.0, 0.1), 0.3))
     near = np.array([1.1, np.pi, 0.2, 0.1])
@@ -222,7 +224,7 @@ def test_free_joints_of_folded_equal_links_follow_the_motion():
     assert (unequal.geometry.choose_free_joints(folded, near) == folded).all()
 
 
-def test_two_levers_equals_the_law_of_cosines():
+def test_two_levers_agrees_with_the_law_of_cosines():
     rng = np.random.default_rng(8)
     a, b = rng.uniform(0.1, 2, (2, 500))
     for one, two, share in zip(a, b, rng.uniform(0.01, 0.99, 500), strict=True):
@@ -234,7 +236,7 @@ def test_two_levers_equals_the_law_of_cosines():
             (one**2 + two**2 - d**2) / (2 * one * two), abs=1e-13
         )
         assert 0 < ahead < np.pi and 0 < turn < np.pi
-        # The chain closes: one link goes forward, the other back.
+        # The chain must close: one link goes forward, the other back.
         tip = one * np.exp(-1j * ahead) + two * np.exp(1j * (turn - ahead))
         assert abs(tip - d) < 1e-14
     assert not two_levers(1, 0.5, np.array([0.49, 1.51, np.nan]))[2].any()
@@ -266,7 +268,7 @@ def test_every_gap_and_singularity_has_a_sentence():
         gap = arm.geometry.gap(pose, 0)
         assert isinstance(gap, Gap) and gap.words in said and gap.kind in SENTENCES
     assert "too near to axis 1" in explain(PUMA560, inside, 0)
-    # Metres for millimetres: only where the shrunk pose is in reach.
+    # The hint appears only if the pose in millimetres would be within reach.
     assert "were millimetres meant" in explain(loader_arm(1, 0.5), (0, 1200, 0), 0)
     assert "were millimetres meant" not in explain(loader_arm(1, 0.5), (0, 1900, 0), 0)
     assert "were millimetres meant" in explain(SCARA, ScaraPose((300, 0, 100), 0.1), 0)
@@ -282,7 +284,7 @@ def test_wrist_is_named_only_for_arms_with_a_wrist():
 
 
 def test_axis_length_tolerance_is_the_same_everywhere():
-    """An axis that is a unit vector within 1e-6 is taken, and made one; elsewhere too."""
+    """An axis that is a unit vector within 1e-6 is accepted and normalised, in all functions."""
     link = Link(axis=(0, 0, 1 + 5e-7))
     assert link.axis.tolist() == [0, 0, 1]
     assert Quaternion.from_angle_axis(0.3, (0, 0, 1 + 5e-7)).wxyz[3] == np.sin(0.15)
@@ -291,9 +293,9 @@ def test_axis_length_tolerance_is_the_same_everywhere():
             make((0, 0, 1 + 1e-5))
 
 
-def test_links_with_any_axis_and_orientation():
-    """The shortcuts for coordinate axes equal the full product: compare a chain with oblique axes
-    and a rotated one.
+def test_links_may_have_any_axis_and_orientation():
+    """The shortcuts for coordinate axes give the same result as the full product: a chain with
+    oblique axes is compared with a rotated one.
     """
     rng = np.random.default_rng(11)
     for _ in range(30):
@@ -310,7 +312,7 @@ def test_links_with_any_axis_and_orientation():
         assert abs(abs(np.dot(r1, r2)) - 1) < 1e-14 and np.allclose(o1, o2, rtol=0, atol=1e-14)
 
 
-def test_lengths_in_words_choose_their_unit():
+def test_lengths_in_words_have_a_suitable_unit():
     assert length_unit(2.0) == ("mm", 1e-3) and length_unit(2.01) == ("m", 1.0)
     assert in_words(0.0123) == "12.3 mm" and in_words(12.34) == "12.3 m"
     assert in_words(9.99) == "9990.0 mm"

@@ -1,4 +1,4 @@
-"""Guesses: those made in a page are saved beside their notebook, and a report has them in order,
+"""Guesses: those made in a page are saved beside their notebook, and a report lists them in order,
 whatever other files are there.
 """
 
@@ -38,7 +38,9 @@ def at(second):
 
 
 def notebook(path, *cells, ids=()):
-    """A notebook with these code cells, and one for each prediction; handed out, not run."""
+    """Write a notebook with these code cells and one for each prediction, handed out but not run;
+    return its path.
+    """
     sources = [
         *(["from robokin.course import predict"] if ids else []),
         *(f'predict("{name}")' for name in ids),
@@ -105,14 +107,14 @@ def test_renamed_notebook_keeps_its_guesses(tmp_path):
     keep(lab, [(P1, "b", at(1))])
     keep(other, [(P2, "a", at(1))])
     fresh = notebook(tmp_path / "fresh.ipynb", ids=[P1])
-    assert read_guesses(fresh) is None, "those of a notebook that is there are its own"
+    assert read_guesses(fresh) is None, "a new notebook took the guesses of an existing one"
     fresh.unlink()
     mine = lab.rename(tmp_path / "lab of Ada.ipynb")
     assert chosen(mine) == {P1: ["b"]}
     keep(mine, [(P1, "c", at(2))])
     assert chosen(mine) == {P1: ["b", "c"]} and chosen(other) == {P2: ["a"]}
     assert read_guesses(notebook(tmp_path / "lab.ipynb", ids=[P1])) is None, (
-        "a new one, in its place"
+        "a new notebook took the guesses of the renamed one"
     )
 
 
@@ -156,7 +158,9 @@ def test_foreign_file_is_refused_and_not_overwritten(tmp_path, text):
     remarks = []
     made = guesses(handed_in(lab), remarks)
     assert made[0].choice == "c" and "guesses.json cannot be used" in remarks[0]
-    for choice in "ab":  # a second time there is nothing to set aside
+    for (
+        choice
+    ) in "ab":  # the first call sets the bad file aside, the second has nothing to set aside
         keep(lab, [(P1, choice, at(ord(choice) - 90))])
     assert chosen(lab) == {P1: ["a", "b"]}
     assert (tmp_path / ".robokin" / "guesses.broken1.json").read_text() == text
@@ -169,7 +173,7 @@ def test_special_files_are_refused(tmp_path):
     kinds = [file.mkdir, lambda: file.symlink_to("/dev/zero"), lambda: file.symlink_to("nowhere")]
     for make in [*kinds, *([lambda: os.mkfifo(file)] if hasattr(os, "mkfifo") else [])]:
         make()
-        with pytest.raises(ValueError, match="no plain file"):
+        with pytest.raises(ValueError, match="not a regular file"):
             read_guesses(lab)
         file.rmdir() if file.is_dir() else file.unlink()
 
@@ -203,16 +207,16 @@ def test_copy_and_plain_shells_do_not_save_guesses(tmp_path, monkeypatch):
     assert [path.name for path in (tmp_path / "mine").rglob("guesses*")] == []
 
     monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
-    assert hub.own_notebook() is None, "these tests are no kernel"
+    assert hub.own_notebook() is None, "the tests do not run in a kernel"
     shell = SimpleNamespace(kernel=1, user_ns={})
     monkeypatch.setitem(hub.sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
-    assert hub.own_notebook() is None, "nbval, nbclient: nobody looks at a page"
+    assert hub.own_notebook() is None, "nbval and nbclient show no page"
     monkeypatch.setenv("JPY_SESSION_NAME", "/labs/lab.ipynb")
     assert hub.own_notebook().name == "lab.ipynb"
     monkeypatch.setenv("ROBOKIN_JUDGE", "1")
     monkeypatch.setattr(hub, "_hub", None)
     hub.listen()
-    assert hub._hub is None, "a judging kernel opens nothing"
+    assert hub._hub is None, "a judging kernel opened a connection"
 
 
 def test_guesses_are_saved_beside_the_present_notebook(tmp_path):
@@ -234,7 +238,7 @@ def test_guesses_are_saved_beside_the_present_notebook(tmp_path):
     assert chosen(moved) == {P1: ["b"]}
 
 
-# --- What came of them ----------------------------------------------------------------------------
+# --- Guesses in a report --------------------------------------------------------------------------
 
 
 def test_line_of_guesses_is_parsed_or_refused():
@@ -302,13 +306,13 @@ def test_copy_mentions_other_guesses_and_uses_none(tmp_path):
     assert got == {} and parse_line(line) == {"p1": "b", number: "-290"}
     assert "for copy.ipynb, but some are for lab.ipynb," in remark
     handed = notebook(copied, remark.partition(": ")[2], ids=[P1, TYPED])
-    assert of(handed) == ({P1: "b", TYPED: "-290"}, []), "as the sentence says"
+    assert of(handed) == ({P1: "b", TYPED: "-290"}, []), "the suggested line does not work"
     assert of(lab) == (of(handed)[0], [])
     (tmp_path / "away").mkdir()
     assert of(shutil.copy(lab, tmp_path / "away" / "lab.ipynb")) == ({}, [])
     keep(notebook(tmp_path / "second.ipynb", ids=[P1]), [(P1, "a", at(1))])
     third = notebook(tmp_path / "third.ipynb", ids=[P1])
-    assert of(third) == ({}, []), "of two others nobody knows which one"
+    assert of(third) == ({}, []), "one of two other notebooks was chosen"
     written(tmp_path, "{")
     got, [remark] = of(third)
     assert got == {} and "cannot be used" in remark
@@ -318,7 +322,7 @@ def test_copy_mentions_other_guesses_and_uses_none(tmp_path):
 
 
 def answer(question, choice, again=False):
-    """Guess by hand."""
+    """Make a guess in the page."""
     if again:
         question.get_by_role("button", name="Ask me again").click()
     if choice in "abcdef":
@@ -338,7 +342,7 @@ def told(question):
     return question.locator(".rk-asking > p")
 
 
-# hubs with their own page: the messages that they get, and their answers
+# Starts a hub for each context; `sent` records its messages, and `hear` lets the test answer.
 HUBS = """contexts => {
   window.sent = contexts.map(() => []);
   window.hear = [];
@@ -351,7 +355,9 @@ HUBS = """contexts => {
 
 
 def shown(page, *titles):
-    """JupyterLab's page with a panel for each tab's title; None: a panel without a tab."""
+    """Show a page like JupyterLab's, with a panel for each tab title, or for None a panel without a
+    tab; return the questions.
+    """
     panels = "".join(
         (f'<li class="lm-TabBar-tab" data-id="n{k}" title="{title}"></li>' if title else "")
         + f'<div class="jp-NotebookPanel" id="n{k}">{predict(P1).html}</div>'
@@ -388,14 +394,14 @@ def test_each_guess_goes_to_the_kernel_of_its_notebook(page):
     expect(told(one)).to_have_text("Kept on this page only: the disk is full.")
     expect(told(other)).to_have_text(RUN.replace("in this browser", "on this page"))
     copies = [each.get_by_role("button", name="Copy my").count() for each in (one, two, other)]
-    assert copies == [1, 0, 1], "where nobody keeps them"
+    assert copies == [1, 0, 1], "only guesses that are not saved need the button"
     answer(two, "d", again=True)
     assert made_in(page)[0] == [kept_as(P1, "b"), kept_as(P1, "bd")]
     assert page.evaluate("sent[0][1].path") == "labs/b.ipynb"
 
 
 def test_guess_without_a_path_goes_to_the_only_kernel(page):
-    (one,) = shown(page, None)  # Notebook 7 has no tabs; VS Code's model no context
+    (one,) = shown(page, None)  # Notebook 7 has no tabs, and the model in VS Code has no context
     page.evaluate(HUBS, [{"path": "a.ipynb", "localPath": "a.ipynb"}])
     answer(one, "b")
     assert made_in(page) == [[kept_as(P1, "b")]]
@@ -404,12 +410,12 @@ def test_guess_without_a_path_goes_to_the_only_kernel(page):
     page.evaluate(HUBS, [None])
     answer(one, "c")
     assert made_in(page) == [[kept_as(P1, "c")]]
-    page.evaluate(HUBS, [None])  # a second one
+    page.evaluate(HUBS, [None])  # a second kernel
     answer(one, "d", again=True)
     assert made_in(page) == [[]] and "Run All Cells" in told(one).inner_text()
 
 
-def test_late_kernel_receives_the_remembered_guesses(page):
+def test_late_kernel_receives_earlier_guesses(page):
     (one,) = shown(page, "Path: a.ipynb")
     answer(one, "b")
     answer(one, "c", again=True)
@@ -423,7 +429,7 @@ def test_late_kernel_receives_the_remembered_guesses(page):
 
 
 def exported(folder, *ids):
-    """Pages of questions, as an export has them."""
+    """Write two pages with questions, as in an export; return their paths."""
     for name in ("ada.html", "bob.html"):
         html = "".join(predict(each).html for each in ids)
         (folder / name).write_text(f"<!DOCTYPE html><meta charset=utf-8><body>{html}")
@@ -450,7 +456,7 @@ def test_copy_button_copies_all_guesses_of_one_page(page, tmp_path):
     assert parse_line(line)
     page.goto(bob.as_uri())
     awake(page)
-    assert page.locator(".rk-answer p").count() == 0, "another page's guesses"
+    assert page.locator(".rk-answer p").count() == 0, "the page shows another page's guesses"
     page.goto(ada.as_uri())
     awake(page)
     assert page.get_by_text("You guessed here before.").count() == 4 and button.count() == 1
@@ -507,8 +513,8 @@ def run_all(jupyter, page, count):
 
 
 def test_guesses_arrive_from_jupyterlab(jupyter, page):
-    """Two labs, two copies of one lab, one of them renamed; a restarted kernel; Run All after
-    guessing; saved, closed and opened again.
+    """Two copies of a lab, one of them renamed, and another lab; a restarted kernel, Run All after
+    guessing, and a notebook that is saved, closed and opened again.
     """
     folder = jupyter.labs / "guessing"
     lab = notebook(folder / "lab.ipynb", ids=[P1, P2, TYPED])
@@ -573,7 +579,8 @@ def test_guesses_arrive_from_jupyterlab(jupyter, page):
     assert all(time.tzinfo for time in times) and first == sorted(first)
     cells = nbformat.read(lab, as_version=4).cells
     outputs = [o.data["text/html"] for cell in cells for o in cell.get("outputs", ())]
-    assert outputs == [predict(name).html for name in (P1, P2, TYPED)], "an output knows a guess"
+    assert outputs == [predict(name).html for name in (P1, P2, TYPED)], "an output contains a guess"
     assert "widget" not in lab.read_text()
-    errors = [each for each in page.errors if "debugger state" not in each]  # JupyterLab's own
+    # JupyterLab itself complains about the debugger state
+    errors = [each for each in page.errors if "debugger state" not in each]
     assert errors == [] and page.outside == []

@@ -1,5 +1,5 @@
-"""`report(who)` in a lab: it finds its notebook, checks whether the file is as new as what the
-student sees, and writes the report or says in one sentence what is in the way.
+"""`report(who)` in a lab finds its notebook, checks whether the file is as new as what the student
+sees, and writes the report or says in one sentence why it cannot.
 """
 
 import json
@@ -30,7 +30,7 @@ REPORT = 'report("Ada")'
 
 
 def stored(path, *sources, saved=None):
-    """Write a notebook with these code cells; `saved`: when."""
+    """Write a notebook with these code cells; `saved` is the time stamp of the file."""
     cells = [new_markdown_cell("# A lab"), *map(new_code_cell, sources)]
     nbformat.write(new_notebook(cells=cells), path)
     if saved is not None:
@@ -40,8 +40,8 @@ def stored(path, *sources, saved=None):
 
 @pytest.fixture
 def desk(tmp_path, monkeypatch):
-    """A kernel's folder with `lab.ipynb`, opened in JupyterLab. `run(source, when)` a cell;
-    `desk.judged` is what would have been judged: (file, name).
+    """A kernel's folder with `lab.ipynb`, opened in JupyterLab. `desk.run(source, when=...)` runs a
+    cell; `desk.judged` lists what would have been judged: (file, name).
     """
     here = SimpleNamespace(folder=tmp_path, lab=tmp_path / "lab.ipynb", judged=[])
 
@@ -61,7 +61,7 @@ def desk(tmp_path, monkeypatch):
     return here
 
 
-# --- Where it does nothing ------------------------------------------------------------------------
+# --- Calls that do nothing ------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("who", ["your name", " Your  NAME ", "", "  ", None, ...])
@@ -84,14 +84,14 @@ def test_report_outside_a_front_end_prints_the_same_line(desk, monkeypatch, wher
     assert "\n" not in ASLEEP
 
 
-def test_names_may_be_anything(desk):
+def test_student_names_may_be_anything(desk):
     stored(desk.lab, REPORT)
     for who in (7, "Zoë -x", "李 小龙"):
         assert report(who) == "written" and desk.judged[-1] == ("lab.ipynb", str(who))
 
 
 def test_modules_do_not_shadow_exported_names():
-    """Otherwise importing the module would replace the function."""
+    """Otherwise, importing the module would replace the function."""
     modules = {path.stem for path in Path(course.__file__).parent.iterdir()}
     assert not modules & set(course.__all__)
 
@@ -114,7 +114,7 @@ def test_last_version_of_a_cell_counts(desk):
     assert report("Ada") == UNSAVED
     stored(desk.lab, IMPORTS, versions[2], CHECK, saved=300)
     assert report("Ada") == "written"
-    desk.run(versions[0], when=400)  # back to the first one
+    desk.run(versions[0], when=400)  # back to the first version
     assert report("Ada") == UNSAVED
 
 
@@ -142,7 +142,7 @@ def test_report_cell_must_be_saved_only_if_it_has_guesses(desk, monkeypatch):
     stored(desk.lab, IMPORTS, cell, saved=400)
     assert report("Ada", guesses="p1 b") == "written"
     desk.run("def answer(): ...\nreport('Ada')", when=500)
-    assert report("Ada") == UNSAVED, "an answer beside it counts"
+    assert report("Ada") == UNSAVED, "an answer in the cell of `report` does not count"
 
 
 def test_invalid_line_of_guesses_is_reported(desk):
@@ -187,7 +187,7 @@ def test_file_that_is_not_a_notebook_is_reported(desk):
     assert report("Ada") == "No report: lab.ipynb is not a notebook."
 
 
-def test_missing_notebook_requires_a_file_name(desk):
+def test_missing_notebook_is_reported(desk):
     desk.run(IMPORTS, CHECK, when=100)
     assert "no notebook with this lab's exercises" in report("Ada")
 
@@ -215,7 +215,7 @@ def test_links_in_the_page_are_safe():
 
 
 class Kernel:
-    """A real one, started as JupyterLab starts it for the notebook at `lab`."""
+    """A real kernel, started as JupyterLab starts it for the notebook at `lab`."""
 
     def __init__(self, lab):
         self.manager = KernelManager(kernel_name="python3")
@@ -251,13 +251,15 @@ class Kernel:
             seen(said)
 
     def others(self):
-        """Its child processes."""
+        """The child processes of the kernel."""
         started = psutil.Process(self.manager.provisioner.pid).children(recursive=True)
         return [each for each in started if each.status() != psutil.STATUS_ZOMBIE]
 
 
 def test_complete_session_writes_a_report(tmp_path):
-    """An answer that raises, a right one, a missing save, an interrupt."""
+    """The session has an answer that raises an error, a correct answer that is not saved, and an
+    interrupt.
+    """
     raising = "import robokin\nmy_posture = 1 / 0"
     cells = [IMPORTS, raising, CHECK, 'predict("start_here.p1", "b")']
     lab = stored(tmp_path / "00_start_here.ipynb", *cells)
@@ -266,7 +268,7 @@ def test_complete_session_writes_a_report(tmp_path):
             kernel.run(source)
         page = tmp_path / "00_start_here_Ada.html"
         said = kernel.run(REPORT)
-        assert said.startswith("Running your lab anew.") and page.name in said
+        assert said.startswith("Running your lab again.") and page.name in said
         assert "start_here.1: failed" in said and "1 of 1 predictions made" in said
         data = report_data(page.read_text(encoding="utf-8"))
         assert data["who"] == "Ada" and data["exercises"][0]["state"] == "failed"
@@ -279,17 +281,17 @@ def test_complete_session_writes_a_report(tmp_path):
 
         def interrupt(text):
             if "Running" in text and not stopped:
-                until(lambda: len(kernel.others()) > 1, "no kernel judges")
+                until(lambda: len(kernel.others()) > 1, "no kernel started to judge")
                 stopped.append(kernel.manager.interrupt_kernel())
 
         assert "Stopped: no report was written." in kernel.run(REPORT, interrupt)
-        until(lambda: not kernel.others(), "something still judges")
+        until(lambda: not kernel.others(), "a judging process is still running")
         assert page.read_bytes() == before and kernel.run("print(6 * 7)") == "42\n"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a login shell")
 def test_commands_of_lab_00_work(tmp_path):
-    """In a login shell, where no Python of ours is on the path, in the folder of the clone."""
+    """They run in a login shell, in the folder of the clone, without our Python on the path."""
     [told] = [cell for cell in _prose("00_start_here.ipynb") if "-m robokin.course report" in cell]
     assert "in the folder from which you started JupyterLab" in " ".join(told.split())
     [commands] = re.findall(r"^```sh\n(.*?)^```", told, re.M | re.S)

@@ -1,8 +1,8 @@
-"""A notebook that attacks its page: a student may hand in anything, and a teacher opens it. No
-foreign script runs, nothing is fetched, and the header of a report is unchanged.
+"""Notebooks that attack their page: a student may hand in anything, and a teacher opens it. No
+foreign script may run, nothing may be fetched, and the header of a report must not change.
 
-The attack values are put wherever a notebook has room for them. They work: in a carelessly written
-page they run and fetch (the first test).
+The attack values are put wherever a notebook has room for them. They are effective: in a carelessly
+written page they run and fetch (the first test).
 """
 
 import base64
@@ -39,7 +39,7 @@ from robokin.show import target_explorer
 from robokin.show.page import Page
 
 ATTACK = "window.hacked=1;document.title='hacked';new Image().src='URL/script'"
-FETCHES = (  # what fetches without a script
+FETCHES = (  # elements that fetch something without a script
     '<img src="URL/img.png">',
     '<img srcset="URL/set.png 1x">',
     "![](URL/markdown.png)",
@@ -60,7 +60,7 @@ FETCHES = (  # what fetches without a script
     '<math><mtext href="URL/math"><img src="URL/mathimg"></mtext></math>',
     '<body background="URL/body.png">',
 )
-RUNS = (  # what runs a script
+RUNS = (  # elements and attributes that run a script
     "<script>JS</script>",
     "<SCRIPT >JS</SCRIPT >",
     "</script><script>JS</script>",
@@ -104,7 +104,7 @@ RUNS = (  # what runs a script
     '# a" onclick="JS',
     "<h2 id=\"x\" onclick='JS'>heading</h2>",
 )
-LEADS = (  # what leads away, immediately or by a click
+LEADS = (  # elements that lead to another address, immediately or on a click
     '<meta http-equiv="refresh" content="0;url=URL/refresh">',
     '<base href="URL/">',
     '<a href="javascript:JS">a link</a>',
@@ -124,7 +124,7 @@ LEADS = (  # what leads away, immediately or by a click
     '<map name="m"><area href="javascript:JS" coords="0,0,999,999"></map><img usemap="#m">',
     '<form action="URL/form"><button>send</button></form><button formaction="URL/f">x</button>',
 )
-COVERS = (  # what would change the words of the header, or lie above it
+COVERS = (  # elements that would change or cover the header
     "<style>.rk-not { color: green; font-size: 0 } .rk-not::after { content: 'holds' }</style>",
     '<div style="position:fixed;inset:0;background:#fff;z-index:9999">holds</div>',
     '<div class="rk-report" id="robokin-report"><span class="rk-holds">holds</span></div>',
@@ -160,7 +160,7 @@ ALLOWED = """() => {
   for (const node of document.querySelectorAll(".rk-notebook *")) {
     if (node.closest(".robokin-player, .rk-folded, .highlight") || node.closest("math")) continue;
     const ours = /^jp-|^rk-notebook$|^cm-editor/.test(node.className);
-    const style = node.matches(".robokin-player ~ *");  // and script, of ours
+    const style = node.matches(".robokin-player ~ *");  // our own style and script
     if (style) continue;
     if (!known.has(node.localName)) odd.push(node.localName);
     for (const {name, value} of node.attributes) {
@@ -188,7 +188,7 @@ VERDICTS = """() => [...document.querySelectorAll(".rk-report [class]")].map(e =
 
 @pytest.fixture(scope="module")
 def listening():
-    """A server that should get no request: its address, and the requests."""
+    """A server that should receive no requests: its address, and the requests it received."""
     asked = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -215,7 +215,7 @@ def values(url):
 
 
 def attacking(url):
-    """A notebook with every value in every place."""
+    """A notebook with every attack value in every place."""
     cells = []
     for value in values(url):
         outputs = [
@@ -294,7 +294,7 @@ def forged(url):
 
 
 def data_of(words=("a sentence",)):
-    """The data of a report with these words wherever there is room."""
+    """The data of a report with these words in every field that can contain them."""
     lab = book.lab("scara_motion")
     word = words[0]
     states = ["holds", "does not hold", "failed", "not judged", "unanswered"]
@@ -337,7 +337,7 @@ def data_of(words=("a sentence",)):
 
 
 class Opened:
-    """Pages in one browser, one after another, and their results."""
+    """Opens pages in one browser, one after another, and reads them."""
 
     def __init__(self, browser, folder):
         self.folder = folder
@@ -364,7 +364,7 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def seen(browser, listening, tmp_path_factory):
-    """The harmless and the attacked pages, opened, and the requests meanwhile."""
+    """What the harmless and the attacked pages show when opened, and the requests in that time."""
     folder = tmp_path_factory.mktemp("hostile")
     opened = Opened(browser, folder)
     quiet = new_notebook(cells=[new_markdown_cell("Words"), new_code_cell("1 + 1")])
@@ -378,11 +378,12 @@ def seen(browser, listening, tmp_path_factory):
         view = View(folder, lenient=True)
         exported = page(view.cells(notebook), short[20], view.nonce)
         result.export = opened.look("export.html", exported)
-    assert len(data["remarks"]) > 1, "formulas that could not be read are told"
+    assert len(data["remarks"]) > 1, "unreadable formulas are not reported"
     same = data_of() | {"remarks": data["remarks"]}
     result.harmless = opened.look("harmless.html", page_of(same, quiet, folder))
     many = page_of(data_of(short), quiet, folder)
-    result.data = opened.look("data.html", many, picture=False)  # it would have 50 million pixels
+    # a picture of this page would have 50 million pixels
+    result.data = opened.look("data.html", many, picture=False)
     result.asked = list(listening.asked)
     careless = "".join(v for v in (*FETCHES, *RUNS) if "frame" not in v)
     raw = careless.replace("JS", ATTACK).replace("URL", listening.url)
@@ -409,22 +410,22 @@ def test_foreign_scripts_do_not_run_and_nothing_is_fetched(seen, name):
 def test_notebook_html_contains_only_allowed_elements(seen, name):
     page = getattr(seen, name)
     assert page.odd == []
-    assert page.scripts == 0, "scripts without the page's nonce"
+    assert page.scripts == 0, "there are scripts without the page's nonce"
 
 
 def test_notebook_does_not_change_the_header(seen):
-    assert seen.notebook.head == seen.harmless.head, "picture and words"
+    assert seen.notebook.head == seen.harmless.head, "the picture or the words differ"
     assert seen.notebook.verdicts == seen.harmless.verdicts
     assert len(seen.harmless.verdicts) >= 10
 
 
-def test_text_in_the_header_does_not_change_a_verdict(seen):
+def test_text_in_the_header_does_not_change_verdicts(seen):
     assert seen.data.verdicts == seen.harmless.verdicts
     for turned in ("\u202e", "\u2067", "\x07", "\x9b"):
         assert turned not in seen.data.head[1]
 
 
-def test_outputs_like_ours_are_rewritten_or_left_out(listening):
+def test_forged_outputs_are_rewritten_or_left_out(listening):
     explorer = target_explorer(IRB140).html
     whole = again(explorer, "abc")
     assert whole.count("<script nonce=abc>") == 1 and "<script>" not in whole
@@ -458,10 +459,10 @@ def test_verdict_has_the_colour_of_its_first_word():
         evil = again(re.sub('style="border[^"]*"', f'style="{style}"', not_so), "n")
         assert colour not in evil and "position" not in evil and "does not hold" in evil
     evil = not_so.replace("</b>", "<img src=x onerror=1></b>")
-    assert again(evil, "n") is None, "cleaned, as any HTML"
+    assert again(evil, "n") is None, "a changed verdict must be cleaned as any other HTML"
 
 
-def test_a_report_opens_each_question_with_the_first_guess():
+def test_report_opens_each_question_with_the_first_guess():
     stored = predict("irb140_motion.p1", "a").html
     assert '"choice":"b"' in again(stored, "n", {"irb140_motion.p1": "b"})
     assert '"choice":null' in again(stored, "n", {})
@@ -583,7 +584,9 @@ def test_invisible_characters_are_escaped():
 
 
 def test_every_character_is_visible_or_escaped():
-    """By Python's tables: control characters, line ends and changes of direction."""
+    """The expected escapes come from Python's Unicode tables: control characters, line ends and
+    changes of direction.
+    """
     every = [chr(c) for c in range(0x110000)]
     turns = ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
     told = [
@@ -616,7 +619,7 @@ PIECES += ("<b></i>", "\\begin{a}", "`", "*a_", "\x1b[31m", "\u202e", "- a\n", "
 @pytest.mark.parametrize("piece", PIECES)
 @pytest.mark.parametrize("size", [20_000, 1_000_000])
 def test_page_is_converted_quickly(piece, size, tmp_path):
-    """At most 2 s of CPU time per megabyte of any content."""
+    """The limit is 2 s of CPU time per megabyte, for any content."""
     text = (piece * (size // len(piece) + 1))[:size]
     outputs = [
         new_output("stream", text=text),
@@ -628,7 +631,7 @@ def test_page_is_converted_quickly(piece, size, tmp_path):
     assert time.process_time() - begin < 2 * max(1, 3 * size / 1e6)
 
 
-def test_many_pieces_take_no_longer_than_one(tmp_path):
+def test_many_cells_take_no_longer_than_one(tmp_path):
     cells = [new_markdown_cell("<b>x</b> &amp; " * 1000) for _ in range(200)]  # 3 MB
     begin = time.process_time()
     view = View(tmp_path, lenient=True)
@@ -644,14 +647,14 @@ def test_deep_nesting_is_detected():
 
 
 LABS = {path.stem[:2]: path for path in NOTEBOOKS.glob("[0-9]*.ipynb")}
-SAMPLE = ("03", "08", "09", "10", "11")  # together everything that robokin shows
+SAMPLE = ("03", "08", "09", "10", "11")  # these labs contain every kind of view
 AWAKE = """() => [...document.querySelectorAll(".robokin-player")]
   .map(each => "ready" in each.dataset && !each.querySelector(":scope > img"))"""
 
 
 @pytest.fixture(scope="module")
 def stored_report(tmp_path_factory):
-    """The report of a stored lab, made without a kernel: its page, and its script calls."""
+    """Lab number -> the page of its report, made without a kernel, and the script calls in it."""
     folder = tmp_path_factory.mktemp("reports")
     return cache(lambda name: report_of(LABS[name], folder))
 
@@ -679,7 +682,7 @@ def report_of(path, folder):
 
 
 def guess_all(page):
-    """Make every guess of the page; return their number."""
+    """Answer every prediction of the page; return the number of predictions."""
     return page.evaluate("""() => {
       const asking = [...document.querySelectorAll(".rk-ask")];
       for (const each of asking) {
@@ -692,8 +695,8 @@ def guess_all(page):
 
 
 def alive(page, calls):
-    """Check that every view is awake, including those behind predictions; return the number of the
-    latter.
+    """Assert that every view is awake, including those behind predictions; return the number of
+    those.
     """
     before = page.evaluate(AWAKE)
     assert len(before) == len(calls) and all(before)
@@ -717,7 +720,7 @@ def test_report_views_work_from_a_file(browser, stored_report):
         kinds |= {*calls}
         assert complaints == [], name
     context.close()
-    assert views >= 2, "views that move stand behind some predictions"
+    assert views >= 2, "wanted moving views behind some predictions"
     assert kinds == {*KINDS, "prediction.ask"}
 
 
@@ -735,7 +738,7 @@ def test_report_views_work_on_a_server(browser, stored_report):
         report, calls = stored_report(name)
         page.goto(f"http://127.0.0.1:{server.server_port}/{report.name}")
         awake(page)
-        assert alive(page, calls) == 1, "one view that moves"
+        assert alive(page, calls) == 1, "wanted one moving view behind a prediction"
     context.close()
     server.shutdown()
     server.server_close()

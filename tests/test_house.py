@@ -1,5 +1,5 @@
-"""The house rules of the repository: who imports whom, the cost of `import robokin`, and the
-promises of the README.
+"""The house rules of the repository: which module may import which, the cost of `import robokin`,
+and the promises of the README.
 """
 
 import ast
@@ -22,16 +22,13 @@ import robokin
 TOP = {"notebooks", "robokin", "environment.txt", "tests", "README.md", "pyproject.toml"}
 TOP |= {"CONTRIBUTING.md", "CHANGELOG.md"}
 OWNERS_CHOICE = {"LICENSE", "LICENSE.md", "LICENSE.txt", "LICENCE", "LICENCE.md", "LICENCE.txt"}
-MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"} | {
-    "my-labs",
-    "handed-in",
-    "site",
-}  # the README's
+# Files of build tools, and the folders in the commands of the README.
+MADE_BY_TOOLS = {"robokin.egg-info", "build", "dist"} | {"my-labs", "handed-in", "site"}
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
-# Each module may import the modules of the longest matching entry, besides itself and its own
-# parts.
+# A module may import itself, its own parts, and the modules of the longest entry that matches its
+# name.
 BASE = (
     "robokin._arrays",
     "robokin._validate",
@@ -71,7 +68,7 @@ HEAVY = DRAWING | {
     "importlib.resources",
 }
 
-# Libraries of the extras "labs" and "site" for work that we should not write ourselves.
+# Libraries of the extras "labs" and "site", for tasks that we should not program ourselves.
 OUTSIDE = {
     "robokin.course.copies": {"nbformat"},
     "robokin.course.export": {"jinja2", "markupsafe", "math_core", "nbconvert", "nbformat"},
@@ -111,12 +108,12 @@ def test_modules_import_only_lower_layers(module):
         else:
             allowed_here = {"numpy", *sys.stdlib_module_names, *OUTSIDE.get(module, ())}
             assert name.split(".")[0] in allowed_here, f"{module} imports {name}"
-        assert "pyplot" not in name, f"{module}: no pyplot, a figure is a value"
+        assert "pyplot" not in name, f"{module} uses pyplot, but a figure is a value"
 
 
 def test_layer_check_detects_a_planted_import():
-    # The rule above depends on the parser: relative imports and names that a package re-exports
-    # resolve.
+    # The rule above depends on the parser, which must resolve relative imports and names that a
+    # package re-exports.
     assert "robokin.arms.catalogue" in _imports("robokin.arms")
     assert {"numpy", "robokin.transform", "robokin.arms.arm"} <= _imports("robokin.arms.branches")
     assert "robokin.arms.spherical_wrist" in _imports("robokin.arms.catalogue")
@@ -136,7 +133,7 @@ def test_import_loads_nothing_heavy():
     assert outside <= {"numpy"}, outside
 
 
-def test_top_level_holds_what_the_design_names():
+def test_top_level_contains_only_the_agreed_files():
     found = {
         entry.name for entry in ROOT.iterdir() if not entry.name.startswith((".", "__pycache__"))
     }
@@ -155,7 +152,9 @@ def test_ci_runs_the_test_command_of_the_readme():
         for line in README.splitlines()
         if line.startswith("py -m venv") and line.endswith("pytest")
     ]
-    assert [_arguments(windows[0])] == [_arguments(commands[0])], "Windows installs something else"
+    assert [_arguments(windows[0])] == [_arguments(commands[0])], (
+        "the Windows command installs something else"
+    )
 
 
 def test_readme_names_every_lab_and_its_links_resolve():
@@ -171,10 +170,10 @@ def test_readme_names_every_lab_and_its_links_resolve():
             assert name in links, f"{name} is not in the README"
 
 
-def test_the_commands_of_the_readme_are_those_of_the_program():
+def test_commands_in_the_readme_equal_those_of_the_program():
     blocks = re.findall(r"^```(?:sh|powershell)\n(.*?)^```", README, re.M | re.S)
     used = re.findall(r"-m robokin\.course (\w+)", " ".join(blocks))
-    assert used.count("copy") == 2, "one for each shell"
+    assert used.count("copy") == 2, "wanted one command for each shell"
     told = subprocess.run(
         [sys.executable, "-m", "robokin.course", "-h"], text=True, capture_output=True, check=True
     ).stdout
@@ -196,13 +195,13 @@ def test_pins_are_exact_installed_and_within_the_ranges():
     assert not wrong, f"the stored outputs were made with other versions: {wrong}"
 
 
-def test_the_package_itself_needs_numpy_only():
+def test_package_itself_needs_only_numpy():
     assert [Requirement(text).name for text in PROJECT["dependencies"]] == ["numpy"]
     extras = {
         extra: {Requirement(text).name.lower() for text in texts}
         for extra, texts in PROJECT["optional-dependencies"].items()
     }
-    # What `robokin.show` imports is its extra.
+    # The imports of `robokin.show` must equal its extra.
     drawn = {
         name.split(".")[0] for m in MODULES if m.startswith("robokin.show") for name in _imports(m)
     }
@@ -221,7 +220,7 @@ def test_show_without_matplotlib_says_what_to_install():
     ), run.stderr
 
 
-def test_the_package_alone_goes_from_an_import_to_a_saved_page_in_eight_lines(tmp_path):
+def test_package_alone_saves_a_page_in_eight_lines(tmp_path):
     section = README.split("## The package alone\n")[1].split("\n## ")[0]
     (code,) = re.findall(r"^```python\n(.*?)^```", section, re.M | re.S)
     assert len([line for line in code.splitlines() if line]) == 8
@@ -230,8 +229,8 @@ def test_the_package_alone_goes_from_an_import_to_a_saved_page_in_eight_lines(tm
     assert "UR5" in page and "<script" in page and [*tmp_path.iterdir()] == [tmp_path / "page.html"]
 
 
-def test_no_text_installs_robokin_from_an_index():
-    """Extras in pyproject.toml name the package; texts for people name a clone."""
+def test_no_text_suggests_installing_robokin_from_an_index():
+    """Texts for people say how to install from a clone; only pyproject.toml names the package."""
     read = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
     read += [*MODULES.values(), *(ROOT / "notebooks").glob("**/*.ipynb")]
     for path in read:
@@ -245,7 +244,7 @@ def test_version_is_defined_once():
 
 @pytest.mark.parametrize("what", [[], ["--explicit-package-bases", "notebooks/exercises"]])
 def test_mypy_finds_no_errors(what):
-    # Configured in pyproject.toml. Its cache (.mypy_cache) makes the second run quick.
+    # mypy is configured in pyproject.toml. Its cache (.mypy_cache) makes the second run quick.
     run = subprocess.run(
         [sys.executable, "-m", "mypy", *what],
         cwd=ROOT,
@@ -293,12 +292,12 @@ def test_public_names_are_listed_and_documented(package):
 
 
 def _arguments(command):
-    """What a command asks pip to install."""
+    """The arguments of `pip install` in a command."""
     return re.search(r"pip install (.*?)(?:;| &&)", command)[1]
 
 
 def _imports(module):
-    """All modules that `module` imports; re-exported names count for their own module."""
+    """All modules that `module` imports; re-exported names count for the defining module."""
     found = set()
     package = module if MODULES[module].name == "__init__.py" else module.rpartition(".")[0]
     for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):

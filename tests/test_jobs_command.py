@@ -1,8 +1,8 @@
 """The command `python -m robokin.jobs FOLDER`: reports, log, exit status, and a folder of mutated
 task files.
 
-Make such a folder to look at, here with 10 000 files: `python tests/test_jobs_command.py 10000
-/tmp/mutants`. The test takes ROBOKIN_MUTANTS files, 300 if the variable is not set.
+`python tests/test_jobs_command.py 10000 /tmp/mutants` writes 10 000 such files to a folder. The
+test uses ROBOKIN_MUTANTS files, or 300 if the variable is not set.
 """
 
 import copy
@@ -35,7 +35,7 @@ def command(*arguments, cwd, **options):
 
 
 def write(folder, **files):
-    """A folder of task files: name=dict or bytes."""
+    """Write task files to a folder (name=dict or bytes) and return it."""
     folder.mkdir(exist_ok=True)
     for name, data in files.items():
         (folder / f"{name}.json").write_bytes(
@@ -52,19 +52,19 @@ def example(number=3, **changes):
 
 REPORTS = """\
 ERROR: Task example_1.json skipped:
-	point 0 = p0 (0, 0.7071, 0.7071) is too close to origin: |p|^2 = 0.99998082 m^2 is less than \
-l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2
+	point 0 = p0 (0, 0.7071, 0.7071) is too close to the origin: |p|^2 = 0.99998082 m^2 is less \
+than l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2
 INFO: Task example_2.json: collected 1 of 2 points in 6.097347887101 s (T = 10 s)
 	0 (2, 3, 2) at 6.097347887101 s
 	left: 1
 INFO: Task example_3.json: visited 2 of 2 points in 4.379934189305 s (T = 10 s)
 	0 (2, 3, 2) at 3.04867394355 s
 	1 (1, 3, 3) at 4.379934189305 s
-INFO: 3 files: 2 answered, 1 skipped
+INFO: 3 files: 2 solved, 1 skipped
 """
 
 
-def test_example_files_are_answered(tmp_path):
+def test_example_files_give_the_documented_reports(tmp_path):
     run = command(str(TASKS), cwd=tmp_path)
     assert (run.returncode, run.out.splitlines(), run.err) == (1, REPORTS.splitlines(), "")
     assert [entry.name for entry in tmp_path.iterdir()] == ["output.log"]
@@ -83,20 +83,22 @@ def test_example_files_are_answered(tmp_path):
     assert max(numbers[2][3:]) == pytest.approx(1.331260245755, abs=1e-12)
 
 
-def test_success_returns_0_and_renews_the_log(tmp_path):
+def test_success_returns_0_and_replaces_the_log(tmp_path):
     (tmp_path / "output.log").write_text("yesterday\n" * 1000)
     run = command(
         "tasks", cwd=write(tmp_path / "tasks", b=example(2), a=example(3), c=example(T=4)).parent
     )
     assert run.returncode == 0 and run.err == ""
-    assert re.findall(r"Task (\w)\.json", run.out) == ["a", "b", "c"], "in order of the names"
+    assert re.findall(r"Task (\w)\.json", run.out) == ["a", "b", "c"], (
+        "the tasks are not in alphabetical order"
+    )
     assert "visited 1 of 2 points in 3.04867394355 s (T = 4 s)" in run.out, (
-        "errata S0-f: this one hung"
+        "errata S0-f: the printed program hangs on this task"
     )
     assert "yesterday" not in (tmp_path / "output.log").read_text()
 
 
-def test_help_and_usage_errors(tmp_path):
+def test_help_and_usage_errors_explain_the_command(tmp_path):
     run = command("-h", cwd=tmp_path)
     assert run.returncode == 0
     for word in (
@@ -152,7 +154,7 @@ def test_unwritable_log_is_reported(tmp_path, log):
         (tmp_path / "output.log").symlink_to("nowhere/at/all")
         run = command(str(tasks), cwd=tmp_path)
         assert run.returncode == 0 and (tmp_path / "output.log").is_file()
-    assert "visited 2 of 2" in run.out and "1 file: 1 answered, 0 skipped" in run.out
+    assert "visited 2 of 2" in run.out and "1 file: 1 solved, 0 skipped" in run.out
 
 
 @pytest.mark.parametrize("link", ["symlink_to", "hardlink_to"])
@@ -172,7 +174,7 @@ def test_full_disk_is_reported(tmp_path):
     tasks = write(tmp_path / "tasks", a=example(), b=example(2))
     with open("/dev/full", "wb") as full:
         run = command(str(tasks), cwd=tmp_path, stdout=full)
-    assert run.returncode == 1 and "the standard output cannot be written: No space" in run.err
+    assert run.returncode == 1 and "standard output cannot be written: No space" in run.err
     assert "Task b.json: collected 1 of 2" in (tmp_path / "output.log").read_text()
 
 
@@ -185,14 +187,14 @@ def test_closed_pipe_is_handled(tmp_path):
     )
     assert run.stdout.startswith("INFO: Task t000.json") and "Traceback" not in run.stderr
     assert "Exception" not in run.stderr
-    assert "50 files: 50 answered" in (tmp_path / "output.log").read_text()
+    assert "50 files: 50 solved" in (tmp_path / "output.log").read_text()
 
 
 @posix
 def test_closed_streams_are_handled(tmp_path):
     write(tmp_path / "tasks", a=example())
     for closed, status, told in (
-        (">&-", 1, "the standard output cannot be written: it is closed\n"),
+        (">&-", 1, "standard output cannot be written: it is closed\n"),
         (">&- 2>&-", 1, ""),
         ("2>&-", 0, ""),
     ):
@@ -212,22 +214,22 @@ def test_closed_streams_are_handled(tmp_path):
 
 @posix
 def test_simultaneous_runs_in_one_folder_are_refused(tmp_path):
-    """The second run does not touch the log of the first, and says so."""
+    """The second run does not change the log of the first, and reports that."""
     write(tmp_path / "tasks", **{f"t{i:03}": example() for i in range(600)})
     write(tmp_path / "others", a=example(2))
     line = [sys.executable, "-m", "robokin.jobs", "tasks"]
     with subprocess.Popen(
         line, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as first:
-        first.stdout.readline()  # it runs, and then waits for a reader of its output
+        first.stdout.readline()  # the first run has begun, and waits until its output is read
         second = command("others", cwd=tmp_path)
         out, err = first.communicate(timeout=PATIENCE)
     assert second.returncode == 1 and "a.json: collected 1 of 2" in second.out
     assert second.err == "output.log cannot be written: another run is writing it\n"
     assert first.returncode == 0 and b"cannot" not in err
     log = (tmp_path / "output.log").read_text()
-    assert "a.json" not in log and "INFO: 600 files: 600 answered, 0 skipped" in log
-    assert command("others", cwd=tmp_path).returncode == 0, "the folder is free again"
+    assert "a.json" not in log and "INFO: 600 files: 600 solved, 0 skipped" in log
+    assert command("others", cwd=tmp_path).returncode == 0, "the folder is still locked"
     assert "a.json" in (tmp_path / "output.log").read_text()
 
 
@@ -239,7 +241,7 @@ def test_unprintable_file_names_are_escaped(tmp_path):
     run = command(
         "tasks", cwd=tmp_path, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     )
-    assert run.returncode == 0 and run.out.count("\nINFO: ") == 4 and "4 answered" in run.out
+    assert run.returncode == 0 and run.out.count("\nINFO: ") == 4 and "4 solved" in run.out
     assert "Task a\\nINFO: b.json: visited" in run.out and "Task caf\\udce9.json" in run.out
     assert "Task задача.json" in (tmp_path / "output.log").read_text(encoding="utf-8")
 
@@ -253,7 +255,7 @@ def test_special_files_are_reported(tmp_path):
     (tasks / "loop.json").symlink_to("loop.json")
     (tasks / "null.json").symlink_to("/dev/zero")
     run = command("tasks", cwd=tmp_path, timeout=PATIENCE)
-    assert run.returncode == 1 and "6 files: 1 answered, 5 skipped" in run.out
+    assert run.returncode == 1 and "6 files: 1 solved, 5 skipped" in run.out
     for name, why in (
         ("folder", "is not a file but a folder"),
         ("pipe", "is not a file but a device"),
@@ -281,7 +283,9 @@ def test_interrupts_and_internal_errors_are_handled(tmp_path, monkeypatch, capsy
     out = capsys.readouterr().out
     assert "Task a.json skipped:\n\tthis program failed, ArithmeticError: of the test" in out
     assert "Task b.json: collected 1 of 2" in out and "Traceback" not in out
-    assert "Traceback" in (tmp_path / "output.log").read_text(), "for whoever mends it"
+    assert "Traceback" in (tmp_path / "output.log").read_text(), (
+        "the log lacks the traceback, which a developer needs"
+    )
 
     def stop(task, **options):
         raise KeyboardInterrupt
@@ -304,10 +308,10 @@ def test_log_of_the_caller_is_not_used(tmp_path, monkeypatch, capsys, caplog):
     assert not module.answers.handlers and not module.end.handlers
 
 
-# ---- What a reader should know
+# ---- Hints about the content of a file
 
 
-def test_oddities_of_a_file_are_reported(tmp_path):
+def test_oddities_in_a_file_are_reported(tmp_path):
     tasks = write(
         tmp_path / "tasks",
         degrees=example(**{"q'": [20, 20, 20]}),
@@ -316,7 +320,7 @@ def test_oddities_of_a_file_are_reported(tmp_path):
         twice=json.dumps(example()).encode()[:-1] + b', "T": 1}',
     )
     run = command(str(tasks), cwd=tmp_path)
-    assert run.returncode == 1 and "4 files: 3 answered, 1 skipped" in run.out
+    assert run.returncode == 1 and "4 files: 3 solved, 1 skipped" in run.out
     said = dict(re.findall(r"Task (\w+)\.json.*?\n\t([^0-9].*)$", run.out, re.M))
     for name, words in (
         ("degrees", "20 rad/s is more than two turns a second; were degrees meant?"),
@@ -326,7 +330,10 @@ def test_oddities_of_a_file_are_reported(tmp_path):
     ):
         assert words in run.out.split(f"Task {name}.json")[1].split("\nINFO")[0], said
     above = command(str(tasks), "--above-floor", cwd=tmp_path)
-    assert "low.json: could not visit any points, what is in time dips under" in above.out
+    assert (
+        "low.json: could not visit any points, since every move that is in time dips under"
+        in above.out
+    )
 
 
 # ---- Large files
@@ -343,7 +350,7 @@ def test_large_tasks_give_short_reports(tmp_path):
         greedy=example(3, pi=points[:10_001]),
     )
     run = command(str(tasks), cwd=tmp_path, timeout=PATIENCE)
-    assert run.returncode == 1 and "3 files: 1 answered, 2 skipped" in run.out
+    assert run.returncode == 1 and "3 files: 1 solved, 2 skipped" in run.out
     assert "good.json: collected 200000 of 200000 points" in run.out
     assert "\n\tand 199000 more points\n" in run.out
     assert (
@@ -374,10 +381,10 @@ def test_import_robokin_does_not_import_jobs():
 
 
 def mutants(folder, count, seed=0):
-    """Fill a folder with `count` task files, most of them invalid. Yields (name, words, case).
+    """Write `count` task files to a folder, most of them invalid; yield (name, words, case).
 
-    words: what the reason must contain, None for a good task; case: the reference case that a good
-    task is.
+    words: text that the reason must contain, None for a good task; case: the reference case from
+    which the file was made, and the kind of task.
     """
     rng = np.random.default_rng(seed)
     folder = Path(folder)
@@ -488,12 +495,15 @@ def _out_of_reach(data, rng):
         return data, f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} {_shown(point)} is too far"
     if kind == 1:
         point[2] = -float(10.0 ** rng.uniform(-8, 300))
-        return data, f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} {_shown(point)} is under floor"
+        return (
+            data,
+            f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} {_shown(point)} is under the floor",
+        )
     data["L1"], data["L2"] = (5, 3) if rng.random() < 0.5 else (3, 5)
     point[:] = [0.1, -0.2, 0.3]
     return (
         data,
-        f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} (0.1, -0.2, 0.3) is too close to origin",
+        f"point {i} = {f'pi[{i - 1}]' if i else 'p0'} (0.1, -0.2, 0.3) is too close to the origin",
     )
 
 
@@ -511,14 +521,14 @@ def _not_utf8(data, rng):
 
 def _huge_time(data, rng):
     data["T"] = [1e300, 10**300, 1.7976931348623157e308][rng.integers(3)]
-    return data, f"({len(data['pi'])} of {len(data['pi'])})"  # everything is served
+    return data, f"({len(data['pi'])} of {len(data['pi'])})"  # all points are served
 
 
 def _shown(point):
     return f"({', '.join(f'{x:.12g}' for x in point)})"
 
 
-# kind -> (dict, bytes or None for a folder; words of the reason, None for a good task)
+# kind -> (a dict, bytes, or None for a folder; words in the reason, or None for a good task)
 MUTATIONS = {
     "good": lambda data, rng: (data, None),
     "good with more keys": lambda data, rng: (data | {"q": [], "note": [[["x"]]]}, None),
@@ -588,10 +598,10 @@ def test_mutated_files_are_reported_with_a_reason(tmp_path):
         else:
             bad += 1
             assert text.startswith(f"ERROR: {title} skipped:\n\t") and words in text, (words, text)
-    assert reports[-1].strip() == f"INFO: {count} files: {count - bad} answered, {bad} skipped"
+    assert reports[-1].strip() == f"INFO: {count} files: {count - bad} solved, {bad} skipped"
     assert 0.1 * count < bad < 0.95 * count
     assert f"{count // 100 * 100 - 100 * (count % 100 == 0)} of {count} files" in run.err, (
-        "progress"
+        "the progress is not reported"
     )
     kept = [
         line

@@ -1,4 +1,4 @@
-"""The page's scripts: one format, correct types, and data types equal to those of Python."""
+"""The scripts of the page: one format, correct types, and the same data types as in Python."""
 
 import ast
 import contextlib
@@ -16,7 +16,7 @@ from conftest import NODE, ROOT
 from javascript import HERE, NoNetwork, page_types, tool, tools, written
 
 from robokin import IRB140, SCARA, spbu_arm, three_lever, two_link
-from robokin.show import page, twin
+from robokin.show import page, things, twin
 from robokin.show.things import PageThing
 from robokin.show.things.thing import PageReading, PageWay
 
@@ -27,13 +27,13 @@ SCRIPTS = sorted([*FOLDER.glob("*.js"), *SITE.glob("*.js")])
 
 
 def not_installed(error):
-    """Without a network the test is skipped; in CI it fails."""
+    """Skip the test if there is no network; in CI, let it fail."""
     report = pytest.fail if os.environ.get("CI") else pytest.skip
     report(f"Prettier and TypeScript are not installed, and there is no network: {error}")
 
 
 def run(name, *arguments):
-    """What a tool says, "" if it finds nothing."""
+    """The output of a tool, or "" if it finds no faults."""
     try:
         done = tool(name, *arguments)
     except NoNetwork as error:
@@ -43,12 +43,14 @@ def run(name, *arguments):
 
 def test_prettier_finds_no_changes():
     said = run("prettier", "--check", FOLDER, SITE / "site.js")
-    assert not said, f"{said}\nRun: python tests/javascript.py prettier --write robokin/show/js"
+    assert not said, (
+        f"{said}\nRun: .venv/bin/python tests/javascript.py prettier --write robokin/show/js"
+    )
 
 
 def test_tsc_finds_no_errors():
     said = run("tsc")
-    assert not said, f"{said}\nThe same by hand: python tests/javascript.py tsc"
+    assert not said, f"{said}\nRun it yourself: .venv/bin/python tests/javascript.py tsc"
 
 
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
@@ -59,7 +61,7 @@ def test_no_line_is_longer_than_100_columns(path):
 
 @cache
 def scanned():
-    """tests/js/scan.cjs of every script: its functions and the constants at its top."""
+    """The output of tests/js/scan.cjs for every script: its functions and top-level constants."""
     try:
         command = [NODE, HERE / "scan.cjs", tools(), *SCRIPTS]
     except NoNetwork as error:
@@ -75,15 +77,18 @@ def test_functions_and_files_are_short():
         for path, found in scanned().items()
         for name, first, count in found["functions"]
     ]
-    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, "it sees them"
+    assert len(functions) > 1000 and max(count for *_, count in functions) > 40, "too few found"
     assert not [each for each in functions if each[-1] > 60]
     lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in SCRIPTS}
     assert not {name: length for name, length in lengths.items() if length > 350}
 
 
-# Constants in both languages for the same rule: the test in test_twin.py that compares them.
-TWINS = {("STEPS", 64): "test_greatest_values", ("MOST", 200): "test_greatest_values"}
-PLAIN = {*range(-1, 101), 0.5, 200, 400}  # may be equal by chance
+# A constant that both languages define -> the test in test_twin.py that compares the two.
+TWINS = {
+    ("STEPS", 64): "test_page_refines_the_same_maxima",
+    ("MOST", 200): "test_page_refines_the_same_maxima",
+}
+PLAIN = {*range(-1, 101), 0.5, 200, 400}  # values that may be equal by chance
 
 
 def numbers_of(path):
@@ -106,10 +111,14 @@ def numbers_of(path):
     return found
 
 
-def test_no_constant_is_typed_in_python_and_in_a_script():
-    """The page gets a constant from Python, or a test compares both: by name and by value."""
+def test_no_constant_is_defined_in_python_and_in_a_script():
+    """The page gets each constant from Python, or a test compares both. This looks for equal names
+    and equal values.
+    """
     ours = [pair for path in PACKAGE.rglob("*.py") for pair in numbers_of(path).items()]
-    assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), "it sees them"
+    assert {("LEAP", 0.002), ("FORBIDDEN", 255), ("NOTHING", -32768)} <= set(ours), (
+        "constants were not found"
+    )
     names, values = dict(ours), {value for _, value in ours}
     twins = (ROOT / "tests" / "test_twin.py").read_text(encoding="utf-8")
     for path, found in scanned().items():
@@ -120,7 +129,7 @@ def test_no_constant_is_typed_in_python_and_in_a_script():
             if (name, value) in TWINS:
                 assert f"def {TWINS[name, value]}(" in twins
                 continue
-            assert names.get(name) != value, f"{path.name}: {name} stands in Python, too"
+            assert names.get(name) != value, f"{path.name}: {name} is also defined in Python"
             assert value in PLAIN or value not in values, f"{path.name}: {name} = {text}"
         for value in {x for x in values if x not in PLAIN and abs(x) > 1000}:
             loose = re.findall(rf"(?<![\w.])-?{abs(value):g}(?![\w.])", path.read_text())
@@ -128,7 +137,7 @@ def test_no_constant_is_typed_in_python_and_in_a_script():
 
 
 def types_in(text):
-    """What stands in the braces behind the tags of JSDoc comments, and the rest of an @import."""
+    """The types in braces after the tags of JSDoc comments."""
     for comment in re.findall(r"/\*\*.*?\*/", text, re.S):
         comment = re.sub(r"\n\s*\*(?!/)", "\n", comment)
         for tag in re.finditer(r"@\w+\s*\{", comment):
@@ -153,16 +162,16 @@ def test_untyped_declarations_are_detected():
 def test_no_declaration_is_untyped(path):
     text = path.read_text(encoding="utf-8")
     assert not [each for each in types_in(text) if LOOSE.search(each)]
-    assert not re.findall(r"@ts-\w+", text), "a fault is mended, not hidden"
+    assert not re.findall(r"@ts-\w+", text), "correct the fault instead of hiding it"
 
 
 def test_page_types_equal_those_of_python():
     for path, text in written().items():
         stored = path.read_text(encoding="utf-8")
-        assert stored == text, f"{path.name}: run python tests/javascript.py types"
+        assert stored == text, f"{path.name}: run .venv/bin/python tests/javascript.py types"
 
 
-KEYS = {  # of one kind of page, and a script that takes it
+KEYS = {  # kind of page -> a key that only this kind has, and a script that uses it
     "joint": ("rows: FactRow[];", "joint_explorer.js"),
     "levers": ("target: PagePose;", "levers_explorer.js"),
     "target": ("turning: number[];", "target_explorer.js"),
@@ -170,16 +179,12 @@ KEYS = {  # of one kind of page, and a script that takes it
     "plan": ("forbidden: number;", "plan_explorer.js"),
     "tour": ("spare: number[][];", "tour_explorer.js"),
 }
-THINGS = {  # of one kind of thing, and the script that draws it
-    "faces": ("corners: number[][][];", "faces.js"),
-    "mark": ("radius: number;", "mark.js"),
-    "target": ("pose: number[] | PageWay;", "target.js"),
-}
+THINGS = {get_args(table.__annotations__["kind"])[0]: table for table in get_args(PageThing)}
 
 
 def test_tsc_refuses_a_changed_key(tmp_path):
     """For each kind of page or thing: its own scripts no longer type-check, those of other kinds
-    do.
+    do. Of a page one key is changed, of a thing every key except its kind.
     """
     for path in [*FOLDER.glob("*.js"), FOLDER / "page.d.ts"]:
         shutil.copy(path, tmp_path)
@@ -187,12 +192,15 @@ def test_tsc_refuses_a_changed_key(tmp_path):
     (tmp_path / "tsconfig.json").write_text(json.dumps(settings))
     types = page_types()
     program = [NODE, tools() / "typescript" / "bin" / "tsc", "--project", tmp_path]
-    others = {f"{kind}_explorer.js" for kind in KEYS} | {script for _, script in THINGS.values()}
-    changes = [(f"{kind.capitalize()}Page", *pair) for kind, pair in KEYS.items()]
-    changes += [(f"Page{kind.capitalize()}", *pair) for kind, pair in THINGS.items()]
+    others = {f"{kind}_explorer.js" for kind in KEYS} | {f"{kind}.js" for kind in THINGS}
+    changes = [(f"{kind.capitalize()}Page", key, file) for kind, (key, file) in KEYS.items()]
+    changes += [(table.__name__, "", f"{kind}.js") for kind, table in THINGS.items()]
     for table, key, script in changes:
-        at = types.index(key, types.index(f"interface {table} {{"))
-        (tmp_path / "page.d.ts").write_text(f"{types[:at]}un{types[at:]}")
+        at = types.index(f"interface {table} {{")
+        end = types.index("\n}", at)
+        changed = re.sub(rf"^  (?!kind:)(?={re.escape(key)})", "  un", types[at:end], flags=re.M)
+        assert changed != types[at:end], (table, key)
+        (tmp_path / "page.d.ts").write_text(types[:at] + changed + types[end:])
         done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True)
         refused = set(re.findall(r"^(\w+\.js)\(", done.stdout, re.M))
         assert script in refused and done.returncode, done.stdout
@@ -206,13 +214,18 @@ def test_scenes_have_no_optional_keys():
 
 
 def test_all_kinds_of_things_are_listed():
+    """A kind is a module in things/, a script in js/, data in PageThing, and a class."""
     modules = {path.stem for path in (PACKAGE / "show" / "things").glob("[!_]*.py")} - {"thing"}
-    listed = {get_args(table.__annotations__["kind"])[0] for table in get_args(PageThing)}
-    assert listed == modules == set(THINGS)
+    where = "in PageThing of things/__init__.py: its kinds are those of the modules in things/"
+    assert THINGS.keys() == modules, where
+    assert not {kind for kind in THINGS if not (FOLDER / f"{kind}.js").exists()}, "a script in js/"
+    classes = {getattr(things, name) for name in things.__all__} - {things.PageThing, things.Thing}
+    exported = {each.__module__.rpartition(".")[2] for each in classes}
+    assert exported == modules, "in __all__ of things/__init__.py: a class of each module"
 
 
 def test_explorer_pages_have_no_optional_keys():
-    """Except for the keys that `Live` adds."""
+    """The keys that `Live` adds are an exception."""
     for table in get_args(page.PageExplorer):
         live = page.LivePage.__optional_keys__ & {*table.__annotations__}
         assert table.__optional_keys__ == live, table.__name__
@@ -221,7 +234,7 @@ def test_explorer_pages_have_no_optional_keys():
 @pytest.mark.parametrize(
     "arm", [IRB140, SCARA, spbu_arm(0.4, 0.3), two_link(0.3, 0.4), three_lever((0.3, 0.2, 0.4))]
 )
-def test_arm_data_have_the_keys_of_their_type(arm):
+def test_arm_data_has_the_keys_of_its_type(arm):
     data = twin.arm_data(arm)
     tables = {get_args(t.__annotations__["kind"])[:1]: t for t in get_args(twin.Inverse)}
     inverse = tables[get_args(Literal[data["geometry"]["kind"]])]

@@ -1,6 +1,7 @@
-"""A handed-in notebook judged again: the worth of its answers, whatever its author has written.
+"""Handed-in notebooks are judged again, and their answers get the right points whatever the author
+has written.
 
-The labs are written here, so that the worth of every answer is known in advance.
+The labs are written here, so that the points for every answer are known in advance.
 """
 
 import copy
@@ -32,7 +33,7 @@ QUICK = Limits(cell=12, answer=60, all=100)
 IMPORTS = "from robokin.course import check, predict, variant\nimport numpy as np"
 
 
-# --- What answers are worth -----------------------------------------------------------------------
+# --- The points for answers -----------------------------------------------------------------------
 
 
 def test_missing_raising_and_endless_answers_are_judged(tmp_path):
@@ -57,17 +58,17 @@ def test_missing_raising_and_endless_answers_are_judged(tmp_path):
     remarks = "\n".join(judged.remarks)
     assert 'irb140_motion.2: the stored output says "holds"' in remarks
     assert "irb140_motion.1" not in remarks and "RuntimeError" in remarks
-    assert "Of other labs, and left out here: scara_motion.1." in remarks
-    assert "StdinNotImplementedError" in remarks and "could be read" not in remarks
+    assert "Left out, since they belong to other labs: scara_motion.1." in remarks
+    assert "StdinNotImplementedError" in remarks and "could not be read" not in remarks
     assert judged.notebook.cells[-2].outputs[0].text == "awaited\n"
     assert all(guess.right is None for guess in judged.predictions)
 
 
 @pytest.fixture(scope="module")
 def tricks(tmp_path_factory):
-    """A lab with unusual cells and files beside it, and its result."""
+    """The result of a lab with unusual cells and with unusual files beside it."""
     folder = tmp_path_factory.mktemp("tricks")
-    (folder / "robokin.py").write_text("raise SystemExit")  # is not taken
+    (folder / "robokin.py").write_text("raise SystemExit")  # must not be imported
     for name in ("tasks", "tasks/.robokin", ".robokin"):
         (folder / name).mkdir()
         (folder / name / "one.json").write_text("{}")
@@ -95,7 +96,7 @@ def tricks(tmp_path_factory):
         "fraction_for = lambda distance, corner: 0.25\n"
         "course._verdicts['irb140_motion.1'] = course.Verdict('irb140_motion.1', holds=True)\n"
         "_check, check = check, lambda *a: print('irb140_motion.1: holds.')",
-        'course.check("irb140_motion.1", lambda distance, corner: distance)',  # tried, not the last
+        'course.check("irb140_motion.1", lambda distance, corner: distance)',  # not the last call
         'check("irb140_motion.1", fraction_for)',
         f"started = {sleeper}), {sleeper}, start_new_session=True), {sleeper}, env={{}})\n"
         f"anew = subprocess.Popen([sys.executable, '-c', {anew!r}])\n"
@@ -124,14 +125,14 @@ def test_modified_package_in_a_notebook_does_not_judge(tricks):
     assert one.state == "does not hold"
     said = 'irb140_motion.1: the notebook\'s own output says "holds"; the check says'
     assert any(remark.startswith(said) for remark in tricks.judged.remarks)
-    assert two.state == "failed" and "no verdict" in two.says[0]
+    assert two.state == "failed" and "not a verdict" in two.says[0]
     assert three.state == "does not hold" and "ValueError" in str(three)
     assert not any("AssertionError" in remark for remark in tricks.judged.remarks)
     for text in (str(tricks.judged.exercises), str(tricks.judged.remarks)):
         text.encode()
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process may live on")
+@pytest.mark.skipif(sys.platform != "linux", reason="a process may survive on other systems")
 def test_processes_of_a_notebook_end_with_it(tricks):
     [printed] = [c.outputs[0].text for c in tricks.cells if c.source.startswith("started")]
     for pid in map(int, printed.split()):
@@ -146,7 +147,7 @@ def _command(process_):
         return ""
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process may live on")
+@pytest.mark.skipif(sys.platform != "linux", reason="a process may survive on other systems")
 def test_other_processes_are_not_ended():
     marks = ("one", "two")
     both = [
@@ -237,7 +238,7 @@ def test_cpu_limit_includes_child_processes(tmp_path, monkeypatch):
 
 
 def test_total_time_and_memory_are_limited(tmp_path):
-    """Work beyond the limits does not run, or raises; earlier results count."""
+    """Work beyond the limits does not run or raises an error; earlier results count."""
     spin = "import time\nend = time.process_time() + 3\nwhile time.process_time() < end:\n    pass"
     lab = stored(
         tmp_path / "lab.ipynb",
@@ -250,7 +251,7 @@ def test_total_time_and_memory_are_limited(tmp_path):
         handed_in(lab), "Ada", Limits(cell=15, answer=15, all=15, memory=4 * 2**30)
     )
     one, two, _ = judged.exercises
-    late = "Not run: the 15 s for all cells were over."
+    late = "Not run: the 15 s for all cells were used up."
     assert one.state == "does not hold" and (two.state, two.says) == ("failed", (late,))
     assert any("MemoryError" in remark for remark in judged.remarks) or sys.platform != "linux"
     printed = [o.text for c in judged.notebook.cells for o in c.outputs if o.get("text")]
@@ -272,15 +273,15 @@ def test_sleeping_cell_is_stopped_and_not_judged(tmp_path, monkeypatch):
     begun = time.monotonic()
     judged = judge_notebook(handed_in(lab), "Ada", Limits(cell=1, answer=1, all=80))
     assert time.monotonic() - begun < 500
-    # the machine may be too slow for other cells too, so nothing else is certain
+    # the machine may be too slow for other cells as well, so nothing else is certain
     assert {each.state for each in judged.exercises} == {"not judged"}
     assert {each.points for each in judged.exercises} == {0}
     assert all("too slow" in each.says[0] for each in judged.exercises)
     stopped = [r for r in judged.remarks if "Stopped after 1 s by the clock" in r]
-    assert any("nothing less than ending the kernel" in remark for remark in stopped)
+    assert any("only ending the kernel" in remark for remark in stopped)
 
 
-def test_unjudged_exercise_contradicts_no_output(tmp_path):
+def test_unjudged_exercise_does_not_contradict_outputs(tmp_path):
     run = NotebookRun(
         new_notebook(), {"irb140_motion.1": Call(3, "irb140_motion.1", "x", "")}, "Ada", QUICK
     )
@@ -356,7 +357,7 @@ def test_last_call_counts_and_any_file_name_works(tmp_path):
     lab = stored(
         tmp_path / "homework.ipynb",
         'check("irb140_motion.1", first)\ncourse.check(name="irb140_motion.2", answer=a + 1)',
-        '%time check("irb140_motion.3", x)',  # in words of Jupyter's
+        '%time check("irb140_motion.3", x)',  # in Jupyter's own syntax
         "x = [i\n  % 2 for i in y]; await z",
         'robokin.course.check("irb140_motion.1", f(1), who="Ada")',
         'predict("irb140_motion.p2", "a"); predict("irb140_motion.p2", "b")',
@@ -386,7 +387,7 @@ HOSTILE = ("<", " ", "-", "(", '"', "check(", "\\", "\n ", "?\n", "&#9", "1;", "
     ("size", "pieces"), [(100_000, HOSTILE), (1_000_000, HOSTILE[4:]), (4_000_000, HOSTILE[:4])]
 )
 def test_reading_takes_linear_time(size, pieces, tmp_path):
-    """At most 2 s of CPU time for a megabyte."""
+    """The limit is 2 s of CPU time per megabyte."""
     call, lab = 'check("irb140_motion.1", x)\n', tmp_path / "lab.ipynb"
     for piece in pieces:
         text = (piece * size)[:size]
@@ -426,8 +427,8 @@ def test_reading_an_invalid_notebook_takes_linear_time(text, tmp_path):
 
 
 def tried(path):
-    """Read a notebook and return whether it can be read; if so, all processing outside a kernel
-    must work.
+    """Return whether a notebook can be read. If so, assert that everything that is done with it
+    outside a kernel works.
     """
     try:
         given = handed_in(path)
@@ -482,24 +483,24 @@ def test_invalid_notebooks_are_refused(change, readable, tmp_path):
         'check("irb140_motion.1", 1' + " " * 200_000 + ")",
     ],
 )
-def test_exercise_in_an_unparsable_cell_is_broken(source, tmp_path):
+def test_exercise_in_a_cell_that_cannot_be_parsed_is_broken(source, tmp_path):
     lab = tmp_path / "irb140_motion.ipynb"
     lab.write_text(json.dumps(new_notebook(cells=[cell(source)])))
     assert tried(lab)
     given = handed_in(lab)
-    if "\ud800" in source:  # not a character, so it is read as an escape
+    if "\ud800" in source:  # it is not a character, so it is read as an escape
         assert given.checks["irb140_motion.1"].answer == r"'\ud800'"
         return
     assert set(given.broken) == {"irb140_motion.1"} and given.broken["irb140_motion.1"]
 
 
-def test_missing_file_is_refused(tmp_path):
+def test_missing_and_unreadable_files_are_refused(tmp_path):
     for name, content in (("bytes", b"\xff\xfe"), ("empty", b""), ("large", b" " * 20_000_001)):
         path = tmp_path / name
         path.write_bytes(content)
         assert not tried(path)
     assert not tried(tmp_path) and not tried(tmp_path / "none") and not tried(tmp_path / "\0")
-    with pytest.raises(ValueError, match="20 MB are more than"):
+    with pytest.raises(ValueError, match="wanted at most 20000000 bytes"):
         handed_in(tmp_path / "large")
 
 
@@ -534,7 +535,7 @@ def test_mutated_notebooks_are_read_or_refused_with_a_reason(tmp_path):
         changed = json.loads(text)
         for _ in range(dice.choice((1, 1, 2, 5))):
             places = [(changed, key) for key in changed]
-            for holder, key in places:  # grows meanwhile
+            for holder, key in places:  # the list grows in the loop
                 inner = holder[key]
                 keys = (
                     inner
@@ -553,7 +554,7 @@ def test_mutated_notebooks_are_read_or_refused_with_a_reason(tmp_path):
         lab.write_text(json.dumps(changed))
         read += tried(lab)
     assert 100 < read < 590
-    for _ in range(300):  # and bytes
+    for _ in range(300):  # mutations of single bytes
         raw = bytearray(text.encode())
         raw[dice.randrange(len(raw))] = dice.randrange(256)
         lab.write_bytes(raw[: dice.choice((len(raw), dice.randrange(len(raw))))])
@@ -573,8 +574,8 @@ def twice(x):
 """
 
 
-def test_own_exercise_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, capsys):
-    """Files beside the student's notebook are not the teacher's."""
+def test_exercise_outside_robokin_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, capsys):
+    """Files beside the student's notebook do not count as the teacher's."""
     (tmp_path / "handed").mkdir()
     lab = stored(
         tmp_path / "handed" / "Ada.ipynb",
@@ -589,11 +590,13 @@ def test_own_exercise_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, cap
         (place / "twice.md").write_text(text)
         (place / "twice.py").write_text("def cases(rng):\n    return [(1,), (2.5,), (-3,)]\n")
     judged = judge_notebook(handed_in(lab), "Ada", QUICK)
-    told = "an exercise of one's own: not judged."
+    told = "not judged, since it is not an exercise of a lab."
     assert judged.exercises == () and f"doubles.1: {told}" in judged.remarks
-    assert [each for each in judged.remarks if each.endswith(told)][1:], "the one made in a cell"
+    assert [each for each in judged.remarks if each.endswith(told)][1:], (
+        "the exercise made in a cell is not reported"
+    )
 
-    monkeypatch.setenv("ROBOKIN_EXERCISES", "")  # and as it was, afterwards
+    monkeypatch.setenv("ROBOKIN_EXERCISES", "")  # so that it is restored after the test
     given = ["summary", str(tmp_path / "handed"), "--to", str(tmp_path)]
     assert main([*given, "--exercises", str(tmp_path / "teacher")]) == 0
     table = (tmp_path / "summary.csv").read_text(encoding="utf-8-sig")
@@ -601,4 +604,4 @@ def test_own_exercise_is_judged_if_the_teacher_has_it(tmp_path, monkeypatch, cap
     assert main([*given, "--exercises", str(tmp_path / "nowhere")]) == 1
     assert main([*given, "--exercises", str(tmp_path / "handed" / "exercises" / "doubles")]) == 1
     errors = capsys.readouterr().err
-    assert "wanted a folder, got" in errors and "no lab of its own in" in errors
+    assert "wanted a folder, got" in errors and "no new lab in" in errors

@@ -25,7 +25,8 @@ def test_laws_rise_monotonically_from_0_to_1(law, duration):
     assert (np.diff(s) > -1e-15).all() and (np.diff(s)[1:-1:50] > 0).all()
     assert s.min() >= 0 and s.max() <= 1
     assert abs(law(duration)(duration / 2) - 0.5) < 1e-15
-    assert np.allclose(s + s[::-1], 1, rtol=0, atol=1e-14)  # decelerates as it accelerates
+    # the deceleration mirrors the acceleration
+    assert np.allclose(s + s[::-1], 1, rtol=0, atol=1e-14)
 
 
 @laws
@@ -54,8 +55,8 @@ def test_linear_is_the_fraction_of_the_time():
 
 
 def test_quintic_is_the_polynomial_that_starts_and_ends_at_rest():
-    """The one polynomial of degree 5 with s, s', s'' = 0, 0, 0 and 1, 0, 0 at the ends: SciPy finds
-    it from these.
+    """SciPy finds the only polynomial of degree 5 with s, s', s'' = 0, 0, 0 at the start and
+    1, 0, 0 at the end.
     """
     reference = BPoly.from_derivatives([0, 8], [[0, 0, 0], [1, 0, 0]])
     t = np.linspace(0, 8, 1001)
@@ -72,7 +73,7 @@ def test_trapezoidal_is_the_integral_of_a_trapezoid(ramp):
 
 
 def derivative_jumps(law, at, order, h):
-    """The jump of a derivative at one time, from samples on either side."""
+    """The jump of a derivative at a given time, from samples on either side."""
     weights = {1: [-1.5, 2, -0.5], 2: [2, -5, 4, -1]}[order]
     k = np.arange(len(weights)) * h
     after = np.dot(weights, law(at + k)) / h**order
@@ -85,7 +86,7 @@ def derivative_jumps(law, at, order, h):
     [
         (linear(4.0), 1, [0, 4], 0.25),
         (trapezoidal(4.0), 1, [0, 1, 3, 4], 0),
-        # cruising speed over the time of a ramp
+        # the jump is the cruising speed divided by the time of a ramp
         (trapezoidal(4.0), 2, [0, 1, 3, 4], 1 / 0.75 / 4 / 1.0),
         (quintic(4.0), 1, [0, 4], 0),
         (quintic(4.0), 2, [0, 4], 0),
@@ -114,7 +115,7 @@ def test_laws_store_their_duration():
 
 
 @laws
-def test_a_law_can_be_pickled(law):
+def test_laws_can_be_pickled(law):
     t = np.linspace(-1, 9, 101)
     again = pickle.loads(pickle.dumps(law(8.0)))
     assert again.duration == 8 and (again(t) == law(8.0)(t)).all()

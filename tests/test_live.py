@@ -1,5 +1,5 @@
-"""Views that ask a kernel, in a real JupyterLab: awake, they show Python's answer for the last
-position; asleep, they show the stored answer, and say so.
+"""Views that ask a kernel, in a real JupyterLab. Awake, they show Python's answer for the last
+position; asleep, they show the stored answer and say so.
 """
 
 import itertools
@@ -51,7 +51,7 @@ def questions(count, seed=15):
         start = plan(ARM, start, target).posture
 
 
-def test_answer_is_the_plan_and_the_drawing_agrees():
+def test_answer_and_drawing_equal_the_plan():
     answer, ways = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer, set()
     for question in questions(25):
         known = plan(ARM, *(question[k] for k in ("posture", "target", "obstacle", "distance")))
@@ -74,7 +74,7 @@ def test_answer_is_the_plan_and_the_drawing_agrees():
     assert {"direct", "search", "none"} <= ways
 
 
-def test_unchecked_ways_are_judged_by_the_levers():
+def test_unchecked_paths_are_judged_by_the_levers():
     answer = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer
     seen = set()
     for question in questions(12, seed=3):
@@ -97,7 +97,7 @@ def test_unchecked_ways_are_judged_by_the_levers():
     assert seen == {(1, True), (1, False), (2, True), (2, False)}
 
 
-def test_cube_marks_near_levers_and_its_search_takes_proven_steps():
+def test_cube_agrees_with_distances_and_a_simple_search():
     question = next(questions(1)) | {"obstacle": [1.2, 1.3], "target": [1.9, 0.3]}
     said = plan_explorer(ARM, START, (1.9, 0.3), (1.2, 1.3)).answer(question)
     cube, n = said["cube"], len(said["cube"])
@@ -106,7 +106,7 @@ def test_cube_marks_near_levers_and_its_search_takes_proven_steps():
     np.testing.assert_array_equal(cube == FORBIDDEN, near < question["distance"])
     begun, around = tuple(np.argwhere(cube == 0)[0]), abs(grid - question["posture"])
     assert (cube == 0).sum() == 1 and around[begun].max() <= STEP
-    known, front = {begun: 0}, [begun]  # the same, one posture after the other
+    known, front = {begun: 0}, [begun]  # the same search, one posture after another
     while front:
         later = []
         for cell, joint, side in itertools.product(front, range(3), (-1, 1)):
@@ -130,7 +130,7 @@ def test_cube_marks_near_levers_and_its_search_takes_proven_steps():
     np.testing.assert_allclose(tips, np.tile(question["target"], (len(tips), 1)), atol=1e-5)
 
 
-# --- Arrays on their way --------------------------------------------------------------------------
+# --- Arrays in messages and files -----------------------------------------------------------------
 
 UNPACK = """([content, buffers]) => {
   const plain = x => Array.isArray(x) ? x.map(plain) : !x || typeof x !== "object" ? x
@@ -214,10 +214,10 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     quiet.locator("[data-handle=H]").evaluate(QUICK, 200)
     shows_what_python_says(quiet)
     now = int(quiet.locator(".robokin-player").get_attribute("data-asked"))
-    assert now - asked < 200, "places that were passed meanwhile are skipped"
+    assert now - asked < 200, "positions that were passed quickly are not skipped"
     assert quiet.errors == [] and quiet.outside == []
 
-    # a restarted kernel knows nothing of the page
+    # a restarted kernel does not know the page
     quiet.get_by_role("menuitem", name="Kernel", exact=True).click()
     quiet.get_by_role("menuitem", name="Restart Kernel").first.click()
     quiet.locator(".jp-Dialog .jp-mod-accept").click()
@@ -230,7 +230,7 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     shows_what_python_says(quiet)
     seen = quiet.locator(".rk-verdict").inner_text()
 
-    # saved, and opened again without that kernel
+    # The notebook is saved and opened again without that kernel.
     quiet.locator(".jp-CodeCell .cm-content").first.click()
     quiet.keyboard.press("Control+s")
     tab = quiet.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
@@ -239,12 +239,14 @@ def test_live_view_wakes_after_run_all_and_shows_the_last_position(jupyter, quie
     quiet.locator(".rk canvas").first.wait_for()
     quiet.get_by_text("| Idle").first.wait_for()
     asleep(quiet)
-    assert quiet.locator(".rk-verdict").inner_text() != seen, "the run's picture, not the last one"
+    assert quiet.locator(".rk-verdict").inner_text() != seen, (
+        "the last picture was stored, not that of the run"
+    )
     assert quiet.get_by_text("Error displaying widget").count() == 0
     assert quiet.errors == [] and quiet.outside == []
 
 
-# Pointer moves that are too fast to follow, ten in every picture.
+# Makes pointer moves that are too fast to follow, ten per frame.
 QUICK = """(node, count) => new Promise(done => {
   const r = node.getBoundingClientRect(), x = r.x + r.width / 2, y = r.y + r.height / 2;
   const tell = (type, clientX, clientY) =>
@@ -283,8 +285,8 @@ def asleep(tab):
 
 
 def shows_what_python_says(tab):
-    """When everything is answered, check the words and numbers of the last question; return its
-    way.
+    """Wait until all questions are answered, check the words and numbers for the last one, and
+    return its way of planning.
     """
     still = "e => [e.dataset.asked, e.dataset.answered, e.querySelector('.rk-verdict').textContent]"
     seen = [None]
@@ -315,7 +317,7 @@ def shows_what_python_says(tab):
 # --- Stored ---------------------------------------------------------------------------------------
 
 
-def test_exported_page_sleeps_except_for_parts_without_a_kernel(quiet, stored, tmp_path):
+def test_exported_page_sleeps_except_for_parts_that_need_no_kernel(quiet, stored, tmp_path):
     export(stored, tmp_path / "live.html")
     quiet.goto((tmp_path / "live.html").as_uri())
     asleep(quiet)
@@ -327,7 +329,7 @@ def test_exported_page_sleeps_except_for_parts_without_a_kernel(quiet, stored, t
     before = cube.evaluate("e => e.toDataURL()")
     cube.press("ArrowRight")
     quiet.evaluate(test_browser.NEXT_FRAME)
-    assert cube.evaluate("e => e.toDataURL()") != before, "the cube can be turned"
+    assert cube.evaluate("e => e.toDataURL()") != before, "the cube cannot be turned"
     found = Axe().run(quiet, context=".rk").response["violations"]
     assert [rule["id"] for rule in found if rule["impact"] in ("serious", "critical")] == []
     assert quiet.errors == [] and quiet.outside == []

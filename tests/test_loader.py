@@ -1,5 +1,5 @@
-"""The log loader of source 003, paper 1: its angles against the reference cases, table 1, and
-errata S3-p to S3-r.
+"""The log loader of source 003, paper 1: its angles, compared with the reference cases, table 1
+and errata S3-p to S3-r.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ def joints_of(case):
 
 
 @cases
-def test_reference_cases(case):
+def test_angles_equal_the_reference_cases(case):
     arm = loader_arm(case["A"], case["B"])
     row = arm.ik(case["p"])[arm.branch(+1, -1)]
     q = station_postures(arm, [case["p"]])[0]
@@ -47,7 +47,7 @@ def test_fk_matches_the_figure_of_the_document(A, B):
         np.testing.assert_allclose(
             loader_arm(A, B).fk([alpha, gamma, beta]).as_matrix(), chain, atol=1e-12
         )
-        # and the triangle: beta is the angle at the elbow between the levers
+        # the triangle: beta is the angle between the levers at the elbow
         shoulder, elbow, tip = loader_arm(A, B).frames([alpha, gamma, beta]).translation[1:]
         cosine = (shoulder - elbow) @ (tip - elbow) / (A * B)
         assert cosine == pytest.approx(np.cos(beta), abs=1e-12)
@@ -70,7 +70,7 @@ def test_ik_contains_the_original_joints(A, B, shape):
 
 @pytest.mark.parametrize("x", [-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("y", [-2.0, -0.0, 0.0, 2.0])
-def test_alpha_in_the_nine_cells_of_table_1(x, y):
+def test_alpha_equals_the_nine_cells_of_table_1(x, y):
     alpha = station_postures(loader_arm(2, 1.5), [(x, y, 0.9)])[0, 0] / deg
     steep = np.degrees(np.arctan(2.0))
     table = {
@@ -80,7 +80,7 @@ def test_alpha_in_the_nine_cells_of_table_1(x, y):
         (-1, 0): 180,
         (1, 0): 0,
         (0, 0): 0,
-        # the corner (-1, 1) as errata S3-p has it
+        # the corner (-1, 1) as in errata S3-p
         (-1, 1): 180 - steep,
         (0, 1): 90,
         (1, 1): steep,
@@ -104,8 +104,8 @@ def test_alpha_keeps_its_value_on_the_axis():
     assert np.isfinite(q).all() and q[3, 2] == pytest.approx(np.pi)
 
 
-def test_gamma_is_within_three_quarters_of_a_turn():
-    """With a longer outer lever the inner one can point down and backwards, up to 270 degrees."""
+def test_gamma_may_be_up_to_270_degrees():
+    """If the outer lever is longer, the inner one can point down and back, up to 270 degrees."""
     arm, alpha = loader_arm(1.0, 2.0), 0.3
     gamma, beta = np.meshgrid([-30, 1, 89, 179, 181, 269, 269.9], [0.03, 0.3, 20, 70, 150])
     q = np.stack([alpha / deg + 0 * gamma, gamma, beta], axis=-1).reshape(-1, 3) * deg
@@ -140,7 +140,7 @@ def test_alpha_continues_by_the_shortest_turn():
         (0, 0, 0),
     ],
 )
-def test_the_shortest_turn(start, goal, turn):
+def test_shortest_turn_equals_hand_computed_values(start, goal, turn):
     assert shortest_turn(start * deg, goal * deg) / deg == pytest.approx(turn)
 
 
@@ -150,7 +150,7 @@ def test_printed_shortest_turn_is_wrong():
 
 
 @lengths
-def test_stretched_and_folded(A, B):
+def test_stretched_and_folded_arms_have_the_expected_angles(A, B):
     arm = loader_arm(A, B)
     direction = np.array([0.6, 0.48, 0.64])
     stretched, folded = station_postures(
@@ -179,12 +179,12 @@ def test_angles_equal_the_formulas_of_the_document(A, B):
     gamma = np.arccos((A**2 - B**2 + h2) / (2 * A * np.sqrt(h2))) + np.arcsin(p[:, 2] / np.sqrt(h2))
     q = station_postures(loader_arm(A, B), p)
     np.testing.assert_allclose(q[:, 1:], np.stack([gamma, beta], axis=1), atol=1e-8)
-    q[:, 0] = shortest_turn(0, q[:, 0])  # unwrapped over 300 stations
+    q[:, 0] = shortest_turn(0, q[:, 0])  # alpha is unwrapped over 300 stations
     assert within(loader_arm(A, B), q).all()
-    assert gamma.max() > np.pi or A >= B  # the range above 180 degrees is used
+    assert gamma.max() > np.pi or A >= B  # some gammas are above 180 degrees
 
 
-def test_check_of_the_coordinates():
+def test_unreachable_coordinates_get_a_reason():
     arm = loader_arm(1.2, 0.7)
     assert out_of_reach(arm, (1, 0.5, 0.4)) == []
     assert out_of_reach(arm, (1, 0.5, -0.1)) == ["the point is under the floor: z = -0.1 m"]
@@ -209,4 +209,4 @@ def test_wrong_arguments_are_refused():
         with pytest.raises(TypeError, match="loader_arm"):
             station_postures(arm, [(1, 0, 0)])
         with pytest.raises(TypeError, match="loader_arm"):
-            out_of_reach(arm, "a")  # the arm is the more serious fault
+            out_of_reach(arm, "a")  # the wrong arm is the more serious fault

@@ -1,4 +1,4 @@
-"""`refined_maximum` against functions whose greatest value is known."""
+"""`refined_maximum`, tested with functions whose maximum is known."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ KNOWN = {
     "at the end": (np.exp, -1.0, 2.0, np.exp(2)),
     "two peaks": (lambda x: np.sin(7 * x) + 1e-3 * x, 0.0, 2.0, None),
     "flat": (lambda x: 0 * x - 3, 0.0, 2.0, -3.0),
-    "in part": (lambda x: np.where(x < 1.5, x * (2 - x), np.nan), 0.0, 2.0, 1.0),
+    "partly NaN": (lambda x: np.where(x < 1.5, x * (2 - x), np.nan), 0.0, 2.0, 1.0),
 }
 
 
@@ -39,7 +39,7 @@ def test_minimum_is_the_maximum_of_the_negative():
 
     found = refined_maximum(lambda t: -apart(t), 0, 5, 4)
     assert -found.value == pytest.approx(apart(np.linspace(2, 3, 1_000_001)).min(), abs=1e-6)
-    assert -found.value < apart(np.linspace(0, 5, 240)).min() - 1e-5  # the samples alone say more
+    assert -found.value < apart(np.linspace(0, 5, 240)).min() - 1e-5  # the samples miss the minimum
 
 
 @pytest.mark.parametrize(
@@ -50,14 +50,14 @@ def test_minimum_is_the_maximum_of_the_negative():
         ((np.sin, 0, np.inf, 2), ValueError, "high: wanted finite"),
         ((np.sin, 0, 1, -1), ValueError, "decimals: wanted a whole number"),
         ((lambda x: x[:-1], 0, 1, 2), ValueError, r"wanted shape \(65,\), got \(64,\)"),
-        ((lambda x: x * np.nan, 0, 1, 2), ValueError, "wanted values, got none"),
+        ((lambda x: x * np.nan, 0, 1, 2), ValueError, "wanted at least one value, got only NaN"),
         (
             (lambda x: -np.log(abs(x - np.sqrt(0.5)) + 1e-300), 0, 1, 2),
             ValueError,
-            "a greatest value that stands",
+            "a maximum that converges",
         ),
     ],
 )
-def test_wrong_arguments_name_what_is_wanted(call, kind, message):
+def test_errors_name_the_wrong_argument_and_what_is_wanted(call, kind, message):
     with pytest.raises(kind, match=message):
         refined_maximum(*call)

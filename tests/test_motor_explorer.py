@@ -28,7 +28,7 @@ MOTORS = {
 
 @cache
 def told(motor):
-    """What the page is given."""
+    """The data that the page gets."""
     return motor_explorer(motor).data
 
 
@@ -70,7 +70,7 @@ def test_page_simulates_like_python(rotor, name):
         assert page["t"] == pytest.approx(ours.t, abs=1e-12)
         assert page["angle"] == pytest.approx(ours.angle, abs=1e-6)
         assert page["lost"] == ours.lost
-        assert np.ptp(page["angle"]) > 0.03  # it did turn
+        assert np.ptp(page["angle"]) > 0.03  # the rotor did turn
         seen.add(ours.lost != 0)
     assert seen == {False, True}
     for what, value in (
@@ -95,7 +95,9 @@ def test_ramps_of_the_page_equal_those_of_python(context, asked):
 
 
 def lost(shown):
-    """The lost steps in the explorer, and Python's result for the code that it copies."""
+    """The lost steps in the explorer and in Python, and the results of the code that the explorer
+    copies.
+    """
     seen = shown.look()
     said = re.search(r"(\d+)(?: of 48)? steps lost", seen.says)
     assert said or "every step" in seen.says
@@ -153,18 +155,18 @@ def test_rotor_can_be_dragged_and_pulses_continue(opened):
     ]
     seen = shown.drag("rotor", *stops, each=each)
     assert angles == pytest.approx(ways, abs=2) and seen.pixels[0] != resting.pixels[0]
-    # past half a turn it falls to the next place where a1 holds it: four steps on
+    # past half a turn the rotor jumps to the next position where a1 holds it: four steps ahead
     shown.page.wait_for_function(
         "document.querySelector('.rk-state').textContent.includes('4 steps ahead')"
     )
     shown.rk.get_by_role("button", name="Begin again").click()
     shown.rk.get_by_role("button", name="+1 pulse").click()
     assert shown.look().chosen == 1 and state.inner_text().startswith("Pulses sent: 1.")
-    shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")  # back
+    shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")  # one pulse back
     shown.rk.get_by_role("button", name="1 pulse").first.press("Enter")
     assert shown.look().chosen == 3 and "Pulses sent: \u22121." in state.inner_text()
     shown.rk.get_by_role("button", name="Begin again").click()
-    shown.rk.get_by_role("button", name="3", exact=True).click()  # a line of the table
+    shown.rk.get_by_role("button", name="3", exact=True).click()  # a row of the table
     assert shown.look().chosen == 2 and "Pulses sent: 2." in state.inner_text()
     shown.rk.get_by_role("button", name="Begin again").click()
     before = shown.look()

@@ -1,8 +1,9 @@
-"""An obstacle that moves while the three-lever arm does, and one that two distances locate.
+"""An obstacle that moves while the three-lever arm moves, and an obstacle located from two
+distances.
 
-As in test_obstacles.py, a second description of the arm checks distances, at its own places and
-times. ROBOKIN_TASKS=500 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints their
-results.
+As in test_obstacles.py, an independent model of the arm checks the distances, at its own positions
+and times. ROBOKIN_TASKS=500 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints
+their results.
 """
 
 import os
@@ -20,7 +21,9 @@ TASKS = int(os.environ.get("ROBOKIN_TASKS", 40))
 
 
 def least_on_the_way(path, times, H, v, samples=2001):
-    """The least distance of H + v t from all levers on every part: (parts,)."""
+    """The least distance from the point H + v t to any lever, for every part of the
+    path: (parts,).
+    """
     s, found = np.linspace(0, 1, samples), []
     for a, b, begin, end in zip(path, path[1:], times, times[1:], strict=False):
         gamma, beta, alpha = (a + s[:, None] * (b - a)).T
@@ -36,7 +39,9 @@ def least_on_the_way(path, times, H, v, samples=2001):
 
 
 def test_clearance_from_a_moving_obstacle_is_a_tight_bound():
-    """Fast and slow, near and far, through the levers and past them; also with a resting arm."""
+    """Obstacles move fast and slowly, near and far, through the levers and past them; some arms
+    rest.
+    """
     rng, swept = np.random.default_rng(7), 0
     for turn in (0.0, 0.5, 3.0):
         a = rng.uniform(0, np.pi, (60, 3))
@@ -58,8 +63,8 @@ def test_clearance_from_a_moving_obstacle_is_a_tight_bound():
 
 
 def moving_tasks(n, seed=21, speed=1.0):
-    """(q0, target, H, v): the tasks of test_obstacles.py, whose obstacle is in its place half-way
-    through the direct motion, and comes from anywhere.
+    """Yield tasks (q0, target, H, v): those of test_obstacles.py, but the obstacle comes from any
+    direction and reaches its place halfway through the direct motion.
     """
     rng = np.random.default_rng(seed)
     for q0, K1, H in tasks(n, seed):
@@ -93,7 +98,7 @@ def test_plans_keep_their_clearance_from_a_moving_obstacle(answers):
 
 
 def test_obstacle_motion_changes_the_plan(answers):
-    """Some of the plans fail for an obstacle that stays at its first or last place."""
+    """Many of the plans would fail if the obstacle stayed at its first or last position."""
     still = [
         min(clearance(ARM, answer.path, np.add(H, t * v)).min() for t in (times[0], times[-1]))
         for (_, _, H, v), (answer, times) in answers
@@ -102,7 +107,7 @@ def test_obstacle_motion_changes_the_plan(answers):
     assert np.mean(np.array(still) < KEPT) > 0.3
 
 
-def test_wait_is_the_shortest_and_search_is_used_only_without_one(answers):
+def test_wait_is_the_shortest_that_works_and_search_is_the_last_resort(answers):
     compared = []
     for (q0, K1, H, v), (answer, times) in answers:
         if "At the start" in answer.words:
@@ -148,7 +153,8 @@ def test_doubling_all_speeds_halves_the_time():
     [
         ((0.5, 0.5), (1.5, 1.5), "not farther than one lever"),
         ((1.8, 0.6), ARM.points(Q0)[3], "At the start lever AK is already 0.0 mm"),
-        ((1.8, 0.6), (0.15, -0.1), "neither waiting nor a search keeps 142.9 mm"),  # onto the base
+        # the obstacle moves onto the base
+        ((1.8, 0.6), (0.15, -0.1), "neither waiting nor a search keeps 142.9 mm"),
     ],
 )
 def test_impossible_plans_give_a_reason(target, obstacle, words):
@@ -156,7 +162,7 @@ def test_impossible_plans_give_a_reason(target, obstacle, words):
     assert words in answer.words and not answer.found and times.tolist() == [0.0]
 
 
-def test_target_at_the_current_place_takes_no_time():
+def test_target_at_the_current_position_takes_no_time():
     answer, times = plan_moving(ARM, Q0, ARM.points(Q0)[3], (3, 3), (-0.1, 0), 1.0)
     assert answer.way == "direct" and times == pytest.approx([0, 0], abs=1e-9)
 
@@ -176,16 +182,16 @@ def test_two_distances_locate_an_obstacle_up_to_reflection():
             np.testing.assert_allclose(
                 [np.hypot(*(row - P)), np.hypot(*(row - Q))], away, atol=1e-9
             )
-        # the mirror image in the line PQ
+        # the two solutions are mirror images in the line PQ
         assert abs((found[1] - found[0]) @ (Q - P)) < 1e-8
 
 
 @pytest.mark.parametrize("away", [(1.0, 0.9), (4.0, 1.9), (0.5, 2.6)])
-def test_separate_circles_locate_nothing(away):
+def test_circles_that_do_not_meet_locate_no_point(away):
     assert np.isnan(locate((0, 0), (2, 0), *away)).all()
 
 
-def test_touching_circles_locate_one_place():
+def test_touching_circles_locate_one_point():
     np.testing.assert_allclose(locate((0, 0), (2, 0), 1.5, 0.5), [(1.5, 0)] * 2, atol=1e-7)
     np.testing.assert_allclose(locate((1, 1), (1, 2), 3.0, 2.0), [(1, 4)] * 2, atol=1e-7)
 
@@ -195,9 +201,9 @@ def test_touching_circles_locate_one_place():
 GOAL, FAR, V = (1.8, 0.6), (1.2, 1.9), (0.1, 0.2)
 WRONG = {
     "speed 0": (lambda: plan_moving(ARM, Q0, GOAL, FAR, V, 0), "speed: wanted one positive"),
-    "a speed beyond the numbers": (
+    "a speed that is almost 0": (
         lambda: plan_moving(ARM, Q0, GOAL, FAR, V, 1e-300),
-        "speed: wanted one with .* got 1e-300",
+        "speed: wanted one at which .* got 1e-300",
     ),
     "no speed": (lambda: plan_moving(ARM, Q0, GOAL, FAR, V, None), "speed: wanted"),
     "two obstacles": (lambda: plan_moving(ARM, Q0, GOAL, [FAR] * 2, V, 1), "obstacle: .*single"),
@@ -205,14 +211,17 @@ WRONG = {
     "velocity as a number": (lambda: plan_moving(ARM, Q0, GOAL, FAR, 1, 1), "velocity: wanted"),
     "distance": (lambda: plan_moving(ARM, Q0, GOAL, FAR, V, 1, -0.1), "distance: .*-0.1"),
     "degrees": (lambda: plan_moving(ARM, [90, 90, 90], GOAL, FAR, V, 1), "posture: .* to 180"),
-    "sensors in one point": (lambda: locate(FAR, FAR, 1, 1), "Q: wanted a point apart from P"),
+    "both sensors at one point": (
+        lambda: locate(FAR, FAR, 1, 1),
+        "Q: wanted a point different from P",
+    ),
     "a distance of 0": (lambda: locate(FAR, GOAL, 0, 1), "from_P: wanted one positive length"),
     "a distance of NaN": (lambda: locate(FAR, GOAL, 1, np.nan), "from_Q: .*nan"),
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_arguments_are_named(name):
+def test_errors_name_the_wrong_argument(name):
     call, words = WRONG[name]
     with pytest.raises(ValueError, match=words):
         call()

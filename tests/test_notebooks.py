@@ -1,6 +1,6 @@
-"""Laws of every stored lab, read from its file; nbval runs the cells and compares their outputs.
+"""Rules for every stored lab, checked in its file; nbval runs the cells and compares their outputs.
 
-Also: the script that executes the labs again makes no unnecessary changes.
+Also tested: the script that executes the labs again makes no unnecessary changes.
 """
 
 import ast
@@ -68,7 +68,8 @@ def test_lab_numbers_have_no_gaps():
 
 
 def test_cells_were_executed_from_top_to_bottom(code):
-    # nbval compares nothing in a cell without a count, so a stripped notebook would pass.
+    # nbval compares nothing in a cell without an execution count, so a stripped notebook would
+    # pass.
     assert all(cell.source.strip() for cell in code), "a code cell is empty"
     assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
 
@@ -104,9 +105,11 @@ def test_stored_scripts_are_up_to_date(path):
     assert len(found) == len(views)
     for key, script, module in set(found):
         wanted, today = joiner.compressed(module)
-        assert key == wanted, module
+        assert key == wanted, f"{module}: run .venv/bin/python tests/execute_notebooks.py"
         unpacked = [zlib.decompress(base64.b64decode(one)) for one in (script, today)]
-        assert unpacked[0] == unpacked[1], module
+        assert unpacked[0] == unpacked[1], (
+            f"{module}: run .venv/bin/python tests/execute_notebooks.py"
+        )
 
 
 def test_no_session_state_is_stored(path):
@@ -116,7 +119,7 @@ def test_no_session_state_is_stored(path):
     )
     for cell in notebook["cells"]:
         assert set(cell["metadata"]) <= {"tags", "reason", "jupyter"}
-        if cell["metadata"].get("jupyter"):  # folded, also in an exported page
+        if cell["metadata"].get("jupyter"):  # the cell is folded, also in an exported page
             assert cell["metadata"]["jupyter"] == {"source_hidden": True}
             assert "hide-input" in cell["metadata"]["tags"] and cell["cell_type"] == "code"
     ids = [cell["id"] for cell in notebook["cells"]]
@@ -156,7 +159,7 @@ def test_cells_are_plain_python_with_installed_imports(code):
 
 
 def test_names_in_code_are_ascii(code):
-    # A Cyrillic letter that looks Latin makes another name; an invisible character is a trap.
+    # A Cyrillic letter that looks Latin makes a different name; an invisible character is a trap.
     for cell in code:
         for token in tokenize.generate_tokens(io.StringIO(cell.source).readline):
             assert (
@@ -194,7 +197,7 @@ def test_notebooks_have_one_title(prose):
 
 
 @every_lab
-def test_labs_have_their_parts(lab):
+def test_labs_have_all_parts_in_the_same_order(lab):
     text = _prose(lab)
     for heading in HEADINGS:
         assert re.search(rf"^(#+ |\*\*){heading}", text, re.M), f"no '{heading}'"
@@ -203,7 +206,7 @@ def test_labs_have_their_parts(lab):
     assert titles[places[0] :] == [titles[k] for k in places], "a section after 'Your turn'"
     assert [PARTS.index(titles[k].split(" (")[0]) for k in places] == sorted(
         PARTS.index(titles[k].split(" (")[0]) for k in places
-    ), "the parts stand in another order"
+    ), "the parts are in a different order"
     numbered = [title for title in titles if re.match(r"\d", title)]
     assert [int(title.split(".")[0]) for title in numbered] == list(range(1, len(numbered) + 1))
 
@@ -216,7 +219,9 @@ def test_labs_take_about_an_hour(lab):
 
 @every_lab
 def test_labs_open_with_a_moving_view(lab):
-    """A title with a claim, a folded set-up, and a view within three lines."""
+    """A lab opens with a title and a claim, a folded set-up cell, and a cell of at most three lines
+    that shows a view.
+    """
     first, setup, thing, *_ = json.loads(lab.read_text(encoding="utf-8"))["cells"]
     assert re.search(r"\n\*\*[^*]+[.?!]\*\*", "".join(first["source"])), "no claim in bold"
     assert lab_sizes.folded(setup) and "import" in "".join(setup["source"])
@@ -270,7 +275,7 @@ def test_executing_again_changes_nothing(tmp_path):
     assert path.read_bytes() == once
 
 
-def test_picture_from_another_zlib_keeps_its_bytes(tmp_path):
+def test_picture_compressed_by_another_zlib_keeps_its_bytes(tmp_path):
     path = _notebook(tmp_path / "a.ipynb", PICTURE)
     _execute(path)
     first = _png(path)
@@ -335,7 +340,7 @@ def _execute(*paths):
 # --- For teachers -----------------------------------------------------------------------------
 
 
-def test_minutes_in_the_teacher_notes_equal_the_count():
+def test_minutes_in_the_teacher_notes_are_up_to_date():
     rows = re.findall(
         r"^\| \[(\d\d)[^\]]*\]\(\.\./(\S+)\) \| (\d+) \| (\d+) \|", _prose(TEACHING), re.M
     )
@@ -356,7 +361,7 @@ def test_teacher_notes_have_the_same_parts_for_every_lab():
 
 def test_glossary_is_sorted_and_in_three_languages():
     rows = re.findall(r"^\| (.+?) \| (.+?) \| (.+?) \| (.+?) \| (.+?) \|$", _prose(GLOSSARY), re.M)
-    rows = rows[2:]  # the head and the line below it
+    rows = rows[2:]  # without the header and the line below it
     assert len(rows) > 80
     words = [row[0].lower() for row in rows]
     assert words == sorted(words) and len(set(words)) == len(words)

@@ -1,9 +1,8 @@
-"""A point obstacle beside the three-lever arm: reference cases, certified clearance, and plans that
-keep their promises.
+"""A point obstacle near the three-lever arm: reference cases, guaranteed clearance, and plans that
+keep their distance.
 
-Distances are checked by a second description of the arm (complex numbers, levers as many points),
-not by robokin's. ROBOKIN_TASKS=2000 runs all random tasks; tests/benchmarks/obstacle_tasks.py
-prints their results.
+An independent model of the arm with complex numbers checks the distances, not robokin's.
+ROBOKIN_TASKS=2000 runs all random tasks; tests/benchmarks/obstacle_tasks.py prints their results.
 """
 
 import os
@@ -39,8 +38,9 @@ TASKS = int(os.environ.get("ROBOKIN_TASKS", 60))
 ARM = three_lever(1.0)
 KEPT = ARM.lever / 7
 cases = pytest.mark.parametrize("case", CASES)
-# Least S (radians) of some of the random tasks by brute force: SciPy's Dijkstra on a grid of 2
-# degrees whose edges keep L/7 (tests/benchmarks/obstacle_tasks.py, `brute_force`).
+# The least S (radians) for some of the random tasks, found by brute force: SciPy's Dijkstra on a
+# grid of 2 degrees whose edges keep the distance L/7 (tests/benchmarks/obstacle_tasks.py,
+# `brute_force`).
 BRUTE = {
     0: 2.3075,
     2: 3.3259,
@@ -65,12 +65,14 @@ BRUTE = {
 
 
 def seen(q, H, L=1.0):
-    """Distances of H from the levers in postures q (..., 3): (..., 3), by complex numbers."""
+    """The distances of H from the levers in postures q (..., 3), calculated with complex numbers:
+    (..., 3).
+    """
     gamma, beta, alpha = np.moveaxis(np.asarray(q), -1, 0)
     lever = L * np.exp(1j * gamma)
     start, found = 0 * lever, []
     for turn in (beta, alpha, None):
-        # the lever lies from 0 to 1 on the real axis
+        # in these coordinates the lever lies from 0 to 1 on the real axis
         seen_from_lever = (complex(*H) - start) / lever
         foot = np.clip(seen_from_lever.real, 0, 1)
         found.append(L * abs(seen_from_lever - foot))
@@ -86,8 +88,8 @@ def dense(path, samples=4001):
 
 
 def passes_over(q0, q1, H):
-    """Whether lever AK passes over one of the points H (n, 2) on the way from q0 to q1, from the
-    side of H.
+    """For each point of H (n, 2): whether lever AK passes over it on the direct path
+    from q0 to q1.
     """
     gamma, beta, alpha = dense([q0, q1], 721)[0].T
     first, second, third = (
@@ -103,8 +105,8 @@ def passes_over(q0, q1, H):
 
 
 def tasks(n, seed=5, limited=True):
-    """n random tasks (q0, target, obstacle) whose obstacle, L < OH < 3 L, is swept by AK on the
-    direct way.
+    """Yield n random tasks (q0, target, obstacle) in which AK sweeps over the obstacle on the
+    direct path, and L < OH < 3 L.
     """
     rng = np.random.default_rng(seed)
 
@@ -124,7 +126,7 @@ def tasks(n, seed=5, limited=True):
 
 
 @cases
-def test_reference_cases(case):
+def test_clearance_and_via_points_equal_the_reference_cases(case):
     q0, q1, H = np.array(case["previous"])[::-1], np.array(case["new"])[::-1], case["H"]
     for q, names in ((q0, ("A", "K")), (q1, ("A1", "K1"))):
         for point, name in zip(ARM.points(q)[2:], names, strict=True):
@@ -132,7 +134,7 @@ def test_reference_cases(case):
     np.testing.assert_allclose(ARM.least(case["K1"], q0, limited=False)[0], q1, rtol=0, atol=1e-6)
     assert in_quadrilateral(ARM, q0, q1, H)["AK"] == case["inside_quadrilateral"]
     assert swept(ARM, q0, q1, H)["AK"] == case["swept_by_AK_joint_linear"]
-    # otherwise the reference is the least of samples, within 0.0007
+    # if AK sweeps over H, the reference is only the least of its samples, at most 0.0007
     if not case["swept_by_AK_joint_linear"]:
         least = clearance(ARM, [q0, q1], H)[0, 2]
         assert 0 < case["min_distance_AK_joint_linear"] - least < 5e-6
@@ -152,8 +154,8 @@ def test_reference_cases(case):
 
 
 def test_via_points_are_perpendicular_and_on_the_side_of_the_base():
-    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here, not square and
-    one outside.
+    """Errata S3-m: the printed formulas give (1.556, 1.131) and (1.429, 0.876) here: neither is
+    perpendicular, and one is on the wrong side.
     """
     H, K, K1 = np.array([1.5, 1]), np.array([1.2, 1.7]), np.array([1.9, 0.3])
     K2, K3 = via_points(K, K1, H, 1 / 7)
@@ -165,12 +167,14 @@ def test_via_points_are_perpendicular_and_on_the_side_of_the_base():
             1 / 7, abs=1e-15
         )
         assert (via - H) @ H < 0
-    with pytest.raises(ValueError, match="apart from K1"):
+    with pytest.raises(ValueError, match="different from K1"):
         via_points(K, H, H, 1 / 7)
 
 
-def test_quadrilateral_test_works_for_any_drawing():
-    """Errata S3-k: the printed inequalities miss this point. Corners and sides count as inside."""
+def test_quadrilateral_test_is_correct_for_any_quadrilateral():
+    """Errata S3-k: the printed inequalities miss a point inside. Corners and sides
+    count as inside.
+    """
     q0 = ARM.least((0.8668, -0.5041), [1.2, 2.0, 1.0], limited=False)[0]
     q1 = ARM.least((1.2804, 0.1854), [1.5, 2.0, 1.0], limited=False)[0]
     (_, B, A, K), (_, B1, A1, K1) = ARM.points(q0), ARM.points(q1)
@@ -178,7 +182,7 @@ def test_quadrilateral_test_works_for_any_drawing():
     found = in_quadrilateral(ARM, q0, q1, H)
     assert found["AK"].tolist() == [True, True, True, True, False, False]
     assert found["BA"].shape == (6,) and found["BA"][0]
-    # compared with the winding number of the corners about the point, for a simple and a crossed
+    # compared with the winding number of the outline around the point, for a simple and a crossed
     # outline
     rng = np.random.default_rng(4)
     for corners in (np.stack([A, K, K1, A1]), np.stack([B, A, A1, B1])):
@@ -194,7 +198,7 @@ def test_clearance_is_a_tight_bound(L):
     rng, arm = np.random.default_rng(6), three_lever(L)
     for _ in range(60):
         path, H = rng.uniform(0, np.pi, (4, 3)), L * rng.uniform(-3, 3, 2)
-        if rng.random() < 0.5:  # resting joints, as at the kinks of least movement
+        if rng.random() < 0.5:  # some joints rest, as at the kinks of the least movement
             path[1:] = np.where(rng.random((3, 3)) < 0.6, path[0], path[1:])
         sampled = seen(dense(path), H, L)
         bound = clearance(arm, path, H)
@@ -211,15 +215,15 @@ def test_clearance_is_a_tight_bound(L):
 
 
 @pytest.mark.parametrize("levers", [(0.9, 1.1, 0.6), (0.5, 0.3, 1.6), (1.7, 0.9, 0.2)])
-def test_levers_with_different_lengths(levers):
-    """As above, with the positions of the levers from `arm.points`; plans with these arms keep
-    their promises.
+def test_levers_of_different_lengths_keep_their_clearance(levers):
+    """As above, but the positions of the levers come from `arm.points`. Plans for these arms keep
+    their distance too.
     """
     rng, arm = np.random.default_rng(16), three_lever(levers)
     share = np.linspace(0, 1, 301)[:, None]
 
     def least_seen(q, H):
-        O_B_A_K = arm.points(q)  # test_planar.py holds them
+        O_B_A_K = arm.points(q)  # test_planar.py checks these points
         start, end = O_B_A_K[..., :-1, :], O_B_A_K[..., 1:, :]
         along = ((H - start) * (end - start)).sum(axis=-1) / np.array(levers) ** 2
         foot = start + np.clip(along, 0, 1)[..., None] * (end - start)
@@ -245,7 +249,7 @@ def test_levers_with_different_lengths(levers):
     assert kept
 
 
-def test_lever_that_passes_over_has_zero_clearance():
+def test_clearance_is_zero_for_a_lever_that_passes_over_the_obstacle():
     q0, q1 = np.array([100, 120, 130]) * deg, np.array([60, 120, 130]) * deg
     for lever, u in ((0, 0.5), (1, 0.3), (2, 0.9)):
         O_B_A_K = ARM.points((q0 + q1) / 2)
@@ -257,9 +261,9 @@ def test_lever_that_passes_over_has_zero_clearance():
 
 
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
-def test_clearance_of_known_motions():
-    """Lever OB of an arm that turns only joint 1, past the obstacle or not up to it; everything
-    beyond B is rigid.
+def test_clearance_is_correct_for_known_motions():
+    """Only joint 1 of the arm turns: lever OB moves past the obstacle or stops before it, and
+    everything beyond B is rigid.
     """
     q, H = np.array([0.2, 2.0, 2.5]), np.array([0.3, 0.9])
     to = np.arctan2(H[1], H[0])  # 71.6 degrees
@@ -269,16 +273,16 @@ def test_clearance_of_known_motions():
         least = np.hypot(*H) * np.sin(angle)
         found = clearance(ARM, [q, end], H)[0]
         assert least - 2e-6 <= found[0] <= least, turn
-        # the others: the nearest point when their end points turn about the base
+        # the other levers, compared with samples of their rotation about the base
         s = np.linspace(0, min(turn, 2 * np.pi), 40_001)[:, None]
         sampled = seen(q + s * [1, 0, 0], H).min(axis=0)
         assert (sampled - found <= 2e-4).all() and (sampled >= found).all()
 
 
 @pytest.mark.parametrize("H", [(0, 0), (1e-9, 0), (0.01, -0.02), (1e3, 2e3)])
-def test_clearance_where_the_distance_hardly_changes(H):
-    """The levers turn about an obstacle in the base: all distances are equal, and the bisection
-    must not continue for ever.
+def test_clearance_is_found_where_the_distance_hardly_changes(H):
+    """The levers rotate about an obstacle at or near the base, or very far from it: the distances
+    hardly differ, and the bisection must not go on forever.
     """
     a, b = np.array([0.1, 1.1, 1.9]), np.array([3.0, 1.1, 1.9])
     least = clearance(ARM, [a, b], H)[0]
@@ -288,8 +292,10 @@ def test_clearance_where_the_distance_hardly_changes(H):
     assert not keeps(ARM, a, b, H, held) and (held < 0.1 or keeps(ARM, a, b, H, held - 2e-4))
 
 
-def test_clearance_of_a_constant_motion():
-    """The border: a distance that is exactly kept counts, and a larger one does not."""
+def test_exact_distance_of_a_resting_arm_counts_as_kept():
+    """At the borderline: a distance that is exactly kept counts as kept, the next larger one does
+    not.
+    """
     q, H = np.array([1.0, 2.0, 1.5]), (1.3, 1.2)
     least = seen(q, H).min()
     near = distances(ARM, q, H).min()
@@ -300,7 +306,7 @@ def test_clearance_of_a_constant_motion():
     )
 
 
-def test_batches_of_postures_and_obstacles():
+def test_distances_accept_batches_of_postures_and_obstacles():
     rng = np.random.default_rng(12)
     q, H = rng.uniform(0, np.pi, (4, 1, 3)), rng.uniform(-2, 2, (5, 2))
     found = distances(ARM, q, H)
@@ -336,13 +342,15 @@ def test_long_paths_are_measured_in_blocks(monkeypatch):
 @pytest.mark.filterwarnings("ignore:.*degrees:UserWarning")
 def test_excessive_work_is_refused(monkeypatch):
     q = np.array([1.0, 2.0, 1.5])
-    # a hundred turns are much work, but not too much
+    # a hundred turns are a lot of work, but not too much
     assert clearance(ARM, [q, q + [200 * np.pi, 0, 0]], (1.2, 1.3)).shape == (1, 3)
     many = np.tile(q, (WORK + 1, 1))
-    with pytest.raises(ValueError, match=f"most {WORK} stre.*{WORK + 1} of 0 rad.*{WORK + 1} and"):
+    with pytest.raises(
+        ValueError, match=f"most {WORK} pie.*{WORK + 1} or more .*{WORK + 1} .*of 0 rad"
+    ):
         keeps(ARM, many, q, (2.9, 2.9), 0.5)
     with pytest.raises(
-        ValueError, match=r"got 1 of 3e\+06 rad in all, which take 10\d{5} and more"
+        ValueError, match=r"got 10\d{5} or more for 1 motions of 3e\+06 rad in total"
     ):
         clearance(ARM, [q, q + 1e6], (1.2, 1.3))
     monkeypatch.setattr(collision, "WORK", 8)
@@ -352,12 +360,12 @@ def test_excessive_work_is_refused(monkeypatch):
         lambda: keeps(ARM, q, q + [20, 0, 0], (2.9, 2.9), 0.5),
         lambda: swept(ARM, q, q + [20, 0, 0], (1.5, 1.5)),
     ):
-        with pytest.raises(ValueError, match="motions: wanted some of which at most 8 stretches"):
+        with pytest.raises(ValueError, match="motions: wanted at most 8 pieces to be measured"):
             call()
 
 
 def test_nearest_of_several_obstacles_counts():
-    """The result equals the combined results of the single obstacles."""
+    """The result equals the combined results for the individual obstacles."""
     rng = np.random.default_rng(15)
     for _ in range(40):
         path, H = rng.uniform(0, np.pi, (4, 3)), rng.uniform(-2.5, 2.5, (3, 2))
@@ -400,7 +408,7 @@ def test_plans_past_two_obstacles_keep_clear_of_both(two_drawn):
 
 
 def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
-    """Checked from the gripper's positions and from the words."""
+    """Checked against the gripper's positions and the words of the plan."""
     count = 0
     for q0, K1, H in two_drawn:
         answer = plan(ARM, q0, K1, H)
@@ -420,13 +428,13 @@ def test_via_points_lie_around_the_first_obstacle_in_the_way(two_drawn):
     assert count
 
 
-def test_words_number_several_obstacles():
+def test_words_give_the_number_of_the_obstacle():
     far = (-2.0, -2.0)
     for words, obstacle in (
         ("Obstacle 2 lies on the base", (far, (0.05, 0))),
         ("The target lies 100.0 mm from obstacle 2", (far, (1.8, 0.7))),
         ("already 0.0 mm from obstacle 1", (KNOWN[3], far)),
-        ("The way is direct: no obstacle is in it.", (far, far)),
+        ("The direct way is clear: no obstacle is on it.", (far, far)),
     ):
         assert words in plan(ARM, Q0, (1.8, 0.6), obstacle).words
     q0, K1, H = next(tasks(1))
@@ -472,7 +480,7 @@ def test_plans_keep_their_clearance_or_find_no_path(answers):
 
 
 def test_words_name_the_nearest_lever(answers):
-    """If levers meet in the nearest point, the one nearer to the base."""
+    """If two levers meet at the nearest point, the words name the lever nearer to the base."""
     told = re.compile(r"lever (\w+) (sweeps|comes as near as ([0-9.]+) mm)")
     for q0, K1, H, answer in answers:
         if "No path keeps" in answer.words:
@@ -507,8 +515,8 @@ def test_words_name_the_nearest_lever(answers):
 
 
 def test_search_path_is_taut(answers):
-    """No obvious change makes a path shorter: omitting a via posture, pulling one towards its
-    neighbours, or a nearer posture at the target.
+    """No obvious change makes a path shorter: omitting a via posture, pulling a via posture towards
+    its neighbours, or ending at a nearer posture.
     """
     searched = [(H, K1, p.path) for _, K1, H, p in answers if p.way == "search"]
     nearer = [is_taut(path, K1, H, KEPT) for H, K1, path in searched]
@@ -516,7 +524,9 @@ def test_search_path_is_taut(answers):
 
 
 def is_taut(path, K1, H, distance):
-    """Assert this for the via postures; return whether a nearer end is within reach."""
+    """Assert that the via postures are taut; return whether a nearer end posture is
+    within reach.
+    """
     assert not keeps(ARM, path[:-2], path[2:], H, distance).any()
     for a, via, b in zip(path, path[1:], path[2:], strict=False):
         between = np.clip(via, np.minimum(a, b), np.maximum(a, b))
@@ -535,12 +545,12 @@ def test_search_path_costs_no_more_than_brute_force(drawn):
         S = abs(np.diff(way_round(ARM, q0, K1, H, KEPT), axis=0)).sum()
         assert S < 1.03 * least, (i, S, least)
         ratios.append(S / least)
-    assert np.mean(ratios) < 0.985  # its via postures are optimal, not on a grid
+    assert np.mean(ratios) < 0.985  # the via postures are optimal and not bound to a grid
 
 
-def test_small_clearances_are_found(drawn):
-    """Tasks in which a step of the grid can jump over the obstacle. In the last three a goal
-    further along its curve saves movement.
+def test_search_finds_paths_with_a_small_clearance(drawn):
+    """In these tasks a step of the grid can jump over the obstacle. In the last three, a goal
+    further along the target's curve saves movement.
     """
     found = []
     for q0, K1, H in [*drawn[:12], drawn[21], drawn[30], drawn[61]]:
@@ -553,8 +563,8 @@ def test_small_clearances_are_found(drawn):
 
 
 def test_search_reaches_targets_with_few_postures():
-    """Near the stretched arm the family is short; at the stretched arm it is one posture; beyond it
-    there is no posture and no path.
+    """Near full stretch the target's family is short; at full stretch it is a single posture;
+    beyond it there is no posture and no path.
     """
     for r in (2.9, 2.9999, 2.99999999, 3.0):
         K1 = r * np.array([np.cos(1.0), np.sin(1.0)])
@@ -566,8 +576,10 @@ def test_search_reaches_targets_with_few_postures():
     assert way_round(ARM, Q0, (0.5, 0.5), (-2.0, 0.5), 0.1) is None
 
 
-def test_start_at_its_limits_is_accepted():
-    """Also past a limit by rounding: the path begins at the arm's posture."""
+def test_start_at_the_joint_limits_is_accepted():
+    """A start past a limit by a rounding error is accepted too: the path begins at the arm's
+    posture.
+    """
     for q0 in ([-5e-10, 2.0, 1.5], [np.pi + 5e-10, 2.0, 1.5], [0.0, np.pi, 2.0], [1.0, 0.3, np.pi]):
         path = way_round(ARM, q0, (1.8, 0.6), (1.0, -1.5), 0.1)
         assert (path[0] == q0).all() and within(ARM, path).all()
@@ -576,7 +588,7 @@ def test_start_at_its_limits_is_accepted():
 
 
 def test_search_finds_a_path_where_one_was_constructed():
-    """Tasks with a known solution: the obstacle is beside a path with two random corners."""
+    """Tasks with a known solution: the obstacle is next to a path with two random corners."""
     rng, solved, count = np.random.default_rng(8), 0, 0
     while count < 25:
         path = rng.uniform(0, np.pi, (4, 3))
@@ -611,7 +623,7 @@ def test_plan_posture_starts_the_next_task():
         np.testing.assert_allclose(ARM.points(posture)[3], target, atol=1e-12)
 
 
-def test_direct_way():
+def test_direct_plan_has_no_via_postures():
     q0 = np.array([100, 110, 120]) * deg
     free = plan(ARM, q0, (1.8, 0.6))
     beside = plan(ARM, q0, (1.8, 0.6, 0.0), (-2.0, -2.0, 0.0))
@@ -627,9 +639,9 @@ def test_direct_way():
     assert "no obstacle is given" in free.words and "not in it" in beside.words
 
 
-def test_via_points_work_for_smaller_distances():
-    """The chords of the circle L/7 come nearer than L/7 (errata S3-n): the document's path works
-    for a smaller distance.
+def test_via_points_of_the_document_keep_only_smaller_distances():
+    """The chords of the circle of radius L/7 come nearer than L/7 (errata S3-n), so the document's
+    path works only for a smaller distance.
     """
     ways, radii = [], []
     for q0, K1, H in tasks(min(TASKS, 30)):
@@ -646,7 +658,9 @@ def test_via_points_work_for_smaller_distances():
 
 
 def test_first_circle_that_keeps_the_distance_is_used(answers):
-    """No circle is smaller than the distance or L/7; L/7 itself never keeps L/7 (errata S3-n)."""
+    """No circle has a radius below the distance or L/7; the circle of radius L/7 never keeps the
+    distance L/7 (errata S3-n).
+    """
     radii = []
     for q0, K1, H, answer in answers:
         tried = [via_path(ARM, q0, K1, H, r) for r in CIRCLES]
@@ -677,14 +691,14 @@ KNOWN = ARM.points(Q0)
         ((0, 0), (1.5, 1.5), "not farther than one lever"),
         ((-1.97, 0.35), (1.5, 1.5), "gamma outside 0 to 180 degrees"),
         ((1.8, 0.6), (0, 0), "on the base"),
-        ((1.8, 0.6), (0.05, -0.1), "on the base or 111.8 mm beside it"),
+        ((1.8, 0.6), (0.05, -0.1), "on the base or 111.8 mm from it"),
         ((1.8, 0.6), (1.8, 0.6), "The target lies 0.0 mm from the obstacle"),
         ((1.8, 0.6), (1.8, 0.7), "The target lies 100.0 mm from the obstacle"),
         ((1.8, 0.6), KNOWN[3], "At the start lever AK is already 0.0 mm"),
         ((1.8, 0.6), (KNOWN[0] + KNOWN[1]) / 2, "At the start lever OB is already"),
         ((1.8, 0.6), (KNOWN[1] + KNOWN[2]) / 2, "At the start lever BA is already 0.0 mm"),
         (KNOWN[3], KNOWN[3], "At the start"),
-        # stretched over the obstacle, so no posture at the target is free
+        # the arm is stretched over the obstacle, so no posture at the target is free
         ((2.99, 0.1), (1.5, 0.05), "finds no way"),
     ],
 )
@@ -695,8 +709,10 @@ def test_impossible_plans_give_a_reason(target, obstacle, words):
     assert answer.path.tolist() == [Q0.tolist()] and (answer.posture == Q0).all()
 
 
-def test_distance_that_is_barely_kept_counts():
-    """Distances at the borders of base, start, target and direct way are allowed."""
+def test_barely_kept_distance_is_accepted():
+    """A distance exactly at its limit is allowed: at the base, the start and the target and on the
+    direct path.
+    """
     target, H = (1.75, 0.5), (1.75, 0.75)
     at_start, direct = distances(ARM, Q0, H).min(), [Q0, ARM.least(target, Q0)[0]]
     for distance, obstacle, words in (
@@ -714,20 +730,20 @@ def test_distance_that_is_barely_kept_counts():
     assert plan(ARM, Q0, target, H, np.nextafter(near, 9)).way != "direct"
 
 
-def test_smaller_distances_are_allowed():
+def test_plan_accepts_a_smaller_distance():
     target, obstacle = (1.8, 0.6), (1.8, 0.7)
     assert not plan(ARM, Q0, target, obstacle).found
     answer = plan(ARM, Q0, target, obstacle, distance=0.05)
     assert answer.found and 0.05 <= seen(dense(answer.path), obstacle).min() <= 0.1
 
 
-def test_postures_along_a_path():
+def test_along_returns_the_postures_of_a_path():
     path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
     q = along(path, [0, 0.125, 0.25, 0.625, 1])
     np.testing.assert_allclose(
         q, [(0, 0, 0), (0.5, 0, 0), (1, 0, 0), (1, 1, 0.5), (1, 2, 1)], atol=1e-15
     )
-    np.testing.assert_allclose(along(path[[0, 0]], [0, 0.5]), path[[0, 0]])  # a path that stands
+    np.testing.assert_allclose(along(path[[0, 0]], [0, 0.5]), path[[0, 0]])  # no movement
 
 
 def test_S_grows_linearly_along_a_path():
@@ -738,7 +754,7 @@ def test_S_grows_linearly_along_a_path():
     np.testing.assert_allclose(inner, 5.2 / 42, rtol=1e-12)
 
 
-def test_postures_outside_a_path_are_its_ends():
+def test_shares_outside_0_to_1_give_the_ends_of_a_path():
     path = np.array([(0, 0, 0), (1, 0, 0), (1, 2, 1)])
     assert (along(path, [[-1.0, 2.0], [1e300, -1e300]]) == path[[[0, 2], [2, 0]]]).all()
 
@@ -775,40 +791,40 @@ WRONG = {
         r"180 degrees, got \[5729\.578",
     ),
     "two angles": (lambda: plan(ARM, [1, 2], GOAL), r"posture.*\(2,\)"),
-    "two postures": (lambda: plan(ARM, [Q0, Q0], GOAL), r"posture: wanted one .*\(2, 3\)"),
+    "two postures": (lambda: plan(ARM, [Q0, Q0], GOAL), r"posture: wanted a single .*\(2, 3\)"),
     "no posture": (lambda: plan(ARM, None, GOAL), "posture: wanted numbers"),
     "NaN posture": (lambda: plan(ARM, [1, np.nan, 2], GOAL), "posture.*nan"),
     "target off the plane": (lambda: plan(ARM, Q0, (1.8, 0.6, 0.1)), "z = 0"),
     "target of four numbers": (lambda: plan(ARM, Q0, (1, 2, 0, 0)), "target: wanted points"),
     "target as a number": (lambda: plan(ARM, Q0, 1.8), "target: wanted points.*1.8"),
-    "two targets": (lambda: plan(ARM, Q0, [GOAL] * 2), r"target.*one single point.*\(2,\)"),
+    "two targets": (lambda: plan(ARM, Q0, [GOAL] * 2), r"target.*a single point.*\(2,\)"),
     "NaN obstacle": (lambda: plan(ARM, Q0, GOAL, (1, np.nan)), "obstacle.*nan"),
-    "obstacle beyond the numbers": (lambda: plan(ARM, Q0, GOAL, (1e300, 0)), "metres, got 1e.300"),
+    "obstacle too far away": (lambda: plan(ARM, Q0, GOAL, (1e300, 0)), "metres, got 1e.300"),
     "obstacle as words": (lambda: plan(ARM, Q0, GOAL, "ab"), "obstacle: wanted numbers"),
     "negative distance": (lambda: plan(ARM, Q0, GOAL, (1, 2), -0.1), "-0.1"),
     "distance 0": (lambda: plan(ARM, Q0, GOAL, (1, 2), 0), "distance: wanted one positive length"),
     "NaN distance": (lambda: plan(ARM, Q0, GOAL, (1, 2), np.nan), "distance.*nan"),
-    "one posture is no path": (lambda: clearance(ARM, Q0, (1, 2)), r"two or more.*\(3,\)"),
-    "a path of one": (lambda: clearance(ARM, [Q0], (1, 2)), r"two or more.*\(1, 3\)"),
+    "one posture is not a path": (lambda: clearance(ARM, Q0, (1, 2)), r"two or more.*\(3,\)"),
+    "a path of one posture": (lambda: clearance(ARM, [Q0], (1, 2)), r"two or more.*\(1, 3\)"),
     "a batch of paths": (lambda: clearance(ARM, [[Q0, Q0]] * 2, (1, 2)), r"\(2, 2, 3\)"),
-    "two obstacles": (lambda: swept(ARM, Q0, Q0, [(1, 2)] * 2), "one single point"),
+    "two obstacles": (lambda: swept(ARM, Q0, Q0, [(1, 2)] * 2), "a single point"),
     "a batch of obstacles": (
         lambda: clearance(ARM, [Q0, Q0], [[(1, 2)] * 2] * 3),
         r"H: wanted one point \(2,\) or several \(m, 2\), got \(3, 2, 2\)",
     ),
     "an empty list of obstacles": (lambda: plan(ARM, Q0, GOAL, np.empty((0, 2))), r"\(0, 2\)"),
-    "angles beyond the numbers": (lambda: clearance(ARM, [Q0, Q0 + 1e10], FAR), "radians, got 1e"),
-    "along nothing": (lambda: along([Q0], 0.5), "two or more"),
+    "angles too large": (lambda: clearance(ARM, [Q0, Q0 + 1e10], FAR), "radians, got 1e"),
+    "along a single posture": (lambda: along([Q0], 0.5), "two or more"),
     "along at NaN": (lambda: along([Q0, Q0], np.nan), "s: wanted finite"),
     "distance below zero": (lambda: keeps(ARM, Q0, Q0, FAR, -np.inf), "distance.*inf"),
     "keeps -1": (lambda: keeps(ARM, Q0, Q0, FAR, -1), "distance: wanted one positive length"),
     "keeps NaN": (lambda: keeps(ARM, Q0, Q0, FAR, np.nan), "distance.*nan"),
     "keeps of NaN": (lambda: keeps(ARM, Q0, [np.nan] * 3, FAR, 0.1), "b: wanted finite"),
-    "keeps of what does not fit": (
+    "keeps, unequal batches": (
         lambda: keeps(ARM, [Q0] * 2, [Q0] * 3, FAR, 0.1),
         r"a and b.*\(2, 3\) and \(3, 3\)",
     ),
-    "distances of what does not fit": (
+    "distances, unequal batches": (
         lambda: distances(ARM, [Q0] * 2, [FAR] * 3),
         r"q and H.*\(2,\) and \(3,\)",
     ),
@@ -827,21 +843,21 @@ WRONG = {
     "limited by words": (lambda: via_path(ARM, Q0, GOAL, FAR, 0.1, "no"), "limited: .*'no'"),
     "quadrilaterals of a batch": (
         lambda: in_quadrilateral(ARM, [Q0] * 4, Q0, FAR),
-        r"q0: wanted one .*\(4, 3\)",
+        r"q0: wanted a single .*\(4, 3\)",
     ),
     "swept by nothing": (lambda: swept(ARM, Q0, None, FAR), "q1: wanted numbers"),
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_arguments_are_named(name):
+def test_errors_name_the_wrong_argument(name):
     call, words = WRONG[name]
     with pytest.raises(ValueError, match=words) as caught:
         call()
     assert len(str(caught.value)) < 200
 
 
-def test_degrees_cause_a_hint():
+def test_angles_in_degrees_cause_a_warning():
     q, H = np.array([100.0, 110.0, 120.0]), (1.2, 1.9)
     for call in (
         lambda: in_quadrilateral(ARM, Q0, q, H),
@@ -858,15 +874,15 @@ def test_degrees_cause_a_hint():
 
 def test_grids_with_too_many_postures_are_refused():
     wide = type(ARM)("wide", ARM.geometry, [(-20.0, 20.0)] * 3)
-    with pytest.raises(ValueError, match=rf"arm: .*{WORK} postures, .* of 1 obst.*got 9.6"):
+    with pytest.raises(ValueError, match=rf"arm: .*{WORK} grid postures .*got 9.6.* with 1 obst"):
         way_round(wide, Q0, GOAL, FAR, 0.1)
-    with pytest.raises(ValueError, match="of 50 obstacles, got 2.3"):
+    with pytest.raises(ValueError, match=r"got 2\.3.* with 50 obstacles"):
         way_round(ARM, Q0, GOAL, [FAR] * 50, 0.1)
     narrow = type(ARM)("narrow", ARM.geometry, [(0.0, 3.2)] * 3)
     assert way_round(narrow, Q0, GOAL, FAR, 0.1) is not None
 
 
-# ---- a plan is data
+# ---- the data of a plan
 
 
 def a_plan(**other):
@@ -874,7 +890,7 @@ def a_plan(**other):
     return Plan(**made | other)
 
 
-def test_plans_are_data():
+def test_plans_are_read_only_data():
     answer = plan(ARM, Q0, (1.8, 0.6), (1.6, 1.6))
     assert isinstance(answer, Plan) and answer.words.endswith(".")
     path, clear = np.array([Q0, Q0 + 0.1, Q0]), np.array([[1.0, 2, np.inf], [0, 1, 2]])
@@ -898,13 +914,13 @@ def test_plans_are_data():
     [
         {"way": "tunnel"},
         {"way": None},
-        {"way": "none"},  # and two postures
+        {"way": "none"},  # but the path has two postures
         {"words": 3},
-        {"path": [Q0]},  # and found
+        {"path": [Q0]},  # one posture, but a path was found
         {"path": Q0},
         {"path": [Q0 * np.nan, Q0]},
         {"path": np.empty((0, 3))},
-        {"path": [Q0] * 3},  # of two parts, with one clearance
+        {"path": [Q0] * 3},  # two parts, but one clearance
         {"path": None},
         {"clearance": [[1, 2]]},
         {"clearance": [[1, 2, np.nan]]},
@@ -917,8 +933,8 @@ def test_plans_are_data():
         {"least": -1},
         {"least": [1, 2]},
         {"least": np.inf},
-        {"radius": 0.2},  # of a search
-        {"way": "via points"},  # and no radius
+        {"radius": 0.2},  # a search has no radius
+        {"way": "via points"},  # but no radius
         {"way": "via points", "radius": -0.2},
         {"way": "via points", "radius": np.inf},
         {"way": "via points", "radius": [0.1, 0.2]},
@@ -948,7 +964,7 @@ def test_unchecked_path_shows_the_nearest_approach():
             lever, least, place = nearest_approach(ARM, path, near, H)
             each = near.min(axis=0) if len(path) > 1 else distances(ARM, q0, H)
             assert least == each[lever] == each.min()
-            # a point of the arm moves by no more than its reach times the turn between two samples
+            # between two samples a point moves by at most the reach times the angle turned
             moved = 3 * abs(np.diff(path, axis=0)).sum() / 120
             assert -1e-9 <= np.hypot(*(place - H)) - least <= moved + 2e-6
             through += len(path) > 1

@@ -1,4 +1,4 @@
-"""The IRB-140 compared with reference cases that were computed independently of robokin and of its
+"""The IRB-140 compared with reference cases that were computed independently of robokin and of the
 document.
 """
 
@@ -56,7 +56,7 @@ def test_within_equals_the_oracle(case):
         row = rows[np.nanargmin(turns(rows, q).max(-1))]
         assert within(IRB140, row).tolist() == [bool(values) for values in inside]
         for joint, values in enumerate(inside):
-            for value in values:  # standing near a representative, `nearest` takes that one
+            for value in values:  # from a posture near a representative, `nearest` takes that one
                 near = np.array([v[0] if v else qi for v, qi in zip(inside, q, strict=True)])
                 near[joint] = value
                 assert abs(nearest(IRB140, q[None], near)[joint] - value) < 1e-9
@@ -70,7 +70,7 @@ def test_unreachable_pose_has_no_rows(case):
 
 
 @pytest.mark.parametrize("name", NAMED)
-def test_named_poses_to_the_last_digits(name):
+def test_named_poses_agree_to_the_last_digits(name):
     rows = IRB140.ik(POSES[name if name in POSES else "task3_" + name])
     for flags, q in NAMED[name].items():
         row = rows[IRB140.branch(*json.loads(flags.replace("(", "[").replace(")", "]")))]
@@ -78,7 +78,7 @@ def test_named_poses_to_the_last_digits(name):
 
 
 def motion(law):
-    """The poses of a document's motion from the package's own functions, at the times T."""
+    """The poses of one of the document's motions at the times T, calculated with robokin."""
     s = linear(TOTAL)(T)
     start, via, goal = POSES["chain_s"], POSES["chain_i"], POSES["chain_e"]
     if law == "LIN s->e":
@@ -92,7 +92,7 @@ CARTESIAN = [law for law in MOTIONS if law not in ("task1", "PTP s->e", "LIN-LIN
 
 
 @pytest.mark.parametrize("law", CARTESIAN)
-def test_motion(law):
+def test_motions_equal_the_oracle(law):
     case = MOTIONS[law]
     poses = motion(law)
     q = follow(IRB140, IRB140.ik(poses), IRB140.branch(*case["flags"]))
@@ -111,14 +111,14 @@ def test_motion(law):
     assert (~within(IRB140, q)).any(-1).sum() == case["limit_violation_count"] == 0
 
 
-def test_motion_at_its_end_is_the_goal():
+def test_motions_end_at_the_goal():
     for law, goal in (("LIN s->e", POSES["task3_e"]), ("LIN-LIN s,i,e", POSES["chain_e"])):
         last = MOTIONS[law]["samples"][-1]
         row = IRB140.ik(goal)[IRB140.branch(*MOTIONS[law]["flags"])]
         assert last["t"] == 20.0 and turns(row, last["q"]).max() < 1e-9
 
 
-def test_ptp():
+def test_ptp_equals_the_oracle():
     case = MOTIONS["PTP s->e"]
     row = IRB140.branch(*case["flags"])
     start, goal = IRB140.ik(POSES["task3_s"])[row], IRB140.ik(POSES["task3_e"])[row]

@@ -23,7 +23,7 @@ from robokin import (
 
 CORNERS = ["parabola", "quintic"]
 corners = pytest.mark.parametrize("corner", CORNERS)
-# distance from via to the curve, of that to the corner's chord
+# distance from via to the curve, as a fraction of the distance to the corner's chord
 NEARNESS = {"parabola": 1 / 2, "quintic": 3 / 8}
 
 
@@ -41,12 +41,12 @@ def difference(a, b):
 
 
 def twist(a, b):
-    """From pose a to pose b: the translation and the rotation vector, (..., 6)."""
+    """The translation and the rotation vector from pose a to pose b: (..., 6)."""
     angle, axis = (b.rotation @ a.rotation.inverse()).as_angle_axis()
     return np.concatenate([b.translation - a.translation, axis * angle[..., None]], axis=-1)
 
 
-def test_lin_is_a_straight_line_at_constant_speed_and_turn():
+def test_lin_is_straight_at_constant_linear_and_angular_velocity():
     s = np.linspace(0, 1, 101)
     T = lin(START, GOAL, s)
     steps = twist(T[:-1], T[1:])
@@ -56,7 +56,7 @@ def test_lin_is_a_straight_line_at_constant_speed_and_turn():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_ptp_moves_all_joints_straight(shape):
+def test_ptp_interpolates_all_joints_linearly(shape):
     rng = np.random.default_rng(32)
     q0, q1, s = rng.normal(size=(*shape, 6)), rng.normal(size=(*shape, 6)), rng.uniform(size=shape)
     assert np.allclose(
@@ -106,9 +106,9 @@ def test_zero_blend_is_lin_lin(corner):
 
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
-def test_distance_of_the_path_from_via(corner, b):
-    """Errata S1-l: the parabola's middle is |a - 2 b + c| / 4 from via, half of the distance to the
-    chord; the quintic's is at 3/4 of that distance.
+def test_distance_of_the_path_from_via_is_as_in_the_errata(corner, b):
+    """Errata S1-l: the middle of the parabola is |a - 2 b + c| / 4 from via, half of the distance
+    to the chord; the middle of the quintic is at 3/4 of that.
     """
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
     chord = np.linalg.norm((first + last) / 2 - VIA.translation)
@@ -119,7 +119,7 @@ def test_distance_of_the_path_from_via(corner, b):
 
 
 def bernstein(points, x):
-    """A Bezier curve by its polynomials, not by de Casteljau."""
+    """A Bezier curve from its polynomials, not from de Casteljau's algorithm."""
     from math import comb
 
     n = len(points) - 1
@@ -165,7 +165,9 @@ def test_corner_is_the_bezier_curve_of_its_control_poses(corner):
 
 
 def jump(f, at, h, order):
-    """The jump of a derivative of f at a place, from samples on both sides (second order in h)."""
+    """The jump in a derivative of f at one point, from samples on both sides (second
+    order in h).
+    """
     weights = {1: [-1.5, 2, -0.5], 2: [2, -5, 4, -1]}[order]
     k = np.arange(len(weights)) * h
     after = np.tensordot(weights, f(at + k), 1) / h**order
@@ -177,8 +179,9 @@ def jump(f, at, h, order):
 @pytest.mark.parametrize("corner, order", [("parabola", 1), ("quintic", 1), ("quintic", 2)])
 @pytest.mark.parametrize("what", ["joints", "pose"])
 def test_derivative_is_continuous_at_the_ends_of_the_corner(what, corner, order, b):
-    """C1 and C2 by measurement, rotations included: the plain difference of q' (q'') across each
-    end of the corner vanishes in proportion to the step."""
+    """C1 and C2 continuity is measured, rotations included: the difference in q' (q'') across each
+    end of the corner vanishes in proportion to the step.
+    """
     row = IRB140.branch(1, 1, -1)
 
     def f(s):
@@ -213,7 +216,7 @@ def test_corner_is_no_smoother_than_documented(corner, order, b):
     assert step > 0.5
 
 
-def test_smooth_law_gives_rest_at_both_ends():
+def test_motion_with_a_smooth_law_rests_at_both_ends():
     law, t = quintic(20.0), np.linspace(0, 20, 2001)
     T = blend(START, VIA, GOAL, 0.1, law(t), "quintic")
     q = follow(IRB140, IRB140.ik(T), IRB140.branch(1, 1, -1))
@@ -246,7 +249,7 @@ def test_poses_may_be_batches(corner):
 
 @corners
 def test_anything_with_lerp_can_be_blended(corner):
-    """A SCARA's target keeps its angle unwrapped: half a turn has a direction (errata S1-t)."""
+    """A SCARA's target does not wrap its angle: half a turn has a direction (errata S1-t)."""
     a, b, c = (
         ScaraPose((0.1, 0, 0), 0.0),
         ScaraPose((0.2, 0, 0), np.pi),
@@ -276,7 +279,9 @@ def test_start_may_equal_goal(corner):
 
 @corners
 def test_a_straight_corner_stays_straight(corner):
-    """Via in the middle between start and goal: no corner, and no change of the motion."""
+    """With via halfway between start and goal there is no corner, and the motion does
+    not change.
+    """
     s = np.linspace(0, 1, 101)
     T = blend(START, lin(START, GOAL, 0.5), GOAL, 0.3, s, corner)
     assert difference(T, lin(START, GOAL, s)) < 1e-14
@@ -300,7 +305,7 @@ def test_every_blend_is_continuous_and_between_its_poses(seed, b, corner):
         for part in (slice(0, 3), slice(3, 6))
     ]
     steps = twist(T[:-1], T[1:])
-    # a quintic's speed exceeds the lines' by at most the ratio of its control polygon
+    # the speed of a quintic exceeds that of the lines by at most the ratio of its control polygon
     slack = 2.6 / 1000
     assert (
         np.linalg.norm(steps[:, :3], axis=-1).max() <= slack * max(lengths[0], lengths[2]) + 1e-12

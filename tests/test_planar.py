@@ -20,12 +20,12 @@ ARM = three_lever(1.0)
 
 
 def ours(angles):
-    """(alpha, beta, gamma), the oracle's order, from the base outwards."""
+    """The oracle's angles (alpha, beta, gamma) in our order, from the base outwards."""
     return np.array(angles, dtype=float)[..., ::-1]
 
 
 def chain(L, q):
-    """O, B, A, K as complex numbers: each lever turns clockwise from the previous one by an
+    """O, B, A, K as complex numbers: each lever is turned clockwise from the previous one by an
     interior angle.
     """
     gamma, beta, alpha = q
@@ -41,7 +41,7 @@ def random_points(rng, shape, L=1.0):
 
 
 @pytest.mark.parametrize("case", SWEEPS)
-def test_rows_of_the_family(case):
+def test_family_equals_the_rows_of_the_oracle(case):
     arm, K = three_lever(case["L"]), case["K"]
     low, high = arm.alpha_range(K, limited=False)
     assert low == pytest.approx(case["alpha_min"], abs=1e-12) and high == np.pi
@@ -68,7 +68,7 @@ def test_least_movement_equals_the_oracle(case):
 
 
 @pytest.mark.parametrize("case", FORWARD)
-def test_forward(case):
+def test_forward_kinematics_equals_the_oracle(case):
     arm, q = three_lever(case["L"]), ours(case["angles"])
     frames = arm.frames(q).translation
     B, A = frames[2], arm.frames(q)[2] @ arm.links[2].before.translation
@@ -82,7 +82,7 @@ def test_forward(case):
 
 
 @pytest.mark.parametrize("case", UNREACHED)
-def test_out_of_range_gives_a_reason(case):
+def test_target_out_of_range_has_no_postures_and_a_reason(case):
     arm = three_lever(case["L"])
     assert np.isnan(arm.family(case["K"], [1.0, 2.0, np.pi])).all()
     assert (
@@ -98,8 +98,10 @@ def test_out_of_range_gives_a_reason(case):
     ) and f"{case['distance'] * 1000:.1f} mm" in arm.out_of_reach(case["K"])
 
 
-def test_worked_example():
-    """Errata S3-h: the sweep ends beside the kink beta = 110 degrees; the minimum is on it."""
+def test_worked_example_agrees_with_the_errata():
+    """Errata S3-h: the sweep ends near the kink at beta = 110 degrees; the minimum is exactly at
+    the kink.
+    """
     previous = ours(EXAMPLE["previous_deg"]) * deg
     q, S = ARM.least(EXAMPLE["target"], previous)
     assert S / deg == pytest.approx(18.300924618, abs=1e-9) == EXAMPLE["cost_deg"]
@@ -127,14 +129,14 @@ def test_family_reaches_its_point_over_its_whole_range(shape):
     )
     assert (q[..., 1:] >= 0).all() and (q[..., 1:] <= np.pi + 1e-12).all()
     np.testing.assert_allclose(q[..., 0, 1], np.pi, atol=1e-7)  # beta at alpha_min
-    assert (np.diff(q[..., 0], axis=-1) > 0).all()  # gamma only grows
+    assert (np.diff(q[..., 0], axis=-1) > 0).all()  # gamma only increases
     assert np.isnan(arm.family(K, low - 1e-6)).all() and np.isnan(arm.family(K, high + 1e-6)).all()
-    for i in np.ndindex(*shape):  # three coordinates and a Transform say the same
+    for i in np.ndindex(*shape):  # three coordinates or a Transform give the same result
         point = np.append(K[i], 0.0)
         for same in (point, Transform(translation=point)):
             np.testing.assert_array_equal(arm.family(same, alpha[i]), q[i])
-    # the range with limited gamma, if it is not empty, is exactly where all angles are in 0 to 180
-    # degrees
+    # the range with limited gamma, if it is not empty, is exactly where all angles are between 0
+    # and 180 degrees
     low, high = arm.alpha_range(K)
     with np.errstate(invalid="ignore"):
         inside = (alpha > low[..., None] + 1e-9) & (alpha < high[..., None] - 1e-9)
@@ -144,7 +146,7 @@ def test_family_reaches_its_point_over_its_whole_range(shape):
 
 
 @pytest.mark.parametrize("L", [1.0, 0.3])
-def test_stretched_arm(L):
+def test_target_near_the_stretched_arm_is_reached_accurately(L):
     arm = three_lever(L)
     direction = np.array([np.cos(2.0), np.sin(2.0)])
     q, S = arm.least(3 * L * direction, [2.0, 3.0, 3.0])
@@ -178,15 +180,13 @@ def test_exact_minimum_is_never_above_the_sweep(limited):
         ~exists
     ).sum() + n / 1000
     assert np.nanmin(above) > -1e-14
-    # in one step of alpha each angle changes at most three times as much, so the two cannot be far
-    # apart
+    # in one step of alpha each angle changes by at most three times the step, so the two results
+    # must be close
     assert 0 < np.nanmax(above) < 0.05 * deg and np.nanmedian(above) < 0.005 * deg
 
 
-def test_exact_minimum_between_the_kinks():
-    """There is a minimum at which no angle keeps its value and alpha is not at an end of its range,
-    and it is found.
-    """
+def test_exact_minimum_between_the_kinks_is_found():
+    """At this minimum all three angles change, and alpha is not at an end of its range."""
     K, previous = np.array([1.8, 0.6]), np.array([175, 30, 40]) * deg
     q, S = ARM.least(K, previous, limited=False)
     low, high = ARM.alpha_range(K, limited=False)
@@ -207,14 +207,14 @@ def test_batch_equals_single_tasks():
         np.testing.assert_allclose(cost, S[i], rtol=0, atol=1e-13)
 
 
-def test_table_equals_table_3():
+def test_table_equals_table_3_of_the_document():
     K, step = (1.5, 1.0), 0.01 * deg
     rows = ARM.table(K, step, limited=False)
     assert rows[0, 2] / deg == pytest.approx(64.055520228, abs=1e-9)  # errata S3-e, row 1
     # row 2: the step is outside the arccos
     assert rows[1, 2] / deg == pytest.approx(64.065520228, abs=1e-9)
     assert 180 - 0.01 < rows[-1, 2] / deg <= 180 and len(rows) == 11595
-    # S3-d
+    # errata S3-d
     assert np.cos(ARM.family(K, np.pi)[0] - np.arctan2(1.0, 1.5)) == pytest.approx(
         0.0693375245, abs=1e-10
     )
@@ -233,8 +233,8 @@ def test_a_redundant_arm_has_no_ik():
 
 
 def test_follow_takes_the_family_as_rows():
-    """Along a path `follow` takes, sample by sample, the posture with the least movement among
-    those offered.
+    """`follow` takes, at each sample of a path, the posture with the least movement among those
+    offered.
     """
     K = np.linspace((1.8, 0.6), (1.2, 1.4), 40)
     rows = ARM.family(K[:, None], np.linspace(80, 180, 201) * deg)
@@ -258,20 +258,20 @@ def test_follow_takes_the_family_as_rows():
         (lambda: ARM.least((1.5, np.nan), np.ones(3)), "nan"),
     ],
 )
-def test_wrong_arguments_are_named(call, words):
+def test_errors_name_the_wrong_argument(call, words):
     with pytest.raises(ValueError, match=words):
         call()
 
 
 def test_points_off_the_plane_are_out_of_reach():
-    assert np.isnan(
-        ARM.family((1.5, 1, 0.1), 2.0)
-    ).all() and "beside the plane" in ARM.out_of_reach((1.5, 1, 0.1))
+    assert np.isnan(ARM.family((1.5, 1, 0.1), 2.0)).all() and "off the plane" in ARM.out_of_reach(
+        (1.5, 1, 0.1)
+    )
 
 
 @pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])
 def test_out_of_reach_words_agree_with_the_postures(way):
-    """The last reachable point on the way up, or out, is found by bisection."""
+    """The last reachable point upwards or outwards is found by bisection."""
 
     def at(far):
         return np.array([1.5, 0, 0]) + far * np.array(way)
@@ -299,7 +299,9 @@ def test_out_of_reach_and_the_family_agree_at_the_borders():
 
 
 def test_plane_tolerance_is_the_rounding_error_of_the_arm():
-    """A point off the plane by less than 1e-12 of the reach is on it, for any size."""
+    """A point off the plane by less than 1e-12 of the reach counts as on it, for an arm of any
+    size.
+    """
     for size in (1e-3, 1.0, 1e3):
         two, three = two_link(size, size), three_lever(size)
         assert not np.isnan(two.ik((size, 0, 1e-12 * size))).any()
@@ -329,13 +331,13 @@ def test_a_table_of_billions_of_rows_is_refused_with_its_size():
     assert len(ARM.table((1.5 * ARM.lever, ARM.lever), step=0.001 * deg)) > 10_000
 
 
-def test_degrees_cause_a_warning():
+def test_angles_in_degrees_cause_a_warning():
     with pytest.warns(UserWarning, match="previous: 120 rad is many turns"):
         ARM.least((1.5 * ARM.lever, ARM.lever), [100, 110, 120])
 
 
 def test_no_posture_of_the_family_moves_less_than_least():
-    """By brute force: 400 targets and postures, each against 20 001 postures of its family."""
+    """Brute force: 400 targets and postures, each compared with 20 001 postures of its family."""
     rng = np.random.default_rng(17)
     L = ARM.lever
     K = ARM.points(rng.uniform(0, np.pi, (400, 3)))[:, 3]
@@ -356,7 +358,9 @@ def test_no_posture_of_the_family_moves_less_than_least():
 
 @pytest.mark.parametrize("lengths", [1.0, (0.9, 1.1, 0.6)])
 def test_alpha_range_has_two_ends_or_none(lengths):
-    """With gamma below 0 along the whole family, the range had an upper end but no lower one."""
+    """Regression: with gamma below 0 along the whole family, the range had an upper end but no
+    lower one.
+    """
     arm = three_lever(lengths)
     KO, phi = np.meshgrid(np.linspace(0, 3.2, 60), np.linspace(-np.pi, np.pi, 60))
     K = np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
@@ -376,7 +380,7 @@ unequal = pytest.mark.parametrize("lengths", LENGTHS, ids=lambda each: str(each.
 
 
 def turning(lengths, q):
-    """B, A, K as complex numbers (3, ...), as `chain`, for any lengths and batches."""
+    """B, A, K as complex numbers (3, ...), like `chain`, but for any lengths and batches."""
     gamma, beta, alpha = np.moveaxis(q, -1, 0)
     turns = np.stack([np.exp(1j * gamma), -np.exp(1j * beta), -np.exp(1j * alpha)])
     levers = np.reshape(lengths, (3,) + (1,) * gamma.ndim) * np.cumprod(turns, axis=0)
@@ -416,8 +420,8 @@ def test_unequal_levers_reach_their_points(lengths):
 
 @unequal
 def test_unequal_families_end_where_the_triangle_ends(lengths):
-    """The highest alpha is 180 degrees; at the lowest one OA is as long as OB and BA together, or
-    it is 0 if K is too near for that.
+    """The highest alpha is 180 degrees; at the lowest, OA is as long as OB and BA together; if K is
+    too near for that, the lowest alpha is 0.
     """
     (a, b, c), rng = lengths, np.random.default_rng(34)
     arm, K = three_lever(lengths), ring(rng, lengths, 400)
@@ -442,8 +446,8 @@ def test_unequal_families_end_where_the_triangle_ends(lengths):
 
 @unequal
 def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
-    """Any three angles within 0 to 180 degrees are the family's posture for their own alpha, where
-    K is farther away than |OB - BA| + AK; nearer, some are not.
+    """Any three angles between 0 and 180 degrees are the family's posture for their own alpha if K
+    is farther away than |OB - BA| + AK; if K is nearer, some are not.
     """
     arm, rng = three_lever(lengths), np.random.default_rng(35)
     q = rng.uniform(0, np.pi, (20_000, 3))
@@ -453,7 +457,7 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
     turns = abs((found - q[far] + np.pi) % (2 * np.pi) - np.pi)
     assert far.sum() > 1000 and turns.max() < 1e-5 and np.median(turns) < 1e-14
     assert np.isnan(arm.family(K[~far], q[~far, 2])).all()
-    # B on the other side of OK: always nearer than the border, and almost up to it
+    # B on the other side of OK: K is always nearer than the border, and can be close to it
     q[:, 1] *= 0.05
     q[:, 2] *= 0.05
     q[::2, 2] = np.pi - q[::2, 2]
@@ -464,7 +468,7 @@ def test_every_posture_of_unequal_levers_is_in_the_family(lengths):
 
 @unequal
 def test_no_posture_of_unequal_levers_moves_less_than_the_least(lengths):
-    """By brute force: 100 targets and postures, each against 8001 postures of its family."""
+    """Brute force: 100 targets and postures, each compared with 8001 postures of its family."""
     arm, rng = three_lever(lengths), np.random.default_rng(36)
     K, before = ring(rng, lengths, 100), rng.uniform(0, np.pi, (100, 3))
     for limited in (False, True):
@@ -479,14 +483,14 @@ def test_no_posture_of_unequal_levers_moves_less_than_the_least(lengths):
         np.testing.assert_allclose(abs(q - before).sum(axis=-1), S, rtol=0, atol=1e-13)
 
 
-def test_a_minimum_that_equal_levers_do_not_have():
-    """gamma - beta + alpha is least inside this family, and no angle keeps its value."""
+def test_minimum_that_equal_levers_do_not_have_is_found():
+    """gamma - beta + alpha is least inside this family, and all three angles change there."""
     arm, K = three_lever((1.313, 0.534, 0.247)), np.array([1.057, 0.0])
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K, np.linspace(low, high, 20_001))
     level = (rows @ [1, -1, 1]).argmin()
     assert 100 < level < 19_900
-    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum nearby
+    before = rows[level] + [-0.2, 0.2, -0.2]  # so that near here S is that sum minus a constant
     q, S = arm.least(K, before, limited=False)
     sums = abs(rows - before).sum(axis=-1)
     assert abs(q - before).min() > 1e-3 and sums.min() - 1e-7 < S <= sums.min()
@@ -502,7 +506,7 @@ def test_batch_of_unequal_tasks_equals_single_tasks():
     assert arm.least(K.reshape(10, 230, 2), before[0])[0].shape == (10, 230, 3)
 
 
-def test_unequal_levers_say_why_a_point_is_out_of_reach():
+def test_reason_is_given_where_unequal_levers_cannot_reach():
     arm = three_lever((0.9, 1.1, 0.6))
     assert "not farther than |OB \N{MINUS SIGN} BA| + AK (800.0 mm)" in arm.out_of_reach((0.8, 0))
     assert "farther than three levers (2600.0 mm)" in arm.out_of_reach((0, 2.61))

@@ -39,7 +39,7 @@ from robokin.show.palette import css
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
-# The chain of 001, tasks 3 and 4, and its numbers in errata S1.
+# The motion of document 001, tasks 3 and 4, and its values in errata S1.
 START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
@@ -77,7 +77,7 @@ FRACTIONS = np.array([0, 0.1, 0.25, 0.5])
 
 
 def arm(name, limits, *links):
-    """One without an inverse."""
+    """An arm without an inverse."""
     return Arm(name, SimpleNamespace(links=links, target=Transform, reach=0.9), limits)
 
 
@@ -113,7 +113,7 @@ def blended(motions):
 
 
 def unpacked(packed, columns, samples):
-    """(motions, samples, columns): the rule of `Packed`, number after number."""
+    """Decode `Packed` data value by value: (motions, samples, columns)."""
     values = iter(base64.b64decode(packed["data"]))
 
     def folded():
@@ -137,14 +137,14 @@ def unpacked(packed, columns, samples):
 
 
 def decoded(player, arm=0):
-    """Joint values, speeds, accelerations (motions, samples, n) in the shown units."""
+    """Joint values, speeds and accelerations (motions, samples, n) in the shown units."""
     data = player.data["arms"][arm]
     size = len(data["chain"]), len(player.data["times"])
     return [unpacked(packed, *size) for packed in data["motion"]]
 
 
 def steps_of(player, arm=0):
-    """Of joint values, speeds, accelerations: (motions, n or 1)."""
+    """The rounding steps of joint values, speeds and accelerations: (motions, n or 1) each."""
     return [
         np.array(packed["steps"]).reshape(len(packed["steps"]), -1)
         for packed in player.data["arms"][arm]["motion"]
@@ -183,8 +183,9 @@ def test_greatest_speeds_and_accelerations_equal_the_errata(blended):
     arm = blended.data["arms"][0]
     for fraction, wanted in GREATEST_SPEED.items():
         got = arm["speed"][FRACTIONS.tolist().index(fraction)]
-        # Differences forward (errata) and central lie half a step apart, and before the corner
-        # joint 3 gains 21.5 °/s every second: 0.11 °/s; and the digit shown.
+        # The forward differences of the errata and our central ones are half a step apart. Before
+        # the corner joint 3 gains 21.5 °/s every second: 0.11 °/s in half a step, plus the rounding
+        # of the digit shown.
         assert np.allclose(got, np.array(wanted) / deg, rtol=0, atol=0.16)
         share = arm["share"][FRACTIONS.tolist().index(fraction)]
         assert np.allclose(share, 100 * np.array(wanted) / IRB140.speed_limits, rtol=0, atol=0.6)
@@ -196,8 +197,10 @@ def test_greatest_speeds_and_accelerations_equal_the_errata(blended):
         )
 
 
-def test_printed_number_plot_and_player_agree(blended, motions):
-    """Blend 0.5: the player said 3.24 °/s² where the cell beside it printed 3.23 (row A8)."""
+def test_printed_value_plot_and_player_agree(blended, motions):
+    """Regression (row A8): at blend 0.5 the player said 3.24 °/s², and the cell next to it printed
+    3.23.
+    """
     k, slow = 3, np.linspace(0, 20, 1001)
     q = motions[k, ::2]
     printed = [abs(differentiate(q, slow, order)).max(axis=0) / deg for order in (1, 2)]
@@ -214,7 +217,7 @@ def test_printed_number_plot_and_player_agree(blended, motions):
 
 
 def test_plot_and_player_report_the_same_flaws(motions):
-    """One motion with a corner, a turn by 360°, samples past both kinds of limit, and a gap."""
+    """The motion has a corner, a jump by 360°, samples past both kinds of limit, and a gap."""
     q = motions[0].copy()
     q[1500:, 3] += 2 * np.pi
     q[:, 1] += 130 * deg
@@ -265,7 +268,7 @@ def test_joint_values_may_be_lists():
     assert animate([IRB140], t, (q,)).text == animate([IRB140], t, [q.tolist()]).text
 
 
-def test_given_speeds_of_a_recording_are_drawn_and_checked(motions):
+def test_player_shows_the_speeds_stored_in_a_recording(motions):
     """A recording with exact speeds keeps them."""
     exact = record(IRB140, T, motions[1])
     slow = replace(exact, v=exact.v / 2)
@@ -278,19 +281,19 @@ def test_unblended_corner_is_a_speed_jump_without_acceleration(blended):
     assert arm["acceleration"][0] == [f"jump {x:.1f} °/s" for x in abs(CORNER_JUMP) / deg]
     assert arm["jumps"] == {"0": [[10.0, "speed jumps by 52.7 °/s"]]}
     assert all(isinstance(x, float) for row in arm["acceleration"][1:] for x in row)
-    # With the spike in, the scale would reach thousands of degrees per second squared.
+    # If the scale included the spike, it would reach thousands of degrees per second squared.
     panel = blended.data["panels"][2]["axes"]["turn"]
     for low, step, count, _ in panel["scales"]:
         assert -100 < low < 0 < low + step * (count - 1) < 100
 
 
-def test_distance_to_via_is_the_smallest_of_the_path(blended, motions):
+def test_distance_to_via_is_the_smallest_along_the_path(blended, motions):
     path = IRB140.fk(motions).translation
     wanted = np.linalg.norm(path - VIA.translation, axis=-1).min(axis=-1)
     for (distance, *place), least in zip(blended.data["arms"][0]["via"], wanted, strict=True):
         assert distance == pytest.approx(least / mm, abs=0.051)
         assert np.linalg.norm(place - VIA.translation) == pytest.approx(least, abs=2e-4)
-    # the unblended path passes the via point, the blended one does not
+    # the unblended path passes through the via point, the blended one does not
     assert wanted[0] < 1e-9 < 0.03 < wanted[1]
 
 
@@ -311,7 +314,7 @@ def test_motion_without_any_solution_is_shown(motions):
     assert player.data["arms"][0]["via"] == [None] and "<img" in player.html
 
 
-def test_jump_by_two_pi_is_a_break_and_not_a_speed(motions):
+def test_jump_by_two_pi_breaks_the_curve_and_is_not_a_speed(motions):
     q = motions[1].copy()
     q[1200:, 3] += 2 * np.pi
     player = animate(IRB140, T, q)
@@ -327,7 +330,9 @@ def test_jump_by_two_pi_is_a_break_and_not_a_speed(motions):
 
 
 def test_sawtooth_jumps_in_position_and_has_no_speed_at_its_teeth():
-    """As with lab 12's (int): each tooth is below a tenth of a radian and far from the next."""
+    """As in lab 12, where C casts to (int): each tooth is below a tenth of a radian and far from
+    the next one.
+    """
     t = np.linspace(0, 5, 500)
     teeth = [82, 146, 199, 246, 289, 328]
     q = np.zeros((500, 6))
@@ -376,10 +381,10 @@ def test_excess_has_two_significant_digits(past, words):
 
 def test_limits_are_shown_for_joints_near_them():
     q = np.zeros((3, 2001, 6))
-    # its limit is 180 degrees
+    # the limit is 180 degrees
     q[:, :, 0] = np.linspace(0, 1, 2001) * np.array([[100], [120], [130]]) * deg
-    q[1, :, 1] = np.linspace(0, -89, 2001) * deg  # limit -90
-    q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # limit 50, passed
+    q[1, :, 1] = np.linspace(0, -89, 2001) * deg  # the limit is -90 degrees
+    q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # past the limit of 50 degrees
     slow, fast = (
         animate(IRB140, t, q, slider=("x", [0, 1, 2])).data["panels"]
         # joint 1 turns at 195 of at most 200 degrees/s
@@ -427,14 +432,16 @@ def test_prismatic_joints_have_their_own_scale_in_millimetres():
     assert player.data["scene"]["flat"] is None
 
 
-def test_planar_arm_is_seen_perpendicularly():
+def test_planar_arm_is_viewed_perpendicularly_to_its_plane():
     q = np.stack([np.sin(T / 3), np.cos(T / 4)], axis=-1)
     assert animate(PLANAR, T, q).data["scene"]["flat"] == 2
     assert animate(IRB140, T, 0.1 * np.ones((2001, 6))).data["scene"]["flat"] is None
 
 
 def test_everything_drawn_is_in_view(blended, motions):
-    """The few points in the data bound all postures from any side, up to a rounding of 5 mm."""
+    """The few points in the data bound all postures from any side, within a rounding
+    error of 5 mm.
+    """
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
     flange = IRB140.fk(motions[:, ::20])  # with its axes, as long as the page draws them
@@ -450,8 +457,8 @@ def test_everything_drawn_is_in_view(blended, motions):
 
 
 def test_still_picture_has_the_view_and_scale_of_the_scene(motions):
-    """First and last posture of both arms, projected as player.js does, are lines of the
-    picture.
+    """The lines of the picture include the first and last postures of both arms, projected as in
+    player.js.
     """
     player = animate(
         [IRB140, IRB140],
@@ -491,8 +498,8 @@ def test_several_arms_share_clock_and_scales(motions):
 
 
 def test_extreme_motion_does_not_coarsen_the_others(motions):
-    """Each motion has its own step: ten times the speed for one slider value does not make the
-    others coarser.
+    """Each motion has its own rounding step: a motion ten times as fast for one slider value does
+    not make the others coarser.
     """
     alone = animate(IRB140, T, motions[1:3], slider=("blend", FRACTIONS[1:3]))
     wild = motions[1:].copy()
@@ -509,7 +516,7 @@ CIRCLING = np.stack([0.4 * np.cos(T), 0.4 * np.sin(T), 0.3 + 0 * T], axis=-1)
 
 
 def moved(player, kind, columns):
-    """The way of the only mark or target: (motions or 1, samples or 1, columns)."""
+    """The path of the only mark or target: (motions or 1, samples or 1, columns)."""
     [thing] = player.data["scene"]["things"]
     assert thing["kind"] == kind
     way = thing["pose" if kind == "target" else "at"]
@@ -532,7 +539,7 @@ def test_a_point_may_move_with_time(motions):
     balls = animate(IRB140, T, motions[1], circles=[(CIRCLING, 0.07)])
     [ball], view = balls.still.findobj(Circle), balls.data["scene"]["view"]
     assert ball.radius == 0.07 and np.allclose(ball.center, project(CIRCLING[-1], view))
-    assert len(player.data["scene"]["things"][0]["at"]["data"]) < 1100  # a byte a number
+    assert len(player.data["scene"]["things"][0]["at"]["data"]) < 1100  # about one byte per value
 
 
 def test_marks_may_move_with_slider_and_switch(motions):
@@ -547,7 +554,7 @@ def test_marks_may_move_with_slider_and_switch(motions):
     assert np.allclose(
         moved(player, "mark", 3), paths.reshape(4, -1, 3)[:, kept(player)], atol=1e-4
     )
-    player = animate(IRB140, T, q, points=[CIRCLING], **words)  # the same in all motions
+    player = animate(IRB140, T, q, points=[CIRCLING], **words)  # the same path in all motions
     assert moved(player, "mark", 3).shape[0] == 1
 
 
@@ -565,7 +572,7 @@ def test_a_target_may_move(motions):
     assert np.isnan(moved(player, "target", 12)[0, 0]).all()
 
 
-def test_a_via_point_of_each_motion_has_its_distance(motions):
+def test_distance_is_shown_to_the_via_point_of_each_motion(motions):
     place = np.array([[[0.6, 0, 0.8]], [[0.65, -0.1, 0.8]]])
     via = Transform(translation=place)
     pair = motions[[1, 1]]
@@ -579,7 +586,7 @@ def test_a_via_point_of_each_motion_has_its_distance(motions):
     assert moving.data["arms"][0]["via"] is None
 
 
-def test_camera_sees_all_places_of_moving_things(motions):
+def test_camera_sees_all_positions_of_moving_things(motions):
     path = 3 * CIRCLING
     player = animate(IRB140, T, motions[1], circles=[(path, 0.2)])
     seen = np.array(player.data["scene"]["seen"])
@@ -654,7 +661,7 @@ def test_arms_on_bases_show_no_distance_to_via(motions):
     assert animate(*pair, targets=via, bases=BASES[:2]).data["arms"][0]["via"] is None
 
 
-def test_a_reading_is_exact_and_has_its_decimals(motions):
+def test_a_reading_is_exact_and_keeps_its_decimals(motions):
     count, clock = np.floor(3 * T), np.round(T + 0.25, 2)
     clock[:40] = np.nan
     player = animate(
@@ -696,7 +703,7 @@ def test_invalid_things_are_refused(motions, change, message):
         animate(IRB140, T, motions[1], bases=[[0, 0]])
 
 
-# --- Size and sameness ----------------------------------------------------------------------------
+# --- Size and reproducibility ---------------------------------------------------------------------
 
 
 def test_rounding_noise_does_not_change_the_page(blended, motions):
@@ -755,7 +762,7 @@ def test_data_cannot_end_the_script(motions):
 # --- Saving and wrong calls -----------------------------------------------------------------------
 
 
-def test_save_writes_one_page_and_keeps_foreign_files(tmp_path, blended):
+def test_save_writes_one_page_and_keeps_other_files(tmp_path, blended):
     page = tmp_path / "player.html"
     blended.save(page)
     blended.save(str(page))  # a saved player may be replaced
@@ -841,7 +848,7 @@ def test_titles_and_names_are_plain_text(motions):
         ({"t": []}, ValueError, "at least three times"),
         ({"t": None}, ValueError, "t: wanted numbers"),
         ({"t": T[:2], "q": np.zeros((2, 6))}, ValueError, "at least three times"),
-        ({"t": T[::-1]}, ValueError, "rising times"),
+        ({"t": T[::-1]}, ValueError, "increasing times"),
         ({"t": np.full(2001, np.nan)}, ValueError, "t: wanted finite"),
         ({"q": np.zeros((2001, 5))}, ValueError, r"wanted shape \(2001, 6\)"),
         ({"q": np.zeros((2000, 6))}, ValueError, r"wanted shape \(2001, 6\) \(samples, joints\)"),
@@ -853,11 +860,11 @@ def test_titles_and_names_are_plain_text(motions):
             r"wanted shape \(2, 2001, 6\) \(slider, samples, joints\)",
         ),
         ({"slider": ("blend", [0.1])}, ValueError, "at least two"),
-        ({"slider": ("blend", [0.1, 0.1])}, ValueError, "rising"),
+        ({"slider": ("blend", [0.1, 0.1])}, ValueError, "increasing"),
         ({"slider": "blend"}, ValueError, r"slider: wanted \(name, values\)"),
         ({"slider": 3}, ValueError, r"slider: wanted \(name, values\)"),
         ({"switch": ("corner", ["one"])}, ValueError, "at least two words"),
-        ({"switch": ("corner", [1, 2])}, ValueError, "switch: wanted words"),
+        ({"switch": ("corner", [1, 2])}, ValueError, "switch: wanted a string"),
         ({"switch": ("corner", ["one", "two"])}, ValueError, r"wanted shape \(2, 2001, 6\)"),
         ({"names": ["x"]}, ValueError, "names: wanted only with a list"),
         ({"arm": [IRB140, IRB140]}, ValueError, "one array for each of 2 arms"),
@@ -871,8 +878,8 @@ def test_titles_and_names_are_plain_text(motions):
         ({"targets": [(1, 2, 3)]}, TypeError, "target"),
         ({"targets": None}, TypeError, "targets: wanted Transforms, got None"),
         ({"targets": "start"}, TypeError, "targets: wanted Transforms"),
-        ({"title": 3}, ValueError, "title: wanted words"),
-        ({"title": "x" * 3000}, ValueError, "title: wanted at most 2000 letters"),
+        ({"title": 3}, ValueError, "title: wanted a string"),
+        ({"title": "x" * 3000}, ValueError, "title: wanted at most 2000 characters"),
         ({"points": [(1, 2, 3, 4)]}, ValueError, "points: wanted places"),
         ({"points": None}, ValueError, "points: wanted a list"),
         ({"circles": [3]}, ValueError, "circles: wanted"),
@@ -880,7 +887,7 @@ def test_titles_and_names_are_plain_text(motions):
         ({"circles": [((0, 0, 0), -1)]}, ValueError, "radius"),
     ],
 )
-def test_wrong_arguments_name_what_is_wanted(change, kind, message):
+def test_errors_name_the_wrong_argument_and_what_is_wanted(change, kind, message):
     call = {"arm": IRB140, "t": T, "q": np.zeros((2001, 6))} | change
     arm, t, q = call.pop("arm"), call.pop("t"), call.pop("q")
     with pytest.raises(kind, match=message):
@@ -890,7 +897,7 @@ def test_wrong_arguments_name_what_is_wanted(change, kind, message):
 def test_invalid_recordings_are_refused(motions):
     one = record(IRB140, T, motions[1])
     for wrong, message in (
-        (lambda: animate(one, T), "wanted none beside recordings"),
+        (lambda: animate(one, T), "wanted neither with recordings"),
         (lambda: animate(one, slider=("x", [1, 2])), r"wanted shape \(2, 2001, 6\)"),
         (lambda: animate(record(IRB140, T[:2], motions[1, :2])), "at least three times"),
         (lambda: animate([one, record(IRB140, 2 * T, motions[1])]), "the same times"),
@@ -902,7 +909,7 @@ def test_invalid_recordings_are_refused(motions):
 
 
 @pytest.mark.parametrize("path", [None, 3, "", "player.txt", b"player.html", ".html"])
-def test_player_names_its_scene(blended, path):
+def test_file_name_without_html_is_refused(blended, path):
     with pytest.raises(ValueError, match="ends in .html"):
         blended.save(path)
 
@@ -939,7 +946,7 @@ def show(page, player, tmp_path):
 
 
 def ink(page, selector):
-    """A hash of the content of a canvas after the next picture."""
+    """A hash of the content of a canvas after the next frame."""
     return page.evaluate(
         """selector => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() =>
         done(document.querySelector(selector).toDataURL()))))""",
@@ -963,7 +970,7 @@ def test_the_page_computes_the_frames_of_the_arm(page, arm):
 
 def test_the_slider_changes_arm_curves_and_numbers(page, blended, tmp_path):
     show(page, blended, tmp_path)
-    assert page.locator("img").count() == 0  # the still picture has gone
+    assert page.locator("img").count() == 0  # the still picture is gone
     page.get_by_label("time", exact=True).fill("200")
     seen = [(ink(page, ".rk-scene"), ink(page, ".rk-curves"), page.locator("table").inner_text())]
     assert blended.data["sampled"] in seen[0][2]
@@ -1078,8 +1085,8 @@ def test_removed_player_requests_no_more_frames(page, blended, tmp_path):
 
 @pytest.mark.parametrize("width", [360, 800, 1400])
 def test_limit_labels_do_not_overlap(page, tmp_path, width):
-    """Six joints move from limit to limit: at most three labels per panel, with units, without
-    overlap.
+    """Six joints move from limit to limit; each panel has at most three labels, with units and
+    without overlap.
     """
     s = np.sin(np.outer(T, np.arange(1, 7)) / 4)
     q = IRB140.limits.mean(axis=-1) + s * np.diff(IRB140.limits, axis=-1).T / 2 * 0.99
@@ -1108,7 +1115,7 @@ def test_nothing_is_cut_off_at_any_width(page, blended, tmp_path, width):
     show(page, blended, tmp_path)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     boxes = [page.locator(s).bounding_box() for s in (".rk-scene", ".rk-curves")]
-    # side by side, or one above the other
+    # side by side on a wide page, otherwise one above the other
     assert (boxes[0]["y"] == boxes[1]["y"]) == (width >= 900)
     assert all(box["width"] > 250 and box["height"] > 250 for box in boxes)
 
@@ -1124,7 +1131,9 @@ def test_page_without_scripts_shows_the_still(browser, blended, tmp_path):
 
 
 def test_marks_move_on_the_page(page, motions, tmp_path):
-    """A resting arm: only the mark changes with time and slider; where it is NaN, it is missing."""
+    """The arm rests; only the mark changes with time and slider, and it is missing
+    where it is NaN.
+    """
     q = np.broadcast_to(motions[1, 0], (2, 2001, 6))
     path = np.stack([CIRCLING, CIRCLING + [0, 0, 0.2]])
     path[:, 1500:] = np.nan
@@ -1152,8 +1161,10 @@ def test_marks_move_on_the_page(page, motions, tmp_path):
     assert page.evaluate("written.length") and "ball" not in page.evaluate("written")
 
 
-def test_arms_on_bases_stand_apart_in_one_picture_and_readings_change(page, tmp_path):
-    """Two resting arms and their words: the places, and the times at which they change."""
+def test_arms_on_bases_are_drawn_separately_and_readings_change(page, tmp_path):
+    """Two arms rest; the test checks where they and their points are drawn, and when the readings
+    change.
+    """
     arm, t = spbu_arm(0.5, 0.4), np.linspace(0, 4, 41)
     q = np.broadcast_to([0.2, 0.4, 0.3], (41, 3))
     count = np.floor(t)
@@ -1206,8 +1217,8 @@ PAINTED = """selector => {
 
 
 def test_picture_returns_after_a_moment_without_size(page, blended, tmp_path):
-    """As during a theme change in JupyterLab: requested while hidden, and then with the old size
-    again, so that no resize is reported.
+    """As during a theme change in JupyterLab: a picture is requested while the player is hidden;
+    afterwards the player has its old size again, so that no resize is reported.
     """
     canvases = (".rk-scene", ".rk-curves")
     move = """() => {
@@ -1275,7 +1286,7 @@ def test_canvases_have_at_most_two_device_pixels_per_pixel(browser, blended, tmp
     page.close()
 
 
-def test_still_picture_explains_how_to_start_it(page, browser, blended, tmp_path):
+def test_still_picture_explains_how_to_start_the_view(page, browser, blended, tmp_path):
     show(page, blended, tmp_path)
     assert page.get_by_text("trust the notebook").count() == 0
     context = browser.new_context(java_script_enabled=False)
@@ -1296,8 +1307,8 @@ def test_page_that_cannot_draw_keeps_the_still(page, blended, tmp_path):
 
 
 def test_scene_projects_points_and_can_be_held(page, blended):
-    """For handles over the canvas: `cameras` project like the picture; while the scene is held, a
-    target that leaves it moves nothing else.
+    """For handles over the canvas, `cameras` projects points as in the picture; while the scene is
+    held, a target that leaves the picture moves nothing else.
     """
     scene = blended.data["scene"] | {"grows": True, "unit": blended.data["unit"]}
     page.set_content(
@@ -1333,8 +1344,8 @@ def test_scene_projects_points_and_can_be_held(page, blended):
 
 
 def test_solid_floor_hides_what_is_below(page):
-    """A tool below its base: the floor is even lower, or with `floor` at height 0. Then less of the
-    arm below it is visible, and the arm above it is unchanged.
+    """The tool goes below its base: the floor is below the tool, or at height 0 with `floor`. A
+    floor at height 0 hides parts of the arm below it and leaves the arm above it unchanged.
     """
     t, turn = np.linspace(0, 2, 41), np.linspace(0, 1, 41)[:, None]
     q = turn * np.array([60, 100, 70]) * deg - np.array([0, 20, 20]) * deg
@@ -1371,7 +1382,9 @@ def test_solid_floor_hides_what_is_below(page):
 
 
 def test_first_picture_after_an_early_request_has_its_colours(page, blended):
-    """Requested in the same task that made the player, before any canvas has a size."""
+    """A picture is requested in the same task that creates the player, before any canvas has a
+    size.
+    """
     page.set_content(
         "<script>new MutationObserver((_, watch) => {const input = document.querySelector('input');"
         "if (input) {watch.disconnect(); input.dispatchEvent(new Event('input'));}})"

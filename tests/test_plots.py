@@ -66,7 +66,7 @@ PLANAR = Arm(
 
 
 def law_of_listing_1(t, total=20.0):
-    """001, listing 1: along y, then along x, while the tool turns about y."""
+    """The motion of 001, listing 1: along y, then along x, while the tool turns about y."""
     share = t / total
     x = np.where(share < 0.5, 200, 200 + (share - 0.5) * 500)
     y = np.where(share < 0.5, 50 + 1000 * share, 550)
@@ -77,7 +77,7 @@ def law_of_listing_1(t, total=20.0):
 
 
 def curves(ax):
-    """Name -> (samples, 2) of a panel's joint curves."""
+    """The joint curves of a panel: name -> (samples, 2)."""
     return {
         line.get_label(): np.column_stack(line.get_data())
         for line in ax.lines
@@ -119,7 +119,7 @@ def figures(rounded):
 # --- Joint curves ---------------------------------------------------------------------------------
 
 
-def test_curves_equal_the_given_numbers_in_degrees(rounded):
+def test_curves_equal_the_given_values_in_degrees(rounded):
     v, a = differentiate(rounded, T), differentiate(rounded, T, 2)
     panels = plot_joints(IRB140, T, rounded, v, a).axes
     assert len(panels) == 3
@@ -134,7 +134,7 @@ def test_curves_equal_the_given_numbers_in_degrees(rounded):
     assert all(ax.get_xlim() == (0, 20) for ax in panels)
 
 
-def test_prismatic_joints_have_panels_of_their_own_in_millimetres():
+def test_prismatic_joints_have_separate_panels_in_millimetres():
     arm = MACHINES[[m.arm.name for m in MACHINES].index("SCARA")].arm
     t = np.linspace(0, 1, 50)
     q = arm.limits[:, 0] + np.sin(3 * t)[:, None] * np.ptp(arm.limits, axis=1) * 0.9
@@ -165,14 +165,15 @@ def test_joints_differ_in_colour_and_dash(rounded):
 
 
 def test_violations_of_task_1_are_counted_and_marked():
-    """Errata S1-h: in 673 of the document's 2000 samples a limit is passed, until t = 6.72."""
+    """Errata S1-h: 673 of the document's 2000 samples are past a limit, the last one at
+    t = 6.72.
+    """
     t = np.arange(0, 20, 0.01)
     q = follow(IRB140, IRB140.ik(law_of_listing_1(t)), IRB140.branch(1, 1, 1))
     case = oracle("trajectories_irb140")["cases"][0]
     np.testing.assert_allclose(q[::100][1:], [s["q"] for s in case["samples"]][1:20], atol=1e-9)
     assert case["law"] == "task1" and case["limit_violation_count"] == 673
-    # Counted once more, in whole degrees from listing 1 and by the document's own formula for the
-    # wrist angle:
+    # Counted a second time, with the limits in degrees from listing 1:
     past3, past5 = np.degrees(q[:, 2]) > 50, np.degrees(q[:, 4]) > 115
     assert (past3 | past5).sum() == 673 and t[past3 | past5].max() == pytest.approx(6.72)
     fig = plot_joints(IRB140, t, q)
@@ -205,7 +206,7 @@ def test_distant_limits_do_not_flatten_the_curves(rounded):
 def test_speeds_past_the_limit_are_counted():
     t = np.linspace(0, 2, 401)
     q = np.zeros((401, 6))
-    q[:, 1] = np.sin(4 * t)  # its speed passes 200 deg/s where 4 |cos 4 t| > 3.49
+    q[:, 1] = np.sin(4 * t)  # its speed exceeds 200 deg/s where 4 |cos 4 t| > 3.49
     v = np.zeros_like(q)
     v[:, 1] = 4 * np.cos(4 * t)
     count = sum(abs(4 * math.cos(4 * x)) > math.radians(200) for x in t)
@@ -224,7 +225,7 @@ def test_percentage_of_the_speed_limit_is_shown(rounded):
 
 
 def test_corner_does_not_flatten_the_accelerations(corner):
-    """Errata S1-m: there the acceleration is the speed's jump divided by the step."""
+    """Errata S1-m: at the corner the acceleration is the jump in speed divided by the step."""
     a = differentiate(corner, T, 2)
     fig = plot_joints(IRB140, T, corner, differentiate(corner, T), a)
     ax = fig.axes[2]
@@ -236,9 +237,9 @@ def test_corner_does_not_flatten_the_accelerations(corner):
         f"spike at 10 s: speed jump / step, up to {greatest:.0f} °/s² (q3)" in words(ax)
         and "Spike" in fig.alt
     )
-    # still drawn
+    # the spike is still drawn
     assert max(abs(curve[:, 1]).max() for curve in curves(ax).values()) == pytest.approx(greatest)
-    assert "spike" not in words(fig.axes[1])  # a jump of the speed is no spike
+    assert "spike" not in words(fig.axes[1])  # a jump in speed is not a spike
 
 
 def test_no_acceleration_is_shown_at_a_speed_jump(corner):
@@ -249,7 +250,7 @@ def test_no_acceleration_is_shown_at_a_speed_jump(corner):
         for i, curve in enumerate(curves(ax).values()):
             np.testing.assert_allclose(curve[:, 1], values[:, i] / deg, rtol=1e-12, atol=1e-12)
     assert np.isnan(curves(fig.axes[2])["q3"][1000, 1])
-    # Errata S1, "chain": the jump of joint 3 is 0.92001 rad/s.
+    # Errata S1, "chain": the speed of joint 3 jumps by 0.92001 rad/s.
     said = f"None at 10 s: the speed jumps, by up to {math.degrees(0.920011415539):.1f} °/s (q3)."
     assert said in fig.alt and "spike" not in fig.alt.lower()
     assert "the speed jumps" in words(fig.axes[2]) and "jumps" not in words(fig.axes[1])
@@ -261,7 +262,9 @@ def test_given_values_replace_those_of_the_recording(corner):
     assert "spike at 10 s: speed jump / step" in words(fig.axes[2])
     drawn = {line.get_label(): line.get_ydata() for line in fig.axes[2].lines}
     np.testing.assert_allclose(drawn["q3"], a[:, 2] / deg, rtol=1e-12, atol=1e-12)
-    assert "Greatest speed 31.2 °/s (q3)." in fig.alt  # the missing ones are the recording's
+    assert (
+        "Greatest speed 31.2 °/s (q3)." in fig.alt
+    )  # speeds that are not given are the recording's
     slow = plot_joints(found, v=found.v / 2)
     assert "Greatest speed 15.6 °/s (q3)." in slow.alt and "None at 10 s" in slow.alt
     exact = np.where(np.isnan(found.a), 0.1, found.a)  # a caller who knows the acceleration there
@@ -288,7 +291,7 @@ def test_two_kinds_of_spikes_are_distinguished():
 
 
 def test_ordinary_values_are_not_spikes():
-    """A caller may know the right speed beside a jump of position."""
+    """A caller may know the correct speed at a jump in position."""
     q, v = np.zeros((2001, 6)), np.zeros((2001, 6))
     v[:, 3] = np.cos(T)
     q[:, 3] = (np.sin(T) + 3) % 3.5
@@ -297,7 +300,7 @@ def test_ordinary_values_are_not_spikes():
     assert "spike" not in fig.alt and "Greatest speed 57.3 °/s (q4)." in fig.alt
 
 
-def test_jumps_of_position_are_reported_with_their_size():
+def test_jumps_in_position_are_reported_with_their_size():
     arm = MACHINES[[m.arm.name for m in MACHINES].index("SCARA")].arm
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 4))
@@ -325,7 +328,7 @@ def test_constant_motion_is_drawn_flat():
     fig = plot_joints(IRB140, t, np.zeros((101, 6)), None, noise)
     low, high = fig.axes[1].get_ylim()
     assert high - low > 1e-3
-    assert "Greatest acceleration 0 °/s²." in fig.alt  # and no joint is named by noise
+    assert "Greatest acceleration 0 °/s²." in fig.alt  # noise must not decide which joint is named
 
 
 def test_whole_turn_is_drawn_and_reported():
@@ -337,23 +340,23 @@ def test_whole_turn_is_drawn_and_reported():
     np.testing.assert_array_equal(curves(fig.axes[0])["q4"][:, 1], raw[:, 3] / deg)
     assert "angle jump / step" in words(fig.axes[1])
     low, high = fig.axes[1].get_ylim()
-    assert high - low < 100  # the spike has 18 000 deg/s
+    assert high - low < 100  # the spike is 18 000 deg/s
 
 
-def test_gaps_remain_gaps(rounded):
+def test_gaps_in_a_motion_remain_gaps_in_its_curves(rounded):
     q = rounded.copy()
     q[600:800] = np.nan
     q[1500:] = np.nan
     fig = plot_joints(IRB140, T, q, differentiate(q, T))
     drawn = curves(fig.axes[0])["q1"][:, 1]
     np.testing.assert_array_equal(np.isnan(drawn), np.isnan(q[:, 0]))
-    # the curves do not reach the edge, where their names would stand
+    # the curves do not reach the edge, where their names would be
     assert fig.axes[0].get_legend() is not None
     assert "nan" not in fig.alt.lower()
 
 
 def test_names_at_the_ends_do_not_overlap(rounded):
-    # six curves that end in one point
+    # six curves that end at the same point
     fig = plot_joints(IRB140, T, rounded, differentiate(rounded, T) * 0)
     fig.canvas.draw()
     renderer = fig.canvas.get_renderer()
@@ -362,7 +365,7 @@ def test_names_at_the_ends_do_not_overlap(rounded):
             (box.y0, box.y1)
             for text in ax.texts
             if re.fullmatch(r"q\d", text.get_text())
-            # without its leader line
+            # the text without its leader line
             for box in [Text.get_window_extent(text, renderer)]
         )
         assert len(boxes) == 6 and all(
@@ -401,7 +404,7 @@ def test_names_at_the_ends_do_not_overlap(rounded):
     ],
 )
 def test_wrong_arguments_are_named_in_the_error(bad, kind, rounded):
-    with pytest.raises(kind, match="wanted .*got|wanted none"):
+    with pytest.raises(kind, match="wanted .*got|wanted neither"):
         bad(rounded)
 
 
@@ -409,8 +412,8 @@ def test_wrong_arguments_are_named_in_the_error(bad, kind, rounded):
 
 
 def test_cube_keeps_its_proportions(figures):
-    """Pixels of the corners of a cube: what a true view maps to a scaled orthographic projection,
-    by Gauss's theorem of axonometry: with the axes' images as complex numbers, a^2 + b^2 + c^2 = 0.
+    """The corners of a cube in pixels. By Gauss's theorem of axonometry, a picture is a scaled
+    orthographic projection if a^2 + b^2 + c^2 = 0 for the images of the axes as complex numbers.
     """
     for name in ("postures", "frames"):
         ax = figures[name].axes[0]
@@ -442,7 +445,9 @@ def test_links_join_the_frames_of_every_arm(machine):
     q = np.random.default_rng(3).uniform(-1, 1, (4, len(machine.arm.links)))
     points = arm_points(machine.arm, q)
     np.testing.assert_allclose(points[:, ::2], machine.arm.frames(q).translation, atol=1e-12)
-    for i, link in enumerate(machine.arm.links):  # a joint's own turn does not move the joint
+    for i, link in enumerate(
+        machine.arm.links
+    ):  # the rotation of a joint does not move the joint itself
         if not link.prismatic:
             turned = q.copy()
             turned[:, i] += 1
@@ -452,7 +457,7 @@ def test_links_join_the_frames_of_every_arm(machine):
 
 
 @pytest.mark.parametrize("arm", [*(m.arm for m in MACHINES), PLANAR], ids=lambda arm: arm.name)
-def test_figure_is_not_cut_off_and_well_filled(arm):
+def test_figure_is_well_filled_and_not_cut_off(arm):
     q = np.linspace(0.1, 0.9, 40)[:, None] * np.where(arm.prismatic, arm.limits[:, 1], 1.0)
     fig = plot_postures(arm, q, targets=[arm.fk(q[0]), arm.fk(q[-1])], title="A title")
     ink = np.asarray(Image.open(io.BytesIO(palette_png(fig))).convert("L")) < 250
@@ -474,7 +479,7 @@ def test_scale_is_in_metres_for_a_large_arm(figures):
     large = words(plot_postures(PLANAR, q).axes[0])
     assert re.search(r"grid 0\.\d+ m\b", large) and "mm" not in large
     assert re.search(r"floor grid \d+ mm", words(figures["postures"].axes[0]))
-    # A plane arm is seen from above: x to the right, y up.
+    # A planar arm is seen from above: x to the right, y up.
     lines = [np.column_stack(line.get_data()) for line in plot_postures(PLANAR, q).axes[0].lines]
     tip = np.column_stack(
         [
@@ -485,10 +490,10 @@ def test_scale_is_in_metres_for_a_large_arm(figures):
     assert any(line.shape == tip.shape and np.allclose(line, tip) for line in lines)
 
 
-def test_frames_are_drawn_where_they_are():
+def test_frames_are_drawn_at_their_positions():
     fig = plot_frames([START, VIA], names=["start", "via"], size=0.1)
     lines = [np.column_stack(line.get_data()) for line in fig.axes[0].lines]
-    for pose in (Transform(), START, VIA):  # the base too
+    for pose in (Transform(), START, VIA):  # the base frame is drawn too
         for axis in np.eye(3):
             edge = project(
                 np.stack([pose.translation, pose.translation + 0.1 * (pose.rotation @ axis)])
@@ -500,7 +505,7 @@ def test_frames_are_drawn_where_they_are():
     assert "start at (200, 400, 200) mm" in fig.alt and "via at (650, −100, 800) mm" in fig.alt
 
 
-def test_frames_with_one_origin_are_named_at_their_axes():
+def test_frames_with_a_common_origin_are_named_at_their_axes():
     turns = Transform(Quaternion.from_angle_axis(np.arange(0, 91, 30) * deg, Z))
     texts = {
         text.get_text()
@@ -551,8 +556,8 @@ class Images(HTMLParser):
 
 @pytest.mark.parametrize("machine", MACHINES, ids=repr)
 def test_ellipsoid_contains_the_velocities_without_rotation(machine):
-    """Of random joint speeds that keep the tool's orientation, by a null space of our own: none
-    leaves the ellipsoid, and its longest semi-axis is nearly reached.
+    """Random joint speeds that keep the tool's orientation, from a null space calculated here: no
+    velocity leaves the ellipsoid, and its longest semi-axis is nearly reached.
     """
     arm = machine.arm
     rng = np.random.default_rng(6)
@@ -618,8 +623,8 @@ def test_alt_text_reaches_the_exported_page(figures):
 
 
 def test_alt_text_reaches_the_page_of_an_untrusted_notebook(figures, browser):
-    """What JupyterLab's sanitizer leaves is tested in test_browser; here: that a browser reads the
-    alt text back.
+    """test_browser checks what JupyterLab's sanitizer keeps; this test checks that a browser reads
+    the alt text back.
     """
     page = browser.new_page()
     page.set_content(figures["own"]._repr_mimebundle_()["text/html"])
@@ -664,7 +669,7 @@ ODD = "a $\\frac{ b$ \ud800 _c_ & <d>"
 
 
 def test_titles_and_names_are_plain_text(rounded):
-    """No formulas unless asked; half a character is shown as the sign for what cannot be shown."""
+    """No formulas unless requested; a lone surrogate is shown as the replacement character."""
     shown = ODD.replace("\ud800", "\ufffd")
     figs = [
         plot_joints(IRB140, T, rounded, title=ODD, alt=ODD),
@@ -683,7 +688,7 @@ def test_titles_and_names_are_plain_text(rounded):
 
 
 def test_postures_in_degrees_cause_a_warning(recwarn):
-    plot_postures(IRB140, np.full((5, 6), 13.0))  # a motion may turn on and on
+    plot_postures(IRB140, np.full((5, 6), 13.0))  # a motion may turn many times
     assert not recwarn.list
     for q in ([0, 45, 0, 0, 0, 0], [[0, 0, 0, 0, 0, 0], [0, 90, 0, 0, 0, 0]]):
         with pytest.warns(UserWarning, match="q: .* rad is many turns; were degrees meant"):
@@ -740,7 +745,7 @@ def test_sketch_has_true_proportions():
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("ahead, mm", "up, mm")
 
 
-def test_names_in_a_sketch_are_beside_their_objects():
+def test_names_in_a_sketch_are_next_to_their_objects():
     sketch = Sketch("Two levers.", unit="m")
     corners = np.array([[0, 0], [3, 4], [6, 1]])
     sketch.levers(corners, list("OAK"))
@@ -750,6 +755,6 @@ def test_names_in_a_sketch_are_beside_their_objects():
     assert set(names) == {"O", "A", "K", "d", "q1"}
     for name, corner in zip("OAK", corners, strict=True):
         np.testing.assert_allclose(names[name].xy, corner)
-        away = np.array(names[name].get_position())  # in pixels from there
+        away = np.array(names[name].get_position())  # offset in pixels from the corner
         assert away @ (corner - corners.mean(axis=0)) > 0
     assert names["d"].get_position()[1] > 0 and names["q1"].get_position()[0] > 0

@@ -1,5 +1,5 @@
-"""The search in a grid of postures: its steps are those of SciPy's shortest paths, and a way back
-goes by postures that are free at their tick.
+"""The search in a grid of postures: it takes as many steps as SciPy's shortest paths, and a path
+traced back uses only postures that are free at their tick.
 """
 
 import itertools
@@ -24,14 +24,14 @@ START = (1, 2, 3)
 
 
 def shortest(edges, count, start):
-    """The least cost from node `start` to each of `count`; of edges (from, to, cost)."""
+    """The least cost from node `start` to each of `count` nodes along edges (from, to, cost)."""
     rows, columns, costs = np.array(edges).T
     graph = coo_array((costs, (rows.astype(int), columns.astype(int))), shape=(count, count))
     return dijkstra(graph.tocsr(), indices=start)
 
 
 def neighbours():
-    """(node, joint, the next node) of all steps of the grid."""
+    """Yield (node, joint, next node) for every step of the grid."""
     for node in np.ndindex(SIZE):
         for joint in range(3):
             other = (*node[:joint], node[joint] + 1, *node[joint + 1 :])
@@ -84,7 +84,7 @@ def test_search_ends_at_the_first_goal(seed):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_backtracking_has_the_fewest_steps_and_most_clearance(seed):
+def test_path_traced_back_has_the_fewest_steps_and_most_clearance(seed):
     rng, free, _ = drawn(seed)
     steps, room = breadth_first(free, START), rng.random(SIZE)
     for node in map(tuple, np.argwhere(steps[INSIDE] < NEVER).tolist()):
@@ -115,8 +115,8 @@ def test_search_can_leave_a_blocked_start():
 
 @pytest.mark.parametrize("seed", range(4))
 def test_free_postures_may_change_with_time(seed):
-    """The fewest steps by tick t are the least cost in a graph whose nodes are postures at ticks,
-    in which waiting costs nothing.
+    """The fewest steps by tick t equal the least cost in a graph whose nodes are postures at ticks,
+    where waiting costs nothing.
     """
     rng, ticks = np.random.default_rng(seed), 9
     free = rng.random((ticks, *SIZE)) < 0.6
@@ -125,7 +125,8 @@ def test_free_postures_may_change_with_time(seed):
     for tick in range(1, ticks):
         for node in np.ndindex(SIZE):
             if free[tick][node]:
-                edges.append((number(node, tick - 1), number(node, tick), 1e-9))  # 0 is no edge
+                # a cost of 0 would mean no edge
+                edges.append((number(node, tick - 1), number(node, tick), 1e-9))
         for node, _, other in neighbours():
             for a, b in ((node, other), (other, node)):
                 if free[tick][b]:

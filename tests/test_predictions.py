@@ -1,5 +1,5 @@
-"""Predictions: what a page says before a choice, and after each; by hand, by keyboard, typed,
-remembered, printed in the notebook.
+"""Predictions: what a page says before and after each choice; choices are made by mouse and by
+keyboard, typed, remembered, and printed in the notebook.
 """
 
 import re
@@ -56,7 +56,9 @@ page = test_browser.page
 
 @pytest.fixture
 def opened(browser, tmp_path):
-    """`opened(asked, width)`: a saved page with it; nothing may complain there."""
+    """`opened(asked, width)` opens a saved page with the question; the page must not
+    report errors.
+    """
     contexts, errors = [], []
 
     def made(asked, width=900, within=None, **options):
@@ -65,7 +67,7 @@ def opened(browser, tmp_path):
         page = context.new_page()
         page.on("console", lambda m: m.type == "error" and errors.append(m.text))
         page.on("pageerror", lambda error: errors.append(str(error)))
-        # pages that share a memory share an address
+        # pages that share a browser's storage need the same address
         path = tmp_path / ("one.html" if within else f"{len(contexts)}.html")
         asked.save(path)
         page.goto(path.as_uri())
@@ -95,7 +97,7 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     before = seen(page)
     assert "It is 6.2 now." in before and "twice as much" in before
     for hidden in ("view opens", REASON, "Not so", "in proportion", "99"):
-        assert hidden not in before, "something shows before the choice"
+        assert hidden not in before, "something is shown before the choice"
     assert guess(page).is_disabled()
     page.get_by_label(f"{'abc'[k]})").check()
     assert "view opens" not in seen(page), "a choice is not yet a guess"
@@ -104,7 +106,7 @@ def test_every_option_can_be_chosen_and_gets_a_reply(opened, k, width):
     assert REASON in after and "view opens" in after and "It has two lines." in after
     option = asked.options[k]
     assert option.reason in after and "Kept in this browser only." in after
-    assert "predict(" not in after, "nobody edits a folded cell"
+    assert "predict(" not in after, "no advice to edit a folded cell"
     assert ("Not so" in after) == (k != 1) and ("Right." in after) == (k == 1)
     if k != 1:
         assert option.confusion in after and option.second in after
@@ -143,7 +145,7 @@ def test_keyboard_is_sufficient(opened):
         ("0", "Right is 200 mm."),
     ],
 )
-def test_numbers_are_judged_equally_in_page_and_notebook(opened, typed, says):
+def test_numbers_are_judged_alike_in_page_and_notebook(opened, typed, says):
     page = opened(Asked("made.p2", TYPED, None))
     assert "100" not in seen(page) and "200" not in seen(page)
     page.get_by_label("your guess, mm").fill(typed)
@@ -186,7 +188,7 @@ def test_forbidden_storage_does_no_harm(opened, browser):
 
 
 def test_question_may_occur_twice_in_a_page(opened):
-    """As JupyterLab's "New View for Cell Output" shows it: the script runs once more."""
+    """As in JupyterLab's "New View for Cell Output": the script runs a second time."""
     asked = Asked("made.p1", words(), None)
     page = opened(asked)
     page.evaluate(
@@ -202,7 +204,7 @@ def test_question_may_occur_twice_in_a_page(opened):
     assert "Not so" not in other.inner_text() and other.get_by_label("c)").is_checked()
 
 
-def test_choice_in_the_notebook_opens_at_once(opened):
+def test_choice_in_the_notebook_opens_the_view_at_once(opened):
     asked = Asked("made.p1", words(), "a")
     page = opened(asked)
     text = seen(page)
@@ -229,7 +231,7 @@ def test_a_view_may_be_a_figure_or_a_player(opened):
             page.locator(".rk-scene").wait_for()
             page.get_by_label("time", exact=True).fill("200")
             expect(page.locator(".rk-ask .rk .rk-value").first).to_have_text("1.00 s")
-            # the style of a player leaves the question alone
+            # the style of a player does not affect the question
             again = page.get_by_role("button", name="Ask me again").bounding_box()
             assert again["width"] > 100 and 30 < again["height"] < 50
 
@@ -255,14 +257,16 @@ def test_markup_is_escaped(opened):
     assert "</script>" in seen(page)
 
 
-# the cell itself and those before and after it: their kinds and sources
+# the kinds and sources of a cell and of the cells before and after it
 NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibling].map(e =>
   e && [e.classList.contains("jp-CodeCell"),
         e.querySelector(".jp-InputArea")?.innerText.slice(0, 80)])"""
 
 
 def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
-    """Trusted and never run: by keyboard, and no key of it is a command of the notebook."""
+    """The notebook is trusted and was never run: the question works by keyboard, and none of its
+    keys is a command of the notebook.
+    """
     name = test_browser._variant(jupyter, "asked.ipynb")
     jupyter.trust(name)
     jupyter.open(page, name)
@@ -282,7 +286,9 @@ def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
     expect(question.locator(".rk-answer")).to_contain_text("bent line in the joints")
     question.locator(".rk-answer img").wait_for()
     beside.append(cell.evaluate(NEIGHBOURS))
-    assert beside[0] == beside[1] and beside[0][1] and first.is_visible(), "a cell came or went"
+    assert beside[0] == beside[1] and beside[0][1] and first.is_visible(), (
+        "a cell was added or removed"
+    )
     assert page.errors == [] and page.outside == []
 
 
@@ -299,7 +305,9 @@ def test_untrusted_question_in_jupyterlab_explains_how_to_answer(jupyter, page):
 
 @pytest.mark.parametrize("lab", ["02_irb140_kinematics", "03_irb140_motion"])
 def test_exported_lab_asks_on_a_phone(browser, exported, lab):
-    """Opened from a file at 390 px with a finger; every question by keyboard once more."""
+    """The page is opened from a file at a width of 390 px and used by touch; then every question is
+    answered again by keyboard.
+    """
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
     page = context.new_page()
     page.route(re.compile("^https?:"), lambda route: route.abort())

@@ -1,4 +1,6 @@
-"""Quaternion against SciPy's Rotation, and what only a batch of rotations promises."""
+"""`Quaternion` compared with SciPy's `Rotation`, and properties that only batches of rotations
+have.
+"""
 
 import numpy as np
 import pytest
@@ -22,7 +24,7 @@ def scipy(q):
 
 
 def same(q, rotation, atol=1e-15):
-    """The rotations agree, whatever the sign of the quaternion."""
+    """Assert that the rotations agree, whatever the sign of the quaternion."""
     assert np.allclose(
         q.as_matrix().reshape(-1, 3, 3),
         rotation.as_matrix().reshape(-1, 3, 3),
@@ -58,7 +60,7 @@ def test_angle_axis_equals_scipy_rotation_vector(shape):
     )
 
 
-def test_angle_axis_at_and_near_zero_and_half_a_turn():
+def test_angle_axis_is_accurate_at_zero_and_half_a_turn():
     angle, axis = Quaternion.identity().as_angle_axis()
     assert angle == 0 and axis.tolist() == [0, 0, 1]
     for small in (1e-9, 1e-100):
@@ -72,8 +74,10 @@ def test_angle_axis_at_and_near_zero_and_half_a_turn():
 
 
 @pytest.mark.parametrize("largest", range(4))
-def test_from_matrix_in_all_four_cases(largest):
-    """The largest component is w, x, y or z in turn, and smallest ones of 1e-9 survive."""
+def test_from_matrix_is_accurate_in_all_four_cases(largest):
+    """The largest component is w, x, y or z in turn, and components as small as 1e-9
+    are preserved.
+    """
     wxyz = RNG.normal(size=(500, 4)) * [[1e-9], [1e-3], [0.1], [0.4], [0.4]][largest % 5]
     wxyz[:, largest] = RNG.choice([-1, 1], 500)
     q = Quaternion(wxyz / np.linalg.norm(wxyz, axis=-1, keepdims=True))
@@ -86,7 +90,7 @@ def test_from_matrix_in_all_four_cases(largest):
 @pytest.mark.parametrize(
     "axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, -1), (0, -1, 1), (1, 1, 1)]
 )
-def test_from_matrix_at_half_turns(axis):
+def test_from_matrix_is_accurate_at_half_turns(axis):
     unit = np.array(axis) / np.linalg.norm(axis)
     for angle in (np.pi, np.pi - 1e-9, -np.pi + 1e-12):
         rotation = Rotation.from_rotvec(angle * unit)
@@ -116,8 +120,8 @@ def test_slerp_equals_scipy_for_both_signs(shape, flip):
 
 
 def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
-    """Errata S1-a: between chain_s and chain_e the normalised straight line is 2.204 degrees off at
-    a quarter.
+    """Errata S1-a: a quarter of the way from chain_s to chain_e the normalised straight line is
+    2.204 degrees off.
     """
     a = Quaternion.from_angle_axis(np.pi / 2, (-1, 0, 0))
     b = Quaternion.from_angle_axis(np.pi / 2, (0, 1, 0))
@@ -150,7 +154,7 @@ def test_slerp_between_nearly_equal_rotations_keeps_all_digits():
         goal = Quaternion.from_angle_axis(angle, (0.6, 0, 0.8))
         third = Quaternion.identity().slerp(goal, 1 / 3)
         assert np.allclose(third.as_angle_axis()[0], angle / 3, rtol=1e-12, atol=0)
-        # here the two differ in their last digits only
+        # here the two rotations differ only in their last digits
         base = Quaternion.from_angle_axis(2.0, (0, 1, 0))
         turned = base.slerp(base @ goal, 1 / 3)
         assert np.allclose(
@@ -168,7 +172,7 @@ def test_slerp_continues_beyond_its_ends():
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1))
-def test_rotations_are_a_group_that_keeps_lengths_and_hands(seed):
+def test_rotations_are_a_group_that_keeps_lengths_and_handedness(seed):
     rng = np.random.default_rng(seed)
     a, b, c = random((), rng), random((), rng), random((), rng)
     u, v = rng.normal(size=(2, 3)) * 10.0 ** rng.integers(-8, 8)
@@ -226,7 +230,7 @@ def test_invalid_operands_raise_type_error():
             left @ right
 
 
-def test_numbers_are_copied_from_the_caller():
+def test_values_are_copied_from_the_caller():
     wxyz = np.array([1.0, 0, 0, 0])
     q = Quaternion(wxyz)
     wxyz[:] = 7
@@ -292,8 +296,8 @@ def test_roll_is_zero_at_vertical_pitch(pitch):
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
-    """Roll and yaw are known the less the nearer the pitch is to a quarter turn, and what they make
-    together is known to the last digits all the way.
+    """The nearer the pitch is to a quarter turn, the fewer digits roll and yaw have; the rotation
+    that they make together keeps all its digits.
     """
     rng = np.random.default_rng(15)
     for off in 10.0 ** np.arange(-17, 0.5, 0.25):
@@ -307,7 +311,7 @@ def test_roll_pitch_yaw_keep_their_digits_near_vertical_pitch(sign):
             assert abs(np.array(back[::2]) - (roll, yaw)).max() < 1e-15 / off
 
 
-def test_degrees_cause_a_warning():
+def test_angles_in_degrees_cause_a_warning():
     with pytest.warns(UserWarning, match=r"angle: 90 rad .* were degrees meant\? \(90 \* deg\)"):
         q = Quaternion.from_angle_axis(90, (0, 0, 1))
     assert q.wxyz[0] == np.cos(45)
@@ -315,7 +319,7 @@ def test_degrees_cause_a_warning():
         Quaternion.from_angle_axis([0, -90.0], (0, 0, 1))
 
 
-def test_identity_of_any_shape():
+def test_identity_has_the_requested_shape():
     for shape in ((), (3,), (2, 0), (4, 1)):
         assert Quaternion.identity(shape).shape == Transform.identity(shape).shape == shape
         assert (Transform.identity(shape).as_matrix() == np.eye(4)).all()
@@ -326,6 +330,6 @@ def test_identity_of_any_shape():
 
 
 @pytest.mark.parametrize("axis", [(1, 0, 0), (-1, 0, 0), (0, -0.6, 0.8), (0, 0, -1)])
-def test_half_a_turn_keeps_the_axis_that_its_quaternion_has(axis):
+def test_half_a_turn_keeps_the_axis_of_its_quaternion(axis):
     angle, about = Quaternion((0, *axis)).as_angle_axis()
     assert angle == np.pi and about.tolist() == list(axis)

@@ -1,4 +1,4 @@
-"""Choices that outlive a change of the options' order."""
+"""Choices that remain valid when the order of the options changes."""
 
 import pytest
 
@@ -10,7 +10,7 @@ from robokin.course.questions import LETTERS, chosen_option, filled
 NAME = "puma560_branches.p3"
 
 
-def test_option_name_precedes_its_letter():
+def test_option_name_takes_precedence_over_its_letter():
     prediction = book.find(NAME, "predictions")
     _, options, right = filled(prediction)
     for k, option in enumerate(options):

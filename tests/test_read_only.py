@@ -1,8 +1,8 @@
 """Visible arrays are read-only copies of the arguments.
 
-Assignments like a student's are tried on everything reachable from the robots and from the values
-of a lesson, in a separate process and before anything was computed there: each raises or changes
-nothing, and `ik` is right afterwards.
+Assignments that a student might make are tried on everything reachable from the robots and from the
+values of a lesson, in a separate process before anything is computed there: each assignment raises
+or changes nothing, and `ik` is correct afterwards.
 """
 
 import copy
@@ -79,7 +79,7 @@ def task():
 
 
 def recording():
-    """With a gap, a jump of position, and one of speed."""
+    """A recording with a gap, a jump in position and a jump in speed."""
     q = np.sin(TIMES)[:, None] * np.ones(6) + 2 * (TIMES > 0.8)[:, None]
     q[3] = np.nan
     return record(IRB140, TIMES, q)
@@ -89,7 +89,7 @@ def plan():
     return obstacles.plan(three_lever(0.5), HOME, (0.6, 0.5), (0.2, 1.1))
 
 
-# name -> the function that makes it. The robots come first, before their inverse is used.
+# name -> a function that makes the object. The robots come first, before their inverse is used.
 ROOTS = {
     **{name: lambda arm=arm: arm for name, arm in MACHINES.items()},
     "three_lever": lambda: three_lever(0.5),
@@ -130,7 +130,7 @@ ROOTS = {
     "LEVERS": lambda: obstacles.LEVERS,
 }
 
-# Values that keep an array: name -> (the function that makes it, the array given)
+# Values that keep an array: name -> (a function that makes the value, the array)
 KEEPS = {
     "Quaternion": (Quaternion, [[0.6, 0.8, 0, 0], [1, 0, 0, 0]]),
     "Quaternion.from_matrix": (Quaternion.from_matrix, np.eye(3)),
@@ -246,7 +246,7 @@ COPIES = {
 
 
 def sealed_classes():
-    """The dataclasses of these packages."""
+    """The dataclasses of the packages in `SEALED`."""
     found = {}
     for module in pkgutil.walk_packages(robokin.__path__, "robokin."):
         if module.name.startswith(SEALED) and not module.name.endswith("__main__"):
@@ -294,7 +294,7 @@ def test_copies_are_read_only_too(examples, kind, how):
 
 
 def test_attack_detects_writable_arrays():
-    # The checks above detect writable arrays, lists and names of an object.
+    # The attack must detect writable arrays, lists and attributes of an object.
     class Open:
         def __init__(self):
             self.array, self.items, self.word = np.zeros(2), [{"x": 1}], "a"
@@ -308,7 +308,7 @@ def test_attack_detects_writable_arrays():
     assert value.array.tolist() == [0, 0] and value.items == [{"x": 1}] and value.word == "a"
 
 
-# ---- The process in which it is tried
+# ---- The process that tries the assignments
 
 
 def main(how):
@@ -335,8 +335,8 @@ def main(how):
 
 
 def _attack(fetch, path, changed, known):
-    """Try to write everything reachable from the value that `fetch` returns; successful writes are
-    undone and recorded in `changed`.
+    """Try to overwrite everything reachable from the value that `fetch` returns; successful writes
+    are undone and recorded in `changed`.
     """
     value = fetch()
     if id(value) in known or path.count(".") + path.count("[") > 12:
@@ -429,7 +429,7 @@ def _attack_name(value, name, path, changed):
 
 
 def _seen(value, path="", depth=0):
-    """Everything visible of a value: pairs of path and text."""
+    """Everything visible in a value, as pairs of path and text."""
     if isinstance(value, (tuple, list)):
         for i, item in enumerate(value):
             yield from _seen(item, f"{path}[{i}]", depth + 1)

@@ -1,5 +1,5 @@
-"""The content of a recording: the derivatives of `differentiate`, and the places where they are
-meaningless.
+"""The content of a recording: the derivatives of `differentiate`, and the places where they have no
+meaning.
 """
 
 import pickle
@@ -29,12 +29,12 @@ from robokin import (
 
 X, Y, Z = np.eye(3)
 ROW = IRB140.branch(+1, +1, -1)
-# The chain of 001, tasks 3 and 4.
+# The motion of document 001, tasks 3 and 4.
 START = Transform(Quaternion.from_angle_axis(90 * deg, -X), (0.2, 0.4, 0.2))
 VIA = Transform(Quaternion.from_angle_axis(45 * deg, Y), (0.65, -0.1, 0.8))
 GOAL = Transform(Quaternion.from_angle_axis(90 * deg, Y), (0.3, 0.3, 0.5))
 T = np.linspace(0, 20, 2001)
-# The jump of the speeds at the via pose, rad/s: errata S1, "chain", by other code.
+# The jumps in speed at the via pose, rad/s: errata S1, "chain", calculated by other code.
 CORNER_JUMP = np.array(
     [
         0.107946862582,
@@ -54,7 +54,7 @@ def chain(fraction, t=T):
 
 
 def wave(t=UNEVEN, size=1.0):
-    """Six joints, each with its own speed, inside the limits of the IRB-140."""
+    """A motion of six joints with different speeds, inside the limits of the IRB-140."""
     return size * np.sin(np.outer(t, 1 + np.arange(6) / 2))
 
 
@@ -76,7 +76,7 @@ def test_a_smooth_motion_has_the_derivatives_that_differentiate_gives(t):
     assert not found.gaps.any() and not found.missing.any() and found.leaps == found.jumps == ()
 
 
-def test_pieces_beside_a_gap_are_differentiated_separately():
+def test_pieces_on_both_sides_of_a_gap_are_differentiated_separately():
     q = wave()
     q[100:120] = np.nan
     found = record(IRB140, UNEVEN, q)
@@ -115,7 +115,7 @@ def test_row_with_one_nan_joint_is_missing():
     assert found.missing.sum() == 1 and np.isfinite(found.q[[49, 51]]).all()
 
 
-# --- Jumps of the speed ---------------------------------------------------------------------------
+# --- Jumps in speed -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("count, tolerance", [(2001, 1e-4), (2000, 2e-3), (100, 0.03)])
@@ -128,12 +128,12 @@ def test_speed_jump_does_not_depend_on_the_step(count, tolerance):
 
 
 def test_the_speeds_on_both_sides_of_a_corner_are_those_of_the_two_pieces():
-    # Two parabolas that meet at t = 1.5 with different slopes: known without any difference.
+    # Two parabolas meet at t = 1.5 with different slopes, so the speeds are known exactly.
     t = np.linspace(0, 3, 301)
     u = t - 1.5
     q = np.zeros((301, 6))
     q[:, 0] = np.where(u < 0, 0.5 * u + 0.1 * u**2, -0.3 * u + 0.2 * u**2)
-    q[:, 1] = 0.2 * u**2  # does not jump
+    q[:, 1] = 0.2 * u**2  # its speed does not jump
     [jump] = record(IRB140, t, q).jumps
     assert (jump.first, jump.last) == (150, 150) and jump.time == 1.5 and jump.motion == ()
     assert jump.before[0] == pytest.approx(0.5, abs=1e-9)
@@ -180,9 +180,9 @@ def test_acceleration_is_nan_exactly_at_speed_jumps():
     assert np.flatnonzero(missing[:, 0]).tolist() == [149, 150, 151]
     assert not missing[:, 1:].any()
     assert (found.a[~missing] == plain[~missing]).all()
-    # The spike that a plain difference shows is the jump divided by the step.
+    # Plain differences have a spike there: the jump divided by the step.
     assert abs(plain[149:152, 0]).max() > 10 and abs(found.a[~missing]).max() < 0.5
-    assert (found.v == differentiate(q, t)).all()  # the speeds stay
+    assert (found.v == differentiate(q, t)).all()  # the speeds are unchanged
 
 
 @pytest.mark.parametrize("count", [100, 2001])
@@ -198,7 +198,7 @@ def test_a_smooth_motion_has_no_jump(count):
     assert record(IRB140, t, chain(0.1, t)).jumps == ()
 
 
-def test_tiny_changes_of_speed_are_not_jumps():
+def test_tiny_changes_in_speed_are_not_jumps():
     t = np.linspace(0, 2, 401)
     corner = np.maximum(t - 1, 0)
     for share, count in ((0.008, 0), (0.02, 1)):
@@ -227,7 +227,7 @@ def test_two_corners_three_samples_apart_are_two_jumps():
     assert [jump.by[0] for jump in jumps] == pytest.approx([-2, 2] * 2)
 
 
-# --- Jumps of position ----------------------------------------------------------------------------
+# --- Jumps in position ----------------------------------------------------------------------------
 
 
 def test_turn_by_two_pi_between_samples_is_a_jump():
@@ -249,7 +249,7 @@ def test_turn_by_two_pi_between_samples_is_a_jump():
 
 
 @pytest.mark.parametrize("size, leap", [(0.0019, False), (0.0021, True), (3.0, True)])
-def test_step_from_rest_is_a_jump_from_two_thousandths_on(size, leap):
+def test_step_from_rest_is_a_jump_above_0_002_rad(size, leap):
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[50:, 0] = size
@@ -292,8 +292,8 @@ def test_every_tooth_of_a_sawtooth_is_a_jump(t, on, teeth, size):
     assert np.nanmax(abs(found.v[:, 1] - exact)) < 0.4 and abs(size) / 0.015 > 3
 
 
-def test_sawtooth_that_returns_to_its_start():
-    """With three samples it may be a sine with the same samples."""
+def test_teeth_of_four_samples_or_more_are_jumps():
+    """A sawtooth of three samples may be a sine with the same samples."""
     t = np.linspace(0, 2, 201)
     for period, leaps in ((3, False), (4, True), (7, True), (30, True)):
         q = 0.05 * (np.arange(201) % period)[:, None] * [1, 0.5]
@@ -301,7 +301,7 @@ def test_sawtooth_that_returns_to_its_start():
         found = record(two_link(1, 1), t, q)
         inside = [
             jump for jump in found.leaps if 2 < jump.first < 197
-        ]  # the ends follow another law
+        ]  # other rules apply at the ends
         assert [jump.first for jump in inside] == [i for i in falls if 2 < i < 197] * leaps
         for jump in inside:
             np.testing.assert_allclose(jump.by, [-0.05 * period, -0.025 * period], atol=1e-9)
@@ -309,7 +309,7 @@ def test_sawtooth_that_returns_to_its_start():
 
 @pytest.mark.parametrize("size", [0.5, -1.5])
 @pytest.mark.parametrize("on", list(ON.values())[:3], ids=list(ON)[:3])
-def test_tooth_at_an_end_is_a_jump_if_ten_times_the_next_step(on, size):
+def test_tooth_at_an_end_is_a_jump_if_ten_times_as_large_as_the_next_step(on, size):
     t = np.linspace(0, 3, 300)
     q = np.stack([on(t) + size * np.searchsorted([0, 298], np.arange(300)), 0 * t], axis=-1)
     found = record(two_link(1, 1), t, q)
@@ -349,7 +349,7 @@ def test_outlying_sample_has_a_jump_on_both_sides():
     np.testing.assert_allclose([jump.by[0] for jump in found.leaps], [0.3, -0.3], atol=0.02)
 
 
-def test_a_jump_where_the_speed_jumps_too_is_a_jump_of_position():
+def test_a_jump_where_the_speed_jumps_too_is_a_jump_in_position():
     t = np.linspace(0, 3, 301)
     q = np.stack([np.where(t < 1.505, 0.2 * t, 0.5 - 0.3 * t), 0 * t], axis=-1)
     [leap] = record(two_link(1, 1), t, q).leaps
@@ -360,7 +360,7 @@ QUICK = {
     "point to point": lambda x, width: quintic(width)(x + width / 2),
     "with ramps": lambda x, width: trapezoidal(width)(x + width / 2),
     "at even speed": lambda x, width: np.clip(x / width, -0.5, 0.5),
-    "wrist flip": lambda x, width: np.arctan(2.7 * x / width),  # half of it within `width`
+    "wrist flip": lambda x, width: np.arctan(2.7 * x / width),  # half of the flip takes `width`
     "there and back": lambda x, width: np.where(
         abs(x) < width / 2, np.cos(np.pi * x / width) ** 2, 0
     ),
@@ -369,7 +369,9 @@ QUICK = {
 
 @pytest.mark.parametrize("motion", QUICK.values(), ids=QUICK)
 def test_motion_of_two_steps_is_not_a_jump(motion):
-    """Wherever the samples fall, from rest to rest; back and forth takes four."""
+    """The motion goes from rest to rest, wherever the samples fall; a motion there and back takes
+    four steps.
+    """
     samples = np.arange(-30, 31.0)
     least = 4 if motion is QUICK["there and back"] else 2
     for width in (least, least + 0.5, least + 1, 2 * least, 5 * least):
@@ -402,14 +404,14 @@ def test_noise_is_not_a_jump(size):
     t = np.linspace(0, 20, 5001)
     q = np.sin(np.outer(t, [1, 1.5])) + size * rng.normal(size=(4, 5001, 2))
     assert record(two_link(1, 1), t, q).leaps == ()
-    q[:, 3000:, 0] += 100 * size  # but an outlier in it is
+    q[:, 3000:, 0] += 100 * size  # but a large step in the noise is a jump
     assert [jump.first for jump in record(two_link(1, 1), t, q).leaps] == [2999] * 4
 
 
 def test_fast_motion_is_not_a_jump():
     t = np.linspace(0, 1, 11)
     q = np.zeros((11, 6))
-    q[:, 0] = 2.0 * t  # 0.2 rad from one sample to the next, everywhere
+    q[:, 0] = 2.0 * t  # 0.2 rad between any two samples
     assert record(IRB140, t, q).leaps == ()
 
 
@@ -423,7 +425,7 @@ def test_long_stroke_is_not_a_jump_but_half_a_turn_is():
     assert record(SCARA, t, q).leaps == ()
 
 
-def test_beside_a_gap_a_jump_has_the_value_of_its_sample():
+def test_jump_next_to_a_gap_has_the_value_of_the_only_sample_before_it():
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[:, 0] = t
@@ -473,7 +475,7 @@ def test_joint_at_its_limit_is_not_past_it():
 def test_speed_excess_is_symmetric():
     t = np.linspace(0, 2, 201)
     q = np.zeros((201, 6))
-    q[:, 1], q[:, 2] = -4 * t + 4, 0.1 * np.sin(t)  # 4 rad/s, limit 200 °/s
+    q[:, 1], q[:, 2] = -4 * t + 4, 0.1 * np.sin(t)  # joint 2 at 4 rad/s; its limit is 200 °/s
     found = record(IRB140, t, q)
     assert np.allclose(found.speed_excess[:, 1], 4 - 200 * deg, rtol=0, atol=1e-9)
     assert (np.delete(found.speed_excess, 1, axis=1) == 0).all()
@@ -481,7 +483,7 @@ def test_speed_excess_is_symmetric():
     assert (record(SCARA, t, q[:, :4]).speed_excess == 0).all()
 
 
-def test_greatest_values_and_their_times(motions):
+def test_greatest_values_and_their_times_are_correct(motions):
     q = motions[1]
     found = record(IRB140, T, q)
     for extreme, values in (
@@ -552,7 +554,7 @@ def test_parts_of_a_batch_keep_their_jumps(motions):
 def test_a_single_recording_has_no_parts(motions):
     one = record(IRB140, T, motions[0])
     for call in (lambda: len(one), lambda: one[0], lambda: list(one)):
-        with pytest.raises(TypeError, match="one single Recording"):
+        with pytest.raises(TypeError, match="a single Recording"):
             call()
 
 
@@ -617,7 +619,7 @@ def test_continuous_turning_causes_no_warning(recwarn):
         (lambda q: record("IRB140", T, q), TypeError, "arm: wanted an Arm"),
         (lambda q: record(None, T, q), TypeError, "arm: wanted an Arm"),
         (lambda q: record(IRB140, T[:-1], q), ValueError, r"wanted shape \(..., 2000, 6\)"),
-        (lambda q: record(IRB140, T[::-1], q), ValueError, "rising"),
+        (lambda q: record(IRB140, T[::-1], q), ValueError, "increasing"),
         (lambda q: record(IRB140, [0.0], q[:1]), ValueError, "at least two times"),
         (lambda q: record(IRB140, T, q[0]), ValueError, "q: wanted shape"),
         (lambda q: record(IRB140, T, q[:, :5]), ValueError, r"q: wanted shape \(..., 6\)"),
@@ -629,6 +631,6 @@ def test_continuous_turning_causes_no_warning(recwarn):
         (lambda q: replace(record(IRB140, T, q), leaps=[]), TypeError, "tuple of Jumps"),
     ],
 )
-def test_wrong_arguments_name_what_is_wanted(wrong, kind, message, motions):
+def test_errors_name_the_wrong_argument_and_what_is_wanted(wrong, kind, message, motions):
     with pytest.raises(kind, match=message):
         wrong(motions[1])

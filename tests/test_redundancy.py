@@ -1,7 +1,8 @@
-"""Methods that choose the posture of the three-lever arm: the promise of each, and that none moves
+"""Methods that choose the posture of the three-lever arm: each keeps its promise, and none moves
 less than the least movement.
 
-`chain` (complex numbers) computes the gripper's position, not robokin; NumPy inverts Jacobians.
+The gripper's positions come from `chain` (complex numbers), not from robokin; NumPy inverts the
+Jacobians.
 """
 
 import numpy as np
@@ -28,7 +29,7 @@ arms = pytest.mark.parametrize("arm", ARMS.values(), ids=ARMS)
 
 
 def chain(arm, q):
-    """K (..., 2) of postures q (..., 3)."""
+    """The gripper's positions K (..., 2) in postures q (..., 3)."""
     gamma, beta, alpha = np.moveaxis(q, -1, 0)
     turns = np.stack([np.exp(1j * gamma), -np.exp(1j * beta), -np.exp(1j * alpha)])
     K = np.tensordot(arm.levers, np.cumprod(turns, axis=0), axes=1)
@@ -36,7 +37,7 @@ def chain(arm, q):
 
 
 def tasks(arm, n, seed=4):
-    """Targets (n, 2) that the arm reaches within its limits, and postures (n, 3) before."""
+    """Targets (n, 2) that the arm reaches within its limits, and the previous postures (n, 3)."""
     rng = np.random.default_rng(seed)
     K = chain(arm, rng.uniform(0, np.pi, (4 * n, 3)))
     K = K[~np.isnan(arm.alpha_range(K)[0])][:n]
@@ -47,7 +48,7 @@ def tasks(arm, n, seed=4):
 @arms
 @pytest.mark.parametrize("name", NAMES)
 def test_methods_arrive_within_the_limits_or_return_nan(arm, name):
-    """And for one task, nothing moves less than the least movement."""
+    """For a single task, no method moves less than the least movement."""
     K, before = tasks(arm, 400)
     q = methods(H, 0)[name](arm, K, before)
     failed = np.isnan(q).any(axis=-1)
@@ -78,7 +79,7 @@ def test_pseudo_inverse_makes_the_shortest_step(arm):
 
 
 @arms
-def test_gradient_projection_moves_to_the_middle_without_the_gripper(arm):
+def test_gradient_projection_moves_the_joints_towards_their_middle(arm):
     K, before = tasks(arm, 400)
     plain, pulled = pseudo_inverse(arm, K, before), gradient_projection(arm, K, before)
     middle = np.pi / 2
@@ -86,7 +87,8 @@ def test_gradient_projection_moves_to_the_middle_without_the_gripper(arm):
     away = [np.linalg.norm(q[both] - middle, axis=-1) for q in (plain, pulled)]
     assert (away[1] < away[0]).mean() > 0.9 and both.sum() > 150
     assert np.isnan(pulled).any(axis=-1).sum() < np.isnan(plain).any(axis=-1).sum()
-    # nothing moves if the gripper is already there: the secondary objective acts only on the way
+    # nothing moves if the gripper is already at the target: the secondary objective acts only on
+    # the way there
     stay = gradient_projection(arm, chain(arm, before), before)
     np.testing.assert_array_equal(stay, before)
 
@@ -96,7 +98,7 @@ def test_equal_angles_are_found_where_they_exist(arm):
     K, before = tasks(arm, 300)
     q = equal_angles(arm, K, before)
     np.testing.assert_allclose(q[:, 1], q[:, 2], rtol=0, atol=1e-9)
-    # by a walk along the family: beta - alpha changes its sign once, or there is no such posture
+    # along the family beta - alpha changes sign once, or there is no such posture
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K[:, None], low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 4001))
     signs = np.diff(np.sign(rows[..., 1] - rows[..., 2]), axis=1) != 0
@@ -114,7 +116,7 @@ def test_random_choice_is_uniform():
     low, high = arm.alpha_range(K)
     q = random_choice(5)(arm, np.tile(K, (4000, 1)), np.ones(3))
     share = np.sort((q[:, 2] - low) / (high - low))
-    assert abs(share - (np.arange(4000) + 0.5) / 4000).max() < 0.03  # Kolmogorov and Smirnov
+    assert abs(share - (np.arange(4000) + 0.5) / 4000).max() < 0.03  # Kolmogorov-Smirnov test
     same = random_choice(5)(arm, np.tile(K, (4000, 1)), np.ones(3))
     np.testing.assert_array_equal(q, same)
     dice = random_choice(5)
@@ -158,7 +160,7 @@ def test_joints_stop_at_their_limits(arm, monkeypatch):
         redundancy, "distances", lambda arm, q, H: seen.append(q) or distances(arm, q, H)
     )
     distance_rule(H)(arm, K, before)
-    on_the_way = np.array(seen[::3])  # it tries three in every step, the first at the current place
+    on_the_way = np.array(seen[::3])  # each step tries three postures, the current one first
     assert on_the_way.min() == 0 and on_the_way.max() == np.pi and len(on_the_way) > 50
 
 
@@ -175,10 +177,10 @@ def test_batch_equals_single_tasks(arm):
         assert method(arm, K, before[0]).shape == (12, 3)
 
 
-def test_a_race_goes_from_task_to_task():
+def test_a_race_starts_each_task_where_the_last_one_ended():
     arm = ARMS["equal"]
     K, before = tasks(arm, 25)
-    K[7] = (3.0, 0.2)  # out of reach for every method: the arm stays
+    K[7] = (3.0, 0.2)  # out of reach, so the arm stays with every method
     runs = race(methods(H, 0), arm, K, before[0])
     assert list(runs) == NAMES
     again, failures = methods(H, 0), 0

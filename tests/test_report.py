@@ -1,6 +1,6 @@
 """`python -m robokin.course report`: a lab judged again, as one page to hand in.
 
-The labs are written here, so that the worth of every answer is known in advance.
+The labs are written here, so that the verdict on every answer is known in advance.
 """
 
 import io
@@ -35,7 +35,9 @@ animate(IRB140, t, q, title="A turn of every joint")"""
 
 @pytest.fixture(scope="module")
 def hostile(tmp_path_factory):
-    """One lab with nearly every possible problem, judged once: path, page, data of the page."""
+    """One lab with nearly every possible problem, judged once: its path, its page, and the data of
+    the page.
+    """
     folder = tmp_path_factory.mktemp("hostile")
     lab = stored(
         folder / "Ada's homework.ipynb",
@@ -53,7 +55,7 @@ def hostile(tmp_path_factory):
         '%time 1\ncheck("scara_motion.1", answer=least_turn)',
         "def inside(q):\n    return True",
         cell('course_check = check\ncheck("scara_motion.2", inside)', "scara_motion.2: holds."),
-        solution("scara_motion.3"),  # of "your name"
+        solution("scara_motion.3"),  # with the numbers of "your name"
         cell('check("scara_motion.3", design, who=who)', "scara_motion.3: holds."),
         "exit()",
         "print('still here')",
@@ -70,7 +72,7 @@ def test_verdicts_match_the_answers(hostile):
     assert two["state"] == "does not hold" and two["points"] == wrong.points < 1
     assert (two["mistake"], two["case"]) == (wrong.mistake, wrong.case) and wrong.mistake
     assert tuple(two["says"]) == wrong.says
-    assert three["state"] == "does not hold"  # right for "your name", and Ada's numbers are others
+    assert three["state"] == "does not hold"  # right for "your name", but Ada's numbers differ
     assert [state for _, state in objectives(hostile.data)] == ["holds", "begun", "begun"]
     assert hostile.data["who"] == "Ada Lovelace" and hostile.data["lab"] == "scara_motion"
     assert hostile.data["numbers"] == str(course.variant("scara_motion", "Ada Lovelace"))
@@ -79,11 +81,11 @@ def test_verdicts_match_the_answers(hostile):
 def test_oddities_are_reported(hostile):
     remarks = "\n".join(hostile.data["remarks"])
     for said in (
-        'scara_motion.2: the stored output says "holds"; worked out anew it is "does not hold".',
+        'scara_motion.2: the stored output says "holds"; judged again, it is "does not hold".',
         "scara_motion.3: the notebook uses the numbers of 'your name', not of 'Ada Lovelace'.",
         "(ZeroDivisionError)",
         "The kernel died in this cell.",
-        "what it shows was too much",
+        "its output was too long",
         ": Stopped after 4 s.",
         "is shown as it was typed",
     ):
@@ -133,7 +135,7 @@ def test_report_works_from_a_file(hostile, browser, tmp_path):
     player.get_by_role("slider").first.fill("1.0")
     until(lambda: arm.screenshot() != before, "the arm does not move", page)
     asking = page.locator("div.robokin-player", has_text="d) ").last
-    assert asking.get_by_role("radio").count() >= 3, "what was not predicted can be"
+    assert asking.get_by_role("radio").count() >= 3, "missing predictions can still be made"
     page.set_viewport_size({"width": 390, "height": 800})
     assert page.evaluate("document.documentElement.scrollWidth") <= 392
     pdf = page.pdf(path=tmp_path / "report.pdf", format="A4")
@@ -158,7 +160,7 @@ def test_header_lists_guesses_and_titles_in_lab_order(tmp_path):
     assert [text for text in said if text in titles] == titles
     assert [text for text in said if re.fullmatch(r"objective \d", text)] == [
         f"objective {k}" for k in range(1, 4)
-    ], "after the exercises"
+    ], "the objectives follow the exercises"
     one, nine = (course.predict(f"{slug}.{n}").options for n in ("p1", "p9"))
     for words in (f"b) {one[1].text}", f"later: a) {one[0].text}", f"a) {nine[0].text}", "−90°"):
         assert words.replace("`", "") in said, words
@@ -168,7 +170,7 @@ def test_header_lists_guesses_and_titles_in_lab_order(tmp_path):
     assert (missing.split(", "), optional) == (left, "p10")
 
 
-def test_report_is_little_larger_than_the_lab():
+def test_report_is_only_a_little_larger_than_the_lab():
     for path in sorted(NOTEBOOKS.glob("*.ipynb"), key=lambda path: path.stat().st_size)[-2:]:
         given = handed_in(path)
         says = ("A sentence about what is wrong and how it can be mended, of usual length.",) * 4
@@ -199,7 +201,7 @@ def test_a_name_becomes_part_of_a_file_name(name, kept):
     assert safe(name) == kept
 
 
-def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
+def test_other_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     lab = stored(tmp_path / "my lab.ipynb", new_markdown_cell("# Notes"), "print(1 + 1)")
     page = tmp_path / "my_lab_Ada.html"
@@ -220,7 +222,7 @@ def test_foreign_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     assert data["lab"] is None and data["exercises"] == [] and data["title"] == "Notes"
     assert "no exercises" in text and ">2\n<" in text
     page.write_text(text.replace('"who":"Ada"', '"who":"Bob"'))
-    assert main(["report", str(lab), "--name", "Ada"]) == 1, "another student's"
+    assert main(["report", str(lab), "--name", "Ada"]) == 1, "the page is another student's"
     for name in ("", " "):
         with pytest.raises(ValueError, match="name: wanted"):
             report(lab, name, tmp_path)

@@ -1,8 +1,8 @@
 """Readers run cells repeatedly: every cell can run again, and every value after `# try` can be
 tried.
 
-This tests one value for each `# try`; `python tests/rerun.py --seed 1` tries all of them, and runs
-the cells in a random order, too.
+This module tests one value for each `# try`; `python tests/rerun.py --seed 1` tries all of them and
+also runs the cells in a random order.
 """
 
 import json
@@ -12,14 +12,14 @@ import rerun
 from conftest import NOTEBOOKS
 
 PATHS = [*sorted(NOTEBOOKS.glob("*.ipynb")), *sorted(NOTEBOOKS.glob("documents/*.ipynb"))]
-forks = pytest.mark.skipif(not rerun.FORKS, reason="a value is tried in a fork")
-# Python 3.12 warns of forking with threads about; the children here only compute
+forks = pytest.mark.skipif(not rerun.FORKS, reason="values are tried in a forked process")
+# Python 3.12 warns about forking a process that has threads; the children here only compute
 pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_cells_run_again_with_other_values(path):
-    """No cell shows something else when it runs again, and no value breaks a cell or makes its
+    """No cell shows a different output when it runs again, and no value breaks a cell or makes its
     words false.
     """
     _, tried, again = rerun.faults(path, sample=True)
@@ -38,27 +38,27 @@ FIGURE = "from robokin.show import figure\nfig = figure({alt})\nfig.subplots().p
 
 
 @forks
-def test_failing_values_and_typed_numbers_are_detected(tmp_path):
+def test_failing_values_and_hard_coded_numbers_are_detected(tmp_path):
     def faults(*cells):
         return rerun.faults(_lab(tmp_path, *cells))[:2]
 
     assert faults("a = 1  # try 2, 3", FIGURE.format(alt='f"Up to {a}, q1 and axis 2"')) == (2, [])
     count, [two, three] = faults("a = 1  # try 2, 3", FIGURE.format(alt='"Up to 1"'))
     assert count == 2 and "a = 3: [2] has 'Up to 1' typed in: 'Up to 1'" in three
-    # not reached by the value, so it may say what it likes
+    # the value does not reach this cell, so its text need not change
     assert faults("a = 1\nc = 1  # try 2", FIGURE.format(alt='"Up to 1"')) == (1, [])
     count, [fault] = faults("a = 1  # try 0, 5", "print(1 / a)", "b = 1")
     assert count == 2 and "a = 0: cell 2: ZeroDivisionError" in fault
     [fault] = faults("a = 1  # try other values")[1]
     assert "invalid syntax" in fault
-    # a cell that depends on the value may need one that does not
+    # a cell that depends on the value may need a cell that does not
     assert faults("a = 1  # try 2", "b = 3", "print(a + b)") == (1, [])
-    # a name that a cell sets anew is not the one that the value reached
+    # a name that a cell sets again no longer depends on the value
     assert faults("a = 1  # try 0", "a = 2", "print(1 / a)") == (1, [])
     assert faults("a = 1  # try 0", "if a:\n    a = 2", "print(1 / a)")[1]
     assert faults("a = 1  # try 0", "def f():\n    return 1 / a", "b = 2", "print(f() + b)")[1]
     assert faults("a = [1]\nb = 1  # try 0", "a[0] = b", "a.append(2)", "print(1 / a[0])")[1]
-    # what a value changes does not stay: the next one starts from what the cells above left
+    # changes by one value are undone: the next value starts from what the cells above left
     assert faults("x = [1]", "a = 1  # try 2, 3\nx.append(a)", "assert len(x) == 2")[1] == []
 
 

@@ -1,9 +1,9 @@
-"""The place that treats each capability of the documents and each finding of the second reading.
+"""Where each capability of the documents and each finding of the second reading is treated.
 
-The tables at the end of the companions have the 97 capabilities (S0-01 to S4-11), the file
-data/second_reading.csv the findings (A1 to H12). Every target exists; what a row calls by the
-document's own name stands in one of its places, and what it names in robokin cites the document, if
-it cites any.
+The tables at the end of the companions list the 97 capabilities (S0-01 to S4-11); the file
+data/second_reading.csv lists the findings (A1 to H12). Every target exists; every name that a row
+quotes from the document occurs in one of the row's targets, and every object of robokin that a row
+names cites the document, if it cites any.
 """
 
 import csv
@@ -30,15 +30,15 @@ def prose(path):
 
 
 def table(source):
-    """(row, what, where, names) of each line of a companion's table."""
+    """(row, what, where, names) for each line of a companion's table."""
     text = prose(COMPANIONS[f"00{source[1]}"])
     lines = re.findall(rf"^\| ({source}-\d\d) \|(.*)\|$", text, re.M)
     return [(row, *(part.strip() for part in rest.split(" | "))) for row, rest in lines]
 
 
 def section_text(path, section):
-    """All cells of a section: "§3", "Deeper", "Your turn", or "" for the whole notebook; "" if it
-    has none of that name.
+    """The text of a section, such as "§3", "Deeper" or "Your turn", or of the whole notebook for
+    ""; "" if the notebook has no such section.
     """
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     text = "\n".join("".join(cell["source"]) for cell in cells)
@@ -52,7 +52,7 @@ def has_section(path, section):
 
 
 def found(name):
-    """The object with a dotted name below robokin; None if there is none."""
+    """The object of robokin with this dotted name; None if there is none."""
     for module in ("robokin", "robokin.arms", "robokin.motion", "robokin.show", "robokin.course"):
         value = importlib.import_module(module)
         for part in name.removeprefix("robokin.").split("."):
@@ -88,7 +88,7 @@ def test_every_capability_of_a_document_has_a_target(source):
             assert has_section(path, section), f"{row}: {lab} {section}"
             texts.append(section_text(path, section))
         for term in re.findall(r"`([^`]+)`", what):
-            assert any(term in text for text in texts), f"{row}: {term} stands in none of {where}"
+            assert any(term in text for text in texts), f"{row}: {term} occurs in none of {where}"
         assert names == "–" or "`" in names, f"{row}: {names}"
         for name in re.findall(r"`([^`]+)`", names):
             value = found(name)
@@ -127,7 +127,9 @@ def test_findings_are_resolved_at_their_targets(line):
 
 
 def test_every_box_of_the_flow_charts_leads_to_the_source_of_its_function():
-    """Companion 003, figures 29 to 33. Its own cells check that the drawn names exist."""
+    """Companion 003, figures 29 to 33. The companion's own cells check that the drawn
+    names exist.
+    """
     path, figures = COMPANIONS["003"], []
     for figure, names in re.findall(r"^\| (29|3[0-3]) \|[^|]+\|([^|]+)\|", prose(path), re.M):
         figures.append(figure)

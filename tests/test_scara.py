@@ -1,4 +1,4 @@
-"""The SCARA arm and its ScaraPose against the reference cases of the documents' own motions
+"""The SCARA arm and ScaraPose compared with reference cases and with the documents' own motions
 (oracle, errata S1).
 """
 
@@ -34,7 +34,7 @@ START, VIA, GOAL = (
 
 
 def turned(a, b):
-    """The greatest difference of two joint rows, angles modulo a turn."""
+    """The greatest difference between two rows of joint values, with angles modulo a turn."""
     difference = a - b
     difference[:3] -= 2 * np.pi * np.round(difference[:3] / (2 * np.pi))
     return abs(difference).max()
@@ -58,7 +58,7 @@ def test_ik_returns_reference_cases_in_their_rows(case):
 
 
 @pytest.mark.parametrize("shape", [(), (1,), (3, 1, 2)])
-def test_ik_contains_the_original_joints(shape):
+def test_ik_contains_the_original_joint_values(shape):
     rng = np.random.default_rng(4)
     q = rng.uniform(-np.pi, np.pi, (*shape, 4)) * [1, 1, 1, 0.05]
     rows = SCARA.ik(SCARA.fk(q))
@@ -92,7 +92,7 @@ def law(name, total, t):
 
 
 @pytest.mark.parametrize("case", MOTIONS, ids=lambda case: f"{case['law']} elbow {case['elbow']}")
-def test_the_documents_motions(case):
+def test_the_documents_motions_equal_the_oracle(case):
     total, step = case["total"], case["step"]
     t = np.arange(0, total, step)
     # errata S1-j: the printed law leaves the end poses; robokin refuses
@@ -124,8 +124,8 @@ def test_the_angle_of_a_target_is_not_wrapped():
 
 
 def test_direction_of_half_a_turn_exists_only_in_targets():
-    """Errata S1-t: 0.01 degrees to either side of START make the rotation turn one way or the other
-    to VIA.
+    """Errata S1-t: 0.01 degrees to either side of START decide which way the rotation
+    turns to VIA.
     """
     middles = []
     for off in (-0.01 * deg, 0.01 * deg):
@@ -185,7 +185,7 @@ def test_explain_names_the_stroke_in_millimetres():
     assert "40.0 mm too near to axis 1" in explain(SCARA, ScaraPose((0.01, 0, 0.1), 0.0), 1)
 
 
-def test_batches_of_poses():
+def test_batches_of_scara_poses_can_be_indexed():
     batch = ScaraPose(np.arange(18).reshape(2, 3, 3) / 10, np.arange(6).reshape(2, 3))
     assert batch.shape == (2, 3) and len(batch) == 2 and batch[1].shape == (3,)
     assert batch[1, 2].angle == 5 and batch[1, 2].position.tolist() == [1.5, 1.6, 1.7]
@@ -196,7 +196,7 @@ def test_batches_of_poses():
     assert not hasattr(batch.angle, "nothing") and not batch.angle.flags.writeable
 
 
-def test_transform_without_rotation_has_angle_zero():
+def test_scara_pose_without_an_angle_has_angle_zero():
     assert ScaraPose((0.3, 0.1, 0.2)).angle == 0
     assert (ScaraPose(np.ones((4, 3))).angle == np.zeros(4)).all()
     rows = SCARA.ik(ScaraPose((0.3, 0.1, 0.1)))

@@ -1,4 +1,6 @@
-"""`python -m robokin.course site`: every page of it in a real browser, every link of it parsed."""
+"""`python -m robokin.course site`: every page is opened in a real browser, and every link is
+checked.
+"""
 
 import functools
 import http.server
@@ -90,7 +92,7 @@ class Parsed(HTMLParser):
 
 @pytest.fixture(scope="session")
 def parsed(site):
-    """Every page by its name."""
+    """Every page, parsed: name -> page."""
     return {
         path.relative_to(site).with_suffix("").as_posix(): Parsed(path.read_text(encoding="utf-8"))
         for path in site.rglob("*.html")
@@ -128,7 +130,7 @@ def test_nothing_is_loaded_from_elsewhere(site, parsed):
         assert not re.search(r"@import|url\(['\"]?(https?:)?//", style.read_text()), style
 
 
-def test_exercises_appear_as_written(site):
+def test_exercises_are_copied_unchanged(site):
     folder = NOTEBOOKS / "exercises"
     files = [p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts]
     copies = [p for p in (site / "exercises").rglob("*") if p.is_file()]
@@ -196,7 +198,7 @@ def _of_robokin(one):
 
 @pytest.fixture(scope="module")
 def address(site):
-    """Where the site is served."""
+    """The address at which the site is served."""
 
     class Quiet(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_):
@@ -212,8 +214,8 @@ def address(site):
 
 @pytest.fixture(scope="module")
 def page(browser, address):
-    """One page for all tests with records: `errors` of the console, and `outside`, requests to
-    other hosts.
+    """One page for all tests. It records `errors`, those of the console, and `outside`, the
+    requests to other hosts.
     """
     context = browser.new_context(viewport={"width": 1366, "height": 900}, color_scheme="light")
     page = context.new_page()
@@ -230,7 +232,7 @@ def _foreign(url, address):
 
 
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_at_three_widths(page, address, name):
+def test_a_page_fits_three_widths_without_errors(page, address, name):
     page.set_viewport_size({"width": WIDTHS[0], "height": 900})
     page.goto(f"{address}{name}.html")
     awake(page)
@@ -365,7 +367,7 @@ def test_the_answers_of_the_oral_questions_are_folded(page, address):
     assert first.is_visible()
 
 
-def test_foreign_files_are_kept(tmp_path):
+def test_other_files_are_kept(tmp_path):
     (tmp_path / "mine.txt").write_text("mine")
     run = command(tmp_path)
     assert run.returncode == 1 and "nothing is overwritten" in run.stderr
@@ -448,7 +450,7 @@ def test_files_outside_the_site_are_not_removed(tmp_path):
     assert (tmp_path / "precious.txt").read_text() == "mine"
 
 
-def test_missing_parts_are_reported(tmp_path, monkeypatch):
+def test_missing_requirements_are_reported(tmp_path, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(making, "find_spec", lambda name: None)
         with pytest.raises(ValueError, match=r"sphinx.*pip install '\.\[site\]'"):
@@ -469,7 +471,7 @@ def test_missing_parts_are_reported(tmp_path, monkeypatch):
             making._entry(lab)
 
 
-def test_unreadable_formulas_and_links_are_reported(tmp_path):
+def test_unreadable_formulas_and_broken_links_are_reported(tmp_path):
     notebook = json.loads((NOTEBOOKS / "documents" / "glossary.ipynb").read_text(encoding="utf-8"))
     source, heading = tmp_path / "source", "3. How does one go back?"
     source.mkdir()
@@ -489,5 +491,5 @@ def test_unreadable_formulas_and_links_are_reported(tmp_path):
     assert re.search(r"index\.ipynb.*nonsense", said) and re.search(r"other.*nowhere", said)
     assert back not in said and str(tmp_path) not in said
     page = Parsed((tmp_path / "made" / "index.html").read_text(encoding="utf-8"))
-    assert back in page.ids, "as in JupyterLab"
+    assert back in page.ids, "the same anchor as in JupyterLab"
     assert "here" in page.text and "nonsense" not in page.text

@@ -39,10 +39,10 @@ six = pytest.mark.parametrize("machine", SIX, ids=repr)
 
 
 def solved(arm, T, rows):
-    """Check that every existing row reaches the pose within 1e-12 of the reach, and that the others
-    are NaN throughout.
+    """Check that every existing row reaches the pose within 1e-12 of the reach, and that the other
+    rows are NaN throughout.
 
-    Returns which rows exist.
+    Return which rows exist.
     """
     exists = np.isfinite(rows).all(axis=-1)
     assert (exists == np.isfinite(rows).any(axis=-1)).all()
@@ -54,8 +54,8 @@ def solved(arm, T, rows):
 
 
 def expected(machine, T):
-    """Which rows must exist, from distances alone: (..., 8) bool, and the distance from the border
-    of existence.
+    """Which rows must exist, decided from distances alone, (..., 8) bool, and the distance of each
+    from the border of existence.
     """
     w = machine.wrist
     centre = T.translation - w["tool"] * T.rotation.as_matrix()[..., 2]
@@ -73,7 +73,7 @@ def expected(machine, T):
 
 
 def flags(machine, q):
-    """The configuration of q by the documents' own rules, from frames and signs."""
+    """The configuration of q according to the documents' own rules, from frames and signs."""
     arm = machine.arm
     frames = arm.frames(q)
     centre = (
@@ -91,7 +91,7 @@ def flags(machine, q):
 
 
 @machines
-def test_20000_random_poses(machine):
+def test_20000_random_poses_have_exactly_their_rows(machine):
     arm = machine.arm
     q = random_joints(arm, np.random.default_rng(4), (20_000,))
     T = arm.fk(q)
@@ -110,7 +110,7 @@ def test_20000_random_poses(machine):
 
 
 @six
-def test_poses_pushed_out_of_the_workspace(machine):
+def test_poses_moved_out_of_the_workspace_lose_their_rows(machine):
     arm = machine.arm
     rng = np.random.default_rng(5)
     T = arm.fk(random_joints(arm, rng, (5000,)))
@@ -148,8 +148,10 @@ def test_a_long_batch_gives_the_rows_of_its_poses():
 
 @six
 @pytest.mark.parametrize("bend", [0.0, 1e-12, 1e-9, 1e-6, np.pi, np.pi - 1e-9, -np.pi, -1e-9])
-def test_wrist_singular_poses(machine, bend):
-    """The whole orientation is right and only q4 + q6 (q4 - q6 at pi) is fixed. Errata S1-d."""
+def test_rows_at_wrist_singular_poses_are_correct(machine, bend):
+    """The whole orientation is correct, and only q4 + q6 (q4 - q6 at pi) is determined. Errata
+    S1-d.
+    """
     arm = machine.arm
     q = random_joints(arm, np.random.default_rng(8), (500,))
     q[:, 4] = bend
@@ -173,7 +175,7 @@ def test_wrist_singular_poses(machine, bend):
         # bends the wrist.
         assert (row[:, 3] == 0).mean() > 0.98
         assert turns(row[:, 4], bend).max() < 1e-8
-        assert (exists.sum(1) % 4 == 0).all()  # both rows of the wrist, although they coincide
+        assert (exists.sum(1) % 4 == 0).all()  # both wrist rows exist, although they coincide
         settled = arm.geometry.choose_free_joints(row, q)
         assert np.quantile(turns(settled, q).max(-1), 0.995) < 1e-8
         assert rotation_gap(arm.fk(settled), T).max() < 1e-9
@@ -187,7 +189,7 @@ def test_home_has_all_its_rows(machine):
     T = arm.fk(np.zeros(6))
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
-    # there the arm is stretched: see below
+    # the ITMO6R is stretched at home: see below
     assert (exists == expected(machine, T)[0]).all() or arm is ITMO6R
     assert abs(rows[exists]).max(-1).min() < 1e-7
 
@@ -200,7 +202,7 @@ def test_the_irb140_has_eight_rows_at_home_seven_of_them_different():
 
 
 def stretched(machine, count, rng, folded=False):
-    """Poses with the forearm in line with the upper arm, or folded back on it."""
+    """Postures with the forearm in line with the upper arm, or folded back onto it."""
     q = random_joints(machine.arm, rng, (count,))
     line = {"IRB-140": np.pi / 2, "PUMA 560": -np.arctan2(0.4318, 0.0203), "DH arm (004)": 0.0}[
         machine.arm.name
@@ -212,7 +214,9 @@ def stretched(machine, count, rng, folded=False):
 @six
 @pytest.mark.parametrize("folded", [False, True])
 def test_stretched_and_folded_postures_are_reachable(machine, folded):
-    """A cosine above 1 by rounding counts as 1. The two elbow rows coincide, and both exist."""
+    """A cosine above 1 by a rounding error counts as 1. The two elbow rows coincide, and both
+    exist.
+    """
     arm = machine.arm
     if arm is IRB140:
         folded = not folded  # at q3 = 90 degrees the forearm points back down the upper arm
@@ -231,7 +235,9 @@ def test_stretched_and_folded_postures_are_reachable(machine, folded):
 
 @six
 def test_pose_slightly_beyond_the_stretched_arm_is_out_of_reach(machine):
-    """A pose 1e-9 of the reach outside is outside, and 1e-9 inside is inside."""
+    """A pose 1e-9 of the reach beyond the border is out of reach, and one 1e-9 inside it is within
+    reach.
+    """
     arm, w = machine.arm, machine.wrist
     q = stretched(machine, 200, np.random.default_rng(10), folded=arm is IRB140)
     T = arm.fk(q)
@@ -250,8 +256,8 @@ def test_pose_slightly_beyond_the_stretched_arm_is_out_of_reach(machine):
 
 
 def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
-    """Errata S1-c: its arcsine loses the obtuse shoulder, all and only where d < sqrt(l3^2 - l2^2)
-    = 147.986 mm.
+    """Errata S1-c: the printed arcsine loses the obtuse shoulder angle exactly where d < sqrt(l3^2
+    - l2^2) = 147.986 mm.
     """
     edge = np.sqrt(0.38**2 - 0.35**2)
     assert abs(edge / mm - 147.986485869) < 1e-9
@@ -268,7 +274,7 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
     rows = IRB140.ik(T)
     solved(IRB140, T, rows)
     assert np.nanmin(gap(IRB140, rows, q[:, None]).max(-1), axis=1).max() < 1e-7
-    # The line of listing 1, with its own names:
+    # The line of listing 1, with the listing's names:
     triangle_angle = np.arcsin(np.clip(0.38 * front * np.sin(q[:, 2] - np.pi / 2) / d, -1, 1))
     lift_angle = np.arctan2(centre[:, 2] - 0.352, rho - front * 0.07)
     printed = -front * (np.pi / 2 + triangle_angle - lift_angle)
@@ -280,9 +286,9 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
 
 
 @pytest.mark.parametrize("machine", [m for m in SIX if not m.wrist["lateral"]], ids=repr)
-def test_shoulder_singular_poses(machine):
-    """No lateral offset and the wrist centre on axis 1: joint 1 is free, 0 in front and pi
-    behind.
+def test_joint_1_is_free_at_shoulder_singular_poses(machine):
+    """The arm has no lateral offset, and the wrist centre is on axis 1: joint 1 is 0 in the front
+    rows and pi in the rows behind.
     """
     arm, w = machine.arm, machine.wrist
     rng = np.random.default_rng(12)
@@ -303,8 +309,8 @@ def test_shoulder_singular_poses(machine):
 
 
 def test_the_pumas_shoulder_rows_meet_where_its_wrist_touches_the_cylinder():
-    """Its wrist centre cannot come nearer to axis 1 than d3; there front and back coincide, and the
-    row is repeated.
+    """The PUMA's wrist centre cannot come nearer to axis 1 than d3; at that distance front and back
+    coincide, and the row is repeated.
     """
     rng = np.random.default_rng(13)
     d3 = 0.15005
@@ -334,7 +340,7 @@ def test_the_pumas_shoulder_rows_meet_where_its_wrist_touches_the_cylinder():
 
 
 @six
-def test_limit_poses_and_whole_turns(machine):
+def test_poses_at_limits_and_whole_turns_have_their_rows(machine):
     arm = machine.arm
     rng = np.random.default_rng(14)
     q = rng.uniform(arm.limits[:, 0], arm.limits[:, 1], (1200, 6))
@@ -344,14 +350,14 @@ def test_limit_poses_and_whole_turns(machine):
     T = arm.fk(q)
     rows = arm.ik(T)
     solved(arm, T, rows)
-    # one arm's limit of joint 5 is a wrist singularity
+    # for one arm the limit of joint 5 is a wrist singularity
     rows = arm.geometry.choose_free_joints(rows, q[:, None] + 0 * rows)
     assert np.nanmin(gap(arm, rows, q[:, None]).max(-1), axis=1).max() < 1e-7
 
 
-def test_equal_levers_folded_on_the_shoulder():
-    """The wrist centre is at joint 2, which only equal links reach: joint 2 is free, and no row is
-    partly NaN.
+def test_joint_2_is_free_where_equal_levers_fold_onto_the_shoulder():
+    """The wrist centre is at joint 2, which only equal links can reach: joint 2 is free, and no row
+    is partly NaN.
     """
     arm = itmo_arm(0.1, 0.2, 0.2, 0.05)
     q = random_joints(arm, np.random.default_rng(15), (200,))
@@ -362,7 +368,7 @@ def test_equal_levers_folded_on_the_shoulder():
 
 
 @machines
-def test_sign_at_zero_gives_finite_rows(machine):
+def test_negative_zero_in_a_pose_gives_finite_rows(machine):
     """-0.0 and +0.0 in a pose are the same position."""
     arm = machine.arm
     T = arm.fk(np.zeros(len(arm.links)))
@@ -379,7 +385,7 @@ def test_sign_at_zero_gives_finite_rows(machine):
 
 
 def compare(arm, case, unit=1.0):
-    """One reference case: exactly its rows, in their places by flags."""
+    """Check one reference case: exactly its rows exist, in the places that their flags give."""
     T = transform(case["T"], unit)
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
@@ -394,7 +400,7 @@ def compare(arm, case, unit=1.0):
         assert sorted(places) == np.flatnonzero(exists).tolist()
         for place, q in zip(places, wanted, strict=True):
             assert turns(rows[place], q).max() < atol
-    else:  # a coinciding row is in each of its places
+    else:  # coinciding rows are in all of their places
         for shoulder, elbow, _ in {tuple(arm.branches[i]) for i in np.flatnonzero(exists)}:
             assert exists[[arm.branch(shoulder, elbow, 1), arm.branch(shoulder, elbow, -1)]].all()
     return rows
@@ -410,11 +416,11 @@ for case in oracle("itmo6r")["cases"]:
     CASES,
     ids=[f"{arm.name}-{i}-{case['kind']}" for i, (arm, case, _) in enumerate(CASES)],
 )
-def test_reference_case(arm, case, unit):
+def test_rows_equal_the_reference_case(arm, case, unit):
     compare(arm, case, unit)
 
 
-# What is such a wrist
+# Which arms have a spherical wrist
 # -------------------------------------------------------------------------------------------------
 
 
@@ -456,7 +462,7 @@ def test_unsuitable_chains_are_refused_with_the_axis(links, message):
 
 
 def random_arm(rng):
-    """A six-axis arm with any signs, offsets and tool that `spherical_wrist` promises to take."""
+    """A six-axis arm with any signs, offsets and tool that `spherical_wrist` promises to accept."""
     sign = rng.choice([-1.0, 1.0], 6)
     lateral = rng.choice([0.0, 0.12, -0.2])
     heel, bow = rng.choice([0.0, 0.05, -0.04], 2)
@@ -482,7 +488,7 @@ def random_arm(rng):
 
 @pytest.mark.parametrize("seed", range(40))
 def test_every_suitable_chain_is_inverted(seed):
-    """Signs, offsets, a bent forearm, a tilted wrist, any tool: all are data."""
+    """Signs, offsets, a bent forearm, a tilted wrist and the tool differ from arm to arm."""
     rng = np.random.default_rng(seed)
     arm = random_arm(rng)
     q = rng.uniform(-np.pi, np.pi, (200, 6))
@@ -501,7 +507,7 @@ def test_every_suitable_chain_is_inverted(seed):
     solved(arm, T, arm.ik(T))
 
 
-def test_dh_table_gives_the_same_arm():
+def test_dh_table_and_links_give_the_same_arm():
     links = dh_links(
         a=[0, 0.1, 0, 0, 0, 0],
         alpha=np.array([90, 0, 90, -90, 90, 0]) * deg,
@@ -519,7 +525,7 @@ def _unit(v):
 
 def test_each_singularity_depends_on_its_own_joints():
     """Joint 5 alone for the wrist, joint 3 for the elbow, joints 2 and 3 for the shoulder."""
-    stretched = -90 * deg  # of the IRB-140: the forearm straight up
+    stretched = -90 * deg  # the forearm of the IRB-140 points straight up
     for q, wanted in (
         ([0.3, 0.2, 0.4, 0.5, 0.0, 0.7], {"wrist"}),
         ([0.3, 0.2, 0.4, 0.5, np.pi, 0.7], {"wrist"}),
@@ -531,7 +537,8 @@ def test_each_singularity_depends_on_its_own_joints():
     ):
         held = IRB140.geometry.singularities(np.array(q))
         assert {name for name, holds in held.items() if holds} == wanted, q
-    # The wrist centre over axis 1: 70 mm ahead plus upper arm and forearm cancel.
+    # The wrist centre is on axis 1: the offset of 70 mm and the horizontal parts of the upper arm
+    # and the forearm cancel.
     q2 = np.arcsin(0.07 / 0.35)
     q = np.array([0.5, q2, q2 - 90 * deg, 0.4, 0.6, 0.1])
     centre = IRB140.frames(q)[4].translation

@@ -37,8 +37,8 @@ from robokin.jobs.steppers import (
 CASES = [case for case in oracle("loader_arm")["cases"] if case["reachable"]]
 ARM = loader_arm(1.2, 1.0)
 PER_DEGREE = np.array([10.0, 20.0, 20.0])
-B = ((1.3, -0.9, 1.2), (-0.1, -0.2, 0.9))  # straight, and no motor turns back
-C = ((1.2, -1.0, 0.3), (0.4, 1.2, 0.3))  # straight, and two motors do
+B = ((1.3, -0.9, 1.2), (-0.1, -0.2, 0.9))  # a straight path, and no motor turns back
+C = ((1.2, -1.0, 0.3), (0.4, 1.2, 0.3))  # a straight path, and two motors turn back
 RANDOM = np.random.default_rng(8).integers(-3000, 3000, (40, 2, 3))
 PAIRS = [
     *RANDOM,
@@ -56,7 +56,7 @@ def moves():
     for points in (B, C):
         yield "straight", straight(ARM, *points, PER_DEGREE)
     rng = np.random.default_rng(9)
-    for _ in range(20):  # above the hole round joint 2
+    for _ in range(20):  # above the hole around joint 2
         start, goal = rng.uniform((-1.1, -1.1, 0.5), (1.1, 1.1, 1.2), (2, 3))
         yield "straight", straight(ARM, start, goal, PER_DEGREE)
 
@@ -77,11 +77,11 @@ def test_no_rounding_adds_up_over_10_000_moves():
     pulses = np.diff(counts(q, per_degree), axis=0)
     assert pulses.dtype.kind == "i"
     exact = (q - q[0]) / deg * per_degree
-    # half a pulse at the start, half at the station
+    # half a pulse of error at the start and half a pulse at the station
     assert abs(np.cumsum(pulses, axis=0) - exact[1:]).max() <= 1
     there_and_back = np.tile([[0.0], [1 / 3 * deg]], (5000, 1))
     assert np.diff(counts(there_and_back, 1.3), axis=0).sum() == 0
-    # each move alone is 0.37 pulses, and rounds to none
+    # each move is 0.37 pulses and, taken alone, rounds to 0
     steps = np.arange(10_001)[:, None] * 0.037 * deg
     assert np.diff(counts(steps, 10.0), axis=0).sum() == 3700
 
@@ -96,7 +96,7 @@ def test_counts_and_joint_values_are_inverse():
     assert (abs(joint_values(counts(q, PER_DEGREE), PER_DEGREE) - q) <= half + 1e-12).all()
 
 
-def test_positions_beyond_exact_floats_are_refused():
+def test_positions_too_large_for_exact_floats_are_refused():
     assert counts([4.0], [2**52 / (4 / deg)]).tolist() == [2**52]
     for q, per_degree in (([4.0], [2**53 / (4 / deg)]), ([1.0], [1e300]), ([-4.0], [1e17])):
         with pytest.raises(ValueError, match=r"q: wanted at most 2\*\*52 pulses"):
@@ -110,7 +110,7 @@ def test_positions_beyond_exact_floats_are_refused():
         joint_values([1e300], 1e-300)
 
 
-def test_degrees_cause_a_hint():
+def test_angles_in_degrees_cause_a_warning():
     with pytest.warns(UserWarning, match="q: 120 rad .*degrees") as caught:
         assert counts([100.0, 110.0, 120.0], 1.0).shape == (3,)
     assert caught[0].filename == __file__
@@ -120,7 +120,7 @@ def test_degrees_cause_a_hint():
 
 
 @pytest.mark.parametrize("case", CASES, ids=[str(i) for i in range(len(CASES))])
-def test_frequencies_and_times_of_the_reference_cases(case):
+def test_frequencies_and_times_equal_the_reference_cases(case):
     assert frequencies(case["pulses"]) == pytest.approx(case["frequencies"], rel=1e-12)
     move = synchronised(np.zeros(3), case["pulses"])
     assert move.duration == pytest.approx(case["time"], rel=1e-12)
@@ -130,7 +130,7 @@ def test_frequencies_and_times_of_the_reference_cases(case):
 @pytest.mark.parametrize(
     "phi", [(1000, 500, 250), (3, 3, 3), (1, 1999, 77), (0, 400, 100), (0, 0, 9)]
 )
-def test_the_corrected_linear_program_has_this_solution(phi):
+def test_frequencies_solve_the_corrected_linear_program(phi):
     p1, p2, p3 = phi
     same_time = [[p2, -p1, 0], [p3, 0, -p1], [0, p3, -p2]]  # omega1 phi2 = omega2 phi1, and so on
     best = linprog(-np.array(phi, float), A_eq=same_time, b_eq=[0, 0, 0], bounds=[(0, LIMIT)] * 3)
@@ -151,7 +151,7 @@ def test_the_printed_conditions_make_the_longest_motor_the_slowest():
     ) == pytest.approx([2, 2, 2])
 
 
-def test_frequencies_of_a_batch_and_of_nothing():
+def test_frequencies_accept_a_batch_and_motors_at_rest():
     batch = frequencies([[[100, -50]], [[0, 0]]], limit=200)
     assert batch.tolist() == [[[200, 100]], [[0, 0]]]
 
@@ -173,9 +173,9 @@ def test_pulses_add_up_to_the_move(kind, move):
 def test_the_frequency_limit_is_kept(kind, move):
     for times, _ in move.pulses():
         assert (np.diff(times) >= (1 - 1e-6) / LIMIT).all()
-        assert (times >= (1 - 1e-6) / LIMIT).all()  # and so from one move to the next
+        assert (times >= (1 - 1e-6) / LIMIT).all()  # the limit is also kept from move to move
     if len(move.t) > 1:
-        assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)  # and always used
+        assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)  # and reached
 
 
 @every_move
@@ -234,10 +234,10 @@ def test_only_the_straight_move_is_straight(points):
         assert np.linalg.norm(path[-1] - points[1]) < 2e-3
     step = 3 * 0.5 * (1 / PER_DEGREE).max() * deg * 2.2  # half a pulse of each motor at full reach
     assert off["b"] < step < min(off["a"], off["d"]) / 5
-    assert b.duration >= d.duration - 1e-12  # nothing that keeps the limit is faster than d
+    assert b.duration >= d.duration - 1e-12  # no move within the limit is faster than d
 
 
-def test_in_c_motors_turn_back_and_in_b_none_does():
+def test_motors_turn_back_in_move_c_and_not_in_move_b():
     for points, turning in ((B, [0, 0, 0]), (C, [0, 1, 1])):
         trains = straight(ARM, *points, PER_DEGREE).pulses()
         assert [(np.diff(signs) != 0).sum() for _, signs in trains] == turning
@@ -245,7 +245,7 @@ def test_in_c_motors_turn_back_and_in_b_none_does():
         assert (made > needed) == any(turning)
 
 
-def test_a_train_with_many_turns():
+def test_pulses_follow_a_motor_that_reverses_repeatedly():
     t = np.array([0, 1, 2, 3, 4, 5, 6, 7.0])
     due = np.array([0, 2.6, 2.6, 2.4, 3.2, -0.5, -0.5, 0])
     times, signs = Move(t, due[:, None]).pulses()[0]
@@ -285,10 +285,10 @@ def test_frequency_limit_can_be_set(limit):
     assert abs(straight(ARM, *B, PER_DEGREE, limit).frequencies).max() == pytest.approx(limit)
 
 
-# ---- a move is data
+# ---- the data of a move
 
 
-def test_moves_are_data():
+def test_moves_are_read_only_data():
     t, positions = np.array([0.0, 1, 3]), np.array([(0, 5), (2.5, 5), (4, 5)])
     move = Move(t, positions)
     assert move.duration == 3 and move.frequencies.tolist() == [[2.5, 0], [0.75, 0]]
@@ -307,13 +307,13 @@ def test_moves_are_data():
 @pytest.mark.parametrize(
     "t, positions, complaint",
     [
-        ([], np.empty((0, 2)), "t: wanted times that rise from 0"),
-        (0.0, [[1]], "t: wanted times that rise from 0"),
-        ([1, 2], [[0], [1]], r"t: wanted times that rise from 0, got \[1.0, 2.0\]"),
-        ([-1, 0], [[0], [1]], "t: wanted times that rise from 0"),
-        ([0, 1, 1], [[0], [1], [2]], "t: wanted times that rise from 0"),
-        ([0, 2, 1], [[0], [1], [2]], "t: wanted times that rise from 0"),
-        ([[0, 1]], [[0], [1]], "t: wanted times that rise from 0"),
+        ([], np.empty((0, 2)), "t: wanted times that increase from 0"),
+        (0.0, [[1]], "t: wanted times that increase from 0"),
+        ([1, 2], [[0], [1]], r"t: wanted times that increase from 0, got \[1.0, 2.0\]"),
+        ([-1, 0], [[0], [1]], "t: wanted times that increase from 0"),
+        ([0, 1, 1], [[0], [1], [2]], "t: wanted times that increase from 0"),
+        ([0, 2, 1], [[0], [1], [2]], "t: wanted times that increase from 0"),
+        ([[0, 1]], [[0], [1]], "t: wanted times that increase from 0"),
         ([0, np.nan], [[0], [1]], "t: wanted finite"),
         ([0, np.inf], [[0], [1]], "t: wanted finite"),
         ("ab", [[0], [1]], "t: wanted numbers"),
@@ -334,11 +334,11 @@ def test_invalid_moves_are_refused(t, positions, complaint):
 
 def test_too_many_pulses_are_refused():
     far = synchronised([0, 0], [10_000_000, 1])
-    with pytest.raises(ValueError, match="at most 10000000 in 100000 .* got one of 10000001 in 1"):
+    with pytest.raises(ValueError, match="at most 10000000 pulses in 100000 .* got 10000001 in 1"):
         far.pulses()
     assert synchronised([0], [9_999]).pulses()[0][1].sum() == 9_999
     t = np.arange(100_002.0)
-    with pytest.raises(ValueError, match="got one of 100001 in 100001"):
+    with pytest.raises(ValueError, match="got 100001 in 100001"):
         Move(t, t[:, None]).pulses()
     assert len(Move(t[:-1], t[:-1, None]).pulses()[0][0]) == 100_000
 
@@ -367,9 +367,9 @@ def test_wrong_arguments_are_refused():
         (lambda: frequencies(3.0), "one number for each motor"),
         (lambda: frequencies([[], []]), r"one number for each motor.*\(2, 0\)"),
         (lambda: frequencies([1], 0), "limit: wanted one positive number"),
-        (lambda: straight(ARM, [B[0]] * 2, B[1], PER_DEGREE), r"start: wanted one .*\(2, 3\)"),
+        (lambda: straight(ARM, [B[0]] * 2, B[1], PER_DEGREE), r"start: wanted a single .*\(2, 3\)"),
         (lambda: straight(ARM, *B, 1e300), r"per_degree: wanted at most 2\*\*52"),
-        (lambda: out_of_reach(ARM, [B[0]] * 2), r"point: wanted one single point \(3,\)"),
+        (lambda: out_of_reach(ARM, [B[0]] * 2), r"point: wanted a single point \(3,\)"),
         (lambda: phases("full", "bipolar"), "drive: wanted one of"),
         (lambda: phases([], "bipolar"), "drive: wanted one of"),
         (lambda: phases("wave", "tripolar"), "motor: wanted one of"),
@@ -381,17 +381,20 @@ def test_wrong_arguments_are_refused():
         (lambda: Stepper(rotor="iron"), "rotor: wanted one of"),
         (lambda: Stepper(windings=2), "windings: wanted"),
         (lambda: Stepper(inertia=0), "inertia: wanted one positive number"),
-        (lambda: Stepper(rise=-1e-3), "rise: wanted no negative number"),
-        (lambda: Stepper().run([2, 1], [1, 1]), "times and signs: wanted times .* not fall"),
+        (lambda: Stepper(rise=-1e-3), "rise: wanted a number that is not negative"),
+        (lambda: Stepper().run([2, 1], [1, 1]), "times and signs: wanted times .* not decrease"),
         (lambda: Stepper().run([-1], [1]), "times and signs: wanted times .* from 0 on"),
         (lambda: Stepper().run([1, 2], [1]), "as many signs"),
         (lambda: Stepper().run([1], [0.5]), r"\+1 and -1"),
         (lambda: Stepper().run([1e4], [1]), "times: wanted a run of at most 100000 steps"),
-        (lambda: Stepper().run([1], [1], load_inertia=-1), "load_inertia: wanted no negative"),
+        (
+            lambda: Stepper().run([1], [1], load_inertia=-1),
+            "load_inertia: wanted a number that is not negative",
+        ),
         (lambda: Stepper().run([1], [1], load=1e300), "load: wanted one that turns"),
         (lambda: ramp(0, 10, 20, 1), "pulses: wanted a whole number from 1 to"),
-        (lambda: ramp(5, 30, 20, 1), "start and end: wanted a frequency that rises, got 30 to 20"),
-        (lambda: ramp(5, 10, 20, -1), "seconds: wanted no negative number"),
+        (lambda: ramp(5, 30, 20, 1), "start and end: wanted start <= end, got 30 and 20"),
+        (lambda: ramp(5, 10, 20, -1), "seconds: wanted a number that is not negative"),
         (lambda: energised(table, [[1]]), r"\+1 and -1"),
         (lambda: energised(table, [1], row=1.5), "row: wanted a whole number.*1.5"),
         (lambda: energised(table, [1], row=True), "row: wanted a whole number.*True"),
@@ -412,11 +415,11 @@ def test_wrong_arguments_are_refused():
 
 
 def printed(text):
-    """A table of the document: + where it has one."""
+    """A table of the document: True where it has a +."""
     return np.array([[mark == "+" for mark in line] for line in text.split()])
 
 
-def test_the_documents_two_tables():
+def test_phases_equal_the_documents_two_tables():
     assert (phases("wave", "unipolar") == printed("+... .+.. ..+. ...+")).all()
     bipolar = phases("two-phase", "bipolar")
     assert ((bipolar == 1) == printed("+.+. .++. .+.+ +..+")).all()
@@ -428,10 +431,10 @@ def test_the_documents_two_tables():
 @pytest.mark.parametrize(
     "drive, angle, windings", [("wave", 90, {1}), ("two-phase", 90, {2}), ("half-step", 45, {1, 2})]
 )
-def test_the_field_turns_on_by_equal_angles(motor, drive, angle, windings):
+def test_the_field_advances_by_equal_angles(motor, drive, angle, windings):
     table = phases(drive, motor)
     # Unipolar: four half windings a quarter of a turn apart, in the order of table 1. Bipolar: two
-    # windings at right angles, the current from the positive end to the negative one.
+    # windings at right angles, with the current from the positive end to the negative one.
     places = np.exp(1j * np.array([0, 90, 180, 270]) * deg)
     if motor == "unipolar":
         assert set(table.ravel()) == {0, 1} and set(table.sum(axis=1)) == windings
@@ -450,10 +453,11 @@ def test_the_field_turns_on_by_equal_angles(motor, drive, angle, windings):
 def test_table_2_with_the_names_of_table_1_would_cancel():
     places = np.exp(1j * np.array([0, 90, 180, 270]) * deg)
     field = printed("+.+. .++. .+.+ +..+") @ places
-    assert abs(field) == pytest.approx([0, np.sqrt(2), 0, np.sqrt(2)])  # a1 with a2, and b1 with b2
+    # in rows 1 and 3, a1 cancels a2 or b1 cancels b2
+    assert abs(field) == pytest.approx([0, np.sqrt(2), 0, np.sqrt(2)])
 
 
-def test_the_order_of_the_rows_is_the_direction():
+def test_the_order_of_the_rows_gives_the_direction():
     table = phases("wave", "unipolar")
     assert (energised(table, [1, 1, 1, 1]) == table[[0, 1, 2, 3, 0]]).all()
     assert (energised(table, [-1, -1, 1]) == table[[0, 3, 2, 3]]).all()
@@ -484,8 +488,8 @@ STARTS = Stepper()  # the motor of table 1
 
 
 def places(motor):
-    """The direction of each winding's pull: evenly around the ring, or half of it for bipolar
-    currents.
+    """The direction in which each winding pulls: evenly spread around the ring, or around half of
+    it for bipolar currents.
     """
     whole_turn = 180 if motor.motor == "bipolar" else 360
     return np.arange(motor.windings) * whole_turn / motor.windings * deg
@@ -512,10 +516,10 @@ def test_the_field_of_any_number_of_windings_turns_evenly(motor):
 
 
 @every_motor
-def test_the_step_is_a_turn_by_phases_and_teeth(motor):
+def test_the_step_follows_from_windings_poles_and_teeth(motor):
     step = motor.step / deg
     halves = 2 if motor.drive == "half-step" else 1
-    if motor.rotor == "active":  # a magnet of two poles; 003, II.3.1: 10 degrees and more
+    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees and more
         poles = 2 if motor.motor == "bipolar" else 1
         assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
     else:
@@ -525,13 +529,13 @@ def test_the_step_is_a_turn_by_phases_and_teeth(motor):
         assert step < 10 or motor.windings == 3
 
 
-def test_steps_of_passive_rotors_are_the_documents():
+def test_steps_of_passive_rotors_are_in_the_documents_range():
     steps = [Stepper("passive", windings=n, drive=d).step / deg for n in (4, 5, 6) for d in DRIVES]
     assert min(steps) >= 1 and max(steps) <= 9 + 1e-9
 
 
 @pytest.mark.parametrize("motor, strong", [("unipolar", 4), ("bipolar", 2)])
-def test_two_windings_hold_sqrt_2_times_the_torque(motor, strong):
+def test_two_windings_hold_sqrt_2_times_the_torque_of_one(motor, strong):
     one, two, half = (Stepper("active", motor, strong, d).holding_torque for d in DRIVES)
     assert two == pytest.approx(math.sqrt(2) * one) and half == one == Stepper().torque
 
@@ -540,7 +544,7 @@ def test_two_windings_hold_sqrt_2_times_the_torque(motor, strong):
 def test_motor_holds_exactly_up_to_its_holding_torque(motor):
     below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
     assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
-    # the load has pulled it back to the maximum of the sine
+    # the load has pulled the rotor back almost to the maximum of the sine
     bent = motor.periods * (motor.run([], []).angle[0] - below.angle[0])
     assert np.sin(bent) == pytest.approx(
         0.99 * motor.holding_torque / motor.torque / abs(motor.pulls[0])
@@ -560,8 +564,9 @@ def test_motor_moves_exactly_up_to_its_starting_torque(motor):
 
 @pytest.mark.parametrize("count", [2, 4, 6])
 def test_a_rotor_swings_like_a_pendulum(count):
-    # Half steps: 45, 22.5 and 15 degrees of the field. The period of a pendulum is known for every
-    # amplitude: 4 K(sin(A/2)) / omega; towards small ones 2 pi / omega, omega^2 = N T / J.
+    # Half steps turn the field by 45, 22.5 and 15 degrees. The period of a pendulum is known for
+    # every amplitude A: 4 K(sin(A/2)) / omega, and 2 pi / omega for small A, where omega^2 = N T /
+    # J.
     motor = Stepper("active", "bipolar", count, "half-step", damping=5e-7, rise=0.0)
     run = motor.run([0.0], [1])
     off = run.angle - run.due
@@ -588,7 +593,8 @@ def test_run_equals_scipy_integration(name):
     motor, frequency, load, load_inertia = RUNS[name]
     t, signs = even(12, frequency)
     run = motor.run(t, signs, load, load_inertia)
-    # The model written again: one sine for each winding, and separate equations for the currents.
+    # The same model, written independently: one sine for each winding, and separate equations for
+    # the currents.
     at, inertia = places(motor), motor.inertia + load_inertia
     table = phases(motor.drive, motor.motor, motor.windings)
     table = table[:, ::2] if motor.motor == "bipolar" else table
@@ -623,7 +629,7 @@ def test_run_equals_scipy_integration(name):
 
 
 @every_motor
-def test_steps_are_lost_in_multiples_of_the_table(motor):
+def test_lost_steps_are_multiples_of_the_length_of_the_table(motor):
     motor = replace(motor, rise=0.0)
     lost = [motor.run(*even(24, f), load_inertia=3e-5).lost for f in (60, 250, 480)]
     assert all(n % len(motor.currents) == 0 for n in lost) and any(lost)
@@ -644,8 +650,8 @@ def test_start_frequency_is_the_limit_of_lossless_starts():
     assert sorted(tops, reverse=True) == tops and len(set(tops)) == 2
 
 
-def test_four_times_the_inertia_halves_the_oscillation():
-    # the same equation in another time, so the same angles
+def test_four_times_the_inertia_halves_the_frequency():
+    # the same equation on a different time scale, so the same angles
     heavy = replace(STARTS, damping=2 * STARTS.damping, rise=2 * STARTS.rise)
     for frequency in (100, 180):
         one = STARTS.run(*even(20, frequency))
@@ -653,7 +659,7 @@ def test_four_times_the_inertia_halves_the_oscillation():
         assert two.t == pytest.approx(2 * one.t) and two.lost == one.lost
         assert two.angle == pytest.approx(one.angle, abs=1e-6)
     assert one.lost
-    assert one in [one] and one != replace(one)  # arrays in a `==` would have two answers
+    assert one in [one] and one != replace(one)  # comparing arrays would raise
 
 
 def test_reverse_run_is_the_mirror_image():
@@ -665,13 +671,15 @@ def test_reverse_run_is_the_mirror_image():
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_a_rotor_is_refused_where_load_or_torque_turn_it_too_fast(sign):
+def test_load_or_torque_that_turns_the_rotor_too_fast_is_refused(sign):
     """The final speed under a torque T is T / damping. Both torques count, whichever way the load
     pulls, and the message names the one that is too large.
     """
     motor = Stepper(torque=1e3, damping=2, inertia=1e-3, rise=0)
     assert motor.run([1e-3], [1], load=2 * sign * FASTEST).lost != 0
-    with pytest.raises(ValueError, match=r"^load: wanted one that turns the rotor at 1e"):
+    with pytest.raises(
+        ValueError, match=r"^load: wanted one that turns the rotor at no more than 1e"
+    ):
         motor.run([1e-3], [1], load=2.002 * sign * FASTEST)
     strong = {"damping": 1, "inertia": 1e-9, "rise": 0}
     assert Stepper(torque=FASTEST, **strong).run([1e-9], [1], load=sign).lost == 0
@@ -683,14 +691,14 @@ def test_ramp_reaches_frequencies_above_the_start_frequency():
     motor = Stepper(drive="two-phase")
     assert motor.run(*even(48, 200), load_inertia=1e-6).lost == 48
     assert motor.run(ramp(48, 40, 200, 0.15), np.ones(48), load_inertia=1e-6).lost == 0
-    # too short a ramp loses some of them
+    # a ramp that is too short loses some steps
     assert 0 < motor.run(ramp(48, 40, 200, 0.05), np.ones(48), load_inertia=1e-6).lost < 48
 
 
 @pytest.mark.parametrize(
     "asked", [(48, 40, 200, 0.15), (20, 50, 400, 0.3), (1, 10, 90, 2), (7, 5, 9, 0)]
 )
-def test_a_ramp_has_as_many_pulses_as_its_frequencies_add_up_to(asked):
+def test_number_of_pulses_of_a_ramp_is_the_integral_of_its_frequency(asked):
     count, start, end, seconds = asked
     times = ramp(*asked)
     duration = times[-1]

@@ -1,5 +1,5 @@
-"""`python -m robokin.course summary`: the teacher's table, compared with one counted here.
-test_summary_attacked.py has attacks by students.
+"""`python -m robokin.course summary`: the teacher's table, compared with a count made here.
+test_summary_attacked.py has the attacks by students.
 """
 
 import functools
@@ -77,10 +77,10 @@ def question(name):
 
 
 def words(name, choice):
-    """A guess as the lab's own page would say it."""
+    """A guess in the words of the lab's own page."""
     asked = course.predict(name)
     if choice is None or asked.unit:
-        return choice or ""  # "b" is no number
+        return choice or ""  # "b" is not a number
     return f"{choice}) {asked.options['abcd'.index(choice)].text}".replace("`", "")
 
 
@@ -94,7 +94,7 @@ def test_table_lists_handed_in_work(handed, tmp_path, capsys):
     left_out = {
         "student 29/report.html": ("student 29", "a report that cannot be read"),
         "student 3/03_irb140_motion.ipynb": ("student 3", "not a notebook"),
-        "student 5/other.HTML": ("student 5", "a page that is no report"),
+        "student 5/other.HTML": ("student 5", "a page that is not a report"),
         "student 6/notes.ipynb": ("student 6", f"a notebook without a known exercise. {book.MORE}"),
     }
     rows = table_in(tmp_path)
@@ -163,7 +163,7 @@ def test_mistakes_confusions_and_results_are_counted(handed, tmp_path):
         lab = book.titled(name.partition(".")[0]).capitalize()
         assert [f"{lab}: {question(name)}", what] in [row[:2] for row in rows]
     figures = iter(rows_of(page, "class"))
-    for slug in SLUGS:  # each exercise has an objective of its own
+    for slug in SLUGS:  # each exercise has its own objective
         students = sum(data["lab"] == slug for data in drawn.values())
         for n, exercise in book.lab(slug).exercises.items():
             head, holds, *_, task = next(figures)
@@ -243,7 +243,7 @@ def test_points_can_be_hidden_and_missing_guesses_are_reported(tmp_path):
     assert cells[1][-2].startswith("1 right of 1 made")
 
 
-def test_foreign_files_are_not_overwritten(handed, tmp_path):
+def test_other_files_are_not_overwritten(handed, tmp_path):
     folder, _ = handed
     made = summary.Summary()
     table, page = summary_pages.write(made, tmp_path)
@@ -265,8 +265,8 @@ def test_foreign_files_are_not_overwritten(handed, tmp_path):
         summary_pages.write(made, tmp_path / "none")
 
 
-def test_student_pages_keep_foreign_files(tmp_path, capsys):
-    """The folder of handed-in work is also the output folder, as in README."""
+def test_student_pages_do_not_overwrite_other_files(tmp_path, capsys):
+    """The folder of handed-in work is also the output folder, as in the README."""
     for who in ("Ada B", "ada_b", "Zoë"):
         put(tmp_path / f"{who}.html", report_of(who))
     put(tmp_path / "summary_pages" / f"{SLUG}_Zoë.html", "mine")
@@ -348,8 +348,8 @@ def test_table_has_all_students_and_labs(tmp_path):
 
 
 def test_the_same_page_in_several_folders_counts_once(tmp_path):
-    """The one in the folder with the student's name, otherwise the first; the others say which one
-    it is.
+    """The page in the folder with the student's name counts, or else the first one; the reasons for
+    the others name the page that counts.
     """
     for folder in ("Bob", "Ada_123_file/lab", "Adam", "Zoë"):
         put(tmp_path / folder / "lab.html", report_of("Ada"))
@@ -372,7 +372,7 @@ def test_the_same_page_in_several_folders_counts_once(tmp_path):
         "Bob/lab.html": ("Bob", same(counts["Ada"])),
         "Zoë/lab.html": ("Zoë", same(counts["Ada"])),
         "Carl/lab of Eve.html": ("Carl", same(counts["Eve"])),
-        "Carl/other.html": ("Eve", f"{counts['Eve']} of Eve for {SLUG} is as new and counts"),
+        "Carl/other.html": ("Eve", f"{counts['Eve']} of Eve for {SLUG} is equally new and counts"),
         "b.html": ("../x", same("a.html")),
         "lab.html": ("Ada", f"{counts['Ada']} of Ada for {SLUG} is newer and counts"),
     }
@@ -424,7 +424,7 @@ def test_notebooks_are_judged_in_parallel_in_any_order(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("cores", "free", "wanted"), [(8, 33, 8), (8, 9, 2), (2, 33, 2), (8, 1, 1), (1, 33, 1)]
 )
-def test_number_of_parallel_notebooks(cores, free, wanted, monkeypatch):
+def test_number_of_parallel_notebooks_depends_on_cores_and_memory(cores, free, wanted, monkeypatch):
     memory = type("Memory", (), {"available": free * 2**30})
     monkeypatch.setattr(summary.psutil, "virtual_memory", lambda: memory)
     monkeypatch.setattr(os, "sched_getaffinity", lambda of: range(cores), raising=False)
@@ -486,6 +486,6 @@ def test_terminal_shows_progress_on_one_line(tmp_path, monkeypatch, capsys):
         (f"{'x' * 250}/x.ipynb", "x" * 200),
     ],
 )
-def test_student_of_a_notebook(path, who):
+def test_path_of_a_notebook_gives_its_student(path, who):
     made = summary.who_of(Path(path))
     assert made == who and normalised(made)

@@ -1,5 +1,5 @@
-"""Anything that a student could put into a report, a name or a folder: the teacher's table accepts
-it, or reports it with a reason; neither a browser nor a spreadsheet runs it.
+"""Whatever a student puts into a report, a name or a folder, the teacher's table accepts it or
+reports it with a reason; neither a browser nor a spreadsheet runs it.
 """
 
 import csv
@@ -19,7 +19,8 @@ from robokin.course import summary, summary_pages
 from robokin.course.__main__ import main
 from robokin.course.reported import report_data
 
-# A handed-in value and its text in a cell. SERVER: a server that must never get a request.
+# value handed in -> its text in a cell (None: the value itself). SERVER stands for the address of a
+# server that must never get a request.
 HOSTILE = {
     "<script>window.ran = 1</script>": None,
     "</script><script>fetch('SERVER')</script>": None,
@@ -43,7 +44,7 @@ HOSTILE = {
     "<details open ontoggle=window.ran=1>": None,
     "&lt;b&gt; &amp; &#60;script&#62;": None,
     "{{ 7 * 7 }} {% raw %} ${7*7}": None,
-    "`<img src=x onerror=window.ran=1>`": "<img src=x onerror=window.ran=1>",  # code, or a name
+    "`<img src=x onerror=window.ran=1>`": "<img src=x onerror=window.ran=1>",  # shown as code
     "javascript:window.ran=1": None,
     '=HYPERLINK("SERVER";"holds")': None,
     "=cmd|' /C calc'!A0": None,
@@ -60,7 +61,7 @@ HOSTILE = {
     "half \ud83d of a pair": r"half \ud83d of a pair",
     "tag \U000e0041": r"tag \U000e0041",
     "z\u0335\u0321\u0300" * 20: None,
-    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs its joiner
+    "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645": None,  # needs its zero-width non-joiner
     "../../summary": None,
     "CON": None,
 }
@@ -84,7 +85,7 @@ SEEN = """() => {
 
 @pytest.fixture
 def server():
-    """Its address, and what it was asked for."""
+    """The address of a server, and the list of the requests it got."""
     asked = []
 
     class Handler(BaseHTTPRequestHandler):
@@ -117,7 +118,7 @@ def attacked(folder, values):
             each |= {"mistake": value, "says": [value], "case": value}
         for each in data["predictions"]:
             each |= {"choice": value, "right": False, "confusion": value, "later": [value]}
-        name = value if os.name != "nt" else ""  # Windows allows few of them
+        name = value if os.name != "nt" else ""  # Windows allows few such names
         name = name.replace("/", "\u2215").replace("\0", "").encode(errors="ignore")[:200]
         put(folder / str(k) / f"_{name.decode(errors='ignore')}.html", data)
 
@@ -162,7 +163,8 @@ def test_student_text_never_runs(browser, server, tmp_path):
         assert [text.replace("`", "") for text in found["remarks"]] == [shown] * 2
         assert found["colours"] == [red] and not found["odd"] and not found["ran"]
     assert all(url.startswith("file:") for url in requests) and asked == [] == said
-    # the second protection: if something gets into the page, it sends no request and does not run
+    # the second line of defence: something that gets into the page sends no request and does not
+    # run
     view.goto((tmp_path / "summary.html").as_uri())
     hole = f"<img src='{address}/hole.png' onerror='window.ran=1'><link rel=stylesheet href='"
     hole += f"{address}/hole.css'><style>.not {{ color: green }}</style>"
@@ -177,7 +179,7 @@ def test_student_text_never_runs(browser, server, tmp_path):
     until = time.monotonic() + 20
     while len(asked) < 2 and time.monotonic() < until:
         view.wait_for_timeout(50)
-    assert sorted(asked) == ["/hole.css", "/hole.png"], "this test would not hear a request"
+    assert sorted(asked) == ["/hole.css", "/hole.png"], "this test would not notice a request"
     context.close()
 
 
@@ -214,10 +216,10 @@ def one(data, what, **changes):
 GOOD = report_of("Ada")
 TEXT = json.dumps(GOOD)
 NEVER = "irb140_motion." + "9" * 5000
-BROKEN = {  # file name -> what is in it, and a word of the reason
-    "empty.html": ("", "no report"),
-    "page.html": ("<p>Hello</p>", "no report"),
-    "utf16.html": (page(GOOD).encode("utf-16"), "no report"),
+BROKEN = {  # file name -> (its content, a part of the reason)
+    "empty.html": ("", "not a report"),
+    "page.html": ("<p>Hello</p>", "not a report"),
+    "utf16.html": (page(GOOD).encode("utf-16"), "not a report"),
     "no lab.html": (
         GOOD | {"lab": None, "exercises": [], "predictions": []},
         "without a known exercise",
@@ -238,7 +240,7 @@ BROKEN = {  # file name -> what is in it, and a word of the reason
     "evil id.html": (one(GOOD, "exercises", id=f"{SLUG}.<img src=x>"), "exercises: wanted each"),
     "no entry.html": (GOOD | {"exercises": [None]}, "exercises: wanted each id"),
     "no list.html": (GOOD | {"exercises": {}}, "exercises: wanted a list"),
-    "nobody.html": (GOOD | {"who": None}, "who: wanted a text"),
+    "nobody.html": (GOOD | {"who": None}, "who: wanted a string"),
     "blank.html": (GOOD | {"who": " \u3000"}, "who: wanted a name"),
     "unseen.html": (GOOD | {"who": "\u200c\u200d"}, "who: wanted a name"),
     "long who.html": (GOOD | {"who": "A" * 201}, "at most 200 characters"),
@@ -255,7 +257,7 @@ BROKEN = {  # file name -> what is in it, and a word of the reason
     "state.html": (one(GOOD, "exercises", state="perfect"), "state: wanted"),
     "odd state.html": (one(GOOD, "exercises", state=["holds"]), "state: wanted"),
     "says.html": (one(GOOD, "exercises", says={}), "says: wanted a list"),
-    "mistake.html": (one(GOOD, "exercises", mistake=5), "mistake: wanted a text"),
+    "mistake.html": (one(GOOD, "exercises", mistake=5), "mistake: wanted a string"),
     "right.html": (one(GOOD, "predictions", choice="a", right=1), "right: wanted one"),
     "no choice.html": (one(GOOD, "predictions", right=True), "for the choice None"),
     "remarks.html": (GOOD | {"remarks": ["x"] * 201}, "at most 200 entries"),
@@ -265,10 +267,10 @@ BROKEN = {  # file name -> what is in it, and a word of the reason
     "bytes.ipynb": (bytes(range(256)), "not a notebook"),
     "many.ipynb": ('{"cells": [], "metadata": {}, "nbformat": 99, "nbformat_minor": 0}', "noteb"),
 }
-LONE = "J\udcfcrgen.html"  # as bytes: no UTF-8
+LONE = "J\udcfcrgen.html"  # its bytes are not UTF-8
 
 
-@pytest.mark.skipif(os.name == "nt", reason="names of bytes, links and pipes are Unix's")
+@pytest.mark.skipif(os.name == "nt", reason="byte names, links and pipes need Unix")
 def test_bad_file_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(summary, "LARGE", 500_000)
     names = [f"Student {k}" for k in range(27)] + ["half \ud83d", "a\nb", "Юрий"]
@@ -277,7 +279,7 @@ def test_bad_file_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
         put(tmp_path / "good" / str(k) / file, report_of(name))
     for k, (file, (content, _)) in enumerate(BROKEN.items()):
         put(tmp_path / f"broken {k}" / file, content)
-    more = {"link.html": "symbolic link", "folder": "symbolic link", "pipe.html": "no ordinary"}
+    more = {"link.html": "symbolic link", "folder": "symbolic link", "pipe.html": "not an ordinary"}
     outside = put(tmp_path / "outside" / "x.html", report_of("Mallory"))
     folder = tmp_path / "in"
     folder.mkdir()
@@ -315,7 +317,9 @@ def test_bad_file_does_not_stop_the_others(tmp_path, monkeypatch, capsys):
     shutil.rmtree(folder)
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads all")
+@pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root can read every folder"
+)
 def test_unreadable_folder_is_reported(tmp_path):
     put(tmp_path / "closed" / "x.html", report_of("Ada"))
     (tmp_path / "closed").chmod(0)

@@ -1,10 +1,12 @@
-"""Things in a scene: their data, and how a kind is added."""
+"""Things in a scene: their data, and how a new kind is added."""
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -14,14 +16,14 @@ from scenes import TURNED, T, scenes
 
 from robokin import IRB140, Transform
 from robokin.show import animate
-from robokin.show.things import Faces, Mark, Target
+from robokin.show.things import Faces, Mark, PageThing, Target
 
 EARLIER = json.loads((ROOT / "tests/data/scenes_11a2279.json").read_text(encoding="utf-8"))
 NOW = scenes()
 
 
 def today(scene):
-    """A scene of commit 11a2279 under the keys of today."""
+    """A scene of commit 11a2279 with today's keys."""
     kept = {key: scene[key] for key in ("size", "flat", "grid", "seen", "floor", "view")}
     things = [
         {"kind": "target", "name": old["name"], "pose": old.get("way", old.get("pose"))}
@@ -40,12 +42,12 @@ def today(scene):
 
 
 @pytest.mark.parametrize("name", EARLIER)
-def test_scenes_have_the_numbers_of_the_earlier_edition(name):
+def test_scenes_have_the_values_of_the_earlier_version(name):
     assert NOW.keys() == EARLIER.keys()
     assert NOW[name] == today(EARLIER[name])
 
 
-def test_things_argument_equals_the_other_arguments():
+def test_things_argument_gives_the_same_scene_as_the_other_arguments():
     goal, belt = IRB140.fk(TURNED[-1]), [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
     apart = animate(
         IRB140,
@@ -62,7 +64,7 @@ def test_things_argument_equals_the_other_arguments():
     assert together.data["scene"] == apart.data["scene"]
 
 
-def test_arguments_may_change_afterwards():
+def test_things_copy_their_arguments():
     at, belt = np.array([1.0, 0, 0]), np.eye(3)
     mark, faces = Mark(at, "p"), Faces([belt])
     at[:], belt[:] = 7, 7
@@ -85,7 +87,7 @@ def test_nan_reading_shows_only_the_name():
     [
         (lambda: Mark((1, 2, 3, 4)), ValueError, "at: wanted places"),
         (lambda: Mark((1, 2, np.nan)), ValueError, "at: wanted finite"),
-        (lambda: Mark((0, 0), 7), ValueError, "name: wanted words, got 7"),
+        (lambda: Mark((0, 0), 7), ValueError, "name: wanted a string, got 7"),
         (lambda: Mark((0, 0), "p", -1), ValueError, "radius: wanted one positive length"),
         (lambda: Mark((0, 0), "p", None, "x"), ValueError, "reading: wanted numbers"),
         (lambda: Target((0, 0, 1), "p"), TypeError, "target p: wanted a Transform"),
@@ -185,7 +187,7 @@ export const flag = {
 PLAYER = """
 import sys
 from robokin.show import animate
-from robokin.show.things.flag import Flag
+from robokin.show.things import Flag
 from scenes import CIRCLING, GONE, IRB140, T, TURNED
 things = [Flag((0.9, 0, 0.4), "still"), Flag(CIRCLING, "moves")] + [Flag(GONE - 0.3, "gone")]
 animate(IRB140, T, TURNED, things=things).save(sys.argv[1])
@@ -204,7 +206,9 @@ RED = """() => {
 
 
 def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
-    """By the recipe of CONTRIBUTING, in a copy: types, formatting, still, film and page."""
+    """The recipe of CONTRIBUTING is followed in a copy of robokin; types, formatting, still, film
+    and page are checked.
+    """
     for name in ("robokin", "tests"):
         ignore = shutil.ignore_patterns("__pycache__", "*.ipynb", "benchmarks", "course")
         shutil.copytree(ROOT / name, tmp_path / name, ignore=ignore)
@@ -212,8 +216,15 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     (show / "things" / "flag.py").write_text(FLAG_PY)
     (show / "js" / "flag.js").write_text(FLAG_JS)
     listed = show / "things" / "__init__.py"
-    text = listed.read_text().replace("from .mark", "from .flag import PageFlag\nfrom .mark")
-    listed.write_text(text.replace("PageFaces | PageMark", "PageFaces | PageMark | PageFlag"))
+    text = listed.read_text()
+    for place, entry in (
+        ("^from .thing import", "from .flag import Flag, PageFlag\nfrom .thing import"),
+        (r"^__all__ = \[", '__all__ = ["Flag", '),
+        (r"^PageThing: TypeAlias = \(?\s*", r"\g<0>PageFlag | "),  # the first to be drawn
+    ):
+        text, count = re.subn(place, entry, text, flags=re.M)
+        assert count == 1, place
+    listed.write_text(text)
 
     def run(*command):
         done = subprocess.run(
@@ -225,10 +236,13 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
             capture_output=True,
         )
         assert not done.returncode, done.stdout + done.stderr
+        return done.stdout
 
-    run("tests/javascript.py", "types")
+    said = run("tests/javascript.py", "types").split()
+    assert said == ["robokin/show/js/page.d.ts", "robokin/show/js/kinds.js"]
     assert "PageFlag" in (show / "js" / "page.d.ts").read_text()
-    assert "{faces, mark, flag, target}" in (show / "js" / "kinds.js").read_text()
+    names = [get_args(table.__annotations__["kind"])[0] for table in get_args(PageThing)]
+    assert f"{{flag, {', '.join(names)}}}" in (show / "js" / "kinds.js").read_text()
     run("tests/javascript.py", "tsc")
     run("-c", PLAYER, tmp_path / "player.html")
     run("-c", PLAYER, tmp_path / "player.gif")
@@ -240,6 +254,6 @@ def test_new_kind_takes_two_files_and_one_entry(tmp_path, browser):
     page.locator("input[type=range]").last.evaluate(
         "x => { x.value = x.max; x.dispatchEvent(new Event('input')); }"
     )
-    page.wait_for_function(f"({RED})() < 1300")  # one of them is gone
+    page.wait_for_function(f"({RED})() < 1300")  # one of the flags is gone
     assert page.evaluate(RED) > 900
     page.close()

@@ -26,7 +26,7 @@ def asked(**changes):
 
 
 def some(rng, count):
-    """Points about an arm of 9 m, some of them out of its reach."""
+    """Random points around an arm of 9 m, some of them out of its reach."""
     return rng.uniform([-8, -8, -1], [8, 8, 6], size=(count, 3))
 
 
@@ -56,7 +56,7 @@ def test_random_tasks_with_unreachable_points_are_answered(kind):
             assert all(inside[1 + i] for i in tour["order"])
             assert (np.diff([0, *tour["times"]]) >= 0).all()
             assert tour["t"][-1] <= T * (1 + 1e-6)
-            # the arm's path ends at the right place, at the reported time
+            # the arm's path ends at the correct place, at the reported time
             stops = spbu_arm(l1, l2).fk(tour["q"].astype(float)).translation
             step = 2 if kind == "collect" else 1
             assert np.allclose(stops[::step][0], p0, rtol=0, atol=1e-5)
@@ -68,11 +68,11 @@ def test_random_tasks_with_unreachable_points_are_answered(kind):
         if many == few and few:
             assert told["best"]["times"][-1] <= told["greedy"]["times"][-1] + 1e-9
         lost += many > few
-    assert tours > 30 and away > 100, "no law without cases"
-    assert (lost > 3) == (kind == "visit"), "cheapest first is the best, nearest first is not"
+    assert tours > 30 and away > 100, "too few cases"
+    assert (lost > 3) == (kind == "visit"), "cheapest first is optimal, nearest first is not"
 
 
-def test_tours_equal_those_of_the_package_with_the_reader_numbers():
+def test_tours_equal_those_of_the_package_for_the_points_in_reach():
     points = [[2, 3, 2], [20, 0, 0], [1, 3, 3], [-4, 1, 3], [0, 5, -1], [4, -3, 1]]
     question, kept = asked(points=points, T=40), [0, 2, 3, 5]
     for kind, rules in {"visit": (visit, best_visit), "collect": (collect, collect)}.items():
@@ -105,7 +105,7 @@ def test_loss_of_the_greedy_tour_is_reported():
     assert "1 of 4 in reach" in answered(away, SPEEDS)["says"]
 
 
-def test_a_start_on_axis_1_has_no_best_way_to_collect():
+def test_a_start_on_axis_1_has_no_best_order_to_collect():
     told = answered(asked(kind="collect", p0=[0, 0, 6.5], T=60), SPEEDS)
     assert told["best"] is None and "on axis 1" in told["says"] and told["greedy"]["order"]
     assert answered(asked(p0=[0, 0, 6.5], T=60), SPEEDS)["best"]["order"]
@@ -116,7 +116,7 @@ def test_tour_below_the_floor_is_reported_with_its_depth():
     low = asked(p0=[6, 0, 1], points=[[1.05, 0, 0.1]], T=60)
     wanted = "Between p0 and point 0 the tool dips under the floor, down to −1.02 m."
     assert answered(low, SPEEDS)["notes"] == [wanted]
-    assert answered(low | {"kind": "collect"}, SPEEDS)["notes"] == [wanted], "said once"
+    assert answered(low | {"kind": "collect"}, SPEEDS)["notes"] == [wanted], "reported once"
     assert answered(low | {"l1": 4.0, "l2": 5.0}, SPEEDS)["notes"] == [], "never for l1 <= l2"
 
 
@@ -172,7 +172,7 @@ def opened(browser, width=1366):
 
 
 def cells(page):
-    """The table: for each tour what is said of it."""
+    """The cells of the table, one row for each tour."""
     rows = page.locator(".rk-tours tbody tr")
     return [
         [cell.replace("\xa0", " ") for cell in row.locator("td").all_inner_texts()]
@@ -210,7 +210,7 @@ def test_in_a_file_only_the_clock_works(browser, tmp_path):
             served = {i for i, t in zip(result.order, result.times, strict=True) if t <= at}
             full = page.locator(".rk-served").evaluate_all("all => all.map(e => +e.dataset.handle)")
             assert set(full) == served
-    assert len(seen) == 7, "one start, two places to the lure, four along the best order"
+    assert len(seen) == 7, "one at the start, two on the way to the lure, four along the best order"
     scrub.fill("0")
     page.locator(".rk-clock button").click()
     page.wait_for_function("+document.querySelector('.rk-clock input').value > 10")
@@ -238,10 +238,10 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     jupyter.run_all(page, "tours.ipynb")
     root = page.locator(".robokin-player[data-awake]")
     root.wait_for()
-    # use this view from now on: a view that JupyterLab creates again has its first numbers
+    # use this view from now on: a view that JupyterLab creates again has its initial values
     root.evaluate("root => root.setAttribute('data-held', '')")
     root = page.locator(".robokin-player[data-awake][data-held]")
-    before = len(page.complaints)  # of JupyterLab itself
+    before = len(page.complaints)  # complaints from JupyterLab itself
     _drags(page, root)
     _typed(page, root)
     _out_of_reach(page, root)
@@ -250,7 +250,7 @@ tour_explorer(Task(5, 4, 7.5, [0.2] * 3, {FOUR[0].tolist()}, {FOUR[1:].tolist()}
     page.close()
 
 
-# A kernel that answers when and in which order the test says.
+# A kernel that answers at the times and in the order that the test chooses.
 WAKE = """root => root.dispatchEvent(new CustomEvent("robokin-wake", {
   detail: (n, question) => (window.asked ||= []).push({n, question}),
 }))"""
@@ -260,8 +260,8 @@ ANSWER = """(root, detail) =>
 
 @pytest.fixture
 def slow(browser, tmp_path):
-    """The explorer in a page, awake: its element, and two functions: the questions so far, and an
-    answer to one of them.
+    """The explorer, awake in a page: the page, the explorer's element, a function that returns the
+    questions so far, and a function that answers one of them.
     """
     tour_explorer(CIRCLE).save(tmp_path / "tour.html")
     page = opened(browser)
@@ -311,8 +311,8 @@ def test_late_answer_does_not_undo_changes(slow):
 
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
-def test_questions_before_a_kernel_are_repeated(slow, between):
-    """Otherwise the tours belong to other points than those shown, until the next move."""
+def test_questions_that_no_kernel_answered_are_repeated(slow, between):
+    """Otherwise the tours would belong to other points than those shown, until the next move."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")
     (lost,) = asked()
@@ -337,7 +337,7 @@ def settled(page, root):
 
 
 def shown_task(page):
-    """The task that the page shows, by its own "Copy as Python"."""
+    """The task that the page shows, from its own "Copy as Python"."""
     page.evaluate("window.copied = null")
     page.locator(".rk-word").last.click()  # Copy as Python
     space = {}
@@ -376,7 +376,7 @@ def _drags(page, root):
         assert cells(page) == told(task, visit, best_visit)
         seen.append(cells(page))
         assert handle(page, name).bounding_box() != was
-    assert len({json.dumps(each) for each in seen}) == 5, "nothing has followed the hand"
+    assert len({json.dumps(each) for each in seen}) == 5, "nothing followed the pointer"
 
 
 def _typed(page, root):
@@ -412,7 +412,9 @@ def _out_of_reach(page, root):
     drag(page, root, "2", 10, 190, drop=False)
     assert "rk-away" in handle(page, "2").get_attribute("class")
     assert (
-        page.locator(".rk-notes li").first.inner_text().startswith("Point 2 is under floor: z = −")
+        page.locator(".rk-notes li")
+        .first.inner_text()
+        .startswith("Point 2 is under the floor: z = −")
     )
     rest = Task(
         within.l1,
@@ -455,7 +457,7 @@ def _many(page, root):
         settled(page, root)
         assert handle(page, str(left - 1)).count() and not handle(page, str(left)).count()
     drag(page, root, "1", 25, 8, drop=False)
-    assert cells(page)[1][0] != "–", "ten points: the best order while the hand holds one"
+    assert cells(page)[1][0] != "–", "no best order of ten points while one is held"
     page.mouse.up()
     settled(page, root)
     assert cells(page) == told(shown_task(page), visit, best_visit)

@@ -1,4 +1,4 @@
-"""Transform against 4 x 4 matrices."""
+"""`Transform` compared with 4 x 4 matrices."""
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_a_batch_of_poses_acts_on_a_batch_of_points():
         T @ points
 
 
-def test_a_batch_of_poses_composes_with_one():
+def test_a_batch_of_poses_composes_with_a_single_pose():
     T, one = random((5,)), random(())
     for product, pairs in ((T @ one, [(t, one) for t in T]), (one @ T, [(one, t) for t in T])):
         assert product.shape == (5,)
@@ -75,7 +75,7 @@ def test_rotation_and_translation_are_broadcast():
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_lerp_is_linear_with_slerp(shape):
+def test_lerp_moves_linearly_and_rotates_like_slerp(shape):
     a, b, s = random(shape), random(shape), np.linspace(0, 1, 11)
     T = a[..., None].lerp(b[..., None], s)
     assert T.shape == (*shape, 11)
@@ -93,7 +93,7 @@ def test_len_and_iteration_use_the_batch():
     assert len(T) == 3 and [t.shape for t in T] == [(2,)] * 3
 
 
-def test_numbers_are_copied_from_the_caller():
+def test_values_are_copied_from_the_caller():
     translation = np.array([1.0, 2, 3])
     T = Transform(translation=translation)
     translation[:] = 7

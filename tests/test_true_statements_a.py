@@ -1,5 +1,5 @@
-"""Statements of labs 01 to 06 that a reader once refuted: each is read from its lab, and its number
-is computed in a second way.
+"""Statements of labs 01 to 06 that a reader once refuted: each test reads a statement from its lab
+and calculates its number in a second way.
 """
 
 import contextlib
@@ -44,7 +44,7 @@ X, Y, Z = np.eye(3)
 
 @cache
 def sources(lab):
-    """The cells of a lab, given by the beginning of its file name: {id of a cell: its source}."""
+    """The sources of a lab's cells by id; `lab` is the beginning of its file name."""
     (path,) = [*NOTEBOOKS.glob(f"{lab}_*.ipynb"), *NOTEBOOKS.glob(f"documents/{lab}_*.ipynb")]
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     return {cell["id"]: "".join(cell["source"]) for cell in cells}
@@ -68,7 +68,7 @@ def run(lab, *ids, name=None, value=None):
 
 
 def tries(lab, cell, name):
-    """The Python expressions after `# try` of the line that sets `name`."""
+    """The Python expressions after `# try` on the line that sets `name`."""
     (text,) = re.findall(rf"^{name} = .*  # try (.*)$", sources(lab)[cell], re.M)
     return [part.strip() for part in re.split(r",(?![^(\[]*[)\]])", text)]
 
@@ -80,7 +80,7 @@ def number(pattern, text):
 
 
 def options(name):
-    """The question, the options and the index of the right one of a prediction."""
+    """The question of a prediction, its options, and the index of the right option."""
     return filled(find(name, "predictions"))
 
 
@@ -98,7 +98,7 @@ def test_transposing_inverts_the_rotation_alone():
     assert np.allclose(pose.T[:3, :3], inverse[:3, :3]) and not np.allclose(pose.T, inverse)
 
 
-def test_near_half_a_turn_the_trace_loses_its_digits():
+def test_trace_formula_loses_its_digits_near_half_a_turn():
     before = "opening-setup", "elementary", "product-code", "turning-code"
     (value,) = tries("01", "to-matrix-code", "oblique")
     g, said = run("01", *before, "to-matrix-code", name="oblique", value=value)
@@ -146,7 +146,7 @@ def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump()
             assert "Each sample alone has a value inside" in says and "At both ends" not in says
 
 
-def test_a_wrap_spoils_two_central_differences_and_one_of_neighbours():
+def test_a_wrap_spoils_two_central_differences_and_one_plain_difference():
     text = sources("02")["speed-look"]
     g, _ = run("02", "setup", "speed-code")
     q6, times = g["one_row"][:, 5], g["times"]
@@ -162,8 +162,8 @@ def test_a_wrap_spoils_two_central_differences_and_one_of_neighbours():
     assert re.search(r"two steps: 314 and 628 rad/s", reply) and "628 rad/s at 10 ms" in reply
 
 
-def test_what_to_try_doubles_the_false_speed_and_leaves_the_true_ones():
-    """The duration, which was varied before, scales both equally."""
+def test_value_to_try_doubles_the_false_speed_and_keeps_the_true_ones():
+    """Regression: the value to try used to be the duration, which scales both speeds equally."""
     (name,) = re.findall(r"Try other values of `(\w+)`", sources("02")["speed-look"])
     found = [run("02", "setup", "speed-code")[0]]
     for value in tries("02", "speed-code", name):
@@ -178,7 +178,7 @@ def test_what_to_try_doubles_the_false_speed_and_leaves_the_true_ones():
     assert np.allclose(false[:, 5], np.pi / steps, rtol=2e-3)
 
 
-def test_the_cross_product_fails_in_another_way_at_each_value_to_try():
+def test_the_cross_product_fails_differently_for_each_value_to_try():
     before = "setup", "chain-code", "package-code", "split-code", "joint1-code", "triangle-code"
     before += "matrix-code", "wrist-code"
     said = [run("02", *before, "cross-code")[1]]
@@ -209,7 +209,7 @@ def ros_industrial(q):
 
 
 def arte(q):
-    """The flange of ARTE's IRB 140, parameters.m: a classical table."""
+    """The flange of ARTE's IRB 140, parameters.m: a classical DH table."""
     theta = np.array(q) + np.array([0, -90, 0, 0, 0, 180]) * deg
     d, a = np.array([352, 0, 0, 380, 0, 65]) * mm, np.array([70, 360, 0, 0, 0, 0]) * mm
     pose = np.eye(4)
@@ -219,7 +219,7 @@ def arte(q):
     return pose
 
 
-def test_how_far_the_arm_of_the_document_is_from_public_models():
+def test_distances_from_public_models_are_as_stated():
     lab, table = sources("02")["chain-look"], sources("001")["lean"]
     comment = re.sub(r"\s*\n#: ", " ", Path(catalogue.__file__).read_text(encoding="utf-8"))
     postures = np.random.default_rng(2).uniform(-np.pi, np.pi, (50, 6))
@@ -248,7 +248,7 @@ def test_how_far_the_arm_of_the_document_is_from_public_models():
 
 
 def _peaks(law, duration=1.0):
-    """The greatest speed and acceleration of a time law, in ways per duration and its square."""
+    """The greatest speed and acceleration of a time law for a path of length 1."""
     x = np.linspace(0, duration, 20001)[1:-1]
     h = 1e-4
     before, here, after = law(x - h), law(x), law(x + h)
@@ -277,7 +277,7 @@ def test_the_laws_trade_speed_for_acceleration():
     assert offered == [f"trapezoidal(duration, {a})" for a in (0.1, 0.5)]
 
 
-def test_the_cell_of_the_laws_shows_the_trade():
+def test_laws_cell_shows_that_more_speed_means_less_acceleration():
     cells = "setup", "lin-code", "ptp-code", "laws-numbers"
     shown = []
     for value in ("quintic(duration)", *tries("03", "laws-numbers", "law")):
@@ -296,7 +296,7 @@ def test_the_quintic_law_has_a_higher_acceleration_than_the_gentlest_trapezoid()
     )
 
 
-def test_the_explorer_shows_the_numbers_of_the_table():
+def test_the_explorer_shows_the_values_of_the_table():
     text = sources("03")["effect-look"]
     g, _ = run("03", "setup")
     path = g["start"], g["via"], g["goal"], 0.1
@@ -308,7 +308,7 @@ def test_the_explorer_shows_the_numbers_of_the_table():
     for count in (
         8001,
         1001,
-    ):  # the explorer's values include those between samples; the table's do not
+    ):  # the explorer's values include those between samples, the table's do not
         t = np.linspace(0, 20, count)
         q = follow(IRB140, IRB140.ik(blend(*path, linear(20.0)(t))), g["row"])
         speed, push = (abs(differentiate(q, t, n)).max(axis=0) for n in (1, 2))
@@ -326,7 +326,7 @@ def test_the_explorer_shows_the_numbers_of_the_table():
 
 
 def _fits(arm, radius):
-    """Whether one of the elbows is inside at every place of the circle about (200, 0) mm."""
+    """Whether one elbow row stays within the limits on the whole circle around (200, 0) mm."""
     way = np.linspace(0, 2 * np.pi, 1441)
     place = np.stack([200 * mm + radius * np.cos(way), radius * np.sin(way), 0.1 + 0 * way], -1)
     return within(arm, arm.ik(ScaraPose(place))).all(axis=-1).all(axis=0).any()
@@ -336,7 +336,7 @@ STOPS = ["[140, 150]", "[140, 170]", "[100, 170]", "[70, 170]", "[178, 179]", "[
 
 
 @pytest.mark.parametrize("stops", [*STOPS, *tries("04", "zone-code", "stops")])
-def test_the_largest_circle_is_the_largest_or_there_is_none(stops):
+def test_no_circle_larger_than_the_printed_one_fits(stops):
     values = eval(stops)
     hole = np.sqrt(200**2 + 250**2 + 2 * 200 * 250 * np.cos(values[1] * deg)) * mm
     g = {"np": np, "mm": mm, "deg": deg, "stops": values, "hole": hole, "fine": 2.0}
@@ -354,7 +354,7 @@ def test_the_largest_circle_is_the_largest_or_there_is_none(stops):
         assert _fits(arm, radius - 0.1 * mm) and not _fits(arm, radius + 0.1 * mm)
 
 
-def test_omega_is_no_angle_in_lab_04():
+def test_omega_is_not_used_in_lab_04():
     assert not any("omega" in text or "ω" in text for text in sources("04").values())
     assert r"\beta = 2\pi t/T" in sources("04")["target-law"]
 
@@ -372,18 +372,18 @@ def test_elbow_plus_one_bends_to_the_left_in_both_labs():
 @pytest.mark.parametrize(
     "cell, name", [("ik-code", "wanted_place"), ("limits-code", "asked_place")]
 )
-def test_places_to_try_have_the_unit_of_the_value(cell, name):
+def test_positions_to_try_are_in_millimetres(cell, name):
     values = tries("04", cell, name)
     assert values and all(value.endswith("* mm") for value in values)
 
 
-def test_no_angle_is_minus_zero():
+def test_no_angle_is_printed_as_minus_zero():
     for value in tries("04", "target-code", "whole_turns"):
         _, said = run("04", "setup", "target-code", name="whole_turns", value=value)
         assert not re.search(r"-0\.0°", said)
 
 
-def test_the_picture_of_the_jump_follows_the_time():
+def test_the_jump_depends_on_the_total_time():
     assert "clock = s * total" in sources("05")["corner-figure"]
     jumps = []
     for value in ("20.0", *tries("05", "corner-jump", "total")):
@@ -402,7 +402,7 @@ def test_the_picture_of_the_jump_follows_the_time():
 # --- 06 -------------------------------------------------------------------------------------------
 
 
-def test_how_near_joint_2_brings_the_arm_to_a_singularity():
+def test_stated_distances_from_singularities_are_correct():
     q3 = -60 * deg  # the wrist centre is over axis 1 where 100 cos q2 + 200 cos(q2 + q3) = 0
     q2 = np.arctan2(100 + 200 * np.cos(q3), 200 * np.sin(q3))
     shoulder = np.array([20 * deg, q2, q3, *np.array([30, 50, 10]) * deg])
@@ -419,7 +419,7 @@ def test_how_near_joint_2_brings_the_arm_to_a_singularity():
     assert "{} to {}".format(*said["4"]) in reply
 
 
-def test_a_step_aside_and_one_ahead():
+def test_a_step_aside_and_one_ahead_lead_sqrt_2_m_away():
     (reply,) = [x.second for x in options("spherical_wrist.p2")[1] if "aside" in x.second]
     assert number(r"lead (\S+) m away", reply) == round(np.hypot(1, 1), 2) and "knight" not in reply
 
@@ -432,8 +432,8 @@ def _passing():
 
 
 def _fastest(g, miss):
-    """The greatest speed of joint 4, °/s, by differences over 2 microseconds, where a scan in
-    steps of 10 microseconds finds it.
+    """The greatest speed of joint 4 in °/s, scanned in steps of 10 microseconds and calculated from
+    differences over 2 microseconds.
     """
     t = 2 + np.arange(-1000, 1001) * 1e-5
 
@@ -444,7 +444,7 @@ def _fastest(g, miss):
     return speeds.max()
 
 
-def test_the_speed_of_joint_4_is_one_number_in_table_figure_player_and_prediction():
+def test_table_figure_player_and_prediction_agree_on_the_speed_of_joint_4():
     g, table = _passing()
     exact = {miss: _fastest(g, miss) for miss in (1, 2, 5)}
     fastest = book.lab("spherical_wrist").module("predictions")["fastest"]
@@ -477,7 +477,7 @@ def test_the_axes_are_shown_when_the_arm_appears():
     assert "tick(words.axes, stage.changed, true)" in script.read_text(encoding="utf-8")
 
 
-def test_what_becomes_of_the_200_is_true_of_one_option():
+def test_exactly_one_option_is_true_of_the_200_postures():
     question, choices, right = options("spherical_wrist.p6")
     assert "worst of" not in question
     everyone = [k for k, each in enumerate(choices) if each.text.startswith("All 200 come back")]
@@ -486,18 +486,19 @@ def test_what_becomes_of_the_200_is_true_of_one_option():
     q[:, 4] = 1e-9
     rotations = ITMO6R.frames(q).as_matrix()[..., :3, :3]
     h33 = (rotations[:, 3].swapaxes(1, 2) @ rotations[:, 6])[:, 2, 2]
-    assert 0 < (h33 > 1).sum() < 200  # a negative number under the root for some but not all
-    # The lab's chain rounds in another order than the package's: a share, not a count.
+    assert 0 < (h33 > 1).sum() < 200  # for some postures the root is of a negative number
+    # The lab's chain rounds in a different order from the package's, so only shares can agree, not
+    # counts.
     lost = number(r"NaN, in (\d+)% of the postures", choices[right].reason)
     assert lost == pytest.approx(100 * (h33 > 1).mean(), abs=8)
 
 
-def test_the_row_that_shows_a_whole_turn_more():
+def test_rows_6_and_7_show_q2_as_stated():
     text = sources("06")["drag-target-look"]
     data = explorers.target_explorer(ITMO6R).data
     place, rotation = data["target"]["place"], data["target"]["rotation"]
     rows = ITMO6R.ik(Transform(Quaternion(np.array(rotation)), place))
-    assert np.allclose(rows[2], data["q"])  # the posture drawn when the cell has run
+    assert np.allclose(rows[2], data["q"])  # the posture that is drawn after the cell has run
     for row in (6, 7):
         shown = nearest(ITMO6R, rows[[row]], np.array(data["q"]))[1] / deg
         assert round(shown, 1) == number(r"rows 6 and 7 show q2 = (\S+)°", text)

@@ -1,4 +1,4 @@
-"""Statements of labs 07 to 12, computed again in another way: each test reads the number from its
+"""Statements of labs 07 to 12, checked by a second calculation: each test reads the number from its
 cell or prediction, so that text and number cannot diverge.
 """
 
@@ -44,7 +44,7 @@ def cells(lab):
 
 
 def said(lab, cell, pattern):
-    """The groups of a pattern in a cell, numbers as numbers."""
+    """The groups that a pattern matches in a cell; numerals become numbers."""
     match = re.search(pattern, re.sub(r"\s+", " ", cells(lab)[cell]))
     assert match, f"{lab} {cell}: no {pattern!r}"
     return [as_number(each) for each in match.groups()]
@@ -84,14 +84,14 @@ def asked(name):
 
 
 def wrist_speeds(q_deg):
-    """The semi-axes of all velocities of the flange, by differences."""
+    """The semi-axes of the ellipsoid of all flange velocities, from differences."""
     q = np.array(q_deg) * deg
     steps = 1e-6 * np.eye(6)
     places = PUMA560.fk(np.stack([q + steps, q - steps])).translation
     return np.linalg.svd((places[0] - places[1]).T / 2e-6)[1]
 
 
-def test_the_explorers_ellipsoid_keeps_still_for_joint_5_and_goes_flat_for_joint_3():
+def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
     five, three = said("07", "near-look", r"joint 5 to (\S+): it stays.*joint 3 to (\S+)°: it goes")
     before = wrist_speeds([0, 60, -170, 0, 40, 0])
     assert wrist_speeds([0, 60, -170, 0, five, 0]) == pytest.approx(before, rel=1e-6)
@@ -107,7 +107,7 @@ def test_the_explorers_ellipsoid_keeps_still_for_joint_5_and_goes_flat_for_joint
         assert own[2] / own[0] < 0.1, "one axis is nearly gone"
 
 
-def test_what_ten_times_nearer_costs():
+def test_speeds_ten_times_nearer_grow_by_the_stated_factors():
     told = said(
         "07",
         "cross-look",
@@ -128,7 +128,7 @@ def test_what_ten_times_nearer_costs():
 
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
 
-    def wrist(m):  # by differences of the inverse
+    def wrist(m):  # from differences of the inverse
         u = np.linspace(-m, m, 2001)[:, None] * [0, 1e-3, 0]
         poses = Transform(aligned.rotation, aligned.translation + u + [0, 0, m * mm])
         q6 = np.unwrap(PUMA560.ik(poses)[:, 3, 5])
@@ -155,7 +155,7 @@ def test_three_of_eight_rows_are_usable_at_six_seconds():
 # --- 08 -------------------------------------------------------------------------------------------
 
 
-def test_where_first_come_wins():
+def test_first_come_wins_at_the_stated_belt_speed():
     v, missed, total = said(
         "08", "belt-row", r"at (\d+) mm/s it misses (\d+) of the (\d+), and \"first come.*all\."
     )
@@ -173,7 +173,7 @@ def test_where_first_come_wins():
     assert taken == [total - missed, total]
 
 
-def test_how_often_nearest_first_loses():
+def test_nearest_first_loses_as_often_as_stated():
     question, options, right = asked("visit_and_collect.p6")
     first, last = map(int, re.findall(r"random_task\((\d+)\)", question))
     worse = 0
@@ -183,7 +183,7 @@ def test_how_often_nearest_first_loses():
         points = points[workspace(5, 4, points).all(axis=-1)][:8]
         task = Task(5, 4, rng.uniform(15, 40), [0.2] * 3, points[0], points[1:], "visit")
         legs = travel_time(task.q[:, None], task.q, task.speeds)
-        # by subsets: the least time to have visited them and to stand at the last one
+        # for each subset and each last point: the least time to visit the subset and end there
         best = np.full((256, 8), np.inf)
         best[1, 0] = 0
         for visited in range(1, 256, 2):
@@ -210,7 +210,8 @@ def test_how_often_nearest_first_loses():
     )
     assert (count, total) == (worse, last - first + 1)
     assert 40 <= worse <= 99 and options[right].text == "In 40 to 99."
-    p = np.array([low, high]) / 100  # at the ends of Wilson's interval it is just 1.96 away
+    # at the ends of Wilson's interval the share is 1.96 standard errors away
+    p = np.array([low, high]) / 100
     away = abs(p - count / total) / np.sqrt(p * (1 - p) / total)
     assert away == pytest.approx([1.96] * 2, abs=0.2)
 
@@ -229,7 +230,7 @@ def race_of_the_cell(count):
     return np.array(reached[:count]), obstacle, dice
 
 
-def test_the_last_bit_decides_nothing_in_the_race(monkeypatch):
+def test_noise_in_the_last_bit_does_not_change_the_race(monkeypatch):
     places, obstacle, _ = race_of_the_cell(40)
     start, rng, exact = np.array([60, 120, 120]) * deg, np.random.default_rng(1), {}
     measured = redundancy.distances
@@ -247,7 +248,7 @@ def test_the_last_bit_decides_nothing_in_the_race(monkeypatch):
         assert exact[noise] == pytest.approx(exact[None], abs=1e-6)
 
 
-def test_dice_turn_more_and_by_how_much():
+def test_dice_turn_more_by_the_stated_factor():
     question, options, right = asked("three_levers.p10")
     places, _, seed = race_of_the_cell(100)
     assert question.startswith("100 targets") and "evenly from 0° to 180°" in question
@@ -309,7 +310,7 @@ def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
 
 
 def lever_distance(q, H, lever=slice(None)):
-    """The least distance (...) of H from the levers, from postures (..., 3)."""
+    """The least distance (...) from H to the levers in postures (..., 3)."""
     angles = np.cumsum(q - np.array([0, np.pi, np.pi]), axis=-1)
     along = np.stack([np.cos(angles), np.sin(angles)], axis=-1)  # (..., 3, 2), unit vectors
     feet = np.cumsum(along, axis=-2) - along
@@ -318,7 +319,7 @@ def lever_distance(q, H, lever=slice(None)):
 
 
 def least_distance(path, H, count=2001):
-    """On a whole path: samples, with each minimum refined."""
+    """The least distance on a whole path, from samples with each minimum refined."""
     found = []
     for a, b in pairwise(np.asarray(path)):
         s = np.linspace(0, 1, count)
@@ -339,7 +340,7 @@ def direct(start, target=K1):
     return np.stack([start, ARM.least(target, start)[0]])
 
 
-def test_how_many_stretches_prove_a_distance():
+def test_stated_numbers_of_stretches_prove_the_distances():
     made = run("10", "setup", "lever-code", "whole-code")
     proven, H = made["proven"], made["H_motion"]
     a, b = made["q0"], made["q1"]
@@ -356,11 +357,11 @@ def test_how_many_stretches_prove_a_distance():
     assert round(least_distance([a, b], H) / mm, 1) == truth
     assert {yes * mm, edge * mm, no * mm} <= set(tries("10", "whole-code"))
     room = lever_distance(a, H)
-    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), "a motion that is none"
+    assert room > 1 and proven(a, a, H, 0.9 * room) == (True, 1), "a motion without movement"
     assert proven(a, a, H, 1.1 * room) == (False, 1)
 
 
-def test_when_the_plan_stays():
+def test_arm_stays_at_the_stated_distance():
     made = run("10", "setup", "drawing-tools", "lever-code", "whole-code", "control-code")
     control, H = made["control"], np.array([1.2, 1.3])
     text = r"value S rises, from (\d+)° at (\d+) mm to (\d+)° at (\d+) mm, but for one fall, from "
@@ -380,12 +381,13 @@ def test_when_the_plan_stays():
     ways = [*S.items()][:-1]
     down = [(a, b) for (a, x), (b, y) in pairwise(ways) if y < x]
     assert down == [(falls, to)]
-    assert lever_distance(Q0, H) < stays * mm, "more than there is at the start: never"
+    assert lever_distance(Q0, H) < stays * mm, "less than that at the start"
 
 
 def grid_wave(step, H):
-    """Steps from the grid posture nearest to q0 to the nearest one with a proven last step: by
-    Dijkstra's algorithm on the graph of all proven steps; None if a step cannot be made.
+    """The number of steps from the grid posture nearest to q0 to the nearest one with a proven last
+    step, and the path: by Dijkstra's algorithm on the graph of all proven steps. (None, None) if
+    there is no such path.
     """
     size = round(180 / step) + 1
     cube = np.stack(np.meshgrid(*[np.arange(size)] * 3, indexing="ij"), axis=-1) * step * deg
@@ -439,7 +441,7 @@ def test_the_wave_starts_and_ends_in_proven_postures(capsys):
             assert round(near) == int(cannot[1]) and near < DISTANCE / mm
 
 
-def test_a_grid_of_15_degrees_finds_no_way_and_one_of_5_does():
+def test_a_grid_of_15_degrees_finds_no_path_and_one_of_5_does():
     question, options, _ = asked("obstacle_avoidance.p8")
     H = np.array([0.5, 1.0])
     assert "(0.5, 1) m" in question and "steps of 15°" in question
@@ -450,14 +452,14 @@ def test_a_grid_of_15_degrees_finds_no_way_and_one_of_5_does():
     assert f"S = {S:.0f}°" in options[0].reason
 
 
-def test_the_drawing_is_found_in_few_motions_drawn_as_the_question_says():
+def test_the_documents_test_finds_as_few_obstacles_as_stated():
     question, options, right = asked("obstacle_avoidance.p1")
     for words in ("evenly from 0° to 180°", "evenly 1.1 to 2.9 m", "from 0° to 120°", "box round"):
         assert words in question
     path = pytest.importorskip("matplotlib.path").Path
 
     def found_in(tasks):
-        """How many H are inside, and how many of them the document's test finds."""
+        """How many points H are inside, and how many of these the document's test finds."""
         inside = found = 0
         for (A, K), (A1, K_1), H in tasks:
             if path([A, K, K_1, A1]).contains_point(H):
@@ -489,7 +491,7 @@ def test_the_drawing_is_found_in_few_motions_drawn_as_the_question_says():
     assert found_in(section_7) == (own, own_found)
 
 
-def test_what_lies_outside_the_quadrilateral():
+def test_areas_outside_the_quadrilateral_are_as_stated():
     question, options, right = asked("obstacle_avoidance.p2")
     start, end = direct(np.array([150, 120, 120]) * deg)
     assert "from (150°, 120°, 120°) to K1 = (1.9, 0.3) m" in question
@@ -511,7 +513,7 @@ def test_what_lies_outside_the_quadrilateral():
     assert np.array(own) * cell == pytest.approx([out, area, false], abs=0.015)
 
 
-def test_seven_samples_miss_the_valley():
+def test_seven_samples_miss_the_minimum():
     question, options, right = asked("obstacle_avoidance.p4")
     path, H = direct(np.array([150, 120, 120]) * deg), np.array([1.7, 1.0])
     assert "(1.7, 1) m" in question and "from (150°, 120°, 120°) to K1" in question
@@ -523,7 +525,7 @@ def test_seven_samples_miss_the_valley():
     )
 
 
-def test_which_angles_of_the_task_are_radians():
+def test_task_states_which_of_its_angles_are_in_radians():
     given = variant("obstacle_avoidance", "your name")
     path_form = content("obstacle_avoidance").module("past_a_bar")["form"]
     assert said("10", "task-2", r"`my_task\[\"start\"\]` holds (\w+), `my_task\[\"most\"\]` (\w+)")
@@ -552,14 +554,14 @@ def test_rounded_positions_stay_within_half_a_pulse():
     assert "within half a pulse" in cells("11")["drift-look"]
 
 
-def test_one_motor_has_one_start_frequency(capsys):
+def test_start_frequency_and_lost_steps_are_as_stated(capsys):
     torque, inertia, damping = said("11", "missed-code", r"M, J, b = (\S+), (\S+), (\S+) #")
     made = run("11", "opening-setup", "missed-code")
     top = int(re.search(r"start frequency: (\d+) pulses/s", capsys.readouterr().out)[1])
     motor = made["motor"]
 
     def steps(tempo):
-        """Steps made, by another integrator, pulse by pulse."""
+        """The number of steps made, from another integrator, pulse by pulse."""
         state, times = [0.0, 0.0], [*(np.arange(1, 49) / tempo), 48 / tempo + 0.4]
         for k, (a, b) in enumerate(pairwise([0.0, *times])):
             pull = k * np.pi / 2
@@ -585,7 +587,7 @@ def test_one_motor_has_one_start_frequency(capsys):
     assert min(lost - {0}) == few
 
 
-def test_no_table_is_named_that_is_not_there():
+def test_lab_11_does_not_mention_missing_tables():
     question, _, _ = asked("motor_synchronisation.p10")
     texts = [question, *cells("11").values()]
     assert not [text for text in texts if re.search(r"\btable \d", text)]
@@ -608,12 +610,12 @@ def test_every_cycle_to_try_drifts():
 # --- 12 -------------------------------------------------------------------------------------------
 
 
-def test_exact_at_every_point_but_one_and_torn_there():
+def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():
     assert "exact at every point of a line but one" in cells("12")["title"]
     made = run("12", "opening-setup")
     sp = pytest.importorskip("sympy")
     x, y, link = sp.symbols("x y l", positive=True)
-    for side in (1, -1):  # x3 = side x: the formula of the cell, by symbols
+    for side in (1, -1):  # x3 = side x: the formula of the cell, in symbols
         d2 = x**2 + y**2
         y2 = (y * d2 + sp.sqrt(x**2 * d2 * (4 * link**2 - d2))) / (2 * d2)
         x2 = (d2 - 2 * y * y2) / (2 * side * x)
@@ -630,13 +632,13 @@ def test_exact_at_every_point_but_one_and_torn_there():
 
 @functools.cache
 def generated():
-    """The lab's own generated programs: from sections 2, 4 and 7."""
+    """The programs that the lab generates in sections 2, 4 and 7."""
     pytest.importorskip("sympy")
     names = "opening-setup derive-line derive-check elimination-code sides-code count-code"
     return run("12", *names.split())
 
 
-def test_the_table_next_to_zero_is_of_the_formulas_that_the_reader_has():
+def test_the_table_near_zero_uses_the_formulas_of_the_lab():
     made = generated()
     lines = find("two_link_code_generation.p4", "predictions").view().split("\n")
     assert "elbow_by_root" in lines[0] and "root_code" in lines[0]
@@ -647,7 +649,7 @@ def test_the_table_next_to_zero_is_of_the_formulas_that_the_reader_has():
         assert [f"{x:.6f}" for x in own] == [one, two]
 
 
-def test_on_the_rim_rounding_takes_many_answers():
+def test_rounding_on_the_rim_removes_as_many_answers_as_stated():
     made = generated()
     question, options, right = asked("two_link_code_generation.p8")
     count = int(re.search(r"We take (\d+) tips", question)[1])
@@ -664,7 +666,7 @@ def test_on_the_rim_rounding_takes_many_answers():
     ]
 
 
-def test_how_exact_the_third_exercise_wants_it():
+def test_lab_and_exercise_3_state_the_same_accuracy():
     (power,) = said("12", "your-turn-3", r"to within \$10\^\{(-\d+)\}\$ m")
     promise = find("two_link_code_generation.3", "exercises").promise
     assert f"within 1e{power:.0f} m" in promise
@@ -673,7 +675,7 @@ def test_how_exact_the_third_exercise_wants_it():
 # --- The documents --------------------------------------------------------------------------------
 
 
-def test_the_signed_angle_stands_where_its_row_says():
+def test_the_signed_angle_is_where_its_row_says():
     (row,) = [x for x in cells("001")["rows"].splitlines() if x.startswith("| S1-01 |")]
     assert "signed `angle_to` about an axis" in row and "Quaternion.angle_to" not in row
     assert "[here §1]" in row and "[02 §6]" in row
@@ -688,7 +690,7 @@ def test_the_signed_angle_stands_where_its_row_says():
         assert u.angle_to(v, Vector(0, 0, 1)) / deg == pytest.approx(turn)
 
 
-def test_how_many_methods_of_part_one_race():
+def test_five_methods_of_part_one_race():
     (line,) = [x for x in cells("003")["lost"].splitlines() if x.startswith("| I |")]
     many, first, second = re.search(r"09: (\w+) methods of (\S+) and (\S+) race", line).groups()
     makers = [

@@ -1,5 +1,5 @@
-"""Statements that fresh readers refuted in the second round: each is read from its cell, figure or
-prediction, and computed again in another way.
+"""Statements that new readers refuted in the second round: each is read from its cell, figure or
+prediction and checked by a second calculation.
 """
 
 import json
@@ -34,7 +34,7 @@ X, Y, Z = np.eye(3)
 
 
 def flat(lab, cell):
-    """The text of a cell in one line."""
+    """The text of a cell on one line."""
     return re.sub(r"\s+", " ", cells(lab)[cell])
 
 
@@ -83,7 +83,7 @@ def find_exercises(lab):
 # --- 01 -------------------------------------------------------------------------------------------
 
 
-def test_what_no_three_by_three_matrix_does_and_what_the_turn_leaves():
+def test_no_3_by_3_matrix_shifts_and_the_turn_leaves_only_the_z_axis():
     assert "no 3 × 3 matrix shifts: each sends 0 to 0" in flat("01", "matrices")
     rng = np.random.default_rng(1)
     assert not (rng.normal(size=(50, 3, 3)) @ np.zeros(3)).any()
@@ -93,7 +93,7 @@ def test_what_no_three_by_three_matrix_does_and_what_the_turn_leaves():
     assert np.sum(abs(values - 1) < 1e-12) == 1 and abs(vectors[2, abs(values - 1).argmin()]) == 1
 
 
-def test_where_a_and_d_lie():
+def test_a_and_d_lie_along_the_stated_axes():
     assert "each $a$ lies along the red axis of the frame at its end" in flat("01", "dh-look")
     assert "each $d$ along the blue axis of the frame before it" in flat("01", "dh-look")
     for q, d, a, alpha in np.random.default_rng(2).uniform(-2, 2, (20, 4)):
@@ -102,7 +102,7 @@ def test_where_a_and_d_lie():
         assert end.translation == pytest.approx(a * end.rotation.as_matrix()[:, 0] + d * Z)
 
 
-def test_how_the_average_of_two_rotations_shrinks():
+def test_average_of_two_rotations_shrinks_by_the_stated_factor():
     assert r"by the factor $\cos(\theta/2)$" in flat("01", "deeper")
     rng = np.random.default_rng(3)
     for theta in (20, 90, 150):
@@ -117,7 +117,7 @@ def test_how_the_average_of_two_rotations_shrinks():
 # --- 02 and 03 ------------------------------------------------------------------------------------
 
 
-def test_the_arm_of_the_first_picture_has_eight_ways():
+def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
     assert "The arm below reaches one and the same pose in eight ways" in flat("02", "title")
     place = [
         float(x) for x in re.findall(r"\[(\d+) \* mm, (\d+) \* mm, (\d+)", cells("02")["setup"])[0]
@@ -139,7 +139,7 @@ def test_the_arm_of_the_first_picture_has_eight_ways():
     assert len(found) == 8
 
 
-def test_which_angles_come_from_atan2_and_what_joint_6_does_beside_joint_4():
+def test_only_joint_3_is_not_from_atan2_and_joint_6_can_undo_joint_4():
     assert "Every angle but joint 3's comes from atan2" in flat("02", "short")
     code = cells("02")
     assert (
@@ -153,7 +153,7 @@ def test_which_angles_come_from_atan2_and_what_joint_6_does_beside_joint_4():
     assert np.allclose(IRB140.fk(q).as_matrix(), back)
 
 
-def test_the_corner_of_the_target_and_the_configuration_past_its_limit():
+def test_speeds_at_the_corner_and_joint_2_past_its_limit_are_as_stated():
     before, after = numbers(
         r"jumps from (\d+) mm/s along y to (\d+) mm/s along x", flat("02", "deeper-questions")
     )
@@ -163,17 +163,18 @@ def test_the_corner_of_the_target_and_the_configuration_past_its_limit():
     assert "With this configuration joint 2 is always past its limit" in flat("02", "limits-look")
     times = np.linspace(0, 20, 4001)
     q2 = made["IRB140"].ik(made["target"](times, 20))[:, made["IRB140"].branch(+1, -1, +1), 1]
-    least = (IRB140.limits[1, 0] - q2).min()  # in between it cannot fall by more than in a step
+    # between two samples it cannot fall by more than it changes in a step
+    least = (IRB140.limits[1, 0] - q2).min()
     assert least > 10 * abs(np.diff(q2)).max() > 0
 
 
-def test_where_axis_5_points():
+def test_axis_5_points_in_the_stated_direction():
     aside, below = numbers(
         r"axis 5, (\d+) degrees from aside and (\d+)", shown("02", "matrix-figure")
     )
     q = np.array([-30, 10, 0, 35, 50, 40]) * deg
     assert "np.array([-30, 10, 0, 35, 50, 40]) * deg" in cells("02")["matrix-figure"]
-    h = 1e-6  # axis 5 from how the flange turns with joint 5
+    h = 1e-6  # axis 5, from the rotation of the flange with joint 5
     turn = (
         IRB140.fk(q + [0, 0, 0, 0, h, 0]).rotation @ IRB140.fk(q).rotation.inverse()
     ).as_matrix()
@@ -186,14 +187,14 @@ def test_where_axis_5_points():
     assert np.arccos(axis @ ways["below"]) / deg == pytest.approx(below, abs=1e-3)
 
 
-def test_how_much_farther_the_shoulder_behind_is():
+def test_shoulder_behind_is_farther_by_the_stated_distance():
     hint = find("irb140_kinematics.2", "exercises").hints[1]
     ahead, more = numbers(r"At its height .* more than (\d+) mm ahead is (\d+) mm farther", hint)
     for x in (ahead + 1, 300, 800):  # the shoulder is at +70 or -70 mm
         assert abs(x + ahead) - abs(x - ahead) == more == 140
 
 
-def test_what_makes_joint_1_fast_and_what_changes_between_two_intervals():
+def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
     _, options, _ = asked("irb140_motion.p1")
     assert "by the wrist centre's speed round axis 1 over its distance" in options[3].reason
     low, high = numbers(r"between (\S+) and (\S+)°/s", options[3].reason)
@@ -214,7 +215,7 @@ def test_what_makes_joint_1_fast_and_what_changes_between_two_intervals():
 # --- 04 to 06 -------------------------------------------------------------------------------------
 
 
-def test_where_the_notch_begins_and_where_the_tool_is_behind_joint_1():
+def test_notch_and_the_tool_behind_joint_1_begin_where_stated():
     hole, notch = numbers(
         r"between (\d+) mm and 450 .* from (\d+) mm on", shown("04", "zone-figure")
     )
@@ -225,13 +226,13 @@ def test_where_the_notch_begins_and_where_the_tool_is_behind_joint_1():
     rows = arm.ik(ScaraPose(np.stack([-x, 0 * x, 0.1 + 0 * x], axis=-1)))
     inside = x[within(arm, rows).all(axis=-1).any(axis=-1)] / mm
     assert [np.floor(inside.min()), np.ceil(inside.max())] == pytest.approx([hole, notch], abs=1)
-    assert len(inside) == inside.max() - inside.min() + 1, "closed between"
+    assert len(inside) == inside.max() - inside.min() + 1, "no gap between them"
     ((_, says),) = mistakes("scara_kinematics", "atan for atan2 in the triangle")
     (angle,) = numbers(r"Beyond q2 = (\d+)° the tool is behind joint 1", says)
     assert round(np.arccos(-200 / 250) / deg) == angle
 
 
-def test_the_two_ways_to_one_orientation_have_their_greatest_speed():
+def test_both_ways_to_one_orientation_have_the_stated_greatest_speed():
     slow, fast = numbers(
         r"speed (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
     )
@@ -239,7 +240,7 @@ def test_the_two_ways_to_one_orientation_have_their_greatest_speed():
     assert [135 / (1 - 0.25), (45 + 180) / (1 - 0.25)] == pytest.approx([slow, fast])
 
 
-def test_what_the_cure_keeps_and_what_sharing_is_least_in():
+def test_errors_after_the_cure_are_as_stated_and_equal_shares_turn_least():
     words = view("spherical_wrist.p6")
     most, down, where, there = numbers(
         r"below (\S+) down to theta = (\S+); at (\S+), where phi .* it is (\S+), and falls", words
@@ -262,7 +263,7 @@ def test_what_the_cure_keeps_and_what_sharing_is_least_in():
 # --- 07 to 09 -------------------------------------------------------------------------------------
 
 
-def test_the_corner_is_a_share_of_the_progress_and_where_a_row_jumps():
+def test_the_corner_is_a_share_of_the_progress_and_only_joint_values_jump():
     assert "a share $b$ of the progress $s$ on either side of via" in flat("07", "via")
     made = run_cells("07", "opening-setup")
     start, goal = made["start"], made["goal"]
@@ -284,11 +285,11 @@ def test_the_corner_is_a_share_of_the_progress_and_where_a_row_jumps():
     row = PUMA560.ik(path)[:, 0]
     assert least < abs(row[:, 4]).min() / deg < least + 1
     steps = np.diff(row, axis=0)
-    assert abs(steps).max() > 6, "a jump of the numbers"
-    assert abs(np.angle(np.exp(1j * steps))).max() < 0.1 * deg, "none of the arm"
+    assert abs(steps).max() > 6, "the joint values jump"
+    assert abs(np.angle(np.exp(1j * steps))).max() < 0.1 * deg, "the arm does not jump"
 
 
-def test_what_is_left_of_the_peak_at_the_wrist_and_of_the_root_at_the_shoulder():
+def test_speeds_very_near_wrist_and_shoulder_singularities_are_as_stated():
     text = flat("07", "cross-look")
     assert "as $m$ goes to 0, it becomes a jump by half a turn" in text
     aligned = PUMA560.fk(np.array([0, 60, -170, 0, 0, 0]) * deg)
@@ -300,7 +301,7 @@ def test_what_is_left_of_the_peak_at_the_wrist_and_of_the_root_at_the_shoulder()
     assert r"it is $v\,d_3/(\rho\,r)$, with $\rho = d_3 + m$" in text
     assert "when $m$ is small beside $d_3$" in text
     d3, h = 150.05 * mm, 1e-7
-    for m in (100 * mm, 10 * mm, 1 * mm):  # by differences of joint 1
+    for m in (100 * mm, 10 * mm, 1 * mm):  # from differences of joint 1
         place = np.array([[d3 + m + x, 0, 1.2] for x in (-h, h)])
         q1 = PUMA560.ik(Transform(Quaternion(np.array([1.0, 0, 0, 0])), place))[:, 2, 0]
         rho, r = d3 + m, np.sqrt(2 * d3 * m + m * m)
@@ -308,7 +309,7 @@ def test_what_is_left_of_the_peak_at_the_wrist_and_of_the_root_at_the_shoulder()
     assert "at least 150.05 mm away from axis 1" in flat("07", "short")
 
 
-def test_all_but_one_row_become_forbidden_and_how_far_the_two_values_are_apart():
+def test_all_rows_but_row_2_become_forbidden_and_two_values_differ_as_stated():
     assert "and all but row 2 become forbidden" in flat("07", "count-look")
     words = shown("07", "drag-target")
     place = numbers(r"x (\S+), y (\S+), z (\S+),", words)
@@ -327,8 +328,10 @@ def test_all_but_one_row_become_forbidden_and_how_far_the_two_values_are_apart()
     assert round(180 - 2 * np.arcsin(150.05 / 800) / deg) == apart
 
 
-def test_how_many_lines_a_finer_look_leaves():
-    """With steps a fifth as long, each row unwrapped separately from values inside the limits."""
+def test_finer_steps_leave_the_stated_number_of_lines():
+    """The steps are a fifth as long, and each row is unwrapped separately, from values inside the
+    limits.
+    """
     drawn = book.lab("puma560_branches").module("predictions")["random_poses"]
     ends = drawn(np.random.default_rng(7), (2, 3000))
     ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
@@ -341,13 +344,13 @@ def test_how_many_lines_a_finer_look_leaves():
         if np.isfinite(rows).all():
             q = np.unwrap(rows, axis=0)[..., None] + 2 * np.pi * np.array([0, -1, 1, -2, 2])
             inside = (q > low[:, None] - 1e-9) & (q < high[:, None] + 1e-9)  # (401, 8, 6, 5)
-            begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first that is inside
+            begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first value within the limits
             served += np.take_along_axis(inside.all(axis=0)[None], begins, -1).all(axis=2).any()
     question, _, _ = asked("puma560_branches.p7")
     assert question.startswith(f"{served} random straight lines")
 
 
-def test_where_first_come_meets_its_objects():
+def test_first_come_meets_its_objects_where_stated():
     text = flat("08", "belt-row")
     assert "each of its first seven objects farther from the bin than the one before" in text
     assert "from the fourth on in the far two fifths" in text
@@ -375,7 +378,9 @@ def test_where_first_come_meets_its_objects():
 
 
 def one_posture(place, gamma):
-    """(gamma, beta, alpha) on a target, from gamma and two circles; NaN where there is none."""
+    """(gamma, beta, alpha) at a target, from gamma and two circles; NaN if there is no such
+    posture.
+    """
     K = np.asarray(place)
     B = np.array([np.cos(gamma), np.sin(gamma)])
     way = K - B
@@ -392,7 +397,7 @@ def one_posture(place, gamma):
     return q if (q <= np.pi + 1e-9).all() else np.full(3, np.nan)
 
 
-def test_gamma_cannot_stand_still_from_here_to_there():
+def test_gamma_must_change_between_the_two_targets():
     _, options, _ = asked("three_levers.p10")
     most, least = numbers(r"gamma turns from at most (\S+)° to at least (\S+)°", options[2].second)
     gammas = np.linspace(0, 180, 7201)
@@ -407,7 +412,7 @@ def test_gamma_cannot_stand_still_from_here_to_there():
         assert np.allclose(ARM.points(q[np.isfinite(q).all(axis=1)])[:, 3], place)
 
 
-def test_where_the_sum_and_the_largest_are_least():
+def test_sum_and_largest_change_are_least_where_stated():
     STAND, TARGET = map(book.lab("three_levers").module("predictions").get, ("STAND", "TARGET"))
     at = numbers(r"least at (\d+) degrees, the largest at (\d+) degrees", view("three_levers.p8"))
     q = np.array([one_posture(TARGET, g) for g in np.linspace(0, np.pi, 20001)])

@@ -1,4 +1,4 @@
-"""Statements of labs 03 and 10 to 12 that fresh readers refuted, computed again in another way."""
+"""Statements of labs 03 and 10 to 12 that new readers refuted, checked by a second calculation."""
 
 import re
 from itertools import pairwise
@@ -32,8 +32,8 @@ LOADER, PER_DEGREE, LIMIT = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40
 # --- 03 -------------------------------------------------------------------------------------------
 
 
-def test_what_right_programs_promise_of_speeds():
-    """Sums of two swings, whose speeds, accelerations and their derivatives stay below 10."""
+def test_correct_programs_keep_their_promise_about_speeds():
+    """The motions are sums of two oscillations with speeds, accelerations and jerks below 10."""
     rng = np.random.default_rng(3)
     exercise = book.find("irb140_motion.3", "exercises")
     for count in [3, 3, 4, 5, 9, 40, 300]:
@@ -52,7 +52,7 @@ def test_what_right_programs_promise_of_speeds():
 # --- 10 -------------------------------------------------------------------------------------------
 
 
-def test_a_grid_of_15_degrees_has_a_way_that_this_wave_does_not_find():
+def test_a_grid_of_15_degrees_has_a_path_that_this_wave_does_not_find():
     _, options, right = asked("obstacle_avoidance.p8")
     assert options[right].text.startswith("Nothing but that this wave found none")
     assert options[0].reason.startswith("This wave found none in steps of 15°")
@@ -60,7 +60,7 @@ def test_a_grid_of_15_degrees_has_a_way_that_this_wave_does_not_find():
     H = np.array([0.5, 1.0])
     assert grid_wave(15, H) == (None, None)
     corners = "120 120 120, 180 120 120, 180 90 120, 180 90 90, 180 60 90, 150 60 90, 150 30 90, "
-    corners += "90 30 90, 90 60 90, 90 60 180"  # all of it on the grid
+    corners += "90 30 90, 90 60 90, 90 60 180"  # all corners are on the grid
     way = np.array([each.split() for each in corners.split(", ")], dtype=float)
     assert (way % 15 == 0).all() and ((np.diff(way, axis=0) != 0).sum(axis=1) == 1).all()
     curve = ARM.family(K1, np.linspace(*ARM.alpha_range(K1), 200))
@@ -71,7 +71,7 @@ def test_a_grid_of_15_degrees_has_a_way_that_this_wave_does_not_find():
     assert "to a posture of the curve from the grid posture nearest to it" in words
 
 
-def test_what_more_samples_find():
+def test_more_samples_never_find_more_distance_if_the_old_ones_are_kept():
     _, options, right = asked("obstacle_avoidance.p4")
     says = options[right].reason
     assert "If the old ones are kept, more of them never find a larger distance" in says
@@ -85,7 +85,7 @@ def test_what_more_samples_find():
     assert found(10) > found(9), "new places, and a larger distance"
 
 
-def test_what_the_six_plans_show():
+def test_five_of_the_six_plans_exist_and_fold_as_stated():
     most, least = numbers(
         r"five plans.*one no.* from (\d+) down to (\d+) ", shown("10", "deeper-figure")
     )
@@ -103,7 +103,7 @@ def test_what_the_six_plans_show():
     assert [round(folds[0]), round(folds[-1])] == [most, least]
 
 
-def test_how_near_the_gripper_comes_and_what_the_circles_mend():
+def test_gripper_comes_as_near_and_circles_help_as_often_as_stated():
     (near,) = numbers(r"as near to the obstacle as (\d+) mm, inside", view("obstacle_avoidance.p5"))
     path = via_path(ARM, Q0, K1, np.array([1.0, 1.5]))
     s = np.linspace(0, 1, 20001)[:, None]
@@ -134,7 +134,7 @@ def test_how_near_the_gripper_comes_and_what_the_circles_mend():
     )
 
 
-def test_the_middle_of_a_star():
+def test_the_middle_of_a_five_pointed_star_is_outside():
     ((_, says),) = mistakes("obstacle_avoidance", "any turns, not an odd number")
     assert "the middle of a five-pointed star drawn in one line is outside" in says
     middle = np.array([0.01, 0.02])
@@ -145,7 +145,7 @@ def test_the_middle_of_a_star():
         assert round(abs(seen[-1] - seen[0]) / (2 * np.pi)) % 2 == inside
 
 
-def test_where_two_circles_meet():
+def test_two_distances_locate_two_points_or_one_in_line_with_the_sensors():
     text = flat("10", "deeper-locate")
     assert "in two places, in one if it stands in line with both sensors" in text
     assert "A third sensor, not in line with these, tells which" in text
@@ -158,7 +158,7 @@ def test_where_two_circles_meet():
         assert in_line[0] == pytest.approx(in_line[1])
 
 
-def test_how_the_package_searches_and_where_the_obstacle_of_the_sample_is():
+def test_search_keeps_its_distance_and_sampled_obstacles_lie_on_lever_ak():
     words = flat("10", "cube-look")
     assert "in steps of at most 5° between allowed postures" in words
     assert "proves every part" in words and "an obstacle on AK" in flat("10", "often-code")
@@ -174,7 +174,7 @@ def test_how_the_package_searches_and_where_the_obstacle_of_the_sample_is():
 # --- 11 -------------------------------------------------------------------------------------------
 
 
-def test_more_pulses_are_not_always_more_time(capsys):
+def test_more_pulses_do_not_always_take_more_time(capsys):
     assert "more time, if its motor then has the most" in flat("11", "pulses-look")
     q = station_postures(LOADER, np.array([[600, -350, 50], [50, 250, 350]]) * mm) / deg
     seconds = {}
@@ -185,7 +185,7 @@ def test_more_pulses_are_not_always_more_time(capsys):
     assert others[0] == first < others[2] < others[1]
 
 
-def test_when_a_straight_line_takes_longer_than_the_curve():
+def test_straight_line_takes_longer_if_the_motor_at_the_limit_changes():
     words = flat("11", "deeper-straight-look")
     assert (
         "longer than its d if the motor at the limit changes on the way, and as long if it does not"
@@ -207,7 +207,7 @@ def test_when_a_straight_line_takes_longer_than_the_curve():
         if ((steps > 0).any(axis=0) & (steps < 0).any(axis=0)).any() or abs(
             n[-1] - n[0]
         ).max() < 200:
-            continue  # a c, or too few pulses to tell rounding from the law
+            continue  # a motor turns back, or rounding matters
         changes = len({*abs(steps).argmax(axis=1).tolist()}) > 1
         d = abs(n[-1] - n[0]).max() / LIMIT
         share = move.duration / d
@@ -218,7 +218,7 @@ def test_when_a_straight_line_takes_longer_than_the_curve():
     assert kinds == {True, False}
 
 
-def test_where_the_rule_by_size_goes_wrong():
+def test_rule_by_size_fails_in_the_stated_range():
     text = flat("11", "turn-look")
     low, high = numbers(r"for \$-(\d+)° < d < -(\d+)°\$ the rule gives minus the right turn", text)
     for d in np.arange(-899.5, 0):
@@ -227,7 +227,7 @@ def test_where_the_rule_by_size_goes_wrong():
         assert (abs(rule + right) < 1e-9) == (-low < d < -high), d
 
 
-def test_three_windings_for_one_and_how_arctan_jumps():
+def test_three_windings_act_like_one_and_arctan_jumps():
     ((_, says),) = mistakes("motor_synchronisation", "one more winding now and then")
     assert "so direction and strength are right, and three windings draw" in says
     field = np.array([1, 1j, -1, -1j])
@@ -248,7 +248,7 @@ def test_three_windings_for_one_and_how_arctan_jumps():
     assert "most of it in the middle" in options[right].text
 
 
-def test_how_many_steps_are_lost_and_what_a_ramp_mends():
+def test_lost_steps_with_and_without_a_ramp_are_as_stated():
     words = view("motor_synchronisation.p10")
     least, top, first, few, most, second = numbers(
         r"rest (\d+) to (\d+) are lost from (\d+) .* ramp (\d+) to (\d+) from (\d+) on", words
@@ -276,7 +276,7 @@ def test_how_many_steps_are_lost_and_what_a_ramp_mends():
 # --- 12 -------------------------------------------------------------------------------------------
 
 
-def test_on_which_side_the_elbows_are_exchanged():
+def test_elbows_are_exchanged_on_the_stated_side():
     exercise = book.lab("two_link_code_generation").exercises["1"]
     name = r"divides by dx, and the side from the (other )?sign of the root"
     said = [each for each in exercise.own if re.fullmatch(name, each.name)]
@@ -291,7 +291,7 @@ def test_on_which_side_the_elbows_are_exchanged():
     assert [re.search(r"to its (\w+) the two", says)[1] for _, says, _ in said] == sides
 
 
-def test_elbows_near_the_tip_the_ratio_and_the_lost_digits():
+def test_elbow_distances_link_ratio_and_lost_digits_are_as_stated():
     question, options, _ = asked("two_link_code_generation.p2")
     l1, d = numbers(r"Link 1 is (\S+) m, .* tip is (\S+) m from", question)
     l2, from_tip, from_base = numbers(
@@ -318,9 +318,9 @@ def test_elbows_near_the_tip_the_ratio_and_the_lost_digits():
     y3, x3 = 1.0, np.array([1e-3, 1e-6, 1e-9, 1e-12])
     d2 = x3**2 + y3**2
     y2 = (y3 * d2 + np.sqrt(x3**2 * d2 * (4 - d2))) / (2 * d2)
-    exact = -x3 * np.sqrt(3)  # what is divided, to first order: as slow as 2 x3
+    exact = -x3 * np.sqrt(3)  # the numerator, to first order
     lost = abs((d2 - 2 * y3 * y2) / exact - 1)
-    assert lost[1] < 1e-5 < lost[3], "in numbers of the machine"
+    assert lost[1] < 1e-5 < lost[3], "in floating-point numbers"
     below = 1e-20
     y2 = (y3 + np.sqrt(below**2 * (4 - 1))) / 2
-    assert below > 0 == y3**2 - 2 * y3 * y2, "0 is divided, by a number that is not 0"
+    assert below > 0 == y3**2 - 2 * y3 * y2, "the numerator is 0 and the denominator is not"

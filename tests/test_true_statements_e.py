@@ -1,4 +1,4 @@
-"""Statements that a second set of readers refuted, computed again in another way."""
+"""Statements that a second group of readers refuted, checked by a second calculation."""
 
 import re
 from math import comb
@@ -41,7 +41,7 @@ def about(axis, angle):
 
 
 def written(lab):
-    """The text of a lab's files in one line, Markdown and Python."""
+    """The Markdown and Python of a lab's files, on one line."""
     (ours,) = [NOTEBOOKS / "exercises" / lab]
     files = [*ours.glob("*.md"), *(ours.parents[2] / "robokin" / "course").glob(f"{lab}.py")]
     text = " ".join(each.read_text(encoding="utf-8") for each in files)
@@ -56,13 +56,13 @@ def apart(R, S):
 # --- 00 to 03 -------------------------------------------------------------------------------------
 
 
-def test_what_marks_a_number_to_change():
+def test_every_lab_marks_values_to_change_with_try():
     assert "**Look at** says where to look, `# try` what to change" in flat("00", "how")
     for lab in range(13):
         assert any("# try" in text for text in cells(f"{lab:02}").values()), lab
 
 
-def test_when_angles_may_go_straight():
+def test_angles_may_be_interpolated_if_only_one_of_them_changes():
     says = "where one alone changes, by less than half a turn, that is right."
     assert says in written("frames_and_quaternions")
     rng = np.random.default_rng(1)
@@ -87,7 +87,7 @@ def test_when_angles_may_go_straight():
     assert apart(middle(*back), about([0, 1, 0], np.pi / 3)) > 60 * deg
 
 
-def test_the_scalar_part_the_still_joint_and_the_parallel_axes():
+def test_scalar_part_joint_without_a_jump_and_parallel_axes_are_as_stated():
     assert "a point not square to the axis gets a scalar part" in flat("01", "two-signs")
     u, q = np.array([1, 2, 2]) / 3, 0.4
     for point in ([2.0, -1, 0], [0.3, 1, 2]):
@@ -109,7 +109,7 @@ def test_the_scalar_part_the_still_joint_and_the_parallel_axes():
         assert np.linalg.norm(np.cross(*turns)) < 1e-5
 
 
-def test_where_ahead_is_the_base_s_x():
+def test_tip_is_along_the_base_x_only_if_the_tool_points_there():
     says = "The tip is put along the base's x axis: right only while the tool points along it."
     assert says in written("irb140_kinematics")
     assert flat("02", "short").count("Every angle but joint 3's comes from atan2.") == 1
@@ -123,7 +123,7 @@ def test_where_ahead_is_the_base_s_x():
         assert (off < 1e-9) == right
 
 
-def test_one_front_reaches_where_the_other_does_not():
+def test_one_shoulder_reaches_where_the_other_does_not():
     assert "there is no triangle: this front does not reach." in flat("02", "triangle")
     down = Quaternion.from_angle_axis(np.pi, [1, 0, 0])
     fronts = set()
@@ -133,7 +133,7 @@ def test_one_front_reaches_where_the_other_does_not():
     assert (True, False) in fronts
 
 
-def test_a_shorter_interval_sees_no_less_of_the_change():
+def test_shorter_intervals_do_not_show_smaller_changes():
     _, options, _ = asked("irb140_motion.p5")
     assert options[0].reason.endswith("and by no less from a shorter one.")
     (said,) = numbers(r"changes by (\S+) rad/s", options[0].reason)
@@ -147,7 +147,8 @@ def test_a_shorter_interval_sees_no_less_of_the_change():
     assert "What doubles at half the step belongs to the method" in flat("03", "short")
     told = "At the same blend the quintic gives the tool 1.5 times the parabola's greatest"
     assert told in written("irb140_motion")
-    x = np.linspace(0, 1, 1001)  # of the corner; control points: shares of the way to via
+    # x is the parameter of the corner; control points are shares of the path to via
+    x = np.linspace(0, 1, 1001)
     peaks = []
     for controls in ([0, 1, 0], [0, 0.4, 0.8, 0.8, 0.4, 0]):
         n, bends = len(controls) - 1, np.diff(controls, 2)
@@ -159,7 +160,7 @@ def test_a_shorter_interval_sees_no_less_of_the_change():
 # --- 04 to 06 -------------------------------------------------------------------------------------
 
 
-def test_in_front_the_length_alone_stops_the_arm():
+def test_in_front_only_the_length_limits_the_reach():
     assert "In front nothing stops the arm outwards but its length." in flat("04", "zone")
     low, high = SCARA.limits[:2].T
     l1, l2 = 0.2, 0.25
@@ -179,7 +180,7 @@ def test_in_front_the_length_alone_stops_the_arm():
     assert not served(-0.38, 0) and served(-0.36, 0)
 
 
-def test_how_far_a_short_second_lever_turns_the_first():
+def test_short_second_lever_turns_the_first_by_the_stated_angle():
     _, options, _ = asked("scara_kinematics.p3")
     pattern = r"levers of (\d+) and (\d+) mm the first one turns by (\d+)°"
     l1, l2, most = numbers(pattern, " ".join(each.second for each in options))
@@ -188,7 +189,7 @@ def test_how_far_a_short_second_lever_turns_the_first():
     assert round((2 * inner.max()) / deg) == most
 
 
-def test_the_slowest_tool_for_joint_speeds_of_length_one():
+def test_least_tool_speed_for_joint_speeds_of_length_1_is_as_stated():
     words = flat("04", "deeper-jacobian")
     assert "How fast is the tool, at the least, for joint speeds of length 1 rad/s?" in words
     q = np.array([0.3, 0.5])
@@ -203,7 +204,7 @@ def test_the_slowest_tool_for_joint_speeds_of_length_one():
     assert speeds.min() == pytest.approx(np.linalg.svd(J)[1][1])
 
 
-def test_where_the_quintic_asks_for_more():
+def test_quintic_corner_has_a_higher_peak_acceleration():
     assert "its peak in the corner is higher" in flat("05", "cost-look")
     made, count = run_cells("05", "setup"), 4001
     s = np.linspace(0, 1, count)
@@ -229,7 +230,7 @@ def test_half_the_step_doubles_the_strokes_false_acceleration():
     assert found[1] / found[0] == pytest.approx(2) == found[2] / found[1]
 
 
-def test_what_a_path_asks_for():
+def test_paths_need_only_a_lerp_method():
     words = flat("05", "short")
     assert "paths ask a pose for its `lerp`, the Jacobian asks an arm for its links" in words
 
@@ -247,7 +248,7 @@ def test_what_a_path_asks_for():
     assert (bare.jacobian(q) == SCARA.jacobian(q)).all()
 
 
-def test_which_pairs_of_rows_become_one_in_the_hit():
+def test_two_of_the_four_row_pairs_coincide_in_the_hit():
     assert "In the hit two of the four such pairs become one:" in flat("06", "drag-target-look")
     made = run_cells("06", "setup")
     arm = made["ITMO6R"]
@@ -257,7 +258,7 @@ def test_which_pairs_of_rows_become_one_in_the_hit():
     assert [each < 1e-6 for each in off] == [False, True, True, False]
 
 
-def test_what_a_printed_rotation_has_to_pass_and_where_digits_go():
+def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
     words = flat("06", "zyz-look")
     assert "is what every printed rotation $M$ has to pass" in words
     mirror = np.diag([1, 1, -1])
@@ -270,7 +271,7 @@ def test_what_a_printed_rotation_has_to_pass_and_where_digits_go():
             psi = rng.uniform(-3, 3)
             M = about([0, 0, 1], phi) @ about([0, 1, 0], theta) @ about([0, 0, 1], psi)
             back = about([1, 0, 0], 0.7)
-            M = back.T @ (back @ M)  # as a matrix that comes out of a product
+            M = back.T @ (back @ M)  # rounded like the result of a product
             off.append(abs(np.exp(1j * np.arctan2(M[1, 2], M[0, 2])) - np.exp(1j * phi)))
         worst[theta] = max(off)
     assert worst[1e-9] < 1e-6 and 1e-4 < worst[5e-14] < 0.1
@@ -280,7 +281,7 @@ def test_what_a_printed_rotation_has_to_pass_and_where_digits_go():
 # --- 07 -------------------------------------------------------------------------------------------
 
 
-def test_for_which_joint_the_followed_angles_decide():
+def test_followed_angles_matter_only_for_joint_6():
     words = flat("07", "choose-rule")
     assert "One detail decides where joint 6, of 532°, winds past its limit:" in words
     low, high = PUMA560.limits.T
@@ -298,7 +299,7 @@ def test_for_which_joint_the_followed_angles_decide():
             kinds.add(bool(some != kept))
 
 
-def test_which_rows_end_wound():
+def test_rows_4_to_6_end_with_a_wound_joint():
     words = flat("07", "choose-look")
     assert "pass a limit in between. Rows 4 to 6 end with a joint wound past it" in words
     assert "(speeds in steps of 0.01 s)" in words
@@ -316,7 +317,7 @@ def test_which_rows_end_wound():
     assert ends == [3, 4, 5, 6] and wound == [4, 5, 6]
 
 
-def test_the_worst_case_the_folded_arm_and_the_flat_ellipsoid():
+def test_worst_case_folded_arm_and_flat_ellipsoid_are_as_stated():
     words = flat("07", "near")
     assert "arm stretched or folded" in words and "so divided, of length $\\sigma$" in words
     q = np.array([10, 60, -93, 20, 30, 40]) * deg
@@ -336,7 +337,7 @@ def test_the_worst_case_the_folded_arm_and_the_flat_ellipsoid():
     assert round(np.linalg.svd(A)[1][2] / mm) == 1
 
 
-def test_how_the_elbow_line_and_the_poses_are_drawn():
+def test_elbow_line_is_as_stated():
     assert "ending where from shoulder to wrist centre $m$ is left to stretch" in flat(
         "07", "cross"
     )
@@ -348,7 +349,7 @@ def test_how_the_elbow_line_and_the_poses_are_drawn():
     assert "We ask many poses that the arm can reach" in flat("07", "count")
 
 
-def test_postures_of_the_first_prediction_and_where_the_forearm_points():
+def test_forearm_points_as_stated_in_the_first_prediction():
     _, options, _ = asked("puma560_branches.p1")
     level = next(o for o in options if "parallel to the upper arm" in o.reason)
     assert level.text.endswith("90") and "joint 3's" in options[0].reason
@@ -370,7 +371,7 @@ def test_postures_of_the_first_prediction_and_where_the_forearm_points():
         assert fore[2] / np.linalg.norm(fore) == pytest.approx(up, abs=1e-9)
 
 
-def test_which_joints_of_two_rows_differ_depends_on_the_pose():
+def test_the_joints_in_which_two_rows_differ_depend_on_the_pose():
     question, options, right = asked("puma560_branches.p3")
     assert "for the flange's pose at the start of the line" in question
     for q, differ in (
@@ -385,15 +386,15 @@ def test_which_joints_of_two_rows_differ_depends_on_the_pose():
     assert options[right].text.startswith("Joints 2 to 6")
 
 
-def test_which_poses_straight_behind_have_no_front_row():
+def test_far_poses_straight_behind_have_no_front_row():
     _, options, _ = asked("puma560_branches.p4")
     (far,) = numbers(r"^(\d+) mm straight behind axis 1", options[0].second)
     for rho, allowed in ((300, True), (400, True), (far, False), (700, False)):
-        q1 = 180 - np.arcsin(150.05 / rho) / deg  # by either sign: front, the wrist centre behind
+        q1 = 180 - np.arcsin(150.05 / rho) / deg  # the front row, up to the sign
         assert (q1 <= 160) == allowed
 
 
-def test_how_many_short_lines_stay():
+def test_most_short_lines_keep_their_row():
     _, options, _ = asked("puma560_branches.p7")
     assert any(o.reason.startswith("Most short lines stay where") for o in options)
     rng = np.random.default_rng(9)
@@ -414,7 +415,7 @@ def test_how_many_short_lines_stay():
 # --- 08 and 09 ------------------------------------------------------------------------------------
 
 
-def test_what_starts_gently_and_whose_speed_the_slider_is():
+def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     assert "`motion` starts and stops gently, so its greatest speed is 15/8" in flat("08", "able")
     u = np.linspace(0, 1, 20001)
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
@@ -427,7 +428,7 @@ def test_what_starts_gently_and_whose_speed_the_slider_is():
     assert 5 * np.sin(q2) + 4 * np.cos(q2) == pytest.approx(-2.33, abs=0.005)
 
 
-def test_where_the_other_elbow_is_past_its_limit():
+def test_other_elbow_is_past_its_limit_away_from_the_borders():
     assert "off the borders, with the elbow flag −1 joint 3 is past its limit" in flat(
         "08", "rows-look"
     )
@@ -442,7 +443,7 @@ def test_where_the_other_elbow_is_past_its_limit():
     assert ((low - 1e-9 <= border) & (border <= high + 1e-9)).all()
 
 
-def test_how_many_reasons_of_one_kind_are_named():
+def test_at_most_ten_reasons_of_one_kind_are_named():
     assert "names what is wrong, ten of one kind at most" in flat("08", "deeper-command")
     far = [[20 + k, 0, 0] for k in range(15)]
     with pytest.raises(TaskError) as told:
@@ -451,7 +452,7 @@ def test_how_many_reasons_of_one_kind_are_named():
     assert len(about_far) == 11 and len(told.value.faults) > 11
 
 
-def test_what_near_and_far_leave_of_alpha_and_where_gamma_is_past_its_limit():
+def test_ranges_of_alpha_and_gamma_are_as_stated():
     said = written("three_levers")
     (KO, low) = numbers(r"At (\S+) m alpha goes from (\S+)° to 180°, at 3 m", said)
     assert np.arccos((5 - KO**2) / 4) / deg == pytest.approx(low, abs=0.05)
@@ -462,10 +463,10 @@ def test_what_near_and_far_leave_of_alpha_and_where_gamma_is_past_its_limit():
     for alpha in np.linspace(np.arccos((5 - x * x) / 4), np.pi, 201):
         away = np.sqrt(2 - 2 * np.cos(alpha))  # BK, and the angle at O of the triangle O B K
         at_O = np.arccos(np.clip((1 + x * x - away**2) / (2 * abs(x)), -1, 1))
-        assert at_O > 1e-3, "gamma is the direction of K and this angle"
+        assert at_O > 1e-3, "gamma is the direction of K plus this angle"
 
 
-def test_against_what_greed_loses():
+def test_greed_is_compared_with_the_best_of_all_choices():
     question, options, right = asked("three_levers.p9")
     (rows,) = numbers(r"with (\d+) postures to choose from at each target", question)
     assert rows == LEVERS["ROWS"] and options[right].text.startswith("In few")
@@ -485,7 +486,7 @@ def test_against_what_greed_loses():
         assert best[0] == pytest.approx(all_ways) and best[1] <= best[0] + 1e-12
 
 
-def test_what_planned_tasks_need_is_less_than_one_by_one():
+def test_least_movement_per_task_is_the_same_in_both_replies():
     _, options, right = asked("three_levers.p10")
     said = options[2].reason
     (each,) = numbers(r"under any rule; the least movement takes (\d+)° a task", said)
@@ -497,7 +498,7 @@ def test_what_planned_tasks_need_is_less_than_one_by_one():
 # --- 10 -------------------------------------------------------------------------------------------
 
 
-def test_which_areas_and_curves_there_are():
+def test_areas_and_curves_are_as_stated():
     assert "the two areas, one of BA and one of AK" in flat("10", "region-look")
     assert "so A and K run on curves." in flat("10", "sweep-look")
     path = direct(np.array([150, 120, 120]) * deg)
@@ -516,10 +517,10 @@ def test_which_areas_and_curves_there_are():
     a, b, c = A[0], A[2000], A[-1]
     middle = np.linalg.solve(2 * np.array([b - a, c - a]), [b @ b - a @ a, c @ c - a @ a])
     far = np.hypot(*(A - middle).T)
-    assert np.ptp(far) > 1e-3, "no arc of a circle"
+    assert np.ptp(far) > 1e-3, "not an arc of a circle"
 
 
-def test_how_the_draw_keeps_its_distance_and_what_the_larger_circle_leaves():
+def test_drawn_tasks_and_the_larger_circle_keep_the_distance_as_stated():
     assert "all levers at the start and the gripper at the target keep" in flat("10", "often")
     near_at_target = 0
     for start, target, H in sampled_tasks():
@@ -545,7 +546,7 @@ def test_plan_tries_more_circles_than_control():
 # --- 11 and 12 ------------------------------------------------------------------------------------
 
 
-def test_where_the_straight_line_makes_motors_turn_back():
+def test_motors_turn_back_in_the_last_third_of_the_straight_line():
     assert "**Look at** c in its last third:" in flat("11", "paths-look")
     start, goal = np.array([[600, -350, 50], [50, 250, 350]]) * mm
     share = np.linspace(0, 1, 20001)
@@ -557,7 +558,7 @@ def test_where_the_straight_line_makes_motors_turn_back():
     assert [len(each) for each in back] == [0, 1, 1] and min(back[1][0], back[2][0]) > 2 / 3
 
 
-def test_which_ways_are_long_and_which_losses_there_are():
+def test_long_turns_and_lost_steps_are_as_stated():
     assert "the plain difference arrives, at three the long way." in flat("11", "turn-look")
     stands, directions = 150, np.array([-165, -120, -60, 0, 60, 120])
     assert f"directions = np.array({directions.tolist()})" in cells("11")["turn-setup"]
@@ -570,7 +571,7 @@ def test_which_ways_are_long_and_which_losses_there_are():
     assert "A path with corners may be shorter than a wide arc" in written("motor_synchronisation")
 
 
-def test_what_generated_c_holds_and_what_is_asked_near_a_rim():
+def test_generated_c_has_only_doubles_and_rims_are_described_alike():
     assert "every variable in it is a double" in flat("12", "c-generate")
     assert "2*t3" in shown("12", "c-generate") and "int " not in shown("12", "c-generate")
     anything = "earer than a millimetre to a rim, and with the tip on the base,"

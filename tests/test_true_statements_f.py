@@ -46,7 +46,7 @@ def about(axis, angle):
 # --- 01 -------------------------------------------------------------------------------------------
 
 
-def test_what_a_mean_of_two_rotations_is():
+def test_lerp_between_rotations_is_not_a_rotation():
     words = flat("01", "short")
     assert "Between two different rotations lerp is not a rotation;" in words
     assert "divided by its length (nlerp) it is one, but does not turn at constant speed" in words
@@ -69,7 +69,7 @@ def test_what_a_mean_of_two_rotations_is():
         assert all(np.linalg.det(mean) < 1 - 1e-6 for mean in means)
 
 
-def test_a_test_for_slerp_by_its_last_hint_catches_every_mistake():
+def test_last_hint_for_slerp_catches_every_mistake():
     exercise = book.find("frames_and_quaternions.3", "exercises")
     hint = one_line(exercise.hints[2])
     assert (
@@ -115,7 +115,7 @@ def test_a_test_for_slerp_by_its_last_hint_catches_every_mistake():
     assert without
 
 
-def test_what_else_of_a_link_the_axes_leave_open():
+def test_skew_axes_with_directions_determine_a_link():
     reason = one_line(option("frames_and_quaternions.p4", "none").reason)
     assert "one common perpendicular, once you have said which way it and the axes point." in reason
     assert "it is 0, or 180° where they point opposite ways" in one_line(
@@ -139,7 +139,7 @@ def test_what_else_of_a_link_the_axes_leave_open():
 # --- 03 -------------------------------------------------------------------------------------------
 
 
-def test_where_joint_1_is_fast_on_the_line():
+def test_joint_1_is_fastest_in_the_middle_of_the_line():
     reason = one_line(option("irb140_motion.p2", "sooner").reason)
     told = "joint 1 is slower than its mean for more than half of the time and nearly twice as fast"
     assert told + " in the middle," in reason
@@ -156,7 +156,7 @@ def test_where_joint_1_is_fast_on_the_line():
     assert (speed > 0.9 * speed.max()).mean() > 0.1  # a broad peak, not "at one place"
 
 
-def test_how_the_trapezoid_and_the_quintic_brake():
+def test_trapezoid_brakes_at_full_strength_to_the_end():
     reason = one_line(option("irb140_motion.p4", "trapezoidal").reason)
     assert "brakes at full strength to the very end, where the quintic fades out." in reason
     bell = one_line(option("irb140_motion.p4", "triangle").second)
@@ -174,7 +174,7 @@ def test_how_the_trapezoid_and_the_quintic_brake():
     assert narrow(0.5) / quad(narrow, 0, 1)[0] > 2  # another bell needs more than a triangle
 
 
-def test_what_the_quintic_corner_costs_at_the_same_blend():
+def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
     second = one_line(option("irb140_motion.p7", "much more").second)
     told = r"At the same blend the quintic gives the tool (\S+) times the parabola's greatest"
     (factor,) = numbers(told + " acceleration in the corner:", second)
@@ -206,7 +206,7 @@ def test_what_the_quintic_corner_costs_at_the_same_blend():
     assert third[1] < third[0]
 
 
-def test_which_joints_have_two_values_inside_their_limits():
+def test_joint_4_can_have_two_values_inside_its_limits():
     others = "The value given for any other joint may be whole turns away from the values inside"
     one, two = says("irb140_motion", "only joint 6"), says("irb140_motion", "only joints 4 and 6")
     assert f"{others} its limits, too, and of joint 4 two of them may be inside." in one
@@ -260,7 +260,7 @@ def zone_area(a, m, l1=0.2, l2=0.25):
         ((45, 170), 1),
     ],
 )
-def test_the_area_of_both_elbows_or_that_the_formula_does_not_hold(stops, stop):
+def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
     words = flat("04", "deeper-area")
     assert (
         r"Joint 2 must let the second lever come as far as its mirror image: $\beta \le m$" in words
@@ -288,7 +288,7 @@ def test_the_area_of_both_elbows_or_that_the_formula_does_not_hold(stops, stop):
 # --- 05 -------------------------------------------------------------------------------------------
 
 
-def test_which_rotations_move_the_wrist_centre():
+def test_only_a_turn_about_the_tools_axis_keeps_the_wrist_centre():
     found = option("scara_motion.p1", "q1+q2+q3+q4")
     assert "a tilt moves the wrist centre, which joints 1 to 3 carry." in one_line(found.reason)
     assert (
@@ -361,7 +361,7 @@ def singular_too(program, right):
     return found
 
 
-def test_the_test_for_wrist_programs_sees_what_only_a_chain_shows():
+def test_hint_and_solution_reject_a_better_root_alone():
     made = lab_06()
     right, better = made["my_wrist"], singular_too(made["better_root"], made["my_wrist"])
     worst = {1e-10: 1e-6, 1e-9: 1e-7, 1e-8: 1e-8, 1e-7: 1e-9}
@@ -394,7 +394,7 @@ def test_the_test_for_wrist_programs_sees_what_only_a_chain_shows():
     )
 
 
-def test_a_hundred_well_chosen_matrices_will_do():
+def test_a_hundred_matrices_are_enough_for_wrist_programs():
     assert "a hundred well chosen ones will do" in flat("06", "yourturn-2")
     rng = np.random.default_rng(11)
     pairs = [(np.pi / 4, 0.3), (2, -0.5), *rng.uniform(-np.pi, np.pi, (4, 2))]
@@ -418,7 +418,7 @@ def test_a_hundred_well_chosen_matrices_will_do():
     assert check("spherical_wrist.2", test).holds
 
 
-def test_where_the_regular_formulas_lose_digits():
+def test_regular_formulas_lose_digits_at_the_stated_angle():
     low, high = (
         says("spherical_wrist", f"the regular formulas at theta = {place}")
         for place in ("0", "180 degrees")
@@ -443,7 +443,7 @@ def test_where_the_regular_formulas_lose_digits():
 # --- 07 -------------------------------------------------------------------------------------------
 
 
-def test_how_many_lines_the_first_pose_misleads():
+def test_these_lines_do_not_tell_which_rule_is_better():
     question, options, right = asked("puma560_branches.p7")
     reason = one_line(options[right].reason)
     (said,) = numbers(r"^About (\d+) %\.$", options[right].text)
@@ -513,7 +513,7 @@ def lab_07(*names):
     return made, told.getvalue()
 
 
-def test_the_greatest_speeds_past_the_wrist():
+def test_greatest_speeds_past_the_wrist_are_those_of_the_line():
     made, told = lab_07("cross-cost")
     table = [line.split() for line in told.splitlines()[-4:]]
     for row in table:
@@ -525,7 +525,7 @@ def test_the_greatest_speeds_past_the_wrist():
     assert drawn == 44868
 
 
-def test_the_players_greatest_speed_is_that_of_the_line():
+def test_player_shows_the_greatest_speed_of_the_line():
     made, _ = lab_07()
     source = cells("07")["cross-player"]
     head, _, tail = source.rpartition("\nanimate(")
@@ -534,7 +534,7 @@ def test_the_players_greatest_speed_is_that_of_the_line():
     assert said == round(peak(made, "wrist", 2 * mm, 6), 1) == 2244.5
 
 
-def test_how_near_the_arm_s_plane_the_tangent_is():
+def test_tangent_is_nearly_in_the_arms_plane():
     reason = one_line(option("puma560_branches.p6", "as towards the axis").reason)
     told = r"the flange moves, where it is nearest, nearly in the arm's own plane, (\S+)° from it"
     (said,) = numbers(told, reason)

@@ -1,5 +1,5 @@
-"""Three levers on a turning base: points in space compared with a chain of complex numbers and a
-plane rotated by hand.
+"""Three levers on a turning base: points in space compared with a chain of complex numbers in a
+plane that is rotated here.
 """
 
 import numpy as np
@@ -17,8 +17,8 @@ arms = pytest.mark.parametrize("arm", ARMS.values(), ids=ARMS)
 
 
 def tip(arm, q):
-    """K (..., 3): the levers as complex numbers in a plane whose real axis points along the turn
-    and whose imaginary axis points up.
+    """The gripper's position K (..., 3): the levers are complex numbers in a plane whose real axis
+    turns with the base and whose imaginary axis points up.
     """
     turn, gamma, beta, alpha = np.moveaxis(q, -1, 0)
     turns = np.stack([np.exp(1j * gamma), -np.exp(1j * beta), -np.exp(1j * alpha)])
@@ -55,7 +55,7 @@ def test_least_reaches_the_point_within_the_limits(arm, shape):
 
 @arms
 def test_no_other_posture_moves_less(arm):
-    """By brute force over both turns and 2001 alphas; each turn is sometimes the better one."""
+    """Brute force over both turns and 2001 alphas; each turn is sometimes the better one."""
     points, before = tip(arm, postures(arm, (300,))), postures(arm, (300,), seed=2)
     plane = arm.geometry.plane
     q, S = arm.least(points, before)
@@ -87,7 +87,7 @@ def test_base_does_not_turn_for_points_on_the_axis():
     assert np.isnan(arm.least((0, 0, 2.7), before)[0]).all()
 
 
-def test_turning_arm_is_drawn_and_explored():
+def test_turning_arm_can_be_explored_and_refuses_wrong_arguments():
     arm = ARMS["equal"]
     assert "on a turning base" in joint_explorer(arm, [0.5, 1.0, 2.0, 2.0]).data["title"]
     with pytest.raises(TypeError, match="arm: wanted a ThreeLeverArm, got"):

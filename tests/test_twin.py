@@ -1,8 +1,8 @@
 """The twin: the page's own kinematics in JavaScript compared with Python, in a real browser.
 
 Everything runs twice: with the browser's sines, cosines and arctangents, and with noise in their
-last bit, since another browser may round differently. The same rows exist in any case; each test
-states the tolerance of the numbers.
+last bit, since another browser may round differently. The same rows exist in either case; each test
+states the tolerance of the values.
 """
 
 import base64
@@ -57,7 +57,7 @@ from robokin.show.twin import arm_data
 
 SCRIPTS = Path(robokin.show.__file__).parent / "js"
 TURN = 2 * np.pi
-# axis 1 is not in the arm's plane, so that the point stays away from it
+# axis 1 is not in the plane of the arm, so the point cannot come near it
 BESIDE = elbow_arm(
     "Beside",
     dh_links(a=[0.05, 0.43, 0.38], alpha=np.array([90, 0, 0]) * deg, d=[0.6, 0.15, 0]),
@@ -112,7 +112,8 @@ NOISE = """{
 
 class Twin:
     """The scripts in a page: `twin(body, arm, *arrays, shape=...)` runs the body of a JavaScript
-    function of the arm and of flat arrays a, b, c, d; the numbers it returns come back in a shape.
+    function of the arm and of flat arrays a, b, c, d, and returns its values as an array of that
+    shape.
     """
 
     def __init__(self, page, noisy):
@@ -153,7 +154,9 @@ def twin(browser, request):
 
 
 def close(got, want, tolerance, modulo=None):
-    """NaN in the same places, the others within the tolerance, and at least some numbers."""
+    """Assert that NaN is in the same places, that the other values agree within the tolerance, and
+    that some values are not NaN.
+    """
     assert got.shape == want.shape
     missing = np.isnan(want)
     assert (np.isnan(got) == missing).all() and not missing.all()
@@ -167,16 +170,16 @@ def close(got, want, tolerance, modulo=None):
 
 
 def tiny(rng, n):
-    """Nothing, or some size down to rounding of either sign; no power of ten, for these are borders
-    of words.
+    """Zeros and small values of either sign, down to rounding errors; none is a power of ten, since
+    the words change there.
     """
     size = rng.choice([-3.0, 3.0], n) * 10.0 ** -rng.integers(1, 17, n)
     return np.where(rng.random(n) < 0.25, 0.0, size)
 
 
 def beyond(rng, n):
-    """Distances past a border, in reaches: powers of ten, and values near and at the tolerance of
-    1e-12, where the last bit of a distance decides.
+    """Distances past a border, as fractions of the reach: values of all sizes, and values near and
+    at the tolerance of 1e-12, where the last bit of a distance decides.
     """
     size = rng.choice([-1, 1], n) * 10.0 ** -rng.uniform(3, 16, n)
     size = np.where(rng.random(n) < 0.5, size, rng.uniform(-3, 3, n) * 1e-12)
@@ -190,7 +193,9 @@ def rotations(rng, n):
 
 
 def measures(arm):
-    """Both levers, the way from axis 1 to the shoulder, its height, how far the plane is beside."""
+    """The lengths of both levers, the distance from axis 1 to the shoulder, the shoulder's height,
+    and the offset of the arm's plane from axis 1.
+    """
     solid = arm.geometry
     if hasattr(solid, "elbow"):
         e = solid.elbow
@@ -201,7 +206,7 @@ def measures(arm):
 
 
 def places(arm, rng):
-    """Where to bring what the first joints carry: kind -> (n, 3)."""
+    """Positions for the point that the first joints carry: kind -> (n, 3)."""
     upper, fore, ahead, height, lateral = measures(arm)
     flat = not hasattr(arm.geometry, "elbow")
 
@@ -222,7 +227,7 @@ def places(arm, rng):
         some["border"][:400, 2] = height + rng.uniform(-0.9, 0.9, 400) * upper
     n = SHARES["far"]
     some["far"] = around(n, rng.uniform(1.6, 30, n) * arm.reach)
-    some["far"][: n // 4] = 1000 * some["places"][: n // 4]  # millimetres
+    some["far"][: n // 4] = 1000 * some["places"][: n // 4]  # millimetres taken for metres
     n = SHARES["singular"] // 2
     nearest_to_axis = abs(upper - fore) if flat else abs(lateral)
     turn, r = rng.uniform(-np.pi, np.pi, n), nearest_to_axis + tiny(rng, n) * arm.reach
@@ -262,7 +267,7 @@ def poses(name):
     found = {kind: _asked(arm, arm.fk(q), rng) for kind, q in postures(arm, rng).items()}
     for kind, points in places(arm, rng).items():
         turn = rotations(rng, len(points))
-        if arm.target is Transform:  # so that the wrist centre comes to these places
+        if arm.target is Transform:  # the positions are for the wrist centre
             wrist = arm.geometry.wrist
             back = turn @ Quaternion(wrist.from_flange) @ wrist.centre_from_flange
             found[kind] = Transform(turn, points - back)
@@ -278,7 +283,7 @@ def _asked(arm, tool, rng):
 
 
 def numbers(pose):
-    """A batch of poses as numbers for `posed`: (n, 7), (n, 4) or (n, 3)."""
+    """A batch of poses as an array for `posed`: (n, 7), (n, 4) or (n, 3)."""
     if isinstance(pose, Transform):
         return np.concatenate([pose.translation, pose.rotation.wxyz], axis=-1)
     if isinstance(pose, ScaraPose):
@@ -299,8 +304,8 @@ NEAR = "return nested(a, arm.chain.length).map(q => distance_from_singularity(ar
 
 
 @every_arm
-def test_rows(twin, name):
-    """The same rows exist, in order; the joints differ only by the error of an arctangent."""
+def test_page_computes_the_same_rows(twin, name):
+    """The same rows exist, in order; the joint values differ only by the error of an arctangent."""
     arm = ARMS[name]
     assert sum(len(numbers(pose)) for pose in poses(name).values()) == sum(SHARES.values())
     for kind, pose in poses(name).items():
@@ -344,8 +349,8 @@ def test_rows(twin, name):
 
 
 def half_turns(arm, rng, *shape):
-    """Rows whose joints differ by quarter turns: half turns are exactly between two values, and
-    many rows are equally far. Some are missing.
+    """Rows whose joint values differ by quarter turns: half turns are exactly between two values,
+    and many rows are equally near. Some rows are missing.
     """
     q = rng.integers(-8, 9, (*shape, len(arm.links))) * (np.pi / 2)
     q[..., arm.prismatic] = rng.integers(-4, 5, q[..., arm.prismatic].shape) * 0.05
@@ -354,7 +359,7 @@ def half_turns(arm, rng, *shape):
 
 
 def at_limits(arm, rng, n):
-    """Joints at a limit, at the tolerance past it, and whole turns from there."""
+    """Joint values at a limit, past it by about the tolerance, and whole turns away from these."""
     slack = rng.choice([0, 1e-9, -1e-9, 0.9e-9, 1.1e-9, -1.1e-9, 0.1, -0.1], (n, len(arm.links)))
     end = rng.integers(0, 2, slack.shape)
     q = arm.limits[np.arange(len(arm.links)), end] + slack
@@ -362,9 +367,9 @@ def at_limits(arm, rng, n):
 
 
 @every_arm
-def test_choice(twin, name):
+def test_page_chooses_the_same_joint_values(twin, name):
     """`within`, `representative`, `unwrapped` and `nearest` on the same rows: equal to the last
-    bit, for nothing but + - * / and rounding is in them.
+    bit, since they use only + - * / and rounding.
     """
     arm, rng = ARMS[name], np.random.default_rng(6)
     n = len(arm.links)
@@ -401,7 +406,7 @@ def test_choice(twin, name):
 
 
 def follows(twin, arm, rows, starts):
-    """`follow` of every motion (motions, samples, rows, n) from its own row."""
+    """Run `follow` on every motion (motions, samples, rows, n), each from its own row."""
     motions, samples, count, n = rows.shape
     body = (
         "const [samples, count, n] = b;"
@@ -411,13 +416,13 @@ def follows(twin, arm, rows, starts):
 
 
 @every_arm
-def test_follow(twin, name):
-    """One motion through Python's rows: over missing rows, from and through singularities, with
+def test_page_follows_the_same_rows(twin, name):
+    """Motions follow Python's rows: across missing rows, from and through singularities, and with
     half turns.
     """
     arm, rng = ARMS[name], np.random.default_rng(7)
     rows = half_turns(arm, rng, 60, 12, len(arm.branches))
-    rows[:10, :4] = np.nan  # no posture to begin with
+    rows[:10, :4] = np.nan  # motions without a first posture
     starts = rng.integers(0, len(arm.branches), 60)
     want = np.stack([follow(arm, r, k) for r, k in zip(rows, starts.tolist(), strict=True)])
     close(follows(twin, arm, rows, starts), want, 1e-13)
@@ -431,8 +436,8 @@ def test_follow(twin, name):
 
 @cache
 def corners(name, i):
-    """Three poses of a motion: joints at random, some through a wrist or shoulder singularity, some
-    from a round posture, some out of reach.
+    """Three poses of a motion with random joint values; some motions lead through a wrist or
+    shoulder singularity, some begin in a posture with round angles, some leave the reach.
     """
     arm, rng = ARMS[name], np.random.default_rng(100 + i)
     low, high = arm.limits.T
@@ -466,8 +471,10 @@ def chained(name, i, row):
 
 
 @every_arm
-def test_whole_chain(twin, name):
-    """Blend, inverse and motion: near a singularity the inverse amplifies rounding errors."""
+def test_page_computes_the_same_motions(twin, name):
+    """The chain of blend, inverse and `follow`; near a singularity the inverse amplifies rounding
+    errors.
+    """
     arm = ARMS[name]
     body = (
         "const poses = nested(a, b[0]).map(posed), law = quintic(1);"
@@ -491,8 +498,10 @@ def test_whole_chain(twin, name):
 # --- Rotations, velocities, paths ----------------------------------------------------------------
 
 
-def test_rotations(twin):
-    """Products, matrices there and back, slerp: also of equal, near and opposite ones."""
+def test_page_computes_the_same_rotations(twin):
+    """Products, matrices there and back, and slerp, also of equal, nearly equal and opposite
+    rotations.
+    """
     rng = np.random.default_rng(8)
     n = 2000
     a, b = rotations(rng, n), rotations(rng, n)
@@ -513,14 +522,14 @@ def test_rotations(twin):
     close(got[..., 3], a.wxyz[:, 1:], 0)
     got = twin(body + "quaternion(matrix(q[i])));", *given, shape=(n, 4))
     close(got, Quaternion.from_matrix(b.as_matrix()).wxyz, 1e-15)
-    # a half turn has two directions; depending on the last bit of the product both are right
+    # a half turn has two directions, and the last bit of the product decides which one is taken
     got = twin(body + "slerp(one, q[i], c[i]));", *given, shape=(n, 4))
     close(got, a.slerp(b, s).wxyz, 1e-14)
 
 
 @every_arm
-def test_velocities(twin, name):
-    """The Jacobian, the ellipsoid of velocities, and the pose that a posture reaches."""
+def test_page_computes_the_same_velocities(twin, name):
+    """The Jacobian, the velocity ellipsoid, and the pose that a posture reaches."""
     arm, rng = ARMS[name], np.random.default_rng(9)
     n = len(arm.links)
     q = rng.uniform(*arm.limits.T, (200, n))
@@ -547,8 +556,10 @@ def test_velocities(twin, name):
 
 
 @pytest.mark.parametrize("kind", ["Transform", "ScaraPose", "point"])
-def test_paths(twin, kind):
-    """Straight, in two straight parts, blended by either corner; s beyond its ends stays there."""
+def test_page_computes_the_same_paths(twin, kind):
+    """Paths that are straight, have two straight parts, or are blended with either corner; s
+    outside [0, 1] stays at an end.
+    """
     rng = np.random.default_rng(10)
     n, s = 60, np.array([0, 0.5, 1, 0.25, 0.75, 0.5 - 1e-16, *rng.random(30)])
     place = rng.normal(size=(3, n, 3))
@@ -591,8 +602,10 @@ def test_paths(twin, kind):
     close(outside, numbers(lin(a, c, [0, 1]))[..., :width], 1e-14)
 
 
-def test_motion(twin):
-    """Point to point, the laws, speeds and accelerations from even and uneven samples."""
+def test_page_computes_the_same_laws_and_derivatives(twin):
+    """Point-to-point motions, the time laws, and speeds and accelerations from even and uneven
+    samples.
+    """
     rng = np.random.default_rng(11)
     q, s = rng.normal(size=(2, 6)), rng.random(40)
     got = twin(
@@ -630,8 +643,10 @@ def test_motion(twin):
                 close(got, differentiate(values, t, order), 10 * rounding)
 
 
-def test_greatest_values(twin):
-    """Refined in the same steps, of a sine, a corner and what has no value in a part."""
+def test_page_refines_the_same_maxima(twin):
+    """The maxima of a sine, of a corner and of a partly undefined function are refined in the same
+    steps.
+    """
     for low, high, decimals in ((0, 3, 1), (0.4, 1.9, 3), (-2, -0.7, 5)):
         got = twin(
             "return [x => Math.sin(3 * x), x => -Math.abs(x - 0.6), x => (x < 1 ? x : NaN)].map("
@@ -654,12 +669,12 @@ def test_greatest_values(twin):
         assert np.isnan(got[0])
 
 
-RULES = f"{{least: {LEAP}, few: {FEW}}}"  # of jumps of position
+RULES = f"{{least: {LEAP}, few: {FEW}}}"  # the rules for jumps in position
 
 
-def test_jumps_of_position(twin):
-    """Saw-teeth of all sizes on ramps, sines and noise, with holes, even and uneven: what `record`
-    finds the page finds, joint by joint.
+def test_page_finds_the_same_jumps_in_position(twin):
+    """Sawteeth of all sizes on ramps, sines and noise, with gaps, evenly and unevenly sampled: the
+    page finds what `record` finds, joint by joint.
     """
     rng, found = np.random.default_rng(16), 0
     for k in range(60):
@@ -668,7 +683,7 @@ def test_jumps_of_position(twin):
         q += (k % 3 == 0) * 10.0 ** rng.uniform(-5, -1) * rng.normal(size=q.shape)
         for _ in range(6):
             q[rng.integers(90) :, rng.integers(4)] += rng.normal() * 10.0 ** rng.uniform(-3, 1)
-        q[rng.integers(90), rng.integers(4)] += 0.4  # one sample aside
+        q[rng.integers(90), rng.integers(4)] += 0.4  # one outlying sample
         q[rng.integers(90, size=k % 4)] = np.nan
         want = np.zeros((89, 4))
         for leap in record(SCARA, t, q).leaps:
@@ -685,9 +700,9 @@ def test_jumps_of_position(twin):
     assert found > 150
 
 
-def test_recordings(twin):
-    """Corners, jumps and holes: the page finds the speeds, the accelerations, the breaks and the
-    jumps of the speed that `record` finds.
+def test_page_computes_the_same_recordings(twin):
+    """For motions with corners, jumps and gaps, the page finds the same speeds, accelerations,
+    breaks and jumps in speed as `record`.
     """
     rng, corners, broken = np.random.default_rng(17), 0, 0
     for k in range(60):
@@ -725,8 +740,10 @@ def test_recordings(twin):
     assert corners > 40 and broken > 30
 
 
-def test_ticks(twin):
-    """The same scales as Python's, which are Matplotlib's: of all sizes, far from 0, of nothing."""
+def test_page_chooses_the_same_scales(twin):
+    """The scales equal Python's, which are Matplotlib's, for ranges of all sizes, far from 0, and
+    empty.
+    """
     rng = np.random.default_rng(18)
     low = rng.normal(size=600) * 10.0 ** rng.uniform(-4, 4, 600)
     high = low + rng.uniform(0, 1, 600) * 10.0 ** rng.uniform(-5, 4, 600)
@@ -750,12 +767,12 @@ EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
 
 
 @every_arm
-def test_words(twin, name):
-    """The same sentences as Python's `explain`, for every reason."""
+def test_page_explains_in_the_same_words(twin, name):
+    """For every reason, the sentences equal those of Python's `explain`."""
     arm, rng = ARMS[name], np.random.default_rng(12)
     asked, want = [], []
     for kind, pose in poses(name).items():
-        # half a turn stands at 180 or -180 degrees: there noise is seen in the words
+        # half a turn is 180 or -180 degrees: there the words depend on noise
         if twin.noisy and kind not in ("postures", "places", "far"):
             continue
         flat = numbers(pose)
@@ -772,7 +789,7 @@ def test_words(twin, name):
         assert any(part in words for words, _ in want) or (part, name) in UNHEARD, part
 
 
-# one turn is room for every angle, so that no joint is past its limit
+# a range of a whole turn allows every angle, so no joint is past its limit
 UNHEARD = {
     (part, name)
     for part in ("not usable", "past")
@@ -781,8 +798,10 @@ UNHEARD = {
 }
 
 
-def test_words_of_ties(twin):
-    """A decimal exactly between two is the even one: in Python 10.25 is 10.2."""
+def test_ties_are_rounded_to_even_as_in_python(twin):
+    """A value exactly between two decimals becomes the even one: in Python 10.25 is
+    shown as 10.2.
+    """
     arm = two_link(0.5, 0.5)
     asked = [[[1 + gap, 0, 0], 0] for gap in (10.25, 10.75, 11.5, 12.25, 17.125, 25.75)]
     want = [explain(arm, np.array(point), row) for point, row in asked]
@@ -796,7 +815,7 @@ def test_words_of_ties(twin):
 
 
 @pytest.mark.parametrize("lengths", [0.3, (0.27, 0.33, 0.18), (0.2, 0.15, 0.5), (0.5, 0.4, 0.1)])
-def test_three_levers(twin, lengths):
+def test_page_computes_the_same_postures_of_three_levers(twin, lengths):
     """The family of a point, its ends, and the least movement. An arctangent decides where the
     family ends, so points within rounding of a border of gamma are skipped.
     """
@@ -815,7 +834,7 @@ def test_three_levers(twin, lengths):
             shape=(n, 2),
         )
         ends = np.stack(arm.alpha_range(points, limited), axis=-1)
-        # where the range is one alpha its two ends cross by rounding
+        # where the range is a single alpha, rounding may make its two ends cross
         sure = np.ones(n, dtype=bool)
         if limited:
             free = np.stack(arm.alpha_range(points, False), axis=-1)
@@ -830,7 +849,8 @@ def test_three_levers(twin, lengths):
     alpha[::9] -= 0.5 * ROUNDING
     alpha[1::30] = np.pi + 0.5 * ROUNDING
     got = twin(call + "family(arm, posed(point), b[i]));", arm, points, alpha, shape=(n, 3))
-    # an alpha at the low end is moved there, and beta changes with the root of alpha
+    # an alpha slightly below the low end is moved to it, where beta changes with the square root of
+    # alpha
     close(got, arm.family(points, alpha), 1e-7 if twin.noisy else 1e-14)
     exists = ~np.isnan(got[:, 0])
     close(arm.fk(got[exists]).translation[:, :2], points[exists, :2], 1e-12)
@@ -845,20 +865,20 @@ def test_three_levers(twin, lengths):
             shape=(500, 3),
         )
         q, S = arm.least(points[:500], before[:500], limited)
-        # the sum is flat at its minimum: there half of the digits of alpha are noise
+        # the sum is flat at its minimum, so half of the digits of alpha are noise there
         close(abs(got - before[:500]).sum(axis=-1), S, 1e-12)
         close(got, q, 1e-6)
 
 
-def test_other_levers_are_another_arm(twin):
-    """The page computes the same data for other lengths as Python."""
+def test_page_changes_the_lengths_of_levers_like_python(twin):
+    """For other lengths the page computes the same data as Python."""
     arm, rng = arm_data(three_lever((0.3, 0.2, 0.4))), np.random.default_rng(15)
     for lengths in rng.uniform(0.1, 2, (20, 3)).tolist():
         got = twin.page.evaluate("([arm, levers]) => withLevers(arm, levers)", [arm, lengths])
         assert got == json.loads(json.dumps(arm_data(three_lever(lengths))))
 
 
-# --- What Python hands over ----------------------------------------------------------------------
+# --- The data from Python ------------------------------------------------------------------------
 
 
 LEVERS = three_lever(0.3), three_lever((0.27, 0.33, 0.18))
@@ -866,7 +886,7 @@ LEVERS = three_lever(0.3), three_lever((0.27, 0.33, 0.18))
 
 @pytest.mark.parametrize("arm", [*ARMS.values(), *LEVERS], ids=lambda arm: arm.name)
 def test_data_have_full_precision(arm):
-    """JSON can represent it, and every number is preserved to the last bit."""
+    """JSON can represent the data, and every number is preserved to the last bit."""
     data = arm_data(arm)
     assert json.loads(json.dumps(data, allow_nan=False)) == json.loads(json.dumps(data))
     back = json.loads(json.dumps(data))
@@ -882,8 +902,8 @@ class Own:
 
 
 @pytest.mark.parametrize("arm", [Arm("Own", Own(), IRB140.limits), UR5], ids=lambda arm: arm.name)
-def test_an_unknown_geometry(twin, arm):
-    """The page gets the chain and the limits: it can turn the joints, but has no inverse."""
+def test_arm_with_an_unknown_geometry_has_no_inverse(twin, arm):
+    """The page gets the chain and the limits, so it can turn the joints, but it has no inverse."""
     data = arm_data(arm)
     assert data["geometry"] == {"kind": None} and "branches" not in data
     q = np.random.default_rng(14).uniform(-1, 1, (20, 6))

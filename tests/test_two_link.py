@@ -22,7 +22,7 @@ lengths = pytest.mark.parametrize("l1, l2", [(1, 1), (1, 1.5), (2, 0.3), (0.3, 2
 
 
 def elbows(arm, rows):
-    """The document's unknown (x2, y2)."""
+    """The positions (x2, y2) of the elbow, the document's unknown."""
     return arm.frames(rows)[..., 1].translation[..., :2]
 
 
@@ -30,14 +30,14 @@ def elbows(arm, rows):
 
 
 @cases
-def test_reference_cases(case):
+def test_ik_equals_the_reference_cases(case):
     arm = two_link(case["l1"], case["l2"], case["base"])
     rows = arm.ik(case["target"])
     if not case["reachable"]:
         assert np.isnan(rows).all() and "does not exist" in explain(arm, case["target"], 0)
         return
     np.testing.assert_allclose(arm.fk(rows).translation[:, :2], [case["target"]] * 2, atol=1e-12)
-    if not case["solutions"]:  # tip on the base of equal links: any q1
+    if not case["solutions"]:  # equal links, and the tip is on the base: q1 is free
         assert abs(rows[:, 1]) == pytest.approx(np.pi) and (rows[:, 0] == 0).all()
     tolerance = 1e-4 if case["singular"] else 1e-9
     for row, solution in zip(rows, [*case["solutions"], *case["solutions"]][:2], strict=False):
@@ -53,7 +53,7 @@ def test_reference_cases(case):
 @lengths
 @pytest.mark.parametrize("base", [(0, 0), (-3.2, 0.7)])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_ik_contains_the_original_joints(l1, l2, base, shape):
+def test_ik_contains_the_original_joint_values(l1, l2, base, shape):
     arm = two_link(l1, l2, base)
     q = np.random.default_rng(3).uniform(-np.pi, np.pi, (*shape, 2))
     q[..., 1] = np.where(abs(q[..., 1]) < 0.1, 1.0, q[..., 1])
@@ -74,21 +74,21 @@ def test_ik_contains_the_original_joints(l1, l2, base, shape):
 
 
 @pytest.mark.parametrize("x3", [0.0, -0.0, 1e-300, -1e-300, 5e-324, 1e-9, -1e-9])
-def test_x3_equal_to_zero_is_harmless(x3):
+def test_ik_is_correct_at_and_near_x3_equal_to_zero(x3):
     arm, near = two_link(1, 1), two_link(1, 1).ik((1e-7, 0.3))
     rows = arm.ik((x3, 0.3))
     assert abs(rows - near).max() < 1e-6
     np.testing.assert_allclose(arm.fk(rows).translation, [(x3, 0.3, 0)] * 2, atol=1e-15)
-    tiny = arm.ik((x3, 0.0))  # base at the tip, or as good as
+    tiny = arm.ik((x3, 0.0))  # the tip is on the base, or almost
     np.testing.assert_allclose(arm.fk(tiny).translation, [(x3, 0, 0)] * 2, atol=1e-15)
     assert abs(tiny[:, 1]) == pytest.approx(np.pi, abs=2e-9)
-    if x3:  # then link 1 is perpendicular to the line, to its right and to its left
+    if x3:  # then link 1 is perpendicular to the line to the tip, on either side
         ahead = 0 if x3 > 0 else np.pi
         assert turns(tiny[:, 0], [ahead - np.pi / 2, ahead + np.pi / 2]).max() < 1e-9
 
 
 @lengths
-def test_stretched_folded_and_out_of_reach(l1, l2):
+def test_stretched_and_folded_arms_are_reachable_and_points_beyond_are_not(l1, l2):
     arm = two_link(l1, l2, (0.4, -0.2))
     for angle in np.linspace(-3, 3, 13):
         way = np.array([np.cos(angle), np.sin(angle)])
@@ -115,7 +115,7 @@ def test_stretched_folded_and_out_of_reach(l1, l2):
     assert np.isnan(arm.ik((x, y, 1e-3))).all() and np.isfinite(arm.ik((x, y, 0))).all()
 
 
-def test_reasons_in_words():
+def test_explain_states_each_reason_in_words():
     arm = two_link(1, 1.5)
     assert "does not exist: the target is 500.0 mm beyond the stretched arm" in explain(
         arm, (3, 0), 0
@@ -129,7 +129,7 @@ def test_reasons_in_words():
 
 def test_follow_goes_through_the_base_with_one_elbow():
     arm = two_link(1, 1)
-    x = np.linspace(-1, 1, 201)  # through the tip on the base, where q1 is free
+    x = np.linspace(-1, 1, 201)  # at x = 0 the tip is on the base, where q1 is free
     q = follow(arm, arm.ik(np.stack([x, 0 * x], axis=-1)), arm.branch(+1))
     np.testing.assert_allclose(arm.fk(q).translation[:, 0], x, atol=1e-12)
     assert abs(np.diff(q, axis=0)).max() < 0.03
@@ -163,12 +163,12 @@ def printed(x3, y3, l):  # noqa: E741  (the document's letter)
 def test_the_printed_y2_has_a_wrong_denominator():
     x2, y2 = printed(1.2, 0.7, 1)  # errata S2-a
     assert (x2, y2) == pytest.approx((0.2375279178, 0.8094839269))
-    assert math.hypot(x2, y2) == pytest.approx(0.8436, abs=1e-4)  # and not l = 1
+    assert math.hypot(x2, y2) == pytest.approx(0.8436, abs=1e-4)  # instead of l = 1
     arm = two_link(1, 1)
     right = elbows(arm, arm.ik((1.2, 0.7)))
     assert right[1] == pytest.approx((x2, 1.2 * y2)) and right[1, 1] == pytest.approx(0.9713807123)
     assert right[0] == pytest.approx((0.9624720822, -0.2713807123))
-    with pytest.raises(ZeroDivisionError):  # S2-d
+    with pytest.raises(ZeroDivisionError):  # errata S2-d
         printed(0.0, 0.3, 1)
 
 
@@ -176,7 +176,7 @@ def test_the_printed_root_swaps_the_elbow_with_the_sign_of_x3():
     sides = []
     for x3 in (0.1, -0.1):
         x2, y2 = printed(x3, 1, 1)
-        # the way to the tip crossed with that to the elbow, y2 put right
+        # the cross product of the vectors to the tip and to the elbow, with y2 corrected
         sides.append(x3 * (x3 * y2) - 1 * x2)
     assert sides == pytest.approx([0.8689, -0.8689], abs=1e-4)  # errata S2-d
 
@@ -185,7 +185,7 @@ def test_the_printed_root_swaps_the_elbow_with_the_sign_of_x3():
 
 
 def document():
-    """x2 of (2), and all four coordinates with the denominator of y2 put right: (symbols, [x2],
+    """x2 of (2), and all four coordinates with the denominator of y2 corrected: (symbols, [x2],
     [x2, y2, x2, y2]).
     """
     x3, y3, l = symbols = sp.symbols("x3 y3 l")  # noqa: E741
@@ -202,7 +202,7 @@ def general():
     x1, y1, x3, y3, l1, l2 = symbols = sp.symbols("x1 y1 x3 y3 l1 l2")
     dx, dy = x3 - x1, y3 - y1
     d2 = dx**2 + dy**2
-    # the foot of the elbow on the way from base to tip, as a share of it
+    # the foot of the elbow on the line from base to tip, as a share of its length
     along = (d2 + l1**2 - l2**2) / (2 * d2)
     across = sp.sqrt(l1**2 / d2 - along**2)
     return symbols, [
@@ -213,14 +213,14 @@ def general():
 
 
 def operations(expressions):
-    """SymPy's count before and after common subexpressions are taken out."""
+    """SymPy's operation counts before and after common subexpressions are extracted."""
     steps, results = sp.cse(expressions)
     return sum(map(sp.count_ops, expressions)), sum(
         sp.count_ops(e) for e in [*results, *(step for _, step in steps)]
     )
 
 
-def test_the_operation_counts():
+def test_the_operation_counts_equal_the_errata():
     _, x2, four = document()  # errata S2-f
     assert operations(x2) == (28, 19)
     assert operations(four) == (108, 33)
@@ -250,7 +250,7 @@ def c_source(name, symbols, expressions):
 
 
 def compiled(source, name, folder, arguments):
-    """The C function as one of Python, on rows of arguments."""
+    """The C function as a Python function of one row of arguments."""
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     if compiler is None:
         pytest.skip("no C compiler on this machine")
@@ -288,7 +288,7 @@ def compiled(source, name, folder, arguments):
 
 
 def targets(count):
-    """Rows x1 y1 x3 y3 l1 l2, well inside the reach."""
+    """Rows x1 y1 x3 y3 l1 l2 with the tip well within reach."""
     rng = np.random.default_rng(7)
     l1, l2 = rng.uniform(0.3, 2, (2, count))
     x1, y1 = rng.uniform(-2, 2, (2, count))
@@ -317,7 +317,7 @@ def test_generated_c_agrees_with_generated_python(tmp_path):
     )
 
 
-def test_generated_c_of_the_document_with_and_without_the_casts(tmp_path):
+def test_generated_c_is_correct_only_without_the_casts_of_the_document(tmp_path):
     symbols, x2, four = document()
     in_c = compiled(c_source("elbow", symbols, four), "elbow", tmp_path, 3)
     assert in_c((1.2, 0.7, 1)) == pytest.approx(

@@ -1,4 +1,4 @@
-"""Visit and collect: the document's examples and errata S0, the reference tasks, and laws of every
+"""Visit and collect: the document's examples and errata S0, the reference tasks, and laws for every
 answer.
 """
 
@@ -102,8 +102,8 @@ def vars_of(task):
 
 
 def drawn_on_the_axis(rng, n, axis=3, origin=0, **changes):
-    """As `drawn`, with some of p0 and the points moved onto axis 1, and with equal links onto the
-    origin.
+    """Like `drawn`, but some of p0 and the points are moved onto axis 1, or onto the origin if the
+    links are equal.
     """
     task = drawn(rng, n, **changes)
     places = np.vstack([task.p0, task.points])
@@ -121,7 +121,7 @@ def on_a_circle(azimuths, radius=4, z=2):
     return [(radius * np.cos(a), radius * np.sin(a), z) for a in azimuths]
 
 
-# ---- A second description: one arm, one move after the other, in plain numbers
+# ---- An independent model: one arm, one move after another, in plain floats
 
 
 class Walk:
@@ -134,7 +134,7 @@ class Walk:
         self.q = self.solved(task.p0)
 
     def solved(self, p):
-        """The three angles by the law of cosines; None where free."""
+        """The three angles by the law of cosines; None for a free joint."""
         l1, l2 = self.task.l1, self.task.l2
         rho, d = math.hypot(p[0], p[1]), math.hypot(*p)
         if d == 0:
@@ -146,7 +146,7 @@ class Walk:
         return [math.atan2(p[1], p[0]) if rho > 0 else None, q2, q3]
 
     def go(self, p):
-        """Go on to a place; self."""
+        """Move to a place; return self."""
         times = [0.0]
         for j, (was, wanted) in enumerate(zip(self.q, self.solved(p), strict=True)):
             if wanted is None:
@@ -160,7 +160,7 @@ class Walk:
         return self
 
     def to(self, i):
-        """Go on to a point, and back if the task is to collect; self."""
+        """Move to a point, and back if the task is to collect; return self."""
         self.go(self.task.points[i])
         return self.go(self.task.p0) if self.task.kind == "collect" else self
 
@@ -171,7 +171,7 @@ class Walk:
 
 
 def walked(task, order, short_way=False):
-    """When each point of this order is done."""
+    """The times at which the points are done in this order."""
     walk, times = Walk(task, short_way), []
     for i in order:
         times.append(walk.to(i).time)
@@ -179,7 +179,7 @@ def walked(task, order, short_way=False):
 
 
 def cheapest_next(task, short_way=False):
-    """The order that always takes the cheapest remaining point, while it fits."""
+    """The order that always takes the cheapest remaining point while there is time."""
     walk, order = Walk(task, short_way), []
     while len(order) < len(task.points):
         ways = {i: walk.copy().to(i) for i in range(len(task.points)) if i not in order}
@@ -199,9 +199,8 @@ def test_example_1_is_refused_with_numbered_faults():
     with pytest.raises(TaskError) as caught:
         read_task(TASKS / "example_1.json")
     assert caught.value.faults == (
-        "point 0 = p0 (0, 0.7071, 0.7071) is too close to origin: |p|^2 = 0.99998082 m^2 is less "
-        "than "
-        "l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
+        "point 0 = p0 (0, 0.7071, 0.7071) is too close to the origin: |p|^2 = 0.99998082 m^2 is "
+        "less than l2^2 - l1^2 - 2 l1 rho = 3.3432 m^2",
     )
     assert (
         EXAMPLES["example1"]["p_sq"] == "0.99998082"
@@ -209,7 +208,7 @@ def test_example_1_is_refused_with_numbered_faults():
     )
 
 
-def test_example_2_collects_one():
+def test_example_2_collects_one_point():
     task, wanted = read_task(TASKS / "example_2.json"), EXAMPLES["example2"]
     result = answer(task)
     assert result.order == tuple(wanted["collected"]) and result.left == (1,)
@@ -220,7 +219,7 @@ def test_example_2_collects_one():
     )
 
 
-def test_example_3_visits_both():
+def test_example_3_visits_both_points():
     task, wanted = read_task(TASKS / "example_3.json"), EXAMPLES["example3"]
     result = answer(task)
     assert result.order == tuple(wanted["visited"]) and result.left == ()
@@ -250,7 +249,7 @@ def test_examples_equal_those_of_the_document():
     }
 
 
-def test_reports():
+def test_report_lists_points_times_and_what_is_left():
     assert report(make(), visit(make())) == (
         "visited 2 of 2 points in 4.379934189305 s (T = 10 s)\n"
         "\t0 (2, 3, 2) at 3.04867394355 s\n\t1 (1, 3, 3) at 4.379934189305 s"
@@ -268,7 +267,7 @@ def test_reports():
 
 
 @cases
-def test_reference_task(case):
+def test_answers_equal_the_reference_task(case):
     task = of_case(case)
     np.testing.assert_allclose(task.q, [case["q0"], *case["qi"]], rtol=0, atol=1e-12)
     legs = travel_time(task.q[:, None], task.q, task.speeds)
@@ -299,7 +298,9 @@ def test_results_are_consistent(case):
 
 @pytest.mark.parametrize("k", [1e-5, 1, 1e5])
 def test_tolerance_scales_with_the_reach(k):
-    """Errata S0-l: a point past a border by less than 1e-12 of the reach is on it, at any size."""
+    """Errata S0-l: a point past a border by less than 1e-12 of the reach counts as on it, at any
+    size.
+    """
     behind = np.sqrt(25 - 16)  # where the inner border for l1 < l2 meets the axis
     for l1, l2, border, outward, condition in (
         (5, 4, (0, 0, 9), (0, 0, 1), 0),
@@ -328,7 +329,7 @@ def test_tolerance_scales_with_the_reach(k):
 # ---- Travel time
 
 
-def test_travel_time_is_a_distance():
+def test_travel_time_is_a_metric():
     q = np.random.default_rng(0).uniform(-1.5, 1.5, (30, 3)) * [2, 1, 1]
     for short_way in (False, True):
         legs = travel_time(q[:, None], q, (0.5, 0.2, 1.0), short_way=short_way)
@@ -360,7 +361,7 @@ def test_joint_1_may_take_the_shorter_turn():
 @pytest.mark.parametrize("x", [0.0, -0.0, 1e-17])
 @pytest.mark.parametrize("y", [0.0, -0.0, -1e-17])
 def test_point_on_the_axis_needs_no_turn(x, y):
-    """Errata S0-p: 15.7 s as printed."""
+    """Errata S0-p: the printed program takes 15.7 s."""
     there = make(p0=(-2, 0, 4), points=[(x, y, 4.9)], T=100)
     back = make(p0=(x, y, 4.9), points=[(-2, 0, 4)], T=100)
     for task in (there, back):
@@ -400,8 +401,8 @@ def test_precision_is_kept_near_the_origin():
         assert visit(task).time == pytest.approx(2 * bend, rel=1e-15 / d)
 
 
-def test_folded_onto_the_origin_two_joints_are_free():
-    """Errata S0-k: with equal links the printed program divides by zero there."""
+def test_two_joints_are_free_where_the_arm_folds_onto_the_origin():
+    """Errata S0-k: with equal links the printed program divides by zero at the origin."""
     task = make(l1=4, l2=4, p0=(0, 0, 0), points=[(0, -3, 2)])
     assert np.isnan(task.q[0]).tolist() == [True, True, False] and task.q[0, 2] == pytest.approx(
         np.pi / 2
@@ -412,9 +413,9 @@ def test_folded_onto_the_origin_two_joints_are_free():
 # ---- Points on axis 1
 
 
-def test_turns_are_kept_on_the_axis():
-    """The way over a point on the axis takes the turn of the direct way, 15.71 s: a first edition
-    took 5.84 s, with joint 1 at 0.538 rad/s.
+def test_path_over_the_axis_still_needs_the_turn_of_joint_1():
+    """Regression: over a point on the axis the arm needs the turn of the direct path, 15.71 s; the
+    first version took 5.84 s, with joint 1 at 0.538 rad/s.
     """
     task = make(p0=(-2, 0.01, 4), points=[(0, 0, 6.5), (2, -0.01, 4)], T=100)
     turn = np.pi / 0.2
@@ -424,13 +425,15 @@ def test_turns_are_kept_on_the_axis():
         result = method(task)
         assert result.order == (0, 1) and result.time > direct + 2.9
         t, q = itinerary(task, result)
-        assert q[1, 0] == q[0, 0], "joint 1 stays where it stands"
+        assert q[1, 0] == q[0, 0], "joint 1 does not move"
         assert (abs(np.diff(q, axis=0)) / np.diff(t)[:, None]).max() == pytest.approx(0.2)
     assert visit(make(**vars_of(task), T=15)).order == (0,)
 
 
-def test_container_on_the_axis():
-    """A first edition collected these four in 23.36 s, with joint 1 at 1.07 rad/s."""
+def test_collecting_into_a_container_on_the_axis_keeps_the_speed_limit():
+    """Regression: the first version collected these four points in 23.36 s, with joint 1 at 1.07
+    rad/s.
+    """
     task = make(
         p0=(0, 0, 6.5), points=[(2, 0, 4), (0, 2, 4), (-2, 0, 4), (0, -2, 4)], T=100, kind="collect"
     )
@@ -440,8 +443,8 @@ def test_container_on_the_axis():
     quarter = np.pi / 2 / 0.2
     assert 4 * 2 * way == pytest.approx(23.36, abs=0.005)
     result = collect(task)
-    # the start takes the first one's angle, the next ones are a quarter of a turn on, and the last
-    # one lies behind the stop at half a turn
+    # the start takes the angle of the first point, the next two points are a quarter of a turn
+    # further each, and the last one lies beyond the stop at half a turn
     assert result.order == (0, 1, 2, 3)
     np.testing.assert_allclose(
         np.diff(result.times, prepend=0), [2 * way, *2 * [quarter + way], 3 * quarter + way]
@@ -449,7 +452,7 @@ def test_container_on_the_axis():
     t, q = itinerary(task, result)
     assert (abs(np.diff(q, axis=0)) / np.diff(t)[:, None]).max() == pytest.approx(0.2)
     assert (q[2::2, 0] == q[1::2, 0]).all(), "back at the container joint 1 stays"
-    # Going from one end of the turn to the other takes less, so the cheapest next point is not
+    # Going from one end of the turn to the other takes less time, so the cheapest next point is not
     # optimal here.
     assert walked(task, (3, 0, 1, 2))[-1] == pytest.approx(2 * way + 3 * (quarter + way))
     assert walked(task, (3, 0, 1, 2))[-1] < result.time
@@ -551,7 +554,7 @@ def test_moves_below_the_floor_are_reported():
     ]
 
 
-def test_above_floor_refuses_such_moves():
+def test_above_floor_avoids_moves_below_the_floor():
     places = [(1.05, 0, 0.1), (0, -2, 2), (6, 0, 1)]
     task = make(p0=(6, 0, 1), points=places, T=100)
     assert visit(task).order == best_visit(task).order == (2, 0, 1)
@@ -568,13 +571,17 @@ def test_above_floor_refuses_such_moves():
     assert collect(brought).order == (2, 0, 1)
     only = make(p0=(6, 0, 1), points=places[:1], T=100)
     assert report(only, visit(only, above_floor=True)) == (
-        "could not visit any points, what is in time dips under the floor (T = 100 s)"
+        "could not visit any points, since every move that is in time dips under the floor "
+        "(T = 100 s)"
     )
     assert best_visit(only, above_floor=True).order == ()
     short = make(p0=(6, 0, 1), points=places[:1], T=1)
     assert "not enough time" in report(short, visit(short, above_floor=True))
     needed = 2 * visit(only).time
-    for T, why in ((needed * 0.99, "not enough time"), (needed, "what is in time dips")):
+    for T, why in (
+        (needed * 0.99, "not enough time"),
+        (needed, "since every move that is in time dips"),
+    ):
         given = vars_of(brought) | {"points": places[:1]}
         assert why in report(make(**given, T=T), Result((), (), (0,)))
         given["kind"] = "visit"
@@ -583,7 +590,9 @@ def test_above_floor_refuses_such_moves():
 
 @pytest.mark.parametrize("k", [1e-3, 1, 1e3])
 def test_tiny_dips_below_the_floor_count_as_rounding(k):
-    """From a point on the floor to one beside it the tool dips as the square of their distance."""
+    """Between two neighbouring points on the floor the dip grows with the square of
+    their distance.
+    """
 
     def beside(distance):
         points = [(k * (6 - distance), 0, 0)]
@@ -599,18 +608,20 @@ def test_tiny_dips_below_the_floor_count_as_rounding(k):
 
 
 @pytest.mark.parametrize("kind", ["visit", "collect"])
-def test_above_floor_from_a_start_on_the_axis(kind):
+def test_above_floor_serves_what_it_can_from_a_start_on_the_axis(kind):
     task = make(p0=(0, 0, 3), points=[(1.05, 0, 0), (7, 0, 0), (3, 0, 0.2)], T=1000, kind=kind)
     low = lowest(5, 4, task.q[:, None], task.q) < -1e-9
     assert low[2, 1] and low[1, 2] and not low[0].any()
     result = answer(task, above_floor=True)
     assert "dips" not in report(task, result) and result.order
     here = 0 if kind == "collect" else result.order[-1] + 1
-    assert all(low[here, i + 1] for i in result.left), "what is left cannot be had"
+    assert all(low[here, i + 1] for i in result.left), "points that are left cannot be reached"
 
 
 def dense(task, start, end, count=801):
-    """The least height at `count` places of moves (n, 3), from the arm's own forward kinematics."""
+    """The least height among `count` samples of each move (n, 3), from the arm's own forward
+    kinematics.
+    """
     share = np.linspace(0, 1, count)[:, None, None]
     heights = spbu_arm(task.l1, task.l2).fk(start + share * (end - start)).translation[..., 2]
     return heights.min(axis=0)
@@ -635,8 +646,10 @@ def test_lowest_equals_a_dense_sample(l1, l2):
 
 
 @pytest.mark.parametrize("l1, l2", [(5, 4), (4, 5), (9, 1)])
-def test_lowest_of_any_move(l1, l2):
-    """Between postures anywhere inside the limits, where the lowest place is often on the way."""
+def test_lowest_is_correct_for_any_move(l1, l2):
+    """Moves between any postures within the limits; their lowest point is often between
+    the ends.
+    """
     start, end = np.random.default_rng(6).uniform(-np.pi / 2, np.pi / 2, (2, 2000, 3))
     task = make(l1=l1, l2=l2, p0=(0, 8.5, 1), points=[(0, 8.5, 1)])
     got, sample = lowest(l1, l2, start, end), dense(task, start, end)
@@ -653,9 +666,9 @@ def test_lowest_is_the_same_in_both_directions(l1, l2):
     assert (there > -l1 - l2).all() and np.ptp(there) > 1
 
 
-def test_floor_check_is_certain():
-    """Moves between points on the floor or just above it: the shallowest dips are found, and no
-    false ones. The reference bisects the bracket around the minimum of a dense sample.
+def test_floor_check_finds_the_shallowest_dips():
+    """Moves between points on the floor or just above it: the shallowest dips are found, and there
+    are no false ones. The reference bisects the bracket around the minimum of a dense sample.
     """
     from scipy.optimize import minimize_scalar
 
@@ -678,7 +691,7 @@ def test_floor_check_is_certain():
         found = minimize_scalar(height, bounds=bounds, method="bounded", options={"xatol": 1e-12})
         exact.append(min(found.fun, sample.min()))
     np.testing.assert_allclose(got, exact, rtol=0, atol=1e-8)
-    assert ((-1e-3 < got) & (got < -1e-8)).sum() > 3, "shallow ones are among them"
+    assert ((-1e-3 < got) & (got < -1e-8)).sum() > 3, "some dips are shallow"
 
 
 def test_lowest_takes_batches_and_free_joints():
@@ -690,12 +703,12 @@ def test_lowest_takes_batches_and_free_joints():
     for i, j, k in ((0, 0, 0), (0, 2, 1), (2, 1, 3)):
         assert wide[i, j, k] == lowest(5, 4, q[i, k], q[j, k])
     assert lowest(5, 4, np.zeros((0, 3)), np.zeros(3)).shape == (0,)
-    # one after the other or many at once
+    # one move at a time or many at once
     many = np.tile(drawn(rng, 300).q, (15, 1))
     assert (
         lowest(5, 4, many, many[::-1])[:301] == lowest(5, 4, many[:301], many[::-1][:301])
     ).all()
-    # the turn of joint 1 does not matter, a free joint 2 stands still, no posture gives no height
+    # joint 1 does not matter, a free joint 2 does not move, and a missing posture has no height
     assert lowest(5, 4, (np.nan, 0.1, 0.2), (2, 0.3, 0.1)) == lowest(
         5, 4, (0, 0.1, 0.2), (2, 0.3, 0.1)
     )
@@ -734,7 +747,7 @@ def test_time_equal_to_T_counts():
 @pytest.mark.parametrize(
     "T, served", [(0, ()), (-0.0, ()), (3, ()), (4, (0,)), (4.379, (0,)), (4.38, (0, 1))]
 )
-def test_visit_ends_when_the_nearest_does_not_fit(T, served):
+def test_visit_ends_when_there_is_no_time_for_the_nearest_point(T, served):
     """Errata S0-f: the printed program never ends."""
     assert visit(make(T=T)).order == best_visit(make(T=T)).order == served
     assert visit(make(T=T)).left == tuple({0, 1} - set(served))
@@ -744,7 +757,7 @@ def test_nothing_served_takes_no_time():
     result = visit(make(T=0))
     assert result == best_visit(make(T=0)) == collect(make(T=0)) == Result((), (), (0, 1))
     assert result.time == 0.0
-    # except where the arm already is
+    # except for points where the arm already is
     at_start = make(T=0, points=[(2, 3, 2), (1, 1, 1), (1, 1, 1)])
     assert visit(at_start).order == collect(at_start).order == best_visit(at_start).order == (1, 2)
 
@@ -758,7 +771,8 @@ def test_ties_go_to_the_lowest_index():
         0,
         2,
     )
-    # Mirrored in the start's own plane, at an azimuth where the two angles differ by rounding.
+    # Points mirrored in the plane of the start, at azimuths where the two angles differ by
+    # rounding.
     for azimuth in np.linspace(-2, 2, 41):
         mirrored = make(
             p0=on_a_circle([azimuth])[0],
@@ -769,12 +783,12 @@ def test_ties_go_to_the_lowest_index():
         assert collect(mirrored).order == (0, 1, 2, 3)
 
 
-def test_extreme_times():
-    """Speeds and times at the limits of floats give an answer without a warning."""
+def test_extreme_speeds_and_times_cause_no_warning():
+    """Speeds and times at the limits of floats give an answer."""
     never = make(speeds=(5e-324,) * 3, T=1.7e308)
     assert visit(never).order == collect(never).order == best_visit(never).order == ()
     at_once = make(speeds=(1.7e308,) * 3, T=0)
-    assert visit(at_once).order == ()  # fast, but more than zero time
+    assert visit(at_once).order == ()  # a fast move still takes more than 0 s
     assert visit(make(speeds=(1.7e308,) * 3, T=1e-300)).order == (0, 1)
 
 
@@ -842,12 +856,12 @@ def test_exact_method_states_its_limit():
     visit(many)
 
 
-# ---- The way there
+# ---- The itinerary
 
 
 @pytest.mark.parametrize("short_way", [False, True])
 @cases
-def test_itinerary(case, short_way):
+def test_itinerary_agrees_with_the_result(case, short_way):
     for kind, method in (("visit", visit), ("visit", best_visit), ("collect", collect)):
         task = of_case(case, kind)
         result = method(task, short_way=short_way)
@@ -864,11 +878,11 @@ def test_itinerary(case, short_way):
                 places[::2], np.tile(task.p0, (len(result.order) + 1, 1)), atol=1e-12
             )
         share = abs(np.diff(q, axis=0)) / task.speeds / np.diff(t)[:, None]
-        # the slowest joint never rests
+        # the slowest joint always runs at its limit
         np.testing.assert_allclose(share.max(axis=-1, initial=0), 1, rtol=1e-9)
 
 
-def test_itinerary_over_the_axis():
+def test_itinerary_over_the_axis_is_complete():
     task = make(l1=4, l2=4, points=[(0, 0, 6), (0, 0, 0), (-2, 0.5, 3), (0, 0, 5)], T=1e3)
     t, q = itinerary(task, visit(task))
     assert np.isfinite(q).all() and len(t) == 5
@@ -876,7 +890,7 @@ def test_itinerary_over_the_axis():
         spbu_arm(4, 4).fk(q).translation[1:], task.points[list(visit(task).order)], atol=1e-12
     )
     up = make(p0=(0, 0, 5), points=[(0, 0, 6)], T=100)
-    assert (itinerary(up, visit(up))[1][:, 0] == 0).all(), "nobody has said how joint 1 stands"
+    assert (itinerary(up, visit(up))[1][:, 0] == 0).all(), "nothing determines joint 1"
     assert itinerary(make(T=0), visit(make(T=0)))[1] == pytest.approx(make().q[:1])
 
 
@@ -922,7 +936,7 @@ def test_quadratic_work_has_a_limit():
     allowed = many(ABOVE_LIMIT, T=3)
     assert len(visit(allowed, above_floor=True).order) > 1
     off_axis = many(ABOVE_LIMIT + 1, T=1e4)
-    assert len(collect(off_axis, above_floor=True).order) > 100, "this one is sorted"
+    assert len(collect(off_axis, above_floor=True).order) > 100, "this task only needs sorting"
 
 
 def test_tasks_with_too_many_points_are_refused():
@@ -941,7 +955,7 @@ def test_tasks_with_too_many_points_are_refused():
 
 
 def test_many_faults_are_counted():
-    """Ten of one kind in words, the others as a number."""
+    """The first ten faults of each kind are described, the others counted."""
     began = time.process_time()
     bad = (
         [[9, 9, 9]] * 40_000
@@ -952,17 +966,22 @@ def test_many_faults_are_counted():
     )
     found = faults(GOOD | {"pi": bad, "p0": [0, 0, -1]})
     assert time.process_time() - began < 5
-    kinds = ("wanted an array of 3", "is too far", "is under floor", "is too close to origin")
+    kinds = (
+        "wanted an array of 3",
+        "is too far",
+        "is under the floor",
+        "is too close to the origin",
+    )
     assert [sum(kind in text for text in found) for kind in kinds] == [10, 10, 10, 10]
     assert (
         found[0].startswith("pi[40000]: wanted")
-        and found[10] == "and 29990 more points that are no such array"
+        and found[10] == "and 29990 more points that are not such arrays"
     )
-    assert found[11] == "point 0 = p0 (0, 0, -1) is under floor: z = -1 m"
+    assert found[11] == "point 0 = p0 (0, 0, -1) is under the floor: z = -1 m"
     assert [text for text in found if text.startswith("and")][1:] == [
         "and 39991 more points are too far",
-        "and 19992 more points are under floor",
-        "and 1 more points are too close to origin",
+        "and 19992 more points are under the floor",
+        "and 1 more points are too close to the origin",
     ]
     assert len(found) == 44 and sum(map(len, found)) < 10_000
     with pytest.raises(TaskError) as caught:
@@ -974,7 +993,7 @@ def test_many_faults_are_counted():
     assert len(eleven) == 11 and eleven[-1] == "and 1 more points are too far"
 
 
-def test_a_report_of_many_low_moves():
+def test_a_report_counts_low_moves_after_the_first_ten():
     low = [(1.2, 0, 0)] * 1500
     task = make(p0=(6, 0, 0), points=low, T=1e6, kind="collect")
     lines = report(task, collect(task)).splitlines()
@@ -986,8 +1005,8 @@ def test_a_report_of_many_low_moves():
     assert len(lines) == 1 + 10 + 10 and "more" not in lines[-1]
 
 
-def test_the_exact_optimum_of_sixteen_points():
-    """Within seconds and without much memory, with points on the axis among them."""
+def test_the_exact_optimum_of_sixteen_points_takes_seconds():
+    """Tested with and without points on the axis."""
     rng = np.random.default_rng(9)
     for axis in (0, 6):
         task = drawn_on_the_axis(rng, EXACT_LIMIT, axis=axis, T=30)
@@ -1001,9 +1020,9 @@ def test_the_exact_optimum_of_sixteen_points():
 # ---- Wrong tasks
 
 
-def test_wrong_joint_values_are_found():
-    """Errata S0-e: these pass all seven printed checks, although they are 5.7154 m from the point
-    in the arm's own plane.
+def test_wrong_joint_values_are_detected():
+    """Errata S0-e: these joint values pass all seven printed checks, although the tool is 5.7154 m
+    from the point in the arm's own plane.
     """
     wrong = (-0.549597363236, 1.568403110925, 0.373893819911)
     assert misfit(5, 4, wrong, (2, 3, 2)) > 5.7154
@@ -1021,7 +1040,7 @@ def test_wrong_joint_values_are_found():
 
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 def test_misfit_detects_a_wrong_inverse(k, monkeypatch):
-    """What the arm answers is put back into its forward kinematics, point by point."""
+    """The joint values of the inverse are put into the forward kinematics, point by point."""
     right = principal_postures
     given = GOOD | {"L1": 5 * k, "L2": 4 * k, "p0": [k, k, k], "pi": [[0, 9 * k, 0]] * 12}
 
@@ -1103,7 +1122,7 @@ WRONG = {
     "under floor": (
         (),
         {"p0": [2, 3, -2]},
-        [r"point 0 = p0 \(2, 3, -2\) is under floor: z = -2 m"],
+        [r"point 0 = p0 \(2, 3, -2\) is under the floor: z = -2 m"],
     ),
     "all at once": (
         {"L2", "task"},
@@ -1116,9 +1135,9 @@ WRONG = {
         [
             "T: ",
             r"pi\[1\]: ",
-            "point 0 = p0 .* under floor",
+            "point 0 = p0 .* under the floor",
             r"point 1 = pi\[0\] .* too far",
-            r"point 3 = pi\[2\] .* too close to origin",
+            r"point 3 = pi\[2\] .* too close to the origin",
         ],
     ),
 }
@@ -1186,7 +1205,7 @@ def test_paths_that_are_not_files_are_refused(tmp_path):
             read_task(path)
 
 
-def test_allowed_variations_of_a_file(tmp_path):
+def test_allowed_variations_of_a_file_are_read(tmp_path):
     path = tmp_path / "x.json"
     path.write_text(
         "\ufeff" + json.dumps(GOOD | {"comment": "a key of its own", "L1": 5.0}), encoding="utf-8"
@@ -1230,7 +1249,7 @@ def test_unknown_keys_are_listed_in_the_report(tmp_path):
     assert read_task(path).remarks == make().remarks == ()
 
 
-def test_speeds_that_are_probably_degrees():
+def test_speeds_that_are_probably_in_degrees_cause_a_warning():
     fast = make(speeds=(0.2, 20, 0.2))
     assert report(fast, visit(fast)).endswith(
         "\n\twarning: q' = [0.2, 20.0, 0.2]: 20 rad/s is more than two turns a second; were "
@@ -1248,7 +1267,7 @@ def test_too_large_files_are_refused(tmp_path):
     path = tmp_path / "x.json"
     with path.open("wb") as file:
         file.truncate(40_000_001)
-    with pytest.raises(TaskError, match="is too big: 40 MB, and 40 MB are read"):
+    with pytest.raises(TaskError, match="is too big: 40 MB, wanted at most 40 MB"):
         read_task(path)
     with path.open("wb") as file:
         file.truncate(40_000_000)
@@ -1281,7 +1300,9 @@ def test_tasks_are_read_only():
 
 
 def test_arrays_without_numbers_are_refused():
-    """Not even where each would come out as one: nanoseconds are whole numbers to NumPy."""
+    """Arrays are refused even if each item would convert to a number: to NumPy, nanoseconds are
+    whole numbers.
+    """
     for p0 in (
         np.array([1, 1, 1], dtype="datetime64[ns]"),
         np.array([1, 1, 1], dtype="timedelta64[ns]"),
@@ -1294,7 +1315,7 @@ def test_arrays_without_numbers_are_refused():
             make(p0=p0)
 
 
-def test_a_result_is_plain_numbers():
+def test_a_result_contains_plain_python_numbers():
     result = Result(np.array([1, 0]), np.array([1, 2.5]), [])
     assert result == Result((1, 0), (1.0, 2.5), ()) and result.time == 2.5
     for value, kind in ((result.order[0], int), (result.times[0], float)):
@@ -1304,7 +1325,7 @@ def test_a_result_is_plain_numbers():
     assert {type(t) for t in (*best.times, *collect(make()).times)} == {float}
 
 
-def test_lengths_have_a_range():
+def test_lengths_outside_the_allowed_range_are_refused():
     for number in (1e-6, 1e6):
         assert workspace(number, number, (0, 0, number)).all()
         make(l1=number, l2=number, p0=(0, 0, number), points=[(0, 0, number)])
@@ -1317,7 +1338,7 @@ def test_lengths_have_a_range():
             make(l2=wrong)
 
 
-def test_a_task_takes_arrays():
+def test_a_task_accepts_arrays():
     task = make(
         p0=np.ones(3),
         points=np.array([[2, 3, 2], [1, 3, 3]]),
@@ -1329,7 +1350,7 @@ def test_a_task_takes_arrays():
     assert visit(make(points=[np.array([2.0, 3, 2]), (1, 3, np.float32(3))])) == visit(make())
 
 
-def test_wrong_calls():
+def test_wrong_calls_are_refused():
     good = visit(make())
     for call, kind, evidence in (
         (lambda: visit(GOOD), TypeError, "task: wanted a Task"),
@@ -1386,11 +1407,11 @@ def test_wrong_calls():
         (
             lambda: out_of_workspace(5, 4, [(1, 1, 1)]),
             ValueError,
-            r"point: wanted one single point \(3,\), got \(1, 3\)",
+            r"point: wanted a single point \(3,\), got \(1, 3\)",
         ),
         (lambda: make(kind="fetch"), TaskError, "task: .*fetch"),
-        (lambda: make(remarks="odd"), ValueError, "remarks: wanted a list of texts, got 'odd'"),
-        (lambda: make(remarks=[1]), ValueError, "remarks: wanted words, got 1"),
+        (lambda: make(remarks="odd"), ValueError, "remarks: wanted a list of strings, got 'odd'"),
+        (lambda: make(remarks=[1]), ValueError, "remarks: wanted a string, got 1"),
         (
             lambda: Result((0,), (), (1,)),
             ValueError,
@@ -1410,13 +1431,13 @@ def test_wrong_calls():
 def test_results_of_other_tasks_are_refused(given):
     order, left = given
     for method in (itinerary, report):
-        with pytest.raises(ValueError, match="result: wanted one of this task with its 2 points"):
+        with pytest.raises(ValueError, match="result: wanted a result of this task with 2 points"):
             method(make(), Result(order, range(len(order)), left))
     itinerary(make(), Result((1,), (5.0,), (0,)))
 
 
 def test_lowest_of_a_move_equals_that_of_its_reverse():
-    """And of no sample of it, in whatever sense the joints turn."""
+    """The lowest point is also not above any sample of the move, whichever way the joints turn."""
     rng = np.random.default_rng(23)
     for l1, l2 in ((5, 4), (3, 1), (2, 2), (1, 3)):
         a, b = rng.uniform(-np.pi / 2, np.pi / 2, (2, 100, 3))

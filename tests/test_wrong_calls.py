@@ -1,6 +1,7 @@
-"""Wrong calls: every public callable, every argument replaced in turn by every wrong thing below.
+"""Wrong calls of every public callable: each argument in turn is replaced by every wrong value
+below.
 
-Each call must raise only ValueError or TypeError with a message of robokin and not of NumPy; no
+A call may raise only ValueError or TypeError, with a message from robokin and not from NumPy; no
 call may take longer than `SECONDS`, and NumPy must not warn. `test_wrong_input.py` checks the
 messages.
 """
@@ -81,7 +82,7 @@ MODULES = (
 )
 OPERATORS = ("__matmul__", "__getitem__", "__call__")
 
-# ---- The right calls
+# ---- Correct calls
 
 
 def _fields(value):
@@ -134,8 +135,9 @@ SKETCH, CORNERS = figures.Sketch("words"), np.array([[0, 0], [0.3, 0.2], [0.5, 0
 PLAYER = figures.animate(IRB140, TIMES, MOTION)
 EXPLORER = figures.joint_explorer(IRB140)
 
-# "name" or "name (case)": callable and its arguments, all of them, each legal; then the arguments
-# that are replaced, if not all. A name in a module of robokin.jobs begins with the module's.
+# "name" or "name (case)" -> the callable, all its arguments with legal values, and then the names
+# of the arguments to replace, if not all. Names from robokin.jobs begin with the name of their
+# module.
 CALLS = {
     # robokin
     "Quaternion": (Quaternion, dict(wxyz=np.array([0.6, 0.8, 0, 0]))),
@@ -564,7 +566,8 @@ CALLS = {
     ),
 }
 
-# Results that only we make, and functions that describe what is wrong with anything.
+# Results that only robokin makes, and functions that accept anything and describe what is wrong
+# with it.
 LENIENT = (
     "Recording",
     "Jump",
@@ -577,7 +580,7 @@ LENIENT = (
     "steppers.RotorMotion",
 )
 
-# ---- The wrong things
+# ---- Wrong values
 
 HUGE = 10**400
 NEARLY_NUMBERS = np.zeros(4 * 10**6)
@@ -603,7 +606,7 @@ class Sulky:
         raise RuntimeError("no")
 
 
-# name -> a function, since some of them can be used only once
+# name -> a function that makes the value, since some values can be used only once
 WRONG = {
     "None": lambda: None,
     "no word": lambda: "",
@@ -708,7 +711,7 @@ FLAGS = ("None", "a word", "object", "masked", "record array", "empty rows", "se
 
 
 def derived(value):
-    """Wrong (and some legal) numbers made from the legal ones of an argument: name -> value."""
+    """Wrong (and some legal) values made from the legal value of an argument: name -> value."""
     if isinstance(value, (bool, str, bytes, dict)) or value is None:
         return {}
     try:
@@ -757,7 +760,7 @@ def derived(value):
     return made
 
 
-# ---- What is held
+# ---- The tests
 
 
 @pytest.fixture(scope="module")
@@ -770,7 +773,7 @@ def test_wrong_calls_are_refused_with_our_messages(name, page):
     call, right, *chosen = CALLS[name]
     right = {key: page if value is PAGE else value for key, value in right.items()}
     _, complaint = _outcome(call, right)
-    assert not complaint, f"the right call: {complaint}"
+    assert not complaint, f"the correct call: {complaint}"
     complaints = {}  # argument and complaint -> kinds
     for argument in chosen or right:
         value = right[argument]
@@ -780,7 +783,7 @@ def test_wrong_calls_are_refused_with_our_messages(name, page):
         for kind, make in wrong.items():
             error, complaint = _outcome(call, right | {argument: make()})
             if complaint.startswith(FOREIGN) and isinstance(value, bool):
-                complaint = ""  # a flag is asked for its truth, and an array has none
+                complaint = ""  # a flag needs a truth value, and an array has none
             elif complaint and name.split()[0].endswith("__getitem__"):
                 # `[]` follows NumPy and Python: out of range is an IndexError
                 complaint = "" if "IndexError" in complaint or FOREIGN in complaint else complaint
@@ -807,7 +810,7 @@ def test_every_public_callable_is_called_wrongly():
 
 
 def test_detector_of_foreign_errors_works():
-    # The checks above detect planted errors.
+    # The checks above must detect planted errors.
     with np.errstate(all="warn"):
         for call, seen in (
             (lambda x: next(i for i in iter(int, 1) if i), "took longer"),
@@ -826,7 +829,9 @@ class TooLong(BaseException):
 
 
 def _outcome(call, arguments, seconds=SECONDS):
-    """The error of a call (or None), and what is wrong with that in words (or "")."""
+    """The error that a call raises (or None), and a sentence about what is wrong with
+    it (or "").
+    """
     error, complaint, start = None, "", time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -869,7 +874,7 @@ class _watch:
 
 
 def _foreign(error):
-    """The foreign words in an error message, or "" if it is robokin's own."""
+    """A complaint about an error message that is not from robokin; "" if it is."""
     text = "; ".join(str(fault)[:200] for fault in getattr(error, "faults", [error])[:3])
     if not text or len(text) > 500:
         return f"{type(error).__name__} of {len(text)} letters"
@@ -881,8 +886,9 @@ def _foreign(error):
 
 
 def _against_the_rule(argument, value, error):
-    """An object() is of no use anywhere. TypeError where an object of a class is wanted, ValueError
-    where numbers or words are, and either for a path, which is both; a flag may be anything.
+    """A complaint if an object() is accepted or refused with the wrong exception: TypeError is
+    right where an object of a class is wanted, ValueError where numbers or words are, and either
+    for a path, which may be both; a flag may be anything.
     """
     if isinstance(value, bool) or (argument == "path" and error is not None):
         return ""
@@ -925,7 +931,7 @@ def _public():
 def _methods(kind, found, prefix):
     for name in dir(kind):
         member = getattr(kind, name)
-        member = getattr(member, "__func__", member)  # of a class method
+        member = getattr(member, "__func__", member)  # for a class method
         ours = getattr(member, "__module__", None) or ""
         public = name[0] != "_" or name in OPERATORS
         if public and ours.startswith("robokin") and inspect.isfunction(member):

@@ -1,4 +1,4 @@
-"""Robot arms: chains of links, their closed-form inverses, and the machines of the lessons."""
+"""Robot arms: chains of links, their closed-form inverses, and the robots of the course."""
 
 from .arm import Arm, ClosedFormArm
 from .branches import explain, follow, nearest, representative, unwrapped, within

@@ -21,11 +21,11 @@ SCALARS = (int, float, np.number)
 class Arm(Sealed):
     """A robot arm with n joints. q (..., n) is in radians, metres for a prismatic joint.
 
-    name           what a figure calls it
+    name           its name in figures
     geometry       its links, and what follows from them: see `geometry.py`; or a tuple of links,
-                   of which the arm makes a geometry without an inverse
+                   from which the arm makes a geometry without an inverse
     limits         (n, 2), lowest and highest value of each joint; read-only
-    speed_limits   (n,), greatest speeds in rad/s or m/s, where known; read-only
+    speed_limits   (n,), greatest speeds in rad/s or m/s; read-only; None if they are not known
 
     An arm whose geometry has a closed-form inverse is a `ClosedFormArm`. ValueError: limits of the
     wrong shape, or links that never move the flange away from axis 1. TypeError: neither a geometry
@@ -166,7 +166,7 @@ class Arm(Sealed):
             yield joint, frame
 
     def _evaluate(self, work: Callable[[Sequence[Any]], list[Any]], q: ArrayLike) -> Floats:
-        """Apply `work` to the joint values q (..., n): (..., k)."""
+        """Apply `work` to the joint values q (..., n), and return its results (..., k)."""
         n = len(self.links)
         values = floats(q, "q", n, finite=False)
         warn_if_degrees(values[..., self.turning], "q", 4, posture=1)
@@ -178,7 +178,7 @@ class Arm(Sealed):
     def __repr__(self) -> str:
         return f"Arm({self.name!r}, {len(self.links)} joints)"
 
-    if not TYPE_CHECKING:  # with it a type checker would accept any attribute name
+    if not TYPE_CHECKING:  # with __getattr__, a type checker would accept any attribute name
 
         def __getattr__(self, name):
             """Raise the error for a missing attribute; for `ik` it says what to use instead."""
@@ -187,7 +187,9 @@ class Arm(Sealed):
                 kind = type(self)
                 own = (each for each in dir(kind) if each[0] != "_")
                 can = ", ".join(each for each in own if callable(getattr(kind, each)))
-                words = f"{self.name} has no closed-form inverse, so no {name}; it has {can}"
+                words = (
+                    f"{self.name} has no closed-form inverse and therefore no {name}; it has {can}"
+                )
             raise AttributeError(words, name=name, obj=self)
 
 
@@ -247,6 +249,7 @@ def _pairs(limits: ArrayLike, n: int) -> Floats:
 def _transform(parts: Floats) -> Transform:
     """Make a Transform from rotation w, x, y, z and origin x, y, z: (..., 7)."""
     missing = np.isnan(parts[..., 0])
-    if missing.any():  # the origin lies on a joint's axis, so that a NaN angle would not reach it
+    # A joint does not move an origin on its own axis, so a NaN angle does not make that origin NaN.
+    if missing.any():
         parts[missing, 4:] = np.nan
     return Transform._of(Quaternion._of(parts[..., :4]), parts[..., 4:])

@@ -21,10 +21,10 @@ SLACK = 1e-9  # a joint past its limit by no more than this counts as at its lim
 
 
 def within(arm: Arm, q: ArrayLike) -> Bools:
-    """Which joints can take the posture q (..., n) within their limits: bool (..., n).
+    """Which joints of the posture q (..., n) are within their limits: bool (..., n).
 
-    A revolute joint is inside if some q + 2 pi k is. NaN is outside. A UserWarning if an angle is
-    many turns: it is probably in degrees.
+    A revolute joint is inside if q + 2 pi k is inside for some whole number k. NaN is outside. A
+    UserWarning if an angle is many turns: it is probably in degrees.
 
     >>> from robokin import IRB140, deg, within
     >>> within(IRB140, np.array([0, 120, 0, 0, 0, 390]) * deg)
@@ -48,7 +48,8 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
     """
     values = floats(q, "q", len(instance(arm, Arm, "arm").links), finite=False)
     value, (low, high) = _inside(arm, values, values), arm.limits.T
-    # Past the limits: the lowest value above the upper one or the highest below the lower one.
+    # Past the limits: the lowest value above the upper limit or the highest value below the lower
+    # limit.
     above = value - TURN * np.floor((value - high) / TURN)
     below = value + TURN * np.floor((low - value) / TURN)
     least = np.where(above - high <= low - below, above, below)
@@ -57,7 +58,9 @@ def representative(arm: Arm, q: ArrayLike) -> Floats:
 
 
 def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
-    """For each revolute joint the value q + 2 pi k nearest to `near`: (..., n) both, broadcast."""
+    """For each revolute joint the value q + 2 pi k nearest to `near`. Both are (..., n) and
+    broadcast.
+    """
     n = len(instance(arm, Arm, "arm").links)
     values, goal = floats(q, "q", n, finite=False), floats(near, "near", n, finite=False)
     broadcast("q and near", values.shape, goal.shape)
@@ -67,8 +70,8 @@ def unwrapped(arm: Arm, q: ArrayLike, near: ArrayLike) -> Floats:
 def nearest(arm: Arm, rows: ArrayLike, q: ArrayLike) -> Floats:
     """The row with the least travel from q: rows (..., rows, n), q (..., n) -> (..., n).
 
-    Travel is the sum of the absolute joint changes (rad; m for a prismatic joint). Of its values q
-    + 2 pi k a joint takes the one inside the limits that is nearest to q or, if none is inside, the
+    Travel is the sum of the absolute joint changes (rad; m for a prismatic joint). Each joint takes
+    the value q + 2 pi k that is inside its limits and nearest to q or, if none is inside, the
     nearest one. NaN where no row exists. ValueError: shapes that do not match, no rows.
 
     >>> from robokin import SCARA, ScaraPose, deg, nearest
@@ -87,7 +90,7 @@ def follow(arm: Arm, rows: ArrayLike, row: int) -> Floats:
 
     It starts on `row` (at the first sample where that row exists), with each joint inside its
     limits if possible. Every later sample takes the row nearest to the sample before it, with
-    unwrapped angles, which may pass the limits (`within` tells). Where a wrist singularity leaves
+    unwrapped angles, which may exceed the limits (see `within`). Where a wrist singularity leaves
     joints 4 and 6 free, they share the rotation equally. Where a shoulder singularity leaves joint
     1 free, it keeps the value from `ik`. Samples without a row are NaN, and the motion continues
     from the last finite one. ValueError: a row that the arm does not have, no samples.
@@ -117,9 +120,9 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
     """Say in one sentence whether row `row` of `arm.ik(pose)` is usable, and if not, why. `pose` is
     a single pose.
 
-    A pose out of reach: by how much, and whether the lengths may be millimetres. Otherwise: every
-    joint past its limit, with the excess, and every singularity of the posture. The sentences are
-    those of `verdicts.SENTENCES`.
+    For a pose out of reach it says by how much, and whether the lengths may be in millimetres.
+    Otherwise it names every joint past its limit, with the excess, and every singularity of the
+    posture. The sentences are those of `verdicts.SENTENCES`.
 
     >>> from robokin import SCARA, ScaraPose, explain
     >>> explain(SCARA, ScaraPose((0.46, 0, 0.1), 0), 0)
@@ -127,7 +130,7 @@ def explain(arm: ClosedFormArm, pose: Any, row: int) -> str:
     """
     rows = instance(arm, ClosedFormArm, "arm").ik(pose)
     if rows.ndim != 2:
-        raise ValueError(f"pose: wanted one single pose, got a batch of shape {rows.shape[:-2]}")
+        raise ValueError(f"pose: wanted a single pose, got a batch of shape {rows.shape[:-2]}")
     row = whole(row, "row", 0, len(rows) - 1)
     q, signs = rows[row], ", ".join(f"{flag:+d}" for flag in arm.branches[row])
     if np.isnan(q).any():
@@ -153,8 +156,8 @@ def _rows(arm: Arm, rows: ArrayLike) -> Floats:
 
 
 def _within(arm: Arm, q: Floats) -> Bools:
-    """The lowest value q + 2 pi k that is not below the lower limit decides (a prismatic joint has
-    only one value).
+    """`within` without argument checks. The lowest value q + 2 pi k that is not below the lower
+    limit decides (a prismatic joint has only one value).
     """
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
     lowest = q + TURN * np.ceil((low - q) / TURN)
@@ -168,7 +171,7 @@ def _unwrapped(arm: Arm, q: Floats, near: Floats) -> Floats:
 
 
 def _inside(arm: Arm, q: Floats, near: Floats) -> Floats:
-    """As `unwrapped`, but inside the limits where such a value exists."""
+    """Like `unwrapped`, but inside the limits where such a value exists."""
     value = _unwrapped(arm, q, near)
     low, high = arm.limits[:, 0] - SLACK, arm.limits[:, 1] + SLACK
     up = value + TURN * np.maximum(np.ceil((low - value) / TURN), 0)
@@ -185,8 +188,8 @@ def _least(options: Floats, q: Floats) -> Floats:
 
 
 def _chooser(arm: Arm) -> Callable[[Floats, Floats], Floats]:
-    """What chooses the free joints of rows near a posture; an arm without a closed form names
-    none.
+    """The function that chooses the free joints of rows near a posture; for an arm without a closed
+    form it changes nothing.
     """
     if isinstance(arm, ClosedFormArm):
         return arm.geometry.choose_free_joints

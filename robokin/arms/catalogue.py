@@ -1,4 +1,4 @@
-"""The robots of the course: their numbers, each with its source."""
+"""The robots of the course: their dimensions and limits, with the sources."""
 
 import numpy as np
 
@@ -21,12 +21,12 @@ def _at(x: float, y: float, z: float) -> Transform:
 
 #: ABB IRB-140. Chain, lengths and limits: 001, listings 1 and 7 (S1-05, S1-08). The chain is that
 #: of the document, with its frame `wrist` split in two (joints 4 and 5). Public models of this
-#: robot (ROS-Industrial abb_experimental, ARTE) differ: their upper arm has 360 mm, ours 350 mm,
-#: and their joint 2 leans forward at positive angles, ours backward. With q2 negated their flange
-#: is 10 mm from this one's at every posture; with the same q2 = 30 degrees, all other joints at
-#: zero, 563 mm (errata S1-g; companion 001, section 2). ARTE has joint 5 to +-120 degrees. We keep
-#: the document's numbers. It states no speeds. Those of joints 3 and 4 are our choice, below the
-#: 260 and 360 of the public models; we did not have the maker's data sheet.
+#: robot (ROS-Industrial abb_experimental, ARTE) differ: their upper arm is 360 mm long, ours 350
+#: mm, and their joint 2 leans forward at positive angles, ours backward. With q2 negated their
+#: flange is 10 mm from this one's at every posture; with the same q2 = 30 degrees, all other joints
+#: at zero, 563 mm (errata S1-g; companion 001, section 2). ARTE limits joint 5 to +-120 degrees. We
+#: keep the document's values. It states no speeds. Those of joints 3 and 4 are our choice, below
+#: the 260 and 360 of the public models; we did not have the maker's data sheet.
 IRB140 = spherical_wrist(
     "IRB-140",
     links=(
@@ -55,8 +55,8 @@ SCARA = scara_arm(
     ),
 )
 
-#: PUMA 560. Source 001 mentions it without numbers. Standard DH with the lengths and limits of P.
-#: Corke's model (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
+#: PUMA 560. Source 001 mentions it without dimensions. Standard DH with the lengths and limits of
+#: P. Corke's model (Robotics Toolbox, `puma560`), the base raised by 26.45 inches.
 PUMA560 = spherical_wrist(
     "PUMA 560",
     links=dh_links(
@@ -88,8 +88,8 @@ def itmo_arm(d1: float, a2: float, d4: float, d6: float) -> ClosedFormArm:
     )
 
 
-#: Source 004 states neither lengths nor unit. Its printed matrix (12) gives d4 = d6 = 20 and d1 +
-#: a2 = 20. We split the sum into equal halves and take centimetres (errata S4-j).
+#: Source 004 states neither the lengths nor their unit. Its printed matrix (12) gives d4 = d6 = 20
+#: and d1 + a2 = 20. We split the sum into equal halves and take centimetres (errata S4-j).
 ITMO6R = itmo_arm(d1=100 * mm, a2=100 * mm, d4=200 * mm, d6=200 * mm)
 
 
@@ -117,16 +117,16 @@ def loader_arm(A: float, B: float) -> ClosedFormArm:
     """The log loader of source 003 with levers of lengths A and B in metres, q = (alpha, gamma,
     beta) from the base outwards.
 
-    alpha  the turn about the vertical, counter-clockwise from the +x axis
-    gamma  lever A above the horizon
-    beta   the interior angle between the levers: lever B stands gamma + beta - 180 degrees above
+    alpha  the rotation about the vertical, counter-clockwise from the +x axis
+    gamma  the angle of lever A above the horizon
+    beta   the interior angle between the levers: lever B points gamma + beta - 180 degrees above
            the horizon
 
     The document's posture has the elbow up, 0 <= beta <= 180 degrees: row `arm.branch(+1, -1)`. In
     that row alpha is atan2(y, x) in all nine cells of table 1 (errata S3-p; in the middle cell, x =
-    y = 0, it is free and `ik` returns 0), and beta and gamma are (3) and (4). The limits of alpha
-    are those of the document; those of beta and gamma are what (3) and (4) give for z >= 0. Joint
-    alpha has no mechanical stop: the shortest turn (errata S3-q) passes its limits.
+    y = 0, it is free and `ik` returns 0), and beta and gamma are given by (3) and (4). The limits
+    of alpha are those of the document; those of beta and gamma are what (3) and (4) give for z >=
+    0. Joint alpha has no mechanical stop: the shortest turn (errata S3-q) may exceed its limits.
     `robokin.jobs.steppers.out_of_reach` checks the document's conditions on the gripper's point.
 
     Source: 003, paper 1, (1) to (4), table 1, figure 3.

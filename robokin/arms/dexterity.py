@@ -11,7 +11,7 @@ from .arm import Arm
 
 def total_length(arm: Arm) -> float:
     """The length of the stretched chain from the base in metres, with prismatic joints at their far
-    limit; pictures are scaled by it.
+    limit. It sets the scale of pictures.
     """
     parts = [part for link in instance(arm, Arm, "arm").links for part in (link.before, link.after)]
     shifts = abs(arm.limits[arm.prismatic]).max(axis=-1, initial=0)

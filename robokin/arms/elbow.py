@@ -19,7 +19,7 @@ from .arm import ClosedFormArm
 from .geometry import FREE, ROUNDING, SINGULAR, STRAIGHT, Gap, flags, worst
 from .link import Link, chain, home
 
-Pair: TypeAlias = tuple[Any, Any]  # cosine and sine of one angle
+Pair: TypeAlias = tuple[Any, Any]  # cosine and sine of an angle
 
 
 def elbow_arm(
@@ -33,7 +33,7 @@ def elbow_arm(
 
     At q = 0, in base coordinates, axis 1 must lie on the z axis, and axes 2 and 3 must be parallel
     to the y axis. The signs and offsets of the joints follow from the links. `ik` takes points
-    (..., 3) in metres, or the translations of Transforms. ValueError: another arrangement; the
+    (..., 3) in metres, or the translations of Transforms. ValueError: any other arrangement; the
     message names the axis.
     """
     return ClosedFormArm(name, ElbowGeometry(links), limits, speed_limits)
@@ -55,7 +55,7 @@ class ElbowGeometry(Sealed):
     elbow: "Elbow" = field(init=False)
     reach: float = field(init=False)
 
-    @np.errstate(invalid="ignore")  # from lengths whose squares overflow or underflow
+    @np.errstate(invalid="ignore")  # squares of lengths may overflow or underflow
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 3 or any(link.prismatic for link in links):
@@ -76,11 +76,11 @@ class ElbowGeometry(Sealed):
         return np.moveaxis(q.reshape(3, 4, *point.shape[:-1]), (0, 1), (-1, -2))
 
     def gap(self, pose: Any, row: int) -> Gap:
-        """Why one single pose has no `row`."""
+        """The reason why a single pose has no solution in this row."""
         return self.elbow.gap(_point(pose).tolist(), self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., 3): dict of name -> bool (...); see
+        """Which singularities occur at q (..., 3): dict of name -> bool (...); see
         `Elbow.singularities`.
         """
         return self.elbow.singularities(q)
@@ -103,7 +103,7 @@ class Elbow(NamedTuple):
     lateral      the point's distance to the left of the plane through axis 1
     upper, fore  the lengths of the links
     upper_angle, fore_angle  their angles above the horizon at q = 0
-    reach        of the stretched arm from axis 1
+    reach        how far the stretched arm reaches from axis 1
     """
 
     carried: str
@@ -122,7 +122,7 @@ class Elbow(NamedTuple):
     @classmethod
     def measured(cls, points: Floats, axes: Floats, point: Floats, carried: str) -> "Elbow":
         """Measure from a point on each of the three axes, the axes, and the carried point, all at q
-        = 0. ValueError: directions other than those in `elbow_arm`, or a link without length.
+        = 0. ValueError: directions other than those in `elbow_arm`, or a link of length zero.
         """
         for number, axis, along in ((1, axes[0], 2), (2, axes[1], 1), (3, axes[2], 1)):
             parallel(number, axis, along)
@@ -133,13 +133,15 @@ class Elbow(NamedTuple):
         upper, fore = float(np.hypot(ux, uz)), float(np.hypot(fx, fz))
         for lever, length in (("upper arm", upper), ("forearm", fore)):
             if length < 1e-9:
-                raise ValueError(f"links: wanted some length of the {lever}, got {length} at q = 0")
+                raise ValueError(
+                    f"links: wanted a {lever} longer than 0, got {length:g} m at q = 0"
+                )
         shoulder_x, _, shoulder_z = points[1].tolist()
         reach, lateral = abs(shoulder_x) + upper + fore, float(point[1])
         return cls(
             carried,
             sign1=float(np.sign(axes[0][2])),
-            sign2=-float(np.sign(axes[1][1])),  # turning about +y lowers what points forward
+            sign2=-float(np.sign(axes[1][1])),  # turning about +y lowers a link that points forward
             sign3=-float(np.sign(axes[2][1])),
             shoulder_x=shoulder_x,
             shoulder_z=shoulder_z,
@@ -156,8 +158,8 @@ class Elbow(NamedTuple):
         NaN where there is no solution.
 
         It also returns the directions that a wrist needs: (cosine, sine) of the arm's plane (2, 1,
-        N) and of the forearm's angle above the horizon (2, 2, N). Angles are kept as such pairs, so
-        that only the joint values need an arctangent.
+        N) and of the forearm's angle above the horizon (2, 2, N). Angles are kept as pairs (cosine,
+        sine), so that only the joint values need an arctangent.
         """
         a, b, c = self.shoulder_x, self.lateral, self.shoulder_z
         upper, fore = self.upper, self.fore
@@ -185,7 +187,7 @@ class Elbow(NamedTuple):
         d2, scale = u * u + w * w, 2 * upper * fore
         unfolded = (d2 - (upper - fore) * (upper - fore)) / scale
         unstretched = ((upper + fore) * (upper + fore) - d2) / scale
-        # The change at the two borders per reach of distance.
+        # How much these two change at the borders per metre, times the reach.
         inner = 2 * abs(upper - fore) * self.reach / scale
         outer = 2 * (upper + fore) * self.reach / scale
         exists = (unfolded >= -ROUNDING * inner) & (unstretched >= -ROUNDING * outer)
@@ -195,9 +197,9 @@ class Elbow(NamedTuple):
         elbow = self.sign3 * np.array([1.0, -1.0])[:, None]
         cos_g, sin_g = unfolded - 1, elbow * np.sqrt(unfolded * unstretched)
         along, across = (upper - fore) + fore * unfolded, fore * sin_g
-        # upper arm above the horizon
+        # angle of the upper arm above the horizon
         cos_a, sin_a = _unit(along * u + across * w, along * w - across * u)
-        # forearm above the horizon
+        # angle of the forearm above the horizon
         cos_b, sin_b = cos_a * cos_g - sin_a * sin_g, sin_a * cos_g + cos_a * sin_g
 
         q1 = np.where(exists, np.arctan2(self.sign1 * sin1, cos1), np.nan)
@@ -217,8 +219,9 @@ class Elbow(NamedTuple):
         return self.fore_angle - self.upper_angle + self.sign3 * q[..., 2]
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """dict of name -> bool (...). Shoulder: the point is on axis 1 or as near to it as it can
-        be (within 1e-6 of the reach). Elbow: the arm is stretched or folded (within 1e-6 rad).
+        """The singularities of the posture: dict of name -> bool (...). Shoulder: the point is on
+        axis 1 or as near to it as it can be (within 1e-6 of the reach). Elbow: the arm is stretched
+        or folded (within 1e-6 rad).
         """
         return {
             "shoulder": abs(self.radius(q)) < SINGULAR * self.reach,
@@ -226,11 +229,12 @@ class Elbow(NamedTuple):
         }
 
     def gap(self, point: Sequence[float], front: int) -> Gap:
-        """The border that a single unreachable point (3,) passes on the side `front` (+-1)."""
+        """The border that a single unreachable point (3,) is beyond, on the side `front` (+-1)."""
         x, y, z = point
         rho2 = x * x + y * y
         r2 = rho2 - self.lateral * self.lateral
-        # A point at a border, up to rounding, lies on it: there it passes no other border.
+        # A point that is past this border only by rounding counts as on it: then another border is
+        # the reason.
         if r2 < -2 * ROUNDING * abs(self.lateral) * self.reach:
             return Gap("axis", abs(self.lateral) - sqrt(rho2), self.carried)
         r = front * sqrt(max(r2, 0.0))
@@ -258,8 +262,8 @@ def rotated(cosine: Any, sine: Any, angle: float) -> Pair:
 
 
 def _unit(x: Floats, y: Floats) -> Pair:
-    """(x, y) normalised to length 1, or (1, 0) for length zero: equal links that are folded leave
-    joint 2 free.
+    """(x, y) normalised to length 1, or (1, 0) for length zero: joint 2 is free where equal links
+    are folded.
     """
     length = np.sqrt(x * x + y * y)
     none = length == 0

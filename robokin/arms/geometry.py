@@ -1,8 +1,8 @@
 """Geometries: a chain of links and, where one exists, its closed-form inverse.
 
-An arm is a geometry with limits (see `arm.py`). A geometry holds the numbers that its links and its
-inverse share, so that the two cannot disagree. There are two protocols: every geometry is a
-`Geometry`; a `ClosedForm` also has an inverse.
+An arm is a geometry with limits (see `arm.py`). A geometry holds the lengths and angles that its
+links and its inverse share, so that the two cannot disagree. There are two protocols: every
+geometry is a `Geometry`; a `ClosedForm` also has an inverse.
 
 The tolerances of all geometries are here too. Distances are fractions of the arm's reach.
 """
@@ -20,10 +20,10 @@ from ..units import in_words
 from .link import Link
 from .verdicts import SENTENCES
 
-ROUNDING = 1e-12  # a point past a border by no more than this is on it
-STRAIGHT = 1e-14  # stretched or folded within this: both elbow rows are equal
+ROUNDING = 1e-12  # a point past a border by no more than this counts as on it
+STRAIGHT = 1e-14  # an arm this near to stretched or folded has two equal elbow rows
 FREE = 1e-13  # within this of axis 1 the angle of joint 1 is noise, and the joint is free
-SINGULAR = 1e-6  # rad, or fraction of the reach: a posture this near to a singularity is singular
+SINGULAR = 1e-6  # rad, or fraction of reach: a posture this near a singularity counts as singular
 UPRIGHT = 1e-9  # rad; a tool tilted by less than this counts as upright
 
 
@@ -51,8 +51,8 @@ class ClosedForm(Geometry, Protocol):
     branches   (rows, flags) of +-1, read-only: the configuration of each row
     carried    what the first joints position: "wrist centre", "point", ...
 
-    The names that `gap` and `singularities` return are keys of `verdicts.SENTENCES`. The same
-    inverse for pages is in `show/js/geometries.js`.
+    The names that `gap` and `singularities` return are keys of `verdicts.SENTENCES`.
+    `show/js/geometries.js` has the same inverse for pages.
     """
 
     @property
@@ -64,10 +64,12 @@ class ClosedForm(Geometry, Protocol):
         """See `ClosedFormArm.ik`."""
 
     def gap(self, pose: Any, row: int) -> "Gap":
-        """Why one single pose has no `row` (asked only where `ik` has none)."""
+        """The reason why a single pose has no solution in this row. Called only where there is
+        none.
+        """
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., n): dict of name -> bool (...)."""
+        """Which singularities occur at q (..., n): dict of name -> bool (...)."""
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:
         """Return rows q (..., n) in which the joints that a singularity leaves free turn least from
@@ -77,7 +79,7 @@ class ClosedForm(Geometry, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Chain(Sealed):
-    """The geometry of a chain of links without an inverse. No posture exceeds its `reach`."""
+    """The geometry of a chain of links without an inverse. No posture reaches beyond `reach`."""
 
     links: tuple[Link, ...]
     reach: float
@@ -98,12 +100,12 @@ class Chain(Sealed):
         strokes = abs(limits[[link.prismatic for link in links]]).max(axis=-1, initial=0)
         reach = float(np.linalg.norm(ways, axis=-1).sum() + strokes.sum())
         if reach < 1e-9:
-            raise ValueError("links: wanted a flange that comes away from axis 1, got reach 0 m")
+            raise ValueError("links: wanted a flange that can leave axis 1, got a reach of 0 m")
         return cls(links, reach)
 
 
 class Gap(NamedTuple):
-    """The reason why a row does not exist: the border that the target passes, and by how much.
+    """The reason why a row does not exist: the border that the target is beyond, and by how much.
 
     kind     the key of a sentence in `verdicts.SENTENCES`
     metres   how far the target is beyond the border; 0 where the reason is not a length
@@ -125,7 +127,7 @@ class Gap(NamedTuple):
 
 def flags(count: int) -> Ints:
     """All configurations with `count` flags, (2**count, count) of +1 and -1, read-only. The first
-    flag changes last.
+    flag changes slowest.
     """
     rows = np.array(list(product((1, -1), repeat=count)))
     rows.flags.writeable = False
@@ -151,12 +153,12 @@ def one_point(point: Any) -> Any:
     """Return the point. ValueError: a batch of points."""
     x = coordinates(point)[0]
     if x.ndim:
-        raise ValueError(f"point: wanted one single point, got a batch of shape {x.shape}")
+        raise ValueError(f"point: wanted a single point, got a batch of shape {x.shape}")
     return point
 
 
 def distance(x: Floats, y: Floats) -> Floats:
-    """The length of (x, y), like np.hypot, but computed with + - * / and sqrt alone. Every machine
+    """The length of (x, y), like np.hypot, but computed with only + - * / and sqrt. Every machine
     and language rounds these in the same way, so they all agree on what is out of reach.
     """
     scale = np.maximum(np.maximum(abs(x), abs(y)), 1e-300)
@@ -178,7 +180,7 @@ def two_levers(upper: float, fore: float, d: Floats) -> tuple[Floats, Floats, Bo
     exists = (stretch >= -slack) & (fold >= -slack)
     stretch, around = np.maximum(stretch, 0), upper + fore + d
     short, long = np.maximum(d - (upper - fore), 0), np.maximum(d + (upper - fore), 0)
-    with np.errstate(over="ignore"):  # a point 1e200 m away is out of reach, without a warning
+    with np.errstate(over="ignore"):  # no warning for a point 1e200 m away: it is out of reach
         ahead = 2 * np.arctan2(np.sqrt(stretch * short), np.sqrt(around * long))
         turn = 2 * np.arctan2(np.sqrt(stretch * around), np.sqrt(short * long))
     return ahead, turn, exists

@@ -25,7 +25,7 @@ class Link(Sealed):
 
     The motion is a rotation about the unit vector `axis` or, if `prismatic`, a translation along
     it. A Denavit-Hartenberg row has its constant part after the joint; listing 1 of source 001 has
-    it before. ValueError: a batch of transforms, or an axis that is not one unit vector.
+    it before. ValueError: a batch of transforms, or an axis that is not a single unit vector.
     """
 
     before: Transform
@@ -43,7 +43,7 @@ class Link(Sealed):
     ) -> None:
         for part, name in ((before, "before"), (after, "after")):
             if instance(part, Transform, name).shape:
-                raise ValueError(f"{name}: wanted one single Transform, got {part}")
+                raise ValueError(f"{name}: wanted a single Transform, got {part}")
         direction = floats(axis, "axis", 3)
         if direction.ndim != 1:
             raise ValueError(f"axis: wanted one unit vector, got shape {direction.shape}")
@@ -134,7 +134,8 @@ def home(links: Sequence[Link]) -> tuple[Floats, Floats, Transform]:
 
 class _Still(NamedTuple):
     """A constant transform in as few steps as possible: translations (axis, length) along
-    coordinate axes, then a rotation about a coordinate axis or w, x, y, z about any axis, or none.
+    coordinate axes, then a rotation about a coordinate axis, a quaternion w, x, y, z for any other
+    axis, or no rotation.
     """
 
     shifts: tuple[tuple[int, float], ...]

@@ -1,4 +1,4 @@
-"""Three levers in the plane z = 0: the arm of source 003, OB, BA, AK, with one joint more than a
+"""Three levers in the plane z = 0: the arm of source 003, OB, BA, AK, with one more joint than a
 point in the plane needs.
 """
 
@@ -17,23 +17,23 @@ from .geometry import ROUNDING, coordinates, distance, one_point
 from .link import Link
 
 Z = np.array([0.0, 0.0, 1.0])
-MOST_ROWS = 2_000_000  # rows of a table: one or two seconds
-PORTION = 1000  # tasks that are computed together when each compares hundreds of postures
+MOST_ROWS = 2_000_000  # greatest number of rows of a table, which takes one or two seconds
+PORTION = 1000  # tasks that are computed together if each compares hundreds of postures
 
 
 def three_lever(L: ArrayLike) -> "ThreeLeverArm":
     """The arm of source 003 with levers of length L in metres, or of the three lengths (3,) of OB,
     BA, AK; q = (gamma, beta, alpha), each from 0 to 180 degrees.
 
-    O      the base, in the origin
+    O      the base, at the origin
     gamma  the angle of lever OB from the +x axis, counter-clockwise
     beta   the interior angle at B; at 180 degrees OB and BA are in line
     alpha  the interior angle at A; at 180 degrees BA and AK are in line
-    K      the gripper, the flange's origin; below 180 degrees the chain bends clockwise on the way
-           to it
+    K      the gripper, the flange's origin; below 180 degrees the chain bends clockwise
+           towards it
 
     Source: 003, III.1.1, figures 15 and 16, for equal levers; II.2 says that they may differ.
-    ValueError: L is not one positive number or three.
+    ValueError: L is neither one positive number nor three.
 
     >>> from robokin import deg, three_lever
     >>> three_lever((0.9, 1.1, 0.6)).points([90 * deg, 90 * deg, 180 * deg]).round(3) + 0.0
@@ -138,7 +138,7 @@ class ThreeLeverArm(Arm):
         """The posture that reaches the point with the free angle alpha: point (...), alpha (...) ->
         q (..., 3).
 
-        NaN where there is none (see `alpha_range`). `within(arm, q)` tells which angles lie in 0 to
+        NaN where there is none (see `alpha_range`). `within(arm, q)` shows which angles lie in 0 to
         180 degrees: alpha and beta always do, gamma often does not. For one point and many alphas:
         `family(point, alphas)`; for many points and many alphas: `family(points[:, None], alphas)`.
         Source: 003, (4)-(14) and table 3, with errata S3-a (the direction of K) and S3-d (its last
@@ -237,7 +237,7 @@ class ThreeLeverArm(Arm):
         (a, b, c), inner, reach = self.geometry.levers, self.geometry.inner, self.reach
         KO = float(distance(x, y))
         if abs(z) > ROUNDING * self.lever:
-            return f"it lies {in_words(float(abs(z)))} beside the plane z = 0 of the levers"
+            return f"it lies {in_words(float(abs(z)))} off the plane z = 0 of the levers"
         if KO <= inner:
             what = "one lever" if a == b == c else "|OB \N{MINUS SIGN} BA| + AK"
             return (
@@ -292,7 +292,7 @@ class ThreeLeverArm(Arm):
         return _angle(KO, a, _across(b, c, alpha))
 
     def _alpha_of_gamma(self, KO: Floats, gamma1: Floats) -> Floats:
-        """The alpha for the angle KOB, NaN where there is none."""
+        """The alpha that gives the angle KOB, NaN where there is none."""
         a, b, c = self.geometry.levers
         KB = np.sqrt(KO**2 + a**2 - 2 * KO * a * np.cos(gamma1))
         spare = (KB - abs(b - c)) * (KB + abs(b - c))
@@ -316,8 +316,8 @@ class ThreeLeverArm(Arm):
     def _level(self, KO: Floats, low: Floats, high: Floats) -> Floats:
         """For levers of any lengths, six alphas (6, ...): the first and the last between low and
         high at which beta + alpha - gamma, gamma - beta + alpha, or gamma + beta - alpha is
-        stationary. Missing ones are replaced by others. (gamma + beta + alpha, the direction of the
-        last lever, is stationary only where O, B and A are in line.)
+        stationary. Where there is none, another alpha takes its place. (gamma + beta + alpha, the
+        direction of the last lever, is stationary only where O, B and A are in line.)
         """
         if KO.size > PORTION:
             flat = np.stack([KO, low, high]).reshape(3, -1)
@@ -383,6 +383,6 @@ def _angle(a: Floats | float, b: Floats | float, c: Floats | float) -> Floats:
 
 def _spare(a: Floats | float, b: Floats | float, c: Floats | float) -> Any:
     """How much longer two sides are than the third, rounded in the same way for every angle, so
-    that all angles of a nearly flat triangle belong to one triangle and the chain closes.
+    that all angles of a nearly flat triangle belong to the same triangle and the chain closes.
     """
     return np.maximum(a, b) - c + np.minimum(a, b)

@@ -26,7 +26,8 @@ class ScaraPose(Batch):
 
     The angle is in radians and not wrapped: from 0 to pi is half a turn to the left, from 0 to -pi
     half a turn to the right, and 3 pi is one and a half turns. A rotation cannot distinguish them
-    (errata S1-t). ValueError: wrong shapes, not finite. Source: 001, listings 4 and 12.
+    (errata S1-t). ValueError: wrong shapes, or numbers that are not finite. Source: 001, listings 4
+    and 12.
 
     >>> from robokin import ScaraPose
     >>> ScaraPose((0.2, 0.3, 0.1), 0.0).lerp(ScaraPose((0.4, 0.1, 0.1), 3.0), 0.5)
@@ -107,7 +108,7 @@ class ScaraGeometry(Sealed):
     links: tuple[Link, ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        level = number(self.height, "height", "one number of metres")
+        level = number(self.height, "height", "one number, in metres")
         upper, fore = length(self.upper, "upper"), length(self.fore, "fore")
         links = (
             Link(Transform(translation=(0, 0, level)), Z),
@@ -125,14 +126,14 @@ class ScaraGeometry(Sealed):
         x, y, z = components(position[..., None, :])
         ahead, turn, exists = two_levers(self.upper, self.fore, distance(x, y))
         elbow = self.branches[:, 0]
-        q1, q2 = np.arctan2(y, x) - elbow * ahead, elbow * turn + 0.0  # no -0.0
+        q1, q2 = np.arctan2(y, x) - elbow * ahead, elbow * turn + 0.0  # -0.0 becomes 0
         q3 = angle[..., None] - q1 - q2
         q = stack([wrapped(q1), q2, wrapped(q3), self.height - z])
         reached = exists & (tilt < UPRIGHT)[..., None]
         return np.where(reached[..., None], q, np.nan)
 
     def gap(self, pose: Any, row: int) -> Gap:
-        """Why one single pose has no `row`."""
+        """The reason why a single pose has no solution in this row."""
         position, _, tilt = _parts(pose)
         if tilt >= UPRIGHT:
             return Gap("tilted", 0.0, self.carried, float(np.rad2deg(tilt)))
@@ -140,7 +141,7 @@ class ScaraGeometry(Sealed):
         return worst({"stretched": r - borders[0], "axis": borders[1] - r}, self.carried)
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., 4): dict of name -> bool (...), within 1e-6 rad."""
+        """Which singularities occur at q (..., 4): dict of name -> bool (...), within 1e-6 rad."""
         return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:

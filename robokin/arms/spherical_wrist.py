@@ -1,6 +1,6 @@
 """Six-axis arms with a spherical wrist, with eight closed-form solutions.
 
-The three wrist axes meet in one point, the wrist centre. It does not move when joints 4 to 6 turn,
+The three wrist axes meet at one point, the wrist centre. It does not move when joints 4 to 6 turn,
 so the problem splits in two: position the wrist centre with joints 1 to 3, then orient the tool
 with joints 4 to 6.
 """
@@ -22,7 +22,8 @@ from .geometry import SINGULAR, Gap, flags
 from .link import Link, chain, home
 
 FREE = 1e-13  # below this sine of joint 5 the angle of joint 4 is noise, and the joint is free
-# below this sine of joint 5 rounding of the pose itself can turn joint 4: a motion chooses it
+# below this sine of joint 5, rounding errors in the pose can turn joint 4: `choose_free_joints`
+# then chooses its angle
 NOISY = 1e-9
 
 
@@ -36,9 +37,9 @@ def spherical_wrist(
     at q = 0.
 
     At q = 0, in base coordinates, axis 1 must lie on the z axis, axes 2, 3 and 5 must be parallel
-    to the y axis, and axes 4 to 6 must meet in one point, with 4 parallel to 6. The signs and
-    offsets of the joints follow from the links. ValueError: another arrangement; the message names
-    the axis.
+    to the y axis, and axes 4 to 6 must meet at one point, with 4 parallel to 6. The signs and
+    offsets of the joints follow from the links. ValueError: any other arrangement; the message
+    names the axis.
     """
     return ClosedFormArm(name, SphericalWristGeometry(links), limits, speed_limits)
 
@@ -61,7 +62,7 @@ class SphericalWristGeometry(Sealed):
     wrist: "Wrist" = field(init=False)
     reach: float = field(init=False)
 
-    @np.errstate(over="ignore", invalid="ignore")  # from squares of huge lengths
+    @np.errstate(over="ignore", invalid="ignore")  # squares of huge lengths overflow
     def __init__(self, links: Iterable[Link]) -> None:
         links = chain(links)
         if len(links) != 6 or any(link.prismatic for link in links):
@@ -80,8 +81,8 @@ class SphericalWristGeometry(Sealed):
         return np.moveaxis(q.reshape(6, 8, *pose.shape), (0, 1), (-1, -2))
 
     def _solve(self, rotation: Sequence[Floats], origin: Sequence[Floats]) -> list[Any]:
-        """The six joint values for poses (N,), for front/back and elbow (2, 2, N), as a pair where
-        the two wrists differ.
+        """The six joint values for poses (N,), for front/back and elbow (2, 2, N); a pair of values
+        where the two wrist solutions differ.
         """
         wrist = self.wrist
 
@@ -101,14 +102,14 @@ class SphericalWristGeometry(Sealed):
         cos4 = np.where(stuck, 1.0, below[2] / sin5)
         sin4 = np.where(stuck, 0.0, aside[2] / sin5)
         sin5 = np.where(stuck, 0.0, sin5)
-        # Axis 5 is known with joint 4; joint 6 is the angle from it to the tool. Near the
-        # singularity this keeps the orientation right although joint 4 is noise (errata S1-d).
+        # Joint 4 determines axis 5; joint 6 is the angle from axis 5 to the tool. Near the
+        # singularity this keeps the orientation correct although joint 4 is noise (errata S1-d).
         sin6 = wrist.sign6 * (cos4 * aside[0] - sin4 * below[0])
         cos6 = cos4 * aside[1] - sin4 * below[1]
         q4, q5, q6 = np.arctan2(sin4, cos4), np.arctan2(sin5, cos5), np.arctan2(sin6, cos6)
 
-        # The other wrist: joint 5 with the opposite sign, joints 4 and 6 half a turn further. A
-        # singular wrist has only one row.
+        # The other wrist solution: joint 5 with the opposite sign, joints 4 and 6 half a turn
+        # further. A singular wrist has only one row.
         other = [q4 - np.copysign(np.pi, q4), -q5, q6 - np.copysign(np.pi, q6)]
         if stuck.any():
             pairs = zip((q4, q5, q6), other, strict=True)
@@ -117,13 +118,13 @@ class SphericalWristGeometry(Sealed):
         return [*same, *zip((q4, q5, q6), other, strict=True)]
 
     def gap(self, pose: Any, row: int) -> Gap:
-        """Why one single pose has no `row`."""
+        """The reason why a single pose has no solution in this row."""
         flange = pose.rotation.wxyz.tolist(), pose.translation.tolist()
         _, centre = self.wrist.at(*flange)
         return self.elbow.gap(centre, self.branches[row, 0])
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., 6): dict of name -> bool (...). Those of
+        """Which singularities occur at q (..., 6): dict of name -> bool (...). Those of
         `Elbow.singularities`, and wrist: axes 4 and 6 are in line (within 1e-6 rad).
         """
         return self.elbow.singularities(q) | {"wrist": abs(np.sin(q[..., 4])) < SINGULAR}
@@ -171,12 +172,12 @@ class Wrist(NamedTuple):
         """
         (e4, e5, e6), (p4, p5, p6) = axes, points
         parallel(5, e5, 1)
-        _need(abs(e4[1]) < 1e-9, "axis 4 square to axis 5, got {}", e4)
+        _need(abs(e4[1]) < 1e-9, "axis 4 perpendicular to axis 5, got {}", e4)
         _need(abs(abs(e4 @ e6) - 1) < 1e-9, "axis 6 parallel to axis 4, got {}", e6)
-        centre = p4 + ((p5 - p4) @ e4) * e4  # the foot of the perpendicular on axis 4
+        centre = p4 + ((p5 - p4) @ e4) * e4  # the foot of the perpendicular from p5 to axis 4
         for number, point, axis in ((5, p5, e5), (6, p6, e6)):
             beside = np.linalg.norm(cross(centre - point, axis))
-            met = "axis {} through {}, got it {:.3g} m beside"
+            met = "axis {} through {}, got it {:.3g} m away"
             _need(beside < 1e-9, met, number, centre, beside)
         frame = Quaternion.from_matrix(np.stack([cross(e5, e4), e5, e4], axis=-1))
         wrist = cls(

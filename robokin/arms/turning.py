@@ -25,7 +25,7 @@ X = np.array([1.0, 0.0, 0.0])
 def turning_base(arm: ThreeLeverArm) -> "TurningLeverArm":
     """The arm on a turning base, q = (turn, gamma, beta, alpha). Joint 1 turns the plane of the
     levers about the z axis of the base, which points up. At 0 the x axis of the levers is that of
-    the base; their y axis always points up. The turn ranges from -180 to 180 degrees.
+    the base; their y axis always points up. Joint 1 ranges from -180 to 180 degrees.
 
     Source: 003, II.2. TypeError: an arm of another kind.
     """
@@ -55,12 +55,12 @@ class TurningLeverArm(Arm):
     geometry: TurningLeverGeometry
 
     def seen(self, point: ArrayLike) -> tuple[Floats, Floats]:
-        """The two turns (..., 2) at which the plane of the levers contains the points, and the
-        points in that plane (..., 2, 2): in front of the base and, half a turn further, behind it.
-        For a point on the axis every turn is possible; we take 0 and half a turn.
+        """The two angles of joint 1 (..., 2) at which the plane of the levers contains the points,
+        and the points in that plane (..., 2, 2): in front of the base and, half a turn further,
+        behind it. For a point on the axis every angle is possible; we take 0 and half a turn.
         """
         x, y, z = np.moveaxis(floats(point, "point", 3), -1, 0)
-        r, turn = distance(x, y), np.arctan2(y + 0.0, x + 0.0)  # -0.0 is 0
+        r, turn = distance(x, y), np.arctan2(y + 0.0, x + 0.0)  # -0.0 becomes 0
         places = np.stack([np.stack([r, z], axis=-1), np.stack([-r, z], axis=-1)], axis=-2)
         return wrapped(np.stack([turn, turn + np.pi], axis=-1)), places
 
@@ -68,7 +68,8 @@ class TurningLeverArm(Arm):
         """The posture within the limits at the points (..., 3) with the smallest sum S of the four
         absolute angle changes from previous (..., 4): (..., 4) and (...), NaN where there is none.
 
-        It takes the better of both turns; for a point on the axis the base does not turn.
+        It takes the better of the two angles of joint 1; for a point on the axis the base does not
+        turn.
         """
         before = floats(previous, "previous", 4)
         warn_if_degrees(before, "previous", posture=1)

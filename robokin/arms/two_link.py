@@ -1,4 +1,4 @@
-"""Two links in the plane z = 0: the arm of source 002, two lengths and two elbows."""
+"""Two links in the plane z = 0: the arm of source 002, with two lengths and two elbow solutions."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -32,7 +32,7 @@ def two_link(l1: float, l2: float, base: ArrayLike = (0, 0)) -> ClosedFormArm:
     q1 is the angle of link 1 from the +x axis, q2 that of link 2 from link 1. The document's
     unknown (x2, y2) is the elbow: `arm.frames(q)[..., 1].translation`. `ik` takes points (..., 2)
     or (..., 3), or the translations of Transforms; a point off the plane z = 0 is out of reach. The
-    limits are one turn each; the document has none.
+    limits are one turn each; the document states none.
 
     Source: 002, (1) and figure 1. ValueError: a length that is not one positive number, a base that
     is not a point.
@@ -52,9 +52,9 @@ class TwoLinkGeometry(Sealed):
     q2; at +1 link 2 turns counter-clockwise from link 1, and the elbow is to the right of the line
     from base to tip.
 
-    The document's formula (2) holds for equal links on the origin, divides by x3, and changes sides
-    with the sign of x3 (errata S2-a, S2-d, S2-e). We solve the triangle of base, elbow and tip with
-    half angles, for any lengths.
+    The document's formula (2) is valid only for equal links mounted at the origin, divides by x3,
+    and changes sides with the sign of x3 (errata S2-a, S2-d, S2-e). We solve the triangle of base,
+    elbow and tip with half angles, for any lengths.
     """
 
     branches = flags(1)
@@ -85,17 +85,17 @@ class TwoLinkGeometry(Sealed):
         exists = exists & (off <= ROUNDING * self.reach)
         elbow = self.branches[:, 0]
         q1 = np.arctan2(y, x)[..., None] - elbow * ahead[..., None]
-        q = wrapped(stack([q1, elbow * turn[..., None]])) + 0.0  # also without -0.0
+        q = wrapped(stack([q1, elbow * turn[..., None]])) + 0.0  # -0.0 becomes 0
         return np.where(exists[..., None, None], q, np.nan)
 
     def gap(self, pose: Any, row: int) -> Gap:
-        """Why one single pose has no `row`."""
+        """The reason why a single pose has no solution in this row."""
         _, _, d, off = self._way(one_point(pose))
         borders = {"stretched": d - (self.l1 + self.l2), "base": abs(self.l1 - self.l2) - d}
         return worst(borders | {"plane": off}, self.carried)
 
     def singularities(self, q: Floats) -> dict[str, Bools]:
-        """Which singularities hold at q (..., 2): dict of name -> bool (...), within 1e-6 rad."""
+        """Which singularities occur at q (..., 2): dict of name -> bool (...), within 1e-6 rad."""
         return {"elbow": abs(np.sin(q[..., 1])) < SINGULAR}
 
     def choose_free_joints(self, q: Floats, previous: Floats) -> Floats:

@@ -1,7 +1,9 @@
-"""The words of a verdict: all sentences that `explain` uses, so that a page can use them too.
+"""The words of a verdict: all sentences that `explain` (in `branches`) uses, so that a page can
+use them too.
 
-The facts are in braces: {what} is to be positioned, {gap} is a length with its unit, {degrees} an
-angle; then {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value}, {over} and {limit}.
+The facts are in braces: {what} is the point to be positioned, {gap} is a length with its unit,
+{degrees} an angle; then {row}, {flags}, {reason}, {hint}, {facts}, {joint}, {value}, {over} and
+{limit}.
 """
 
 SENTENCES = {

@@ -2,7 +2,7 @@
 
     from robokin.course import check, hint, predict, progress, report, solution, variant
 
-Their text for each lab is in notebooks/exercises (`book` finds it).
+The text of exercises and predictions is in notebooks/exercises; `book` finds it.
 """
 
 import textwrap
@@ -35,19 +35,19 @@ __all__ = [
 ]
 
 watch()  # a lab's first cell imports this, so `report` knows which cells ran after it
-_verdicts: dict[
-    str, Verdict
-] = {}  # for each exercise in this kernel the last verdict, or one that held
+# exercise -> its latest verdict in this kernel; once one holds, it is kept
+_verdicts: dict[str, Verdict] = {}
 
 
 def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     """Return a `Verdict` on the answer to an exercise, such as "irb140_motion.1". It displays
     itself in a cell.
 
-    name  an id, or an exercise of one's own (`exercise`)
-    who   the student, where the exercise has numbers of one's own (`variant`)
+    name  an id, or your own exercise (see `exercise`)
+    who   the student, if the exercise has individual numbers (see `variant`)
 
-    It never raises. The verdict says if an answer raises, prints, changes its input or never ends.
+    It never raises: the verdict reports an answer that raises, prints, changes its input or never
+    ends.
     """
     called = name.title if isinstance(name, Exercise) else str(name)
     try:
@@ -59,10 +59,10 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     except Exception as error:
         told = f"{error}" if isinstance(error, BadFile) else f"{type(error).__name__}: {error}"
         verdict = Verdict(called, says=(f"This cannot be judged: {told}",))
-    if isinstance(name, Exercise):  # no lab's
+    if isinstance(name, Exercise):  # not an exercise of a lab
         return verdict
     before = _verdicts.get(verdict.exercise)
-    if before is None or not before.holds:  # an exercise that held once is done
+    if before is None or not before.holds:  # a verdict that holds is kept
         _verdicts[verdict.exercise] = verdict
     return verdict
 
@@ -72,20 +72,20 @@ def exercise(
 ) -> Exercise:
     """Make your own exercise: `check(exercise(...), answer)`.
 
-    solution  a Markdown file (.md) as those of the labs, with its Python file beside it; or a
-              function that is right, or its text
-    cases     generator of random numbers -> inputs of the function, each a tuple
-    mistakes  in the form of the Markdown: a name, a sentence, edits of the solution
+    solution  a Markdown file (.md) like those of the labs, with its Python file beside it; or a
+              correct function, or its source text
+    cases     random generator -> inputs of the function, each a tuple
+    mistakes  as in the Markdown file: a name, a sentence, edits of the solution
 
-    A file is read again at each call. ValueError: it cannot be read, it has no function, or edits
-    do not fit.
+    The file is read again at each call. ValueError: it cannot be read, it defines no function, or
+    an edit does not match.
     """
     return own(solution, cases, mistakes)
 
 
 def pose_explorer(name: str) -> "Explorer":
     """Return the target explorer of an exercise whose answer is a pose. The page says whether the
-    task is fulfilled, and "Copy as Python" gives the pose. ValueError: no such exercise.
+    pose solves the task, and "Copy as Python" gives the pose. ValueError: no such exercise.
     """
     from ..arms.catalogue import IRB140
     from ..show.explorers import Explorer, target_explorer
@@ -100,7 +100,7 @@ def pose_explorer(name: str) -> "Explorer":
 
 
 def hint(name: str, n: int = 1) -> Note:
-    """Return hint n of an exercise, from 1; each one says more. ValueError: no such exercise."""
+    """Return hint n of an exercise, from 1; later hints say more. ValueError: no such exercise."""
     hints = find(name, "exercises").hints
     if not isinstance(n, int) or not 1 <= n <= len(hints):
         return Note(f"There are {len(hints)} hints: 1 to {len(hints)}.")
@@ -117,7 +117,7 @@ def solution(name: str) -> Note:
 def progress(name: str | None = None) -> Note:
     """Return the objectives reached in this kernel, lab by lab, or those of the lab `name`."""
     slugs = dict.fromkeys(k.partition(".")[0] for k in _verdicts) if name is None else [name]
-    lines = ["What was checked since this kernel began:"] if _verdicts else []
+    lines = ["Checked since this kernel started:"] if _verdicts else []
     for slug in slugs:
         book = lab(slug)
         lines.append(f"{slug}:")

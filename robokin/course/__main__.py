@@ -1,4 +1,4 @@
-"""python -m robokin.course COMMAND: the commands that work on labs as files."""
+"""python -m robokin.course COMMAND: the commands that work on lab files."""
 
 import argparse
 import os
@@ -14,7 +14,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command and return the exit status: 0, or 1 if a file could not be used."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # names that it cannot show
+            stream.reconfigure(errors="backslashreplace")  # for names that the stream cannot encode
     options = _parser().parse_args(argv)
     try:
         if "to" in options:
@@ -26,8 +26,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     except ModuleNotFoundError as error:
-        install = f"pip install '.[{options.extra}]' at the top of a clone of robokin brings it"
-        print(f"{error}; {install}", file=sys.stderr)
+        install = f"pip install '.[{options.extra}]' at the top of a clone of robokin"
+        print(f"{error}; install it with {install}", file=sys.stderr)
         return 1
 
 
@@ -47,10 +47,10 @@ def _parser() -> argparse.ArgumentParser:
     to: dict[str, Any] = {"metavar": "FOLDER", "type": Path, "default": Path()}
     copy = command(
         _copy,
-        "the labs into a student's folder; again when there are newer ones",
-        "Lay the labs into FOLDER, trusted. Run again, it replaces what was not touched (running "
-        "is not touching) and keeps the student's work: the newer lab is then laid beside it, "
-        "NAME.new.ipynb.",
+        "copy the labs into a student's folder, and newer versions later",
+        "Copy the labs into FOLDER, trusted. When run again, it replaces the labs that the student "
+        "has not edited (running a lab does not count as editing) and keeps the student's work: "
+        "the newer lab is then put beside it, as NAME.new.ipynb.",
     )
     copy.add_argument("folder", metavar="FOLDER", type=Path, help="the student's folder")
     where = "where the labs are (default: in the clone that robokin is installed from)"
@@ -58,49 +58,51 @@ def _parser() -> argparse.ArgumentParser:
 
     export = command(
         _export,
-        "one page for each lab, alive without a network",
-        "Write LAB.html for each LAB.ipynb: one page that needs no network and no Python. "
-        "Players, explorers and predictions are alive in it.",
+        "write each lab as one page that works without a network",
+        "Write LAB.html for each LAB.ipynb: one page that needs neither a network nor Python. Its "
+        "players, explorers and predictions work.",
     )
     report = command(
         _report,
-        "one page of your lab to hand in",
-        "Run LAB.ipynb anew and write LAB_NAME.html for each: who, what holds of its exercises, "
-        "the predictions made, and the lab, alive without a network.",
+        "write your lab as one page to hand in",
+        "Run each LAB.ipynb again and write LAB_NAME.html: the student's name, the verdicts on the "
+        "exercises, the predictions, and the lab itself, which works without a network.",
     )
     summary = command(
         _summary,
-        "the teacher's table of what was handed in",
-        "Write summary.csv and summary.html over the reports and notebooks below FOLDER: who, "
-        "what holds, which mistakes are frequent, which predictions went wrong; and in "
-        "summary_pages a page for each row. Notebooks are judged anew, side by side, which takes "
-        "5 to 60 seconds each. Judging runs the students' code as you, without a sandbox, and "
-        "that code can forge a verdict; marks that matter belong to nbgrader.",
+        "write the teacher's table of handed-in work",
+        "Write summary.csv and summary.html from the reports and notebooks below FOLDER: the "
+        "students, their results, the frequent mistakes and the wrong predictions; and in "
+        "summary_pages a page for each row. Notebooks are judged again, several at a time, which "
+        "takes 5 to 60 seconds each. Judging runs the students' code with your permissions, "
+        "without a sandbox, and that code can forge a verdict: use nbgrader for marks that matter.",
     )
     for each in (export, report):
         each.add_argument("labs", help="a notebook (.ipynb)", **labs)
-    report.add_argument("--name", required=True, help="who hands it in")
-    summary.add_argument("folder", metavar="FOLDER", type=Path, help="what was handed in")
-    summary.add_argument("--no-points", action="store_true", help="leave the points out")
+    report.add_argument("--name", required=True, help="the student's name")
+    summary.add_argument("folder", metavar="FOLDER", type=Path, help="the handed-in work")
+    summary.add_argument("--no-points", action="store_true", help="leave out the points")
     for each in (export, report, summary):
-        each.add_argument("--to", help="where (default: here)", **to)
+        each.add_argument("--to", help="output folder (default: the current one)", **to)
     for each in (report, summary):
-        own = "a folder of your own labs' exercises, each lab a folder in it"
+        own = "a folder with exercises for labs of your own, one subfolder for each lab"
         each.add_argument("--exercises", metavar="FOLDER", type=Path, help=own)
 
     site = command(
         _site,
-        "all labs and the package's reference as pages, alive without Python",
-        "Write a site into FOLDER: labs, companions, glossary, notes for teachers, the package's "
-        "reference, a search. Open its index.html, or lay the folder on any server.",
+        "write all labs and the package reference as pages that work without Python",
+        "Write a site into FOLDER: labs, companions, glossary, notes for teachers, the package "
+        "reference, a search. Open its index.html, or put the folder on any web server.",
         extra="site",
     )
-    site.add_argument("folder", metavar="FOLDER", type=Path, help="a new one, or a site's")
+    site.add_argument(
+        "folder", metavar="FOLDER", type=Path, help="a new folder, or an earlier site"
+    )
     site.add_argument(
         "--no-teaching",
         dest="teaching",
         action="store_false",
-        help="without the notes for teachers, which have the answers of the oral questions",
+        help="leave out the notes for teachers, which contain the answers to the oral questions",
     )
     return parser
 
@@ -121,7 +123,7 @@ def _add(folder: Path) -> None:
         for told in each.broken.values():
             print(told, file=sys.stderr)
     if len(labs()) == before:
-        raise FileNotFoundError(f"--exercises: no lab of its own in {str(folder)!r}")
+        raise FileNotFoundError(f"--exercises: no new lab in {str(folder)!r}")
 
 
 def _copy(options: Any) -> int:
@@ -140,7 +142,7 @@ def _copy(options: Any) -> int:
     same = counts["same"]
     news = [f"{counts[what]} {what}" for what in ("new", "replaced", "kept", "failed")]
     news = [each for each in news if not each.startswith("0 ")]
-    print(f"{options.folder}: {', '.join(news) or 'nothing new'}; {same} as they were")
+    print(f"{options.folder}: {', '.join(news) or 'nothing new'}; {same} unchanged")
     return 1 if counts["failed"] else 0
 
 
@@ -162,7 +164,7 @@ def _report(options: Any) -> int:
 
 
 def _each(labs: Sequence[Path], written: Callable[[Path], Path]) -> int:
-    """Export each lab as a page. A lab that fails is reported, and the others continue."""
+    """Write each lab as a page. A failure is reported, and the other labs are still written."""
     failed = 0
     for path in labs:
         try:
@@ -206,7 +208,7 @@ def _summary(options: Any) -> int:
 def _site(options: Any) -> int:
     from .site import build
 
-    print("The site is being made; this takes half a minute.", flush=True)
+    print("Building the site; this takes half a minute.", flush=True)
     try:
         complaints = build(options.folder, options.teaching)
     except (OSError, ValueError) as error:

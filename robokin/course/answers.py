@@ -22,14 +22,16 @@ from ..transform import Transform
 
 SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
 TOTAL = 30.0  # seconds of CPU time for all cases together
-WALL = 90.0  # seconds by the clock for one: sleeping and threads in C take no CPU time here
+WALL = 90.0  # wall-clock seconds for one case: sleep and C threads take no CPU time here
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
-IDENTITY: Any = object.__eq__  # objects of a class whose == does not compare values
+IDENTITY: Any = object.__eq__  # the == of classes that do not define one
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
 
 class TimeUp(BaseException):
-    """This is not an Exception, so `except Exception` in an answer does not catch it."""
+    """Raised in an answer whose time is up. It is not an Exception, so that `except Exception` does
+    not catch it.
+    """
 
 
 class Outcome(NamedTuple):
@@ -52,7 +54,7 @@ TROUBLE = {
 
 
 def _never(seconds: float) -> Outcome:
-    says = f"It does not come to an end, or is far too slow (stopped after {seconds:.0f} s)."
+    says = f"It never ends, or is far too slow (stopped after {seconds:.0f} s)."
     return Outcome(name="never ends", says=says)
 
 
@@ -91,9 +93,9 @@ def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Ou
     `TOTAL`.
 
     The answer runs in its own thread. So `TimeUp`, which can arrive between any two steps of
-    Python, cannot reach the calling thread. Python in a page has no threads. There the page sets
-    `host`, which tells it that answers begin (True) and have ended (False), and the page stops
-    everything if necessary.
+    Python, cannot reach the calling thread. Python in a web page has no threads. There the page
+    sets `host`, which is called when answers begin (True) and when they have ended (False), so that
+    the page can stop everything if necessary.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
@@ -152,7 +154,7 @@ def _told(error: BaseException) -> str:
     with contextlib.suppress(Exception):
         text = " ".join(str(error).split())
         if text.startswith("The truth value of an array"):
-            text = "it asks whether an array is true; ask .all() or .any() of it, or one value"
+            text = "an array is used as a condition; use .all() or .any(), or one of its values"
         return f"{type(error).__name__}: {text[:160]}" if text else type(error).__name__
     return type(error).__name__
 
@@ -208,7 +210,7 @@ class _Worker:
             host(False)
 
     def stopped(self, cases: int) -> Outcome:
-        """The sentence about the last of `count` cases, which was stopped."""
+        """The outcome of the last of `cases` cases, which was stopped."""
         if self.over == "all":
             says = f"{cases} cases took more than {TOTAL:.0f} s together."
             return Outcome(name="too slow", says=says)
@@ -222,7 +224,7 @@ class _Worker:
                     break
 
     def watch(self) -> None:
-        """Wait until it has finished or its time is up."""
+        """Wait until the answer has finished or its time is up."""
         with self.begun:
             cpu = time.process_time
         if hasattr(time, "pthread_getcpuclockid"):
@@ -244,8 +246,8 @@ class _Worker:
         self.done.release()
 
     def end(self) -> None:
-        """Stop it, even if it catches `TimeUp` repeatedly. A call into C that does not return
-        within `WALL` seconds is abandoned.
+        """Stop the answer, even if it catches `TimeUp` repeatedly. A call into C that does not
+        return within `WALL` seconds is abandoned.
         """
         if not self.started:
             return

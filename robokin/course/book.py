@@ -1,8 +1,8 @@
 """Find exercises and predictions by id: "irb140_motion.1" is exercise 1 of the lab whose notebook
-is called irb140_motion, with any number; "irb140_motion.p2" is a prediction.
+is NN_irb140_motion.ipynb; "irb140_motion.p2" is a prediction of that lab.
 
 Their text is in one folder for each lab, in notebooks/exercises. The environment variable
-ROBOKIN_EXERCISES names more such folders, for your own labs and for an installation without a
+ROBOKIN_EXERCISES lists more such folders: for your own labs, or if robokin was not installed from a
 clone.
 """
 
@@ -32,12 +32,8 @@ from .value import Value
 OURS = Path(__file__).parents[2] / "notebooks" / "exercises"
 ELSEWHERE = "ROBOKIN_EXERCISES"
 WORDS = ("objectives", "predictions")  # Markdown files that are not exercises
-MORE = "Labs of your own: ROBOKIN_EXERCISES=FOLDER, or --exercises FOLDER, makes them known."
-DEFAULTS = (
-    "form",
-    "law",
-    "same",
-)  # a notebook's variables are no part of an exercise
+MORE = "For labs of your own, set ROBOKIN_EXERCISES=FOLDER or pass --exercises FOLDER."
+DEFAULTS = ("form", "law", "same")  # not taken from a notebook's variables
 
 
 class Lab:
@@ -64,7 +60,7 @@ class Lab:
 
     @cached_property
     def exercises(self) -> Mapping[str, Exercise]:
-        """By their numbers."""
+        """The exercises by number."""
         found: dict[str, Exercise] = {}
         files: dict[str, str] = {}
         for file in sorted(self.folder.glob("*.md")):
@@ -73,14 +69,14 @@ class Lab:
                     exercise = self.exercise(file)
                     other = files.setdefault(exercise.number, file.name)
                     if other != file.name:
-                        told = f"{exercise.number} is the number of {other}, too"
+                        told = f"{exercise.number} is also the number of {other}"
                         raise BadFile(f"{file}", 1, told)
                     found[exercise.number] = exercise
         return dict(sorted(found.items(), key=lambda each: (len(each[0]), each[0])))
 
     @cached_property
     def predictions(self) -> Mapping[str, Prediction]:
-        """By their numbers."""
+        """The predictions by number."""
         found: dict[str, Prediction] = {}
         file = self.folder / "predictions.md"
         if not file.is_file():
@@ -91,12 +87,12 @@ class Lab:
                 with self._noted(f"{file.name}, {heading}"):
                     number, each = questions.prediction(f"{file}", line, heading, text, code)
                     if number in found:
-                        raise BadFile(f"{file}", line, f"{number} is there twice")
+                        raise BadFile(f"{file}", line, f"{number} occurs twice")
                     found[number] = replace(each, view=partial(self._view, number))
         return found
 
     def _view(self, number: str) -> Any:
-        """The view that answers a prediction. The drawing code is imported only now."""
+        """The view that answers a prediction. The drawing code is imported only here."""
         return self.module("pictures").get(f"{number}_view", str)()
 
     def read(self) -> None:
@@ -110,7 +106,7 @@ class Lab:
         return next(filter(None, found), None)
 
     def exercise(self, file: Path) -> Exercise:
-        """The exercise in a Markdown file and its Python file. ValueError: there is none."""
+        """The exercise in a Markdown file and its Python file. ValueError: they cannot be used."""
         text = markdown.exercise(f"{file}", markdown.read(file))
         return made(text, self.module(file.stem))
 
@@ -139,9 +135,9 @@ class Lab:
 
 
 def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
-    """Make an exercise of the kind that its text implies: a test to write has right programs, a
-    value to give has `faults`, and one with neither is a function to write. ValueError: it is not
-    an exercise.
+    """Make an exercise of the kind that its files imply: writing a test if the text has "Right
+    programs", giving a value if the code has `faults`, otherwise writing a function. ValueError: it
+    is not an exercise.
     """
     if "Right programs" in text.parts:
         return Catch(text, code)
@@ -149,8 +145,8 @@ def made(text: markdown.Text, code: Mapping[str, Any]) -> Exercise:
 
 
 def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
-    """Make the reader's own exercise from a Markdown file, or from a right function or its text,
-    and its cases. ValueError: it is not an exercise.
+    """Make the reader's own exercise from a Markdown file, or from a correct function or its
+    source text, and its cases. ValueError: it is not an exercise.
     """
     if isinstance(solution, os.PathLike) or f"{solution}".endswith(".md"):
         file = Path(solution).resolve()
@@ -160,7 +156,7 @@ def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
         try:
             names = {k: v for k, v in solution.__globals__.items() if k not in DEFAULTS}
             if solution.__name__ == "<lambda>":
-                raise ValueError("solution: wanted a function made by def, got a lambda")
+                raise ValueError("solution: wanted a function defined with def, got a lambda")
             solution = inspect.getsource(solution)
         except (AttributeError, OSError, TypeError):
             raise ValueError(f"solution: wanted a function or its text, got {solution!r}") from None
@@ -182,7 +178,7 @@ def labs() -> Mapping[str, Lab]:
 
 
 def numbered(place: Path) -> list[str]:
-    """The labs with notebooks beside a folder, in order."""
+    """The names of the labs whose notebooks are beside a folder, in order."""
     return [file.stem.partition("_")[2] for file in sorted(place.parent.glob("[0-9]*_*.ipynb"))]
 
 
@@ -195,7 +191,7 @@ def _labs(ours: Path, elsewhere: str) -> Mapping[str, Lab]:
         for name in dict.fromkeys([*first, *sorted(folders)]):
             taken, here = found.get(name), folders[name]
             if taken and taken.folder != here:  # nobody can replace one of our labs
-                told = f"{here}: not read, for {taken.folder} has this name, too"
+                told = f"{here}: not read, since {taken.folder} has the same name"
                 taken.broken[f"{here}"] = told
             found.setdefault(name, Lab(here))
     return found
@@ -206,8 +202,8 @@ def lab(name: Any) -> Lab:
     known = labs()
     if not known:
         raise ValueError(
-            f"lab: no labs are here. Install robokin from its clone, or let {ELSEWHERE} name the "
-            "folder notebooks/exercises of one"
+            f"lab: no labs found. Install robokin from its clone, or set {ELSEWHERE} to the "
+            "notebooks/exercises folder of a clone"
         )
     if not isinstance(name, str) or name not in known:
         raise ValueError(f"lab: wanted one of {', '.join(known)}, got {name!r}")
@@ -215,7 +211,7 @@ def lab(name: Any) -> Lab:
 
 
 def titled(name: str) -> str:
-    """The name of a lab for people: "lab 03, irb140 motion"."""
+    """The name of a lab for readers: "lab 03, irb140 motion"."""
     return f"lab {list(labs()).index(name):02}, {name.replace('_', ' ')}"
 
 
@@ -229,8 +225,8 @@ def find(name: Any, what: str) -> Any:
     known = labs()
     if known and (slug not in known or not dot):
         raise ValueError(
-            f'id: wanted a lab and a number, "{next(iter(known))}.1", of {", ".join(known)}; got '
-            f"{name!r}. {MORE}"
+            f'id: wanted an id such as "{next(iter(known))}.1", of the labs {", ".join(known)}; '
+            f"got {name!r}. {MORE}"
         )
     entries, broken = getattr(lab(slug), what), lab(slug).broken
     if number not in entries:

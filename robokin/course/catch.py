@@ -1,4 +1,4 @@
-"""A test to write that must accept right programs and refuse wrong ones."""
+"""The exercise of writing a test, which must accept correct programs and refuse wrong ones."""
 
 import random
 from collections.abc import Callable, Mapping, Sequence
@@ -11,10 +11,10 @@ from .answers import Outcome, is_stub, run
 from .exercises import Exercise, Verdict, in_words, unanswered
 from .markdown import BadFile, Text
 
-ASSERTS = "It raises AssertionError"  # as in `answers.run`
+ASSERTS = "It raises AssertionError"  # the beginning of what `answers.run` says
 RAISES = (
     "it raises an error",
-    "It never comes to a result. A test that passes over errors accepts it: an error is a no.",
+    "It never returns a result. A test that ignores errors accepts it: an error means no.",
 )
 Program = Callable[..., Any]
 
@@ -24,18 +24,18 @@ class NoResult(Exception):
 
 
 class Catch(Exercise):
-    """A test to write: program -> True if it is right. It must accept the right programs, and
-    refuse the mistakes and a program that only raises. If an error of a wrong program passes
-    through the test, it counts as a refusal. A test may refuse with an assertion; then returning
-    nothing means that it accepts.
+    """The exercise of writing a test: program -> True if it is correct. The test must accept the
+    correct programs, and refuse the mistakes and a program that only raises. If an error of a wrong
+    program passes through the test, it counts as a refusal. A test may refuse with an assertion;
+    then returning nothing means that it accepts.
 
-    The Markdown has the right programs, a promise (what they guarantee, shown if a test refuses
-    one) and the mistakes, each as edits of the first right program that they fit. All programs may
-    use the names of the Python file, `code`. A function `refusal(inputs, result)` there adds a
-    sentence about the last call of a right program that was refused.
+    The Markdown has the correct programs, a promise (what they guarantee, shown if a test refuses
+    one) and the mistakes, each as edits of the first correct program that they fit. All programs
+    may use the names of the Python file, `code`. A function `refusal(inputs, result)` there adds a
+    sentence about the last call of a correct program that was refused.
 
     Each check runs the programs in a new random order, so that a test which counts its calls does
-    not pass. The verdict names the first one in the order of the Markdown.
+    not pass. The verdict names the first failure in the order of the Markdown.
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
@@ -55,7 +55,7 @@ class Catch(Exercise):
         ]
 
     def program(self, text: str) -> Program:
-        """Make a program again, so that one with a memory starts fresh."""
+        """Make the program anew, so that one that keeps a state starts fresh."""
         made: Program = edits.run(text, self.code)[self.function]
         return made
 
@@ -82,12 +82,12 @@ class Catch(Exercise):
         if verdict.holds:
             again = {k: _answer(outcome) for k, outcome in self._asked(answer).items()}
             if any(again[k] != said[k] for k in said):
-                line = "The same program gets another answer when it is asked again."
+                line = "Your test gives the same program a different answer the second time."
                 return Verdict(name, mistake="its answer changes", says=(line,))
         return verdict
 
     def _asked(self, answer: Program) -> Mapping[int, Outcome]:
-        """The answer of the test for each program, run in random order."""
+        """The outcome of the test for each program; the programs run in random order."""
         programs = [self.program(text) for _, text in self.rights]
         programs += [_guarded(self.program(text)) for _, _, text in self.wrongs]
         programs.append(_guarded(_raises))
@@ -101,26 +101,26 @@ class Catch(Exercise):
         refused = [each for each, yes in zip(self.rights, right, strict=True) if not yes]
         slipped = [each for each, yes in zip(wrongs, wrong, strict=True) if yes]
         if not refused and not slipped:
-            line = f"It accepts {len(right)} right programs and catches {len(wrong)}."
+            line = f"It accepts {len(right)} correct programs and catches {len(wrong)} wrong ones."
             return Verdict(name, holds=True, says=(line,), points=1.0)
         count = (
-            f"It refuses {len(refused)} of {len(right)} right programs and accepts "
+            f"It refuses {len(refused)} of {len(right)} correct programs and accepts "
             f"{len(slipped)} of {len(wrong)} wrong ones."
         )
         says = [self.promise, count] if refused else [slipped[0][1], count]
         if not any(right) and sum(wrong) >= len(wrong) - 1:
             named = "True and False exchanged"
-            says = ["It accepts what is wrong and refuses what is right.", count]
+            says = ["It accepts the wrong programs and refuses the correct ones.", count]
         elif not any(accepted):
             named = "refuses every program"
         elif all(accepted):
             named = "accepts every program"
         elif refused:
-            named = "refuses a right program"
+            named = "refuses a correct program"
         else:
             named = f"accepts: {slipped[0][0]}"
         if refused:
-            case = f"  a right program that it refuses: {refused[0][0]}"
+            case = f"  a correct program that it refuses: {refused[0][0]}"
             says += self._refusal(answer, refused[0][1])
         else:
             case = f"  a wrong program that it accepts: {slipped[0][0]}"
@@ -128,7 +128,7 @@ class Catch(Exercise):
         return Verdict(name, mistake=named, says=tuple(says), case=case, points=points)
 
     def _refusal(self, answer: Program, text: str) -> list[str]:
-        """The additional sentence for a test that refuses this right program."""
+        """The additional sentence for a test that refuses this correct program."""
         if "refusal" not in self.code:
             return []
         program, calls = self.program(text), []

@@ -1,23 +1,24 @@
-"""Labs handed out into a student's folder, and again when there are newer ones:
+"""Copy the labs into a student's folder, and newer versions later:
 
     python -m robokin.course copy FOLDER
 
-A lab is touched when its cells are others, or in another order: running is not touching. What the
-student has not touched is replaced by the newer lab; what they have stays, byte for byte, and the
-newer lab is laid beside it, NAME.new.ipynb; what they have deleted comes back when there is a newer
-one. What lies at the place of a lab and was never handed out is theirs. Notebooks are laid trusted,
-so that their players live at once.
+A lab counts as edited if its cells differ or are in another order; running it does not count. A lab
+that the student has not edited is replaced by the newer version. An edited lab stays, byte for
+byte, and the newer version is put beside it as NAME.new.ipynb. A deleted lab comes back when there
+is a newer version. A file that has a lab's name but was never handed out belongs to the student.
+Notebooks are written as trusted, so that their players run immediately.
 
-Exit status 0: every lab is there, or the student's own in its place. 1: something could not be done
-and is named on stderr; the rest is done, and the student's work is as it was. A server that starts
-for a student can go on after either.
+Exit status 0: every lab is there, or the student's own file in its place. 1: something could not be
+done and is reported on stderr; everything else is done, and the student's work is unchanged. A
+server that starts for a student can continue in both cases.
 
-How nothing is lost. FOLDER/.robokin holds the manifest: every version that was ever laid, by the
-digest of its file, with the digest of its cells. It is written before the labs are, so that what an
-interrupted run has laid is known as ours. A lab is written whole in .robokin and goes to its place
-by a link, which never overwrites. What was there has been moved to .robokin/old first, where nobody
-can save into it unseen, and is looked at once more: if it is not ours, because the student saved in
-this very moment, it goes back. `_tidy` ends each step, and mends what an interrupted run left.
+How no work is lost. FOLDER/.robokin contains the manifest: every version that was ever written, by
+the digest of its file, with the digest of its cells. It is written before the labs, so that files
+of an interrupted run are recognised as ours. A lab is first written completely in .robokin, and
+then linked to its place, which never overwrites a file. The file that it replaces is first moved to
+.robokin/old, where nobody can save into it unnoticed, and is checked once more: if it is not ours,
+because the student saved at that very moment, it goes back. `_tidy` ends each step and repairs what
+an interrupted run left behind.
 """
 
 import contextlib
@@ -38,16 +39,16 @@ from .._validate import short
 
 HANDED_OUT = ("*.ipynb", "documents/*.ipynb", "tasks/*.json", "images/*")
 FOR_TEACHERS = ("documents/teaching.ipynb",)
-BUSY = "saved by somebody while labs were copied, and left alone; run this again"
+BUSY = "saved while labs were being copied, and left unchanged; run this again"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The outcome for the file at `path`; `says` is in words.
+    """The outcome for the file at `path`; `says` describes it.
 
-    what  "new", "replaced"; "kept": the student's stays, the newer one is beside it; "same":
-          nothing to do; "gone": no lab any more, the file stays; "found": rescued from an
-          interrupted run; "failed"
+    what  "new", "replaced"; "kept": the student's file stays, and the newer version is beside it;
+          "same": nothing to do; "gone": no longer a lab, and the file stays; "found": rescued from
+          an interrupted run; "failed"
     """
 
     path: str
@@ -98,7 +99,7 @@ def digest(path: str, content: bytes) -> str:
 class _Entry:
     """The manifest's entry for a lab. `laid`: the version written last (digest of the source's
     file), None if there is none; `handed`: version -> digest of its content, for all versions that
-    may be there.
+    may be in the folder.
     """
 
     laid: str | None = None
@@ -107,8 +108,8 @@ class _Entry:
 
 @dataclass
 class _Job:
-    """A version of the lab `path`, its content, and its destination: the lab's own place, beside
-    it, or nowhere.
+    """A version of the lab `path`, its content, and its destinations: the lab's own place,
+    beside it, or none.
     """
 
     path: str
@@ -137,7 +138,7 @@ class _Folder:
         for path in sorted({*self.entries, *labs}):
             if path not in labs:
                 if os.path.lexists(self.folder / path):
-                    self._say(path, "gone", "no longer among the labs; it stays")
+                    self._say(path, "gone", "no longer a lab; the file stays")
                 continue
             try:
                 job = self._plan(path, labs[path].read_bytes(), labs)
@@ -152,7 +153,7 @@ class _Folder:
                 self.entries.setdefault(path, _Entry()).handed[job.version] = job.holds
         trouble = _sign(notebooks) if notebooks else None
         if trouble:
-            self._say(".", "failed", f"players stay still pictures, not trusted: {trouble}")
+            self._say(".", "failed", f"not trusted, so players stay still pictures: {trouble}")
         self._remember()
         try:
             for job in jobs:
@@ -174,19 +175,19 @@ class _Folder:
         parent = (self.folder / path).parent
         if _barred(parent):
             if newer:
-                says = f"not laid: {parent.name} is yours and no plain folder"
+                says = f"not copied: {parent.name} is yours and not an ordinary folder"
                 job.outcomes.append(Outcome(path, "kept", says))
             return job
         beside = [p for p in self._beside(path) if p not in labs]
         there = {p: _held(self.folder / p) for p in (path, *beside)}
-        # also if the student went back to an older version
+        # including an older version to which the student went back
         known = (holds, job.version)
         job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
         for place in job.places:
             job.outcomes.append(Outcome(place, "replaced", "replaced by the newer one"))
         if newer and there[path] is None:
             job.places.append(path)
-            says = "back, as there is a newer one" if entry.laid else "new"
+            says = "back, since there is a newer one" if entry.laid else "new"
             job.outcomes.append(Outcome(path, "new", says))
         elif newer and there[path] not in ours:
             job.places = job.places or [self._free(path, "new")]
@@ -243,12 +244,12 @@ class _Folder:
                 with contextlib.suppress(FileExistsError):
                     _put(old, place)
                     continue
-            if _held(old) in ours or os.lstat(old).st_nlink > 1:  # interrupted on its way back
+            if _held(old) in ours or os.lstat(old).st_nlink > 1:  # > 1: already linked back
                 os.unlink(old)
             else:
                 side = self._free(path, "yours")
                 _put(old, self.folder / side)
-                says = f"saved while labs were copied: it is in {PurePosixPath(side).name}"
+                says = f"saved while labs were being copied: now in {PurePosixPath(side).name}"
                 self._say(path, "found", says)
 
     def _recall(self) -> None:
@@ -266,7 +267,7 @@ class _Folder:
                     for path, entry in json.loads(self.stored).items()
                 }
             except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
-                self._say(".robokin/manifest.json", "found", "it cannot be read and is made anew")
+                self._say(".robokin/manifest.json", "found", "it cannot be read and is replaced")
 
     def _remember(self) -> None:
         """Write the manifest, whole or not at all, if it has changed."""
@@ -285,7 +286,7 @@ class _Folder:
         return [str(place.with_name(n)) for n in names if name.fullmatch(n)]
 
     def _free(self, path: str, word: str) -> str:
-        """NAME.word.ipynb, or the next such name that is free."""
+        """NAME.word.ipynb, or the first of NAME.word2.ipynb, ... that is free."""
         place, n = PurePosixPath(path), 1
         while True:
             side = place.with_name(f"{place.stem}.{word}{n if n > 1 else ''}{place.suffix}")
@@ -305,21 +306,21 @@ def _target(folder: Path, labs: Path) -> Path:
     for inner, outer in ((folder, labs), (labs.resolve(), folder)):
         above = (inner, *inner.parents)
         if outer.exists() and any(p.exists() and p.samefile(outer) for p in above):
-            raise ValueError(f"wanted a folder apart from the labs, which are in {labs}")
+            raise ValueError(f"wanted a folder separate from the labs, which are in {labs}")
     os.makedirs(folder / ".robokin", exist_ok=True)
     return folder
 
 
 @contextlib.contextmanager
 def alone(path: Path, seconds: float = 0) -> Iterator[None]:
-    """Hold the lock at `path`, which ends with the process. ValueError: another process holds it
-    for `seconds`.
+    """Hold the lock at `path`, which is also released if the process dies. ValueError: another
+    process still holds it after `seconds`.
     """
     end = time.monotonic() + seconds
     with open(path, "ab") as file:
         while not _locked(file):
             if time.monotonic() >= end:
-                raise ValueError("another process is at work there; run this again")
+                raise ValueError("another process is using it; run this again")
             time.sleep(0.01)
         yield
 
@@ -361,7 +362,7 @@ def _prepared(content: bytes) -> tuple[bytes, Any]:
 
 
 def _sign(notebooks: Iterable[Any]) -> str | None:
-    """Trust notebooks as Jupyter does; return the obstacle, if there was one."""
+    """Sign notebooks as trusted, as Jupyter does; return the reason if that fails."""
     from nbformat.sign import NotebookNotary
 
     try:
@@ -397,7 +398,7 @@ def _barred(folder: Path) -> bool:
 
 def write(path: Path, content: bytes) -> None:
     """Write a new file, which is on the disk when this returns. It never writes into an existing
-    file, which may have another name by now.
+    file, which may also have another name.
     """
     with contextlib.suppress(FileNotFoundError):
         os.unlink(path)
@@ -416,14 +417,14 @@ def _put(path: Path, place: Path) -> None:
     except (OSError, NotImplementedError):  # a file system without links, or not a regular file
         if os.path.lexists(place):
             raise FileExistsError(place) from None
-        os.rename(path, place)  # on Windows this checks again; elsewhere it takes microseconds
+        os.rename(path, place)  # checks again on Windows; elsewhere the race is microseconds long
     else:
         os.unlink(path)
 
 
 def _text(value: Any) -> str:
     if not isinstance(value, str):
-        raise TypeError("wanted a text")
+        raise TypeError("wanted a string")
     return value
 
 

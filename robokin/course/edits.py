@@ -1,5 +1,5 @@
-"""Wrong programs made from the right one by edits of its text: those of the exercise and common
-slips, alone and in pairs.
+"""Wrong programs made from the correct one by edits of its text: the mistakes of the exercise and
+common slips, alone and in pairs.
 """
 
 import ast
@@ -15,11 +15,11 @@ import numpy as np
 
 from .markdown import BadFile, Edit, Wrong
 
-Span = tuple[int, int, str]  # from, to, and the replacement
+Span = tuple[int, int, str]  # start, end, replacement
 
 
 class Variant(NamedTuple):
-    """A wrong program: its name, a sentence, and what it changes in the solution, or its text."""
+    """A wrong program: its name, a sentence, and its edits of the solution or its whole text."""
 
     name: str
     says: str
@@ -33,8 +33,9 @@ class Variant(NamedTuple):
 def own(
     file: str, name: str, programs: Sequence[str], mistakes: Sequence[Wrong]
 ) -> list[tuple[Variant, str]]:
-    """Every mistake of an exercise, alone, and which of these right programs it changes: the first
-    that it fits. `name`: what they all define. ValueError: what does not fit, each in a sentence.
+    """Each mistake of an exercise as a variant, with the correct program that it changes: the first
+    one that it fits. All programs define `name`. ValueError: a sentence for each mistake that fits
+    none of them.
     """
     found, misfits = [], []
     for each in mistakes:
@@ -85,7 +86,7 @@ def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
         for old, _ in wrong:
             if solution.count(old) != 1:
                 times = f"{solution.count(old)} times"
-                return f"`{old}` stands {times} in the solution, wanted once"
+                return f"`{old}` occurs {times} in the solution, wanted once"
         change = _spans(solution, wrong)
         if not _apart(change):
             return "its pieces overlap"
@@ -93,31 +94,31 @@ def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
     try:
         ast.parse(text)
     except SyntaxError as error:
-        return f"no Python: {error.msg}"
+        return f"not Python: {error.msg}"
     return ""
 
 
 # --- Common slips --------------------------------------------------------------------------
 
 SLIPS = {
-    "sign": "It is what comes out with a plus for a minus, or a minus for a plus.",
+    "sign": "This is the result with a plus instead of a minus, or the other way round.",
     "order of a product": "Two factors of a product are in the wrong order. In A @ B the right "
     "factor acts first, seen from the base.",
     "element-wise product": "`*` multiplies element by element; the product of matrices is `@`.",
-    "inverse left out": "Something is used as it is where its inverse is wanted.",
+    "inverse left out": "Something is used where its inverse is wanted.",
     "arcsin for atan2": "The angle comes from its sine alone: half of the plane is lost. Use "
     "arctan2 of sine and cosine.",
     "x and y exchanged": "arctan2 takes y first, then x.",
-    "sine for cosine": "A sine stands for a cosine, or a cosine for a sine.",
+    "sine for cosine": "A sine is used instead of a cosine, or a cosine instead of a sine.",
     "a root left out": "A square root is missing.",
     "a square left out": "A square is missing.",
     "absolute value left out": "A difference counts with its sign: take its absolute value.",
-    "least for greatest": "The least is taken for the greatest, or the greatest for the least.",
-    "any for all": "One is enough for it where all have to be, or the other way round.",
-    "a factor of two": "A factor of two is missing, or too much.",
-    "the limit itself": "A value exactly at its limit is on the wrong side: < for <=, or so.",
-    "an index off by one": "It takes the neighbour of an element.",
-    "the long way round": "An angle goes through a whole turn more than it has to: two values that "
+    "least for greatest": "The least is taken instead of the greatest, or the other way round.",
+    "any for all": "It uses any where all is needed, or the other way round.",
+    "a factor of two": "A factor of two is missing, or there is one too many.",
+    "the limit itself": "A value exactly at its limit is on the wrong side: < for <=, for example.",
+    "an index off by one": "It takes the element next to the correct one.",
+    "the long way round": "An angle makes a whole turn more than necessary: two values that "
     "differ by 360 degrees are the same posture.",
 }
 SWAPPED = {
@@ -223,7 +224,7 @@ def function_name(file: str, line: int, program: str) -> str:
     try:
         top = ast.parse(program).body
     except SyntaxError as error:
-        raise BadFile(file, line + (error.lineno or 1) - 1, f"no Python: {error.msg}") from None
+        raise BadFile(file, line + (error.lineno or 1) - 1, f"not Python: {error.msg}") from None
     names = [each.name for each in top if isinstance(each, ast.FunctionDef)]
     if not names:
         raise BadFile(file, line, "wanted a program that defines a function")
@@ -241,8 +242,8 @@ class Steps:
     """A solution split into the statements of its function, so that thousands of wrong programs run
     quickly. Each wrong program consists of compiled statements and begins after those that it
     shares with the solution, with its own copies of all values that a statement may change. A
-    solution that cannot be split is compiled again for each: one that returns in more than one
-    place, or that keeps a function, which may use later names.
+    solution that cannot be split is compiled again for each one: if it returns in more than one
+    place, or keeps a function, which may use later names.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:
@@ -282,7 +283,7 @@ class Steps:
         return stepped
 
     def _after(self, count: int, case: tuple[Any, ...]) -> dict[str, Any]:
-        """All names after `count` statements of the solution, to be used once."""
+        """All names after `count` statements of the solution, copied for a single use."""
         key = count, tuple(map(id, case))
         if key not in self.names:
             names = dict(zip(self.inputs, case, strict=True))

@@ -24,7 +24,7 @@ class Verdict:
 
     answered  whether there was an answer to judge
     holds     whether all conditions hold
-    mistake   the mistake by its name, two joined by " or "; None: none, or not recognised
+    mistake   the name of the mistake, or two joined by " or "; None: none, or not recognised
     says      sentences
     case      the smallest input that shows the fault, with your result and what should hold
     points    from 0 to 1: the fraction of the conditions that hold
@@ -75,7 +75,7 @@ class Exercise(ABC):
     def __init__(self, text: Text) -> None:
         self.text, self.number, self.title = text, text.number, text.title
         self.task, self.objective, self.hints = text.task, text.objective, text.hints
-        _, self.solution = text.code("Solution")  # a right program, as shown to students
+        _, self.solution = text.code("Solution")  # a correct program, as shown to students
 
     @abstractmethod
     def judge(self, name: str, answer: Any, who: Any) -> Verdict:

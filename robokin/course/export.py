@@ -2,7 +2,7 @@
 highlighted, folded cells stay folded, and players, explorers and predictions work.
 
 The page is harmless even if the notebook is hostile. Of a cell we use only its text, its number and
-whether it is folded. An output of robokin is written again (`ours.py`); any other one is cleaned
+whether it is folded. An output of robokin is generated anew (`ours.py`); any other one is cleaned
 (`harmless.py`) or shown as text. Only scripts with the page's nonce run. nbconvert provides the
 styles and reads Markdown.
 """
@@ -37,16 +37,12 @@ from .ours import again
 from .texts import LINES, visible
 
 FORMULAS = LatexToMathML(fancy_error=False)
-TEX = 2_000  # characters in a formula; the parser's stack grows with its braces
-# Characters to parse as Markdown, HTML or Python, in one piece and in a page: the libraries take up
-# to 10 s per megabyte. Text beyond these limits is shown as it was typed.
+TEX = 2_000  # maximum number of characters in a formula; the parser's stack grows with its braces
+# Maximum number of characters to parse as Markdown, HTML or Python, in one piece and in a page: the
+# libraries take up to 10 s per megabyte. Text beyond these limits is shown as it was typed.
 PIECE, ROOM = 50_000, 150_000
-MOST = 200  # outputs of robokin in a page
-OPENERS = (
-    "\\\\[",
-    "\\\\(",
-    "\\begin{",
-)  # the parser searches for the end of each
+MOST = 200  # maximum number of robokin outputs in a page
+OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # for each, the parser searches for its end
 TEXTS = ("text/latex", "text/plain")
 IMAGES = ("image/svg+xml", "image/png", "image/jpeg", "image/gif", "image/webp")
 FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:], "text/plain")
@@ -62,7 +58,7 @@ def mathml(tex: str, block: bool = False) -> str:
     except LatexError as error:
         raise ValueError(f"formula {short(tex)}: {error}") from None
     if odd := odd_in_math(made):
-        raise ValueError(f"formula {short(tex)}: {', '.join(odd)} is not used in a page")
+        raise ValueError(f"formula {short(tex)}: {', '.join(odd)} is not allowed in a page")
     return made
 
 
@@ -70,9 +66,9 @@ class View:
     """The cells of a notebook as a page shows them.
 
     folder   the folder with its pictures
-    choices  prediction -> its opening choice; None: the choices in the notebook
-    lenient  show a formula that cannot be read as it was typed, and tell it in `remarks`; else it
-             is a ValueError
+    choices  prediction -> the choice shown on opening; None: the choices in the notebook
+    lenient  show an unreadable formula as it was typed, and note it in `remarks`; otherwise it is a
+             ValueError
     """
 
     def __init__(
@@ -168,7 +164,7 @@ class View:
         return self._data(output.data) | {"result": kind == "execute_result"}
 
     def _data(self, data: Mapping[str, Any]) -> dict[str, Any]:
-        """The best representation in an output."""
+        """The template data for the best representation of an output."""
         for mime in FIRST:
             text = data.get(mime)
             if not isinstance(text, str):
@@ -209,7 +205,7 @@ class Renderer(IPythonRenderer):
         super().__init__(escape=False, exclude_anchor_links=True)
         self.view, self.name = view, name
         self.mark = f"rk{secrets.token_hex(12)}x"
-        self.kept: list[tuple[str, str]] = []  # (as it was typed, HTML)
+        self.kept: list[tuple[str, str]] = []  # (source as typed, HTML)
 
     def inline_math(self, body: str) -> str:
         return self._formula(body, "$")
@@ -293,14 +289,11 @@ def _attached(attachments: Any) -> Iterator[tuple[str, str]]:
 
 
 class Exporter(HTMLExporter):
-    """nbconvert's page with our cells."""
+    """nbconvert's HTML exporter, with our cells."""
 
     def from_notebook_node(self, nb: Any, resources: Any = None, **kw: Any) -> Any:
         """As in HTMLExporter, but without parsing the resulting page."""
-        for name in (
-            "highlight_code",
-            "filter_data_type",
-        ):  # the resources that it would set for a notebook
+        for name in ("highlight_code", "filter_data_type"):  # HTMLExporter would register them
             self.register_filter(name, lambda value: value)
         return TemplateExporter.from_notebook_node(self, nb, resources, **kw)
 
@@ -329,7 +322,7 @@ def read(path: Path) -> Any:
     except OSError as error:
         raise ValueError(f"{error.strerror}") from None
     except AttributeError:  # raised by nbformat if the JSON is a list or a number
-        raise ValueError("not a notebook: its JSON is no table of names and values") from None
+        raise ValueError("not a notebook: its JSON is not an object") from None
     except Exception as error:  # JSON, Unicode and schema errors of several libraries
         lines = [line for line in visible(str(error)[:2000]).splitlines() if line.strip()]
         reason = lines[0][:300] if lines else type(error).__name__

@@ -1,5 +1,5 @@
-"""Forms that several exercises share. A form converts a result for the check, or says what was
-wanted and what came.
+"""Forms that several exercises share. A form converts a result for the check, or raises a
+ValueError that says what was wanted and what it got.
 """
 
 from collections.abc import Mapping, Sequence
@@ -32,8 +32,8 @@ def same(a: Any, b: Any) -> bool:
 
 
 def like(result: Any, wanted: Any) -> Any:
-    """Return a result with the type and shape of the right one. ValueError: it has another type or
-    shape.
+    """Return a result with the type and shape of the correct one. ValueError: it has another type
+    or shape.
     """
     if isinstance(wanted, (bool, np.bool_)):
         return truth(result)

@@ -1,4 +1,6 @@
-"""A function to write: the verdict on it, and the wrong programs that explain a wrong one."""
+"""The exercise of writing a function: the verdict on an answer, and the wrong programs that explain
+a wrong answer.
+"""
 
 import contextlib
 import inspect
@@ -31,16 +33,16 @@ class Candidate(NamedTuple):
 
 
 class Function(Exercise):
-    """A function to write. `code`, the names of the Python file, contains
+    """The exercise of writing a function. `code`, the names of the Python file, contains
 
-    cases  generator of random numbers -> inputs, the smallest first, each a tuple
+    cases  random generator -> inputs, each a tuple, the smallest first
 
     and, if the defaults in `forms` do not suffice,
 
-    form   (result, case) -> the result as `law` and `same` want it; ValueError that says what was
-           wanted and what came
+    form   (result, case) -> the result in the form that `law` and `same` need; raises a ValueError
+           that says what was wanted and what it got
     law    (case, yours, wanted) -> None, or a sentence: what should hold
-    same   whether two results are one answer
+    same   (one, other) -> whether two results are the same answer
 
     Edits of the solution may use all names in the file.
     """
@@ -61,12 +63,12 @@ class Function(Exercise):
         self.own = [variant for variant, _ in wrong]
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
-        self.trying = ""  # the mistake that is running
+        self.trying = ""  # the mistake whose program is running
         self.endless: list[str] = []  # mistakes that did not end, and do not run again
 
     @cached_property
     def cases(self) -> list[Case]:
-        """The cases, equal on every machine. BadFile: there are none, or they take over 4 s."""
+        """The cases, the same on every machine. BadFile: none, or they take more than 4 s."""
         draw = self.code["cases"]
         [outcome] = run(partial(_drawn, draw), [(140,)])
         found: list[Case] = outcome.result or []
@@ -83,7 +85,7 @@ class Function(Exercise):
 
     @cached_property
     def wanted(self) -> list[Any]:
-        """The right results, in form. BadFile: the solution does not give them."""
+        """The correct results after `form`. BadFile: the solution raises, or has a wrong form."""
         found: list[Any] = []
         for outcome, case in zip(run(self.right, self.cases), self.cases, strict=False):
             try:
@@ -111,7 +113,7 @@ class Function(Exercise):
         outcomes = [self.formed(o, k) for k, o in enumerate(run(answer, cases))]
         wrong = [self.wrong(o, k) for k, o in enumerate(outcomes)]
         if len(wrong) == len(cases) and not any(wrong):
-            line = f"It holds in all {len(cases)} cases that were tried."
+            line = f"It passes all {len(cases)} cases that were tried."
             return Verdict(name, holds=True, says=(line,), points=1.0)
         first = next(k for k, sentence in enumerate(wrong) if sentence)
         mistake, says = self._explained(answer, outcomes, wrong, first)
@@ -126,12 +128,12 @@ class Function(Exercise):
         return False
 
     def form(self, result: Any, case: Case, wanted: Any) -> Any:
-        """Return a result in form. ValueError: it has another form."""
+        """Return a result as the check compares it. ValueError: it has another form."""
         own = self.code.get("form")
         return own(result, case) if own else forms.like(result, wanted)
 
     def formed(self, outcome: Outcome, k: int) -> Outcome:
-        """Return the outcome of case k with its result in form."""
+        """Return the outcome of case k with its result after `form`."""
         if outcome.name:
             return outcome
         try:
@@ -141,7 +143,7 @@ class Function(Exercise):
             return Outcome(outcome.result, "another kind or shape", f"{error}")
 
     def wrong(self, outcome: Outcome, k: int) -> str | None:
-        """Say what should hold and does not in case k; None if it holds."""
+        """Say what should hold in case k and does not; None if it does."""
         if outcome.name:
             return outcome.says
         with np.errstate(all="ignore"), contextlib.suppress(Exception):
@@ -164,7 +166,7 @@ class Function(Exercise):
     def _explained(
         self, answer: Any, outcomes: list[Outcome], wrong: list[str | None], first: int
     ) -> tuple[str | None, tuple[str, ...]]:
-        """The name and sentences of the fault that shows in the case `first`."""
+        """The name and sentences of the fault that appears in case `first`."""
         trouble = outcomes[first]
         if unended(trouble):
             return trouble.name, ()
@@ -176,7 +178,7 @@ class Function(Exercise):
         if trouble.name:
             return trouble.name, ()
         if has_nan(trouble.result) and not has_nan(self.wanted[first]):
-            return "NaN", ("A NaN stands where a number should.",)
+            return "NaN", ("There is a NaN where a number should be.",)
         if len(ended) == len(self.cases):
             if off := self._nearly(outcomes):
                 return "nearly right", (off,)
@@ -207,8 +209,8 @@ class Function(Exercise):
 
     def named(self, outcomes: list[Outcome], wrong: list[str | None], first: int) -> list[Fault]:
         """The mistakes with these outcomes in all cases, tried in groups, the likeliest first: one
-        of the exercise; a constant answer; one common slip; two of the exercise; one of the
-        exercise with a slip in its result.
+        mistake of the exercise; a constant answer; one common slip; two mistakes of the exercise;
+        one mistake of the exercise with a slip in its result.
         """
         if len(outcomes) < min(6, len(self.cases)):
             return []
@@ -225,7 +227,7 @@ class Function(Exercise):
             names = list(dict.fromkeys((c.name, c.says) for c in found))
             if len(names) > 1:  # pairs with different names are only a guess
                 return []
-            if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):  # few answers
+            if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):  # few values
                 says = f"It behaves like a program with two mistakes. {names[0][1]}"
                 return [(names[0][0], says)]
             if names:
@@ -253,7 +255,7 @@ class Function(Exercise):
             yield Candidate(name, says, partial(read, change))
         for name, says, change in INPUTS:
             for i, about in enumerate(self.inputs):
-                told = f"{says} It is about `{about}`."
+                told = f"{says} This is about `{about}`."
                 yield Candidate(name, told, partial(changed, i, change))
 
     def _pairs(self) -> Iterator[Candidate]:
@@ -271,13 +273,13 @@ class Function(Exercise):
 
         for one in self.own:
             for name, says, change in RESULTS:
-                if name != one.name:  # the same mistake twice: the rest has another cause
+                if name != one.name:  # not the same mistake twice
                     told = f"{one.says} And: {says}"
                     yield Candidate(f"{one.name}, and {name}", told, partial(read, one, change))
 
     @cached_property
     def slips(self) -> list[Variant]:
-        """The common slips in a program like this solution."""
+        """The common slips, as edits of the solution."""
         return edits.everybody(self.solution)
 
     def _candidate(self, variant: Variant) -> Candidate:
@@ -307,8 +309,8 @@ class Function(Exercise):
         wrong: Sequence[str | None],
         order: Sequence[int],
     ) -> bool:
-        """Whether it gives these outcomes in all cases, with a result in at least one, and keeps
-        and breaks the law in the same cases. So an edit that does not change the right program
+        """Whether a candidate gives these outcomes in all cases, with a result in at least one, and
+        keeps and breaks the law in the same cases. So an edit that leaves the program correct
         explains nothing.
         """
         others = {}
@@ -336,7 +338,7 @@ class Function(Exercise):
     # --- Words for an answer that no mistake explains
 
     def _nearly(self, outcomes: list[Outcome]) -> str:
-        """Say by how much an answer is off that is nearly right in every case; "" if it is not."""
+        """Say how far off an answer is if it is nearly right in every case; otherwise ""."""
         worst = 0.0
         for outcome, wanted in zip(outcomes, self.wanted, strict=True):
             mine, right = numbers(outcome.result), numbers(wanted)
@@ -351,8 +353,8 @@ class Function(Exercise):
             return ""
         much = f"{100 * worst:.2g} %" if worst > 1e-4 else f"{1e6 * worst:.2g} parts in a million"
         return (
-            f"It is nearly right: off by at most {much}. A number with too few digits does that, "
-            "a tolerance that is too loose, or a step that is too coarse."
+            f"It is nearly right: off by at most {much}. The cause may be a number with too "
+            "few digits, a tolerance that is too loose, or a step that is too coarse."
         )
 
     def _unused(self, answer: Any, outcomes: list[Outcome]) -> list[str]:

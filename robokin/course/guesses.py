@@ -8,7 +8,7 @@ A choice is a number, or a letter with the name of the option, which remains val
 places.
 
 A widget without a view, one for each kernel, listens to the page (js/guesses.js) and confirms each
-guess. The notebook does not store it.
+guess. The notebook does not store the widget.
 """
 
 import ast
@@ -36,8 +36,8 @@ FOLDER, FILE = ".robokin", "guesses.json"
 LARGE = 1_000_000  # bytes in a file of guesses; a student's file has a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
-ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook's file
-PATIENCE = 10  # seconds to wait for another kernel that writes
+ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook file
+PATIENCE = 10  # seconds to wait for another kernel that is writing
 
 Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
 
@@ -62,7 +62,7 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
     duplicates. An unreadable file is renamed and kept.
 
     ValueError: the file is full, or another kernel does not stop writing. OSError: no permission,
-    ...
+    for example.
     """
     own = path.parent / FOLDER
     own.mkdir(exist_ok=True)
@@ -110,8 +110,7 @@ def parse_line(text: str) -> dict[str, str]:
     return found
 
 
-# --- Results of guesses
-# ----------------------------------------------------------------------------
+# --- Results of guesses ---------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -171,7 +170,7 @@ def _beside(path: Path, slug: str) -> list[str]:
             if mine and name != path.name:
                 found.append((name, ", ".join(f"{number} {c}" for number, c in mine.items())))
     return [
-        f"No guesses are kept for {path.name}, but some are for {name}, in the same folder. If "
+        f"No guesses are saved for {path.name}, but some are for {name}, in the same folder. If "
         "they are yours, hand them in with the last cell of Your turn: "
         f'report(who, guesses="{line}")'
         for name, line in found
@@ -228,7 +227,7 @@ def _stored(file: Path) -> dict[str, Kept]:
     if not os.path.lexists(file):
         return {}
     if not file.is_file():
-        raise ValueError("it is no plain file")
+        raise ValueError("it is not a regular file")
     with open(file, "rb") as opened:
         content = opened.read(LARGE + 1)
     if len(content) > LARGE:
@@ -311,12 +310,12 @@ _hub: Any = None  # the widget of this kernel
 
 
 def listen() -> None:
-    """Listen to guesses in the page from now on, if this is the kernel of an open notebook."""
+    """Listen for guesses in the page from now on, if this is the kernel of an open notebook."""
     global _hub
     own = own_notebook()
     if _hub is not None or own is None or "ROBOKIN_JUDGE" in os.environ:
         return
-    with contextlib.suppress(Exception):  # a question works without it, too
+    with contextlib.suppress(Exception):  # a question also works without it
         from ..show.joiner import script
         from ..show.live import unseen
 
@@ -335,8 +334,8 @@ def own_notebook() -> Path | None:
 
 
 def _told(message: Any, own: Path) -> dict[str, Any]:
-    """What came of a message of the page, {"n": its number, "path": the notebook's, as the page
-    knows it, or None, "guesses": [[prediction, choice, time], ...]}.
+    """The reply to a message from the page, {"n": its number, "path": the notebook's path as the
+    page knows it, or None, "guesses": [[prediction, choice, time], ...]}.
     """
     try:
         made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
@@ -357,4 +356,4 @@ def _called(path: str | None, own: Path) -> Path:
                 return folder / path.lstrip("/")
     elif own.is_file():
         return own
-    raise ValueError(f"Python does not find {short(path or own.name)}")
+    raise ValueError(f"Python cannot find {short(path or own.name)}")

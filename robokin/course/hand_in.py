@@ -25,7 +25,7 @@ NAMELESS = "your name"  # the placeholder for the student's name in the labs
 ASLEEP = "Put your name into who, save, and run this cell in JupyterLab: it writes your report."
 UNSAVED = "Save first (Ctrl+S), then run this cell again."
 TOP = str(Path(__file__).resolve().parents[2])
-START = (  # this robokin, and not one from the notebook's folder
+START = (  # this copy of robokin, not one in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.__main__ import main; "
     "sys.path.pop(0); sys.exit(main())"
 )
@@ -40,7 +40,7 @@ class Ran(NamedTuple):
     when: float
 
 
-_ran: list[Ran] = []  # in this kernel
+_ran: list[Ran] = []  # cells that ran in this kernel
 
 
 def watch() -> None:
@@ -57,12 +57,12 @@ def watch() -> None:
 
 
 def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
-    """Run this notebook again, judge its answers, and write the report to hand in beside it. It
-    shows the report's name, or the reason why there is none.
+    """Run this notebook again, judge its answers, and write the report to hand in, beside it. The
+    note gives the report's name, or the reason why there is none.
 
     who       the student's name
-    guesses   the line that the exported page of this lab has copied: "p1 b, p3 a"
-    notebook  its file, if it cannot be determined
+    guesses   the line copied from the exported page of this lab: "p1 b, p3 a"
+    notebook  the notebook's file, if it cannot be determined
 
     It never raises. It does nothing with the placeholder name, or outside JupyterLab and VS Code,
     where a notebook is only executed.
@@ -109,8 +109,8 @@ def _notebook(seen: Path | None, path: Any) -> Path:
         return found[0]
     names = ", ".join(path.name for path in found) or "no notebook with this lab's exercises"
     raise ValueError(
-        'which file is this notebook? Say it: report(who, notebook="NAME.ipynb"). '
-        f"In its folder there is {names}."
+        'which file is this notebook? Pass its name: report(who, notebook="NAME.ipynb"). '
+        f"Its folder contains {names}."
     )
 
 
@@ -138,7 +138,7 @@ def _cells(path: Path) -> list[str]:
 
 def _unsaved(path: Path, guesses: str | None) -> bool:
     """Whether a cell ran after the file was saved and is not in it in that form. A cell that ran
-    before and is not in it was changed or deleted since, so the file is right.
+    before and is not in it has been changed or deleted since, so the file is up to date.
     """
     saved = path.stat().st_mtime
     kept = {"", *(source.strip() for source in _cells(path))}
@@ -154,7 +154,7 @@ def _written(path: Path, who: str) -> Note:
     """Write the report in a separate process, which an interrupt of the cell ends, and which does
     not change this kernel. ValueError: the reason why there is none.
     """
-    print("Running your lab anew. This can take a minute.", flush=True)
+    print("Running your lab again. This can take a minute.", flush=True)
     command = [sys.executable, "-P", "-X", "utf8", "-c", START, "report", str(path)]
     child = subprocess.Popen(
         [*command, f"--name={who}", "--to", str(path.parent)],
@@ -168,7 +168,7 @@ def _written(path: Path, who: str) -> Note:
     )
     try:
         said, complaint = _outputs(child)
-    except KeyboardInterrupt:  # the child may get it as well, if the front end sends it to all
+    except KeyboardInterrupt:  # the child may be interrupted as well, if the front end does that
         _end(child)
         raise
     if child.returncode:
@@ -177,7 +177,7 @@ def _written(path: Path, who: str) -> Note:
     page = path.parent / Path(said.strip().rpartition(":")[0]).name
     data = report_data(page.read_text(encoding="utf-8")) or {"exercises": [], "predictions": []}
     lines = [f"{page.name} is your report, beside this notebook. Look at it, and hand it in."]
-    lines.append("In JupyterLab press Trust HTML, and it moves; any browser opens the file.")
+    lines.append("In JupyterLab, press Trust HTML to make it move; any browser can open the file.")
     for each in data["exercises"]:
         lines.append(f"{each['id']}: {each['state']}")
         if each["state"] in ("failed", "not judged"):
@@ -196,7 +196,7 @@ def _outputs(child: "subprocess.Popen[str]") -> tuple[str, str]:
     """The output of a process after its end."""
     while True:
         try:
-            return child.communicate(timeout=0.5)  # Windows interrupts no longer wait
+            return child.communicate(timeout=0.5)  # on Windows, a longer wait cannot be interrupted
         except subprocess.TimeoutExpired:
             pass
 

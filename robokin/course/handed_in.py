@@ -27,18 +27,19 @@ from .texts import ALL_BUT_HALVES, all_visible
 
 NONE = "your name"  # the placeholder for the student's name in the labs
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet|not judged)\.")
-CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")  # if it is not Python
+# calls of `check` in a cell that is not valid Python
+CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")
 SIZE = 20_000_000  # bytes in a notebook
 CODE = 100_000  # characters in a cell that is parsed as Python
-ALL_CODE = 5 * CODE  # in all such cells
+ALL_CODE = 5 * CODE  # characters in all such cells
 
 
 CALLS = ("check", "predict", "report")
 
 
 class Call(NamedTuple):
-    """A call of `check` or `predict` in the cell with that number. answer, own: the arguments as
-    Python's text ("" where there is none): the answer or the choice, and `who`.
+    """A call of `check` or `predict` in cell number `cell`. answer: the answer or the choice; own:
+    the argument `who`; both as source text, "" if missing.
     """
 
     cell: int
@@ -51,12 +52,12 @@ class Call(NamedTuple):
 class HandedIn:
     """A student's notebook.
 
-    lab      the lab whose exercises and predictions it has, None: none
+    lab      the lab whose exercises and predictions it contains; None: no lab
     checks   the last call for each exercise that it checks: that one counts
     choices  the last call of each prediction with a choice
     broken   the exercises that are checked in cells that cannot be read as Python: id -> reason
     guesses  the line of guesses that a page copies, as the last call of `report` has it
-    strange  what else it checks: exercises of one's own
+    strange  other exercises that it checks: the student's own
     """
 
     path: Path
@@ -95,12 +96,12 @@ def handed_in(path: Path) -> HandedIn:
         size = len(cell.source)
         try:
             if size > min(CODE, room):
-                raise ValueError(f"{size} characters are more than we read")
+                raise ValueError(f"{size} characters are too many")
             room -= size
             calls = list(_calls(cell.source, k))
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             calls = []
-            reason = str(error)[:300] or "nested too deep"
+            reason = str(error)[:300] or "nested too deeply"
             for name in set(CHECKED.findall(cell.source)):
                 if _known(name, "exercises"):
                     broken[name] = f"{type(error).__name__}: {reason}"
@@ -148,7 +149,7 @@ def _notebook(path: Path) -> Any:
     try:
         size = path.stat().st_size
         if size > SIZE:
-            raise ValueError(f"{size / 1e6:.0f} MB are more than {SIZE / 1e6:.0f} MB")
+            raise ValueError(f"wanted at most {SIZE} bytes, got {size}")
         raw = all_visible(json.loads(path.read_text(encoding="utf-8-sig")), ALL_BUT_HALVES)
         if not isinstance(raw, dict) or raw.get("nbformat") != 4:
             version = short(raw.get("nbformat")) if isinstance(raw, dict) else "none"
@@ -159,7 +160,7 @@ def _notebook(path: Path) -> Any:
     except OSError as error:
         raise ValueError(str(error.strerror)) from None
     except RecursionError:
-        raise ValueError("not a notebook: nested too deep") from None
+        raise ValueError("not a notebook: nested too deeply") from None
     except MemoryError:
         raise ValueError("not a notebook: too large for the memory") from None
     except ValueError as error:
@@ -176,7 +177,7 @@ def _cell(raw: Any, k: int) -> dict[str, Any]:
         raise ValueError(f"cell {k}: wanted code, markdown or raw text, got {short(kind)}")
     source = _text(raw.get("source"))
     if source is None:
-        raise ValueError(f"cell {k}: wanted its text, got {short(raw.get('source'))}")
+        raise ValueError(f"cell {k}: wanted text, got {short(raw.get('source'))}")
     folded = _get(_get(raw.get("metadata"), "jupyter"), "source_hidden") is True
     made = {"id": f"cell-{k}", "cell_type": kind, "source": source}
     made["metadata"] = {"jupyter": {"source_hidden": True}} if folded else {}

@@ -1,5 +1,5 @@
-"""Make other people's text harmless for a page: it lets through no script, style or fetching
-address, none of our classes or ids, and nothing that changes the direction of text.
+"""Make other people's text harmless for a page: it lets through no script, no style, no address
+that is fetched, none of our classes or ids, and nothing that changes the direction of text.
 """
 
 import base64
@@ -19,8 +19,8 @@ from markupsafe import Markup
 
 from .texts import visible
 
-LONG = 100_000  # characters that are shown of a text
-DEEP = 100  # open elements; the parser takes quadratic time
+LONG = 100_000  # at most this many characters of a text are shown
+DEEP = 100  # maximum depth of elements, since the parser takes quadratic time
 
 TAGS = frozenset(
     "a abbr b blockquote br caption code col colgroup dd del details div dl dt em figcaption "
@@ -80,7 +80,7 @@ def clean(
     """Return HTML with only the listed elements and attributes.
 
     picture  the address of a picture -> a `data:` address, or None to leave it out
-    plain    a function applied to the values of attributes first
+    plain    a function that is first applied to the values of attributes
     """
     last = partial(_Attributes, picture=picture, plain=plain)
     cleaner = Cleaner(
@@ -121,7 +121,9 @@ class _Alignment:
 
 
 class _Attributes(Filter):  # type: ignore[misc]
-    """The last step of `clean`: make texts visible, and links and pictures harmless."""
+    """The last step of `clean`: make invisible characters visible, and links and pictures
+    harmless.
+    """
 
     def __init__(self, source: Any, picture: Any, plain: Any) -> None:
         super().__init__(source)
@@ -208,14 +210,14 @@ def png(data: str) -> bytes:
     try:
         found = base64.b64decode(data, validate=True)
     except binascii.Error as error:
-        raise ValueError(f"no base64: {error}") from None
+        raise ValueError(f"not base64: {error}") from None
     if not found.startswith(b"\x89PNG\r\n\x1a\n"):
-        raise ValueError("no PNG")
+        raise ValueError("not a PNG")
     return found
 
 
 class _Elements(HTMLParser):
-    """Collects elements and attributes of MathML that are not on a list."""
+    """Collects the parts of MathML that are not allowed."""
 
     def __init__(self, markup: str) -> None:
         super().__init__()
@@ -245,5 +247,5 @@ class _Elements(HTMLParser):
 
 
 def odd_in_math(markup: str) -> list[str]:
-    """The parts of MathML that are not on a list; there should be none."""
+    """The parts of MathML that are not allowed; there should be none."""
     return _Elements(markup).odd

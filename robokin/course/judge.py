@@ -4,7 +4,7 @@ folder, and the answers in its calls of `check` are judged there with the packag
 A cell that raises does not stop the others. A cell that takes too long is interrupted. A cell that
 cannot be interrupted, or that kills the kernel, is left out, and all others run again in a new
 kernel. This protects against accidents, but it is not a sandbox: cells may read files and use the
-network with the rights of the user who judges, and a student can forge a verdict (`kernel.py`).
+network with the permissions of the judging user, and a student can forge a verdict (`kernel.py`).
 """
 
 import asyncio
@@ -32,7 +32,7 @@ from .process import SLOWER, TEXT, Ended, Kernel, running, shortened
 from .texts import ALL_BUT_HALVES, all_visible
 from .variants import normalised
 
-TIMES = 5  # the greatest number of restarts of a kernel
+TIMES = 5  # maximum number of restarts of a kernel
 BESIDE = ("tasks", "images")  # folders that labs read from
 LARGE = 50_000_000  # bytes in a file beside a lab
 
@@ -95,8 +95,10 @@ def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -
     remarks = [*run.remarks, *_differences(exercises, before, claims(notebook, checks))]
     others = [name for name in handed.checks if name not in names]
     if others:
-        remarks.append(f"Of other labs, and left out here: {', '.join(others)}.")
-    remarks += [f"{name}: an exercise of one's own: not judged." for name in handed.strange[:20]]
+        remarks.append(f"Left out, since they belong to other labs: {', '.join(others)}.")
+    remarks += [
+        f"{name}: not judged, since it is not an exercise of a lab." for name in handed.strange[:20]
+    ]
     made = guesses(handed, remarks)
     return Judged(notebook, exercises, made, tuple(remarks))
 
@@ -123,7 +125,7 @@ class NotebookRun:
         self.end = time.monotonic() + SLOWER * self.limits.all
         memory = self.limits.memory if _limited() else 0
         if not memory:
-            self.remarks.append("This system has no limit of memory: the cells ran without one.")
+            self.remarks.append("This system cannot limit memory: the cells ran without a limit.")
         for _ in range(TIMES + 1):
             self.stopped.clear()
             self.slow &= self.notes.keys()
@@ -148,7 +150,7 @@ class NotebookRun:
                 continue
             left = self.limits.all - self.used - kernel.seconds()
             if left < 0:
-                self.notes[k] = f"Not run: the {self.limits.all:g} s for all cells were over."
+                self.notes[k] = f"Not run: the {self.limits.all:g} s for all cells were used up."
             elif time.monotonic() > self.end:
                 self.notes[k] = "Not run: the machine was too slow."
                 self.slow.add(k)
@@ -204,9 +206,9 @@ class NotebookRun:
             says = f"Its cell cannot be read as Python: {broken[name]}."
             return replace(blank, state="failed", says=(says,))
         if call is None:
-            return replace(blank, says=("Nowhere in the notebook is it checked.",))
+            return replace(blank, says=("The notebook does not check it.",))
         if self._too_slow(call):
-            says = "The machine was too slow for a cell that it may rest on (see the remarks)."
+            says = "The machine was too slow for a cell that it may depend on (see the remarks)."
             return replace(blank, state="not judged", says=(says,))
         if found and "slow" in found:
             return replace(blank, state="not judged", says=("The machine was too slow.",))
@@ -219,7 +221,9 @@ class NotebookRun:
         try:
             return _verdict(blank, found["verdict"])
         except (KeyError, TypeError, ValueError):  # a notebook that imitates our answer
-            return replace(blank, state="failed", says=("No answer to judge: it is no verdict.",))
+            return replace(
+                blank, state="failed", says=("No answer to judge: this is not a verdict.",)
+            )
 
     def _tell(self) -> None:
         """Write into the notebook and into the remarks what happened to cells."""
@@ -238,10 +242,10 @@ class NotebookRun:
             elif errors:
                 raised.append(f"{_called(cell, k)} ({errors[0]})")
         if raised:
-            self.remarks.append(f"Cells that raise: {', '.join(raised)}.")
+            self.remarks.append(f"Cells that raise an error: {', '.join(raised)}.")
         for k in sorted(self.cut):
             cell = _called(self.notebook.cells[k], k)
-            self.remarks.append(f"{cell}: what it shows was too much and is shortened here.")
+            self.remarks.append(f"{cell}: its output was too long and is shortened here.")
         for name, found in self.found.items():
             own = found.get("own")
             if not isinstance(own, str) or not getattr(find(name, "exercises"), "given", None):
@@ -256,8 +260,8 @@ class NotebookRun:
 
 
 def _complete(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
-    """Run it to its end in another thread, because this one may have a running event loop, as in a
-    kernel.
+    """Run `work` to its end in another thread, because this one may have a running event loop, as
+    in a kernel.
     """
     tasks: list[Any] = []
 
@@ -280,13 +284,15 @@ def _stopped(ended: Ended, limit: float) -> str:
     if ended.how == "dead":
         return "The kernel died in this cell. The other cells ran without it."
     if ended.how == "unread":
-        return "Not all that it shows could be read."
+        return "Its output could not be read completely."
     says = f"Stopped after {limit:g} s"
     if ended.slow:
         says = f"Stopped after {SLOWER * limit:g} s by the clock"
     if ended.how == "killed":
-        says += ": nothing less than ending the kernel stopped it. The other cells ran without it"
-    return f"{says}. The machine was too slow, or it waits." if ended.slow else f"{says}."
+        says += ": only ending the kernel stopped it. The other cells ran without it"
+    return (
+        f"{says}. The machine was too slow, or the cell was waiting." if ended.slow else f"{says}."
+    )
 
 
 def _read(answer: Any) -> dict[str, Any]:
@@ -308,7 +314,7 @@ def _verdict(blank: Result, verdict: Any) -> Result:
     says, points = verdict["says"], float(verdict["points"])
     every = [*says, *(text for text in texts.values() if text is not None)]
     if not (isinstance(says, list) and all(isinstance(text, str) for text in every)):
-        raise TypeError("wanted texts")
+        raise TypeError("wanted strings")
     if not 0 <= points <= 1 or math.isnan(points):
         raise ValueError("wanted points from 0 to 1")
     state = "holds" if verdict["holds"] else "does not hold"
@@ -324,10 +330,7 @@ def _verdict(blank: Result, verdict: Any) -> Result:
 @functools.cache
 def _limited() -> bool:
     """Whether this system limits the memory of a process."""
-    return sys.platform not in (
-        "win32",
-        "darwin",
-    )  # macOS does not enforce it
+    return sys.platform not in ("win32", "darwin")  # macOS does not enforce its limit
 
 
 def _furnish(place: Path, handed: HandedIn) -> None:
@@ -375,7 +378,7 @@ def _differences(
         mine = told.get(each.state, each.state)
         if each.id in before and before[each.id] != mine:
             remarks.append(
-                f'{each.id}: the stored output says "{before[each.id]}"; worked out anew it is '
+                f'{each.id}: the stored output says "{before[each.id]}"; judged again, it is '
                 f'"{mine}".'
             )
         if now.get(each.id) == "holds" != mine:

@@ -10,7 +10,7 @@ Edit = tuple[str, str]  # a piece of the solution, which must occur once, and it
 
 class Wrong(NamedTuple):
     """A mistake: its name, a sentence, and one or more wrong programs, each as edits of the
-    solution or as a complete text. It is also used for a right program of a test, which has no
+    solution or as a complete text. It is also used for a correct program of a test, which has no
     edits.
     """
 
@@ -21,7 +21,7 @@ class Wrong(NamedTuple):
 
 
 class BadFile(ValueError):
-    """A teacher's file cannot be used: "FILE, line 3: why", in one sentence."""
+    """Raised for a teacher's file that cannot be used: "FILE, line 3: why", in one sentence."""
 
     def __init__(self, file: str, line: int | None, why: str) -> None:
         super().__init__(f"{file}, line {line}: {why}" if line else f"{file}: {why}")
@@ -53,7 +53,7 @@ class Text(NamedTuple):
         return one_line(self.parts.get(part, (0, ""))[1])
 
     def wrong(self, part: str = "Mistakes") -> list[Wrong]:
-        """The mistakes of a section, or the right programs of a test."""
+        """The mistakes of a section, or the correct programs of a test."""
         line, text = self.parts.get(part, (0, ""))
         starts = [found.start() for found in re.finditer(r"^\*\*", _blank(text), re.M)]
         return [
@@ -84,7 +84,7 @@ def why(error: Exception) -> str:
 
 
 def one_line(text: str) -> str:
-    """The words of a text, separated by single blanks."""
+    """The words of a text, separated by single spaces."""
     return " ".join(text.split())
 
 

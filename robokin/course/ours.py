@@ -1,5 +1,6 @@
-"""Write the outputs of robokin in a notebook again: each is read as a kind and its data, the data
-are validated, and its script comes from this robokin. A script in a notebook is never copied.
+"""Regenerate the outputs of robokin in a notebook: each is read as a kind and its data, the data
+are validated, and the script comes from this version of robokin. A script in a notebook is never
+copied.
 """
 
 import base64
@@ -57,10 +58,10 @@ LINE = re.compile(r'<div style="padding-left:([02])em">([^<>]*)</div>')
 
 
 def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Markup | None:
-    """Return an output of robokin as this robokin writes it, or None if it is not one.
+    """Return an output of robokin as this version writes it, or None if it is not one.
 
     nonce    the nonce of the page's scripts
-    choices  prediction -> its opening choice; None: the choice in the output
+    choices  prediction -> the choice shown on opening; None: the choice in the output
     """
     figure = FIGURE.fullmatch(text)
     if figure:
@@ -126,17 +127,17 @@ def _hints(table: Any) -> dict[str, Any]:
 
 
 def _kind(data: dict[str, Any], call: str) -> str:
-    """The script call for the data."""
+    """The name of the function in the page's script that takes these data."""
     return f"{data['kind']}_explorer.explore" if "kind" in data else call
 
 
 def _refused(word: str) -> None:
-    raise ValueError(f"{word} is no number of JSON")
+    raise ValueError(f"{word} is not a JSON number")
 
 
 def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
     if "__proto__" in table:  # in a script this is not a key, but changes the type of the object
-        raise ValueError("__proto__ is no key")
+        raise ValueError("__proto__ is not allowed as a key")
     return table
 
 
@@ -161,7 +162,7 @@ def _verdict(name: str, word: str, lines: str) -> Markup:
 
 
 def _question(data: Any, nonce: str, choices: Mapping[str, str] | None) -> str:
-    """Return a prediction by id. ValueError, KeyError, TypeError: there is none."""
+    """Return the HTML of a prediction. ValueError, KeyError, TypeError: there is none."""
     name = data["name"]
     prediction = _prepared(str(name), nonce)
     choice = data.get("choice") if choices is None else choices.get(name)
@@ -177,13 +178,13 @@ class Ready(NamedTuple):
     html: str
 
     def _in_page(self, nonce: str) -> str:
-        """It."""
+        """Return the HTML unchanged."""
         return self.html
 
 
 @lru_cache(256)
 def _prepared(name: str, nonce: str) -> Prediction:
-    """A prediction with computed facts and view, once for each page."""
+    """A prediction with its facts and view computed, once for each page."""
     prediction: Prediction = find(name, "predictions")
     facts, view = prediction.facts(), Ready(shown(prediction.view(), nonce))
     return replace(prediction, facts=lambda: facts, view=lambda: view)

@@ -1,5 +1,5 @@
-"""Predictions: a question that is answered before what answers it is seen, in the page, without a
-kernel.
+"""Predictions: questions to answer before the view that shows the answer opens, in the page and
+without a kernel.
 """
 
 import functools
@@ -16,7 +16,7 @@ from .questions import LETTERS, Option, Prediction, chosen_option, filled
 if TYPE_CHECKING:
     from ..show.page import PageAnswer, PageQuestion
 
-NUMBER = re.compile("[-+.eE0-9]{1,30}")  # and nothing else: no words
+NUMBER = re.compile("[-+.eE0-9]{1,30}")  # a number and nothing else
 ASLEEP = (
     "To answer it: run all cells (Run > Run All Cells), or trust the notebook (Ctrl+Shift+C, then "
     "Trust Notebook)."

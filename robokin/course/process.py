@@ -30,14 +30,14 @@ from .texts import ALL_BUT_HALVES, all_visible
 
 SLOWER = 10
 GRACE = 5.0  # seconds after an interrupt before the kernel is killed
-LOOK = 0.1  # least seconds between two checks of the CPU time
+LOOK = 0.1  # minimum seconds between two checks of the CPU time
 START = 600  # wall-clock seconds for a kernel to start
 LAST = 20  # wall-clock seconds for the output of a cell to arrive after its end
 TEXT = 5_000  # characters of text that a cell may show in the page
 ROOM = 2_000_000  # characters of pictures, players and similar outputs
 MARK = "ROBOKIN_JUDGE"  # an environment variable with the same value in all processes of a kernel
 TOP = str(Path(__file__).resolve().parents[2])
-CODE = (  # this robokin, even if another one is installed or in the notebook's folder
+CODE = (  # this copy of robokin, even if another is installed or in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.kernel import main; "
     "sys.path.append(sys.path.pop(0)); main({memory})"
 )
@@ -48,7 +48,7 @@ class Ended(NamedTuple):
     """How a piece of work ended.
 
     how   "in time", "stopped" by an interrupt, "killed" with the kernel, "dead": it killed the
-          kernel, or "unread": nbclient does not understand what comes
+          kernel, or "unread": nbclient cannot read the messages
     slow  whether the wall-clock limit stopped it, and not the CPU limit
     """
 
@@ -71,7 +71,7 @@ class Kernel:
             for each in (self.process, *self.process.children(recursive=True)):
                 with contextlib.suppress(psutil.Error):
                     used += sum(each.cpu_times()[:4])  # its own time and that of ended children
-        self.used = max(self.used, used)  # the last value, after its end
+        self.used = max(self.used, used)  # after its end, the last value
         return self.used
 
     async def run(self, cell: Any, k: int, limit: float) -> Ended:
@@ -94,7 +94,7 @@ class Kernel:
 
     async def _within(self, limit: float, work: Awaitable[Any]) -> Ended:
         task = asyncio.ensure_future(work)
-        task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())  # no complaint
+        task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())  # silent
         how, slow = "in time", False
         try:
             for then in ("stopped", "killed"):

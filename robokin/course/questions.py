@@ -40,7 +40,7 @@ class Prediction:
     facts     () -> the numbers behind all texts
     right     facts -> the index of the right option, from 0, always computed
     view      () -> the view after the choice: an `Output` or a `Figure` of robokin.show, or words
-    unit      of a number to type; `within`: the relative tolerance
+    unit      the unit of a number to type; `within`: the relative tolerance
     optional  whether it is in the optional part of the lab
     """
 
@@ -73,9 +73,10 @@ def filled(prediction: Prediction) -> tuple[str, list[Option], int]:
 def chosen_option(
     prediction: Prediction, options: Sequence[Option], right: int, choice: Any
 ) -> int:
-    """The index of the option for a choice, -1 for a number that matches none: "b", or "b: joint
-    3", where the name decides if an option has it, since options may have changed places.
-    ValueError: not a letter of an option or a number, whichever the prediction wants.
+    """The index of the option for a choice, -1 for a number that matches none. A choice is a
+    number, "b", or "b: joint 3": an option with that name comes first, since options may have
+    changed places. ValueError: not a letter of an option or a number, whichever the prediction
+    wants.
     """
     if prediction.unit is None:
         letters = list(LETTERS[: len(options)])
@@ -128,12 +129,12 @@ def prediction(
         raise BadFile(file, line, told)
     number, unit, within, optional = head.groups()
     if number not in code:
-        raise BadFile(file, line, f"no facts: a function {number}() in its Python file")
+        raise BadFile(file, line, f"no facts: wanted a function {number}() in its Python file")
     question, *answers = re.split(r"^- ", text, flags=re.M)
     options = [_option(file, line, one_line(answer)) for answer in answers]
     names = [each.name for each in options]
     if len(set(names)) < max(2, len(names)) or sum(o.confusion is None for o in options) != 1:
-        told = "wanted answers with unlike names, and a confusion for each but the right one"
+        told = "wanted answers with different names, all but one with a confusion"
         raise BadFile(file, line, f"{number}: {told}")
 
     def facts() -> Mapping[str, Any]:

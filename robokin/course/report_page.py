@@ -31,7 +31,7 @@ from .texts import all_visible, visible
 from .variants import normalised, variant
 
 WORDS = 2_000  # characters in one text of the header
-KINDS = {  # colours of words
+KINDS = {  # state -> the class that gives its colour
     **dict.fromkeys(("holds", "right"), "holds"),
     **dict.fromkeys(("does not hold", "failed", "not judged", "not so"), "not"),
 }
@@ -47,7 +47,7 @@ STYLE = f"""\
   border-bottom: 1px solid {LINE}; }}
 .rk-report td:nth-child(n+2), .rk-report h1, .rk-report p, .rk-report li {{
   overflow-wrap: anywhere; }}
-.rk-report :is(h1, p, li, pre, div) {{ overflow: clip; }}  /* marks that pile up on a letter */
+.rk-report :is(h1, p, li, pre, div) {{ overflow: clip; }}  /* combining marks that pile up */
 .rk-report th {{ font-weight: 600; white-space: nowrap; }}
 .rk-report tr.rk-objective td {{ font-weight: 600; padding-top: 10px; }}
 .rk-report td:first-child {{ white-space: nowrap; }}
@@ -127,13 +127,13 @@ def page_of(data: dict[str, Any], notebook: Any, folder: Path) -> str:
     view = View(folder, choices, lenient=True)
     cells = view.cells(notebook)
     data["remarks"] += view.remarks
-    # `report_data` reads it again; it is a script only in name
+    # data that `report_data` reads; despite the tag it is not a script
     header = f"<style>{STYLE}</style>\n{DATA}{inert(all_visible(data))}</script>\n{_header(data)}"
     return page(cells, _title(data), view.nonce, header)
 
 
 def safe(text: str) -> str:
-    """Make words safe for file names on any system; keep letters of all scripts, digits and -."""
+    """Make text safe for file names on any system; keep letters of all scripts, digits and -."""
     text = unicodedata.normalize("NFC", text)
     kept = "".join(c if c == "-" or unicodedata.category(c)[0] in "LMN" else "_" for c in text)
     short = re.sub("_+", "_", kept).encode(errors="ignore")[:100].decode(errors="ignore")
@@ -141,7 +141,7 @@ def safe(text: str) -> str:
 
 
 def _refuse_to_overwrite(to: Path, handed: HandedIn, who: str) -> None:
-    """ValueError: another file is there. This is checked before a kernel runs for minutes."""
+    """Raise ValueError if another file is there; checked before a kernel runs for minutes."""
     if not to.parent.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(to.parent)!r}")
     if not to.exists() and not to.is_symlink():

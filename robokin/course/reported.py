@@ -19,7 +19,7 @@ from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
 STATES = ("holds", "does not hold", "unanswered", "failed", "not judged")
-NAME, LINE, TEXT = 200, 2_000, 20_000  # characters in a name, in a line, in a text of many lines
+NAME, LINE, TEXT = 200, 2_000, 20_000  # characters in a name, in a line, in a multi-line text
 MANY = 200  # entries in a list
 YEAR_3000 = 32_503_680_000  # seconds; later times are outside the calendar of some systems
 JOINERS = "\u200c\u200d"  # they are invisible, but names in Persian or Hindi need them
@@ -49,7 +49,7 @@ def validated(data: Any) -> dict[str, Any]:
     later guesses. ValueError: they are not the data of a report.
     """
     if not isinstance(data, dict) or data.get("report") not in (1, 2):
-        raise ValueError("its data are not those of a report that this robokin knows")
+        raise ValueError("its data are not those of a report that this version of robokin knows")
     old, slug = data["report"] == 1, data.get("lab")
     if slug is not None and not (isinstance(slug, str) and slug in labs()):
         raise ValueError(f"lab: wanted a known one, got {short(slug)}. {MORE}")
@@ -163,7 +163,7 @@ def _text_or_none(data: dict[str, Any], name: str, most: int = LINE, ends: str =
 def _text(data: dict[str, Any], name: str, most: int, ends: str = "") -> str:
     value = data.get(name)
     if not isinstance(value, str):
-        raise ValueError(f"{name}: wanted a text, got {short(value)}")
+        raise ValueError(f"{name}: wanted a string, got {short(value)}")
     return visible(value, ends, most)
 
 

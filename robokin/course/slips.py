@@ -19,7 +19,7 @@ def _numbers(change: Program) -> Program:
 
     def changed(value: Any) -> Any:
         if isinstance(value, (Transform, Quaternion, str, bool)) or value is None:
-            raise ValueError("no numbers")
+            raise ValueError("not numbers")
         return change(np.asarray(value, dtype=float))
 
     return changed
@@ -65,7 +65,7 @@ def _sample(by: int) -> Program:
     def shifted(value: Any) -> Any:
         value = np.asarray(value, dtype=float)
         if value.ndim == 0 or len(value) < 9:
-            raise ValueError("no samples")
+            raise ValueError("too few samples")
         return np.concatenate([value[:1], value[:-1]] if by > 0 else [value[1:], value[-1:]])
 
     return shifted
@@ -97,7 +97,7 @@ def _not(value: Any) -> Any:
 
 DEGREES = "Angles are in radians here: `90 * deg`, and `angle / deg` only to print."
 METRES = "Lengths are in metres here: `350 * mm`, and `length / mm` only to print."
-# name, sentence, change of a result
+# (name, sentence, the change to a result)
 RESULTS = (
     ("degrees for radians", DEGREES, _turn(lambda x: x / deg)),
     ("degrees for radians", DEGREES, _turn(lambda x: x * deg)),
@@ -110,9 +110,9 @@ RESULTS = (
         _numbers(lambda x: 2 * x),
     ),
     ("a factor of two", "Your result is half of what it should be.", _numbers(lambda x: x / 2)),
-    ("sign", "Every sign is turned round.", _numbers(lambda x: -x)),
+    ("sign", "Every sign is reversed.", _numbers(lambda x: -x)),
     *(
-        ("sign of an axis", f"The sign of {letter} is turned round.", _axis(k))
+        ("sign of an axis", f"The sign of {letter} is reversed.", _axis(k))
         for k, letter in enumerate("xyz")
     ),
     (
@@ -123,7 +123,8 @@ RESULTS = (
     ("transposed", "Rows and columns are exchanged.", _transposed),
     (
         "wrapped angle",
-        "Angles are wrapped into -180 to 180 degrees. Here they go on, or stay inside the limits.",
+        "Angles are wrapped into -180 to 180 degrees. Here they continue beyond that, or stay "
+        "inside the limits.",
         _numbers(wrapped),
     ),
     ("off by one sample", "Every value comes one sample too late.", _sample(+1)),
@@ -134,13 +135,13 @@ RESULTS = (
         _not,
     ),
 )
-# name, sentence, change of one of the numeric inputs
+# (name, sentence, the change to one of the numeric inputs)
 INPUTS = (
     ("degrees for radians", DEGREES, lambda x: x / deg),
     ("degrees for radians", DEGREES, lambda x: x * deg),
     ("mm for m", METRES, lambda x: x / mm),
     ("mm for m", METRES, lambda x: x * mm),
-    ("sign", "A sign is turned round.", lambda x: -x),
+    ("sign", "A sign is reversed.", lambda x: -x),
 )
 
 
@@ -150,5 +151,5 @@ def fed(case: tuple[Any, ...], i: int, change: Program) -> tuple[Any, ...]:
     if isinstance(value, (float, int)) and not isinstance(value, bool):
         value = float(value)
     elif not (isinstance(value, np.ndarray) and value.dtype.kind == "f"):
-        raise TypeError("no numbers")
+        raise TypeError("not numbers")
     return (*case[:i], change(value), *case[i + 1 :])

@@ -128,7 +128,7 @@ def summary(
             made.left_out.append(_left(inside, _reason(error), True))
     kernels = side_by_side(limits.memory)
     if notebooks := sum(any(each.handed for each in several) for several in found.values()):
-        tell(0, len(found), f"notebooks to judge: {notebooks}, {kernels} side by side")
+        tell(0, len(found), f"notebooks to judge: {notebooks}, {kernels} at a time")
     pool = ThreadPoolExecutor(kernels)
     try:
         jobs = [pool.submit(_newest, several, limits) for several in found.values()]
@@ -190,11 +190,11 @@ def _files(folder: Path) -> Iterator[tuple[Path, str | None]]:
                 continue
             if each.is_symlink():
                 if wanted or os.path.isdir(path):
-                    yield here, "a symbolic link: what it leads to is not read"
+                    yield here, "a symbolic link: its target is not read"
             elif each.is_dir():
                 todo.append(here)
             elif wanted:
-                yield here, None if each.is_file() else "no ordinary file"
+                yield here, None if each.is_file() else "not an ordinary file"
 
 
 def _read(path: Path, inside: Path) -> Entry | str:
@@ -207,7 +207,7 @@ def _read(path: Path, inside: Path) -> Entry | str:
     if path.suffix.lower() == ".html":
         data = report_data(path.read_text(encoding="utf-8", errors="replace"))
         if data is None:
-            return "a page that is no report"
+            return "a page that is not a report"
         if data["lab"] is None:
             return f"a report of a notebook without a known exercise. {MORE}"
         when = datetime.fromisoformat(data["made"])
@@ -244,7 +244,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
                 who = who_of(folder / "_") if folder.name else who
                 reason = f"the same page as {entry.file}, which counts"
             elif each.when == entry.when:
-                reason += " is as new and counts"
+                reason += " is equally new and counts"
             else:
                 reason += " is newer and counts"
             left_out.append(LeftOut(each.file, who, reason, False))

@@ -30,9 +30,9 @@ from .reported import counted
 from .summary import Entry, Summary
 from .variants import normalised
 
-FIRST = ["who", "lab", "file", "date"]  # columns that identify one of our tables
-BEGIN = "<title>What was handed in</title>"  # ... a page
-SHEET = '<meta name="generator" content="robokin summary: one student">'  # ... a student's page
+FIRST = ["who", "lab", "file", "date"]  # columns that identify our tables
+BEGIN = "<title>What was handed in</title>"  # identifies our overview pages
+SHEET = '<meta name="generator" content="robokin summary: one student">'  # our pages of students
 PAGES = "summary_pages"
 INK, SOFT, RULE = (PAGE[name][0] for name in ("ink", "soft", "line"))
 STYLE = f"""\
@@ -139,8 +139,8 @@ def csv_of(made: Summary, points: bool = True) -> str:
 
 
 def harmless(text: str) -> str:
-    """A cell on one line that no spreadsheet takes for a formula, even one that separates cells by
-    another sign than the comma.
+    """A cell on one line that no spreadsheet takes for a formula, even one whose separator is not
+    the comma.
     """
     return FORMULA.sub(r"\1'", " ".join(text.split()))
 
@@ -208,7 +208,7 @@ def _templates() -> jinja2.Environment:
 
 
 def _words(text: str) -> Markup:
-    """Text between backticks is code."""
+    """Convert words to HTML; text between backticks is code."""
     return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(escape(text))))
 
 
@@ -248,7 +248,7 @@ def places(folder: Path) -> tuple[Path, Path, Path]:
         if os.path.lexists(path) and not _begins(path, begin):
             raise ValueError(f"{path} exists and is not a summary; nothing is overwritten")
     if os.path.lexists(pages) and (pages.is_symlink() or not pages.is_dir()):
-        raise ValueError(f"{pages} exists and is no folder; nothing is overwritten")
+        raise ValueError(f"{pages} exists and is not a folder; nothing is overwritten")
     return table, page, pages
 
 
@@ -282,7 +282,7 @@ def is_ours(path: Path, folder: Path) -> bool:
 
 
 def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
-    """A free path for a page, without foreign files or another student's page."""
+    """A path for a page that neither a foreign file nor another student's page has."""
     path, k = pages / f"{name}.html", 1
     while path.name.casefold() in taken or (os.path.lexists(path) and not _begins(path, SHEET)):
         k += 1

@@ -1,24 +1,24 @@
-"""Make invisible characters in other people's texts visible."""
+"""Make invisible characters in other people's text visible."""
 
 import functools
 import re
 from typing import Any
 
-# A class of `re`: control characters, characters that change the direction of writing or end a
-# line, zero-width marks, tags, lone surrogates. Joiners are not in it: Persian, Hindi and emoji
-# need them.
+# A character class of `re`: control characters, characters that change the direction of writing
+# or end a line, zero-width marks, tags, lone surrogates. Joiners are not in it: Persian, Hindi and
+# emoji need them.
 UNSEEN = (
     "\0-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
     "\ufff9-\ufffb\ud800-\udfff\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f"
 )
-LINES = "\t\n"  # those that a text of many lines needs
+LINES = "\t\n"  # control characters that a multi-line text needs
 ALL_BUT_HALVES = "^\ud800-\udfff"  # a file cannot contain a lone surrogate
-DEEP = 100  # depth of nested lists
+DEEP = 100  # maximum depth of nested lists
 
 
 def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
     r"""The text with an escape, such as \x1b or \u202e, for each invisible character. `kept` is a
-    class of `re` with characters to keep. A text longer than `most` characters is cut.
+    character class of `re` with characters to keep. A text longer than `most` characters is cut.
     """
     if most is not None and len(text) > most:
         text = f"{text[:most]} ... shortened"

@@ -6,8 +6,8 @@ import numpy as np
 
 from .._arrays import Floats
 
-LARGE = 1e7  # written with a power of ten from here on
-MOST = 12  # digits after the point
+LARGE = 1e7  # numbers from here on are written with a power of ten
+MOST = 12  # maximum number of digits after the decimal point
 RAISED = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 

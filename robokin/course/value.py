@@ -1,4 +1,6 @@
-"""A value to give, with many right answers: numbers for an individual task, a pose, a program."""
+"""The exercise of giving a value that has many correct answers: numbers for an individual task, a
+pose, a program.
+"""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -9,18 +11,20 @@ from .markdown import BadFile, Text
 
 
 class Value(Exercise):
-    """A value to give. `code`, the names of the Python file, contains
+    """The exercise of giving a value. `code`, the names of the Python file, contains
 
-    form    (answer, given) -> the answer as `faults` wants it; ValueError that says what was wanted
-    faults  (answer, given) -> what does not hold, each with a name and a sentence: the first counts
+    form    (answer, given) -> the answer in the form that `faults` needs; raises a ValueError that
+            says what was wanted
+    faults  (answer, given) -> (name, sentence) of each condition that does not hold; the first one
+            names the mistake
     COUNT   the number of conditions
 
     and may contain
 
     given   who -> this student's numbers; without it all students have the same task
-    GOAL    for a pose taken from an explorer: what the page tells by itself (page.PageExplorer)
+    GOAL    for a pose taken from an explorer: what the page itself checks (page.PageExplorer)
     plain   answer -> the answer as the case shows it
-    holds   (answer, given) -> an additional sentence for an answer that holds
+    holds   (answer, given) -> additional sentences for an answer that passes
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""A student's individual numbers: equal on every machine, and for all spellings of the name."""
+"""A student's individual numbers: the same on every machine and for all spellings of the name."""
 
 import hashlib
 import random
@@ -20,8 +20,8 @@ def normalised(who: Any) -> str:
 
 
 def dice(lab: str, who: Any) -> random.Random:
-    """Return a random generator for a student in a lab. Draw integers (`randrange`): they are equal
-    on every machine and in every version of Python.
+    """Return a random generator for a student in a lab. Draw integers (`randrange`): they are the
+    same on every machine and in every version of Python.
     """
     return random.Random(int(hashlib.sha256(f"{lab}\n{normalised(who)}".encode()).hexdigest(), 16))
 
@@ -29,7 +29,7 @@ def dice(lab: str, who: Any) -> random.Random:
 class Numbers(dict[str, Any]):
     """A student's numbers: `numbers["height"]`. It displays itself as a table with units.
 
-    units  name -> unit; values are in SI units times `sizes`
+    units  name -> (unit, its size in SI units); values are in SI units
     """
 
     def __init__(self, values: dict[str, Any], units: dict[str, tuple[str, float]]) -> None:
@@ -49,12 +49,12 @@ def variant(lab: str, who: Any) -> Numbers:
     """Return the numbers of the student `who` (a name or a number) for the design exercise of a
     lab.
 
-    They are equal on every machine; case and spaces make no difference. ValueError: no such lab, a
-    lab without such an exercise, or an empty name.
+    They are the same on every machine; case and spaces make no difference. ValueError: no such lab,
+    a lab without such an exercise, or an empty name.
     """
     given = _lab(lab).given
     if given is None:
-        raise ValueError(f"lab: {lab} has no numbers of one's own")
+        raise ValueError(f"lab: {lab} has no individual numbers")
     made: Numbers = given(who)
     return made
 

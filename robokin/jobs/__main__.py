@@ -29,42 +29,43 @@ if sys.platform != "win32":
 
 LOG = "output.log"
 HELP = """\
-Answer the "visit" and "collect" tasks in a folder: how many points can the
+Solve the "visit" and "collect" tasks in a folder: how many points can the
 three-joint arm serve in the time T? Every *.json in FOLDER is a task with the keys
 
   L1, L2  lengths of the links, m       p0    start of the tool, m: [x, y, z]
   T       time allowed, s               pi    points, m: [[x, y, z], ...]
   q'      joint speeds, rad/s: [3]      task  "visit" or "collect"
 
-Three examples lie in notebooks/tasks."""
+Three examples are in notebooks/tasks."""
 AFTER = f"""\
-A report on each file, in order of the names, goes to the standard output; a file
-that is no task is skipped, with the reasons. The same goes to {LOG} in the
-working folder, with the joint values and the times of each way (DEBUG). This log
-is made anew, by one run at a time; no other file is written. Progress goes to the
-standard error output.
+A report on each file, in order of the names, goes to standard output; a file
+that is not a task is skipped, with the reasons. The same goes to {LOG} in the
+working folder, with the joint values and the times of each move (DEBUG). This log
+is replaced by each run, and only one run at a time can write it; no other file is
+written. Progress goes to standard error.
 
 A key given twice is a reason to skip a file. Unknown keys, speeds that look like
 degrees and moves on which the tool dips under the floor are warnings. A file may
-have {TASK_LIMIT} points ("visit", or "collect" with p0 on axis 1: {NEAREST_LIMIT}). The
-first {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of a kind.
+have up to {TASK_LIMIT} points ("visit", or "collect" with p0 on axis 1: {NEAREST_LIMIT}).
+The first {POINTS_SHOWN} points are listed, and {FAULTS_SHOWN} faults or low moves of each kind.
 
-Exit status: 0    every task answered
+Exit status: 0    every task solved
              1    a file skipped, or the output or the log could not be written
-             2    nothing to do: wrong use, no such folder, no *.json in it
+             2    nothing to do: wrong usage, no such folder, no *.json in it
              130  stopped with Ctrl+C"""
-BIG = 1_000_000  # bytes: a file this small is solved quickly
+BIG = 1_000_000  # bytes: a file up to this size is solved quickly
 
-log = logging.getLogger("robokin.jobs")  # to output.log
-answers = log.getChild("answers")  # also to standard output
-end = log.getChild("end")  # also to standard error; the run ends here
+log = logging.getLogger("robokin.jobs")  # writes to output.log
+answers = log.getChild("answers")  # writes also to standard output
+end = log.getChild("end")  # writes also to standard error; then the run ends
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command and return its exit status."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # names that it cannot show
+            # File names may have characters that the stream cannot encode.
+            stream.reconfigure(errors="backslashreplace")
     parser = argparse.ArgumentParser(
         prog="python -m robokin.jobs",
         description=HELP,
@@ -88,7 +89,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def run(folder: str, above_floor: bool = False) -> int:
-    """Answer every task file in the folder and return the exit status."""
+    """Solve every task file in the folder and return the exit status."""
     try:
         names = sorted(
             n for n in os.listdir(folder) if n.endswith(".json") and not n.startswith(".")
@@ -110,15 +111,15 @@ def run(folder: str, above_floor: bool = False) -> int:
             told = time.monotonic()
             _tell(f"{count} of {len(names)} files")
     answers.info(
-        f"{len(names)} {'file' if len(names) == 1 else 'files'}: {len(names) - skipped} answered, "
+        f"{len(names)} {'file' if len(names) == 1 else 'files'}: {len(names) - skipped} solved, "
         f"{skipped} skipped"
     )
     return int(skipped > 0)
 
 
 def one(path: str, title: str, above_floor: bool = False) -> bool:
-    """Answer one task file and log the result, or the reason why not. Return whether it was
-    answered.
+    """Solve one task file and log the result, or the reason why it was skipped. Return whether it
+    was solved.
     """
     try:
         size = os.path.getsize(path) if os.path.isfile(path) else 0
@@ -135,7 +136,7 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
     except TaskError as error:
         answers.error(f"{title} skipped:" + "".join(f"\n\t{fault}" for fault in error.faults))
         return False
-    except Exception as error:  # an error in this program: the other files are still answered
+    except Exception as error:  # an error in this program: the other files are still solved
         log.debug(title, exc_info=True)
         answers.error(f"{title} skipped:\n\tthis program failed, {type(error).__name__}: {error}")
         return False
@@ -144,14 +145,14 @@ def one(path: str, title: str, above_floor: bool = False) -> bool:
         f"p0 = {task.p0.tolist()}, pi = {_first(task.points)}, task = {task.kind}"
     )
     log.debug(f"{title}: q of p0 and pi, nan where a joint is free = {_first(task.q)}")
-    log.debug(f"{title}: t1, t2, t3 of each way = {_first(legs)}")
+    log.debug(f"{title}: t1, t2, t3 of each move = {_first(legs)}")
     answers.info(f"{title}: {text}")
     return True
 
 
 class Output(logging.StreamHandler[TextIO]):
-    """Write lines "LEVEL: message" to a stream. If it cannot be written, report this once and note
-    it in `lost`; the other outputs go on.
+    """Write lines "LEVEL: message" to a stream. If the stream cannot be written, report this once
+    and note it in `lost`; the other outputs continue.
     """
 
     def __init__(self, title: str, stream: TextIO, lost: list[str]) -> None:
@@ -160,7 +161,7 @@ class Output(logging.StreamHandler[TextIO]):
         self.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
 
     def handleError(self, record: logging.LogRecord) -> None:
-        """`emit` calls this when the stream raises."""
+        """`emit` calls this when the stream raises an error."""
         self.setLevel(logging.CRITICAL + 1)
         _lose(self.title, sys.exc_info()[1], self.lost)
         # Discard what is left in its buffer; otherwise closing it would fail again.
@@ -187,12 +188,12 @@ def outputs() -> Iterator[list[str]]:
             _lose(LOG, error, lost)
             _connect(stack, log, logging.NullHandler(), logging.DEBUG)
         if sys.stdout:
-            name = "the standard output"
+            name = "standard output"
             _connect(stack, answers, Output(name, sys.stdout, lost), logging.INFO)
         else:
-            _lose("the standard output", "it is closed", lost)
+            _lose("standard output", "it is closed", lost)
         if sys.stderr:
-            _connect(stack, end, Output("the standard error output", sys.stderr, []), logging.INFO)
+            _connect(stack, end, Output("standard error", sys.stderr, []), logging.INFO)
         stack.callback(log.setLevel, log.level)
         stack.callback(setattr, log, "propagate", log.propagate)
         log.setLevel(logging.DEBUG)
@@ -211,8 +212,8 @@ def _connect(
 def _lock_folder(stack: contextlib.ExitStack) -> None:
     """Lock this folder's log until the stack is closed. OSError: another run holds the lock.
 
-    Windows needs no lock, since nobody can remove an open file there. A file system without locks
-    is used without one.
+    Windows needs no lock, since nobody can remove an open file there. On a file system without
+    locks, nothing is locked.
     """
     if sys.platform == "win32":
         return
@@ -239,7 +240,7 @@ def _tell(text: str) -> None:
 
 
 def _first(rows: Floats) -> str:
-    """The first rows of numbers for the log, as many as a report shows points."""
+    """The first rows of an array for the log, as many as the points that a report shows."""
     more = f" and {len(rows) - POINTS_SHOWN} more" if len(rows) > POINTS_SHOWN else ""
     return f"{rows[:POINTS_SHOWN].tolist()}{more}"
 

@@ -22,7 +22,7 @@ from .._validate import floats, length, number, positive, short, whole
 from ..arms.geometry import ROUNDING
 
 # These limits keep every call below a few seconds:
-MOST = 1_000  # objects
+MOST = 1_000  # objects on the belt
 PLACES = 500  # places in a window
 ARMS = 100
 
@@ -42,7 +42,7 @@ def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Flo
     mean = length(gap, "gap")
     share = number(spread, "spread")
     if not 0 <= share <= 1:
-        raise ValueError(f"spread: wanted a share from 0 to 1, got {share:g}")
+        raise ValueError(f"spread: wanted a fraction from 0 to 1, got {share:g}")
     dice = np.random.default_rng(whole(seed, "seed", 0, 2**63 - 1))
     steps = np.linspace(-1, 1, count) if count > 1 else np.zeros(1)
     offsets: Floats = np.cumsum(mean * (1 + share * dice.permutation(steps)))
@@ -51,7 +51,7 @@ def spaced(count: int, gap: float, spread: float = 0.0, *, seed: int = 8) -> Flo
 
 @dataclass(frozen=True, eq=False)
 class Trips(Sealed):
-    """The k trips of one arm, with times in s on the clock of the belt.
+    """The k trips of one arm, with times in s on the belt's clock.
 
     objects  (k,) the indices in `offsets` of the objects that it picks
     places   (k,) the indices in the arm's window of the places where it picks them
@@ -82,12 +82,12 @@ def serve(
     offsets     (n,) in m, increasing: distances before the first arm's window at time 0
     v           speed of the belt, m/s
     window      (m,) in m, increasing: the places along y where the first arm can pick an object
-    ways        (m,) in s: the time from the arm's bin to each of them, and back again
+    ways        (m,) in s: the time from the arm's bin to each place, and again for the way back
     arms        the number of equal arms along the belt, `pitch` metres apart
     pitch       at least the window's length (the default), so that no two windows overlap
-    first_come  the rule. A free arm picks the object with which it is back soonest, or, with
-                `first_come`, the first object on the belt that it can still reach. It picks an
-                object at the first place where it can be in time.
+    first_come  which rule to use. A free arm picks the object with which it is back soonest, or,
+                with `first_come`, the first object on the belt that it can still reach. It picks
+                an object at the first place where it can be in time.
 
     Both rules are greedy and may pick fewer objects than possible. The arm stands still while it
     grips, which takes no time. ValueError: wrong shapes, numbers that do not increase.
@@ -108,7 +108,9 @@ def serve(
     with np.errstate(over="ignore"):
         delays, last = (along - along[0]) / speed, (reach[-1] + ARMS * apart) / speed
     if not np.isfinite([*delays, last]).all():
-        raise ValueError(f"v: wanted a speed at which the objects come, got {speed:g} m/s")
+        raise ValueError(
+            f"v: wanted a speed at which the objects arrive in a finite time, got {speed:g} m/s"
+        )
     left, done = np.arange(len(reach)), []
     for k in range(whole(arms, "arms", 1, ARMS)):
         trips = _trips((reach[left] + k * apart) / speed, delays, times, bool(first_come))
@@ -131,7 +133,7 @@ def _trips(arrivals: Floats, delays: Floats, ways: Floats, first_come: bool) -> 
     while True:
         # Objects before `low` have passed. Behind the first object that reaches the window no
         # sooner than the arm does, all others are picked at the first place too, only later.
-        low = np.searchsorted(arrivals, free - slack - 1e-9)  # s, more than rounding
+        low = np.searchsorted(arrivals, free - slack - 1e-9)  # 1e-9 s: more than rounding errors
         high = np.searchsorted(arrivals, free + ways[0]) + 1
         found = low + np.flatnonzero(left[low:high])
         at = arrivals[found, None] + delays
@@ -155,5 +157,5 @@ def _trips(arrivals: Floats, delays: Floats, ways: Floats, first_come: bool) -> 
 def _rising(values: ArrayLike, name: str, most: int) -> Floats:
     array = floats(values, name)
     if array.ndim != 1 or not 1 <= len(array) <= most or (np.diff(array) < 0).any():
-        raise ValueError(f"{name}: wanted 1 to {most} rising numbers in m, got {short(values)}")
+        raise ValueError(f"{name}: wanted 1 to {most} increasing numbers in m, got {short(values)}")
     return array

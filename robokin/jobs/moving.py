@@ -1,6 +1,6 @@
 """Plans for the three-lever arm past an obstacle that moves along a line at the same time.
 
-`plan` in `robokin.jobs.obstacles` keeps a clearance at every place; here the same holds at every
+`plan` in `robokin.jobs.obstacles` keeps a clearance at every place; here the arm keeps it at every
 place and time. The obstacle is at H + v t, the arm is in its posture at t, and between two postures
 all joints turn at constant speed. The bound that proves a clearance grows by the distance that the
 obstacle moves in the meantime.
@@ -33,9 +33,9 @@ from .obstacles.posture_grid import (
     way_back,
 )
 
-Found: TypeAlias = tuple[str, str, Floats, Floats]  # the way, words and path of a plan; its times
+Found: TypeAlias = tuple[str, str, Floats, Floats]  # way, words and path of a plan, and its times
 
-TICKS = 120  # ticks of STEP each: how far the search looks ahead
+TICKS = 120  # how many ticks of STEP the search looks ahead
 
 
 def plan_moving(
@@ -57,9 +57,10 @@ def plan_moving(
     task. `speed`, in radians per second, limits the sum of the joint speeds, so that a path takes
     at least S / speed.
 
-    The search is that of `way_round` with time as a further dimension: at each tick the reachable
-    set grows by one step of one joint and shrinks to the postures that are free at that tick. It
-    looks `TICKS` ticks of 5 degrees / speed ahead. ValueError: a posture outside the limits.
+    The search is that of `way_round` with time as an additional dimension: at each tick the
+    reachable set grows by one step of one joint and shrinks to the postures that are free at that
+    tick. It looks `TICKS` ticks of 5 degrees / speed ahead. ValueError: a posture outside the
+    limits.
     """
     instance(arm, ThreeLeverArm, "arm")
     start, K1 = read_start(arm, posture, "posture"), read_point(target, "target")
@@ -69,8 +70,8 @@ def plan_moving(
     ahead = TICKS * STEP / speed
     if ahead * max(1, np.hypot(*v)) > FARTHEST:
         raise ValueError(
-            f"speed: wanted one with which {TICKS} ticks of {STEP / deg:.0f} degrees, and what the "
-            f"obstacle goes meanwhile, stay below {FARTHEST:g} s and m, got {speed!r}"
+            f"speed: wanted one at which {TICKS} ticks of {STEP / deg:.0f} degrees take at most "
+            f"{FARTHEST:g} s and the obstacle moves at most {FARTHEST:g} m in them, got {speed!r}"
         )
     ticks = np.linspace(0, ahead, TICKS + 1)
     unreached, now = arm.out_of_reach(K1), np.zeros(1)
@@ -121,9 +122,9 @@ def _wait(
         return None
     begin = ticks[(here & moves).argmax()]
     if begin == 0:
-        words = "The way is direct: the obstacle is not in it at that time."
+        words = "The direct way is clear: the obstacle is not on it at that time."
         return "direct", words, np.stack([start, goal]), np.array([0, takes])
-    words = f"The arm waits for {begin:.2f} s and goes directly then."
+    words = f"The arm waits for {begin:.2f} s and then goes directly."
     return "wait", words, np.stack([start, start, goal]), np.array([0, begin, begin + takes])
 
 
@@ -159,6 +160,6 @@ def _search(
                 times = np.append(ticks[: tick + 1], arrive[i])
                 kept = shortcuts(arm, path, (H + times[:, None] * v)[None], distance)
                 if kept is not None:
-                    words = f"Waiting does not do; a search finds a way of {arrive[i]:.2f} s."
+                    words = f"Waiting is not enough; a search finds a path of {arrive[i]:.2f} s."
                     return "search", words, path[kept], times[kept]
     return None

@@ -22,20 +22,20 @@ from .obstacles import distances
 Method: TypeAlias = Callable[[ThreeLeverArm, ArrayLike, ArrayLike], Floats]
 
 STRIDE = 0.1  # lever lengths: the gripper's greatest step
-TURN = 10 * deg  # a joint's greatest turn in one step
+TURN = 10 * deg  # a joint's greatest rotation in one step
 STEPS = 200  # a motion that has not arrived by then has failed
-ARRIVED = 1e-9  # of a lever's length
+ARRIVED = 1e-9  # lever lengths: the gripper this near to the target has arrived
 FLAT = 1e-4  # lever lengths; damps pseudo-inverses, so that a stretched arm causes no division by 0
 NEAR = 0.5  # lever lengths: an obstacle farther away than this stops no joint
 PULL = 0.1  # fraction of the way to the middle of the limits in one step
-SLACK = 1e-9  # rad; past a limit by no more than this is rounding
+SLACK = 1e-9  # rad: an angle past a limit by no more than this is a rounding error
 SAME = 1e-12  # lever lengths; distances that differ by less count as equal
 
 
 class RaceResult(NamedTuple):
     """The result of a method for n consecutive targets.
 
-    postures  (n, 3); NaN where the arm cannot reach the target and stays
+    postures  (n, 3); NaN where the arm cannot reach the target and does not move
     turns     (n,) the sum of the absolute angle changes in radians
     failed    (n,) bool: the method failed, and the least movement did the task instead
     seconds   the method's mean computing time per target
@@ -52,7 +52,7 @@ def race(
 ) -> dict[str, RaceResult]:
     """Run every method on the same targets (n, 2) in the same order, each task from the posture in
     which the previous one ended, the first from `start` (3,). If a method fails, the least movement
-    reaches the target instead, so that the sums of turns are comparable. dict of name ->
+    reaches the target instead, so that the sums of turns are comparable. Returns a dict of name ->
     `RaceResult`.
     """
     instance(arm, ThreeLeverArm, "arm")
@@ -62,7 +62,7 @@ def race(
         raise ValueError(f"targets and start: wanted shapes (n, 2) and (3,), got {got}")
     if not isinstance(methods, Mapping) or not all(map(callable, methods.values())):
         raise ValueError(f"methods: wanted names and functions, got {short(methods)}")
-    if len(set(map(id, methods.values()))) < len(methods):  # shared random numbers
+    if len(set(map(id, methods.values()))) < len(methods):  # they would share random numbers
         raise ValueError(f"methods: wanted each function once, got {short(methods)}")
     runs = {}
     for name, method in methods.items():
@@ -106,9 +106,9 @@ def least_movement(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -
 
 
 def pseudo_inverse(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """The gripper goes straight to the target in small steps e, the joints move by dq = J+ e: of
-    all dq that make the step, the one with the smallest sum of squares. The method ignores limits:
-    a joint stops at its limit, and the others may get stuck. Source: 003, I.2.1; Siciliano et al.,
+    """The gripper goes straight to the target in small steps e, and the joints move by dq = J+ e,
+    which has the smallest sum of squares of all dq that make the step. The method ignores limits: a
+    joint stops at its limit, and the others may get stuck. Source: 003, I.2.1; Siciliano et al.,
     Robotics, 2009, section 3.5.1.
     """
     target, previous = _asked(arm, target, previous)
@@ -116,9 +116,9 @@ def pseudo_inverse(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -
 
 
 def gradient_projection(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """As `pseudo_inverse`, plus a motion that does not move the gripper, dq = J+ e + (1 - J+ J) g:
-    the part in the null space of J of the gradient g of a secondary objective. The objective is to
-    stay in the middle of the limits. Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
+    """Like `pseudo_inverse`, plus a motion that does not move the gripper, dq = J+ e + (1 - J+ J)
+    g: the part in the null space of J of the gradient g of a secondary objective. The objective is
+    to stay in the middle of the limits. Source: 003, I.2.1 (Fu Rong); A. Liegeois, 1977.
     """
     target, previous = _asked(arm, target, previous)
     middle = arm.limits.mean(axis=-1)
@@ -132,9 +132,9 @@ def gradient_projection(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLi
 
 
 def equal_angles(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> Floats:
-    """beta = alpha: the levers bend equally at both joints, and the distance KO determines the
-    angle. With u = -cos(alpha), 4 OB AK u^2 + 2 BA (OB + AK) u + BA^2 + (OB - AK)^2 = KO^2. The
-    previous posture does not matter. Source: 003, I.2.1 (S. Yahya).
+    """The posture with beta = alpha: the levers bend equally at both joints, and the distance KO
+    determines the angle. With u = -cos(alpha), 4 OB AK u^2 + 2 BA (OB + AK) u + BA^2 + (OB - AK)^2
+    = KO^2. The previous posture does not matter. Source: 003, I.2.1 (S. Yahya).
     """
     target, previous = _asked(arm, target, previous)
     a, b, c = arm.levers
@@ -160,13 +160,13 @@ def random_choice(seed: int) -> Method:
 
 
 def distance_rule(obstacle: ArrayLike) -> Method:
-    """Return a method that avoids an obstacle (2,). It works like `pseudo_inverse`, but of the
-    levers within half a length of the obstacle that approach it, the nearest one stops: its joint
-    does not move in that step, or turns away if the lever is nearer than L/7, and the other two
-    move the gripper. Source: 003, I.4 (M. Benzaoui), which describes it in words and gives no
-    length: if every lever stops at any distance, more tasks fail.
+    """Return a method that avoids an obstacle (2,). It works like `pseudo_inverse`, except that one
+    lever stops: the nearest of those that are within half a length of the obstacle and approach it.
+    Its joint does not move in that step, or turns away if the lever is nearer than L/7, and the
+    other two joints move the gripper. Source: 003, I.4 (M. Benzaoui), which describes it in words
+    and gives no length: if every lever stops at any distance, more tasks fail.
 
-    Two levers are equally near whenever the nearest place is the joint between them. Then the one
+    Two levers are equally near whenever the nearest place is the joint between them. Then the lever
     nearer to the base stops, since its joint moves that place and the other joint does not.
     Distances that differ by less than 1e-12 of a length count as equal, so that the result does not
     depend on the platform's rounding.
@@ -199,7 +199,7 @@ def distance_rule(obstacle: ArrayLike) -> Method:
 
 
 def _asked(arm: ThreeLeverArm, target: ArrayLike, previous: ArrayLike) -> tuple[Floats, Floats]:
-    """Return targets (..., 2) and postures (..., 3) with one batch shape. Targets farther than
+    """Return targets (..., 2) and postures (..., 3) with the same batch shape. Targets farther than
     twice the arm's reach are moved to that distance.
     """
     instance(arm, ThreeLeverArm, "arm")
@@ -241,7 +241,9 @@ def _bounded(dq: Floats) -> Floats:
 
 
 def _haste(arm: ThreeLeverArm, e: Floats) -> Floats:
-    """1 on the way, falling to 0 near the target, where secondary motions must come to rest."""
+    """A factor that is 1 on the way and falls to 0 near the target, where secondary motions must
+    come to rest.
+    """
     haste: Floats = np.linalg.norm(e, axis=-1, keepdims=True) / (STRIDE * arm.lever)
     return haste
 

@@ -14,7 +14,7 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
 
     values (samples,) or (..., samples, n); t (samples,) in seconds, strictly increasing. The result
     has the shape of `values`. `order` 2 differentiates twice, and so on up to 10. Angles are not
-    unwrapped here: pass unwrapped ones (`follow` returns such). A NaN spreads to its neighbours.
+    unwrapped here: pass unwrapped ones (as `follow` returns them). A NaN spreads to its neighbours.
     ValueError: fewer than three samples, shapes that do not match, times that do not increase,
     slopes that overflow.
 
@@ -31,7 +31,7 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
     if whole(order, "order", 1) > ORDERS:
         raise ValueError(
             f"order: wanted at most {ORDERS}, got {short(order)}: {values.size} numbers would be "
-            "differentiated so many times, and nothing but rounding errors would be left"
+            "differentiated that many times, and only rounding errors would be left"
         )
     for _ in range(order):
         with np.errstate(all="ignore"):
@@ -39,22 +39,22 @@ def differentiate(values: ArrayLike, t: ArrayLike, order: int = 1) -> Floats:
         missing = np.isnan(values)
         known = np.isfinite(slopes)
         if missing.any():
-            slopes[missing] = np.nan  # even if its neighbours have a slope
+            slopes[missing] = np.nan  # a missing sample has no slope, even if its neighbours do
             known = ~np.isinf(slopes)
         if not known.all():
-            raise ValueError("values and t: wanted slopes that are numbers, got infinite ones")
+            raise ValueError("values and t: wanted finite slopes, got infinite ones")
         values = slopes
     return values
 
 
 def rising(t: ArrayLike, least: int = 3) -> Floats:
     """Return `t` as an array of at least `least` strictly increasing times. ValueError: it is not
-    one.
+    such an array.
     """
     t = floats(t, "t")
     if t.ndim != 1 or len(t) < least:
         words = {2: "two", 3: "three"}[least]
         raise ValueError(f"t: wanted at least {words} times, got shape {t.shape}")
     if (t[1:] <= t[:-1]).any():
-        raise ValueError("t: wanted rising times, got a step that is not positive")
+        raise ValueError("t: wanted increasing times, got a step that is not positive")
     return t

@@ -32,7 +32,7 @@ class TimeLaw(Sealed):
 
     def __call__(self, t: ArrayLike) -> Floats:
         """s at the times t (...) in seconds. ValueError: no times, or times that are not finite; a
-        `progress` that returns another shape or no numbers.
+        `progress` that returns another shape, or something other than numbers.
         """
         t = floats(t, "t")
         if not t.size:
@@ -80,7 +80,7 @@ def _linear(x: Floats) -> Floats:
 
 
 def _trapezoidal(ramp: float, x: Floats) -> Floats:
-    peak = 1 / (1 - ramp)  # the speed between the ramps, for an area of 1
+    peak = 1 / (1 - ramp)  # the speed between the ramps: the area under the speed curve is 1
     left = np.minimum(x, 1 - x)  # time to the nearer end: the two halves are symmetric
     on_ramp = np.minimum(left, ramp)
     s: Floats = peak * (on_ramp * on_ramp / (2 * ramp) + (left - on_ramp))

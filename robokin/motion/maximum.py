@@ -1,4 +1,4 @@
-"""The greatest value of a quantity over time when its function is known."""
+"""The greatest value of a function in an interval."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -8,13 +8,13 @@ import numpy as np
 from .._arrays import Floats
 from .._validate import floats, number, short, whole
 
-STEPS = 64  # steps between the samples of an interval
-DIGITS = 12  # decimals; a float has only a few more
-MOST = 200  # intervals that are sampled
+STEPS = 64  # steps into which each interval is divided
+DIGITS = 12  # greatest number of decimals; a float has only a few more
+MOST = 200  # greatest number of intervals that are sampled
 
 
 class Maximum(NamedTuple):
-    """The greatest value, and its place."""
+    """The greatest value, and where it is reached."""
 
     value: float
     at: float
@@ -29,12 +29,13 @@ def refined_maximum(
     We sample the interval in 64 steps. Around each sample that exceeds its neighbours, and would be
     the greatest if its excess were doubled, we sample again, and so on, until no such doubling
     could change the maximum by half a unit of the second decimal beyond those shown. A concave peak
-    exceeds its greatest sample by no more than that. A peak narrower than 1/64 of the interval that
-    no sample shows is missed.
+    exceeds its greatest sample by no more than that. A peak that is narrower than 1/64 of the
+    interval and lies between two samples is missed.
 
     `function` maps an array (k,) to an array (k,), NaN where it has no value. For a minimum, negate
-    the function. TypeError: `function` is not callable. ValueError: a range that is not finite,
-    another shape, no value at all, or a maximum that does not converge, for example beside a pole.
+    the function. TypeError: `function` is not callable. ValueError: a range that is not finite, a
+    result of another shape, no value at all, or a maximum that does not converge, for example
+    beside a pole.
 
     >>> value, at = refined_maximum(lambda t: t * np.exp(-t), 0, 3, 3)
     >>> round(value, 5), round(at, 2)
@@ -69,7 +70,8 @@ def refined_maximum(
             stretches.append((float(hopes[i]), *ends))
         stretches.sort()
     else:
-        raise ValueError(f"function: wanted a greatest value that stands, got {best.value:g}")
+        got = f"{best.value:g} after {MOST} intervals"
+        raise ValueError(f"function: wanted a maximum that converges, got {got}")
     if best.value == -np.inf:
-        raise ValueError("function: wanted values, got none")
+        raise ValueError("function: wanted at least one value, got only NaN")
     return best

@@ -29,7 +29,7 @@ def lin(start: P, goal: P, s: ArrayLike) -> P:
     """The straight motion (LIN, MoveL) from `start` to `goal`, at s (...) in [0, 1].
 
     Source: 001, listing 7. ValueError: s outside [0, 1]. TypeError: values without `lerp`, or of
-    two types.
+    different types.
 
     >>> start, goal = Transform(translation=(0.4, 0, 0.5)), Transform(translation=(0.4, 0.2, 0.5))
     >>> lin(start, goal, [0, 0.25, 1]).translation
@@ -44,7 +44,7 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     """The point-to-point motion (PTP, MoveJ): all joints move linearly from q0 (..., n) to q1 (...,
     n), at s (...).
 
-    Returns (..., n). Joint values are not wrapped: to turn the short way, choose q1 with `nearest`.
+    Returns (..., n). Joint values are not wrapped: for the shorter turn, choose q1 with `nearest`.
     Source: 001, listing 8; 000, the motion along a straight line in the space Q. A UserWarning if a
     joint is beyond two turns: the angles are probably in degrees. ValueError: s outside [0, 1],
     shapes that do not match.
@@ -52,7 +52,7 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
     q0, q1, s = floats(q0, "q0"), floats(q1, "q1"), _share(s)
     if q0.ndim == 0 or q0.shape[-1:] != q1.shape[-1:]:
         raise ValueError(
-            f"q0 and q1: wanted joint values of one length, got shapes {q0.shape} and {q1.shape}"
+            f"q0 and q1: wanted the same number of joints, got shapes {q0.shape} and {q1.shape}"
         )
     broadcast("q0, q1 and s", q0.shape[:-1], q1.shape[:-1], s.shape)
     for name, q in (("q0", q0), ("q1", q1)):
@@ -63,7 +63,7 @@ def ptp(q0: ArrayLike, q1: ArrayLike, s: ArrayLike) -> Floats:
 def lin_lin(start: P, via: P, goal: P, s: ArrayLike) -> P:
     """Two consecutive straight motions. At s = 1/2 the path is at `via`, where the velocity jumps.
 
-    Source: 001, listing 11. It raises what `lin` raises.
+    Source: 001, listing 11. It raises the same errors as `lin`.
     """
     return blend(start, via, goal, 0.0, s)
 
@@ -75,15 +75,14 @@ def blend(
 
     fraction  the blend (zone), in [0, 0.5], a number or an array broadcast with s; 0 is `lin_lin`
     corner    "parabola": a quadratic Bezier curve from the first line to the second with `via` as
-              its middle control pose; the velocity is continuous in s (C1). It passes `via` at 1/2
-              of the distance from `via` to the middle of the corner's two ends.
+              its middle control pose; the velocity is continuous in s (C1). At
+              s = 1/2 the curve is half as far from `via` as the midpoint of the corner's two ends.
               "quintic": a Bezier curve of degree 5 with control poses 0, 0.4 and 0.8 of the way to
-              `via` from both ends; the acceleration is continuous too (C2). It passes at 3/8 of
-              that distance, 3/4 of the parabola's.
+              `via` from both ends; the acceleration is continuous too (C2). At
+              s = 1/2 its distance from `via` is 3/8 of the midpoint's, 3/4 of the parabola's.
     Source: 001, listing 12 (parabola), with errata S1-j: for a fraction above 0.5 the printed law
-    misses both end poses.
-    ValueError: a fraction outside [0, 0.5], s outside [0, 1], an unknown corner. TypeError: values
-    without `lerp`, or of several types.
+    misses both end poses. ValueError: a fraction outside [0, 0.5], s outside [0, 1], an unknown
+    corner. TypeError: values without `lerp`, or of different types.
     """
     s, b = _share(s), floats(fraction, "fraction")
     if ((b < 0) | (b > 0.5)).any():
@@ -94,7 +93,7 @@ def blend(
     # x runs from 0 to 1 across the corner and is constant outside it. There the curve is at its
     # first or last control pose, which moves along one of the two lines, so one formula covers the
     # whole path.
-    with np.errstate(over="ignore"):  # from a corner so short that it takes no time
+    with np.errstate(over="ignore"):  # the quotient overflows for an extremely short corner
         across = (s - 0.5 + b) / np.where(b > 0, 2 * b, 1)
     x = np.where(b > 0, np.clip(across, 0, 1), s >= 0.5)
     first = _pose(start, "start").lerp(via, np.minimum(2 * s, 1 - 2 * b))
@@ -118,9 +117,11 @@ def blend(
 def _share(s: ArrayLike) -> Floats:
     s = floats(s, "s")
     if not s.size:
-        raise ValueError("s: wanted shares of the path, got an empty array")
+        raise ValueError("s: wanted fractions of the path, got an empty array")
     if np.count_nonzero((s < -1e-12) | (s > 1 + 1e-12)):
-        raise ValueError(f"s: wanted shares of the path in [0, 1], got {s.min():g} to {s.max():g}")
+        raise ValueError(
+            f"s: wanted fractions of the path in [0, 1], got {s.min():g} to {s.max():g}"
+        )
     return np.minimum(np.maximum(s, 0), 1)
 
 

@@ -2,9 +2,9 @@
 draws or checks it.
 
 Differences across a jump say nothing about the motion: the "acceleration" at a corner is the jump
-of the speed divided by the time step (errata S1-m), and the "speed" of a wrapped angle is 2 pi
-divided by it (S1-e). This module finds and reports both kinds of jump, and takes no difference
-across them.
+in speed divided by the time step (errata S1-m), and the "speed" of a wrapped angle is 2 pi divided
+by it (S1-e). This module finds and reports both kinds of jump, and computes no differences across
+them.
 """
 
 from collections.abc import Iterator
@@ -20,21 +20,22 @@ from ..arms.arm import Arm
 from ..arms.branches import SLACK
 from .derivatives import differentiate, rising
 
-LEAP = 0.002  # rad or m: a smaller change is never a jump of position
-FEW = 8  # with fewer changes of the speed the noise level is unknown
-# motion, first and last sample, time, values before and after, each (n,)
+LEAP = 0.002  # rad or m: a smaller change is never a jump in position
+FEW = 8  # with fewer changes in speed, the noise level is unknown
+# a jump: its motion, first and last sample and time, and the values before and after it (n,)
 Found: TypeAlias = tuple[int, int, int, float, Floats, Floats]
 
 
 @dataclass(frozen=True, eq=False)
 class Jump(Sealed):
-    """A jump of the joint values, or of the speeds, of one motion.
+    """A jump in the joint values, or in the speeds, of one motion.
 
-    motion         its index in the batch: `recording.q[jump.motion]` is the motion; () if single
-    first, last    the samples around the jump; equal if it is at a sample
-    time           of the jump in s: half-way between these samples
-    before, after  (n,) the values on both sides of it, extrapolated from the samples beside it: rad
-                   and m, for speeds per second; equal for the joints that do not jump
+    motion         the index of the motion in the batch, so that `recording.q[jump.motion]` is the
+                   motion; () for a single motion
+    first, last    the samples around the jump; equal if the jump is at a sample
+    time           the time of the jump in s: half-way between these samples
+    before, after  (n,) the values on both sides of the jump, extrapolated from the samples beside
+                   it, in rad or m, or per second for speeds; equal for joints that do not jump
     """
 
     motion: tuple[int, ...]
@@ -51,8 +52,8 @@ class Jump(Sealed):
 
 
 class Extreme(NamedTuple):
-    """The greatest (or lowest) value of each joint and the time in seconds of the first sample with
-    it: both (..., n). NaN for a joint without values.
+    """The greatest (or lowest) value of each joint, and the time in seconds of the first sample
+    that has it: both (..., n). NaN for a joint without values.
     """
 
     value: Floats
@@ -62,17 +63,17 @@ class Extreme(NamedTuple):
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class Recording(Sealed):
     """Motions of one arm with n joints and N samples each; the leading axes are the batch. `record`
-    makes it.
+    makes one.
 
     t        (N,) seconds
-    q, v, a  (..., N, n) joint values (rad; m if prismatic), speeds, accelerations. The whole q is
-             NaN where one of its joints is; v and a are NaN where there is none to show: in pieces
-             of less than three samples, and a at a jump of the speed.
-    missing  (..., N) bool: no posture here
+    q, v, a  (..., N, n) joint values (rad; m if prismatic), speeds, accelerations. All of q is
+             NaN where one of its joints is; v and a are NaN where they cannot be computed: in
+             pieces of fewer than three samples, and a also at a jump in speed.
+    missing  (..., N) bool: whether this sample has no posture
     gaps     (..., N - 1) bool: between this sample and the next the position jumps, or one of the
              two is missing
-    leaps    a `Jump` for each jump of position
-    jumps    a `Jump` for each jump of speed
+    leaps    a `Jump` for each jump in position
+    jumps    a `Jump` for each jump in speed
 
     `recording[i]` is a part of the batch. All arrays are read-only. If you have more exact speeds
     or accelerations than differences give, use `dataclasses.replace(recording, v=v)`. TypeError,
@@ -135,7 +136,7 @@ class Recording(Sealed):
     @cached_property
     def excess(self) -> Floats:
         """(..., N, n) how far each joint is past its limit, rad or m; 0 inside, NaN where missing.
-        Angles are not wrapped: q + 2 pi k may be inside (`within` tells).
+        Angles are not wrapped: q + 2 pi k may be inside (see `within`).
         """
         low, high = self.arm.limits.T
         return _excess(np.maximum(low - self.q, self.q - high))
@@ -171,7 +172,7 @@ class Recording(Sealed):
 
     def __len__(self) -> int:
         if not self.shape:
-            raise TypeError("one single Recording has no length")
+            raise TypeError("a single Recording has no length")
         return self.shape[0]
 
     def __iter__(self) -> Iterator["Recording"]:
@@ -179,7 +180,7 @@ class Recording(Sealed):
 
     def __getitem__(self, index: Any) -> "Recording":
         if not self.shape:
-            raise TypeError("one single Recording has no parts")
+            raise TypeError("a single Recording has no parts")
         chosen = np.arange(self.missing[..., 0].size).reshape(self.shape)[index]
         moved = {int(k): i for i, k in np.ndenumerate(chosen)}
 
@@ -202,19 +203,20 @@ class Recording(Sealed):
 def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
     """Return the `Recording` of the motion q (..., N, n) at two or more increasing times t (N,).
 
-    Pass unwrapped angles (`follow` returns such). NaN means that there is no posture. Speeds and
+    Pass unwrapped angles (as `follow` returns them). NaN means that there is no posture. Speeds and
     accelerations are those of `differentiate`, for each unbroken piece separately. A UserWarning if
-    the angles are probably in degrees: a motion begins more than two turns away and outside its
-    limits, or passes eight turns. ValueError: shapes that do not match, times that do not increase,
-    infinite numbers.
+    the angles are probably in degrees: a motion begins more than two turns from zero and outside
+    its limits, or goes beyond eight turns. ValueError: shapes that do not match, times that do not
+    increase, infinite numbers.
 
     A joint's position jumps between two samples if it turns by more than pi there, or if the speed
     of this step lies outside the range of the three steps before and the three after it (at a
     corner it lies between them) by more than 8 times the width of that range. Where some of these
-    steps are jumps themselves, the remaining similar ones are enough if the step is 3 times as fast
-    as they are; 10 times if only one side is known, at an end or beside a gap. A single outlying
-    sample has a jump before and a jump after it. A change below 2 mrad or 2 mm is not a jump, nor
-    is a change within the noise: 10 times the lower quartile of the motion's changes of speed.
+    steps are jumps themselves, the similar ones among them are enough if the step is 3 times as
+    fast as those, or 10 times if only one side is known, at an end or beside a gap. A single
+    outlying sample has a jump before and a jump after it. A change below 2 mrad or 2 mm is not a
+    jump, nor is a change within the noise: 10 times the lower quartile of the motion's changes in
+    speed.
 
     Samples cannot distinguish a jump from a motion that takes less than two steps: depending on
     where the samples fall, it counts as one or the other. Of the motions that we tried (point to
@@ -255,7 +257,7 @@ def record(arm: Arm, t: ArrayLike, q: ArrayLike) -> Recording:
 
 
 def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
-    """Which steps (C, N - 1, n) are jumps of position, by the rule of `record`."""
+    """Which steps (C, N - 1, n) are jumps in position, by the rule of `record`."""
     duration = np.diff(t)[:, None]
     least = LEAP / duration
     with np.errstate(invalid="ignore", over="ignore"):
@@ -263,7 +265,7 @@ def _parts(steps: Floats, t: Floats, prismatic: Bools) -> Bools:
         found = np.zeros(steps.shape, dtype=bool)
         sides = _shifted(speeds, -1), _shifted(speeds, 1)
         out = np.fmax(speeds - np.fmax(*sides), np.fmin(*sides) - speeds)
-        for c, j in np.argwhere((out > least).any(axis=1)):  # the others have none
+        for c, j in np.argwhere((out > least).any(axis=1)):  # no other joint jumps
             column = speeds[c : c + 1, :, j : j + 1]
             changes = abs(np.diff(column[0, :, 0]))
             changes = np.sort(changes[np.isfinite(changes)])
@@ -303,7 +305,9 @@ def _outside(speeds: Floats, left: int, right: int) -> Floats:
 
 
 def _leaps(q: Floats, t: Floats, speeds: Floats, parts: Bools) -> list[Found]:
-    """The jumps of position, half-way between two samples: both sides are extrapolated to there."""
+    """The jumps in position, half-way between two samples: both sides are extrapolated to that
+    time.
+    """
     c, i = np.nonzero(parts.any(axis=-1))
     half, count = (t[i + 1] - t[i])[:, None] / 2, speeds.shape[1]
 
@@ -338,7 +342,7 @@ def _derivatives(q: Floats, t: Floats, gaps: Bools) -> tuple[Floats, Floats]:
 
 
 def _jumps(speeds: Floats, t: Floats) -> list[Found]:
-    """The jumps of the speeds between samples (C, N - 1, n): changes far greater than the changes
+    """The jumps in the speeds between samples (C, N - 1, n): changes far greater than the changes
     beside them.
 
     The changes of a smooth motion are all about acceleration times step. We compare with those two
@@ -355,8 +359,8 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
     for c in np.flatnonzero(sure.any(axis=(1, 2))):
         for run in _groups(np.flatnonzero(sure[c].any(axis=-1))):
             first, last = run[0], run[-1]
-            # A corner between two samples shows in two changes, in one of them perhaps only
-            # faintly. (A certain jump always has two more changes on each side.)
+            # A corner between two samples appears in two changes, in one of them perhaps only
+            # faintly. (There are always two more changes on each side of a jump in `sure`.)
             first -= part[c, first - 1].any()
             last += part[c, last + 1].any()
             time = float((t[first + 1] + t[last + 1]) / 2)
@@ -370,7 +374,7 @@ def _jumps(speeds: Floats, t: Floats) -> list[Found]:
 
 
 def _towards(speeds: Floats, t: Floats, time: float, i: int, side: int) -> Floats:
-    """The speeds (n,) at `time`, extrapolated linearly from interval i and the next one on its
+    """The speeds (n,) at `time`, extrapolated linearly from interval i and the next one on that
     side.
     """
     here: Floats = speeds[i]
@@ -388,7 +392,7 @@ def _groups(numbers: Ints) -> list[Ints]:
 
 
 def _shifted(values: Floats, k: int) -> Floats:
-    """Shift values (C, m, n) so that entry i + k is at place i; NaN where there is none."""
+    """Shift values (C, m, n) so that entry i + k moves to index i; NaN where there is none."""
     out = np.full_like(values, np.nan)
     m = values.shape[1]
     if abs(k) < m:
@@ -416,7 +420,9 @@ def _extreme(values: Floats, t: Floats) -> Extreme:
 
 
 def _warn(limits: Floats, prismatic: Bools, q: Floats, missing: Bools) -> None:
-    """A motion may keep turning beyond all limits, but it begins inside or near them."""
+    """Warn if the angles are probably in degrees. A motion may keep turning beyond all limits, but
+    it begins inside or near them.
+    """
     begin = np.take_along_axis(q, missing.argmin(axis=1)[:, None, None], axis=1)[:, 0]
     outside = (begin < limits[:, 0]) | (begin > limits[:, 1])
     farthest = abs(np.where(outside & ~prismatic, begin, 0.0)).max(initial=0.0)

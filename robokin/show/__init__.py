@@ -13,7 +13,7 @@ try:
     from .sketch import Sketch
     from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:
-    install = "pip install '.[show]' at the top of a clone of robokin brings it"
+    install = "to install it, run pip install '.[show]' at the top of a clone of robokin"
     raise ImportError(f"robokin.show: {error}; {install}") from error
 
 __all__ = [

@@ -22,21 +22,21 @@ Targets: TypeAlias = Transform | Iterable[Transform] | Mapping[Any, Transform]
 
 
 def named_targets(targets: Targets) -> dict[str, Transform]:
-    """Return `targets` as a dict of name -> Transform. A list of one is called target, a list of
-    two start and goal, a list of three start, via and goal; more are numbered P1, P2, ...
-    TypeError: an item that is not a pose. ValueError: a batch of poses under one name.
+    """Return `targets` as a dict of name -> Transform. A single pose of a list is named target, two
+    are named start and goal, three start, via and goal, and more P1, P2, ... TypeError: an item
+    that is not a pose. ValueError: a batch of poses under one name.
     """
     named = posed(targets)
     for name, pose in named.items():
         if pose.shape:
             raise ValueError(
-                f"target {name}: wanted one single pose, got a batch of shape {pose.shape}"
+                f"target {name}: wanted a single pose, got a batch of shape {pose.shape}"
             )
     return named
 
 
 def posed(targets: Targets) -> dict[str, Transform]:
-    """As `named_targets`, but batches of poses are accepted."""
+    """Like `named_targets`, but batches of poses are accepted."""
     if isinstance(targets, Transform):
         targets = list(targets) if targets.shape else [targets]
     if isinstance(targets, Mapping):
@@ -59,8 +59,8 @@ def posed(targets: Targets) -> dict[str, Transform]:
 def tracks(
     arm: Any, t: Any, q: Any, lead: tuple[int, ...], names: Any
 ) -> tuple[list[Recording], list[str]]:
-    """Return a recording for each arm, with its motions in one row (C, N, n), and the names. The
-    caller may give one arm, several arms, or recordings.
+    """Return a recording for each arm, with its motions along one axis (C, N, n), and the names.
+    The caller may pass one arm, several arms, or recordings.
     """
     several = isinstance(arm, (list, tuple))
     given = list(arm) if several else [arm]
@@ -69,7 +69,7 @@ def tracks(
     if names is not None and not several:
         raise ValueError("names: wanted only with a list of arms; one arm has its own name")
     if recorded and (t is not None or q is not None):
-        raise ValueError("t and q: wanted none beside recordings, which have their own")
+        raise ValueError("t and q: wanted neither with recordings, which have their own")
     motions = [q] if not several else q if not recorded else [None] * len(arms)
     if not (arms and isinstance(motions, (list, tuple)) and len(motions) == len(arms)):
         wanted = f"a list with one array for each of {len(arms)} arms"
@@ -80,7 +80,7 @@ def tracks(
         if recorded:
             _shaped(track.q, lead, len(t), track.arm, f"recording of {name}")
             if not np.array_equal(track.t, t):
-                raise ValueError(f"recording of {name}: wanted the same times as of {named[0]}")
+                raise ValueError(f"recording of {name}: wanted the same times as for {named[0]}")
             tracks.append(_in_a_row(track))
         else:
             motion = floats(motion, f"q of {name}", finite=False)
@@ -98,7 +98,7 @@ def _names(names: Any, arms: Sequence[Arm]) -> list[str]:
 
 
 def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -> None:
-    """Check the shape: switch, slider, samples, joints."""
+    """Check that the axes of q are switch, slider, samples and joints."""
     wanted = (*lead, count, len(arm.limits))
     if q.shape != wanted:
         axes = ", ".join(["switch", "slider", "samples", "joints"][2 - len(lead) :])
@@ -106,7 +106,7 @@ def _shaped(q: Floats, lead: tuple[int, ...], count: int, arm: Arm, name: str) -
 
 
 def _in_a_row(recording: Recording) -> Recording:
-    """The same recording with its motions in one row: (C, N, n)."""
+    """The same recording with its motions along one axis: (C, N, n)."""
     lead = recording.shape
 
     def placed(jumps: Iterable[Jump]) -> tuple[Jump, ...]:
@@ -136,7 +136,7 @@ def slider(value: Any) -> Slider | None:
     if values.ndim != 1 or len(values) < 2:
         raise ValueError(f"slider values: wanted at least two numbers, got shape {values.shape}")
     if (values[1:] <= values[:-1]).any():
-        raise ValueError("slider values: wanted rising numbers")
+        raise ValueError("slider values: wanted increasing numbers")
     decimals = next(
         (d for d in range(6) if np.allclose(values, values.round(d), rtol=0, atol=1e-9)), 6
     )
@@ -156,8 +156,8 @@ def switch(value: Any) -> Switch | None:
 def things(
     targets: Targets, points: Any, circles: Any, faces: Any, readings: Any, more: Any
 ) -> list[Thing]:
-    """The things that the arguments of `animate` describe, and `more` of any kind. TypeError: one
-    of them is not a `Thing`.
+    """The things that the arguments of `animate` describe, and `more` things of any kind.
+    TypeError: one of those is not a `Thing`.
     """
     polygons = Faces(faces)
     found: list[Thing] = [Target(pose, name) for name, pose in posed(targets).items()]

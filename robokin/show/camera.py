@@ -1,4 +1,5 @@
-"""The camera of figures and pages: where it is, and what it must see of arms and things.
+"""The camera of figures and pages: its position, and the points of arms and things that it must
+see.
 
 `project` returns metres in the picture. `scene.Scene._fit` and matplotlib convert them to pixels;
 in a page `js/camera.js` does.
@@ -25,15 +26,15 @@ from .twin import PageLink
 View: TypeAlias = tuple[float, float]
 
 VIEW = -60 * deg, 22 * deg  # azimuth and elevation of the camera in a spatial view
-SPECK = 1e-3  # metres: the smallest arm that can be drawn
-# views perpendicular to the planes x = 0, y = 0 and z = 0
+SPECK = 1e-3  # metres: the length of the smallest arm that can be drawn
+# Views perpendicular to the planes x = 0, y = 0 and z = 0
 STRAIGHT: tuple[View, ...] = (0, 0), (-90 * deg, 0), (-90 * deg, 90 * deg)
 
 
 def project(points: ArrayLike, view: View = VIEW) -> Floats:
-    """Parallel projection of points (..., 3) onto the picture: (..., 2) in metres, to the right and
-    up. `view` is the azimuth about the base's z axis, from its x axis, and the elevation, in
-    radians.
+    """The parallel projection of points (..., 3) onto the picture: (..., 2) in metres, to the right
+    and up. `view` is the azimuth about the base's z axis, measured from its x axis, and the
+    elevation, in radians.
     """
     (ca, ce), (sa, se) = np.cos(view), np.sin(view)
     across: Floats = np.asarray(points) @ np.array([[-sa, -se * ca], [ca, -se * sa], [0, ce]])
@@ -41,15 +42,16 @@ def project(points: ArrayLike, view: View = VIEW) -> Floats:
 
 
 def posture(arm: Arm, q: Floats) -> Floats:
-    """The same postures q (..., n) within two turns. A motion that keeps turning (`follow` returns
-    such) is not a mistake, so it must not cause the warning about degrees.
+    """The same postures q (..., n), with angles beyond two turns wrapped. A motion that keeps
+    turning (`follow` returns such motions) is not a mistake, so it must not cause the warning about
+    degrees.
     """
     far = (abs(q) > TWO_TURNS) & ~arm.prismatic
     return np.where(far, wrapped(q), q) if far.any() else q
 
 
 def arm_points(arm: Arm, q: Floats) -> Floats:
-    """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange: q (..., n) ->
+    """The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. q (..., n) ->
     (..., 2n + 1, 3).
 
     Joint i is at index 2i + 1 (i from 0); the ends of the links are the origins of `arm.frames`.
@@ -62,7 +64,7 @@ def arm_points(arm: Arm, q: Floats) -> Floats:
 
 
 def flange(arm: Arm, q: Floats) -> Transform:
-    """The flange at q (..., n), for angles of any size."""
+    """The pose of the flange at q (..., n), for angles of any size."""
     return arm.fk(posture(arm, q))
 
 
@@ -78,7 +80,7 @@ def extent(arm: Arm) -> float:
 
 
 def is_flat(arm: Arm, q: Floats) -> bool:
-    """Whether these postures lie in the plane z = 0, so that a view from above shows more."""
+    """Whether these postures lie in the plane z = 0, so that a view from above is the clearest."""
     return bool(np.nanmax(abs(arm_points(arm, q)[..., 2]), initial=0) < 1e-6 * extent(arm))
 
 
@@ -96,8 +98,8 @@ def scene_data(
     grows: bool = False,
     bases: Floats | None = None,
 ) -> PageScene:
-    """The camera, the points that it must see, the floor and the things in the space. `kept` are
-    the samples of moving things that the page gets. A `solid` floor is at height 0.
+    """The page data of a scene: the camera, the points that it must see, the floor and the things.
+    `kept` are the samples of moving things that the page gets. A `solid` floor is at height 0.
     """
     flat, foot = common_plane(arms), 0.08 * size * np.array([[-1], [1]])
     feet = standing(bases, len(arms))
@@ -147,11 +149,12 @@ def outermost(points: Floats) -> list[list[float]]:
     """About fifty points (k, 3) that a camera must see: those farthest out in evenly spread
     directions.
 
-    They are rounded first, so that the choice between two equal ones does not depend on noise.
+    They are rounded first, so that the choice between two equal ones does not depend on rounding
+    errors.
     """
     points = np.floor(points[np.isfinite(points).all(axis=-1)] * 200 + 0.5 + TIE).astype(np.int64)
     x, y, z = (points - points.min(axis=0)).T
-    # One number for each place sorts a hundred times faster than rows.
+    # Sorting one number per point is a hundred times faster than sorting rows.
     points = points[np.unique((x << 40) + (y << 20) + z, return_index=True)[1]] / 200
     k = np.arange(100) + 0.5
     z, turn = 1 - 2 * k / 100, k * np.pi * (1 + 5**0.5)
@@ -163,8 +166,8 @@ def outermost(points: Floats) -> list[list[float]]:
 
 
 def best_view(tools: Floats, flat: int | None) -> View:
-    """Azimuth and elevation of the camera: perpendicular to a plane, otherwise from where the
-    tool's path looks widest, on the tool's side of the base.
+    """Azimuth and elevation of the camera: perpendicular to the plane of a flat scene, otherwise
+    from where the tool's path looks widest, on the tool's side of the base.
     """
     if flat is not None:
         return STRAIGHT[flat]
@@ -181,7 +184,7 @@ def best_view(tools: Floats, flat: int | None) -> View:
         )
         toward = centre @ [np.cos(azimuth), np.sin(azimuth), 0]
         area *= 1 + 0.3 * np.tanh(5 * toward / (np.linalg.norm(centre) + 1e-9))
-        if area > 1.05 * most:  # the small margin keeps noise from deciding between two equal ones
+        if area > 1.05 * most:  # with this margin noise cannot decide between two equal views
             best, most = (azimuth, VIEW[1]), area
     return best
 
@@ -201,7 +204,7 @@ def common_plane(arms: Sequence[Arm]) -> int | None:
 
 
 def chain(links: Iterable[Link]) -> list[PageLink]:
-    """The links of an arm as the page gets them."""
+    """The page data of an arm's links."""
     return [
         {
             "before": matrix(link.before),
@@ -214,5 +217,5 @@ def chain(links: Iterable[Link]) -> list[PageLink]:
 
 
 def matrix(pose: Transform) -> list[float]:
-    """The upper three rows of the homogeneous matrix, one after the other."""
+    """The upper three rows of the homogeneous matrix, one after the other in one list."""
     return rounded(pose.as_matrix()[:3])

@@ -1,4 +1,4 @@
-"""Checks of what a caller gives a figure, a player or a thing in a scene."""
+"""Checks of the arguments of figures, players and things in a scene."""
 
 import itertools
 from collections.abc import Iterable
@@ -10,11 +10,11 @@ from .._arrays import Floats
 from .._validate import short, text
 
 HORIZON = 1e9  # metres: nothing in a picture is farther away
-LONGEST = 2000  # characters of a title or a name
+LONGEST = 2000  # maximum number of characters in a title or a name
 
 
 def in_sight(lengths: Floats, name: str) -> Floats:
-    """Return lengths (...) in metres if a figure can hold them; else ValueError. NaN passes."""
+    """Return lengths (...) in metres if a figure can show them, NaN included; else ValueError."""
     if (abs(lengths) > HORIZON).any():
         raise ValueError(f"{name}: wanted at most {HORIZON:g} m, got {np.nanmax(abs(lengths)):g} m")
     return lengths
@@ -24,7 +24,7 @@ def several(
     value: Any, name: str, what: str, most: int = 100, error: type[Exception] = ValueError
 ) -> list[Any]:
     """Return the items of `value` if it is a list or another iterable; else raise `error`, which
-    says that `what` was wanted. ValueError: more items than a figure has room for.
+    says that `what` was wanted. ValueError: there are more than `most` items.
     """
     alone = isinstance(value, (str, bytes)) or (isinstance(value, np.ndarray) and not value.ndim)
     if alone or not isinstance(value, Iterable):
@@ -44,8 +44,8 @@ def yes(value: Any, name: str) -> bool:
 
 def plain(value: Any, name: str) -> str:
     """Return `value` if it is text for a figure or a page; else ValueError. Lone surrogates, which
-    no file can hold, become the replacement character.
+    cannot be saved in a file, are replaced by U+FFFD.
     """
     if len(text(value, name)) > LONGEST:
-        raise ValueError(f"{name}: wanted at most {LONGEST} letters, got {len(value)}")
+        raise ValueError(f"{name}: wanted at most {LONGEST} characters, got {len(value)}")
     return str(value).encode("utf-16", "surrogatepass").decode("utf-16", "replace")

@@ -10,12 +10,13 @@ from .._validate import warn_if_degrees
 from ..arms.arm import Arm
 from ..arms.dexterity import velocity_ellipsoid
 from ..units import length_unit
+from . import layers
 from .camera import arm_points, extent, flange, is_flat
 from .palette import ALARM, INK, TRACE
 from .plots import Figure, _samples, _sentence, _words
 from .scene import Scene, number
 
-MOST = 3  # postures side by side
+MOST = 3  # maximum number of postures side by side
 MARK = 0.16  # half the length of the line along a nearly lost direction, in arm lengths
 ROUND = np.linspace(0, 2 * np.pi, 73)
 
@@ -28,8 +29,9 @@ def plot_velocity_ellipsoid(
     (The tool of an arm with up to three joints may rotate.)
 
     All panels have the same scales for lengths and velocities. The semi-axes are labelled with
-    their speeds. One shorter than a twentieth of the longest has a dashed red line: the tool hardly
-    moves in that direction. `robokin.arms.dexterity.velocity_ellipsoid` returns the numbers.
+    their speeds. A semi-axis shorter than a twentieth of the longest is marked by a dashed red
+    line: the tool hardly moves in that direction. `robokin.arms.dexterity.velocity_ellipsoid`
+    returns the numbers.
 
     ValueError: more than three postures, or a posture with NaN.
     """
@@ -66,11 +68,17 @@ def plot_velocity_ellipsoid(
         _ellipsoid(scene, tool[i], drawn * axes[i])
         for k, way in enumerate(_ways(axes[i]).T):
             tip = tool[i] + drawn * axes[i, :, k]
-            seen_as = np.linalg.norm(scene.project(way))  # zero, if it is perpendicular to a plane
+            seen_as = np.linalg.norm(scene.project(way))  # zero if it points at the camera
             if seen_as > 1e-9 and lengths[i, k] < longest / 20:
                 tip = tool[i] + MARK * size * way
                 ends = [tool[i] - MARK * size * way, tip]
-                scene.line(ends, color=ALARM, linewidth=1.4, linestyle=(0, (4, 2)), zorder=6.5)
+                scene.line(
+                    ends,
+                    color=ALARM,
+                    linewidth=1.4,
+                    linestyle=(0, (4, 2)),
+                    zorder=layers.PATH + 0.5,
+                )
                 scene.label(words[i][k], tip, ALARM)
             elif lengths[i, k] > 0:
                 scene.label(words[i][k], tip, TRACE)
@@ -80,8 +88,8 @@ def plot_velocity_ellipsoid(
 
 
 def _ways(axes: Floats) -> Floats:
-    """The directions of the semi-axes (3, k), also of a zero one if the other two are not zero; NaN
-    where the direction is undefined.
+    """The directions of the semi-axes (3, k), including that of a zero semi-axis if the other two
+    are not zero; NaN where the direction is undefined.
     """
     lengths = np.linalg.norm(axes, axis=0)
     there = lengths > 1e-9 * lengths.max()
@@ -94,22 +102,31 @@ def _ways(axes: Floats) -> Floats:
 
 
 def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
-    """Draw its filled outline, the three ellipses through pairs of its semi-axes (3, 3), and the
-    semi-axes.
+    """Draw an ellipsoid: its filled outline, the three ellipses through pairs of its semi-axes (3,
+    3), and the semi-axes.
     """
-    flat = scene.project(axes.T).T  # (2, 3)
+    flat = scene.project(axes.T).T  # shape (2, 3)
     ways, lengths, _ = np.linalg.svd(flat, full_matrices=False)
     ring = (ways * lengths) @ np.stack([np.cos(ROUND), np.sin(ROUND)])
     outline = (scene.project(centre)[:, None] + ring).T
     scene.drawn.append((outline, 1))  # labels avoid it
     scene.ax.add_patch(
-        Polygon(outline, facecolor=TRACE, edgecolor=TRACE, alpha=0.18, linewidth=1.2, zorder=5.5)
+        Polygon(
+            outline,
+            facecolor=TRACE,
+            edgecolor=TRACE,
+            alpha=0.18,
+            linewidth=1.2,
+            zorder=layers.LAST + 0.5,
+        )
     )
     for a, b in ((0, 1), (1, 2), (0, 2)):
         ellipse = np.outer(np.cos(ROUND), axes[:, a]) + np.outer(np.sin(ROUND), axes[:, b])
-        scene.line(centre + ellipse, corner=False, color=TRACE, linewidth=0.7, zorder=5.6)
+        scene.line(
+            centre + ellipse, corner=False, color=TRACE, linewidth=0.7, zorder=layers.LAST + 0.6
+        )
     for axis in axes.T:
-        scene.line([centre - axis, centre + axis], color=TRACE, linewidth=1.8, zorder=7)
+        scene.line([centre - axis, centre + axis], color=TRACE, linewidth=1.8, zorder=layers.FRAMES)
 
 
 def _alt(arm: Arm, title: str | None, words: list[list[str]]) -> str:

@@ -94,8 +94,8 @@ class Explorer(Output):
 
 
 def inverted(arm: ClosedFormArm) -> None:
-    """Return the arm. TypeError: an arm without an inverse, or with one that the scripts do not
-    know.
+    """Check that the scripts know the inverse of an arm. TypeError: it has none, or one that they
+    do not know.
     """
     kind = type(instance(arm, ClosedFormArm, "arm").geometry)
     if kind not in KINDS:
@@ -120,7 +120,7 @@ def pose_data(pose: Pose) -> PagePose:
 
 
 def flags(arm: ClosedFormArm, k: int) -> str:
-    """The name of branch k."""
+    """The name of branch k: its number and its flags."""
     flags = " ".join(f"{flag:+d}" for flag in arm.branches[k]).replace("-", "\N{MINUS SIGN}")
     return f"{k}: {flags}"
 
@@ -160,7 +160,7 @@ def arm_page(
 
 def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageScene:
     """A scene that shows the opening postures (k, n) and those near them, above the floor. The page
-    zooms out for anything that leaves it.
+    zooms out for anything that leaves the picture.
     """
     flat = common_plane([arm]) is not None
     turn = np.where(arm.prismatic, 0.03 * extent(arm), (40 if flat else 20) * deg)
@@ -178,7 +178,7 @@ def _scene(arm: Arm, posed: Mapping[str, Transform], opening: Floats) -> PageSce
 def control(
     name: str, unit: str, low: float, high: float, step: float, decimals: int | None = None
 ) -> Control:
-    """A slider. By default its values have one decimal, or three for metres."""
+    """A slider. By default its values have one decimal, or three in metres."""
     default = 3 if unit == "m" else 1
     ends = [float(np.round(x, 9)) for x in (low, high)]
     return {
@@ -237,7 +237,7 @@ def picture(
     targets: Mapping[str, Transform] | None = None,
     frames: Sequence[Transform] = (),
 ) -> plots.Figure:
-    """Draw one posture strongly and the others faintly."""
+    """Draw one posture boldly and the others faintly."""
     fig = plots.figure(alt, width=6.4, height=4.5)
     scene = Scene(fig.add_axes((0, 0, 1, 1)), size=extent(arm))
     scene.base()

@@ -1,8 +1,8 @@
 """Explorers: an arm in a page that the reader can move, without a kernel.
 
 In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
-every branch of `ik` with its verdict. The page computes with the scripts in `js/`; `twin.py` has
-their data of an arm. The reasons why a row of `ik` does not exist or cannot be used are in
+every branch of `ik` with its verdict. The page computes with the scripts in `js/`; `twin.py`
+prepares the data of the arm. The reasons why a row of `ik` does not exist or cannot be used are in
 `arms/verdicts.py`, all other words in `explorer.WORDS`.
 """
 
@@ -103,14 +103,14 @@ def joint_explorer(arm: Arm, q: ArrayLike | None = None) -> "Explorer":
 
 def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     """Show a target with rings and arrows to drag it, and every branch of `ik`, the chosen one
-    drawn strongly, with a row in a table for each. A click on a row chooses the branch. The menu
-    can do that too, or select the usable branch nearest to the last posture.
+    drawn boldly, with a row in a table for each. A click on a row chooses the branch. The menu can
+    do that too, or select the usable branch nearest to the last posture.
 
     The target of a six-axis arm is a position with roll, pitch and yaw as in `joint_explorer`; of a
     SCARA, a position and the tool's angle; of a positioning arm, a position. For three levers it
-    shows the position, the free angle alpha, the curve of the cost to get there from the previous
-    posture, and, for unequal levers, their lengths. TypeError: an arm without an inverse or a
-    family of postures.
+    shows the position, the free angle alpha, the curve of the cost of getting there from the
+    previous posture, and, for unequal levers, their lengths. TypeError: an arm with neither an
+    inverse nor a family of postures.
     """
     if isinstance(arm, ThreeLeverArm):
         return levers_explorer(arm)
@@ -162,7 +162,7 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
             "verdict",
             *(f"q{i + 1} {unit['name']}" for i, unit in enumerate(units(arm))),
             "distance from singularity",
-            # angles only: the stroke is the same in every row
+            # angles only: a stroke is the same in every row
             "travel, °" if whole else f"travel of {', '.join(f'q{j + 1}' for j in turning)}, °",
         ],
         "turning": turning.tolist(),
@@ -174,16 +174,15 @@ def target_explorer(arm: ClosedFormArm | ThreeLeverArm) -> "Explorer":
     return Explorer(data, still)
 
 
-# --- The opening posture and target
-# -------------------------------------------------------------------------------
+# --- The opening posture and target ---------------------------------------------------------------
 
 
 def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
-    """A target with most branches usable, far from singularities, in front of the arm and above the
-    floor. (If there is none, the one at the middle of all limits.)
+    """A target with as many usable branches as possible, far from singularities, in front of the
+    arm and above the floor. (If there is none, the one at the middle of all limits.)
 
-    Returns the position (3,), the rotations in radians, and the posture (n,) behind it, all in
-    round numbers.
+    Returns the position (3,) and the rotations in radians, in round numbers, and a posture (n,)
+    that reaches it.
     """
     middle, size = arm.limits.mean(axis=-1), extent(arm)
     best, most = (arm.fk(middle).translation, _turned(arm, arm.fk(middle)), middle), -1.0
@@ -198,7 +197,7 @@ def _showcase(arm: ClosedFormArm) -> tuple[Floats, Floats, Floats]:
         usable = np.all(within(arm, rows), axis=-1)
         if usable.any():
             near = np.nanmin(distance_from_singularity(arm, rows))
-            # singular ones last: there two branches coincide, and a small step further none exists
+            # singular targets last: two branches coincide there, and both vanish a step further
             score = (usable.sum() if near > 0.03 else 0) + float(np.round(near, 6))
             if score > most:
                 best = place, turns, nearest(arm, rows[usable], np.zeros(len(arm.links)))
@@ -227,7 +226,7 @@ def _turns(arm: Arm) -> tuple[str, ...]:
 
 
 def _asked(arm: Arm, place: Floats, turns: Floats) -> Pose:
-    """The target with its position (3,) and its rotations in radians."""
+    """The target with this position (3,) and these rotations in radians."""
     if arm.target is ScaraPose:
         return ScaraPose(place, turns[0])
     if arm.target is Transform:

@@ -18,15 +18,15 @@ from .scene import Scene
 from .things import Thing
 
 WIDTH = 640  # pixels
-RATE, FRAMES = 12, 120  # greatest number of frames per second, and in total
+RATE, FRAMES = 12, 120  # maximum number of frames: per second, and in total
 BYTES = 3_000_000  # small enough for an e-mail
 COLOURS = 64
-TRACED = 1001  # points in the path of a tool
+TRACED = 1001  # maximum number of points in a tool's path
 
 
 class Film:
-    """The first motion of a player, which is the one that it opens with. Fixed things are drawn
-    once; only arms and moving things are drawn for each frame.
+    """A film of the first motion of a player, the one that it opens with. Fixed things are drawn
+    once; only arms and moving things, with their labels, are drawn for each frame.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class Film:
         self.page, self.title, self.bases = page, title, bases
 
     def gif(self) -> bytes:
-        """Return the film as a GIF that repeats for ever. ValueError: it would exceed 3 MB."""
+        """Return the film as a GIF that repeats forever. ValueError: it is larger than 3 MB."""
         seconds = float(self.t[-1] - self.t[0])
         count = max(2, min(FRAMES, int(seconds * RATE) + 1))
         times = np.linspace(self.t[0], self.t[-1], count)
@@ -52,7 +52,7 @@ class Film:
         first, *others = (
             frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in shown
         )
-        ends = np.round(100 * seconds / (count - 1) * np.arange(count)).astype(int)  # whole 1/100 s
+        ends = np.round(100 * seconds / (count - 1) * np.arange(count)).astype(int)  # in 1/100 s
         lasts = [*(10 * np.maximum(np.diff(ends), 2)), 1000]  # ms; the last frame stays longer
         file = io.BytesIO()
         more: Any = {"append_images": others, "duration": lasts, "comment": MARK.encode()}
@@ -66,7 +66,7 @@ class Film:
         return file.getvalue()
 
     def _frames(self, at: Ints) -> Iterator[Floats]:
-        """The pictures (height, width, 3) at these samples."""
+        """Yield the pictures (height, width, 3) at these samples."""
         count = 1 if self.bases is not None else len(self.motions)
         figure = plots.figure(self.title, width=4.5 * count if count > 1 else 6.4, height=4.5)
         figure.set_dpi(WIDTH / figure.get_figwidth())
@@ -87,11 +87,13 @@ class Film:
             canvas.restore_region(behind)
             for scene, own in scenes:
                 before = list(scene.ax.get_children())
+                fixed = [*scene.drawn], [*scene.labels], [*scene.boxes]
                 self._moving(scene, [(*self.motions[i], feet[i]) for i in own], sample)
                 new = [each for each in scene.ax.get_children() if each not in before]
                 for artist in sorted(new, key=lambda each: each.get_zorder()):
                     scene.ax.draw_artist(artist)
                     artist.remove()
+                scene.drawn, scene.labels, scene.boxes = fixed
             yield np.array(canvas.buffer_rgba())[..., :3]
 
     def _still(self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]]) -> None:
@@ -108,10 +110,11 @@ class Film:
     def _moving(
         self, scene: Scene, arms: Sequence[tuple[Arm, Floats, Floats]], sample: int
     ) -> None:
-        """Draw what moves, at one sample."""
+        """Draw the arms and the moving things, with their labels, at one sample."""
         for arm, q, base in arms:
             scene.arm(arm, q[sample], "last", base)
             scene.triad(Transform(translation=base) @ flange(arm, q[sample]), width=2.4)
         for thing in self.things:
             if thing.moves:
                 thing.draw(scene, sample)
+        scene.place_labels()

@@ -1,4 +1,4 @@
-"""Findings in recorded motions for the words beside their curves: greatest values, the distance to
+"""Findings in recorded motions, for the words beside their curves: greatest values, the distance to
 a via point, jumps and gaps, and a summary in one sentence.
 """
 
@@ -43,8 +43,8 @@ def greatest(track: Recording, units: Floats, length: str, decimals: Sequence[in
 
 
 def sampled(t: Floats) -> str:
-    """Say from which samples the greatest values come, since they do not show values between
-    samples.
+    """Say from which samples the greatest values come, since values between the samples are not
+    included.
     """
     least, most = np.diff(t).min(), np.diff(t).max()
     apart = "every" if most - least < 1e-3 * most else "at most"
@@ -91,7 +91,7 @@ def flaws(track: Recording, kept: Ints, units: Floats, length: str) -> Flaws:
 
     def amount(value: float, j: int, per: str = "") -> str:
         space, value = "" if not arm.prismatic[j] and not per else " ", abs(value) / units[j]
-        # One decimal, or two significant digits.
+        # One decimal or, for small values, two significant digits.
         decimals = int(np.clip(1 - np.floor(np.log10(value * (1 + TIE) or 1)), 1, 9))
         unit = length if arm.prismatic[j] else "°"
         return f"{tidy(value, decimals):.{decimals}f}{space}{unit}{per}"

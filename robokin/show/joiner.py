@@ -17,27 +17,28 @@ IMPORT = re.compile(r'import\s*\{\s*([\w$]+(?:,\s*[\w$]+)*),?\s*\}\s*from\s*"\./
 EXPORT = re.compile(r"export\s+((?:async\s+)?function|const|class)\s+([\w$]+)")
 
 BLANK = re.compile(r"(?:\s|//.*|/\*[\s\S]*?\*/)+")
-TEMPLATE = re.compile(r"[`}](?:[^`\\$]|\\[\s\S]|\$(?!\{))*(?:`|\$\{)")  # to its end or its next ${
+TEMPLATE = re.compile(r"[`}](?:[^`\\$]|\\[\s\S]|\$(?!\{))*(?:`|\$\{)")  # up to its end or next ${
 REGULAR = re.compile(r"/(?![*/])(?:[^/\\\[\n]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/\w*")
 OTHER = re.compile(r"""[\w$]+|"(?:[^"\\\n]|\\[\s\S])*"|'(?:[^'\\\n]|\\[\s\S])*'|(?!/\*)[^"'`]""")
-VALUE = re.compile(r"""[\w$)\]}"'`]""")  # after it a slash divides
+VALUE = re.compile(r"""[\w$)\]}"'`]""")  # a slash after one of these divides
 NO_VALUES = {"return", "typeof", "case", "in", "delete", "void", "throw", "else", "do", "await"}
 CSS_BLANK = re.compile(r"\s*(?:/\*[\s\S]*?\*/\s*)+|\s+")
-CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # blanks beside it have no meaning
+CSS_SIGN = re.compile(r" ?([{};,>]) ?|(?<=[\w-])(:) ")  # spaces beside these have no meaning
 CSS_LINE = re.compile(r"(.{160,}?[{};])(?!\})")
-NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a blank two tokens would merge
+NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a space the two tokens would merge
 
 
-@cache  # a lab has about twenty outputs
+@cache  # since a lab has about twenty outputs
 def script(name: str) -> str:
     """Return the module `name` of the folder js and all its imports, each once and in its own
     scope, as one script in which `$name` holds its exports. `call` in `player.Output` and
-    `explorer.Explorer` names the module of an output. Comments and unnecessary blanks are removed,
-    and the lines are long, because each line costs ten more bytes in a notebook. A line ends only
-    after `;`, `,` or a brace, so every statement of a module must end with `;` or a brace.
+    `explorer.Explorer` names the module of an output. Comments and unnecessary whitespace are
+    removed, and the lines are long, because every additional line costs ten bytes in a notebook. A
+    line ends only after `;`, `,` or a brace, so every statement of a module must end with `;` or a
+    brace.
 
     ValueError: an import or an export with a form other than `import {a, b} from "./x.js";` and
-    `export function`, `const` or `class`; a comment or a literal that does not end.
+    `export function`, `const` or `class`; a comment or a literal that is not closed.
     """
     return "\n".join(_modules(name).values())
 
@@ -54,14 +55,14 @@ def compressed(name: str) -> tuple[str, str]:
         f"sheet.textContent = {sheet};\ndocument.head.append(sheet);\n"
         f"{script(name)}\nreturn ${name};"
     ).encode()
-    # The hash is of the text, because another zlib compresses the same text to different bytes.
+    # The text is hashed, because another zlib may compress the same text to different bytes.
     return hashlib.sha256(text).hexdigest()[:12], base64.b64encode(zlib.compress(text, 9)).decode()
 
 
 @cache
 def style(name: str) -> str:
     """Return the style sheets x.css of all modules x in `script(name)`, in the same order: the
-    sheet of a module follows those of its imports. Comments and unnecessary blanks are removed.
+    sheet of a module follows those of its imports. Comments and unnecessary whitespace are removed.
     """
     sheets = [files(__package__).joinpath("js", f"{module}.css") for module in _modules(name)]
     text = "\n".join(sheet.read_text(encoding="utf-8") for sheet in sheets if sheet.is_file())
@@ -70,23 +71,23 @@ def style(name: str) -> str:
 
 
 def _modules(name: str) -> dict[str, str]:
-    """Return the scripts of all modules that `name` needs, ending with itself."""
+    """Return the scripts of all modules that `name` needs; its own is the last one."""
     modules: dict[str, str] = {}
     _add(modules, name, (), f"{name}.js")
     return modules
 
 
 def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: str) -> None:
-    """Add `name` after its imports."""
+    """Add the script of `name` to `modules`, after the scripts of its imports."""
     file = files(__package__).joinpath("js", f"{name}.js")
     if name in importers or not file.is_file():
         raise ValueError(f"{place}: there is no module {name}.js, or it imports itself")
     text = file.read_text(encoding="utf-8")
     exports: list[str] = []
-    pieces: list[tuple[str, str]] = []  # tokens with the blank before each
+    pieces: list[tuple[str, str]] = []  # each token, and the whitespace before it
     before, end = ";", 0
     for token, at in _tokens(text, name):
-        if at < end:  # a part of an import
+        if at < end:  # part of an import
             continue
         begins = before in (";", "}")
         if begins and token == "export":
@@ -103,7 +104,7 @@ def _add(modules: dict[str, str], name: str, importers: tuple[str, ...], place: 
             if not found:
                 wrong, ends, _ = text[at:].partition(";")
                 if not ends:
-                    raise ValueError(f"{_place(text, len(text), name)}: an import does not end")
+                    raise ValueError(f"{_place(text, len(text), name)}: an import has no semicolon")
                 wrong, place = short(" ".join(wrong.split())), _place(text, at, name)
                 raise ValueError(f"{place}: wanted an import of names, got {wrong}")
             if found[2] not in modules:
@@ -121,7 +122,7 @@ def _laid(pieces: list[tuple[str, str]]) -> str:
     """
     lines, before, depth = [""], "", 0
     for token, gap in pieces:
-        begins = "\n" in gap and before in (";", "{", "}") and token != "}"  # a statement
+        begins = "\n" in gap and before in (";", "{", "}") and token != "}"  # a new statement
         width = len(lines[-1])
         if begins and (not depth or width > 100) or width > 200 and before in (";", "{", ","):
             lines.append("")
@@ -134,11 +135,11 @@ def _laid(pieces: list[tuple[str, str]]) -> str:
 
 
 def _tokens(text: str, name: str) -> Iterator[tuple[str, int]]:
-    """Yield words, signs and literals with their positions, without comments and blanks. Each part
-    of a template literal between expressions is one token, with its quotes or braces.
+    """Yield words, symbols and literals with their positions, without comments and whitespace. Each
+    part of a template literal between expressions is one token, with its quotes or braces.
     """
     at, before = 0, ""
-    braces: list[str] = []  # the open ones: "{", or "${" in a template
+    braces: list[str] = []  # the open braces: "{", or "${" in a template
     while at < len(text):
         blank = BLANK.match(text, at)
         if blank:
@@ -154,7 +155,7 @@ def _tokens(text: str, name: str) -> Iterator[tuple[str, int]]:
         if not found:
             wrong = short(text[at:].splitlines()[0])
             raise ValueError(
-                f"{_place(text, at, name)}: a comment or a literal does not end: {wrong}"
+                f"{_place(text, at, name)}: a comment or a literal is not closed: {wrong}"
             )
         before = found[0]
         yield before, at
@@ -164,7 +165,7 @@ def _tokens(text: str, name: str) -> Iterator[tuple[str, int]]:
         if before[-1] == "{":
             braces.append(before[-2:])
     if braces:
-        raise ValueError(f"{_place(text, at, name)}: a brace does not end")
+        raise ValueError(f"{_place(text, at, name)}: a brace is not closed")
 
 
 def _place(text: str, at: int, name: str) -> str:

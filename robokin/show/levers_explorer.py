@@ -1,4 +1,4 @@
-"""The explorer of an arm that reaches a point in a family of postures."""
+"""The explorer of an arm that reaches a point with a family of postures."""
 
 import numpy as np
 

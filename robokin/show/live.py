@@ -1,9 +1,9 @@
 """Views that need a kernel: the page draws, and Python answers its questions.
 
 A view is an `explorer.Explorer` whose script (`js/live.js`) sends questions. It stores the first
-answer, with which it is drawn without a kernel: in a saved notebook, in an exported page and on
-paper. Then it is asleep, and says so. A widget without a view of its own wakes it: its model finds
-the view in the page. So a page without a kernel lacks nothing that is stored.
+answer, from which it is drawn without a kernel: in a saved notebook, in an exported page and in
+print. It is then asleep, and says so. A widget without a view of its own wakes it: the model of the
+widget finds the view in the page. A page without a kernel therefore lacks nothing that is stored.
 """
 
 import base64
@@ -36,10 +36,10 @@ class Live(Explorer):
     where it is asleep.
 
     data    a `page.PlanPage` or `TourPage` without `first` and without the words of this module
-    still   as in every `Explorer`
+    still   the still picture, as in every `Explorer`
     first   the question with which it opens; its answer is stored
-    answer  a function: question (JSON values) -> answer, a dict of JSON values and arrays with
-            TYPES. It is called at every move of the pointer, in its own thread
+    answer  a function: question (JSON values) -> answer, a dict of JSON values and arrays of
+            the TYPES. It is called at every move of the pointer, in its own thread
     """
 
     def __init__(
@@ -97,11 +97,11 @@ def stored(content: Any, buffers: list[bytes]) -> Any:
 
 # --- The widget -----------------------------------------------------------------------------------
 
-_awake: dict[str, Any] = {}  # by view: a cell that runs again replaces its widget
+_awake: dict[str, Any] = {}  # view -> widget: a cell that runs again replaces its widget
 
 
 def _wake(place: str, answer: Callable[[Question], Answer]) -> None:
-    """Answer this view of the page from now on."""
+    """Answer the questions of this view of the page from now on."""
 
     def reply(model: Any, message: Any, _: Any) -> None:
         try:

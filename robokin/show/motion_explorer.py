@@ -49,8 +49,8 @@ def motion_explorer(
 ) -> "Explorer":
     """Show a blended motion past `via`: start, via and goal with rings and arrows to drag, sliders
     for the via point, the blend and the duration, menus for the time law, the corner and the
-    branch. Arm, curves and numbers follow. A click on a curve sets the clock. It opens on branch
-    `row`, by default the first one with the most usable samples.
+    branch. The arm, the curves and the numbers follow. A click on a curve sets the clock. It opens
+    on branch `row`, by default the first one with the most usable samples.
 
     The poses are single targets of `arm.ik` (Transform, or ScaraPose for a SCARA). ValueError: a
     batch of poses, or an unknown row. TypeError: poses of another type, or an arm without `ik`.
@@ -60,7 +60,7 @@ def motion_explorer(
     stations = {"start": start, "via": via, "goal": goal}
     for name, pose in stations.items():
         if instance(pose, kind, name).shape:
-            raise ValueError(f"{name}: wanted one single pose, got a batch of shape {pose.shape}")
+            raise ValueError(f"{name}: wanted a single pose, got a batch of shape {pose.shape}")
     unit, size = length_unit(extent(arm))
     law = quintic(5.0)
     t = np.linspace(0, law.duration, SAMPLES)
@@ -121,9 +121,9 @@ def motion_explorer(
 def _fastest(
     arm: ClosedFormArm, pose: Callable[[Floats], Pose], t: Floats, q: Floats
 ) -> tuple[float, int, str]:
-    """The greatest speed on a motion with the samples q (samples, n), in the joint's unit, its
-    joint, and words that restrict it: "" if it also holds between the samples, because the motion
-    is complete and passes no singularity.
+    """The greatest speed of a motion with the samples q (samples, n), in the joint's unit; its
+    joint; and words that qualify it: "" if it includes the values between the samples, because the
+    motion is complete and passes no singularity.
     """
     scale, h, track = sizes(arm), 1e-7 * t[-1], record(arm, t, q)
 
@@ -146,7 +146,7 @@ def _fastest(
             ]
             best = max(tops)
             return best.value, int(speeds(np.array([best.at]))[0].argmax()), ""
-        except ValueError:  # next to a singularity none converges
+        except ValueError:  # near a singularity the maximum does not converge
             pass
     sampled = np.nan_to_num(track.greatest_speed.value) / scale
     return float(sampled.max()), int(sampled.argmax()), f" of {SAMPLES} samples"

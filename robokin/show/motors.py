@@ -1,4 +1,5 @@
-"""A stepper motor in a page, seen along its shaft, that the reader can turn, without a kernel.
+"""The motor explorer: a stepper motor in a page, seen along its shaft, which the reader can turn
+without a kernel.
 
 The page computes with `js/rotor.js`, which implements `jobs.steppers.Stepper`. The phase tables,
 the positions of the poles and all words come from this module.
@@ -17,14 +18,14 @@ from .explorer import Explorer
 from .page import Control
 from .palette import FAINT, INK, JOINT_STYLES, PANEL_GRID, REMARK, SOFT
 
-PULSES = 48  # of a run
+PULSES = 48  # pulses of a run
 DRIVES = {"wave": "wave", "two-phase": "two-phase", "half-step": "half step"}
 KINDS = {
     ("active", "unipolar"): "magnet (active), unipolar",
     ("active", "bipolar"): "magnet (active), bipolar",
     ("passive", "unipolar"): "soft iron (passive), unipolar",
 }
-ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # current +, current -, pole
+ON, OTHER, NORTH = (JOINT_STYLES[j]["color"] for j in (4, 5, 1))  # for + current, - current, N pole
 PLUS, MINUS = "+", "\N{MINUS SIGN}"
 WORDS = {
     "motor": "rotor, feed",
@@ -85,7 +86,7 @@ CONTROLS: Sequence[tuple[Quantity, float, str, str, float, float, float, int]] =
     ("start", 1.0, "ramp from", "/s", SLOWEST, 200, 5, 0),
     ("ramp", 1e-3, "ramp time", "ms", 0, 500, 10, 0),
 )
-FREQUENCY = 160  # pulses per second, at first
+FREQUENCY = 160  # pulses per second on opening
 
 
 class PagePole(TypedDict):
@@ -100,10 +101,10 @@ class PagePole(TypedDict):
 
 
 class PageMotor(TypedDict):
-    """A motor with one rotor, feed and number of windings: the arguments of rotor.js (`turn`,
-    `periods`, `sharp`), the poles, the teeth of a passive rotor (0: a magnet), how far the field
-    turns in the picture for one turn of the ring, the heads of the table, and for each drive the
-    currents and the table as the document prints it.
+    """A motor with a given rotor, feed and number of windings: the arguments of rotor.js (`turn`,
+    `periods`, `sharp`), the poles, the teeth of a passive rotor (0: a magnet), the revolutions of
+    the field in the picture per electrical revolution (`space`), the headings of the table, and for
+    each drive the currents and the table as the document prints it.
     """
 
     windings: int
@@ -119,7 +120,9 @@ class PageMotor(TypedDict):
 
 
 class MotorKind(TypedDict):
-    """A rotor and a feed, their names, and their motors by the number of windings."""
+    """A rotor and a feed, their name on the page, and the motors that have them, by number of
+    windings.
+    """
 
     rotor: str
     motor: str
@@ -135,7 +138,7 @@ class MotorDrive(TypedDict):
 
 
 class MotorNumbers(TypedDict):
-    """The numbers of a `Stepper`, which all motors of a page share."""
+    """The parameters of a `Stepper` that all motors of a page share."""
 
     torque: float
     inertia: float
@@ -176,9 +179,9 @@ class MotorValues(TypedDict):
 
 
 class PageMotors(TypedDict):
-    """The data of the motor explorer. `pulses`: the pulses of a run; `opening`: the first choice;
+    """The data of the motor explorer. `pulses`: the pulses of a run; `opening`: the initial choice;
     `words`: all its sentences; `code`: the corresponding Python lines, with blanks to fill;
-    `meant`: the text below.
+    `meant`: the explanation below the view.
     """
 
     kind: str
@@ -203,9 +206,9 @@ def motor_explorer(motor: Stepper | None = None) -> Explorer:
     run at a frequency, with a load and a ramp; lost steps are counted and drawn over time. Menus
     choose rotor, feed, windings and drive.
 
-    It opens with `motor`, by default that of the document's table 1, and keeps its torque, inertia,
-    damping and `rise`. TypeError: not a Stepper. ValueError: a motor whose runs take too long to
-    compute.
+    It opens with `motor`, by default the motor of the document's table 1, and keeps its torque,
+    inertia, damping and `rise`. TypeError: not a Stepper. ValueError: a motor whose runs take too
+    long to compute.
     """
     opened = Stepper() if motor is None else instance(motor, Stepper, "motor")
     own: MotorNumbers = {

@@ -1,5 +1,5 @@
-"""Numbers for pages and figures, equal on every processor: rounding, ticks, the choice of samples,
-and compact integers.
+"""Numbers for pages and figures, the same on every processor: rounding, ticks, the choice of
+samples, and compact integers.
 """
 
 import base64
@@ -14,7 +14,7 @@ from ..motion.recording import Recording
 
 Scale: TypeAlias = tuple[float, float, int, int]  # lowest tick, step, number of ticks, decimals
 
-# bytes for the joint values, speeds and accelerations of all motions; at least 41 samples
+# bytes for the joint values, speeds and accelerations of all motions (but at least 41 samples)
 DATA_BYTES = 570_000
 NOTHING = -32768  # the integer for "no value"
 # added before rounding, so that every processor rounds an exact half in the same way
@@ -24,11 +24,11 @@ TIE = 2e-7 * np.sqrt(2)
 class Packed(TypedDict):
     """Numbers (motions, samples, columns) in compact form: 16-bit integers times a step.
 
-    steps  for each motion one step for all columns, or one for each
-    data   in base64: motion after motion, column after column, the second differences of the whole
-           numbers over the samples (as if two zeros stood before the first), each as 2 d or
-           -2 d - 1, in groups of seven bits, the lowest first; a byte above 127 is not the last.
-           -32768 is "no value here".
+    steps  for each motion one step for all columns, or a list with one for each column
+    data   in base64: motion after motion, column after column, the second differences of the
+           integers over the samples (as if two zeros preceded the first), each as 2 d or, if d is
+           negative, -2 d - 1, in groups of seven bits, the lowest first; a byte above 127 is not
+           the last of its number. The integer -32768 means "no value here".
     """
 
     steps: list[float | list[float]]
@@ -49,7 +49,7 @@ def rounded(values: ArrayLike, decimals: int = 9) -> list[float]:
 
 
 def packed(values: Floats, finest: float, groups: Sequence[Bools] = ()) -> Packed:
-    """Return (motions, samples, columns) as `Packed`; the greatest value of each motion has about
+    """Return (motions, samples, columns) as `Packed`; the greatest value of each motion is about
     `finest` steps. The columns of a group share a step; without groups all columns do.
 
     Each motion has its own step, since one extreme value would make the other motions coarse. We
@@ -92,9 +92,9 @@ def series_step(least: float) -> float:
 
 
 def thin(count: int, tracks: Sequence[Recording], wanted: int) -> Ints:
-    """The samples of `count` that the page gets: evenly spread ones, those on both sides of each
-    jump, and those with the greatest speed and acceleration of a motion, so that the curves reach
-    the values in the table.
+    """Which of `count` samples the page gets: evenly spread ones, those on both sides of each jump,
+    and those with the greatest speed and acceleration of each motion, so that the curves reach the
+    values in the table.
     """
     values = sum(track.q.shape[0] * track.q.shape[2] for track in tracks)
     wanted = min(count, wanted, max(41, int(DATA_BYTES / (3 * values * 1.1 * 4 / 3))))
@@ -138,8 +138,8 @@ def _peaks(tracks: Sequence[Recording]) -> list[int]:
 
 
 def scales(ranges: Sequence[Any]) -> list[Scale]:
-    """The scale for one range (low, high), or for two ranges in one panel, with zeros and ticks at
-    the same heights.
+    """The scale for one range (low, high), or the scales for two ranges in one panel, with zeros
+    and ticks at the same heights.
     """
     ranges = [[float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in ends] for ends in ranges]
     if len(ranges) == 1:
@@ -163,7 +163,7 @@ def scales(ranges: Sequence[Any]) -> list[Scale]:
 
 
 def scale(low: float, high: float) -> Scale:
-    """Matplotlib's ticks, of which the outermost are at or beyond the data."""
+    """The scale with Matplotlib's ticks; the outermost ones are at or beyond the data."""
     low, high = (float(f"{x:.6g}") if abs(x) > 1e-6 else 0.0 for x in (low, high))
     if high - low < 1e-6 * max(abs(low), abs(high), 1e-3):
         pad = 0.5 * max(abs(low), 1.0)
@@ -173,7 +173,7 @@ def scale(low: float, high: float) -> Scale:
 
 
 def _ticks(low: float, step: float, count: int) -> Scale:
-    """(lowest tick, step, number of ticks, decimals to write them with)"""
+    """Return (lowest tick, step, number of ticks, decimals needed to write them)."""
     return (
         low + 0.0,
         step,
@@ -183,7 +183,7 @@ def _ticks(low: float, step: float, count: int) -> Scale:
 
 
 def fewest(values: Floats, most: int = 2) -> int:
-    """The number of decimals that represents these values exactly, at most `most`."""
+    """The smallest number of decimals that represents these values exactly, but at most `most`."""
     return next(
         (
             d
@@ -195,8 +195,8 @@ def fewest(values: Floats, most: int = 2) -> int:
 
 
 def decimals(curves: Iterable[Floats]) -> int:
-    """The number of decimals that shows the greatest value of this quantity with three digits; at
-    least one.
+    """The number of decimals for one quantity, from one to three: the smaller its greatest value,
+    the more.
     """
     greatest = max(np.nanmax(abs(c), initial=0, where=~np.isnan(c)) for c in curves)
     return 1 if greatest >= 10 else 2 if greatest >= 1 else 3

@@ -22,19 +22,20 @@ STILL = (
 # --- The data -------------------------------------------------------------------------------------
 #
 # Scenes use metres and radians; curves use degrees and the unit of lengths. A rigid transform is 12
-# numbers: the rows of [R | p]. A motion belongs to one value of the switch and one of the slider;
-# its index is switch * slider values + slider.
+# numbers: the rows of [R | p]. Each motion belongs to one value of the switch and one of the
+# slider; its index is the index of the switch value, times the number of slider values, plus the
+# index of the slider value.
 
 
 class Unit(TypedDict):
-    """The unit of lengths beside the curves: its name, and its size in metres."""
+    """The unit of lengths in curves and tables: its name, and its size in metres."""
 
     name: str
     size: float
 
 
 class Slider(TypedDict):
-    """A slider that selects a motion by a number: its values, and their decimals in text."""
+    """A slider that selects a motion by a number: its values, and how many decimals to show."""
 
     label: str
     values: list[float]
@@ -70,7 +71,7 @@ class PageScene(TypedDict):
 
 class Axis(TypedDict):
     """The scales of revolute or of prismatic joints in one panel. `of` maps a motion to its scale;
-    with None all motions have the first.
+    if it is None, all motions have the first one.
     """
 
     unit: str
@@ -80,8 +81,8 @@ class Axis(TypedDict):
 
 class PagePanel(TypedDict):
     """One panel of curves. `own`: each motion has its own scale. `near`: the limits to show for
-    each arm, [joint, 0 lower or 1 upper]. `axes`: the axes of "turn" and "shift" joints, if there
-    are such joints.
+    each arm, [joint, 0 for lower or 1 for upper]. `axes`: the axes of "turn" and "shift" joints, if
+    there are such joints.
     """
 
     label: str
@@ -92,7 +93,7 @@ class PagePanel(TypedDict):
 
 class Greatest(TypedDict):
     """For each motion and joint: the greatest speed, its percentage of the limit, and the greatest
-    acceleration, or words if the speed jumps.
+    acceleration, or a text if the speed jumps.
     """
 
     speed: list[list[float]]
@@ -101,8 +102,8 @@ class Greatest(TypedDict):
 
 
 class Flaws(TypedDict):
-    """The flaws of motions, by index: the samples after which the curves break, [[time, words]] of
-    jumps of speed and of position, and sentences.
+    """The flaws of motions, by the index of the motion: the samples after which the curves break,
+    [[time, words]] for jumps in speed and in position, and sentences about them.
     """
 
     gaps: dict[str, list[int]]
@@ -126,9 +127,10 @@ class PageArm(Greatest, Flaws):
 
 
 class Page(TypedDict):
-    """The data of a player. `nothing`: the integer in a `Packed` that means no value. `decimals`
-    are those of speeds and accelerations. `sampled` says from which samples the greatest values
-    come. `ticks` is the scale of the time, `dashes` are the dashes of the joints' lines.
+    """The data of a player. `nothing`: the integer in a `Packed` that means "no value". `decimals`:
+    the numbers of decimals for speeds and accelerations. `sampled` says from which samples the
+    greatest values come. `ticks` is the scale of the time axis, `dashes` are the dashes of the
+    joints' lines.
     """
 
     title: str
@@ -149,7 +151,9 @@ class Page(TypedDict):
 
 
 class Control(TypedDict):
-    """A slider: its name, unit and range, the step of its handle, the decimals to write it with."""
+    """A slider: its name, unit and range, the step of its handle, and the number of decimals to
+    show.
+    """
 
     name: str
     unit: str
@@ -166,7 +170,9 @@ class PageUnit(Unit):
 
 
 class PagePose(TypedDict):
-    """A target: a position; with `rotation` [w, x, y, z] a Transform, with `angle` a ScaraPose."""
+    """A target: a position, with `rotation` [w, x, y, z] if it is a Transform, or with `angle` if
+    it is a ScaraPose.
+    """
 
     place: list[float]
     rotation: NotRequired[list[float]]
@@ -174,8 +180,8 @@ class PagePose(TypedDict):
 
 
 class FactRow(TypedDict):
-    """A row of numbers below an arm: its name, the fact of the posture that it shows, the heads of
-    its columns, its decimals.
+    """A row of numbers below an arm: its name, the property of the posture that it shows, the
+    headings of its columns, and its number of decimals.
     """
 
     name: str
@@ -184,12 +190,12 @@ class FactRow(TypedDict):
     decimals: int
 
 
-Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # as in motion.js
+Law: TypeAlias = Literal["quintic", "trapezoidal", "linear"]  # the names in motion.js
 Corner: TypeAlias = Literal["parabola", "quintic"]
 
 
 class StartValues(TypedDict):
-    """The opening values of a blended motion, with the indices of law, corner and branch."""
+    """The initial values of a blended motion; law, corner and row (the branch) are indices."""
 
     blend: float
     duration: float
@@ -199,15 +205,15 @@ class StartValues(TypedDict):
 
 
 class JumpRules(TypedDict):
-    """The constants with which motion/recording.py finds a jump of position."""
+    """The constants with which motion/recording.py finds jumps in position."""
 
     least: float
     few: int
 
 
 class BranchTask(TypedDict):
-    """An exercise: the number of different postures that must reach the target, and the words
-    before and after.
+    """An exercise: the number of different postures that must reach the target, and the sentences
+    to show when the task is solved (`holds`) and until then (`open`).
     """
 
     wanted: int
@@ -217,7 +223,7 @@ class BranchTask(TypedDict):
 
 class ExplorerPage(TypedDict):
     """The data of every explorer. `words`: all its sentences; `code`: the corresponding Python
-    lines, with blanks to fill; `meant`: the text below.
+    lines, with blanks to fill; `meant`: the explanation below the view.
     """
 
     title: str
@@ -239,7 +245,7 @@ class ArmPage(ExplorerPage):
 
 
 class JointPage(ArmPage):
-    """The posture q, rows of numbers."""
+    """The data of the joint explorer: the posture q, and rows of numbers."""
 
     kind: Literal["joint"]
     q: list[float]
@@ -247,7 +253,7 @@ class JointPage(ArmPage):
 
 
 class LeversPage(ArmPage):
-    """The point `target`, and the previous posture q."""
+    """The data of the explorer of three levers: the point `target`, and the previous posture q."""
 
     kind: Literal["levers"]
     q: list[float]
@@ -255,9 +261,9 @@ class LeversPage(ArmPage):
 
 
 class TargetPage(ArmPage):
-    """The target, its rotations in radians, the previous posture q, the names of branches, the
-    heads of the table, and the joints whose angles the column "travel" adds. `task` belongs to an
-    exercise.
+    """The data of the target explorer: the target, its rotations in radians, the previous posture
+    q, the names of branches, the headings of the table, and the joints whose angles the column
+    "travel" adds up. `task` belongs to an exercise.
     """
 
     kind: Literal["target"]
@@ -271,8 +277,8 @@ class TargetPage(ArmPage):
 
 
 class MotionPage(ArmPage):
-    """The stations, the opening values, the names of laws, corners, branches and panels, and the
-    number of samples.
+    """The data of the motion explorer: the stations, the initial values, the names of laws,
+    corners, branches and panels, and the number of samples.
     """
 
     kind: Literal["motion"]
@@ -297,7 +303,9 @@ class LivePage(ExplorerPage):
 
 
 class PlanPage(LivePage):
-    """The arm, the names of the ways as `branches`, the value of forbidden cells of the cube."""
+    """The data of the explorer of plans: the arm, the names of the ways to plan (`branches`), and
+    the value of forbidden cells in the cube.
+    """
 
     kind: Literal["plan"]
     arm: ArmData
@@ -306,8 +314,8 @@ class PlanPage(LivePage):
 
 
 class TourPage(LivePage):
-    """The names of the kinds of tasks and of the tours, the greatest number of points, and places
-    for added points.
+    """The data of the explorer of tours: the names of the kinds of tasks and of the tours, the
+    maximum number of points, and places for points that the reader adds.
     """
 
     kind: Literal["tour"]
@@ -322,8 +330,8 @@ PageExplorer: TypeAlias = JointPage | LeversPage | TargetPage | MotionPage | Pla
 
 class PageAnswer(TypedDict):
     """An option of a question: its short name (missing in older notebooks), its text, why it is
-    right or wrong, the confusion behind a wrong one, and a second case that shows it; `value` if
-    the answer is a number to type.
+    right or wrong, the misconception behind a wrong one, and a second example that exposes it;
+    `value` if the answer is a number to type.
     """
 
     name: NotRequired[str]
@@ -359,7 +367,7 @@ def inert(data: Any) -> str:
         text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
         text.encode()
     except (TypeError, ValueError, RecursionError) as error:
-        raise ValueError(f"data: wanted what JSON can hold ({error})") from None
+        raise ValueError(f"data: wanted values that JSON can represent ({error})") from None
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
@@ -375,7 +383,7 @@ def still_image(png: bytes, alt: str) -> str:
 def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
     """Return a piece of HTML: `still`, and the script that replaces it. `text` is a `Page`,
     `PageExplorer` or `PageQuestion` as JSON. `call` names the module and its function, such as
-    "player.play". `nonce` is that of a page whose policy forbids other scripts.
+    "player.play". `nonce` is the nonce of a page whose policy forbids scripts without it.
     """
     module, _ = call.split(".")
     key, bytes_of_script = compressed(module)

@@ -1,7 +1,7 @@
 """All colours of figures and pages, and the styles of the joints.
 
-A page gets the colours as CSS custom properties (`--rk-ink`, ...) of its root elements, in a light
-and a dark set, and the font (`--rk-font`); its scripts read them there. Figures are light.
+A page gets the colours as CSS custom properties (`--rk-ink`, ...) of its root elements, in one
+light and one dark set, and the font (`--rk-font`); its scripts read them there. Figures are light.
 """
 
 from collections.abc import Mapping
@@ -22,17 +22,17 @@ JOINT_STYLES: tuple[Mapping[str, Any], ...] = tuple(
         ("#56B4E9", (0.9, 1.4)),
     )
 )
-DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # as the page gets them
+DASHES = [list(style["dash"]) for style in JOINT_STYLES]  # for pages
 AXIS_COLORS = ("#C62828", "#2E7D32", "#1F55C4")  # x, y, z of a triad: red, green, blue
-ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: the trace, in the background
+ALARM, TRACE, PALE = "#B3261E", "#0072B2", "#B3D4E8"  # PALE: a trace in the background
 
 # Figures: lines and words, postures from strong to faint, and the floor.
 INK, SOFT, FAINT, GRID = "#2F3A45", "#87939F", "#C3CAD1", "#DDE2E7"
 REMARK, SCALE = "#5A6672", "#6B7681"
 PANEL_GRID, SHADOW, FOOT = "#E9ECEF", "#EDEFF2", "#D5DAE0"
 
-FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # of pages
-# Pages: name -> (light, dark), six digits each.
+FONT = "system-ui,-apple-system,'Segoe UI','Liberation Sans',sans-serif"  # the font of pages
+# Colours of pages: name -> (light, dark), six digits each.
 PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
         "paper": ("#FFFFFF", "#1B2026"),  # the background, and the seams between lines
@@ -41,7 +41,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
         "line": ("#C9D0D6", "#56616C"),
         "grid": ("#E4E8EB", "#343D46"),
         "border": ("#D5DADF", "#3B4550"),
-        "rim": ("#9AA5AF", "#66727E"),  # around a panel of curves
+        "rim": ("#9AA5AF", "#66727E"),  # the border of a panel of curves
         "alarm": (ALARM, "#FF8A80"),
         "path": ("#1B2A41", "#D3DEEE"),
         "near": ("#9C4A00", "#FFB26B"),  # the line from the path to the via point
@@ -72,7 +72,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
             for i, (style, dark) in enumerate(
                 zip(
                     JOINT_STYLES,
-                    # dark, joints 1 to 6
+                    # the dark colours of joints 1 to 6
                     ("#3D9BDC", "#F0803C", "#2BBF94", "#DE97BF", "#F0B840", "#8CCBF2"),
                     strict=True,
                 )
@@ -84,7 +84,7 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 
 def css() -> str:
     """Return the palette and the font as CSS: light by default; dark if JupyterLab or a page
-    exported from it says so, otherwise if the reader's system does; always light on paper.
+    exported from it says so, otherwise if the reader's system does; always light in print.
     """
     light, dark = (
         ";".join(f"--rk-{name}:{pair[k]}" for name, pair in PAGE.items()) for k in (0, 1)

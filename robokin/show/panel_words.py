@@ -12,7 +12,9 @@ PER = {"q": "", "v": "/s", "a": "/s²"}
 
 
 def verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[str]:
-    """Say which samples are past a limit, or that none is, or the percentage of the speed limit."""
+    """Say how many samples of each joint are past a limit. If none is, say so or, for speeds, what
+    percentage of the speed limit is reached.
+    """
     limits = recording.arm.speed_limits
     if past.any():
         what = {"q": "limit", "v": "speed limit"}[kind]
@@ -46,7 +48,7 @@ def verdict(recording: Recording, kind: str, joints: Ints, past: Bools) -> list[
 def leap_words(
     recording: Recording, kind: str, joints: Ints, unit: str, size: float
 ) -> Iterator[str]:
-    """Describe the jumps of position, joint by joint."""
+    """Describe the jumps in position, joint by joint."""
     for joint in joints if kind == "q" else ():
         jumps = [jump for jump in recording.leaps if jump.by[joint]]
         amounts = sorted(abs(jump.by[joint]) / size for jump in jumps)
@@ -59,7 +61,7 @@ def leap_words(
 def spike_words(
     recording: Recording, kind: str, joints: Ints, spikes: Bools, values: Floats, unit: str
 ) -> Iterator[str]:
-    """Describe what given values show at jumps instead of a speed or an acceleration."""
+    """Describe the spikes in the caller's values where a jump leaves no speed or acceleration."""
     for jumps, what in (
         (recording.leaps, f"{'angle jump' if unit == '°' else 'jump'} / step"),
         (recording.jumps, "speed jump / step"),
@@ -81,7 +83,7 @@ def spike_words(
 def corner_words(
     recording: Recording, kind: str, joints: Ints, unit: str, size: float, missing: Bools
 ) -> Iterator[str]:
-    """Say where the speed jumps and no acceleration is drawn."""
+    """Say where the speed jumps, so that no acceleration is drawn."""
     jumps = [
         jump
         for jump in (recording.jumps if kind == "a" else ())
@@ -98,7 +100,7 @@ def corner_words(
 def range_words(
     recording: Recording, kind: str, name: str, joints: Ints, unit: str, size: float
 ) -> str:
-    """Say which values the curves reach, in numbers that do not depend on the last bits."""
+    """Say which values the curves reach, rounded so that rounding errors do not show."""
     gap = space(unit)
     if kind == "q":
         parts = []

@@ -40,8 +40,8 @@ class Panel:
     """One panel of a figure.
 
     heading  the words above it, wrapped when its width is known
-    labels   [(words, limit, 1 above it or -1 below)] of the limits that it shows, not yet
-             placed
+    labels   [(words, limit, 1 for above it or -1 for below it)] of the limits that it shows;
+             they are placed later
     facts    its sentences in the alt text
     """
 
@@ -76,7 +76,7 @@ def draw_panel(
     size: float,
 ) -> Panel:
     """Draw one quantity of some joints in `unit`. `drawn` (samples, n) are the curves. Values that
-    the recording does not have are spikes, which do not affect the scale.
+    are NaN in the recording are spikes, which do not affect the scale.
     """
     t, unit_text = recording.t, unit + PER[kind]
     name = WORDS[kind][int(recording.arm.prismatic[joints[0]])]
@@ -169,7 +169,7 @@ def near_limits(
     low: Floats | float,
     high: Floats | float,
 ) -> Bools:
-    """Which limits a panel from low to high shows: those in view that their joint passes or comes
+    """Which limits a panel from low to high shows: those in view that their joint exceeds or comes
     near to, relative to the height of the panel and to the range between the joint's limits.
 
     limits (..., 2), the joint's least and greatest value (...), low and high (...) -> bool (...,
@@ -186,7 +186,7 @@ def near_limits(
 
 
 def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Floats:
-    """(k, 2) the limits of the quantity in the unit of the panel, infinite if there are none."""
+    """The limits (k, 2) of the quantity in the unit of the panel, infinite if there are none."""
     arm = recording.arm
     if kind == "q":
         return arm.limits[joints] / size
@@ -197,21 +197,21 @@ def _limits(recording: Recording, kind: str, joints: Ints, size: float) -> Float
 
 
 def _past(recording: Recording, kind: str, joints: Ints) -> Bools:
-    """(samples, k) which samples are past a limit."""
+    """Which samples are past a limit: (samples, k)."""
     if kind == "a":
         return np.zeros((len(recording.t), len(joints)), dtype=bool)
     return (recording.excess if kind == "q" else recording.speed_excess)[:, joints] > 0
 
 
 def _view(values: Floats, kind: str) -> tuple[float, float]:
-    """The lowest and highest value of the panel: the curves and a margin, but never the noise of a
-    constant.
+    """The lowest and highest value of the panel: the range of the curves and a margin, but never so
+    small that it magnifies the noise of a constant.
     """
     finite = values[np.isfinite(values)]
     low, high = (finite.min(), finite.max()) if len(finite) else (0.0, 0.0)
     if kind != "q":
         low, high = min(low, 0.0), max(high, 0.0)
-    least = 1.0 if kind == "q" else 0.01  # degrees or mm; per second
+    least = 1.0 if kind == "q" else 0.01  # degrees or mm; otherwise per second
     if high - low < least:
         low, high = (low + high - least) / 2, (low + high + least) / 2
     margin = 0.08 * (high - low)
@@ -237,7 +237,7 @@ def _band(
 
 
 def _jumps(recording: Recording, kind: str) -> list[Jump]:
-    """The jumps across which differences of this kind say nothing."""
+    """The jumps across which differences of this kind have no meaning."""
     return [*recording.leaps, *(recording.jumps if kind == "a" else ())]
 
 
@@ -245,7 +245,9 @@ def _jumps(recording: Recording, kind: str) -> list[Jump]:
 
 
 def _write_limits(panel: Panel) -> None:
-    """Write the words beside each limit line, inside or beyond it, where fewest curves pass."""
+    """Write the words beside each limit line, inside or beyond it, where it covers the curves
+    least.
+    """
     ax = panel.ax
     canvas: Any = ax.figure.canvas
     to_data: Any = ax.transData.inverted()
@@ -311,7 +313,9 @@ def _legend(ax: Axes) -> None:
 
 
 def _end_labels(ax: Axes) -> None:
-    """Write the joint's name at the right end of each curve; names that meet move apart."""
+    """Write the joint's name at the right end of each curve; names that would overlap are moved
+    apart.
+    """
     figure: Any = ax.figure
     lines = _curves(ax)
     low, high = ax.get_ylim()

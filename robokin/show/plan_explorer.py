@@ -1,8 +1,9 @@
 """The explorer of plans: an arm of three levers with a target and an obstacle to drag.
 
-The page draws, and a kernel plans: see `live`. Beside the plane is the cube of postures with the
-forbidden body of the levers, in which a breadth-first search looks for the target's curve. The cube
-has steps of `STEP` for display; `robokin.jobs.obstacles.plan` searches in finer ones.
+The page draws, and a kernel plans: see `live`. Beside the plane is the cube of all postures. It
+shows the body of forbidden postures, and a breadth-first search past it to the curve of the
+postures that reach the target. The cube has steps of `STEP`, for display only;
+`robokin.jobs.obstacles.plan` searches in finer ones.
 """
 
 from collections.abc import Mapping
@@ -27,9 +28,9 @@ from .palette import ALARM, INK, JOINT_STYLES, PALE, SOFT
 from .things import Mark
 from .twin import arm_data
 
-STEP = 12 * deg  # step of the cube's postures
-MOMENTS = 41  # of a motion
-FORBIDDEN, AWAY = 255, 254  # cells of the cube: too near to the obstacle; free, but not reached
+STEP = 12 * deg  # between neighbouring postures of the cube
+MOMENTS = 41  # number of postures of a motion that the page gets
+FORBIDDEN, AWAY = 255, 254  # cells of the cube: too near the obstacle; free, but not reached
 WAYS = ("the plan", "two via points", "direct")
 UNCHECKED = {WAYS[1]: "via points", WAYS[2]: "direct"}  # the names that `unchecked_path` uses
 TITLE = "From K to K1, past an obstacle H"
@@ -60,10 +61,10 @@ def plan_explorer(
     arm: ThreeLeverArm, posture: ArrayLike, target: ArrayLike, obstacle: ArrayLike
 ) -> Live:
     """Show the start K, the target K1 and the obstacle H to drag, and the distance that all levers
-    must keep from H (a seventh of a lever at first). A kernel answers every move with `plan`: the
-    way and the reason, the area that the levers sweep, and where they come nearest; or with what
-    two via points or the direct motion would do. The search can be played in the cube of postures,
-    the motion in the plane.
+    must keep from H (a seventh of a lever at first). A kernel answers every move with the result of
+    `plan`: the path and the reason for it, the area that the levers sweep, and where they come
+    nearest to H; or with what a motion by two via points or the direct motion would do. The search
+    can be played in the cube of postures, the motion in the plane.
 
     posture (3,) in radians is the start; target and obstacle (2,) are in metres. ValueError:
     arguments that `plan` refuses. TypeError: an arm without three levers.
@@ -99,15 +100,15 @@ def _answer(arm: ThreeLeverArm, question: Question) -> Answer:
     """Return the answer that the page shows.
 
     verdict, words  the answer in a sentence; the reason, in the words of `plan`
-    way, kept       of the plan; whether the path shown keeps the distance
+    way, kept       `way` of the plan; whether the path shown keeps the distance
     path            (k, 3) postures; the start alone if the arm stays
-    moments         (MOMENTS, 3) postures on its way
-    via             (., 2) the gripper's via points
-    nearest         the nearest place of the levers: [place on the lever, words]
-    direct          the quadrilaterals AK and BA of the direct motion and what is to be said of
-                    them; None where they are not asked for, or do not exist
-    cube            steps of the wave to each posture, or FORBIDDEN, or AWAY
-    most, curve     how many steps are worth seeing; the target's postures (., 3)
+    moments         (MOMENTS, 3) postures along the path, twice the start if the arm stays
+    via             (k, 2) the gripper's via points
+    nearest         where the levers come nearest to H: [the place on the lever, words]
+    direct          the quadrilaterals AK and BA of the direct motion and a sentence about them;
+                    None if they are not asked for, or do not exist
+    cube            the number of search steps to each posture, or FORBIDDEN, or AWAY
+    most, curve     the number of search steps to show; the postures (k, 3) that reach the target
     """
     start, K1, H = (np.array(question[key]) for key in ("posture", "target", "obstacle"))
     distance, way = question["distance"], WAYS[question["way"]]
@@ -179,8 +180,8 @@ def _direct(arm: ThreeLeverArm, start: Floats, target: Floats, H: Floats) -> dic
 def _cube(
     arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[Any, int, Floats]:
-    """The `coarse_search` for the page: the cube (n, n, n), the number of steps to the target's
-    curve (or of all steps), and the curve (., 3).
+    """The `coarse_search` for the page: the cube (n, n, n), the number of steps in which the search
+    reaches the target's curve (or ends without it), and the curve (k, 3).
     """
     steps, free, curve = coarse_search(arm, start, K1, H, distance, STEP)
     reached = steps < NEVER
@@ -196,7 +197,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
     name, unit = length_unit(size)
     marks = [Mark(first["target"]), Mark(first["obstacle"], radius=first["distance"])]
     scene = scene_data([arm], [_moments(np.array(known.path))[None]], marks, size, grows=True)
-    scene["things"] = []  # the page creates them
+    scene["things"] = []  # the page adds the things
     L = arm.lever
     return {
         "kind": "plan",
@@ -229,7 +230,7 @@ def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> p
     turn = np.linspace(0, 2 * np.pi, 73)
     disc = H + first["distance"] * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     plane.fill(*disc.T, color="0.88")
-    # few lines of one colour keep the file small
+    # a few lines in one colour keep the file small
     plane.add_collection(LineCollection(list(points[::4]), color=PALE, linewidth=0.8))
     plane.plot(*points[:, 3].T, color=blue)
     plane.plot(*points[-1].T, color=SOFT, linewidth=3, marker="o", markerfacecolor="white")

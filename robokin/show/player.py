@@ -46,8 +46,8 @@ from .scene import Scene
 from .things import Target, Thing
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # samples per motion in the page, including both ends
-# Steps of the greatest joint value, speed and acceleration. Joint values are finer since they also
-# pose the arm.
+# The number of steps in the greatest joint value, speed and acceleration. Joint values have finer
+# steps since they also determine the posture drawn.
 FINEST = (32000, 16000, 8000)
 NO_READINGS: Mapping[str, ArrayLike] = MappingProxyType({})
 
@@ -76,8 +76,8 @@ def animate(
         animate(arm, t, q), animate([arm, other], t, [q, q_other])
         animate(record(arm, t, q)), animate([recording, other])
 
-    arm      an Arm, or several side by side: then q and `names` are lists of the same length. Or
-             recordings, of the same times: then t and q are theirs
+    arm      an Arm, or a list of arms to draw side by side: then q and `names` are lists of the
+             same length. Or recordings with the same times, which have their own t and q
     t, q     full resolution (such as 2001 samples): speeds, accelerations and the numbers below the
              curves come from all samples, and only what is drawn is thinned. Unwrapped angles
              (`follow`); a NaN row is "no solution here".
@@ -86,20 +86,21 @@ def animate(
     slider   (name, values): q is then (values, samples, n), and the page has a slider for the value
     switch   (name, [words]): q has one more leading axis, one motion for each word, and the page
              has a menu
-    points   places to mark: a list or a dict name -> (x, y, z); circles the same with (centre,
-             radius): spheres, or discs where the arm is planar. Metres, base coordinates.
+    points   places to mark: a list or a dict of name -> (x, y, z); circles the same with (centre,
+             radius): spheres, or discs if the arm is planar. In metres and base coordinates.
     floor    the floor is at height 0 and hides what is below it; by default it is under everything
     bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
-             points, circles and faces are then in coordinates of the floor. Points can name them
-    faces    polygons to draw behind the arms, such as a belt: corners (k, 3), m
-    readings numbers that change, to write behind the names of points: a dict name -> (samples,),
-             or with the leading axes of q; a whole number stays until the next sample has another
-    things   anything else to draw, of the kinds in `robokin.show.things` or of your own
+             points, circles and faces are then in coordinates of the floor. Named points
+             can label the arms
+    faces    polygons to draw behind the arms, such as a conveyor belt: corners (k, 3), m
+    readings changing numbers to write after the names of points: a dict of name -> (samples,),
+             or with the leading axes of q; each number stays until the next sample
+    things   anything else to draw, of the kinds in `robokin.show.things` or of your own kinds
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, if it depends on slider and switch only, (..., 1, 3); a
-    target is a Transform with such a shape without the 3. NaN means that it is missing. There is no
-    distance from a "via" that moves with time, nor with `bases`. Several arms side by side share
+    target is a Transform with such a shape without the 3. NaN means that it is missing. No distance
+    from "via" is shown if it moves with time, or with `bases`. Several arms side by side share
     targets, points, circles and faces.
 
     ValueError: shapes that do not match, fewer than three samples, times that do not increase,
@@ -139,9 +140,9 @@ class Output:
             raise ValueError(f"data: wanted a dict, got {short(data)}")
         self.data, self.still = data, instance(still, plots.Figure, "still")
         self.text = inert(data)
-        # The name is a hash of the data and not of the picture, because another zlib compresses the
-        # same pixels to different bytes. Floats are rounded, because processors differ in the last
-        # bits.
+        # The name is a hash of the data and not of the picture, because another zlib may compress
+        # the same pixels to different bytes. Floats are rounded, because processors differ in the
+        # last bits.
         agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
         self.id = hashlib.sha256(agreed.encode()).hexdigest()[:12]
 
@@ -156,8 +157,8 @@ class Output:
         return output(self.call, self.id, self.text, still, nonce)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one self-contained page, whole or not at all. ValueError: not a .html file, or an
-        existing file that is not a saved player.
+        """Write one self-contained page, completely or not at all. ValueError: not a .html file, or
+        an existing file that is not a saved player.
         """
         save(path, self.data["title"], self.html)
 
@@ -178,8 +179,8 @@ class Player(Output):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one self-contained page (.html), or the scene without the curves as an animated
         picture (.gif: 640 pixels, at most 12 frames per second and 120 frames, with the first value
-        of a slider or menu). ValueError: another file name, an existing file that is not a saved
-        player, or a picture of more than 3 MB.
+        of a slider or menu). ValueError: a name with another ending, an existing file that is not a
+        saved player, or a picture of more than 3 MB.
         """
         name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else ""
         if isinstance(name, str) and os.path.splitext(name)[1] == ".gif":
@@ -262,7 +263,7 @@ def _panel(arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int
     slider moves.
     """
     per = ("", "/s", "/s²")[order]
-    # (motions, n) each
+    # two arrays (motions, n) for each arm
     ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]
     ranges, own = {}, False
     for key in ("turn", "shift"):
@@ -327,7 +328,7 @@ def still_picture(
     bases: Floats | None = None,
 ) -> plots.Figure:
     """Draw the first and the last posture of each arm with the path of its tool, and moving things
-    at their last place.
+    at their last places.
     """
     count = 1 if bases is not None else len(motions)
     height = 4.5 if bases is None else 3.4

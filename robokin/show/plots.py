@@ -1,8 +1,8 @@
 """Matplotlib figures of arrays: joint curves, postures of an arm, frames.
 
-A figure is a value: it is the last line of a cell, or you call `fig.savefig(...)`. This module does
-not use pyplot, so no figure is drawn twice or kept in memory. Figures show degrees and millimetres
-(metres for arms larger than 2 m).
+A figure is a value: end a cell with it, or call `fig.savefig(...)`. This module does not use
+pyplot, so no figure is drawn twice or kept in memory. Figures show degrees and millimetres (metres
+for arms larger than 2 m).
 """
 
 import base64
@@ -25,6 +25,7 @@ from ..arms.arm import Arm
 from ..motion.recording import Recording, record
 from ..transform import Transform
 from ..units import deg, length_unit, mm
+from . import layers
 from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
 from .checks import in_sight, plain, several
@@ -43,7 +44,7 @@ __all__ = [
 ]
 
 DPI = 100
-INCHES = "one positive number of inches"
+INCHES = "a positive number of inches"
 
 
 class Figure(MatplotlibFigure):
@@ -56,8 +57,8 @@ class Figure(MatplotlibFigure):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the
-        # metadata of an image/png output. Both keep <img alt> in text/html, an untrusted notebook
-        # included, and show it once.
+        # metadata of an image/png output. Both keep <img alt> in text/html, even in an untrusted
+        # notebook, and show it once.
         data = base64.b64encode(palette_png(self)).decode()
         width, height = np.round(self.get_size_inches() * DPI).astype(int)
         image = (
@@ -75,7 +76,8 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
     and end the cell with `fig`.
 
     `alt` says in words what a sighted reader concludes. It is the alternative text of the image,
-    which tests compare. ValueError: no words, or a size that is not positive or above 100.
+    which tests compare. ValueError: an `alt` without words, or a size that is not positive or is
+    above 100.
     """
     if not (isinstance(alt, str) and alt.strip()):
         raise ValueError(f"alt: wanted words that say what the figure shows, got {short(alt)}")
@@ -86,10 +88,10 @@ def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
 
 
 def palette_png(fig: MatplotlibFigure) -> bytes:
-    """Return the figure as a PNG with a palette, which has a third of the size of a plain one.
+    """Return the figure as a PNG with a palette, which is a third of the size of a plain one.
 
-    Pillow's octree keeps the colours of thin lines to 1/100; its median cut turns the green of a
-    triad blue.
+    Pillow's octree keeps the colours of thin lines to within 1/100; its median cut turns the green
+    of a triad blue.
     """
     canvas: Any = fig.canvas
     canvas.draw()
@@ -112,12 +114,12 @@ def plot_postures(
     """Plot postures along one path, in a spatial view with true proportions.
 
     q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
-             through all samples, the first and last posture strongly and up to seven between them
-             faintly. NaN rows are left out. Where the flange stands still (the rows of `ik`), up to
-             nine postures are drawn alike.
+             through all samples, the first and last posture boldly and up to seven between them
+             faintly. NaN rows are left out. If the flange does not move (as in the rows of `ik`),
+             up to nine postures are drawn alike.
     targets  list of Transforms (one: target; two: start, goal; three: start, via, goal) or dict of
              name -> Transform
-    alt      the alternative text, where the numbers alone do not say it
+    alt      the alternative text, if the numbers alone do not say enough
     """
     q, targets = _samples(arm, q), named_targets(targets)
     turning = q[..., ~arm.prismatic]
@@ -137,8 +139,8 @@ def plot_postures(
     if moves:
         scene.trace(tool.translation)
         scene.triad(tool[first], length=0.07 * size, width=2.4)
-        # The names are where the two postures differ most, on the half next to the base, since the
-        # tool has its own names.
+        # The names "first" and "last" are where the two postures differ most, on the half next to
+        # the base, since the tool has names of its own.
         half = slice(1, len(arm.links) + 1)
         ends = arm_points(arm, q[[first, last]])[:, half]
         where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()
@@ -161,14 +163,14 @@ def plot_frames(
     chain: bool = False,
     alt: str | None = None,
 ) -> Figure:
-    """Plot frames as triads (x red, y green, z blue) with names, beside the base frame, in true
-    proportions.
+    """Plot frames as triads (x red, y green, z blue) with names, together with the base frame, in
+    true proportions.
 
     frames  Transform of shape (k,) or (), or a list of single Transforms, in base coordinates; NaN
-            is left out
-    names   one for each frame; a frame at the base takes the place of the base's own triad
+            frames are left out
+    names   one for each frame; a frame at the base replaces the triad of the base
     size    length of the axes in metres; chosen from the distances if not given
-    chain   join the origins in their order, from the base, as the links of an arm do
+    chain   join the origins in order, starting at the base, like the links of an arm
     """
     frames = _frames(frames)
     title, alt = _words(title, "title"), _words(alt, "alt")
@@ -191,7 +193,12 @@ def plot_frames(
     if not any(at_base):
         scene.triad(Transform(), "base", length=size, color=SCALE)
     if chain:
-        scene.line(np.concatenate([np.zeros((1, 3)), origins]), color=FAINT, linewidth=4, zorder=2)
+        scene.line(
+            np.concatenate([np.zeros((1, 3)), origins]),
+            color=FAINT,
+            linewidth=4,
+            zorder=layers.BETWEEN,
+        )
     for i, (frame, name) in enumerate(zip(frames, names, strict=True)):
         scene.drop(frame.translation)
         scene.triad(frame, name, length=size, width=2.6, letters=True, at=_naming_axis(frames, i))
@@ -209,26 +216,27 @@ def plot_joints(
     title: str | None = None,
     alt: str | None = None,
 ) -> Figure:
-    """Joint values over time and, where given, speeds and accelerations: one panel each, with one
-    time axis.
+    """Plot joint values over time and, if given, speeds and accelerations: one panel each, with a
+    common time axis.
 
         plot_joints(arm, t, q), plot_joints(arm, t, q, v), plot_joints(arm, t, q, v, a)
-        plot_joints(record(arm, t, q))      all three, speeds and accelerations the recording's own
+        plot_joints(record(arm, t, q))      all three, with the recording's own speeds and
+                                            accelerations
 
     t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
     gap, a jump by a whole turn is a jump. Prismatic joints have panels of their own, in mm.
-    A limit is shaded where its joint comes near it; samples past it are marked and counted. Samples
-    past a limit are judged as drawn, so q + 360 degrees may still be inside (`within` says). Jumps
-    are those of `record`. A lone spike, which a jump leaves in v or a when it is differentiated,
-    does not set the scale: it leaves the panel and is named.
+    A limit is shaded if its joint comes near it; samples past it are marked and counted. Samples
+    are compared with the limits as drawn; q + 360 degrees may still be inside (see `within`). Jumps
+    are those that `record` finds. A lone spike, which a jump leaves in v or a when it is
+    differentiated, does not set the scale: it extends beyond the panel, and its heading says so.
     """
     title, alt = _words(title, "title"), _words(alt, "alt")
     given = {kind: values for kind, values in (("v", v), ("a", a)) if values is not None}
     if isinstance(arm, Recording):
         if t is not None or q is not None:
-            raise ValueError("t and q: wanted none beside a recording, which has its own")
+            raise ValueError("t and q: wanted neither with a recording, which has its own")
         if arm.shape:
-            raise ValueError(f"recording: wanted one of a single motion, got shape {arm.shape}")
+            raise ValueError(f"recording: wanted a single motion, got shape {arm.shape}")
         recording, kinds = arm, ["q", "v", "a"]
     else:
         q = _samples(arm, q)
@@ -319,8 +327,8 @@ def _frames(frames: Transform | Iterable[Transform]) -> list[Transform]:
 
 
 def _naming_axis(frames: Sequence[Transform], i: int) -> int | None:
-    """For each frame, the axis (0, 1, 2) at whose tip its name is written, or None. Frames with a
-    common origin need names at the tips of the axis whose tips are farthest apart.
+    """The axis (0, 1, 2) at whose tip the name of frame i is written, or None for its origin. The
+    names of frames with a common origin are at the tips of the axis whose tips are farthest apart.
     """
     here = [
         f for f in frames if np.allclose(f.translation, frames[i].translation, rtol=0, atol=1e-6)

@@ -1,4 +1,4 @@
-"""Write pages and films to files, and never over a file that robokin did not write."""
+"""Write pages and films to files, but never overwrite a file that robokin did not write."""
 
 import contextlib
 import html
@@ -12,7 +12,7 @@ MARK = "<!-- robokin player -->"  # marks a file as written by robokin
 
 
 def save(path: str | os.PathLike[str], title: str, body: str) -> None:
-    """Write one self-contained page, whole or not at all. ValueError: not a .html file, or an
+    """Write one self-contained page, completely or not at all. ValueError: not a .html file, or an
     existing file that is not a saved player.
     """
     head = (
@@ -28,16 +28,16 @@ def save(path: str | os.PathLike[str], title: str, body: str) -> None:
 
 
 def write_page(path: str | os.PathLike[str], page: str) -> None:
-    """Write a complete page, which begins with its doctype, whole or not at all. ValueError: not a
-    .html file, or an existing file that robokin did not write.
+    """Write a complete page, which begins with its doctype, completely or not at all. ValueError:
+    not a .html file, or an existing file that robokin did not write.
     """
     doctype, _, rest = page.partition("\n")
     write(path, ".html", lambda: f"{doctype}\n{MARK}\n{rest}".encode())
 
 
 def write(path: str | os.PathLike[str], ending: str, content: Callable[[], bytes]) -> None:
-    """Write a file that has MARK near its beginning, whole or not at all. ValueError: the name has
-    another ending, or the file exists and robokin did not write it.
+    """Write a file that has MARK near its beginning, completely or not at all. ValueError: the name
+    does not end in `ending`, or the file exists and robokin did not write it.
     """
     name = _file(path, ending)
     if os.path.lexists(name) and not _ours(name):
@@ -48,7 +48,9 @@ def write(path: str | os.PathLike[str], ending: str, content: Callable[[], bytes
 
 
 def _file(path: Any, ending: str) -> str:
-    """Return `path` as a string if it has this ending and its folder exists."""
+    """Return `path` as a string. ValueError: it does not end in `ending`, or its folder does not
+    exist.
+    """
     name = os.fspath(path) if isinstance(path, (str, os.PathLike)) else None
     if not isinstance(name, str) or os.path.splitext(name)[1] != ending or "\0" in name:
         raise ValueError(f"path: wanted a name that ends in {ending}, got {short(path)}")
@@ -63,7 +65,7 @@ def _ours(name: str) -> bool:
     if os.path.islink(name) or not os.path.isfile(name):
         return False
     with open(name, "rb") as file:
-        return MARK.encode() in file.read(1000)  # a GIF begins with its colours
+        return MARK.encode() in file.read(1000)  # in a GIF the mark follows the colours
 
 
 def _write(name: str, content: bytes) -> None:

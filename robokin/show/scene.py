@@ -15,6 +15,7 @@ from .._arrays import ArrayLike, Floats
 from ..arms.arm import Arm
 from ..transform import Transform
 from ..units import deg, length_unit
+from . import layers
 from .camera import STRAIGHT, VIEW, View, arm_points, project
 from .palette import (
     AXIS_COLORS,
@@ -29,7 +30,7 @@ from .palette import (
     TRACE,
 )
 
-FAR, DOTS = 1e4, 200_000  # pixels; points along a polyline
+FAR, DOTS = 1e4, 200_000  # limits: pixels from the origin; points along a polyline
 
 
 class Scene:
@@ -40,12 +41,12 @@ class Scene:
         scene.arm(arm, q);  scene.trace(points);  scene.triad(pose, "goal");  scene.finish()
 
     size  metres; the size of the subject, which scales triads and the base
-    flat  look straight down
+    flat  whether to look straight down
     like  optional, the scene of a player's page (`camera.scene_data`): the same view, floor and
           scale
-    Matplotlib's own 3-D axes leave wide margins, cut off what stands out and need equal limits
-    forced; a parallel projection is one matrix product, and `set_aspect("equal")` keeps the
-    proportions.
+    Matplotlib's own 3-D axes leave wide margins, cut off whatever extends beyond them, and do not
+    keep equal scales by themselves; a parallel projection is one matrix product, and
+    `set_aspect("equal")` keeps the proportions.
     """
 
     def __init__(
@@ -59,13 +60,15 @@ class Scene:
         self.ax, self.size, self.like = ax, size, like
         self.view: View = like["view"]
         self.flat = like["flat"] is not None
-        # the axes of the grid
+        # the coordinate axes along the grid
         self.across = [k for k in range(3) if k != (like["flat"] if self.flat else 2)]
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
         # points that the floor must be under
         self.corners: list[Floats] = [np.zeros((1, 3))]
-        # words, where, colour, size
+        # for each label: its words, place, colour and size
         self.labels: list[tuple[str, Floats, str, float]] = []
+        # centre and half the size, in pixels, of the labels that have a place: the first ones
+        self.boxes: list[tuple[Floats, Floats]] = []
         # projected lines and their widths, which labels avoid
         self.drawn: list[tuple[Floats, float]] = []
         ax.set_axis_off()
@@ -94,9 +97,11 @@ class Scene:
         points = arm_points(arm, q) + base
         if not np.isfinite(points).all():
             return
-        color, width, z = {"last": (INK, 6, 5), "first": (SOFT, 5, 4), "between": (FAINT, 2.5, 2)}[
-            strength
-        ]
+        color, width, z = {
+            "last": (INK, 6, layers.LAST),
+            "first": (SOFT, 5, layers.FIRST),
+            "between": (FAINT, 2.5, layers.BETWEEN),
+        }[strength]
         self.line(points, color=color, linewidth=width, zorder=z)
         if strength == "between":
             return
@@ -106,7 +111,7 @@ class Scene:
                 corner=False,
                 color=SHADOW,
                 linewidth=width,
-                zorder=0.5,
+                zorder=layers.SHADOW,
             )
         self.line(
             points[1::2],
@@ -130,13 +135,15 @@ class Scene:
                 + np.sin(angle)[:, None] * np.eye(3)[self.across[1]]
             )
         ) + at
-        self.ax.add_patch(Polygon(self.project(ring), facecolor=FOOT, edgecolor=SOFT, zorder=1))
+        self.ax.add_patch(
+            Polygon(self.project(ring), facecolor=FOOT, edgecolor=SOFT, zorder=layers.BASE)
+        )
         self.corners.append(ring)
         self.drawn.append((self.project(ring), 1))
 
     def trace(self, points: Floats) -> None:
         """Draw the path of the tool: points (samples, 3); NaN is a gap."""
-        self.line(points, color=TRACE, linewidth=1.6, zorder=6)
+        self.line(points, color=TRACE, linewidth=1.6, zorder=layers.PATH)
 
     def drop(self, point: Floats) -> None:
         """Draw a thin line from a point (3,) to the floor, which shows its height."""
@@ -146,7 +153,7 @@ class Scene:
                 color=FAINT,
                 linewidth=0.9,
                 linestyle=(0, (3, 3)),
-                zorder=1,
+                zorder=layers.BASE,
             )
 
     def triad(
@@ -167,14 +174,21 @@ class Scene:
         length = length or 0.1 * self.size
         tips = pose @ (length * np.eye(3))
         for i, (tip, axis_color, letter) in enumerate(zip(tips, AXIS_COLORS, "xyz", strict=True)):
-            self.line([pose.translation, tip], color=axis_color, linewidth=width, zorder=7)
+            self.line(
+                [pose.translation, tip], color=axis_color, linewidth=width, zorder=layers.FRAMES
+            )
             along = self.project(tip - pose.translation)
             if name and i == at:
                 self.label(f"{letter} {name}", tip, axis_color)
             elif letters and np.linalg.norm(along) > 0.3 * length:
                 self.label(letter, tip, axis_color, 8)
         self.line(
-            [pose.translation], linestyle="none", marker="o", markersize=3.5, color=color, zorder=8
+            [pose.translation],
+            linestyle="none",
+            marker="o",
+            markersize=3.5,
+            color=color,
+            zorder=layers.ORIGINS,
         )
         if name and at is None:
             self.label(name, pose.translation, color)
@@ -183,16 +197,23 @@ class Scene:
         """Draw a ball, or a disc in a flat view."""
         self.corners.append(centre[None])
         x, y = self.project(centre)
-        self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0))
+        self.ax.add_patch(Circle((x, y), radius, color=SOFT, alpha=0.45, lw=0, zorder=layers.BASE))
 
     def mark(self, centre: Floats, radius: float) -> None:
-        """Draw a point (3,), or with a radius a ball; nothing if it is NaN."""
+        """Draw a point (3,), or a ball if the radius is not 0; draw nothing if it is NaN."""
         if not np.isfinite(centre).all():
             return
         if radius:
             self.ball(centre, radius)
         else:
-            self.line([centre], linestyle="none", marker="o", color=SOFT, markersize=5)
+            self.line(
+                [centre],
+                linestyle="none",
+                marker="o",
+                color=SOFT,
+                markersize=5,
+                zorder=layers.POINTS,
+            )
 
     def faces(self, polygons: Sequence[Floats]) -> None:
         """Draw polygons (k, 3) behind the arms, the farther ones first."""
@@ -202,10 +223,12 @@ class Scene:
         ):
             self.corners.append(corners)
             flat = self.project(corners)
-            self.ax.add_patch(Polygon(flat, facecolor=FOOT, edgecolor=SOFT, lw=0.8, zorder=0.6))
+            self.ax.add_patch(
+                Polygon(flat, facecolor=FOOT, edgecolor=SOFT, lw=0.8, zorder=layers.FACES)
+            )
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
-        """Add words beside a point (3,); `finish` finds a free place for them."""
+        """Add words beside a point (3,); `place_labels` finds a free place for them."""
         where = self.project(point)
         if not any(
             words == other and np.allclose(where, there, rtol=0, atol=1e-6)
@@ -243,7 +266,55 @@ class Scene:
             fontsize=9,
             color=REMARK,
         )
-        self._place_labels()
+        self.place_labels()
+
+    def place_labels(self) -> None:
+        """Put each label that has no place yet at the free place nearest to its point: away from
+        lines and other labels, inside the picture. `finish` calls it; a film, for each frame.
+        """
+        new = self.labels[len(self.boxes) :]
+        if not new:
+            return
+        canvas: Any = self.ax.figure.canvas
+        to_data: Any = self.ax.transData.inverted()
+        to_pixels, renderer = self.ax.transData.transform, canvas.get_renderer()
+        dots = [dense(to_pixels(line)) for line, _ in self.drawn]
+        widths = np.array([width for _, width in self.drawn])
+        margin = np.repeat(widths * 0.8 + 2, [len(line) for line in dots])[:, None]
+        lines = np.concatenate(dots)
+        frame = self.ax.get_window_extent(renderer)
+        # The candidate places: twelve directions from the point, at four distances, in pixels.
+        angle = np.tile(np.arange(0, 360, 30) * deg, 4)
+        way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        ring = np.repeat(np.arange(4), 12)
+        gap = np.array([5, 14, 26, 40])[ring, None]
+        for words, point, color, size in new:
+            taken, sizes = np.reshape([*self.boxes], (-1, 2, 2)).swapaxes(0, 1)
+            artist = self.ax.text(
+                0,
+                0,
+                words,
+                fontsize=size,
+                color=color,
+                zorder=layers.LABELS,
+                va="center",
+                ha="center",
+                parse_math=False,
+            )
+            box = artist.get_window_extent(renderer)
+            half = np.array([box.width / 2 + 2, box.height / 2 + 1])
+            here = to_pixels(point)
+            places = here + (gap + half) * way
+            near = np.all(abs(lines - here) < 2 * half + gap.max() + margin, axis=-1)
+            inside, hits = (
+                np.all(abs(places[:, None] - others) < half + room, axis=-1).sum(axis=-1)
+                for others, room in ((lines[near], margin[near]), (taken, sizes))
+            )
+            out = np.any((places - half < frame.min) | (places + half > frame.max), axis=-1)
+            cost = 5 * inside + 200 * hits + 1000 * out + 6 * ring + (1 - way[:, 0])
+            best = places[(cost + (1 - way[:, 1])).argmin()]
+            artist.set_position(to_data.transform(best))
+            self.boxes.append((best, half))
 
     def _fit(
         self, x0: float, x1: float, y0: float, y1: float, fit: tuple[float, float] | None
@@ -270,8 +341,8 @@ class Scene:
         self.ax.set_ylim(y0 - spare / 2 - below / scale, y1 + spare / 2 + above / scale)
 
     def _floor(self) -> tuple[Floats, Floats, float]:
-        """The corners (2,), (2,) of the floor, in whole steps and under everything drawn, and the
-        step of its grid.
+        """Two opposite corners (2,) of the floor, which is under everything drawn and whole steps
+        wide, and the step of its grid.
         """
         if "floor" in self.like:
             return *np.array(self.like["floor"])[:, self.across], self.like["grid"]
@@ -298,7 +369,7 @@ class Scene:
                 corner=False,
                 color=GRID,
                 linewidth=0.9,
-                zorder=0,
+                zorder=layers.FLOOR,
             )
         for y in values[1]:
             self.line(
@@ -306,7 +377,7 @@ class Scene:
                 corner=False,
                 color=GRID,
                 linewidth=0.9,
-                zorder=0,
+                zorder=layers.FLOOR,
             )
         c, s = np.cos(self.view[0]), np.sin(self.view[0])  # the horizontal direction to the camera
         x_edge = low[0] if self.flat or c < 0 else high[0]
@@ -341,54 +412,9 @@ class Scene:
         point[self.across] = x, y
         return point
 
-    def _place_labels(self) -> None:
-        """Put each label at the free place nearest to its point: away from lines and other labels,
-        inside the picture.
-        """
-        canvas: Any = self.ax.figure.canvas
-        to_data: Any = self.ax.transData.inverted()
-        to_pixels, renderer = self.ax.transData.transform, canvas.get_renderer()
-        dots = [dense(to_pixels(line)) for line, _ in self.drawn]
-        widths = np.array([width for _, width in self.drawn])
-        margin = np.repeat(widths * 0.8 + 2, [len(line) for line in dots])[:, None]
-        lines = np.concatenate(dots)
-        frame = self.ax.get_window_extent(renderer)
-        # The candidate places: twelve directions from the point, at four distances, in pixels.
-        angle = np.tile(np.arange(0, 360, 30) * deg, 4)
-        way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        ring = np.repeat(np.arange(4), 12)
-        gap = np.array([5, 14, 26, 40])[ring, None]
-        taken, sizes = np.empty((0, 2)), np.empty((0, 2))
-        for words, point, color, size in self.labels:
-            artist = self.ax.text(
-                0,
-                0,
-                words,
-                fontsize=size,
-                color=color,
-                zorder=9,
-                va="center",
-                ha="center",
-                parse_math=False,
-            )
-            box = artist.get_window_extent(renderer)
-            half = np.array([box.width / 2 + 2, box.height / 2 + 1])
-            here = to_pixels(point)
-            places = here + (gap + half) * way
-            near = np.all(abs(lines - here) < 2 * half + gap.max() + margin, axis=-1)
-            inside, hits = (
-                np.all(abs(places[:, None] - others) < half + room, axis=-1).sum(axis=-1)
-                for others, room in ((lines[near], margin[near]), (taken, sizes))
-            )
-            out = np.any((places - half < frame.min) | (places + half > frame.max), axis=-1)
-            cost = 5 * inside + 200 * hits + 1000 * out + 6 * ring + (1 - way[:, 0])
-            best = places[(cost + (1 - way[:, 1])).argmin()]
-            artist.set_position(to_data.transform(best))
-            taken, sizes = np.vstack([taken, best]), np.vstack([sizes, half])
-
 
 def number(value: float, digits: int = 3) -> str:
-    """Format a number for people: three significant digits, a real minus sign, no negative zero."""
+    """Format a number for readers: significant digits, a real minus sign, no negative zero."""
     value = round(float(value), 9)  # so that rounding noise cannot decide a tie
     text = f"{value:.{digits}g}"
     if "e+" in text:

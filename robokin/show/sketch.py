@@ -18,17 +18,18 @@ from .palette import INK, JOINT_STYLES, REMARK
 from .plots import Figure, figure
 
 UNITS = {"mm": mm, "m": 1.0}
-NAMED = 11  # pixels between a joint and its name
+NAMED = 11  # typographic points between a joint and its name
 
 
 class Sketch(Figure):
     """A figure of one plane with true proportions to draw on. Points are (x, y) in metres, angles
-    are in radians from the x axis, counter-clockwise; a text may contain formulas in dollar signs.
+    are in radians from the x axis, counter-clockwise; texts may contain formulas between dollar
+    signs.
 
     alt    what a sighted reader concludes
     title  what the picture shows
-    unit   of the axes: "mm" or "m"
-    x, y   what the axes are, without the unit
+    unit   the unit of the axes: "mm" or "m"
+    x, y   the labels of the axes, without the unit
     """
 
     def __init__(
@@ -43,7 +44,7 @@ class Sketch(Figure):
         height: float = 4.6,
     ) -> None:
         self._unit = UNITS[choice(unit, "unit", tuple(UNITS))]
-        blank = figure(alt, width, height)  # checks words and sizes
+        blank = figure(alt, width, height)  # checks the words and the sizes
         super().__init__(blank.alt, figsize=blank.get_size_inches(), layout="constrained")
         self.ax = self.subplots()
         self.ax.set(
@@ -63,7 +64,9 @@ class Sketch(Figure):
             self.ax.plot(*np.transpose([a, b]), color=color, lw=3 if dashed else 5, ls=line)
         self.ax.plot(*corners.T, "o", color="white", mec=INK, ms=8, mew=1.4, zorder=3)
         middle = corners.mean(axis=0)
-        for corner, name in zip(corners, several(names, "names", "a list of words"), strict=False):
+        for corner, name in zip(
+            corners, several(names, "names", "a list of strings"), strict=False
+        ):
             self._text(corner, name, corner - middle)
 
     def point(self, place: ArrayLike, name: str = "", *, away: ArrayLike = (0, -1)) -> None:
@@ -85,7 +88,7 @@ class Sketch(Figure):
     def angle(
         self, centre: ArrayLike, start: float, end: float, name: str = "", *, radius: float = 0.05
     ) -> None:
-        """Draw an arc about a point from the direction `start` to `end`, with an arrow at its end
+        """Draw an arc around a point from the direction `start` to `end`, with an arrow at its end
         and its name outside its middle. A thin line shows the direction of its start.
         """
         first, last = floats([start, end], "start and end", 2)
@@ -99,7 +102,7 @@ class Sketch(Figure):
         self.ax.annotate(
             "",
             (arc[-1, 0], arc[-1, 1]),
-            (arc[-4, 0], arc[-4, 1]),  # so short that no straight shaft shows
+            (arc[-4, 0], arc[-4, 1]),  # so close that only the arrowhead shows
             arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0},
         )
         self._text(arc[90], name, arc[90] - at)

@@ -1,8 +1,8 @@
 """The explorer of tours: points, start and links that the reader can change; Python computes the
 greedy tour and the best one.
 
-The page draws, and asks a kernel at every move (`live`). Points are numbered as in a `Task`, from
-0. All words are in this module.
+The page draws, and asks a kernel whenever something moves (see `live`). Points are numbered as in a
+`Task`, from 0. All words of the page are in this module.
 """
 
 import re
@@ -38,7 +38,7 @@ from .things import Mark
 from .twin import chain
 
 MOST = 12  # points: the page stays legible, and the best order takes about 10 ms
-WHILE_HELD = 10  # points: with more, the best order is computed when the reader lets go
+WHILE_HELD = 10  # points: with more, the best order is computed only after the reader lets go
 KINDS = ("visit", "collect")
 TOURS = ("greedy", "best")
 GREEDY, BEST = JOINT_STYLES[1]["color"], JOINT_STYLES[0]["color"]
@@ -65,17 +65,17 @@ MEANT = (
 
 
 def tour_explorer(task: Task) -> Live:
-    """Show the points of a task and its start to drag, sliders for links and time, and a choice of
-    visit or collect. The greedy tour (`visit`, `collect`) and the best one (`best_visit`) follow,
-    drawn as the path of the tool, with the loss of the greedy one, and a clock that moves the arm
-    along either.
+    """Show the start and the points of a task, which the reader can drag, with sliders for the
+    links and the time and a menu for visit or collect. The page draws the greedy tour (`visit`,
+    `collect`) and the best one (`best_visit`) as paths of the tool, says what the greedy tour
+    loses, and has a clock that moves the arm along either.
 
     It asks the kernel: see `live`. The clock runs without one. TypeError: not a Task. ValueError:
     more than MOST points.
     """
     count = len(instance(task, Task, "task").points)
     if count > MOST:
-        raise ValueError(f"task: wanted at most {MOST} points to be moved, got {count}")
+        raise ValueError(f"task: wanted at most {MOST} points, got {count}")
 
     def answer(question: Question) -> Answer:
         return answered(question, task.speeds)
@@ -121,16 +121,17 @@ def tour_explorer(task: Task) -> Live:
 
 
 def answered(question: Question, speeds: Floats) -> Answer:
-    """Answer for a task that the reader has made; points out of reach are left out.
+    """The answer for a task that the reader has set up; points out of reach are left out.
 
-    question  l1, l2, T, kind, p0, points as of a `Task`; held: whether the hand still holds it
-    speeds    (3,) greatest joint speeds, rad/s
+    question      l1, l2, T, kind, p0, points as in a `Task`; held: whether the reader is dragging
+    speeds        (3,) greatest joint speeds, rad/s
 
-    chain     the links of the arm, for the page's `frames`
-    reached   whether each point is in the workspace; `start`: p0
-    greedy    the tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points served,
-    best      `cells` of the table. None: there is none, or not yet
-    says      what greed loses; `notes`: what is out of reach, where the tool dips under the floor
+    chain         the links of the arm, for the page's `frames`
+    reached       whether each point is in the workspace; `start`: whether p0 is
+    greedy, best  each tour: t (k,) and q (k, 3) at every stop, `order` and `times` of the points
+                  served, `cells` of the table; None if there is no tour, or not yet
+    says          what the greedy tour loses; `notes`: the points out of reach, and where the tool
+                  dips below the floor
     """
     l1, l2 = question["l1"], question["l2"]
     points = np.array(question["points"], dtype=float).reshape(-1, 3)
@@ -151,7 +152,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
     results = {"greedy": collect(task) if kind == "collect" else visit(task)}
     on_axis = bool(np.isnan(task.q[0]).any())
     if kind == "collect" and not on_axis:
-        results["best"] = results["greedy"]  # errata S0-r
+        results["best"] = results["greedy"]  # greed is optimal: errata S0-r
     elif kind == "visit" and not (question["held"] and len(served) > WHILE_HELD):
         results["best"] = best_visit(task)
     for name, result in results.items():
@@ -166,7 +167,7 @@ def answered(question: Question, speeds: Floats) -> Answer:
 
 
 def _says(task: Task, results: dict[str, Result], n: str) -> str:
-    """Say in one sentence what the greedy tour loses; n is the number of points."""
+    """Say in one sentence what the greedy tour loses; `n` is the number of points, as text."""
     greedy, best = results["greedy"], results.get("best")
     few = len(greedy.order)
     if task.kind == "collect":
@@ -191,7 +192,7 @@ def _points(count: int) -> str:
 
 
 def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Bools) -> list[str]:
-    """Why p0 and points are out of reach, with the digits that a drag can set."""
+    """Say why p0 and points are out of reach, to the precision that a drag can set."""
 
     def told(p: Sequence[float] | Floats) -> str:
         reasons = "; ".join(out_of_workspace(l1, l2, p))
@@ -206,7 +207,9 @@ def _lost(l1: float, l2: float, p0: Sequence[float], points: Floats, inside: Boo
 
 
 def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
-    """A tour for the page, and where on it the tool dips deepest below the floor, if it does."""
+    """Return a tour for the page, and a sentence that says where the tool dips deepest below the
+    floor, or "".
+    """
     t, q = itinerary(task, result)
     order = [int(served[i]) for i in result.order]
     stops = ["p0"]
@@ -216,7 +219,7 @@ def _tour(task: Task, result: Result, served: Ints) -> tuple[Answer, str]:
     dips = ""
     if len(z) and z.min() < -UNDER * (task.l1 + task.l2):
         k = int(z.argmin())
-        ends = " and ".join(sorted(stops[k : k + 2]))  # the way back has the same places
+        ends = " and ".join(sorted(stops[k : k + 2]))  # the path back has the same ends
         dips = f"Between {ends} the tool dips under the floor, down to {_number(z[k], '.2f')} m."
     parts = [f"{i}\N{NO-BREAK SPACE}({at:.2f})" for i, at in zip(order, result.times, strict=True)]
     tour = {
@@ -237,8 +240,8 @@ def _number(x: float, form: str) -> str:
 
 
 def _scene(arm: Arm, task: Task) -> PageScene:
-    """A scene with room for the points and their surroundings, seen from their side; the picture
-    zooms out for the rest.
+    """A scene with room for the points and their surroundings, seen from the side on which they
+    are; the picture zooms out for anything outside.
     """
     places = np.vstack([task.p0, task.points])
     ring = np.arange(0, 360, 30) * deg
@@ -246,14 +249,14 @@ def _scene(arm: Arm, task: Task) -> PageScene:
     around = out * np.stack([np.cos(ring), np.sin(ring), 0 * ring], axis=-1)
     marks = [Mark(p) for p in (*around, *places)]
     scene = scene_data([arm], [task.q[None, :1]], marks, extent(arm), solid=True, grows=True)
-    scene["things"] = []  # the page creates them
+    scene["things"] = []  # the page adds the things
     scene["view"] = rounded([best_view(places, None)[0], 40 * deg], 4)
     return scene
 
 
 def _spare(task: Task) -> Floats:
-    """Places (MOST, 3) for added points: all around the arm, each turned further by the golden
-    angle.
+    """Places (MOST, 3) for added points: all around the arm, each rotated by the golden angle from
+    the one before.
     """
     turn = np.arange(MOST) * np.pi * (3 - 5**0.5)
     rise = np.linspace(5, 55, MOST) * deg

@@ -1,8 +1,8 @@
 """The twin: the data that Python passes to the page's own kinematics, the scripts in `js/`.
 
-A page without a kernel computes in JavaScript, with the same formulas in the same order. It
-contains no arm and no sentence: both come from here as data, with every number in full precision (a
-rounded one would describe another machine).
+A page without a kernel computes in JavaScript, with the same formulas in the same order. The
+scripts contain no arm and no sentence: both come from here as data, with every number in full
+precision (a rounded one would describe another machine).
 """
 
 from collections.abc import Sequence
@@ -55,7 +55,7 @@ class PageLink(TypedDict):
 
 
 class ElbowData(TypedDict):
-    """`elbow.Elbow`."""
+    """The fields of `elbow.Elbow`."""
 
     carried: str
     sign1: float
@@ -72,7 +72,7 @@ class ElbowData(TypedDict):
 
 
 class WristData(TypedDict):
-    """`spherical_wrist.Wrist`."""
+    """The fields of `spherical_wrist.Wrist`."""
 
     sign5: float
     sign6: float
@@ -89,13 +89,13 @@ class ElbowTurns(TypedDict):
 
 
 class WristTurns(ElbowTurns):
-    """`ElbowTurns` with the angle of axis 4."""
+    """`ElbowTurns`, and the same for the angle of axis 4."""
 
     axis4: tuple[float, float]
 
 
 class ElbowInverse(TypedDict):
-    """`elbow.ElbowGeometry`."""
+    """The data of an `elbow.ElbowGeometry`."""
 
     kind: Literal["elbow"]
     elbow: ElbowData
@@ -104,7 +104,7 @@ class ElbowInverse(TypedDict):
 
 
 class WristInverse(TypedDict):
-    """`spherical_wrist.SphericalWristGeometry`."""
+    """The data of a `spherical_wrist.SphericalWristGeometry`."""
 
     kind: Literal["wrist"]
     elbow: ElbowData
@@ -114,7 +114,7 @@ class WristInverse(TypedDict):
 
 
 class ScaraInverse(TypedDict):
-    """`scara.ScaraGeometry`."""
+    """The data of a `scara.ScaraGeometry`."""
 
     kind: Literal["scara"]
     height: float
@@ -124,7 +124,7 @@ class ScaraInverse(TypedDict):
 
 
 class TwoLinkInverse(TypedDict):
-    """`two_link.TwoLinkGeometry`."""
+    """The data of a `two_link.TwoLinkGeometry`."""
 
     kind: Literal["two_link"]
     l1: float
@@ -134,7 +134,7 @@ class TwoLinkInverse(TypedDict):
 
 
 class ThreeLeverInverse(TypedDict):
-    """`planar.ThreeLeverGeometry`."""
+    """The data of a `planar.ThreeLeverGeometry`."""
 
     kind: Literal["three_lever"]
     levers: tuple[float, float, float]
@@ -155,7 +155,7 @@ Inverse: TypeAlias = (
 
 
 class Tolerances(TypedDict):
-    """The tolerances: TOLERANCES."""
+    """The type of TOLERANCES."""
 
     ROUNDING: float
     STRAIGHT: float
@@ -174,7 +174,7 @@ class JointUnit(TypedDict):
 
 
 class ArmData(TypedDict):
-    """See `arm_data`."""
+    """The data of an arm: see `arm_data`."""
 
     name: str
     target: str | None
@@ -197,16 +197,16 @@ def arm_data(arm: Arm) -> ArmData:
     """Return the data of an arm for the scripts in `js/`, ready for JSON.
 
     name, reach   as in Python
-    target        "Transform", "ScaraPose" or "point"; None for another one
+    target        "Transform", "ScaraPose" or "point"; None for another type
     chain         see `chain`
-    limits        n pairs in rad, m if prismatic; limits_in_words, the same for a sentence
-    prismatic     n times true or false
+    limits        n pairs in rad (m if prismatic); limits_in_words, the same as text
+    prismatic     n booleans
     units         the unit of each joint in a sentence: name, and size in rad or m
-    speed_limits  n, or None
+    speed_limits  n speeds, or None
     movable       which rows of the Jacobian the arm can move (see `singular_values`)
     geometry      see `inverse_data`
     branches, carried, sentences  what `ik` and `explain` need; only if there is an inverse
-    tolerances    how near is near
+    tolerances    see TOLERANCES
     """
     limits = instance(arm, Arm, "arm").limits.tolist()
     units = [(" mm", mm) if link.prismatic else ("°", deg) for link in arm.links]
@@ -256,7 +256,7 @@ def inverse_data(arm: Arm) -> Inverse:
     (None if it is unknown there), and the fields of the geometry by their names.
 
     turns  cosine and sine of the constant angles that the inverse adds to a direction: they
-           decide which rows exist, and no two languages need agree on the last bit of a cosine
+           decide which rows exist, and two languages may disagree on the last bit of a cosine
     """
     solid = arm.geometry
     kind = KINDS.get(type(solid))

@@ -2,10 +2,10 @@
 
     python tests/benchmarks/bench_blocking.py [notebooks/03_irb140_motion.ipynb ...]
 
-The page opens in Chromium at 390 px with the processor throttled four times. Total blocking time is
-the sum of what each long task takes above 50 ms, in the first 5 s. The page and the same page
-without its scripts take turns, five times each. Printed are the medians and their difference. Aim:
-a difference of at most 300 ms.
+The page opens in Chromium, 390 px wide, with the processor slowed down by a factor of four. The
+total blocking time is the time by which each long task exceeds 50 ms, summed over the first 5 s.
+The page and the same page without its scripts take turns, five times each. The script prints the
+medians and their difference. Aim: a difference of at most 300 ms.
 """
 
 import re

@@ -1,7 +1,7 @@
-"""The time of a check, and whether every student's design task can be solved.
+"""Measure how long a check takes, and test whether every student's design task can be solved.
 
-    python tests/benchmarks/bench_checks.py            checks: right and every listed wrong answer
-    python tests/benchmarks/bench_checks.py 1000       also so many variants of every design
+    python tests/benchmarks/bench_checks.py            the solution and every listed wrong answer
+    python tests/benchmarks/bench_checks.py 1000       also 1000 variants of every design task
 
 Aims: a median below 0.3 s, none above 2 s; an endless loop reported within 5 s; every variant
 solved by the method of the solution.
@@ -33,7 +33,7 @@ def endless(*inputs):
 
 
 def answers(name, exercise):
-    """The solution, and every listed wrong one."""
+    """The solution, and every listed wrong answer."""
     space = {}
     with contextlib.redirect_stdout(io.StringIO()):
         exec(solution(name), space)
@@ -47,7 +47,7 @@ def answers(name, exercise):
 
 
 def calls():
-    """Exercise -> the answer in its lab."""
+    """Exercise -> the name that its lab passes to `check` as the answer."""
     found = {}
     for path in (Path(__file__).parents[2] / "notebooks").glob("*.ipynb"):
         code = "\n".join("".join(c["source"]) for c in json.loads(path.read_text())["cells"])
@@ -71,7 +71,9 @@ def checks():
             )
             if isinstance(exercise, (Function, Catch)):
                 seconds, verdict = timed(name, endless)
-                print(f"{'':20} an endless loop: told after {seconds:.2f} s ({verdict.mistake})")
+                print(
+                    f"{'':20} an endless loop: reported after {seconds:.2f} s ({verdict.mistake})"
+                )
     print(f"all: median {statistics.median(everything):.3f} s, longest {max(everything):.3f} s")
 
 

@@ -1,12 +1,13 @@
-"""Whether copies lose anything, and their time: python tests/benchmarks/bench_copies.py
+"""Test whether copies lose anything, and measure how long they take.
 
     python tests/benchmarks/bench_copies.py --histories 500 --kills 60 --saves 60
 
-Histories are those of tests/test_copies.py. Then the real labs: a copy into an empty folder, again
-without news, again with every lab newer. Then a process that copies newer labs is killed (SIGKILL)
-at random moments; and one copies while another saves a lab as JupyterLab does, at a random moment.
-After each of these the student's files must be unchanged and every notebook valid, and the next
-copy must finish. Aims: nothing lost, and a copy of all labs within two seconds. POSIX only.
+The histories are those of tests/test_copies.py. Then the script copies the real labs: into an empty
+folder, again without changes, and again with a newer version of every lab. Then it kills a process
+that copies newer labs (SIGKILL) at a random moment, and lets one process copy labs while another
+saves a lab as JupyterLab does. After each of these, the student's files must be unchanged, every
+notebook must be valid, and the next copy must finish. Aims: nothing lost, and a copy of all labs
+within two seconds. POSIX only.
 """
 
 import argparse
@@ -62,7 +63,7 @@ def histories(count, steps):
 
 
 def times(labs, folder):
-    for what in ("into an empty folder", "without news", "every lab newer"):
+    for what in ("into an empty folder", "without changes", "every lab newer"):
         if "newer" in what:
             newer(labs, "newer")
         start = time.perf_counter()
@@ -78,7 +79,7 @@ def whole(folder):
 
 
 def finished(labs, folder):
-    """Assert that the next copy finishes and that unchanged labs are the newest."""
+    """Assert that the next copy finishes and brings every unchanged lab up to date."""
     copy(folder, labs)
     whole(folder)
     for path in labs.rglob("*.ipynb"):
@@ -108,15 +109,15 @@ def kills(labs, folder, count):
         met += process.exitcode != 0
         assert (folder / TOUCHED).read_bytes() == mine
         whole(folder)
-        if random.random() < 0.7:  # otherwise the next one is killed, too
+        if random.random() < 0.7:  # otherwise the next process is killed, too
             finished(labs, folder)
             assert (folder / TOUCHED).read_bytes() == mine
     finished(labs, folder)
-    print(f"{count} processes, of which {met} were killed at work: nothing lost")
+    print(f"{count} processes, of which {met} were killed while copying: nothing lost")
 
 
 def save_for_a_while(path, seconds):
-    """Save repeatedly like JupyterLab; the last version remains."""
+    """Save repeatedly as JupyterLab does; keep the last version beside the file."""
     end, k = time.monotonic() + seconds, 0
     try:
         text = edited(path, "COUNT")
@@ -141,7 +142,7 @@ def saves(labs, folder, count):
         start = time.perf_counter()
         copying.start()
         while not (folder / ".robokin" / "new").exists() and copying.is_alive():
-            time.sleep(0.001)  # it has begun to write
+            time.sleep(0.001)  # until the copy begins to write
         time.sleep(random.uniform(0, 0.1))
         saving = Process(target=save_for_a_while, args=(folder / SAVED, 0.3))
         saving.start()
@@ -149,13 +150,13 @@ def saves(labs, folder, count):
         span = time.perf_counter() - start
         saving.join()
         last = folder / f"{SAVED}.last"
-        if last.exists():  # it found the lab when it began
+        if last.exists():  # the saving process found the lab when it began
             seen = [p.read_bytes() for p in folder.glob("*.ipynb")]
             assert last.read_bytes() in seen, "the last save is lost"
             moved += (folder / SAVED).read_bytes() != last.read_bytes()
             last.unlink()
         finished(labs, folder)
-    print(f"{count} copies ({span:.1f} s) met by saves: nothing lost, {moved} moved beside")
+    print(f"{count} copies ({span:.1f} s) during saves: nothing lost, {moved} versions moved aside")
 
 
 def main():

@@ -1,4 +1,4 @@
-"""The speed of this edition compared with the first one: python tests/benchmarks/bench_editions.py
+"""Compare the speed of this edition with that of the first one.
 
     python tests/benchmarks/bench_editions.py --rounds 5          all, about five minutes
     python tests/benchmarks/bench_editions.py ik fk --rounds 9    cases whose names contain a word
@@ -6,8 +6,8 @@
 
 The first edition is commit 2461cda, unpacked into a temporary folder. Each edition runs in its own
 process, which measures calls on one thread, in processor time; the two take turns, so that a busy
-machine slows both equally. The script prints medians over the rounds; where their ratio and that of
-the fastest rounds differ by more than 10 %, it prints both, and the fastest count.
+machine slows both equally. The script prints medians over the rounds; where their ratio and the
+ratio of the fastest rounds differ by more than 10 %, it prints both, and the latter counts.
 
 Aims: nothing above 1.10 times the first edition's time, inverse kinematics 1.05 times; `import
 robokin` at most 1.15 times `import numpy` (the fastest of 20 new processes each). A star marks
@@ -24,7 +24,7 @@ import tarfile
 import tempfile
 from functools import partial
 from pathlib import Path
-from time import process_time  # of our own process, so other load does not count
+from time import process_time  # time of our own process, so other load does not count
 
 for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
     os.environ[f"{_library}_NUM_THREADS"] = "1"
@@ -65,7 +65,7 @@ def serve():
         print(min(spans) / int(count), flush=True)
 
 
-# Each returns name -> the call to measure. Changed names are tried in both forms.
+# Each function returns name -> the call to measure. Both the old and the new names are tried.
 
 
 def kinematics():
@@ -241,7 +241,7 @@ def _scara_pose():
     return getattr(rk, "ScaraPose", None) or rk.Target
 
 
-# ---- The two beside each other
+# ---- Comparison of the two editions
 
 
 class Edition:
@@ -266,7 +266,7 @@ class Edition:
     def _answer(self):
         line = self.process.stdout.readline()
         if not line:
-            sys.exit(f"an edition ended with {self.process.wait()}")
+            sys.exit(f"an edition ended with exit status {self.process.wait()}")
         return line.strip()
 
     def close(self):
@@ -295,7 +295,7 @@ def compare(folder, arguments):
         print(f"only in this edition: {name}")
     names = [name for name in names if name in old.names]
     counts = {n: max(1, round(BATCH / max(old.time(n, 1), 1e-7))) for n in names}
-    for name in names:  # warm
+    for name in names:  # warm up
         new.time(name, 1)
     spans = {name: ([], []) for name in names}
     for k in range(arguments.rounds):
@@ -321,7 +321,7 @@ def compare(folder, arguments):
 
 
 def imports(folder):
-    """Print the cost of the import relative to NumPy, with new processes in turns."""
+    """Print the cost of the import relative to NumPy, with new processes in turn."""
     timed = "import time; s = time.process_time(); import {}; print(time.process_time() - s)"
     spans = {"numpy": [], "old": [], "new": []}
     # Keep byte code as on a student's machine, even if the environment forbids it.
@@ -356,7 +356,7 @@ def _span(seconds):
 
 def _arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("words", nargs="*", help="only cases whose name holds one of these")
+    parser.add_argument("words", nargs="*", help="only cases whose name contains one of these")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--old", default=OLD, help="the commit to compare with")
     return parser.parse_args()

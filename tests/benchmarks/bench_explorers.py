@@ -1,13 +1,14 @@
-"""Explorers and the player's slider in a real browser, compared with `interact` and a re-plot.
+"""Compare explorers and the player's slider in a real browser with `interact` and a re-plot.
 
     python tests/benchmarks/bench_explorers.py
 
-A handle is dragged with 60 moves of the pointer at 60 a second: from a move to its paint (median,
-the ninth of ten, how many were painted), on a page of 1366 x 768 and by touch on one of 390 px. In
-the same run the blend slider of a player, dragged alike, and `interact` with a Matplotlib figure of
-the same content in JupyterLab, from a key to the new image. Wanted: at most 1.2 times the player's
-slider (the motion 2.5 times), at least 6 times as fast as `interact`; 45 of 60 painted (motion 24),
-by touch 40 (motion 18).
+A handle is dragged with 60 pointer moves at 60 per second. The script measures the time from a move
+to its paint (median, 90th percentile, number of painted moves), on a page of 1366 x 768 px and, by
+touch, on a page 390 px wide. In the same run it measures the blend slider of a player, dragged in
+the same way, and `interact` with a Matplotlib figure of the same content in JupyterLab, from a key
+press to the new image. Aims: at most 1.2 times the time of the player's slider (for the motion 2.5
+times); at least 6 times as fast as `interact`; 45 of 60 moves painted (motion 24), by touch 40
+(motion 18).
 """
 
 import asyncio
@@ -81,8 +82,9 @@ def motion(x=650, fraction=0.1):
 interact(motion, x=(300, 900), fraction=(0, 0.5, 0.01));""",
 }
 
-# `painted` collects a time for every picture: a canvas is wiped before it is drawn, an image is new
-# and decoded. The stamp is taken in a task after the frame, when it is on the screen.
+# `painted` collects a time for every picture: of a canvas when it is cleared before drawing, of an
+# image when it is new and decoded. The time is taken in a later task, when the picture is on the
+# screen.
 WATCH = """cell => {
     window.painted = [];
     const soon = () => { const c = new MessageChannel();
@@ -166,8 +168,8 @@ def told(name, paints, slider):
     middle = statistics.median(paints)
     print(
         f"{name}: move to paint, median {middle:.1f} ms ({middle / slider:.2f} of the player's "
-        f"slider), nine of ten in {paints[int(0.9 * (len(paints) - 1))]:.0f} ms, {len(paints)} of "
-        "60 painted",
+        f"slider), nine of ten within {paints[int(0.9 * (len(paints) - 1))]:.0f} ms, "
+        f"{len(paints)} of 60 painted",
         flush=True,
     )
     return middle
@@ -230,7 +232,7 @@ async def ours(path, folder):
 
 
 def theirs(page, cell):
-    """Median time from a key to the new image of `interact`, ms."""
+    """Median time from a key press to the new image of `interact`, ms."""
     cell.scroll_into_view_if_needed()
     page.wait_for_timeout(500)
     page.evaluate(WATCH, cell.element_handle())

@@ -1,7 +1,7 @@
 """The cost of `import robokin` relative to `import numpy`: python tests/benchmarks/bench_import.py
 
-It uses new processes in turns, so that a busy machine slows both equally. Aim: a ratio of at most
-1.15.
+New processes run the two imports in turn, so that a busy machine slows both equally. Aim: a ratio
+of at most 1.15.
 """
 
 import os
@@ -32,7 +32,7 @@ def main():
         seconds("numpy", cache), seconds("robokin", cache)  # writes the byte code
         pairs = [(seconds("numpy", cache), seconds("robokin", cache)) for _ in range(RUNS)]
     numpy, robokin = (statistics.median(times) for times in zip(*pairs, strict=True))
-    # the one least disturbed by other load
+    # the runs least disturbed by other load
     fastest = [min(times) for times in zip(*pairs, strict=True)]
     ratio = robokin / numpy
     print(

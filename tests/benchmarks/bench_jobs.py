@@ -1,8 +1,8 @@
-"""The time of the jobs: python tests/benchmarks/bench_jobs.py
+"""Measure how long the jobs take: python tests/benchmarks/bench_jobs.py
 
 Aims: greedy `visit` of 100 points in milliseconds, the exact optimum of 12 points within a second,
-and a sweep of the three-lever arm's free angle in steps of 0.001 degrees within 50 ms. Each is
-compared with a slower way to the same answer.
+and a sweep of the three-lever arm's free angle in steps of 0.001 degrees within 50 ms. The exact
+optimum is compared with the greedy answer, and the sweep with the exact minimum.
 """
 
 import time
@@ -40,7 +40,7 @@ def main():
         )
         print(
             f"exact optimum, {len(task.points)} points: {exact:.0f} ms, {exact / greedy:.0f} "
-            f"times the greedy answer"
+            f"times as long as the greedy answer"
         )
     arm, point, before = three_lever(1.0), (0.9, 0.6), np.array([1.0, 2.0, 2.0])
     sweep = milliseconds(lambda: arm.sweep(point, before, 0.001 * deg))

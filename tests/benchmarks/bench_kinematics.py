@@ -1,18 +1,18 @@
-"""How fast robokin is beside its peers: inverse, straight motion and forward kinematics, as ratios
-of one run.
+"""Compare the speed of robokin with that of other libraries: inverse kinematics, a straight motion
+and forward kinematics, as ratios within one run.
 
     python -m venv /tmp/peers && /tmp/peers/bin/pip install -r tests/benchmarks/peers.txt -e .
     /tmp/peers/bin/python tests/benchmarks/bench_kinematics.py [rounds]
 
-and, to see what a processor without AVX-512 makes of it, the same with the environment variable
-NPY_DISABLE_CPU_FEATURES="X86_V4 AVX512_ICL". A peer that is not installed is named and left out.
+To see the result for a processor without AVX-512, set the environment variable
+NPY_DISABLE_CPU_FEATURES="X86_V4 AVX512_ICL". A peer that is not installed is reported and left out.
 
-Everything runs on one thread of one processor core. Ours and the peer are timed in turns. Each gets
-its input ready in the form it likes best; making the input and letting go of the result are outside
-the timed part. "Times as fast" is the median over the rounds of (peer's time / our time); "best"
-compares the shortest times, "again" takes our second call in a row, which finds its code and data
-still in the cache. The marks are held by the first call. "Compiled part" is a peer's private
-function below its documented call: counted too, though no user calls it.
+Everything runs on one thread of one processor core. Our call and the peer's are timed in turn. Each
+gets its input in the form that it prefers; preparing the input and freeing the result are not
+timed. "Times as fast" is the median over the rounds of (peer's time / our time); "best" compares
+the shortest times; "again" uses our second call in a row, whose code and data are still in the
+cache. The aims apply to the first call. "Compiled part" is a private function behind a peer's
+documented call; it counts as well, though no user calls it.
 """
 
 import gc
@@ -36,9 +36,9 @@ PEERS = {
     "eaik": "EAIK",
     "roboticstoolbox": "roboticstoolbox-python",
 }
-# What OPW calls the two arms (metres, radians). Its zero posture is the arm stretched upwards, all
-# turns about +y and +z: the offsets and the flipped axes lead from there to ours. `fk_case` prints
-# how far the two flanges lie apart.
+# The parameters of the two arms for OPW (metres, radians). In its zero posture the arm is stretched
+# upwards and all axes point along +y or +z; the offsets and the flipped axes convert this to ours.
+# `fk_case` prints the distance between the two flanges.
 OPW = {
     "IRB-140": {
         "a1": 0.070,
@@ -71,7 +71,7 @@ def main():
     level = describe_processor()
     cases = [ik_case(arm, here) for arm in (IRB140, PUMA560)]
     cases += [lin_case(here), *(fk_case(arm, here) for arm in (IRB140, PUMA560))]
-    for case in cases:  # before the process is tied to one core, where more threads would not show
+    for case in cases:  # before the process is bound to one core, which would hide extra threads
         case["threads"] = {
             name: threads(call) for name, call in {"robokin": case["ours"], **case["peers"]}.items()
         }
@@ -82,20 +82,20 @@ def main():
 
 
 def installed():
-    """The peers that are here, by module name; the others are named."""
+    """The installed peers, by module name; print the names of the missing ones."""
     here = {}
     for module, package in PEERS.items():
         try:
             here[module] = import_module(module)
             print(f"{package} {version(package)}")
-        except Exception as error:  # not installed, or not fit for this NumPy
+        except Exception as error:  # not installed, or incompatible with this NumPy
             print(f"{package}: left out, it cannot be imported ({error})")
     return here
 
 
 def describe_processor():
-    """Print the vector level that NumPy uses; returns 512 or 256, the width of its registers in
-    bits.
+    """Print the vector level that NumPy uses; return the width of its registers in bits, 512 or
+    256.
     """
     found = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
     wide = any("512" in feature or feature == "X86_V4" for feature in found)
@@ -113,7 +113,7 @@ def describe_processor():
 
 
 def ik_case(arm, here):
-    """All branches of many poses. The mark is against the fastest peer."""
+    """All branches of many poses. The aim is relative to the fastest peer."""
     rng = np.random.default_rng(6)
     pose = arm.fk(rng.uniform(-np.pi, np.pi, (POSES, 6)))
     q = rng.uniform(-np.pi, np.pi, (SINGULAR, 6))
@@ -171,14 +171,14 @@ def lin_case(here):
 
 
 def fk_case(arm, here):
-    """The flange of many joint rows."""
+    """The flange pose of many postures."""
     q = np.random.default_rng(8).uniform(-np.pi, np.pi, (POSES, 6))
     peers = {}
     if "py_opw_kinematics" in here:
         robot = opw_robot(arm, here)
         peers["opw batch_forward"] = lambda: robot.batch_forward(q)
         peers["opw batch_forward, compiled part"] = lambda: robot._robot.batch_forward(q)
-    # its IRB-140 is another one, with an upper arm of 360 mm
+    # its IRB-140 is a different one, with an upper arm of 360 mm
     if "roboticstoolbox" in here and arm is PUMA560:
         robot2 = here["roboticstoolbox"].models.DH.Puma560()
         chain = robot2.ets()
@@ -204,7 +204,7 @@ def fk_case(arm, here):
     }
 
 
-# ---- the peers' own ways -------------------------------------------------------------------------
+# ---- how the peers are called --------------------------------------------------------------------
 
 
 def opw_robot(arm, here):
@@ -213,11 +213,11 @@ def opw_robot(arm, here):
 
 
 def opw_ik(arm, pose, here):
-    """`reach`, the call of this peer that gives all eight rows: by the documented way and, faster,
-    past its wrapper.
+    """`reach`, the function of this peer that returns all eight rows: called as documented and,
+    faster, without its wrapper.
 
-    It also rates every row inside the limits by a singular value. That is not asked for here and
-    takes most of its time: limits that no row keeps spare it that.
+    It also rates every row inside the limits by a singular value, which takes most of its time and
+    is not needed here. Limits that no row satisfies prevent that.
     """
     if "py_opw_kinematics" not in here:
         return {}
@@ -237,8 +237,8 @@ def opw_rows(result):
 
 
 def eaik_ik(arm, pose, here):
-    """`IK_batched` with one worker, on a list of matrices. Its model knows no turn after axis 6:
-    the poses lose it.
+    """`IK_batched` with one worker, on a list of matrices. Its model has no fixed rotation after
+    axis 6, so this rotation is removed from the poses.
     """
     if "eaik" not in here:
         return {}
@@ -258,7 +258,7 @@ def eaik_ik(arm, pose, here):
 
 
 def eaik_rows(result):
-    """Its exact solutions (not those of least squares) as rows (N, most, 6), filled up with NaN."""
+    """The exact solutions of EAIK (not its least-squares ones) as rows (N, most, 6), with NaN."""
     rows = np.full((len(result), max(one.num_solutions() for one in result), 6), np.nan)
     for row, one in zip(rows, result, strict=True):
         exact = one.Q[~np.asarray(one.is_LS, dtype=bool)]
@@ -274,8 +274,8 @@ def exist(rows):
 
 
 def disagreement(ours, theirs):
-    """How many of their rows are not among ours, and how many of ours not among theirs: modulo 2
-    pi, at 1e-6.
+    """How many of their rows are not among ours, and how many of ours are not among theirs, modulo
+    2 pi and within 1e-6.
     """
     away = 0.0
     for i in range(6):
@@ -287,12 +287,12 @@ def disagreement(ours, theirs):
 
 def clock(call):
     start = perf_counter()
-    result = call()  # noqa: F841  (let go of after the clock is read)
+    result = call()  # noqa: F841  (freed after the clock is read)
     return perf_counter() - start
 
 
 def threads(call):
-    """Processor time over wall time: 1 for one thread at work, less where others hold the
+    """Processor time divided by wall time: 1 for one busy thread, less if other processes use the
     processor.
     """
     call()
@@ -303,8 +303,8 @@ def threads(call):
 
 
 def race(ours, theirs, rounds):
-    """Seconds (rounds, 3) of our call, our call again and the peer's, in turns; fewer rounds where
-    one takes long.
+    """Seconds (rounds, 3) of our call, our call again and the peer's call, in turn; fewer rounds if
+    one takes a long time.
     """
     gc.collect()
     gc.disable()
@@ -337,7 +337,7 @@ def report(case, rounds, level):
     elif level in case["mark"]:
         mark = case["mark"][level]
         print(
-            f"  against the fastest peer {lowest:.2f} times, the mark is {mark}: "
+            f"  {lowest:.2f} times as fast as the fastest peer, the aim is {mark}: "
             f"{'reached' if lowest >= mark else 'NOT reached'}"
         )
     for note in case["notes"]:

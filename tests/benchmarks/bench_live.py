@@ -1,13 +1,13 @@
-"""Explorers that ask a kernel, compared with `interact` and a re-plot of the same content.
+"""Compare explorers that ask a kernel with `interact` and a re-plot of the same content.
 
     python tests/benchmarks/bench_live.py
 
-In JupyterLab a handle is dragged with 60 moves of the pointer at 60 a second: from a move to the
-paint of the first answer that knows of it (median, the ninth of ten). Then like with like: from one
-key to the paint, of the explorer and, in the same run, of `interact` with a Matplotlib figure of
-the same content. Wanted: at least 4 times as fast. Then 1000 drags: memory of page and kernel
-before and after, errors in the console; wanted: no error, and less than 2 MB (page) and 5 MB
-(kernel) more.
+In JupyterLab a handle is dragged with 60 pointer moves at 60 per second. The script measures the
+time from a move to the paint of the first answer that includes it (median, 90th percentile). Then
+it measures the time from one key press to the paint, for the explorer and, in the same run, for
+`interact` with a Matplotlib figure of the same content. Aim: at least 4 times as fast. Then it
+drags 1000 times and compares the memory of page and kernel before and after. Aims: no errors in the
+console, and at most 2 MB (page) and 5 MB (kernel) more.
 """
 
 import math
@@ -25,7 +25,7 @@ from conftest import FLAGS, JupyterLab
 
 
 class Case(NamedTuple):
-    """cell: shows the explorer; handle: what is dragged; interact: the same content by hand."""
+    """`cell` shows the explorer, `handle` is dragged, `interact` draws the same with Matplotlib."""
 
     cell: str
     handle: str
@@ -103,7 +103,8 @@ interact(toured, x=(-6.0, 6.0, 0.1), y=(-6.0, 6.0, 0.1));""",
     ),
 }
 
-# From each move to the task after the frame with the first answer that was asked for after it.
+# The time from each move to the task after the frame that shows the first answer to a question
+# asked after the move.
 PAINTS = """root => {
   const moves = [];
   window.paints = [];
@@ -125,7 +126,8 @@ PAINTS = """root => {
     });
   })).observe(root, {attributes: true});
 }"""
-# The same of a slider that is dragged to the right: the printed x says which moves an image knows.
+# The same for a slider that is dragged to the right: the printed x shows which moves an image
+# includes.
 THEIR_PAINTS = """cell => {
   const moves = [], slider = cell.querySelector("[role=slider]");
   const now = () => +slider.getAttribute("aria-valuenow");
@@ -166,7 +168,7 @@ DRAGS = """(node, count) => new Promise(done => {
 
 
 def ours(page, root, handle):
-    """Times from move to paint of the second of two drags, ms."""
+    """Times from a move to its paint during the second of two drags, ms."""
     root.evaluate(PAINTS)
     box = root.locator(f"[data-handle={handle}]").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -186,7 +188,7 @@ def ours(page, root, handle):
 
 
 def theirs_dragged(page, cell):
-    """Times from move to paint of 60 moves of the slider of `interact`, ms."""
+    """Times from a move to its paint for 60 moves of the slider of `interact`, ms."""
     cell.scroll_into_view_if_needed()
     page.wait_for_timeout(500)
     cell.evaluate(THEIR_PAINTS)
@@ -206,7 +208,7 @@ def theirs_dragged(page, cell):
 
 
 def pressed(page, root, handle):
-    """Median time from one key to the paint of its answer, ms."""
+    """Median time from one key press to the paint of its answer, ms."""
     page.evaluate("window.paints.length = 0")
     for i in range(13):
         root.locator(f"[data-handle={handle}]").press("ArrowRight" if i % 2 else "ArrowLeft")
@@ -215,7 +217,7 @@ def pressed(page, root, handle):
 
 
 def memory(page, lab):
-    """Megabytes of page and kernel in use."""
+    """The memory that the page and the kernel use, in megabytes."""
     session = page.context.new_cdp_session(page)
     for _ in range(3):
         session.send("HeapProfiler.collectGarbage")
@@ -260,21 +262,21 @@ def main():
                 fast = statistics.median(paints)
                 print(
                     f"{name}: move to the paint of its answer, median {fast:.0f} ms, nine of ten "
-                    f"in {paints[int(0.9 * (len(paints) - 1))]:.0f} ms ({len(paints)} moves)",
+                    f"within {paints[int(0.9 * (len(paints) - 1))]:.0f} ms ({len(paints)} moves)",
                     flush=True,
                 )
                 key = pressed(page, root, case.handle)
                 theirs_paints = theirs_dragged(page, page.locator(".jp-CodeCell").nth(1))
                 slow = statistics.median(theirs_paints)
                 print(
-                    f"{name}: interact, dragged alike, median {slow:.0f} ms ({len(theirs_paints)} "
-                    f"moves): {slow / fast:.1f} times as long",
+                    f"{name}: interact, dragged in the same way, median {slow:.0f} ms "
+                    f"({len(theirs_paints)} moves): {slow / fast:.1f} times as long",
                     flush=True,
                 )
                 slow = theirs(page, page.locator(".jp-CodeCell").nth(1))
                 print(
-                    f"{name}: from a key {key:.0f} ms, interact {slow:.0f} ms: {slow / key:.1f} "
-                    f"times as long",
+                    f"{name}: from a key press {key:.0f} ms, interact {slow:.0f} ms: "
+                    f"{slow / key:.1f} times as long",
                     flush=True,
                 )
                 root.scroll_into_view_if_needed()

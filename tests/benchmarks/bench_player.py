@@ -1,11 +1,11 @@
-"""The player against Matplotlib's `to_jshtml`, and its blend slider in a real browser.
+"""Compare the player with Matplotlib's `to_jshtml`, and time its blend slider in a real browser.
 
     python tests/benchmarks/bench_player.py            100 frames, slider
     python tests/benchmarks/bench_player.py --long     also 1000 frames (Matplotlib takes minutes)
 
 Scene: the chain of source 001, tasks 3 and 4 (errata S1, "chain"), arm and three panels of curves.
-Build time includes the still picture. Slider: 51 blends x 2 corners of 2001 samples; key press to
-paint, and 30 keys at one per 33 ms.
+The build time includes the still picture. Slider: 51 blends x 2 corners of 2001 samples; the time
+from a key press to its paint, and the pictures painted for 30 key presses, one every 33 ms.
 """
 
 import shutil
@@ -38,8 +38,8 @@ FLAGS = [
     "--disable-sync",
 ]
 
-# The stamp after the picture that follows a key: the next frame has begun and, in a task after it,
-# is on the screen.
+# The time of the picture that follows a key press is taken in a task after the next frame, when the
+# picture is on the screen.
 LISTEN = """() => {
     window.pressed = []; window.painted = [];
     const range = document.querySelector('[aria-label=blend]');
@@ -55,7 +55,7 @@ LISTEN = """() => {
         window.painted.push(performance.now()); return wipe.apply(this, a); };
     range.focus();
 }"""
-# Keys come from the page itself, at even times: the driver's own delays would count as ours.
+# The page itself sends the keys, at even intervals: the driver's delays would count as ours.
 KEYS = """async () => {
     const range = document.querySelector('[aria-label=blend]');
     range.value = 0; window.painted = [];
@@ -76,7 +76,7 @@ def motion(fraction, t, corner="parabola"):
 
 
 def jshtml(t, q):
-    """The same scene by Matplotlib: seconds, bytes."""
+    """The build time (s) and the size (bytes) of the same scene in Matplotlib."""
     begin = time.perf_counter()
     figure = Figure(figsize=(9, 4.5))
     FigureCanvasAgg(figure)
@@ -103,7 +103,7 @@ def jshtml(t, q):
 
 
 def player(t, q):
-    """The median of five builds: seconds, bytes."""
+    """The median build time (s) of five players, and the size (bytes)."""
     times = []
     for _ in range(5):
         begin = time.perf_counter()
@@ -115,7 +115,7 @@ def player(t, q):
 def compare(frames):
     t = np.linspace(0, 20, frames)
     q = motion(0.1, t)
-    player(t, q)  # fonts and imports
+    player(t, q)  # warm up: load fonts and modules
     (ours, our_bytes), (theirs, their_bytes) = player(t, q), jshtml(t, q)
     print(
         f"{frames} frames: player {1e3 * ours:.0f} ms, {our_bytes / 1e3:.0f} kB; to_jshtml "
@@ -165,7 +165,7 @@ def slider():
         browser.close()
     print(
         f"key press to paint: median {statistics.median(pressed):.1f} ms of {len(pressed)} "
-        f"(greatest {max(pressed):.1f}); 30 keys at one per 33 ms: {painted} pictures"
+        f"(longest {max(pressed):.1f}); 30 key presses, one every 33 ms: {painted} pictures"
     )
 
 

@@ -1,4 +1,4 @@
-"""The methods of robokin/jobs/redundancy.py on the same 1000 targets, one after the other:
+"""Compare the methods of robokin/jobs/redundancy.py on the same 1000 targets, one after another:
 python tests/benchmarks/bench_redundancy.py [targets] [seed]
 
 This measures which method moves least over many tasks; no test asserts it. Least movement is the
@@ -16,7 +16,7 @@ from robokin.jobs.redundancy import methods, race
 
 
 def targets(arm, n, seed):
-    """Gripper places of random postures within the arm's limits."""
+    """Gripper positions of random postures within the arm's limits."""
     K = arm.points(np.random.default_rng(seed).uniform(0, np.pi, (4 * n, 3)))[:, 3]
     return K[~np.isnan(arm.alpha_range(K)[0])][:n]
 
@@ -30,7 +30,7 @@ def main(n=1000, seed=4):
         runs = race(methods(H, seed), arm, places, start)
         least = runs["least movement"].turns.sum()
         print(f"levers {levers} m, {len(places)} targets, obstacle {H.tolist()}")
-        print("method                 turns, °   of least   failed   ends within L/7   ms a target")
+        print("method                 turns, °   of least   failed   ends within L/7 ms per target")
         for name, run in runs.items():
             near = (distances(arm, run.postures, H).min(axis=-1) < arm.lever / 7).sum()
             print(

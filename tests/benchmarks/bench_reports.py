@@ -1,15 +1,13 @@
-"""Reports of the solved labs 01 to 12: the time and the size of each; and a summary of 30
-notebooks.
+"""Measure the time and size of reports of the solved labs 01 to 12, and a summary of 30 notebooks.
 
     python tests/benchmarks/bench_reports.py [SLUG ...]
 
-Every exercise is answered by its solution, every prediction by its first answer, under a name of
-one's own; then `report` judges the lab anew, and `summary` reads all reports. Wanted: every
-exercise holds, no remark, a report at most 500 kB larger than the lab with its new outputs.
+Every exercise is answered with its solution and every prediction with its first option, under an
+individual name. Then `report` judges the lab again, and `summary` reads all reports. Aims: every
+exercise passes, no remarks, and a report at most 500 kB larger than the lab with its new outputs.
 
-Then `summary` judges 30 solved notebooks: one after another, side by side, and side by side beside
-two busy loops. Wanted: the same verdicts, and on two idle cores side by side at most 0.6 of the
-time.
+Then `summary` judges 30 solved notebooks: one after another, in parallel, and in parallel while two
+busy loops run. Aims: the same verdicts, and in parallel on two idle cores at most 0.6 of the time.
 """
 
 import re
@@ -32,7 +30,7 @@ WHO = "Ada Lovelace"
 
 
 def solved(slug, folder):
-    """A copy of the lab with all answers, where the labs' own folders lie beside it."""
+    """Write a copy of the lab with all answers to `folder`, and copy the folders that it uses."""
     [path] = NOTEBOOKS.glob(f"*_{slug}.ipynb")
     notebook = nbformat.read(path, as_version=4)
     predictions, cells, checks = book.lab(slug).predictions, [], []
@@ -56,12 +54,13 @@ def solved(slug, folder):
     notebook.cells = cells
     nbformat.write(notebook, folder / path.name)
     for name in ("tasks", "images"):
-        shutil.copytree(NOTEBOOKS / name, folder / name, dirs_exist_ok=True)  # links are left out
+        # copied, since a judged lab cannot use symbolic links
+        shutil.copytree(NOTEBOOKS / name, folder / name, dirs_exist_ok=True)
     return folder / path.name
 
 
 def judged(folder):
-    """The seconds, and the content of a summary of the folder's notebooks, except its date."""
+    """The time (s) and the content, without the date, of a summary of the notebooks in `folder`."""
     begin = time.perf_counter()
     made = summary.summary(folder)
     seconds = time.perf_counter() - begin
@@ -89,8 +88,8 @@ def thirty(slugs, folder, count=30):
             loop.wait()
     print(
         f"summary of {len(wanted[0])} notebooks: {alone:.0f} s one after another, {seconds:.0f} s "
-        f"with {kernels} side by side ({seconds / alone:.2f} of it), {busy:.0f} s beside two busy "
-        f"loops; the same verdicts: {beside == wanted}, {loaded == wanted}"
+        f"with {kernels} in parallel ({seconds / alone:.2f} of it), {busy:.0f} s while two busy "
+        f"loops ran; the same verdicts: {beside == wanted}, {loaded == wanted}"
     )
     for other in (beside, loaded):
         for mine, its in zip(wanted[0], other[0], strict=False):
@@ -117,7 +116,7 @@ def main(slugs):
             failed += not good
             print(
                 f"{slug:26} {seconds:5.1f} s, {page.stat().st_size / 1e3:5.0f} kB "
-                f"(the lab and {more / 1e3:4.0f}), {held} of {len(data['exercises'])} hold, "
+                f"(the lab and {more / 1e3:4.0f}), {held} of {len(data['exercises'])} pass, "
                 f"{sum(bool(p['choice']) for p in data['predictions'])} predictions"
                 f"{'' if good else '   <- NOT AS WANTED'}",
                 flush=True,

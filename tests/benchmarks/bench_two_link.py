@@ -1,13 +1,13 @@
-"""How much faster the code that SymPy writes after taking out common subexpressions is than the
-formula as it stands.
+"""Measure how much faster SymPy's code becomes when it computes common subexpressions only once.
 
     python tests/benchmarks/bench_two_link.py [rounds]
 
-Both elbows of the two-link arm (lab 12), for a million targets in NumPy: "naive" evaluates the four
-expressions one by one, "generated" computes every common subexpression once. Once for the
-document's formula (equal links on the origin, the denominator of y2 put right) and once for the
-general solution. The two are timed in turns, on one thread; printed is the median of (naive /
-generated), after the largest difference of the results. Scalar calls are timed as well.
+For both elbows of the two-link arm (lab 12) and a million targets in NumPy, "naive" evaluates the
+four expressions one by one, and "generated" computes every common subexpression once. Both are
+measured for the document's formula (equal links at the origin, with the denominator of y2
+corrected) and for the general solution, in turn, on one thread. The script prints the largest
+difference between the results and the median of (naive / generated). Scalar calls are timed as
+well.
 """
 
 import os
@@ -74,12 +74,12 @@ def main():
 
 
 def each(call):
-    """The call on rows, one after the other."""
+    """A function that makes the call for each row, one after another."""
     return lambda rows: [call(*row) for row in rows]
 
 
 def in_turns(first, second, arguments, rounds):
-    """Seconds of both calls, [(first, second), ...]."""
+    """The seconds that both calls take: [(first, second), ...]."""
     times = []
     for _ in range(rounds):
         pair = []

@@ -6,7 +6,7 @@ notice until one of them fails. (`mutants.py` does this for the rest of the pack
     python tests/benchmarks/faults.py --repo ../other --after before.jsonl
 
 White space, a comma before a closing bracket and parentheses around a single arrow parameter are
-ignored in `old`, so that a formatter hides no fault. A test that has failed runs again without the
+ignored in `old`, so that faults survive a formatter. A test that has failed runs again without the
 fault and must pass; a run that takes too long counts as noticed. `--after` begins with the test
 that noticed the fault last time, even if it has moved. Exit status 1: a fault was not noticed.
 """
@@ -39,11 +39,15 @@ sys.exit(pytest.main(sys.argv[2:], plugins=[Watch()]))"""
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--only", default="", help="those whose file or text holds this")
-    parser.add_argument("--check", action="store_true", help="only look whether each is there")
-    parser.add_argument("--repo", type=Path, default=HERE.parents[1], help="whose tests run")
-    parser.add_argument("--results", type=Path, default=os.devnull, help="gets a line for each")
-    parser.add_argument("--after", type=Path, help="results: run what was noticed then")
+    parser.add_argument("--only", default="", help="only faults whose file or text contains this")
+    parser.add_argument(
+        "--check", action="store_true", help="only test whether each fault can be inserted"
+    )
+    parser.add_argument("--repo", type=Path, default=HERE.parents[1], help="the repository to test")
+    parser.add_argument(
+        "--results", type=Path, default=os.devnull, help="file for a line per fault"
+    )
+    parser.add_argument("--after", type=Path, help="the results of an earlier run")
     given = parser.parse_args()
     faults = tomllib.loads((HERE / "faults.toml").read_text(encoding="utf-8"))["fault"]
     faults = [f for f in faults if given.only in f"{f['file']} {f['old']} {f['new']}"]
@@ -95,7 +99,7 @@ def with_fault(sound, fault):
 
 
 def hunt(repo, sound, faulted, fault):
-    """(whether a test notices, which one, how)"""
+    """(whether a test notices the fault, which test, how)"""
     answer = False, None, "no test has failed"
     for names in (fault.get("first", ()), fault["tests"]):
         tests, left_out = [test for name in names for test in where(repo, name)], []
@@ -103,7 +107,7 @@ def hunt(repo, sound, faulted, fault):
             test, how = run(faulted, tests, left_out)
             if test is None:
                 break
-            # a cell needs the cells before it; a test that could not be collected is only collected
+            # A cell needs the cells before it; a file that was not collected is only collected.
             again = test.partition("::")[0] if ".ipynb" in test else test
             if how != "failed" or not run(sound, [again], ["--co"] * ("::" not in test))[0]:
                 return True, test, how
@@ -113,7 +117,7 @@ def hunt(repo, sound, faulted, fault):
 
 
 def where(repo, test):
-    """The test in this repository, where its function may have moved to another file."""
+    """The paths of a test in this repository, even if its function has moved to another file."""
     file, _, name = test.partition("::")
     if file.endswith(".ipynb") or not name:
         return [file] if (repo / file).exists() else []
@@ -137,7 +141,7 @@ def run(place, tests, options):
             except subprocess.TimeoutExpired:
                 return tests[0], f"took longer than {SECONDS} s"
             finally:
-                with contextlib.suppress(ProcessLookupError):  # including its child processes
+                with contextlib.suppress(ProcessLookupError):  # ends its child processes, too
                     os.killpg(process.pid, signal.SIGKILL)
         failed = notes.read_text().splitlines() if notes.exists() else []
     if status == 4 and any("[" in test for test in tests):  # these parameters do not exist here

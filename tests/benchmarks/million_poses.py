@@ -1,10 +1,10 @@
-"""Every branch of every six-axis arm on a million random poses, and at and near the three
+"""Test every branch of every six-axis arm on a million random poses, and at and near the three
 singularities.
 
     python tests/benchmarks/million_poses.py [poses per arm]
 
 Not part of the test suite (it takes about a minute). For each arm: no row may be wrong, none may be
-missing, and rows that do not exist are wholly NaN. Which rows exist is counted from distances
+missing, and rows that do not exist must be entirely NaN. Which rows exist follows from distances
 alone, not from the solver.
 """
 
@@ -18,8 +18,8 @@ TURN = 2 * np.pi
 
 
 def check(arm, q, label, tolerance):
-    """Solve the poses of q (N, 6); the drawn q must be among the answers within `tolerance`, every
-    answer right.
+    """Solve the poses of q (N, 6). The drawn q must be among the answers within `tolerance`, and
+    every answer must be correct.
     """
     pose = arm.fk(q)
     rows = arm.ik(pose)
@@ -37,7 +37,7 @@ def check(arm, q, label, tolerance):
     print(
         f"{arm.name:14s} {label:28s} {len(q):8d} poses, {exists.sum():8d} rows: drawn row "
         f"missing {missing}, "
-        f"half rows {half}, rows other than counted {(exists != wanted).sum()}, "
+        f"half rows {half}, rows other than expected {(exists != wanted).sum()}, "
         f"worst position error {np.nanmax(position):.1e} of the reach, angle "
         f"{np.nanmax(angle):.1e} rad"
     )
@@ -51,8 +51,8 @@ def check(arm, q, label, tolerance):
 
 
 def expected(arm, pose):
-    """Which rows exist, from the distance of the wrist centre: (N, 8). A second way: lengths from
-    `frames` at q = 0.
+    """Which rows exist (N, 8), from the distance of the wrist centre. This is independent of the
+    solver: the lengths come from `frames` at q = 0.
     """
     frames = arm.frames(np.zeros(6))
     joints = [frames[i] @ link.before for i, link in enumerate(arm.links)]
@@ -70,7 +70,7 @@ def expected(arm, pose):
 
 
 def near(arm, name, rng, count, offset):
-    """Joint values (count, 6) that stand `offset` away from one singularity."""
+    """Joint values (count, 6) that are `offset` away from one singularity."""
     home = arm.geometry.wrist.elbow
     q = rng.uniform(-np.pi, np.pi, (count, 6))
     if name == "wrist":
@@ -110,7 +110,7 @@ def main():
                 bad += check(
                     arm, q, f"{name} singularity + {offset:g}", 1e9 if offset < 1e-4 else 1e-3
                 )
-    print("all rows right, none missing" if not bad else f"{bad} faults")
+    print("all rows correct, none missing" if not bad else f"{bad} faults")
     return int(bad > 0)
 
 

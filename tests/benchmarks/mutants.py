@@ -1,5 +1,5 @@
 """Do the tests notice wrong programs? The script inserts small faults into the package, one at a
-time, and runs the tests that can see the changed module until one fails.
+time, and runs the tests that use the changed module until one fails.
 
     python tests/benchmarks/mutants.py                        300 of all modules, about 20 minutes
     python tests/benchmarks/mutants.py --count 60 robokin/quaternion.py robokin/transform.py
@@ -15,8 +15,8 @@ long counts as noticed.
 Aim: at least 97 % of 300 noticed. The others are printed: each needs a test or a reason.
 
 The processes that run the tests are forked from one that has loaded NumPy, SciPy, pytest and
-Hypothesis; each works on its own copy of the package, with few and always the same Hypothesis
-examples. Linux and macOS only.
+Hypothesis; each works on its own copy of the package, with a few Hypothesis examples that are
+always the same. Linux and macOS only.
 """
 
 import argparse
@@ -44,10 +44,11 @@ for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
 ROOT = Path(__file__).resolve().parent.parent.parent
 EQUIVALENT = Path(__file__).with_name("equivalent_mutants.toml")
 WORKERS = 2
-SECONDS = 120  # seconds for all tests of one mutant
+SECONDS = 120  # time limit for all tests of one mutant
 MEMORY = 8 << 30  # bytes of address space: a fault may ask for any amount
 
-# The tests that can see a module, the likeliest first: a file, or a file with an expression for -k.
+# The tests that may notice a fault in a module, the likeliest first: a file, or a file with an
+# expression for -k.
 TESTS = {
     "robokin/quaternion.py": ["quaternion", "transform", "paths"],
     "robokin/transform.py": ["transform", "arm", "paths"],
@@ -82,7 +83,7 @@ TESTS = {
     "robokin/jobs/steppers/phase_table.py": ["steppers"],
     "robokin/jobs/steppers/rotor.py": ["steppers"],
 }
-# Run after these for every module, since drawing is slow and notices little.
+# Tests that run after these for every module, since drawing is slow and notices few faults.
 ALL = [
     "wrong_input",
     "read_only",
@@ -95,8 +96,8 @@ ALL = [
 
 @dataclass(frozen=True, eq=False)
 class Mutant:
-    """One fault: in `module`, in the statement that begins with `line`, `change` in words; `number`
-    tells equal ones apart. `where` and `new` are the way to the changed node and what is there.
+    """One fault in `module`, in the statement that begins with `line`; `change` describes it, and
+    `number` distinguishes equal ones. `where` is the path to the changed node, `new` its new value.
     """
 
     module: str
@@ -111,7 +112,7 @@ class Mutant:
         return self.module, self.line, self.change
 
     def rank(self, seed):
-        """Its rank in the sample, independent of the other faults."""
+        """The rank of the fault in the sample, independent of the other faults."""
         return hashlib.sha256(repr((seed, *self.key, self.number)).encode()).hexdigest()
 
     def source(self):
@@ -160,7 +161,7 @@ SWAPPED = {}
 for _pair in PAIRS.split(", "):
     _a, _b = _pair.split()
     SWAPPED |= {_a: _b, _b: _a}
-# Used only for people or the type checker; `strict` only catches our own mistakes.
+# Calls and keywords that only serve people or the type checker; `strict` only catches our mistakes.
 SILENT_CALLS = {"TypeVar", "warn", "overload", "cast"}
 SILENT_KEYWORDS = {"strict"}
 
@@ -238,9 +239,9 @@ def _faults(statement):
 
 
 def _can_go(statement):
-    """Whether the module still makes sense without it."""
+    """Whether the module still makes sense without the statement."""
     if isinstance(statement, ast.Assign):
-        # an undefined name fails at once and shows nothing
+        # an undefined name fails at once and tests nothing
         parts = [getattr(target, "elts", [target]) for target in statement.targets]
         return not any(
             isinstance(part, (ast.Name, ast.Starred)) for group in parts for part in group
@@ -364,7 +365,7 @@ def _with(node, **fields):
 
 
 def _put(tree, where, new):
-    """The tree with `new` at the end of the way."""
+    """The tree with `new` at the end of the path `where`."""
     node, (*way, (field, index)) = tree, where
     for name, i in way:
         node = getattr(node, name) if i is None else getattr(node, name)[i]
@@ -376,7 +377,7 @@ def _put(tree, where, new):
 
 
 def _bare(statement):
-    """A statement without the statements in it."""
+    """A statement without the statements inside it."""
     inner = {name: [ast.Pass()] for name in ("body", "orelse", "finalbody", "handlers")}
     inner = {name: body for name, body in inner.items() if getattr(statement, name, None)}
     if "handlers" in inner:
@@ -481,7 +482,7 @@ def _load():
 
 
 def _tests(module):
-    """Lists of pytest's arguments, one for each run."""
+    """Lists of arguments for pytest, one list for each run."""
     runs = []
     for entry in dict.fromkeys([*TESTS.get(module, ()), *ALL]):
         name, *chosen = entry.split(" -k ")
@@ -492,8 +493,8 @@ def _tests(module):
 
 
 def _fork(home, runs, plugin):
-    """A child that runs tests on the package in `home`, one list of pytest's arguments after the
-    other; its id. It ends with 0 if nothing failed.
+    """Fork a child that runs tests on the package in `home`, one list of pytest arguments after
+    another; return its process id. Its exit status is 0 if nothing failed.
     """
     sys.stdout.flush()
     child = os.fork()
@@ -537,7 +538,7 @@ def _run_tests(home, runs, plugin):
         if isinstance(plugin, _Sorted) and plugin.seconds.get(name) == float("inf"):
             continue  # it cannot even be imported
         status = pytest.main([*options, *run], plugins=[plugin])
-        if status not in (0, 5) and "-x" in options:  # 5: nothing was chosen
+        if status not in (0, 5) and "-x" in options:  # 5: no test was selected
             return 1
     return 0
 
@@ -630,10 +631,12 @@ def _no_cache(folder, names):
 def _arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("modules", nargs="*", help="such as robokin/quaternion.py")
-    parser.add_argument("--count", type=int, default=300, help="of the sample; 0 takes all")
+    parser.add_argument(
+        "--count", type=int, default=300, help="size of the sample; 0 takes all faults"
+    )
     parser.add_argument("--seed", type=int, default=10)
-    parser.add_argument("--only", help="only those whose line or change holds this text")
-    parser.add_argument("--list", action="store_true", help="print them, run nothing")
+    parser.add_argument("--only", help="only faults whose line or change contains this text")
+    parser.add_argument("--list", action="store_true", help="print the faults, run no tests")
     return parser.parse_args()
 
 

@@ -1,15 +1,16 @@
-"""What becomes of random tasks with an obstacle in the way: our plan, and the document's method on
-the same tasks.
+"""Compare our plan with the document's method on random tasks with an obstacle in the path.
 
     python tests/benchmarks/obstacle_tasks.py [tasks]
     python tests/benchmarks/obstacle_tasks.py tasks --two        with a second obstacle anywhere
-    python tests/benchmarks/obstacle_tasks.py tasks --moving     it moves: those of test_moving.py
+    python tests/benchmarks/obstacle_tasks.py tasks --moving     with the moving obstacles of
+                                                                 test_moving.py
     python tests/benchmarks/obstacle_tasks.py tasks --brute
 
-The tasks (2000) are those of tests/test_obstacles.py: lever AK sweeps the obstacle on the direct
-way. A task counts as open if the start posture and the target themselves keep L/7; of others the
-plan has to say that nothing can be kept. With --brute: the least movement of every open task on a
-grid of 2 degrees (3 s each), as in `BRUTE` of the tests, beside that of our plan.
+The tasks (2000) are those of tests/test_obstacles.py: on the direct path, lever AK hits the
+obstacle. A task counts as open if the start posture and the target themselves keep a clearance of
+L/7; for the others the plan must report that no path can keep it. With --brute, the script prints
+the least movement of every open task on a grid of 2 degrees (3 s each), as in `BRUTE` of the tests,
+beside that of our plan.
 """
 
 import os
@@ -36,9 +37,7 @@ from robokin.jobs.obstacles import clearance, plan, via_path
 
 
 def verdict(path, H):
-    """What the document's path is worth: out of reach, sweeps the obstacle, nearer than L/7, keeps
-    it.
-    """
+    """A description of the document's path: out of reach, or by its least clearance."""
     if np.isnan(path).any():
         return "via points out of reach"
     least = clearance(ARM, path, H).min()
@@ -48,9 +47,9 @@ def verdict(path, H):
 
 
 def brute_force(q0, K1, H, step=2 * deg):
-    """The least S of a way round on a grid of postures, by SciPy's Dijkstra and the tests' own
-    distances. On an edge, one step of one joint, no lever can come nearer than L/7: a point moves
-    at most (levers that turn) times the step, and from the nearer end half of it.
+    """The least S of a path around the obstacle on a grid of postures, by SciPy's Dijkstra and the
+    distances of the tests. On an edge, one step of one joint, no lever can come nearer than L/7: a
+    point moves at most (levers that turn) times the step, and half of that from the nearer end.
     """
     axes = [np.unique(np.r_[np.arange(v, 0, -step), np.arange(v, np.pi, step)]) for v in q0]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
@@ -175,7 +174,7 @@ def main(n):
         f"mean {added.mean():.1f}, nine in ten below {np.percentile(added, 90):.0f}"
     )
     print(
-        f"movement over that of the direct way: median {np.median(cost / least):.2f}, "
+        f"movement relative to the direct path: median {np.median(cost / least):.2f}, "
         f"total {cost.sum() / least.sum():.2f}; corners: {Counter(corners.astype(int).tolist())}"
     )
     print(f"via points that win, by radius: {dict(radii.most_common())}")

@@ -1,6 +1,6 @@
-// What a test has to know of scripts, read by TypeScript's parser. For each file of the arguments
-// behind the folder of the packages: its functions and how many lines they have, the values of the
-// constants that it declares at its top, its numbers and its texts.
+// Data about scripts for a test, read with TypeScript's parser. The arguments are the folder of the
+// packages and then the files. Printed for each file: its functions with their first lines and their
+// lengths in lines, and the values of its top-level constants.
 
 const {readFileSync} = require("fs");
 const ts = require(`${process.argv[2]}/typescript`);

@@ -16,13 +16,13 @@ from .shared import Floats, X, Z
 COUNT = 4
 Given = Mapping[str, Any]
 Fault = tuple[str, str]
-Direction = tuple[str, Floats, Floats, str]  # its name, an axis, where it points, a sentence
+Direction = tuple[str, Floats, Floats, str]  # name, axis, the direction it should have, sentence
 NEAR = 0.1 * deg
 UNITS = dict.fromkeys(("eye_x", "eye_y", "eye_z", "part_x", "part_y", "part_z"), ("mm", mm))
 
 
 def given(who: Any) -> Numbers:
-    """Where the camera stands, and a part that lies lower and to the side."""
+    """A place for the camera, and a part that is lower and to the side."""
     roll = dice("frames_and_quaternions", who)
 
     def signed(low: int, steps: int) -> int:
@@ -39,7 +39,7 @@ def places(given: Given) -> tuple[Floats, Floats]:
 
 
 def form(answer: Any, given: Any) -> Transform:
-    """One pose."""
+    """Return the answer if it is one pose. ValueError: it is not."""
     if isinstance(answer, Transform) and answer.shape == ():
         return answer
     wanted = "Wanted one Transform, the pose of the camera"
@@ -67,7 +67,7 @@ def between(a: Floats, b: Floats) -> float:
 
 
 def faults(camera: Transform, given: Given) -> list[Fault]:
-    """The place; where z goes; x is level; y points down."""
+    """What is wrong with the place, the direction of z, the level of x and the direction of y."""
     back = camera.inverse()
     if found_in(camera, given) and not found_in(back, given):
         says = "This is the base, seen from the camera: the inverse of the camera's pose."
@@ -131,12 +131,12 @@ def misplaced(place: Floats, eye: Floats, part: Floats) -> list[Fault]:
 
 
 def swung(look: Floats) -> Quaternion:
-    """About z, until the camera's y axis has the direction of the line of sight."""
+    """A rotation about z that turns the camera's y axis to the azimuth of the line of sight."""
     return Quaternion.from_angle_axis(float(np.arctan2(look[1], look[0])) - np.pi / 2, Z)
 
 
 def tilted(look: Floats) -> Quaternion:
-    """About the level x axis, from straight up to the line of sight."""
+    """A rotation about the level x axis, from straight up to the line of sight."""
     return Quaternion.from_angle_axis(-between(Z, look), X)
 
 
@@ -151,7 +151,7 @@ def looking(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> Fault:
 
 
 def lines(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> tuple[Direction, ...]:
-    """Another axis along the line of sight, or z along another line."""
+    """Mistakes: another axis is along the line of sight, or z is along another line."""
     x, y, z = rotation.T
     return (
         ("looks away", z, -look, "It looks exactly the other way: part - eye, not eye - part."),
@@ -179,7 +179,7 @@ def lines(rotation: Floats, look: Floats, eye: Floats, part: Floats) -> tuple[Di
 
 
 def turns(look: Floats) -> tuple[tuple[str, Floats, str], ...]:
-    """z where another turn brings it."""
+    """Mistakes: z after a wrong rotation."""
     level = np.hypot(*look[:2])
     return (
         ("not turned", Z, "The z axis is where it was."),

@@ -20,7 +20,7 @@ def told(vector: Any, digits: int = 0) -> str:
 
 
 def nearest(guesses: Mapping[str, Any], value: Any) -> str:
-    """The name of the guess that is nearest to a value, a number or several."""
+    """The name of the guess that is closest to a value, which is a number or an array."""
     return min(guesses, key=lambda name: float(np.linalg.norm(np.subtract(guesses[name], value))))
 
 
@@ -81,7 +81,7 @@ def dh(q: float, d: float, a: float, alpha: float) -> Floats:
 
 @cache
 def p4() -> dict[str, Any]:
-    """Which of the numbers of a link between parallel axes leaves the next axis where it is."""
+    """The parameter of a link between parallel axes that does not move the next axis."""
     link = {"q": 20 * deg, "d": 100 * mm, "a": 300 * mm, "alpha": 0.0}
     free = []
     for name in NUMBERS:
@@ -122,7 +122,9 @@ def p6() -> dict[str, Any]:
 
 @cache
 def p7() -> dict[str, Any]:
-    """The smallest largest component of many unit quaternions, and where all are equal."""
+    """The smallest value of the largest component, over many unit quaternions and the one with
+    equal components.
+    """
     rows = np.random.default_rng(1).normal(size=(4000, 4))
     rows[0] = 1.0
     rows /= np.linalg.norm(rows, axis=1, keepdims=True)
@@ -140,7 +142,7 @@ def nlerp(a: Floats, b: Floats, s: float) -> Floats:
 
 
 def speed(lead: Lead, turn: float) -> Floats:
-    """The angular speed over S, on the way to a turn about z."""
+    """The angular speed over S, on the path to a rotation about z."""
     a, b = Quaternion.identity().wxyz, Quaternion.from_angle_axis(turn, Z).wxyz
     rows = np.array([lead(a, b, s) for s in S])
     angles = 2 * np.unwrap(np.arctan2(rows[:, 3], rows[:, 0]))
@@ -149,7 +151,7 @@ def speed(lead: Lead, turn: float) -> Floats:
 
 
 def hurry(turn: float) -> float:
-    """How many times as fast as at the ends nlerp is in the middle."""
+    """The speed of nlerp in the middle, divided by its speed at the ends."""
     found = speed(nlerp, turn)
     return float(found[len(S) // 2] / found[0])
 
@@ -157,7 +159,7 @@ def hurry(turn: float) -> float:
 @cache
 def p8() -> dict[str, Any]:
     ratio = hurry(np.pi)
-    root = np.sqrt(2)  # how much nearer the chord is
+    root = np.sqrt(2)  # the ratio of arc radius to chord distance
     guesses = {"twice": root**2, "the same": 1.0, "half as fast": 1 / root**2}
     guesses |= {"the root": root, "four times": root**4}
     return {

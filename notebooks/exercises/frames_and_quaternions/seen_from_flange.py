@@ -1,5 +1,5 @@
-"""Cases, form and law of exercise 1 of frames and quaternions; its words stand in the Markdown
-beside it, and its wrong programs use `pose`, `turn`, `place` and `scaled`, too.
+"""Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
+programs also use `pose`, `turn`, `place` and `scaled`.
 """
 
 from typing import Any
@@ -93,7 +93,7 @@ def same(a: Floats, b: Floats) -> bool:
 
 
 def pose(turned: Floats, at: Floats) -> Floats:
-    """The matrix of a turn and a place."""
+    """The matrix of a rotation and a position."""
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = turned, at
     return matrix
@@ -108,5 +108,5 @@ def place(matrix: Floats) -> Floats:
 
 
 def scaled(matrix: Floats, by: float) -> Floats:
-    """The place in another unit."""
+    """The pose with its position in another unit."""
     return pose(turn(matrix), by * place(matrix))

@@ -1,4 +1,4 @@
-"""What several exercises and predictions of frames and quaternions use."""
+"""Code that exercises and predictions of this lab share."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,17 +22,17 @@ def rot(axis: Floats, angle: float) -> Floats:
 
 
 def arc(a: Floats, b: Floats, s: float) -> Floats:
-    """Slerp towards b as it is written."""
+    """Slerp towards b without changing the sign of b."""
     beta = angle(a, b)
     if beta < 1e-12:
         return a.copy()
-    if np.pi - beta < 1e-9:  # b is -a: an arc, but which?
+    if np.pi - beta < 1e-9:  # b is -a: no unique arc
         return a.copy()
     return weighted(a, b, s, beta)
 
 
 def angle(a: Floats, b: Floats) -> float:
-    """Of the arc between two quaternions, in four dimensions."""
+    """The angle of the arc between two quaternions, in four dimensions."""
     return 2 * float(np.arctan2(np.linalg.norm(a - b), np.linalg.norm(a + b)))
 
 

@@ -1,4 +1,4 @@
-"""What the right and the wrong programs of exercise 3 of frames and quaternions use."""
+"""Helpers for the correct and wrong programs of exercise 3 of this lab."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ __all__ = ["Quaternion", "angle", "arc", "chord", "deg", "floats", "np", "unit",
 
 
 def near(a: Floats, b: Floats) -> Floats:
-    """b with the sign that is nearer to a."""
+    """b or -b, whichever is nearer to a."""
     return b if a @ b >= 0 else -b
 
 
@@ -26,7 +26,7 @@ def conjugate(a: Floats) -> Floats:
 
 
 def power(q: Floats, s: float) -> Floats:
-    """The turn by s times the angle of q, the short way."""
+    """The rotation by s times the angle of q, the short way."""
     q = q if q[0] >= 0 else -q
     half, sine = np.arctan2(np.linalg.norm(q[1:]), q[0]), np.linalg.norm(q[1:])
     if sine < 1e-15:
@@ -39,6 +39,6 @@ def angles(q: Floats) -> Floats:
 
 
 def of_angles(a: Floats, b: Floats, s: float) -> Floats:
-    """Roll, pitch and yaw on straight lines."""
+    """Interpolate roll, pitch and yaw linearly."""
     roll, pitch, yaw = (1 - s) * angles(a) + s * angles(b)
     return Quaternion.from_roll_pitch_yaw(roll, pitch, yaw).wxyz

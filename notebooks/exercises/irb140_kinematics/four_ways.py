@@ -1,4 +1,4 @@
-"""The conditions of exercise 2 of irb140 kinematics; its words stand in the Markdown beside it."""
+"""The conditions of exercise 2; its text is in the Markdown file beside it."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ GOAL = {
 
 
 def form(answer: Any, given: Any) -> Transform:
-    """One pose."""
+    """Return the answer if it is one pose. ValueError: it is not."""
     if isinstance(answer, Transform) and answer.shape == ():
         return answer
     hint = ""
@@ -33,7 +33,7 @@ def form(answer: Any, given: Any) -> Transform:
 
 
 def faults(pose: Transform, given: Any) -> list[Fault]:
-    """Exactly four rows have to exist, and no two of them may be one posture."""
+    """Exactly four rows have to exist, and no two of them may be the same posture."""
     distance = float(np.linalg.norm(pose.translation))
     if distance > 5:
         far = f"Your place is {distance:.0f} m away from the base. {METRES}"

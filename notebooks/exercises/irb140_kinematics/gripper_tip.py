@@ -1,5 +1,5 @@
-"""Cases, form and law of exercise 1 of irb140 kinematics; its words stand in the Markdown beside
-it, and its wrong programs use `X`, `Z`, `L4`, `LAST_TURN` and `longer`, too.
+"""Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
+programs also use `X`, `Z`, `L4`, `LAST_TURN` and `longer`.
 """
 
 from typing import Any
@@ -14,17 +14,17 @@ from .shared import L4, Floats, X, Y, Z, turned
 
 __all__ = ["L4", "LAST_TURN", "X", "cases", "form", "law", "longer", "same"]
 
-LAST_TURN = Transform(turned(90 * deg, Y))  # at the end of the chain
+LAST_TURN = Transform(turned(90 * deg, Y))  # the rotation at the end of the chain
 
 
 def longer(q: Floats) -> Transform:
-    """The flange of an arm whose upper arm has 360 mm."""
+    """The flange pose of an arm whose upper arm is 360 mm long."""
     more = IRB140.frames(q)[2].rotation @ (10 * mm * Z)
     return Transform(translation=more) @ IRB140.fk(q)
 
 
 def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
-    """Home first, then one joint at a time, then anything inside the limits."""
+    """Home, then one joint at a time, then random postures inside the limits."""
     home = np.zeros(6)
     found: list[tuple[Any, ...]] = [
         (home, 100 * mm, 0.0),
@@ -44,7 +44,7 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
 
 
 def form(result: Any, case: tuple[Any, ...]) -> Transform:
-    """One pose."""
+    """Return the answer if it is one pose. ValueError: it is not."""
     if isinstance(result, Transform) and result.shape == ():
         return result
     hint = ""
@@ -60,7 +60,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Transform:
 
 
 def law(case: tuple[Any, ...], yours: Transform, wanted: Transform) -> str | None:
-    """Seen from the flange the tip is where the gripper has it."""
+    """Say how the tip, seen from the flange, differs from the gripper's tip."""
     q, length, turn = case
     seen = IRB140.fk(q).inverse() @ yours
     if abs(seen.translation - [0, 0, length]).max() > 1e-7:
@@ -80,10 +80,10 @@ def law(case: tuple[Any, ...], yours: Transform, wanted: Transform) -> str | Non
 
 
 def in_mm(place: Any) -> str:
-    """A place in words."""
+    """A position as text, in mm."""
     return "(" + ", ".join(f"{x / mm + 0.0:.1f}" for x in np.round(place, 9)) + ")"
 
 
 def same(a: Transform, b: Transform) -> bool:
-    """One and the same pose, rounding left out."""
+    """Whether two poses are equal up to rounding."""
     return bool(np.allclose(a.as_matrix(), b.as_matrix(), rtol=0, atol=1e-7))

@@ -1,6 +1,4 @@
-"""Numbers, conditions and sentences of exercise 3 of irb140 kinematics; its words stand in the
-Markdown beside it.
-"""
+"""Numbers, conditions and sentences of exercise 3; its text is in the Markdown file beside it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -17,9 +15,9 @@ from robokin.course.variants import Numbers, dice
 from .shared import Floats, listed, target
 
 COUNT = 4
-SLACK = 1.2  # the duration may be so many times the shortest
+SLACK = 1.2  # the duration may be this many times the shortest
 SAMPLES = 2001
-EASE = 1.005  # other samples find another greatest speed, by up to 0.2 %
+EASE = 1.005  # with other samples the greatest speed differs by up to 0.2 %
 UNITS = {
     **dict.fromkeys(("x_start", "x_end", "y_start", "y_end"), ("mm", mm)),
     "turn": ("° about y", deg),
@@ -29,8 +27,8 @@ UNITS = {
 
 
 def given(who: Any) -> Numbers:
-    """A target that moves behind the arm, across the line where joint 1 stands at half a turn. The
-    arm can follow it with its back to it alone, from some height on.
+    """A target that moves behind the arm, across the line where joint 1 is at half a turn. The arm
+    can follow it only while facing away from it, and only above a certain height.
     """
     roll = dice("irb140_kinematics", who)
     side = 1 - 2 * roll.randrange(2)
@@ -53,7 +51,7 @@ def given(who: Any) -> Numbers:
 
 
 def form(answer: Any, given: Any) -> dict[str, Any]:
-    """Height and duration as floats, flags as three of +1 and -1."""
+    """Height and duration as floats, and three flags of +1 or -1."""
     if not isinstance(answer, Mapping):
         raise ValueError(f"Wanted a dict with height, flags and duration, got {in_words(answer)}.")
     missing = [key for key in ("height", "flags", "duration") if key not in answer]
@@ -76,7 +74,7 @@ def form(answer: Any, given: Any) -> dict[str, Any]:
 
 
 def faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[Fault]:
-    """It exists everywhere; inside all limits; not too fast; not too slow."""
+    """What is wrong: a posture is missing, a limit is exceeded, too fast a motion, or too slow."""
     height, duration = design["height"], design["duration"]
     if height > 5:
         name = "mm for m" if height >= 200 else "cm for m"
@@ -98,7 +96,7 @@ def faults(design: Mapping[str, Any], given: Mapping[str, Any]) -> list[Fault]:
 
 
 def past_limits(q: Floats, t: Floats) -> list[Fault]:
-    """The joints that no choice of whole turns keeps inside their limits."""
+    """The joints that no choice of whole turns keeps within their limits."""
     turns = 2 * np.pi * np.arange(-3, 4)
     names, lines, ends = [], [], True
     for k, (low, high) in enumerate(IRB140.limits):
@@ -134,7 +132,7 @@ def past_limits(q: Floats, t: Floats) -> list[Fault]:
 
 
 def speeds(q: Floats, duration: float, given: Mapping[str, Any]) -> list[Fault]:
-    """Whether the busiest joint keeps its share, and is not far below it."""
+    """What is wrong if the fastest joint exceeds its share of the speed limit or is far below."""
     dt = duration / (len(q) - 1)
     steps = abs(np.diff(q, axis=0))
     if steps.max() > 1.5:

@@ -1,4 +1,4 @@
-"""What opens after the choice, for each prediction of irb140 kinematics."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from typing import Any
 

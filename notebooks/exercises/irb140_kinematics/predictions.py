@@ -14,19 +14,19 @@ from .shared import L4, Floats, Z, listed, target
 
 
 def signed(angle: float, digits: int = 0) -> str:
-    """Radians in degrees, with a minus sign that is one."""
+    """An angle in degrees, with a typographic minus sign."""
     return f"{round(angle / deg, digits) + 0.0:.{digits}f}°".replace("-", "−")
 
 
 def moved(q: Any, k: int, by: float, point: Any = (0, 0, 0)) -> float:
-    """How far a point fixed to the flange goes when joint k (from 0) turns, in mm."""
+    """How far a point fixed to the flange moves when joint k (from 0) turns, in mm."""
     a = np.array(q, dtype=float)
     b = a + by * (np.arange(6) == k)
     return float(np.linalg.norm(IRB140.fk(b) @ point - IRB140.fk(a) @ point)) / mm
 
 
 def p1() -> dict[str, Any]:
-    """Joints that turn the home posture's flange on the spot."""
+    """The joints that turn the flange on the spot in the home posture."""
     home, bent = np.zeros(6), np.array([0, 0, 0, 0, 45, 0]) * deg
     at_home = [moved(home, k, 45 * deg) for k in range(6)]
     still = tuple(k + 1 for k, x in enumerate(at_home) if x < 1e-6)
@@ -44,7 +44,7 @@ CENTRE_Q = np.array([10, 20, -30, 40, 50, 60]) * deg
 
 
 def p2() -> dict[str, Any]:
-    """Two points that turn with joint 5: the flange and the wrist centre behind it."""
+    """How joint 5 moves two points: the flange and the wrist centre behind it."""
     behind = -L4 * Z
     centre = moved(CENTRE_Q, 4, 90 * deg, behind)
     others = max(moved(CENTRE_Q, k, 90 * deg, behind) for k in (3, 5))
@@ -62,12 +62,12 @@ AWAY_AT = np.array([400, -230.94, 500]) * mm  # a wrist centre 30 degrees to the
 
 
 def away_pose() -> Transform:
-    """The tool looks up, so that the flange stands 65 mm above its wrist centre."""
+    """The pose whose tool points up, so that the flange is 65 mm above its wrist centre."""
     return Transform(translation=AWAY_AT + L4 * Z)
 
 
 def p3() -> dict[str, Any]:
-    """Joint 1 of the arm that looks at a point, and of the one that faces away."""
+    """Joint 1 of the arm that faces a point, and of the arm that faces away from it."""
     rows = IRB140.ik(away_pose())
     front, back = (float(rows[IRB140.branch(f, 1, 1), 0]) for f in (+1, -1))
     x, y, _ = AWAY_AT
@@ -87,7 +87,7 @@ def p3() -> dict[str, Any]:
 
 
 def faces_away(q1: float) -> bool:
-    """Whether joints 2 and 3 can stay in one plane with the wrist centre, which is behind."""
+    """Whether the wrist centre is behind the arm, in the plane of joints 2 and 3."""
     x, y, _ = AWAY_AT
     ahead, aside = np.cos(q1) * x + np.sin(q1) * y, -np.sin(q1) * x + np.cos(q1) * y
     return bool(ahead < 0 and abs(aside) < 1e-9)
@@ -97,7 +97,7 @@ WRIST_Q = np.array([-20, 15, -40, 25, 35, -50]) * deg
 
 
 def p4() -> dict[str, Any]:
-    """The last three joints of a posture, of its other wrist, and three confusions."""
+    """The last three joints of a posture, those with the other wrist, and three confusions."""
     rows = IRB140.ik(IRB140.fk(WRIST_Q))
     q = WRIST_Q[3:]
     mine = np.nanargmin(abs(wrapped(rows - WRIST_Q)).max(axis=-1))
@@ -121,13 +121,13 @@ def p4() -> dict[str, Any]:
 
 
 def texts_of(q: Any) -> str:
-    """Joint angles in words; half a turn is +180°, whatever rounding made of it."""
+    """Joint angles as text; half a turn is +180° even if rounding makes it -180°."""
     half = np.isclose(q, -np.pi, rtol=0, atol=1e-9)
     return ", ".join(signed(float(x)) for x in np.where(half, np.pi, q))
 
 
 PULL_FROM = (250 * mm, -50 * mm, 950 * mm)
-PULL_TURN = np.array([-30, 15, -15]) * deg  # roll, pitch, yaw: where the explorer begins
+PULL_TURN = np.array([-30, 15, -15]) * deg  # roll, pitch, yaw: the explorer's first position
 
 
 def pull(x: float) -> Transform:
@@ -136,7 +136,7 @@ def pull(x: float) -> Transform:
 
 
 def p5() -> dict[str, Any]:
-    """Which rows vanish first when x grows in steps of 1 mm."""
+    """The rows that cease to exist first as x increases in steps of 1 mm."""
     xs = np.arange(250, 900) * mm
     exists = ~np.isnan(IRB140.ik(Transform(pull(0).rotation, [(x, *PULL_FROM[1:]) for x in xs])))
     whole: Any = exists.all(axis=-1)
@@ -153,7 +153,7 @@ def p5() -> dict[str, Any]:
 
 
 def p6() -> dict[str, Any]:
-    """The ways to the pose of the posture 0, 0, 0, 0, 0, 0."""
+    """The postures that reach the pose of the posture 0, 0, 0, 0, 0, 0."""
     pose = IRB140.fk(np.zeros(6))
     rows = IRB140.ik(pose)
     exist = rows[~np.isnan(rows).any(axis=-1)]
@@ -169,12 +169,12 @@ def task_1() -> tuple[Floats, Floats, Transform]:
     numbers = {"x_start": 0.2, "x_end": 0.45, "y_start": 0.05, "y_end": 0.55, "turn": 90 * deg}
     poses = target(numbers, t / 20, 500 * mm)
     q = IRB140.ik(poses)[:, IRB140.branch(+1, +1, +1)]
-    q[0, 3] = -180 * deg  # half a turn: +180 or -180, rounding decides; here we decide
+    q[0, 3] = -180 * deg  # half a turn: +180 or -180, which rounding would decide
     return t, q, poses
 
 
 def p7() -> dict[str, Any]:
-    """How much of task 1 is inside all limits, and which joints break them."""
+    """The share of task 1 that is within all limits, and the joints that exceed them."""
     t, q, _ = task_1()
     inside = within(IRB140, q)
     past: Any = ~inside.all(axis=-1)
@@ -198,7 +198,7 @@ def p7() -> dict[str, Any]:
 
 
 def p8() -> dict[str, Any]:
-    """The greatest forward difference of joint 4 across a wrap, at two steps of time."""
+    """The greatest forward difference of joint 4 across a wrap, for two time steps."""
     found: dict[str, Any] = {}
     for name, step in (("coarse", 0.01), ("fine", 0.005)):
         t = np.arange(0, 1, step)
@@ -214,7 +214,8 @@ def p8() -> dict[str, Any]:
 
 
 UPPER, FORE = 350 * mm, 380 * mm
-LEAST = np.sqrt(FORE**2 - UPPER**2) / mm  # nearer to joint 2 the angle at the shoulder is obtuse
+# mm, from joint 2: below this distance the angle at the shoulder is obtuse
+LEAST = np.sqrt(FORE**2 - UPPER**2) / mm
 
 
 def at_elbow(d: float) -> float:
@@ -223,7 +224,7 @@ def at_elbow(d: float) -> float:
 
 
 def arcsin_miss(d: float) -> float:
-    """How far listing 1's law of sines puts that wrist centre from its place, in mm."""
+    """The error of the wrist centre with the law of sines of listing 1, in mm."""
     inner = at_elbow(d)
     at_shoulder = np.arcsin(FORE * np.sin(inner) / d)
     bend = at_shoulder + inner - np.pi
@@ -233,7 +234,7 @@ def arcsin_miss(d: float) -> float:
 
 
 def p9() -> dict[str, Any]:
-    """What the formula gives for a wrist centre 100 mm from joint 2."""
+    """The result of the formula for a wrist centre 100 mm from joint 2."""
     d = 100 * mm
     sine, miss = FORE * np.sin(at_elbow(d)) / d, arcsin_miss(d)
     right = "a wrong place" if miss > 0.1 else "right"
@@ -251,7 +252,7 @@ JOINT_6 = 30 * deg
 
 
 def p10() -> dict[str, Any]:
-    """The values of joint 6 that are one posture and inside its limits."""
+    """The values of joint 6 inside its limits that give the same posture."""
     low, high = IRB140.limits[5]
     values = JOINT_6 + 2 * np.pi * np.arange(-5, 6)
     inside = values[(values >= low) & (values <= high)]

@@ -1,4 +1,4 @@
-"""What several exercises and predictions of irb140 kinematics use."""
+"""Code that exercises and predictions of this lab share."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -16,7 +16,7 @@ turned = Quaternion.from_angle_axis
 
 def target(numbers: Mapping[str, Any], p: Floats, height: float) -> Transform:
     """The moving target at progress p (N,) from 0 to 1: along y, then along x, turning all the
-    while.
+    time.
     """
     x = numbers["x_start"] + (numbers["x_end"] - numbers["x_start"]) * np.clip(2 * p - 1, 0, 1)
     y = numbers["y_start"] + (numbers["y_end"] - numbers["y_start"]) * np.clip(2 * p, 0, 1)
@@ -25,5 +25,5 @@ def target(numbers: Mapping[str, Any], p: Floats, height: float) -> Transform:
 
 
 def listed(numbers: Sequence[Any]) -> str:
-    """One, two and three."""
+    """A list in words: "1, 2 and 3"."""
     return ", ".join(str(n) for n in numbers[:-1]) + f" and {numbers[-1]}"

@@ -1,5 +1,5 @@
-"""Cases, form and law of exercise 1 of irb140 motion; its words stand in the Markdown beside it,
-and its wrong programs use the helpers here, too.
+"""Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
+programs also use the helpers here.
 """
 
 from functools import cache
@@ -57,14 +57,14 @@ def law(case: tuple[float, str], yours: float, wanted: float) -> str | None:
 
 
 def same(a: float, b: float) -> bool:
-    """For a mistake's name, also of one that was searched on samples; `law` judges."""
+    """Whether two results are equal, even if one was searched on samples; `law` is stricter."""
     both = a == b or (np.isnan(a) and np.isnan(b))
     return bool(both or abs(a - b) <= 2e-4 + 2e-4 * abs(b))
 
 
 @cache
 def nearest_share(corner: str) -> float:
-    """The smallest distance on the way from via, as a share of blend times |D|."""
+    """The smallest distance of the path from via, as a share of blend times |D|."""
     place = blend(START, VIA, GOAL, 0.5, np.linspace(0, 1, 8001), corner=corner).translation
     return float(np.linalg.norm(place - P1, axis=-1).min()) / (0.5 * D)
 

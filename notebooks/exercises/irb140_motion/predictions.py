@@ -1,7 +1,7 @@
 """The facts behind the predictions of irb140 motion.
 
 Objective 1: p1, p2, p3 (and p4). Objective 2: p6, p7. Objective 3: p5, p8. p9 (of objective 2) and
-p10 (of 3) stand in "Deeper".
+p10 (of 3) are in "Deeper".
 """
 
 from collections.abc import Mapping
@@ -35,12 +35,12 @@ POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def closest(guesses: Mapping[str, float], value: float) -> str:
-    """The name of the guess that is nearest to a value."""
+    """The name of the guess that is closest to a value."""
     return min(guesses, key=lambda name: abs(guesses[name] - value))
 
 
 class Power(float):
-    """A number that is written with one digit and a power of ten."""
+    """A number that is printed with one digit and a power of ten."""
 
     def __str__(self) -> str:
         digit, power = f"{float(self):.0e}".split("e")
@@ -57,7 +57,7 @@ def posture(target: Transform) -> Floats:
 
 @cache
 def along() -> Floats:
-    """The joints on the straight line of section 2."""
+    """The joint values on the straight line of section 2."""
     return follow(IRB140, IRB140.ik(lin(LEFT, RIGHT, S)), ROW)
 
 
@@ -82,7 +82,7 @@ def p1() -> dict[str, Any]:
 
 
 def joint_move() -> Floats:
-    """PTP between the poses of section 2."""
+    """The joint values of PTP between the poses of section 2."""
     return ptp(posture(LEFT), posture(RIGHT), S)
 
 
@@ -143,8 +143,8 @@ def sharp(step: float) -> Floats:
 
 
 def corner_change(step: float) -> tuple[float, float]:
-    """The greatest change of joint 3's speed from one interval to the next, rad/s, and what it
-    gives divided by the step, where two straight motions meet.
+    """Where two straight motions meet: the greatest change of joint 3's speed from one interval to
+    the next, in rad/s, and this change divided by the step.
     """
     v = np.diff(sharp(step)[:, 0]) / step
     change = float(abs(np.diff(v)).max())
@@ -161,7 +161,7 @@ def p5() -> dict[str, Any]:
 
 
 def tool_acceleration(fraction: float, duration: float) -> float:
-    """In the middle of the parabola's corner, measured, mm/s²."""
+    """The acceleration measured in the middle of the parabola's corner, mm/s²."""
     t = np.linspace(0, duration, 1001)
     place = blend(START, VIA, GOAL, fraction, t / duration).translation
     return length(differentiate(place, t, 2)[500]) / mm
@@ -170,14 +170,14 @@ def tool_acceleration(fraction: float, duration: float) -> float:
 @cache
 def p6() -> dict[str, Any]:
     before, after = tool_acceleration(0.1, DURATION), tool_acceleration(0.05, DURATION)
-    longer = DURATION * np.sqrt(after / before)  # the acceleration goes with 1 / duration²
+    longer = DURATION * np.sqrt(after / before)  # the acceleration is proportional to 1 / duration²
     times = {"same": DURATION, "root": longer, "twice": 2 * DURATION, "four": 4 * DURATION}
     found = {name: tool_acceleration(0.05, time) for name, time in times.items()}
     return times | {"before": before, "after": after, "right": closest(found, before)}
 
 
 def joint_3(fractions: Floats, corner: str) -> Floats:
-    """Its greatest acceleration with each blend."""
+    """The greatest acceleration of joint 3 for each blend."""
     path = blend(START, VIA, GOAL, fractions[:, None], S, corner=corner)
     a = differentiate(follow(IRB140, IRB140.ik(path), ROW), T, 2)
     greatest: Floats = abs(a[..., 2]).max(axis=-1)
@@ -237,7 +237,7 @@ def p8() -> dict[str, Any]:
 
 
 def misses(b: float) -> tuple[float, float]:
-    """How far from start and goal the formula of the corner begins and ends, mm."""
+    """How far the corner's formula is from start and goal at its ends, mm."""
     a, c = START.lerp(VIA, 1 - 2 * b), VIA.lerp(GOAL, 2 * b)
 
     def off(s: float, wanted: Transform) -> float:

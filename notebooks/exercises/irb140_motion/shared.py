@@ -1,4 +1,4 @@
-"""What several exercises and predictions of irb140 motion use."""
+"""Code that exercises and predictions of this lab share."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,7 @@ D = length(P0 - 2 * P1 + P2)
 
 
 def into(end: Floats) -> Floats:
-    """By whole turns into the limits."""
+    """Move a posture into the limits by whole turns."""
     end = end + TURN * np.maximum(np.ceil((LOW - SLACK - end) / TURN), 0)
     inside: Floats = end - TURN * np.maximum(np.ceil((end - HIGH - SLACK) / TURN), 0)
     return inside

@@ -1,5 +1,5 @@
-"""Cases, form and law of exercise 2 of irb140 motion; its words stand in the Markdown beside it,
-and its wrong programs use the helpers here, too.
+"""Cases, form and law of exercise 2; its text is in the Markdown file beside it, and its wrong
+programs also use the helpers here.
 """
 
 from typing import Any
@@ -37,7 +37,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case(HOME, [10, 20, -40, 5, 30, -170], six),  # joint 6 through 180
         one_joint(6, 170, -170),  # the short way over 180
         one_joint(6, -170, 170),
-        one_joint(1, 170, -170),  # outside: no short way
+        one_joint(1, 170, -170),  # the short way is outside the limits
         one_joint(1, -170, 170),
         one_joint(4, 190, -175),  # joint 4: ±200
         one_joint(4, 190, -150),
@@ -47,17 +47,17 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case([3, 5, -220, 2, 30, 4], [8, 5, 40, 2, 35, 9], [0, 0.5, 1]),
         one_joint(6, 350, -350),  # two turns
         one_joint(6, -350, 350),
-        one_joint(6, 350, 60),  # 420 is outside
+        one_joint(6, 350, 60),  # 420 would be outside
         one_joint(6, -350, -60),
         one_joint(6, 350, -300),
-        one_joint(6, 300, 20),  # 380 is inside
+        one_joint(6, 300, 20),  # 380 would be inside
         one_joint(6, -300, -20),
-        case(HOME, HOME, [0, 0.5, 1]),  # stays
-        case(HOME, [400, 380, 320, 365, 390, 375], [0, 0.5, 1]),  # all a turn on
-        one_joint(6, 380, -340, 0.3),  # stays, two turns on
+        case(HOME, HOME, [0, 0.5, 1]),  # the arm stays
+        case(HOME, [400, 380, 320, 365, 390, 375], [0, 0.5, 1]),  # all one turn further
+        one_joint(6, 380, -340, 0.3),  # stays, two turns further
         one_joint(6, 350, -710),  # three turns
         one_joint(6, -350, 710),
-        one_joint(4, -190, -565),  # -205 is outside
+        one_joint(4, -190, -565),  # -205 would be outside
         one_joint(4, 190, 565),
         case(HOME, [-60, 50, -90, 170, -40, -100], [0.5]),
         case(HOME, [-60, 50, -90, -170, -40, 120], [0.2, 0.25, 0.9]),
@@ -66,7 +66,7 @@ def cases(rng: np.random.Generator) -> list[Case]:
     while len(found) < 36:
         q0 = rng.uniform(LOW, HIGH).round(2)
         q1 = wrapped(rng.uniform(LOW, HIGH).round(2))
-        if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # a half turn: two short ways
+        if (abs(abs(wrapped(q1 - q0)) - np.pi) > 0.05).all():  # at half a turn both ways are short
             found.append((q0, q1, rng.uniform(0, 1, 7).round(3)))
     return found
 
@@ -101,14 +101,14 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
 
 
 def same(a: Floats, b: Floats) -> bool:
-    """Where something is wrapped, rounding decides between 180° and -180°."""
+    """Whether two results are equal; 180° equals -180°, since rounding decides between them."""
     if a.shape != b.shape:
         return False
     at_180 = (abs(abs(a) - np.pi) < 1e-6) & (abs(abs(b) - np.pi) < 1e-6)
     return bool(np.all(at_180 | np.isclose(a, b, rtol=0, atol=1e-6, equal_nan=True)))
 
 
-# --- What the wrong programs use ------------------------------------------------------------------
+# --- Helpers for the wrong programs ---------------------------------------------------------------
 
 
 def straight(q0: Floats, end: Floats, s: Floats) -> Floats:
@@ -126,7 +126,7 @@ def one_turn_for_all(q0: Floats, q1: Floats) -> Floats:
 
 
 def one_turn_inside(q0: Floats, q1: Floats) -> Floats:
-    """One number of turns for all joints, all of them inside."""
+    """The same number of turns for all joints, so that all are inside."""
     ends = [end for k in range(-4, 5) if inside(end := q1 + k * TURN).all()]
     return min(ends, key=lambda end: float(abs(end - q0).sum()), default=q1)
 
@@ -148,7 +148,7 @@ def pinned(q0: Floats, q1: Floats, s: Floats) -> Floats:
 
 
 def line(q0: Floats, q1: Floats, s: Floats, row: int | None = None) -> Floats:
-    """Straight in space."""
+    """The joint values on a straight line in space."""
     rows = IRB140.ik(lin(IRB140.fk(q0), IRB140.fk(q1), s))
     first = abs(wrapped(rows[0] - q0)).sum(axis=-1)
     return follow(IRB140, rows, int(first.argmin()) if row is None else row)

@@ -1,4 +1,4 @@
-"""Cases, form and law of exercise 1, the next posture; its words are in the Markdown file."""
+"""Cases, form and law of exercise 1, the next posture; its text is in the Markdown file."""
 
 from typing import Any
 
@@ -11,15 +11,15 @@ from robokin.units import wrapped
 
 from .shared import LOADER, TURN, A, B, Floats
 
-# x, y, z in mm, and the angle of joint 1 before in degrees
+# x, y, z in mm, and the previous angle of joint 1 in degrees
 PLACES = (
     "600 0 100 0, 600 200 100 0, 300 400 0 40, 0 500 200 10, -400 300 50 100, -400 -300 50 -100",
     "400 -300 250 30, -500 -20 200 170, -500 20 200 -170, -500 -20 200 190, -500 20 200 -200",
     "-300 -300 300 90, 300 300 300 -150, 500 100 100 700, 500 -100 100 -760, 0 0 400 130",
-    "0 0 600 -75, 4 3 500 60, -1 2 400 -100, 0 -400 0 0, 100 100 600 -20",  # above the base, beside
+    "0 0 600 -75, 4 3 500 60, -1 2 400 -100, 0 -400 0 0, 100 100 600 -20",  # over the base
     "80 60 700 0, 100 0 0 0, 60 -60 90 20, 700 400 100 0, 0 0 800 30, 149 0 0 0, 0 752 0 0",
     "-151 0 0 150, 0 749 0 100",  # at the borders
-    "450 150 100 1400, -400 -250 80 -1700",  # four turns on
+    "450 150 100 1400, -400 -250 80 -1700",  # four turns further
 )
 
 
@@ -59,7 +59,7 @@ def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
             return None
         side = "nearer than A \N{MINUS SIGN} B" if h < A else "farther than A + B"
         return f"should be three NaN: h = {h / mm:.1f} mm is {side}"
-    # gamma and beta by the same arm, alpha as it is: whole turns count
+    # whole turns count for joint 1 (alpha), and not for gamma and beta
     off = abs(np.append(yours[:1] - wanted[:1], wrapped(yours[1:] - wanted[1:])))
     if off.max() <= 1e-6:
         return None
@@ -79,7 +79,7 @@ def law(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
     return f"{says}; your angles put the gripper at ({got}) mm, asked is ({asked}) mm"
 
 
-# --- For wrong programs ---------------------------------------------------------------------------
+# --- Helpers for the wrong programs ---------------------------------------------------------------
 
 
 def raised() -> float:
@@ -87,17 +87,17 @@ def raised() -> float:
 
 
 def by_size(d: float) -> float:
-    """The rest of a turn, always with one sign."""
+    """The rest of a turn, always with the same sign."""
     return d if abs(d) <= np.pi else abs(d) - TURN
 
 
 def once(d: float) -> float:
-    """One turn at most taken off."""
+    """Add or subtract at most one turn."""
     return d - TURN if d > np.pi else d + TURN if d < -np.pi else d
 
 
 def cells(x: float, y: float) -> float:
-    """Table 1 as printed."""
+    """The angle by table 1 as printed."""
     if x == 0:
         return float(np.sign(y) * np.pi / 2)
     if x < 0 <= y:
@@ -106,6 +106,6 @@ def cells(x: float, y: float) -> float:
 
 
 def at_gripper(h: float) -> float:
-    """The sine law with the angle at the gripper."""
+    """The law of sines with the angle at the gripper."""
     beta = np.arccos((A**2 + B**2 - h**2) / (2 * A * B))
     return float(np.arcsin(np.minimum(A * np.sin(beta) / h, 1)))

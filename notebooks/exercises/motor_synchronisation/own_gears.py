@@ -1,4 +1,4 @@
-"""Exercise 2: a student's own move, and what does not hold of its gears and frequencies."""
+"""Exercise 2: a student's own move, and the mistakes in its gears and frequencies."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -17,8 +17,8 @@ from .shared import LOADER, STEP, A, B, Floats
 
 COUNT = 4
 LENGTHS = np.array([A + B, A + B, B])  # from each joint to the end of the stretched arm
-COARSE = LENGTHS * STEP / 2 * deg  # what half a step without a gear moves that end
-TOGETHER = 0.01  # working times this near to each other, as a share, are one
+COARSE = LENGTHS * STEP / 2 * deg  # how far half a step without a gear moves that end
+TOGETHER = 0.01  # working times that differ by a smaller share count as equal
 KEYS = ("gears", "frequencies")
 ENDS = tuple(f"{end}_{x}" for end in ("start", "goal") for x in "xyz")
 Fault = tuple[str, str]
@@ -27,7 +27,7 @@ Drive = tuple[Floats, Floats]  # gears and frequencies
 
 @cache
 def postures(places: tuple[float, ...]) -> Floats:
-    """Both postures of a move, joint 1 the short way."""
+    """Both postures of a move; joint 1 goes the short way."""
     return station_postures(LOADER, np.reshape(places, (2, 3)))
 
 
@@ -42,8 +42,8 @@ def pulses_of(q: Floats, gears: Floats) -> Floats:
 
 
 def given(who: Any) -> Numbers:
-    """Two points on either side of the direction 180°, a greatest miss, a greatest frequency, and a
-    time that leaves some room.
+    """Two points on either side of the direction 180°, the greatest miss and frequency that are
+    allowed, and a time with some margin.
     """
     roll = dice("motor_synchronisation", who)
     while True:
@@ -121,7 +121,7 @@ def close(values: Floats) -> bool:
 
 
 def not_together(q: Floats, gears: Floats, omega: Floats, pulses: Floats) -> Fault:
-    """Why the motors do not stop at one time."""
+    """Why the motors do not stop at the same time."""
     times = ", ".join(f"{t:.3f}" for t in pulses / omega)
     told = f"The motors need {times} s for {', '.join(f'{p:.0f}' for p in pulses)} pulses."
     turns = abs(np.diff(q, axis=0)[0] / deg)

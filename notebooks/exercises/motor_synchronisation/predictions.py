@@ -26,7 +26,7 @@ from .shared import GOAL, LOADER, PER_DEGREE, START, STEP, Floats
 
 
 def p1() -> dict[str, Any]:
-    """Past the vertical axis on a straight line."""
+    """How fast joint 1 turns on a straight line past the vertical axis."""
     beside, speed = 20.0, 100.0  # mm, mm/s
     ends = np.array([[200, beside, 300], [-200, beside, 300]]) * mm
     turned = float(np.diff(station_postures(LOADER, ends), axis=0)[0, 0]) / deg
@@ -93,7 +93,7 @@ def path(move: Move) -> Floats:
 
 @cache
 def p5() -> dict[str, Any]:
-    """How long both paths are with the other gears, in mm."""
+    """The lengths of both paths with the other gears, in mm."""
     a, d = (
         float(np.linalg.norm(np.diff(path(move), axis=0), axis=1).sum())
         for move in geared().values()
@@ -122,8 +122,8 @@ def p6() -> dict[str, Any]:
 
 @cache
 def random_moves() -> tuple[Floats, Floats]:
-    """How far three motors are off after each of 10 000 random moves (10 000, 3), in pulses:
-    rounded one by one, and by positions.
+    """The errors of three motors after each of 10 000 random moves (10 000, 3), in pulses: if each
+    move is rounded, and if positions are rounded.
     """
     rng = np.random.default_rng(1)
     walk = np.cumsum(rng.uniform(-20, 20, (10_001, 3)), axis=0)  # degrees
@@ -161,8 +161,8 @@ def p9() -> dict[str, Any]:
 
 @cache
 def missed() -> dict[str, dict[int, int]]:
-    """Steps lost of 48 by the motor of the lab, over the frequency in pulses per second: from rest,
-    and with a ramp of 0.1 s from 40 on.
+    """How many of 48 steps the motor of the lab loses, for each frequency in pulses per second:
+    from rest, and with a ramp of 0.1 s that starts at 40.
     """
     motor, ones = Stepper(torque=0.02, inertia=1e-6, damping=6e-5, rise=0), np.ones(48)
     tempos = range(60, 281, 10)

@@ -1,4 +1,4 @@
-"""What several exercises and predictions of motor synchronisation use."""
+"""Code that exercises and predictions of this lab share."""
 
 import numpy as np
 from numpy.typing import NDArray

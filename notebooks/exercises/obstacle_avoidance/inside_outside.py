@@ -1,5 +1,5 @@
-"""Cases, form and law of exercise 1 of obstacle avoidance; its words stand in the Markdown beside
-it, and its wrong programs use `count`, `seen` and the like, too.
+"""Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
+programs also use `count`, `seen` and other helpers.
 """
 
 from typing import Any
@@ -15,7 +15,7 @@ Case = tuple[Floats, Floats]
 
 
 def star_of(points: int, step: int) -> list[tuple[float, float]]:
-    """A star with so many points, drawn in one line: from each point to the `step`-th next one."""
+    """A star with this many points, drawn in one line: from each point to the `step`-th next."""
     angles = 2 * np.pi * step / points * np.arange(points) + 0.1
     return [(round(2 * float(np.cos(a)), 2), round(2 * float(np.sin(a)), 2)) for a in angles]
 
@@ -23,14 +23,14 @@ def star_of(points: int, step: int) -> list[tuple[float, float]]:
 def cases(rng: np.random.Generator) -> list[Case]:
     square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     diamond = [(0, -1), (1, 0), (0, 1), (-1, 0)]
-    drawn = [(0.8, 1.5), (1.75, 1.7), (1.85, 0.5), (0.9, 0.6)]  # one drawing: A, K, K1, A1
-    dent = [(0, 0), (4, 0), (4, 3), (2, 1)]  # a dent at the last corner
+    drawn = [(0.8, 1.5), (1.75, 1.7), (1.85, 0.5), (0.9, 0.6)]  # the lab's drawing: A, K, K1, A1
+    dent = [(0, 0), (4, 0), (4, 3), (2, 1)]  # concave at the last corner
     arrow = [(0, 0), (2, 1), (4, 0), (2, 4)]
     bow = [(0, 0), (2, 2), (2, 0), (0, 2)]  # two of its sides cross
-    star = star_of(5, 2)  # drawn in one line: the shape goes twice round its middle
+    star = star_of(5, 2)  # drawn in one line, which goes twice round the middle
     hook = [(0, 0), (5, 0), (5, 5), (1, 5), (1, 2), (3, 2)]
     hook += [(3, 3), (2, 3), (2, 4), (4, 4), (4, 1), (0, 1)]
-    ring = star_of(8, 3)  # three times round the middle, twice round what is next to it
+    ring = star_of(8, 3)  # the line goes three times round the middle, twice round its surroundings
     comb = [(0, 0), (6, 0), (6, 4), (5, 1), (4, 4), (3, 1), (2, 4), (1, 1)]
     steep = [(0.9, 0.5), (0.85, -0.5), (1.3, 0.2), (0.75, 1.05)]
     triangle = [(0, 0), (3, 0), (0, 2)]
@@ -39,8 +39,8 @@ def cases(rng: np.random.Generator) -> list[Case]:
         (square, [(0.5, 0.5), (1.5, 0.5), (-0.5, 0.5)]),
         (square[::-1], [(0.25, 0.75)]),
         (square, [(1.1, 0.5), (0.5, 1.5)]),
-        (square, [(-1, 0), (-1, 1)]),  # level with a side
-        (diamond, [(0, 0), (-2, 0), (-2, 1), (0.25, 0.5), (0.7, 0.6)]),  # level with corners
+        (square, [(-1, 0), (-1, 1)]),  # at the height of a side
+        (diamond, [(0, 0), (-2, 0), (-2, 1), (0.25, 0.5), (0.7, 0.6)]),  # at the height of corners
         (diamond[::-1], [(-0.75, -0.5)]),
         (drawn, [(1.3, 1.1), (0.5, 1.1), (1.3, 2.0)]),
         (drawn[::-1], [(1.3, 1.1)]),
@@ -54,15 +54,15 @@ def cases(rng: np.random.Generator) -> list[Case]:
         (triangle, [(1, 1), (2, 1), (-1, 2)]),
         (pentagon, [(3, 1.75), (0.5, 2), (3.2, 1)]),
         (dent, [(1.5, 0.5)]),  # in line with a side
-        (comb, [(5.7, 2)]),  # many crossings on one side of H, one on the other
-        (star, [(0.1, 0.05), (1.5, 0.1)]),  # in the middle two sides to the right: outside
+        (comb, [(5.7, 2)]),  # many crossings to one side of H, one to the other
+        (star, [(0.1, 0.05), (1.5, 0.1)]),  # in the middle, with two sides to the right: outside
         (star[::-1], [(-0.1, 0.1)]),
         (star, [(0.95, 0.9)]),
         (ring, [(0.1, 0.05)]),
         (ring[::-1], [(-0.05, 0.1)]),
         (ring, [(0.9, 0.2), (1.7, 0.05)]),
         ([(y, x) for x, y in comb], [(2, 3)]),  # between two teeth, one above, one below
-        (hook, [(3.5, 2.5), (1.5, 3)]),  # the first outside, with sides in every direction
+        (hook, [(3.5, 2.5), (1.5, 3)]),  # the first is outside, with sides in every direction
         (hook[::-1], [(2.5, 3.5)]),
     ]
     found = [
@@ -100,44 +100,44 @@ def law(case: Case, yours: bool, wanted: bool) -> str | None:
     return line.translate(MINUS)
 
 
-# --- For wrong programs
+# --- Helpers for the wrong programs
 
 
 def left_of(P: Any, Q: Any, H: Any) -> float:
-    """Above 0 where H is to the left of the line from P to Q."""
+    """A number that is positive if H is to the left of the line from P to Q."""
     return float((Q[0] - P[0]) * (H[1] - P[1]) - (Q[1] - P[1]) * (H[0] - P[0]))
 
 
 def in_rubber_band(corners: Floats, H: Floats) -> bool:
-    """Whether H lies in the hull of the corners."""
+    """Whether H is inside the convex hull of the corners."""
     angles = np.sort(np.arctan2(corners[:, 1] - H[1], corners[:, 0] - H[0]))
     gaps = np.diff(np.append(angles, angles[0] + 2 * np.pi))
     return bool(gaps.max() < np.pi)
 
 
 def seen(corners: Floats, H: Floats) -> Floats:
-    """The angles under which H sees the sides, as parts of a turn; together
-    how often the shape goes round H, counter-clockwise.
+    """The angles under which H sees the sides, as fractions of a turn. Their sum is the number of
+    times that the shape goes round H, counter-clockwise.
     """
     places = np.array([complex(*(P - H)) for P in corners])
     return np.asarray(np.angle(np.roll(places, -1) / places) / (2 * np.pi))
 
 
 def crossing_or_end(P: Any, Q: Any, y: float) -> float:
-    """x of the side PQ at the height y; of a level side its right end."""
+    """x of the side PQ at the height y; for a horizontal side, x of its right end."""
     return float(max(P[0], Q[0])) if P[1] == Q[1] else crossing(P, Q, y)
 
 
 def leftward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
-    """Turned so that a ray to the left goes to the right."""
+    """Mirror the shape and H, so that a ray to the left becomes one to the right."""
     return corners * [-1, 1], H * [-1, 1]
 
 
 def upward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
-    """The same for a ray upwards."""
+    """As `leftward`, for a ray upwards."""
     return corners[:, ::-1], H[::-1]
 
 
 def downward(corners: Floats, H: Floats) -> tuple[Floats, Floats]:
-    """The same for a ray downwards."""
+    """As `leftward`, for a ray downwards."""
     return leftward(*upward(corners, H))

@@ -1,6 +1,4 @@
-"""Numbers, conditions and sentences of exercise 2 of obstacle avoidance; its words stand in
-the Markdown beside it.
-"""
+"""Numbers, conditions and sentences of exercise 2; its text is in the Markdown file beside it."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -18,8 +16,8 @@ from robokin.jobs.obstacles import along, clearance, way_round
 from .shared import ARM, Floats, direct, distances
 
 COUNT = 6
-KEPT = 0.1  # m: asked for in the exercise
-BETWEEN = 0.02  # m: between the points at which the bar is measured; KEPT is right to 0.5 mm
+KEPT = 0.1  # m: the distance that the exercise asks for
+BETWEEN = 0.02  # m: between the measured points of the bar; the distance is then exact to 0.5 mm
 UNITS = {
     "start": ("° (gamma, beta, alpha)", 1.0),
     "target": ("m", 1.0),
@@ -36,7 +34,9 @@ def given(who: Any) -> Numbers:
 
 @cache
 def task(who: str) -> dict[str, Any]:
-    """The numbers of `given`: drawn until a fold keeps the distance and both ends do not do."""
+    """The numbers of `given`: drawn until folding keeps the distance, and the bar's ends alone do
+    not suffice.
+    """
     roll = dice("obstacle_avoidance", who)
     while True:
         start = np.array([100 + 5 * roll.randrange(7), 110 + 5 * roll.randrange(7), 120.0])
@@ -68,7 +68,7 @@ def task(who: str) -> dict[str, Any]:
 
 
 def points_of(ends: Any) -> Floats:
-    """Points (m, 2) of a bar, with its ends."""
+    """Points (m, 2) along a bar, including its ends."""
     first, last = np.asarray(ends)
     count = int(np.hypot(*(last - first)) / BETWEEN) + 2
     points: Floats = first + np.linspace(0, 1, count)[:, None] * (last - first)
@@ -76,14 +76,16 @@ def points_of(ends: Any) -> Floats:
 
 
 def ends_are_enough(q0: Floats, target: Floats, bar: Floats) -> bool:
-    """Whether a way round both ends of the bar keeps half of the distance from all of it."""
+    """Whether a path that avoids only the ends of the bar keeps half of the distance from all of
+    it.
+    """
     path = way_round(ARM, q0, target, bar, KEPT)
     return path is not None and bool(clearance(ARM, path, points_of(bar)).min() > KEPT / 2)
 
 
 def cheapest(q0: Floats, target: Floats, places: Floats) -> float | None:
-    """The movement of the cheapest fold, swing, unfold of some; None: none of them keeps the
-    distance.
+    """The movement of the cheapest path of the kind fold, swing, unfold, among a few; None: none
+    keeps the distance.
     """
     low, high = ARM.alpha_range(target)
     if not low < high:
@@ -114,7 +116,7 @@ def cheapest(q0: Floats, target: Floats, places: Floats) -> float | None:
 
 
 def form(answer: Any, given: Mapping[str, Any]) -> Floats:
-    """Postures (k, 3)."""
+    """Return the path as postures (k, 3). ValueError: it is not a path."""
     wanted = "wanted a path: two or more postures (gamma, beta, alpha), (k, 3) radians"
     if isinstance(answer, (str, Mapping)):
         raise ValueError(f"{wanted}, got {in_words(answer)}")
@@ -132,8 +134,8 @@ def form(answer: Any, given: Mapping[str, Any]) -> Floats:
 
 
 def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Begins at the start; ends at the target; inside the limits; the distance from the ends of the
-    bar, and from what is between them; movement.
+    """What is wrong with the start, the end at the target, the limits, the distance from the ends
+    of the bar and from the part between them, and the amount of movement.
     """
     start = np.array(given["start"]) * deg
     if abs(path).max() > 4 * np.pi:
@@ -175,7 +177,7 @@ def faults(path: Floats, given: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def too_near(path: Floats, places: Floats, name: str, distance: float) -> list[tuple[str, str]]:
-    """What is said of a path that comes too near to these places of the bar."""
+    """The fault of a path that comes too near to these points of the bar."""
     turn = abs(np.diff(path, axis=0)).sum()
     if turn > 200:
         return [("too much movement", "The joints turn round and round.")]

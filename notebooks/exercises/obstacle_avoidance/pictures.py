@@ -1,4 +1,4 @@
-"""What opens after the choice, for each prediction of obstacle avoidance."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from typing import Any
 
@@ -51,7 +51,7 @@ def p1_view() -> Any:
     return fig
 
 
-STEP = 0.04  # m, of the points that are drawn
+STEP = 0.04  # m: between the points that are drawn
 GRID = np.stack(np.meshgrid(np.arange(-1.6, 3, STEP), np.arange(-1, 3, STEP)), axis=-1).reshape(
     -1, 2
 )

@@ -18,7 +18,7 @@ from .shared import ARM, K1, START, WANTED, Floats, count, direct, distances, dr
 
 
 def nearest(guesses: Mapping[str, float], value: float) -> str:
-    """The name of the guess that is nearest to a value."""
+    """The name of the guess that is closest to a value."""
     return min(guesses, key=lambda name: abs(guesses[name] - value))
 
 
@@ -35,7 +35,7 @@ def p1() -> dict[str, Any]:
         H = rng.uniform(corners.min(axis=0), corners.max(axis=0))
         if count(corners, H) % 2 == 1:
             found.append(drawing(corners, H))
-    own = []  # what the test says of each H inside in the sample of section 7
+    own = []  # the result of the test for each H inside, in the sample of section 7
     for start, target, H in sampled_tasks():
         (A, K_), (A1, K1_) = ARM.points(direct(start, target))[:, 2:]
         if count([A, K_, K1_, A1], H) % 2 == 1:
@@ -47,7 +47,9 @@ def p1() -> dict[str, Any]:
 
 
 def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool_]:
-    """Which points (n, 2) lever AK passes over: they change sides beside its length."""
+    """Which points (n, 2) lever AK passes over: they change from one side of the lever to the
+    other.
+    """
     s = np.linspace(0, 1, 301)[:, None]
     joints = ARM.points(start + s * (end - start))[:, :, None]
     P, Q = joints[:, 2], joints[:, 3]
@@ -59,7 +61,7 @@ def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool
 
 
 FAR = np.array([150, 120, 120]) * deg
-FINE_STEP = 0.02  # m: areas are counted on a grid
+FINE_STEP = 0.02  # m: the grid on which areas are counted
 
 
 @cache
@@ -114,7 +116,7 @@ def p4() -> dict[str, Any]:
 
 
 PASSED = np.array([1.0, 1.5])  # m: the obstacle of p5
-ROUND = np.array([1.2, 1.3])  # m: that of section 6
+ROUND = np.array([1.2, 1.3])  # m: the obstacle of section 6
 
 
 @cache
@@ -135,11 +137,11 @@ def p5() -> dict[str, Any]:
 
 @cache
 def p6() -> dict[str, Any]:
-    """The wave of section 6, and the way that it has come."""
+    """The wave of section 6, and the path that it finds."""
     size = 10 * deg
     angles = np.arange(19) * size
     cube = np.stack(np.meshgrid(angles, angles, angles, indexing="ij"), axis=-1)
-    steps = []  # of joint j, by the lower one of two cells
+    steps = []  # steps of joint j, by the lower of two cells
     for j in range(3):
         a = np.moveaxis(cube, j, 0)
         steps.append(np.moveaxis(keeps(ARM, a[:-1], a[1:], ROUND, WANTED), 0, j))
@@ -148,7 +150,7 @@ def p6() -> dict[str, Any]:
     wanted = cells[keeps(ARM, cells * size, goals, ROUND, WANTED)].tolist()
     queue = [tuple(np.round(START / size).astype(int).tolist())]
     came: dict[Any, Any] = {queue[0]: None}
-    for cell in queue:  # it grows on the way
+    for cell in queue:  # the queue grows meanwhile
         if list(cell) in wanted:
             break
         for j, move in product(range(3), (-1, 1)):
@@ -176,8 +178,8 @@ LARGER = 0.25
 
 
 def sampled_tasks(many: int = TASKS) -> list[tuple[Floats, Floats, Floats]]:
-    """Start, target and an obstacle on lever AK somewhere on the direct way; start, target and
-    base keep L/7. The sample of section 7.
+    """The sample of section 7: start, target and an obstacle that lever AK touches somewhere on the
+    direct path; start, target and base are more than L/7 away from it.
     """
     rng = np.random.default_rng(33)
     tasks: list[tuple[Floats, Floats, Floats]] = []
@@ -203,7 +205,7 @@ def p7() -> dict[str, Any]:
         if np.isnan(path).any():
             out += 1
             continue
-        # samples suffice to say that it comes too near; `clearance` decides the others
+        # samples can show that a path comes too near; `clearance` decides the others
         if distances(sampled(path, 41), H).min() >= WANTED:
             keep += bool(clearance(ARM, path, H).min() >= WANTED)
     passed = clearance(ARM, via_path(ARM, START, K1, ROUND, LARGER), ROUND)

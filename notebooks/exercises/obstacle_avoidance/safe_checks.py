@@ -1,4 +1,4 @@
-"""What the right and the wrong programs of exercise 3 of obstacle avoidance use."""
+"""Helpers for the correct and wrong programs of exercise 3 of this lab."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ def proven(path: Any, H: Any, distance: float) -> bool:
 
 
 def halved(path: Any, H: Any, distance: float) -> bool:
-    """Parts are halved until the postures at their ends prove the distance, or break it."""
+    """Halve the parts until the postures at their ends prove or disprove the distance."""
     path = np.asarray(path, dtype=float)
     parts = np.stack([path[:-1], path[1:]], axis=1)
     for _ in range(30):
@@ -37,13 +37,13 @@ def halved(path: Any, H: Any, distance: float) -> bool:
 
 
 def ends_away(q: Floats, H: Any) -> Floats:
-    """Of H from the far ends of the levers: (n, 3)."""
+    """The distances of H from the far ends of the levers: (n, 3)."""
     gap = joints(q)[:, 1:] - H
     return np.asarray(np.hypot(gap[..., 0], gap[..., 1]))
 
 
 class Late:
-    """A program that answers each time with what it found the time before."""
+    """A wrong program: each call returns the result of the call before it."""
 
     def __init__(self, first: bool) -> None:
         self.found = first

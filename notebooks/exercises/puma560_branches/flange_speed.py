@@ -1,4 +1,4 @@
-"""Exercise 2: the cases, the form of a speed, the law, and what wrong lines use."""
+"""Exercise 2: the cases, the form of a speed, the law, and helpers for the wrong lines."""
 
 from typing import Any
 
@@ -12,14 +12,16 @@ from .shared import HIGH, LOW, Floats, X, Y, Z
 
 
 def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
-    """Joints that stand still, joints with unlike limits, a wrist nearly aligned, then any."""
+    """Cases in which joints do not move, limits differ, the wrist is nearly aligned; then random
+    ones.
+    """
     even = np.full(6, 100.0) * deg
     uneven = np.array([80, 60, 100, 150, 120, 200]) * deg
     stand = np.array([0, 60, -170, 0, 40, 0]) * deg
     turned = np.array([20, 50, -150, 30, 40, -10]) * deg
     near = np.array([0, 60, -170, 30, 3, 0]) * deg
     made: list[tuple[Any, ...]] = [
-        (stand, X, even),  # joints 1, 4 and 6 stand still
+        (stand, X, even),  # joints 1, 4 and 6 do not move
         (stand, Y, even),
         (turned, X, even),
         (turned, -Z, uneven),
@@ -40,7 +42,7 @@ def form(result: Any, case: tuple[Any, ...]) -> float:
 
 
 def law(case: tuple[Any, ...], yours: float, wanted: float) -> str | None:
-    """The right speed, and with what share of its most a joint turns at yours."""
+    """The correct speed, and the share of its limit with which a joint turns at your speed."""
     q, direction, most = case
     if abs(yours - wanted) <= 2e-3 * wanted:
         return None
@@ -52,18 +54,18 @@ def law(case: tuple[Any, ...], yours: float, wanted: float) -> str | None:
         return says
     if yours > 100 * wanted:
         return f"{says}; {is_at} m/s is far too fast"
-    used = apart(100 * yours / wanted, 100, 0)[0]  # all joints in proportion
+    used = apart(100 * yours / wanted, 100, 0)[0]  # all joints are scaled by the same factor
     return f"{says}; at {is_at} m/s it turns with {used} % of it"
 
 
 def same(a: float, b: float) -> bool:
-    """To a millionth, however small."""
+    """Whether two speeds agree to a millionth, however small they are."""
     both = a == b or (np.isnan(a) and np.isnan(b))
     return bool(both or abs(a - b) <= 1e-6 * abs(b))
 
 
 def scaled_jacobian(q: Floats) -> Floats:
-    """With lengths in reaches."""
+    """The Jacobian with lengths in units of the reach."""
     jacobian = PUMA560.jacobian(q)
     jacobian[:3] /= PUMA560.reach
     return jacobian

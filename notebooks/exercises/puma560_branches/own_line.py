@@ -1,4 +1,4 @@
-"""Exercise 3: a student's own line, and what a row and a duration do on it."""
+"""Exercise 3: a student's own line, and the faults of a row and a duration on it."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -19,9 +19,9 @@ UNITS = {
     **{f"{end}_{letter}": ("mm", mm) for end in ("start", "goal") for letter in "xyz"},
     "fastest": ("°/s", deg),
 }
-SAMPLES = 161  # to find a line; its speeds and limits are looked at in FINE
+SAMPLES = 161  # to find a line; its speeds and limits are checked with FINE
 FINE = 641
-LONGEST = 1.05  # times the least duration
+LONGEST = 1.05  # times the shortest duration
 
 
 def ends(numbers: Mapping[str, float]) -> tuple[Transform, Transform]:
@@ -32,8 +32,8 @@ def ends(numbers: Mapping[str, float]) -> tuple[Transform, Transform]:
 
 
 class Judged:
-    """What is to be known of a line: for each row the motion, how far past its limits it comes, its
-    greatest joint speed in 1 s, and whether it is usable at the ends.
+    """The properties of a line: for each row the motion, how far it exceeds the limits, its
+    greatest joint speed if it takes 1 s, and whether it is usable at the ends.
     """
 
     def __init__(self, samples: int, *items: tuple[str, float]) -> None:
@@ -50,13 +50,12 @@ class Judged:
         self.obvious = int(np.where(self.at_start, travel, np.inf).argmin())
 
     def least(self, fastest: float) -> Floats:
-        """The least duration of each row, s; infinite where it does not serve."""
+        """The shortest duration of each row, s; infinite if the row is not usable to the end."""
         return np.where(self.serves, self.speed / fastest, np.inf)
 
     def fair(self) -> bool:
-        """Whether a line is a fair task: some rows carry it to its end, at least two others are
-        usable at its start, the obvious one is not the quickest, and nothing depends on the
-        samples.
+        """Whether a line is a fair task: some rows are usable to its end, at least two others only
+        at its start, the obvious row is not the fastest, and nothing depends on the samples.
         """
         if not np.isfinite(self.q).all():
             return False
@@ -75,12 +74,12 @@ judged_once = cache(Judged)
 
 
 def judged_line(numbers: Mapping[str, float], samples: int = FINE) -> Judged:
-    """What is to be known of the line of these numbers."""
+    """The properties of the line with these numbers."""
     return judged_once(samples, *((name, float(value)) for name, value in sorted(numbers.items())))
 
 
 def given(who: Any) -> Numbers:
-    """A line of one's own, to be run by row and duration."""
+    """An individual line, for which the student chooses a row and a duration."""
     roll = dice("puma560_branches", who)
     while True:
         side, x = 1 - 2 * roll.randrange(2), roll.randrange(350, 651, 10) * mm
@@ -138,7 +137,7 @@ def faults(answer: tuple[int, float], given: Any) -> list[tuple[str, str]]:
 
 
 def row_fault(line: Judged, row: int) -> tuple[str, str]:
-    """Which joint is past its limit, and from when on."""
+    """Which joint exceeds its limit, and from when on."""
     over = excess(line.q[row])
     sample, joint = (int(k) for k in np.argwhere(over > 1e-9)[0])
     most = over.max(axis=0)
@@ -157,7 +156,7 @@ def row_fault(line: Judged, row: int) -> tuple[str, str]:
 
 
 def fast_fault(line: Judged, row: int, duration: float, fastest: float) -> tuple[str, str]:
-    """How fast a joint turns, and where such a duration comes from."""
+    """How fast a joint turns, and the likely cause of such a duration."""
     is_at, most = apart(line.speed[row] / duration / deg, fastest / deg, 0)
     says = (
         f"In {duration:.4g} s a joint of row {row} turns with up to {is_at}°/s; allowed are "
@@ -180,7 +179,7 @@ def fast_fault(line: Judged, row: int, duration: float, fastest: float) -> tuple
 
 
 def unit_fault(share: float, fastest: float, says: str) -> tuple[str, str] | None:
-    """If the duration is such a share of the right one."""
+    """The fault of a duration that is this share of the correct one; None: no known fault."""
     for wrong in (deg, 1 / deg):
         if 0.995 < share / wrong < LONGEST:
             says += " Joint speed and fastest have to be in one unit: both in rad/s."
@@ -192,7 +191,7 @@ def unit_fault(share: float, fastest: float, says: str) -> tuple[str, str] | Non
 
 
 def slow_fault(line: Judged, row: int, duration: float, fastest: float) -> tuple[str, str]:
-    """A row that turns more, another unit, or only too slow."""
+    """The fault of a slow motion: a row that turns more, another unit, or only the duration."""
     says = f"{duration:.4g} s is more than 5 % above the shortest duration there is."
     least = line.least(fastest)
     if line.serves[row] and least[row] > LONGEST * least.min():

@@ -1,4 +1,4 @@
-"""What opens after the choice of a prediction."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from typing import Any
 
@@ -96,7 +96,7 @@ def p6_view() -> Any:
     for (name, line), (color, style) in zip(prices.items(), styles, strict=True):
         left.loglog(misses, line[:, 0] / deg, style, color=color, lw=2.4)
         look: dict[str, Any] = {"ls": style, "lw": 2.4}
-        if name == "shoulder, towards":  # wide: the other shoulder line covers it
+        if name == "shoulder, towards":  # wide, since the other shoulder line covers it
             look = {"lw": 6, "ls": "-", "alpha": 0.4}
         right.loglog(misses, line[:, 1], color=color, label=name, **look)
         above = 0.4 if name == "elbow" else 1.35

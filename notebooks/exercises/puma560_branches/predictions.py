@@ -1,4 +1,4 @@
-"""The facts of the predictions, p1() of p1; "right" among them, the name of the right answer."""
+"""The facts behind the predictions: p1() for p1, with the name of the right answer as "right"."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -24,12 +24,12 @@ START, GOAL, VIA = pose(550, 600, 800), pose(550, -200, 1100), pose(600, -100, 1
 
 
 def nearest(value: float, guesses: Mapping[str, float]) -> str:
-    """The name of the guess that is nearest to a value."""
+    """The name of the guess that is closest to a value."""
     return min(guesses, key=lambda name: abs(guesses[name] - value))
 
 
 def forearm(q3: float) -> Floats:
-    """The direction of the forearm over a level upper arm, joint 3 in degrees."""
+    """The direction of the forearm if the upper arm is level and joint 3 is at q3 degrees."""
     frames = PUMA560.frames(np.array([0, 0, q3, 0, 0, 0]) * deg).translation
     return np.asarray((frames[4] - frames[3]) / np.linalg.norm(frames[4] - frames[3]))
 
@@ -69,8 +69,8 @@ def p3() -> dict[str, Any]:
 
 
 def random_poses(rng: np.random.Generator, shape: tuple[int, ...]) -> Transform:
-    """Wrist centres spread evenly over the box about what the stretched arm reaches, orientations
-    evenly over all rotations.
+    """Wrist centres spread uniformly over the box around the reach of the stretched arm, and
+    orientations uniformly over all rotations.
     """
     wxyz = rng.normal(size=(*shape, 4))
     far = float(np.hypot(UPPER + FORE, D3))
@@ -122,7 +122,7 @@ def beside(m: float) -> Transform:
     return Transform(translation=np.array([D3 + m, 0, 1200 * mm]))
 
 
-# row, pose nearest to the singularity at a miss m, direction, goes on
+# name -> row, miss m -> the pose nearest to the singularity, direction, whether it goes on
 LINES: dict[str, tuple[int, Callable[[float], Transform], Floats, bool]] = {
     "wrist": (3, aligned, Y, True),
     "elbow": (3, stretched, X, False),

@@ -1,4 +1,4 @@
-"""The PUMA 560 in numbers: what exercises, predictions and pictures share."""
+"""The dimensions of the PUMA 560, and code that exercises, predictions and pictures share."""
 
 from typing import TypeAlias
 
@@ -13,7 +13,8 @@ X, Y, Z = np.eye(3)
 LOW, HIGH = PUMA560.limits.T
 # lengths of P. Corke's model, as in the lab's table
 D3, UPPER, FORE = 150.05 * mm, 431.8 * mm, float(np.hypot(431.8, 20.3)) * mm
-OFFSET = float(np.arctan2(431.8, 20.3))  # of the wrist centre seen from the elbow, at q3 = 0
+# the direction of the wrist centre seen from the elbow, at q3 = 0
+OFFSET = float(np.arctan2(431.8, 20.3))
 REST = np.array([0, 90, -90, 0, 0, 0]) * deg
 
 

@@ -1,4 +1,4 @@
-"""What the right and the wrong programs of exercise 3 of scara kinematics use."""
+"""Helpers for the correct and wrong programs of exercise 3 of this lab."""
 
 import numpy as np
 

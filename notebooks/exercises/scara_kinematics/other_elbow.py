@@ -1,5 +1,5 @@
-"""Cases, form and law of exercise 1 of scara kinematics; its words stand in the Markdown beside it,
-and its wrong programs use `L0`, `corner` and `distance`, too.
+"""Cases, form and law of exercise 1; its text is in the Markdown file beside it, and its wrong
+programs also use `L0`, `corner` and `distance`.
 """
 
 from typing import Any
@@ -25,7 +25,7 @@ def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
         (-30, 0, 20, 50),  # stretched: its own mirror image
         (0, 148, 0, 100),  # the angle inside the triangle is obtuse
         (20, -147, 30, 100),
-        (100, 30, 390, 180),  # more than one turn
+        (100, 30, 390, 180),  # joint 3: more than one turn
         (-100, -30, -390, 10),
         (130, 100, 300, 60),
         (-130, -100, -300, 60),
@@ -71,9 +71,11 @@ def law(case: tuple[Floats], yours: Floats, right: Floats) -> str | None:
 
 
 def same(a: Floats, b: Floats) -> bool:
-    """Whole turns of joints 1 and 2 make no difference, the tool's angle as a number does."""
+    """Whether two results are equal: whole turns of joints 1 and 2 make no difference, but those of
+    the tool's angle do.
+    """
     off = np.array([*wrapped((a - b)[:2]), (a - b)[:3].sum(), (a - b)[3]])
-    if np.isnan(off).any():  # what is no number there is none in the other, the rest is as near
+    if np.isnan(off).any():  # NaN in the same joints, and the others are close
         off = np.append(wrapped((a - b)[:3]), (a - b)[3])
         return bool((np.isnan(a) == np.isnan(b)).all() and np.nanmax(abs(off), initial=0) <= 1e-7)
     return bool((abs(off) <= 1e-7).all())

@@ -1,4 +1,4 @@
-"""Numbers, conditions and sentences of exercise 2 of scara kinematics; words stand beside it."""
+"""Numbers, conditions and sentences of exercise 2; its text is in the Markdown file beside it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -15,7 +15,7 @@ from .shared import HIGH, LOW, MINUS, Floats
 
 COUNT = 5
 UNITS = {"radius": ("mm", mm), "bearing": ("°", deg), "turns": ("whole turns", 1.0)}
-AWAY = 25 * deg  # how far joint 2 has to keep from stretched
+AWAY = 25 * deg  # joint 2 has to stay this far from the stretched arm
 LEVEL = 100 * mm
 SAMPLES = 361
 SLACK = 1e-6
@@ -24,7 +24,7 @@ Fault = tuple[str, str]
 
 
 def given(who: Any) -> Numbers:
-    """A circle in a direction where joint 1 runs short of room, and two turns of the tool."""
+    """A circle in a direction where joint 1 is close to its limit, and two turns of the tool."""
     roll = dice("scara_kinematics", who)
     side = 1 - 2 * roll.randrange(2)
     values = {
@@ -36,7 +36,7 @@ def given(who: Any) -> Numbers:
 
 
 def own_circle(given: Given, distance: float, angle: float) -> ScaraPose:
-    """Once around, with the centre at `distance`; the tool's angle begins at `angle`."""
+    """One lap, with the centre at `distance`; the tool's angle begins at `angle`."""
     omega = np.linspace(0, 2 * np.pi, SAMPLES)
     x = distance * np.cos(given["bearing"]) + given["radius"] * np.cos(omega)
     y = distance * np.sin(given["bearing"]) + given["radius"] * np.sin(omega)
@@ -67,7 +67,7 @@ def form(answer: Any, given: Given) -> dict[str, Any]:
 
 
 def joints(design: Given, given: Given) -> Floats:
-    """The joints (samples, 4) on the circle; q3 as a number, from the tool's angle as a number."""
+    """The joint values (samples, 4) on the circle; q3 and the tool's angle are not wrapped."""
     targets = own_circle(given, design["distance"], design["angle"])
     rows = SCARA.ik(targets)[:, SCARA.branch(int(design["elbow"]))]
     q1, q2 = np.unwrap(rows[:, 0]), rows[:, 1]
@@ -75,13 +75,13 @@ def joints(design: Given, given: Given) -> Floats:
 
 
 def past(q: Floats) -> Floats:
-    """How far each joint is past its limits at the most; negative: inside."""
+    """The most by which each joint exceeds its limits; negative: inside."""
     over: Floats = np.maximum(q - HIGH, LOW - q).max(axis=0)
     return over
 
 
 def faults(design: Given, given: Given) -> list[Fault]:
-    """In reach; joints 1, 2 and 3 inside; not nearly stretched."""
+    """What is wrong with the reach, the limits of joints 1, 2 and 3, and the stretch of the arm."""
     distance, angle = design["distance"], design["angle"]
     if abs(distance) > 5:
         name = "mm for m" if abs(distance) >= 60 else "cm for m"

@@ -15,12 +15,12 @@ from .shared import HIGH, L1, L2, MINUS, Floats, corner, distance, place, shown
 
 
 def nearest(guesses: Mapping[str, float], value: float) -> str:
-    """The name of the guess that is nearest to a value."""
+    """The name of the guess that is closest to a value."""
     return min(guesses, key=lambda name: abs(guesses[name] - value))
 
 
 def whole(x: float) -> str:
-    """An angle as people read it, a whole number of degrees."""
+    """An angle as a whole number of degrees."""
     return f"{round(x / deg) + 0:d}°".translate(MINUS)
 
 
@@ -68,7 +68,7 @@ def p3() -> Mapping[str, Any]:
 
 
 def missed(q: Any) -> float:
-    """How far from the place of prediction 3 the tool is, mm."""
+    """The distance of the tool from the position of prediction 3, mm."""
     return float(np.linalg.norm(place(np.array(q)) - MIRRORED)) / mm
 
 
@@ -76,7 +76,7 @@ SINE_AT = 130 * mm
 
 
 def sine_angles(d: float) -> tuple[float, float, float]:
-    """q2, the angle inside the triangle at joint 1, and what the law of sines makes of it."""
+    """q2, the angle inside the triangle at joint 1, and that angle by the law of sines."""
     q2 = float(np.arccos((d**2 - L1**2 - L2**2) / (2 * L1 * L2)))
     sine = float(np.arcsin(np.clip(L2 * np.sin(q2) / d, -1, 1)))
     return q2, corner(q2), sine
@@ -131,7 +131,7 @@ def p6() -> Mapping[str, Any]:
 
 
 def areas(a: float, most: float) -> tuple[float, float]:
-    """What elbow +1 alone and both elbows reach, cm², with the stops of joints 1 and 2."""
+    """The areas that elbow +1 and both elbows reach, cm², with the stops of joints 1 and 2."""
     one = 2 * a * L1 * L2 * (1 - np.cos(most))
     b = np.pi - a
     notch = L1 * np.cos(b) + np.sqrt(L2**2 - (L1 * np.sin(b)) ** 2)
@@ -160,7 +160,7 @@ def p7() -> Mapping[str, Any]:
 
 @cache
 def lap(elbow: int, turns: int = 1) -> Floats:
-    """Joint 3 along a circle of 70 mm about (200, 0) mm, with so many turns of the tool."""
+    """Joint 3 along a circle of 70 mm around (200, 0) mm, with this many turns of the tool."""
     omega = np.linspace(0, 2 * np.pi, 361)
     x, y = 200 + 70 * np.cos(omega), 70 * np.sin(omega)
     targets = ScaraPose(np.stack([x, y, np.full_like(x, 100)], axis=-1) * mm, turns * omega)
@@ -178,7 +178,7 @@ def p8() -> Mapping[str, Any]:
 
 
 def bend(r: float) -> float:
-    """q2 of the elbow +1 at the distance r, in mm."""
+    """q2 of elbow +1 at the distance r (mm), in degrees."""
     return float(SCARA.ik(ScaraPose([r * mm, 0, 100 * mm]))[0, 1]) / deg
 
 

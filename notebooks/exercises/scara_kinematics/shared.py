@@ -1,4 +1,4 @@
-"""What several exercises and predictions of scara kinematics use."""
+"""Code that exercises and predictions of this lab share."""
 
 from typing import Any
 
@@ -21,12 +21,12 @@ def place(q: Any) -> Floats:
 
 
 def distance(q2: float) -> float:
-    """Of the tool from joint 1."""
+    """The distance of the tool from joint 1."""
     return float(np.sqrt(L1**2 + L2**2 + 2 * L1 * L2 * np.cos(q2)))
 
 
 def corner(q2: float) -> float:
-    """The angle inside the triangle by the law of cosines: it has no sign."""
+    """The angle inside the triangle by the law of cosines, which has no sign."""
     d = distance(q2)
     return float(np.arccos(np.clip((L1**2 + d**2 - L2**2) / (2 * L1 * d), -1, 1)))
 

@@ -1,4 +1,4 @@
-"""Cases, form and law of exercise 1 of scara motion; its words stand in the Markdown beside it."""
+"""Cases, form and law of exercise 1; its text is in the Markdown file beside it."""
 
 import contextlib
 from typing import Any
@@ -25,29 +25,29 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
     found = [
         case([0, 90, 0, 100], [200, 250, 120.2], 110),  # the arm stays, the tool turns by 20
         case([0, 90, 0, 100], [200, 250, 120.2], -110),  # 160 to the left, through 180
-        case([0, 90, 0, 100], [200, 250, 120.2], 450),  # one turn on: it stays
-        case([0, 90, -90, 150], [200, 250, 70.2], -176),  # joint 4 is no angle
+        case([0, 90, 0, 100], [200, 250, 120.2], 450),  # one turn further: it stays
+        case([0, 90, -90, 150], [200, 250, 70.2], -176),  # joint 4 is not an angle
         case([-100, 40, 0, 20], [-150, 300, 150.2], 150),  # joints 1 and 2 turn by 200
         case([120, -50, 30, 20], [-100, -300, 150.2], -80),
-        case([30, 60, 80, 50], [300, 200, 170.2], -170),  # the left way over 180
-        case([30, -60, -130, 50], [300, -200, 100.2], 170),  # the right way, the other elbow
+        case([30, 60, 80, 50], [300, 200, 170.2], -170),  # to the left through 180
+        case([30, -60, -130, 50], [300, -200, 100.2], 170),  # to the right, with the other elbow
         case([-90, 40, 0, 20], [100, 350, 150.2], 100),  # joints 1 and 2 turn much
         case([-110, 60, 20, 20], [-150, 300, 150.2], 60),
         case([110, -60, -20, 20], [-150, -300, 150.2], -60),
-        case([100, 60, 150, 0], [300, 150, 220.2], -20),  # 310 now, 340 is nearer than -20
-        case([100, 60, 390, 0], [300, 150, 220.2], 170),  # 550 now
+        case([100, 60, 150, 0], [300, 150, 220.2], -20),  # from 310: 340 is nearer than -20
+        case([100, 60, 390, 0], [300, 150, 220.2], 170),  # from 550
         case([-100, -60, -390, 0], [300, -150, 220.2], -170),
-        case([20, 60, 380, 90], [150, 300, 100.2], 160),  # the limit of joint 3 counts
+        case([20, 60, 380, 90], [150, 300, 100.2], 160),  # the limit of joint 3 matters
         case([60, 90, 385, 90], [300, -150, 100.2], 190),
         case([60, 90, 395, 90], [250, -250, 60.2], 150),
         case([-20, -60, -380, 90], [150, -300, 100.2], -160),
         case([-60, -90, -385, 90], [300, 150, 100.2], -190),
         case([100, -60, -230, 90], [-214, 81, 100.2], -20),  # joints 1 and 2 turn by -290
-        case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns on
+        case([60, 90, 300, 90], [300, -150, 100.2], 1170),  # three turns further
         case([60, 90, -300, 90], [300, -150, 100.2], -1000),
-        case([30, 60, 80, 50], [300, 200, 170.2], -1250),  # four turns on
+        case([30, 60, 80, 50], [300, 200, 170.2], -1250),  # four turns further
         case([30, -60, -130, 50], [300, -200, 100.2], 1250),
-        case([0, 90, -90, 20], [200, 250, 50.2], 176),  # joint 4 moves by 150 mm: no angle, either
+        case([0, 90, -90, 20], [200, 250, 50.2], 176),  # joint 4 moves by 150 mm, not by an angle
         case([0, 90, -90, 170], [200, 250, 200.2], -176),
         case([0, 0, 90, 100], [200, 250, 120.2], 110),  # the arm is stretched: 0 is positive
         case([120, 0, -30, 50], [200, 250, 120.2], -110),  # the other elbow would be nearer
@@ -63,7 +63,8 @@ def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
         place = SCARA.fk(q).translation.round(4)
         angle = round(rng.uniform(-400, 400), 1) * deg
         end = angle - same_elbow(q0, place, angle)[:2].sum()
-        clear = abs(abs(wrapped(angle - q0[:3].sum())) - np.pi) > 0.05  # a half turn: two ways
+        # at half a turn both ways are short
+        clear = abs(abs(wrapped(angle - q0[:3].sum())) - np.pi) > 0.05
         if clear and (abs(wrapped(end - [LOW[2], HIGH[2]])) > 0.02).all():
             found.append((q0, place, angle))
     return found
@@ -123,8 +124,8 @@ def told(case: tuple[Any, ...], yours: Floats, wanted: Floats) -> str | None:
 
 
 def nearer(rows: Floats, q0: Floats, count: int, order: float = 1, whole: bool = False) -> Any:
-    """For wrong programs: the row whose first joints are nearest to q0, by sum, length or greatest
-    change; `whole`: whole turns left out.
+    """For wrong programs: the row whose first joints are nearest to q0 in the norm of this order;
+    `whole`: ignore whole turns.
     """
     change = (rows - q0)[:, :count]
     change = wrapped(change) if whole else change
@@ -136,7 +137,7 @@ def least_travel(rows: Floats, q0: Floats) -> Floats:
 
 
 def by_360(q3: float) -> float:
-    """Down and then up by 360, as degrees would be, until it is inside: two loops of `while`."""
+    """Subtract or add 360, as if q3 were in degrees, until it is inside: two `while` loops."""
     while q3 > HIGH[2]:
         q3 -= 360
     while q3 < LOW[2]:

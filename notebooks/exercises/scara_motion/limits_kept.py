@@ -1,4 +1,4 @@
-"""Cases, form and law of exercise 2 of scara motion; its words stand in the Markdown beside it."""
+"""Cases, form and law of exercise 2; its text is in the Markdown file beside it."""
 
 from typing import Any
 
@@ -23,7 +23,7 @@ def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
     found: list[tuple[Floats]] = [(np.tile(still, (3, 1)),)]
     for joint in (3, 0, 1, 2):
         for limit, side in ((LOW[joint], -1), (HIGH[joint], 1)):
-            # exactly only for the stroke: an angle turned into degrees is rounded
+            # exact only for the stroke, since converting an angle to degrees rounds it
             edge = float(limit) if joint == 3 else float(limit) - side * 1e-7
             found += [one(k, joint, edge, count=3) for k in (0, 1, 2)]
             found.append(one(1, joint, float(limit) + side * 2e-6, count=3))
@@ -31,11 +31,13 @@ def cases(rng: np.random.Generator) -> list[tuple[Floats]]:
                 value = float(limit + side * past * unit[joint])
                 found += [one(0, joint, value, 3), one(13, joint, value), one(24, joint, value)]
     found += [one(1, 1, 145 * deg, 3), one(1, 0, 145 * deg, 3), one(1, 2, 300 * deg, 3)]
-    found += [one(1, 0, 370 * deg, 3), one(1, 1, -350 * deg, 3)]  # a whole turn on: joint 3 may be
-    for sample in (10, 12):  # every fifth or tenth sample shows the one, every third the other
+    # a whole turn further, which only joint 3 may be
+    found += [one(1, 0, 370 * deg, 3), one(1, 1, -350 * deg, 3)]
+    for sample in (10, 12):  # one is a fifth or tenth sample, the other a third one
         found += [one(sample, 3, 0.2), one(sample, 0, 145 * deg)]
     found += [one(1, 3, 5.0, 3), one(1, 3, 100.0, 3)]  # a stroke in mm
-    found += [one(1, 3, 200.0, 3), one(1, 3, -0.25, 3)]  # past every limit that may stand for it
+    # past every limit that may be confused with it
+    found += [one(1, 3, 200.0, 3), one(1, 3, -0.25, 3)]
     found += [one(1, 2, float(HIGH[2]) + 0.8 * deg, 3)]  # rounded to a degree, or one too far
     for row in (0, 13, 24):
         q = np.tile(still, (25, 1))
@@ -87,7 +89,7 @@ def law(case: tuple[Floats], yours: bool, wanted: bool) -> str | None:
 
 
 def limits(joint: int, low: float, high: float) -> Floats:
-    """For wrong programs: the limits, but for those of one joint."""
+    """For wrong programs: the limits, with other ones for one joint."""
     found = SCARA.limits.copy()
     found[joint - 1] = low, high
     return found.T

@@ -1,4 +1,4 @@
-"""Numbers, conditions and sentences of exercise 3 of scara motion; its words stand beside it."""
+"""Numbers, conditions and sentences of exercise 3; its text is in the Markdown file beside it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -21,13 +21,13 @@ UNITS["acceleration"] = ("mm/s²", mm)
 
 def given(who: Any) -> Numbers:
     """A via point too low for the stroke. Joints 1 to 3 do not depend on heights, so they stay
-    inside as in the lab; the smallest blend that keeps the stroke (0.12 to 0.29) fulfils the rest
-    by construction, and so do all up to 1.1 times as much.
+    inside as in the lab; by construction the smallest blend that keeps the stroke (0.12 to 0.29)
+    meets the other conditions, and so do all blends up to 1.1 times as large.
     """
     roll = dice("scara_motion", who)
     heights = {
         "start_z": (100 + 10 * roll.randrange(7)) * mm,
-        # at least 10: with heights over the table the duration is more than 2 % too long
+        # at least 10: heights above the table then give a duration more than 2 % too long
         "via_z": (10 + 2 * roll.randrange(6)) * mm,
         "goal_z": (140 + 10 * roll.randrange(9)) * mm,
     }
@@ -38,18 +38,18 @@ def given(who: Any) -> Numbers:
 
 
 def over_via(mine: Given) -> tuple[float, float]:
-    """The heights of start and goal over via, m."""
+    """The heights of start and goal above via, m."""
     return mine["start_z"] - mine["via_z"], mine["goal_z"] - mine["via_z"]
 
 
 def lift(mine: Given) -> float:
-    """By how much the parabola of a whole blend of 1 would lift the deepest point, m."""
+    """How far the parabola of a blend of 1 would lift the deepest point, m."""
     h1, h2 = over_via(mine)
     return 2 * h1 * h2 / (h1 + h2)
 
 
 def gap(mine: Given, fraction: float) -> float:
-    """How near the path comes to via, m: the lab's places and angles at heights of one's own."""
+    """How near the path comes to via, m: positions and angles of the lab at individual heights."""
     start = ScaraPose([0.2, 0.3, mine["start_z"]], 0.0)
     via = ScaraPose([0.4, 0.1, mine["via_z"]], np.pi)
     goal = ScaraPose([0.2, -0.2, mine["goal_z"]], np.pi / 2)
@@ -102,7 +102,7 @@ def faults(answer: Given, mine: Given) -> list[tuple[str, str]]:
 
 
 def slip(ratio: float, shortest: float) -> tuple[str, str] | None:
-    """Where a duration is the shortest one times a number that a slip of the pen gives."""
+    """The slip behind a duration that is a known multiple of the shortest one, or None."""
     unit = "mm for m", "Heights and acceleration have to be in one unit of length."
     whole = "The formula's T is the whole duration."
     slips = {

@@ -1,4 +1,4 @@
-"""What opens after the choice, for each prediction of scara motion."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from typing import Any
 
@@ -41,7 +41,7 @@ def p2_view() -> Any:
 
 
 def lin_and_ptp(goals: ScaraPose, slider: Any, title: str) -> Any:
-    """Both motions to the same goals, one of which the slider chooses."""
+    """Both motions to the same goals; the slider chooses the goal."""
     share = FEW / 20
     line = joints(lin(START, goals[:, None], share))
     even = ptp(SCARA.ik(START)[ROW], SCARA.ik(goals)[:, None, ROW], share)
@@ -49,7 +49,7 @@ def lin_and_ptp(goals: ScaraPose, slider: Any, title: str) -> Any:
 
 
 def p3_view() -> Any:
-    lower = np.array([0, 60, 120])  # the goal lowered by so many mm
+    lower = np.array([0, 60, 120])  # mm: how far the goal is lowered
     goals = ScaraPose([[0.2, -0.2, (200 - z) * mm] for z in lower], 90 * deg)
     title = "Two motions with the same ends, at the same heights at all times"
     return lin_and_ptp(goals, ("goal lowered by, mm", lower), title)

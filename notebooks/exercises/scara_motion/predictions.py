@@ -16,7 +16,7 @@ from .shared import GOAL, HIGH, LEVEL, LOW, ROW, START, VIA, S, Shown, T, joints
 
 
 def p1() -> Mapping[str, Any]:
-    """How much each joint of the LIN changes where the tool starts turned by 45°."""
+    """How much each joint of the LIN changes if the tool starts turned by 45°."""
     turned = ScaraPose(START.position, START.angle + 45 * deg)
     most = abs(joints(lin(turned, GOAL, S)) - joints(lin(START, GOAL, S))).max(axis=0)
     changed = (f"q{i + 1}" for i in range(4) if most[i] > 1e-9)
@@ -102,8 +102,8 @@ def p6() -> Mapping[str, Any]:
 
 @cache
 def p7() -> Mapping[str, Any]:
-    """Which joints can leave their limit, coming from inside, and a test of wrapped angles never
-    says so: even motions from the middle to 50 ends, 1001 samples each.
+    """The joints that can leave their limits, coming from inside, without a test of wrapped angles
+    noticing: uniform motions from the middle to 50 ends, 1001 samples each.
     """
     blind = []
     for i in range(4):
@@ -116,11 +116,11 @@ def p7() -> Mapping[str, Any]:
     return {"right": plus(blind)}
 
 
-H1, H2, B0, B1 = 60.0, 180.0, 0.1, 0.4  # heights over via in mm, and two blends: prediction 8
+H1, H2, B0, B1 = 60.0, 180.0, 0.1, 0.4  # heights above via in mm, and two blends, for prediction 8
 
 
 def deepest(b: float) -> float:
-    """Measured on the path, mm over via."""
+    """The deepest point of the path, measured, in mm above via."""
     via = ScaraPose([0.4, 0.1, 0], 0.0)
     start, goal = ScaraPose([0.2, 0.3, H1 * mm], 0.0), ScaraPose([0.2, -0.2, H2 * mm], 0.0)
     return float(blend(start, via, goal, b, np.linspace(0, 1, 4001)).position[:, 2].min()) / mm
@@ -136,7 +136,7 @@ def p8() -> Mapping[str, Any]:
 
 @cache
 def p9() -> Mapping[str, Any]:
-    """From which blend on the lab's motion keeps the stroke, by two corners."""
+    """The smallest blend with which the lab's motion keeps the stroke, for two corners."""
     parabola, quintic = (
         (LEVEL - HIGH[3]) / (LEVEL - stroke(0.5, np.linspace(0, 1, 4001), corner).max()) / 2
         for corner in ("parabola", "quintic")
@@ -150,7 +150,7 @@ def p9() -> Mapping[str, Any]:
 
 
 def acceleration(b: float, duration: float) -> float:
-    """Measured in the middle of the lab's corner, mm/s²."""
+    """The acceleration measured in the middle of the lab's corner, mm/s²."""
     t = np.linspace(0, duration, 1001)
     return float(abs(differentiate(stroke(b, t / duration)[:, None], t, 2)[500, 0])) / mm
 

@@ -1,4 +1,4 @@
-"""What several exercises and predictions of scara motion use."""
+"""Code that exercises and predictions of this lab share."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -27,17 +27,17 @@ def joints(path: ScaraPose) -> Floats:
 
 
 def stroke(fraction: float, s: Any, corner: str = "parabola") -> Any:
-    """Joint 4 on the lab's way past its via point, m."""
+    """Joint 4 on the lab's path past its via point, m."""
     return SCARA.ik(blend(START, VIA, GOAL, fraction, s, corner=corner))[:, ROW, 3]
 
 
 class Shown(float):
-    """A number that is written with a minus sign."""
+    """A number that is printed with a typographic minus sign."""
 
     def __format__(self, spec: str) -> str:
         return format(float(self), spec).translate(MINUS)
 
 
 def plus(names: Iterable[str]) -> str:
-    """Several names as that of an option: "q3+q4"."""
+    """Join names as in the name of an option: "q3+q4"."""
     return "+".join(names) or "none"

@@ -1,4 +1,4 @@
-"""Numbers, conditions and sentences of exercise 3 of spherical wrist; words stand beside it."""
+"""Numbers, conditions and sentences of exercise 3; its text is in the Markdown file beside it."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -30,7 +30,7 @@ Fault = tuple[str, str]
 
 def passage(numbers: Given, up: float, side: float) -> tuple[float, float]:
     """The smallest distance from a singularity on the line, and the greatest joint speed (rad/s) if
-    it takes one second. NaN: a pose is out of reach.
+    the line takes one second. NaN: a pose is out of reach.
     """
     poses = tilted_line(numbers["slope"], numbers["miss"], up, side, quintic(duration=1)(T1))
     rows = ITMO6R.ik(poses)
@@ -42,7 +42,7 @@ def passage(numbers: Given, up: float, side: float) -> tuple[float, float]:
 
 
 def across(slope: float, tilt: float) -> list[tuple[float, float]]:
-    """(up, side) of the two tilts square to the line."""
+    """(up, side) of the two tilts perpendicular to the line."""
     return [(e * tilt * np.cos(slope), -e * tilt * np.sin(slope)) for e in (1, -1)]
 
 
@@ -58,7 +58,8 @@ def numbers_of(who: str) -> tuple[tuple[str, float], ...]:
     least, fastest = max(pair for pair in found if np.isfinite(pair[0]))
     values = numbers | {
         "most_tilt": tilt,
-        "least_distance": float(np.floor(930 * least)) / 1000,  # the other side stays below 0.86
+        # a tilt to the other side stays below 0.86 of it
+        "least_distance": float(np.floor(930 * least)) / 1000,
         "most_speed": speed,
         "longest": float(np.ceil(11.5 * fastest / speed)) / 10,
     }
@@ -66,9 +67,9 @@ def numbers_of(who: str) -> tuple[tuple[str, float], ...]:
 
 
 def given(who: Any) -> Numbers:
-    """A line a few millimetres beside the singular pose, and what the process allows. Solvable: the
-    limits are drawn round the tilt square to the line, so that a tilt to one side keeps them and
-    none to the other side does.
+    """A line a few millimetres beside the singular pose, and the limits of the process. It can be
+    solved: the limits are drawn around the tilt perpendicular to the line, so that a tilt to one
+    side keeps them and no tilt to the other side does.
     """
     return Numbers(dict(numbers_of(str(who))), UNITS)
 
@@ -95,14 +96,14 @@ def form(answer: Any, given: Given) -> dict[str, float]:
 
 
 def keeps(given: Given, up: float, side: float) -> bool:
-    """Whether this tilt is a tilt, not too far out, and keeps the distance."""
+    """Whether this tilt is not too large and keeps the distance."""
     if max(abs(up), abs(side)) > 2 * given["most_tilt"]:
         return False
     return bool(passage(given, up, side)[0] >= given["least_distance"])
 
 
 def too_near(given: Given, up: float, side: float, tilt: float, least: float) -> Fault:
-    """What is wrong with a tilt that does not keep the distance."""
+    """The fault of a tilt that does not keep the distance."""
     is_at, wanted = apart(least, given["least_distance"], 4)
     across_it = abs(np.dot(across(given["slope"], 1.0)[0], (up, side)))
     line = (
@@ -131,7 +132,7 @@ def too_near(given: Given, up: float, side: float, tilt: float, least: float) ->
 
 
 def faults(answer: dict[str, float], given: Given) -> list[Fault]:
-    """What does not hold: tilt, distance, speeds, duration."""
+    """What is wrong with the tilt, the distance, the speeds and the duration."""
     up, side, duration = answer["up"], answer["side"], answer["duration"]
     tilt = np.arccos(np.clip(np.cos(up) * np.cos(side), -1, 1))
     found = []

@@ -1,4 +1,4 @@
-"""The facts of the predictions, p1() of p1; "right" among them, the name of the right answer."""
+"""The facts behind the predictions: p1() for p1, with the name of the right answer as "right"."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -34,12 +34,12 @@ POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def nearest(value: float, guesses: Mapping[str, float]) -> str:
-    """The name of the guess that is nearest to a value."""
+    """The name of the guess that is closest to a value."""
     return min(guesses, key=lambda name: abs(guesses[name] - value))
 
 
 def ways(bend: float) -> list[float]:
-    """How far each origin goes when joint 4 turns by 90 degrees, mm; joint 5 at `bend`."""
+    """How far each origin moves when joint 4 turns by 90 degrees, mm; joint 5 is at `bend`."""
     q = np.array([0, 60, -60, 0, bend, 0]) * deg + np.linspace(0, 90, 2)[:, None] * deg * (
         np.arange(6) == 3
     )
@@ -129,8 +129,8 @@ def chain(q: Floats) -> Floats:
 
 @cache
 def noise() -> tuple[Floats, Floats, Floats]:
-    """Angles theta; the worst error of an entry for each of three solvers (angles, 3), among the
-    postures of 200 where it gives a number; and the shares where it gives none.
+    """Angles theta; for each of three solvers the worst error of a matrix entry (angles, 3), among
+    those of 200 postures for which it gives a number; and the shares for which it gives none.
     """
     q = np.random.default_rng(1).uniform(-180, 180, (200, 6)) * deg  # as in the lab
     thetas = 10.0 ** np.arange(0, -17, -1)
@@ -165,7 +165,7 @@ def p6() -> dict[str, Any]:
 
 def joint_end(k: int, sign: int) -> float:
     """The least (+1) or greatest (-1) distance from a singularity while joint k + 1 alone turns by
-    up to 150 degrees to either side: 201 samples, then 201 about the best of them, down to 1e-8
+    up to 150 degrees to either side: 201 samples, then 201 around the best of them, down to 1e-8
     degrees.
     """
     best, half = 0.0, 150.0
@@ -190,8 +190,8 @@ def p7() -> dict[str, Any]:
 
 
 def joint4_speeds(miss: float) -> tuple[Floats, Floats]:
-    """Times about the hit and the speed of joint 4 there, °/s, on the line of the first screen;
-    exactly, from the Jacobian.
+    """Times, dense around the singular pose, and the speeds of joint 4 in °/s on the line of the
+    first screen, exact from the Jacobian.
     """
     t = np.concatenate([np.linspace(0, 4, 401), np.linspace(1.9, 2.1, 2001)])
     t.sort()

@@ -1,4 +1,4 @@
-"""What several exercises and predictions of spherical wrist use."""
+"""Code that exercises and predictions of this lab share."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ ALPHA = np.array([90, 0, 90, -90, 90, 0]) * deg
 D = np.array([100, 0, 0, 200, 0, 200]) * mm
 OFFSET = np.array([0, 0, 90, 0, 0, 0]) * deg
 ROW = ITMO6R.branch(+1, -1, -1)
-HALF = 113 * mm  # half of a line of exercise 3
+HALF = 113 * mm  # half the length of the line of exercise 3
 
 
 def posture(*degrees: float) -> Floats:
@@ -25,7 +25,7 @@ def posture(*degrees: float) -> Floats:
 
 
 def rot(axis: int, angle: float) -> Floats:
-    """A turn about a coordinate axis (0, 1, 2), 4 x 4."""
+    """The 4 x 4 matrix of a rotation about a coordinate axis (0, 1, 2)."""
     matrix, (i, j) = np.eye(4), [(1, 2), (2, 0), (0, 1)][axis]
     c, s = np.cos(angle), np.sin(angle)
     matrix[i, i], matrix[i, j], matrix[j, i], matrix[j, j] = c, -s, s, c
@@ -33,7 +33,7 @@ def rot(axis: int, angle: float) -> Floats:
 
 
 def trans(x: float, y: float, z: float) -> Floats:
-    """A shift, 4 x 4."""
+    """The 4 x 4 matrix of a translation."""
     matrix = np.eye(4)
     matrix[:3, 3] = x, y, z
     return matrix
@@ -46,7 +46,7 @@ def zyz(phi: Any, theta: Any, psi: Any) -> Floats:
 
 
 def textbook(h: Floats, wrist: int) -> Floats:
-    """The regular formulas alone, for matrices (..., 3, 3): (..., 3)."""
+    """The wrist angles (..., 3) of matrices (..., 3, 3) by the regular formulas alone."""
     c = h[..., 2, 2]
     with np.errstate(invalid="ignore"):
         theta = np.arctan2(wrist * np.sqrt(1 - c**2), c)
@@ -56,7 +56,7 @@ def textbook(h: Floats, wrist: int) -> Floats:
 
 
 def mended(h: Floats, wrist: int) -> Floats:
-    """psi measured from phi: right everywhere, for matrices (..., 3, 3)."""
+    """The wrist angles (..., 3) of matrices (..., 3, 3), correct everywhere: psi depends on phi."""
     s = np.hypot(h[..., 0, 2], h[..., 1, 2])
     theta = np.arctan2(wrist * s, h[..., 2, 2])
     phi = np.where(s < 1e-13, 0.0, np.arctan2(wrist * h[..., 1, 2], wrist * h[..., 0, 2]))
@@ -66,8 +66,8 @@ def mended(h: Floats, wrist: int) -> Floats:
 
 
 def tilted_line(slope: float, miss: float, up: float, side: float, s: Any) -> Transform:
-    """Poses on a straight line that rises by `slope`, `miss` beside the singular pose: the tool
-    points ahead along x, tilted up and to the side.
+    """Poses on a straight line that rises by `slope` and passes the singular pose at the distance
+    `miss`: the tool points ahead along x, tilted up and to the side.
     """
     along = np.array([0, np.cos(slope), np.sin(slope)])
     across = np.array([0, -np.sin(slope), np.cos(slope)])

@@ -1,4 +1,4 @@
-"""Exercise 1: the cases, the form of the axes, the law, and what wrong lines use."""
+"""Exercise 1: the cases, the form of the axes, the law, and helpers for the wrong lines."""
 
 from typing import Any
 
@@ -10,7 +10,8 @@ from robokin.course.told import apart, floats
 
 from .shared import ALPHA, OFFSET, A, D, Floats, posture, rot, trans
 
-TABLE = [np.append(column, 0.0) for column in (A, ALPHA, D, OFFSET)]  # a row more, never reached
+# with an extra row that is never reached
+TABLE = [np.append(column, 0.0) for column in (A, ALPHA, D, OFFSET)]
 
 
 def cases(rng: np.random.Generator) -> list[tuple[Any, ...]]:
@@ -49,8 +50,8 @@ def is_unit(rows: Floats) -> Any:
 
 class Axes:
     """Points and directions (n, 3) as they were returned. `rows`: directions and moments (n, 6),
-    the same for every point of an axis; also where the two are exchanged, and, of length 2, for a
-    direction of any length but 1.
+    which are the same for every point of an axis, even if points and directions are exchanged. A
+    direction that is not a unit vector is scaled to length 2 there.
     """
 
     def __init__(self, points: Floats, ways: Floats) -> None:
@@ -65,12 +66,12 @@ class Axes:
         self.rows: Floats = np.concatenate(halves, axis=-1)
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Floats:
-        """As they were returned: so slips of results change points and directions."""
+        """The arrays as they were returned, so that slips in a result change both of them."""
         both = np.stack([self.points, self.ways])
         return both if dtype is None else both.astype(dtype)
 
     def __repr__(self) -> str:
-        """Both arrays; of long ones the first rows, so that the line stays short."""
+        """Both arrays on a short line; of long arrays only the first rows."""
         rounded = np.round([self.points, self.ways], 9) + 0.0
         for count in range(len(self.points), 0, -1):
             parts = []
@@ -85,7 +86,7 @@ class Axes:
 
 
 def form(result: Any, case: tuple[Any, ...]) -> Axes:
-    """Points and directions, from two arrays (n, 3) or from one."""
+    """Return points and directions, from two arrays (n, 3) or from one. ValueError: other input."""
     if isinstance(result, Axes):
         return result
     n = len(case[0])
@@ -104,7 +105,7 @@ def form(result: Any, case: tuple[Any, ...]) -> Axes:
 
 
 def law(case: tuple[Any, ...], yours: Axes, wanted: Axes) -> str | None:
-    """The first axis that is another one."""
+    """Say which axis is the first wrong one."""
     points, ways, n = wanted.points, wanted.ways, len(wanted.points)
     if len(yours.rows) != n:
         return f"wanted points and directions of {n} joints, got {len(yours.rows)} of each"
@@ -130,7 +131,7 @@ def same(one: Axes, two: Axes) -> bool:
     return a.shape == b.shape and np.allclose(a, b, rtol=0, atol=1e-7, equal_nan=True)
 
 
-# --- What wrong lines use -------------------------------------------------------------------------
+# --- Helpers for the wrong lines ------------------------------------------------------------------
 
 
 def rot_x(angle: float) -> Floats:
@@ -146,5 +147,5 @@ def rot_z(angle: float) -> Floats:
 
 
 def modified(a: float, alpha: float, d: float, theta: float) -> Floats:
-    """A row of Craig's table."""
+    """The matrix of a row of a DH table in Craig's form."""
     return rot_x(alpha) @ trans(a, 0, 0) @ rot_z(theta) @ trans(0, 0, d)

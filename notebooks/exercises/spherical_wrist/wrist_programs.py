@@ -1,4 +1,4 @@
-"""What the right and the wrong programs of exercise 2 of spherical wrist use."""
+"""Helpers for the correct and wrong programs of exercise 2 of this lab."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ def singular(h: Floats) -> bool:
 
 
 def regular(h: Floats, wrist: int) -> Floats:
-    """The regular formulas, and the singular ones at sin theta = 0 exactly."""
+    """The regular formulas; the singular ones only if sin theta is exactly 0."""
     return mended(h, wrist) if singular(h) else textbook(h, wrist)
 
 
@@ -30,7 +30,7 @@ def theta_alone(h: Floats, wrist: int) -> Floats:
 
 
 def coarse(h: Floats, wrist: int) -> Floats:
-    """Singular below theta = 1e-3 rad."""
+    """Treats every theta below 1e-3 rad as singular."""
     if np.hypot(h[0, 2], h[1, 2]) > 1e-3:
         return mended(h, wrist)
     theta = 0.0 if h[2, 2] > 0 else wrist * np.pi

@@ -1,4 +1,4 @@
-"""What answers the prediction of start_here."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from typing import Any
 

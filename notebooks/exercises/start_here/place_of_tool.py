@@ -1,4 +1,4 @@
-"""The conditions of exercise 1 of start_here; its words stand in the Markdown beside it."""
+"""The conditions of exercise 1; its text is in the Markdown file beside it."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from .shared import minus, place
 
 COUNT = 3
 HEIGHT = 600  # mm
-NEAR = 5  # mm: whole degrees are enough, since one degree of joint 2 is some 9 mm
+NEAR = 5  # mm: whole degrees are enough, since one degree of joint 2 is about 9 mm
 
 
 def form(answer: Any, given: Any) -> Any:
@@ -33,7 +33,7 @@ def faults(q: Any, given: Any) -> list[Fault]:
 
 
 def missed(q: Any) -> list[Fault]:
-    """The conditions that the posture q misses."""
+    """The conditions that the posture q does not meet."""
     found: list[Fault] = []
     for k, (angle, (low, high)) in enumerate(zip(q, IRB140.limits, strict=True), 1):
         if not low <= angle <= high:

@@ -1,4 +1,4 @@
-"""The numbers of the prediction of start_here; its words stand in the Markdown beside it."""
+"""The numbers of this lab's prediction; its text is in the Markdown file beside it."""
 
 from functools import cache
 from typing import Any
@@ -25,6 +25,6 @@ def p1() -> dict[str, Any]:
     facts: dict[str, Any] = {"angle": ANGLE, "x": f"{x:.0f}", "y": f"{y:.0f}", "z": f"{z:.0f}"}
     for k, (a, b) in enumerate(options):
         facts[f"option{k}"] = minus(f"x = {a:.0f} mm, y = {b:.0f} mm")
-        facts[f"at{k}"] = minus(f"{np.arctan2(b, a) / deg:.0f}°")  # where joint 1 stands then
+        facts[f"at{k}"] = minus(f"{np.arctan2(b, a) / deg:.0f}°")  # the angle of joint 1 there
     facts["right"] = NAMES[int(np.argmin([np.hypot(a - x1, b - y1) for a, b in options]))]
     return facts

@@ -1,4 +1,4 @@
-"""What the exercise and the prediction of start_here share."""
+"""Code that exercises and predictions of this lab share."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from robokin import IRB140, mm
 
 
 def place(q: Any) -> Any:
-    """Where the flange is, in mm."""
+    """The position of the flange, in mm."""
     return IRB140.fk(q).translation / mm
 
 

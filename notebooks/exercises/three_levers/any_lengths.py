@@ -1,4 +1,4 @@
-"""Levers of any lengths: the cases, and what is told."""
+"""Levers of any lengths: the cases, and the sentences of the verdict."""
 
 from typing import Any
 
@@ -39,21 +39,21 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case(-1.0, 1.5, 150, [1, 1, 1]),  # left of O
         case(0.0, 1.4, 100, [0.9, 0.8, 0.6]),  # x is 0
         case(-1.2, -0.6, 110, [0.8, 1.0, 0.7]),
-        case(2.5, 0.0, 60, [1, 1, 1]),  # K is too far away: none
-        case(0.1, 0.1, 150, [0.5, 0.9, 0.8]),  # K is too near: none
+        case(2.5, 0.0, 60, [1, 1, 1]),  # K is too far away: no posture
+        case(0.1, 0.1, 150, [0.5, 0.9, 0.8]),  # K is too near: no posture
         case(3.0, 1.0, 170, [0.6, 1.0, 0.9]),
         case(0.9, 0.2, 20, [1.0, 0.9, 0.4]),  # a small alpha: BA and AK lie nearly on each other
         case(0.6, -0.3, 40, [0.9, 0.5, 0.9]),
         case(1.4, 0.6, 179, [0.7, 0.6, 0.5]),
         case(0.25, 0.1, 75, [0.35, 0.3, 0.2]),  # a table-top arm
-        case(0.3, -0.4, 60, [0.5, 0.3, 0.45]),  # K nearer than a lever
+        case(0.3, -0.4, 60, [0.5, 0.3, 0.45]),  # K is nearer than a lever is long
         case(1.9, 0.0, 60, [1, 1, 1]),  # beta is above 180 degrees
         case(1.2, 0.8, 50, [0.9, 0.8, 0.7]),
         case(0.9, 0.4, 40, [0.8, 0.4, 1.0]),  # beta_2 is above 90 degrees
         case(-0.7, 0.5, 30, [0.7, 0.5, 0.9]),
-        case(0.2, -0.3, 130, [1.2, 0.3, 0.4]),  # K is nearer than any alpha reaches
+        case(0.2, -0.3, 130, [1.2, 0.3, 0.4]),  # K is nearer than any alpha allows
     ]
-    # some mm inside the border or outside: far and near; near, OB being longer than KB
+    # a few mm inside or outside the border: far, near, and near with OB longer than KB
     found += [case(KO, 0.0, 120, [1, 1, 1]) for KO in (2.72, 2.745, 0.738, 0.726)]
     found += [case(0.0, KO, 60, [1.2, 0.5, 0.5]) for KO in (0.705, 0.695)]
     while len(found) < 41:
@@ -77,7 +77,7 @@ def form(result: Any, case: Case) -> Any:
     if q.size != 3 and not (q.size == 1 and np.isnan(q).all()):
         wanted = "wanted three angles (gamma, beta, alpha) in radians, or NaN"
         raise ValueError(f"{wanted}, got {in_words(result)}")
-    return np.full(3, np.nan) if np.isnan(q[:2]).any() else q  # [nan, nan, alpha] says it, too
+    return np.full(3, np.nan) if np.isnan(q[:2]).any() else q  # also for [nan, nan, alpha]
 
 
 def law(case: Case, yours: Any, wanted: Any) -> str | None:

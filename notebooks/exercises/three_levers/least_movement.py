@@ -1,4 +1,4 @@
-"""A test for least movement: what its right and wrong programs use."""
+"""Helpers for the correct and wrong programs of a test for least movement."""
 
 from functools import lru_cache
 from typing import Any
@@ -10,25 +10,25 @@ from robokin import deg as deg  # the programs use it
 from .shared import ARM
 
 
-@lru_cache(maxsize=2000)  # many of the programs begin with it, on the same tasks
+@lru_cache(maxsize=2000)  # many of the programs begin with this, for the same tasks
 def remembered(K: tuple[float, ...], previous: tuple[float, ...]) -> Any:
     return ARM.least(np.array(K), np.array(previous))[0]
 
 
 def exact(K: Any, previous: Any) -> Any:
-    """The least of the package."""
+    """The posture with the least movement, from the package."""
     place, before = (tuple(np.asarray(x, dtype=float).tolist()) for x in (K, previous))
     return remembered(place, before).copy()
 
 
 def rows(K: Any, step: float, limited: bool = True) -> Any:
-    """The postures that reach K, alpha in steps."""
+    """The postures that reach K, for values of alpha in steps."""
     low, high = (float(x) for x in ARM.alpha_range(K, limited=limited))
     return rows_at(K, np.append(np.arange(low, high, step), high))
 
 
 def rows_at(K: Any, alphas: Any) -> Any:
-    """The family without its checks: a few hundred microseconds less for each program and task."""
+    """The postures of `ARM.family` without its checks, which saves hundreds of microseconds."""
 
     def angle_between(a: Any, b: Any, c: Any) -> Any:
         return np.arccos(np.clip((a**2 + b**2 - c**2) / (2 * a * b), -1, 1))
@@ -39,12 +39,12 @@ def rows_at(K: Any, alphas: Any) -> Any:
 
 
 def nearest(found: Any, previous: Any) -> Any:
-    """The one of these postures with the least S."""
+    """The posture with the least S."""
     return found[abs(found - previous).sum(axis=-1).argmin()]
 
 
 class Forgets:
-    """Takes the arm to stand for ever where it stood at the first call."""
+    """A wrong program: it believes that the arm is still where it was at the first call."""
 
     def __init__(self) -> None:
         self.first: Any = None

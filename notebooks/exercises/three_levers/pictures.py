@@ -1,4 +1,4 @@
-"""What opens after the choice, for each prediction of three levers."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -15,14 +15,14 @@ BLUE = "#7FB8D8"
 
 
 def panels(alt: str, count: int = 1, height: float = 3.5, **keywords: Any) -> tuple[Any, Any]:
-    """A figure with a row of plots, its layout kept tight: the figure, and the plot or plots."""
+    """A figure with a row of plots in a tight layout: the figure, and the plot or plots."""
     fig = figure(alt, height=height)
     fig.set_layout_engine("tight")
     return fig, fig.subplots(1, count, **keywords)
 
 
 def joints() -> Iterator[tuple[int, str, dict[str, Any]]]:
-    """Each joint, its letter, and how its line looks."""
+    """Each joint with its letter and its line style."""
     for joint, (letter, style) in enumerate(zip("γβα", JOINT_STYLES[:3], strict=True)):
         dash = (0, style["dash"]) if style["dash"] else "-"
         yield joint, letter, {"color": style["color"], "ls": dash}

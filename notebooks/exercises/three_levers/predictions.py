@@ -14,7 +14,8 @@ from .shared import ARM, K, direction
 
 UPRIGHT, BENT = np.array([90, 180, 180]) * deg, np.array([90, 180, 120]) * deg  # p1
 NEAR, FAR = 1.5, 2.8  # p2: m
-RING, SAMPLE = 1.8, 80 * deg  # p4: m about O, and alpha: gamma stays below 180° from 30° to 130°
+# p4: radius in m around O, and alpha; gamma stays below 180° from 30° to 130°
+RING, SAMPLE = 1.8, 80 * deg
 BEHIND, BEHIND_KO = 150.0, 2.0  # p5: degrees, m
 COARSE, FINE = 1.0, 0.1  # p7: degrees
 STAND, TARGET = np.array([60, 120, 120]) * deg, np.array([2.4, 0.4])  # p8
@@ -28,12 +29,12 @@ def said(place: Any) -> str:
 
 
 def nearest(value: Any, guesses: Mapping[str, Any]) -> str:
-    """The name of the guess, a number or a place, that is nearest to a value."""
+    """The name of the guess, a number or a point, that is closest to a value."""
     return min(guesses, key=lambda name: float(np.linalg.norm(np.subtract(guesses[name], value))))
 
 
 def below(value: float, limits: Mapping[str, float]) -> str:
-    """The name of the first limit that a value is below."""
+    """The name of the first limit that is above a value."""
     return next(name for name, limit in limits.items() if value < limit)
 
 
@@ -50,7 +51,7 @@ def p1() -> dict[str, Any]:
 
 
 def width(KO: float) -> float:
-    """The range of alpha, degrees."""
+    """The width of the range of alpha, in degrees."""
     low, high = ARM.alpha_range((KO, 0), limited=False)
     return float(high - low) / deg
 
@@ -83,7 +84,7 @@ def p4() -> dict[str, Any]:
 
 
 def usable(phi: float) -> float:
-    """How much of the range of alpha has gamma up to 180 degrees, in percent."""
+    """The percentage of the range of alpha in which gamma is at most 180 degrees."""
     place = BEHIND_KO * direction(phi * deg)
     low, high = (float(x) for x in ARM.alpha_range(place))
     first, last = (float(x) for x in ARM.alpha_range(place, limited=False))
@@ -103,7 +104,7 @@ def p5() -> dict[str, Any]:
 
 @cache
 def p6() -> dict[str, Any]:
-    """From random postures to points 10 cm away from their grippers."""
+    """Moves from random postures to points 10 cm away from the gripper."""
     rng = np.random.default_rng(6)
     before = rng.uniform(30, 170, (900, 3)) * deg
     gripper = ARM.points(before)[:, 3]
@@ -115,7 +116,7 @@ def p6() -> dict[str, Any]:
     reached = np.isfinite(S)
     still = (abs(q - before)[reached] < 1e-6).sum(axis=-1)
     low, high = least, most = ARM.alpha_range(places)
-    for _ in range(3):  # finer and finer
+    for _ in range(3):  # with finer and finer steps
         alphas = np.linspace(low, high, 301, axis=-1)
         rows = ARM.family(places[:, None], alphas)
         squares = ((rows - before[:, None]) ** 2).sum(axis=-1)
@@ -170,7 +171,7 @@ def p8() -> dict[str, Any]:
 
 
 def best_in_all(before: Any, tour: Any, count: int = ROWS) -> float:
-    """The least S of all tasks of a tour together, among `count` rows for each."""
+    """The least S of all tasks of a tour together, among `count` postures for each."""
     stages = ARM.family(tour[:, None], np.linspace(*ARM.alpha_range(tour), count, axis=-1))
     cost = abs(stages[0] - before).sum(axis=-1)
     for one, two in pairwise(stages):
@@ -181,7 +182,7 @@ def best_in_all(before: Any, tour: Any, count: int = ROWS) -> float:
 
 @cache
 def losses() -> Any:
-    """What greed loses in each tour, as a share."""
+    """The share of S that the greedy rule loses in each tour."""
     rng = np.random.default_rng(1)
     r, phi = rng.uniform(1.1, 2.9, (400, STOPS)), rng.uniform(0, 150, (400, STOPS)) * deg
     tours = r[..., None] * direction(phi)
@@ -206,8 +207,8 @@ def p9() -> dict[str, Any]:
 
 @cache
 def turns() -> dict[str, Any]:
-    """The turns (100,) of each task in degrees: name of the rule -> turns. The race of section 8,
-    with three of its rules.
+    """The race of section 8 with three of its rules: name of the rule -> the total rotation in each
+    task (100,), in degrees.
     """
     rules = methods((1.2, 1.2), seed=0)
     rules = {name: rules[name] for name in ("random choice", "equal angles", "least movement")}

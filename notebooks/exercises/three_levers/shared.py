@@ -1,4 +1,4 @@
-"""What the exercises, predictions and pictures of this lab share."""
+"""Code that exercises and predictions of this lab share."""
 
 from typing import Any
 

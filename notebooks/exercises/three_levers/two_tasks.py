@@ -1,4 +1,4 @@
-"""Two tasks at once: a student's numbers, and what a plan of two postures does not keep."""
+"""Two tasks at once: a student's numbers, and the faults of a plan of two postures."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -27,12 +27,12 @@ Given = Mapping[str, Any]
 
 
 def places(given: Given) -> list[Any]:
-    """The two targets (2,)."""
+    """The two targets, each (2,)."""
     return [np.array([given[f"x_{name}"], given[f"y_{name}"]]) for name in NAMES]
 
 
 def start(given: Given) -> Any:
-    """Where the arm stands."""
+    """The start posture of the arm."""
     return np.array([given[name] for name in ("gamma", "beta", "alpha")])
 
 
@@ -51,7 +51,7 @@ def greedy(given: Given) -> tuple[Any, Any]:
 @cache
 def drawn(who: str) -> Numbers:
     roll = dice("three_levers", who)
-    while True:  # a tenth of the draws and more will do
+    while True:  # at least a tenth of the draws are suitable
         angles = ("gamma", 50, 13), ("beta", 90, 10), ("alpha", 90, 10)
         numbers = {name: (low + 5 * roll.randrange(count)) * deg for name, low, count in angles}
         for name, low, count in (("first", 0, 9), ("second", 125, 6)):
@@ -75,14 +75,14 @@ def drawn(who: str) -> Numbers:
 
 
 def given(who: Any) -> Numbers:
-    """A posture, two targets and two limits. Least movement task by task is above the first limit;
-    some pairs of postures of a grid of 1° keep both.
+    """A posture, two targets and two limits. Least movement task by task exceeds the first limit;
+    some pairs of postures on a grid of 1° keep both.
     """
     return Numbers(dict(drawn(str(who))), UNITS)
 
 
 def form(answer: Any, given: Given) -> Any:
-    """Two alphas in radians."""
+    """Return two alphas in radians. ValueError: another kind of answer."""
     wanted = 'Wanted a dict {"first": ..., "second": ...} with two alphas in radians, got '
     if isinstance(answer, Mapping):
         missing = [key for key in NAMES if key not in answer]
@@ -103,7 +103,7 @@ def form(answer: Any, given: Given) -> Any:
 
 
 def faults(alphas: Any, given: Given) -> list[Fault]:
-    """Both postures exist; gamma inside its limits; not too much movement; not too slow."""
+    """What is wrong: a missing posture, gamma past a limit, too much movement, or too slow."""
     if (alphas > 2 * np.pi).any():
         return [("degrees for radians", DEGREES)] * COUNT
     if (alphas < 2 * np.pi * deg).all() and (alphas > 0).all():
@@ -139,7 +139,7 @@ def of_a_plan(alphas: Any, given: Given) -> list[Fault]:
 
 
 def out_of_range(name: str, target: Any, alpha: float) -> str:
-    """That no posture has this alpha, in degrees."""
+    """The sentence that no posture has this alpha, which is in degrees."""
     low, high = (float(x) / deg for x in ARM.alpha_range(target, limited=False))
     is_at, edge = apart(alpha, low if alpha < low else high, 2)
     ends = f"{edge}° to {high:.2f}°" if alpha < low else f"{low:.2f}° to {edge}°"
@@ -147,7 +147,7 @@ def out_of_range(name: str, target: Any, alpha: float) -> str:
 
 
 def beyond(one: Any, two: Any, postures: Any, given: Given) -> list[Fault]:
-    """What is above the two limits, from how far each joint turns in both tasks."""
+    """The limits that are exceeded, from the rotation of each joint in both tasks."""
     found = []
     if (S := one.sum() + two.sum()) > given["most"] + EASE:
         turned, allowed = apart(S / deg, given["most"] / deg)

@@ -1,4 +1,6 @@
-"""Numbers, form and faults of exercise 2: a program as text; its words stand beside it."""
+"""Numbers, form and faults of exercise 2: a program as text; its text is in the Markdown file
+beside it.
+"""
 
 import ast
 import re
@@ -17,13 +19,13 @@ from .shared import Floats
 COUNT = 3  # both elbows, and the budget
 OUTPUTS = ("xr", "yr", "xl", "yl")
 BUDGET = 23
-NEARLY = 5 * mm  # a program whose elbows are off by less is told that it is nearly right
+NEARLY = 5 * mm  # a program whose elbows are off by less is called nearly right
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 TIPS = np.array([(0.9, 0.4), (-0.5, 0.8), (0.2, -0.9), (-0.7, -0.6), (0.1, 1.1), (1.1, -0.1)])
 
 
 def given(who: Any) -> Numbers:
-    """An arm of one's own: its base, and two lengths that differ."""
+    """A student's arm: its base, and two different lengths."""
     roll = dice("two_link_code_generation", who)
     x, y = (1 - 2 * roll.randrange(2)) * 0.05, (1 - 2 * roll.randrange(2)) * 0.05
     long, less = roll.randrange(60, 91, 5) / 100, roll.randrange(10, 31, 5) / 100
@@ -36,7 +38,7 @@ def given(who: Any) -> Numbers:
 
 
 def operations(program: str) -> int:
-    """Each + - * / **, each root, each change of sign; the minus of a constant is none."""
+    """The number of operations: + - * / **, roots, and minus signs except those of constants."""
     nodes = list(ast.walk(ast.parse(program)))
     signs = [node.operand for node in nodes if isinstance(node, ast.UnaryOp)]
     return sum(isinstance(node, (ast.BinOp, ast.Call)) for node in nodes) + sum(
@@ -68,7 +70,7 @@ def form(answer: Any, given: Any) -> str:
 
 
 def values(program: str, tip: Sequence[float]) -> dict[str, float]:
-    """All names after the program, run by hand: nothing but arithmetic and roots."""
+    """All values after the program, which is interpreted here: only arithmetic and roots."""
     known = {"x3": float(tip[0]), "y3": float(tip[1])}
 
     def value(node: Any) -> float:
@@ -98,7 +100,7 @@ def values(program: str, tip: Sequence[float]) -> dict[str, float]:
 
 
 def in_reach(arm: Mapping[str, float]) -> Floats:
-    """Tips in reach, all round the base."""
+    """Tips in reach, all around the base."""
     low, high = abs(arm["l1"] - arm["l2"]), arm["l1"] + arm["l2"]
     shares = np.linspace(0.15, 0.9, len(TIPS))
     ways = TIPS / np.linalg.norm(TIPS, axis=-1, keepdims=True)
@@ -124,7 +126,7 @@ def lines(program: str) -> Iterator[list[str]]:
 
 
 def written(arm: Mapping[str, float], tips: Floats, slip: str = "") -> Floats:
-    """The elbows (tips, 4) of a right program, or of one with these lines in it."""
+    """The elbows (tips, 4) of the correct program, with the lines of `slip` in place of its own."""
     known: dict[str, Any] = {**arm, "x3": tips[:, 0], "y3": tips[:, 1], "sqrt": np.sqrt}
     instead = dict(lines(slip))
     with np.errstate(all="ignore"):
@@ -136,7 +138,7 @@ def written(arm: Mapping[str, float], tips: Floats, slip: str = "") -> Floats:
 SHARE = "a = 0.5 + K / d2 with K = (l1² − l2²) / 2."
 HEIGHT = "h = sqrt(l1² / d2 − a²), with d2 = dx² + dy²."
 WAY = "dx = x3 − base_x and dy = y3 − base_y"
-# a sentence, below it the mistakes of which it is said, and what the program has instead
+# a sentence, then the mistakes to which it applies, each with the lines that replace correct ones
 KNOWN = """
 xr, yr are the elbow on the right, seen from the base towards the tip.
   the sides exchanged: xr = px - u; yr = py + v; xl = px + u; yl = py - v
@@ -231,8 +233,8 @@ Across the way is (dy, −dx): xr = px + h dy, yr = py − h dx; on the left all
 def explained(
     table: str, arm: Any, tips: Floats, found: Floats, most: int = 1, nan: bool = False
 ) -> tuple[str, str] | None:
-    """Name and sentence of the mistake of a table that gives these elbows; of `most`, if for these
-    numbers several are one. `nan`: whether they may give a NaN, too.
+    """The name and sentence of the mistake in a table that gives these elbows, or of up to `most`
+    if several give the same. `nan`: whether a NaN equals a NaN.
     """
     fitting, says = [], ""
     for line in table.strip().split("\n"):
@@ -248,7 +250,7 @@ def explained(
 
 
 def slip(arm: Any, tips: Floats, found: Floats) -> tuple[str, str] | None:
-    """The same of what often happens, or of a slip in one step; None: it is right, or unknown."""
+    """Name and sentence of a common mistake or a slip in one step; None: correct or unknown."""
     if named := explained(KNOWN, arm, tips, found):
         return named
     if np.allclose(found, written(arm, tips), rtol=0, atol=1e-6):

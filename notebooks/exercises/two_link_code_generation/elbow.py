@@ -1,4 +1,6 @@
-"""Cases, form and law of exercise 1, and what its wrong lines use; its words stand beside it."""
+"""Cases, form and law of exercise 1, and helpers for its wrong lines; its text is in the Markdown
+file beside it.
+"""
 
 import math
 from dataclasses import dataclass
@@ -12,14 +14,14 @@ from robokin.course.told import apart, floats
 from .shared import Floats
 
 Case: TypeAlias = tuple[Any, ...]
-ROUNDING = 1e-9  # of the reach
+ROUNDING = 1e-9  # as a fraction of the reach
 NONE = np.array([np.nan, np.nan])
 
 
 @dataclass(frozen=True)
 class Place:
-    """An answer: a point, and whether the case has one. Where it has none, all points are one
-    mistake.
+    """An answer: a point, and whether one exists in this case. If none exists, all points are the
+    same mistake.
     """
 
     x: float
@@ -56,22 +58,24 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case([0, 0], [1.1, 0], 1.0, 0.7, +1),  # level: dy = 0
         case([0, 0], [-1.1, 0], 0.7, 1.0, -1),
         case([-0.4, 0.3], [-0.4, 1.5], 0.8, 0.9, -1),
-        case([0, 0], [0.2, 0.4], 0.6, 1.0, +1),  # the line of the elbows is behind the base
+        case([0, 0], [0.2, 0.4], 0.6, 1.0, +1),  # the line through the elbows is behind the base
         case([0, 0], [1.2, 0.9], 0.8, 0.5, +1),  # beyond the outer edge
-        case([0, 0], [0.1, 0.1], 1.0, 0.7, -1),  # inside the inner one
+        case([0, 0], [0.1, 0.1], 1.0, 0.7, -1),  # inside the inner edge
         case([0.5, -0.2], [-1.4, 0.9], 0.9, 0.9, -1),
     ]
-    more, less = 1.7 * (1 + 1e-10), 0.3 * (1 - 1e-10)  # on the rim, and past it by rounding alone
+    more, less = 1.7 * (1 + 1e-10), 0.3 * (1 - 1e-10)  # past the rims by rounding alone
     for turn in (0.0, 0.7, 2.3, -2.9):  # stretched, and folded back
         way = np.array([np.cos(turn), np.sin(turn)])
         found.append(case([0.1, 0.2], np.array([0.1, 0.2]) + more * way, 1.0, 0.7, +1))
         found.append(case([0, 0], less * way, 1.0, 0.7, -1))
-    found.append(case([0, 0], [1.699, 0.0], 1.0, 0.7, +1))  # 1 mm inside, 2 mm outside
+    found.append(case([0, 0], [1.699, 0.0], 1.0, 0.7, +1))  # 1 mm inside the rim; then 2 mm outside
     found.append(case([0, 0], [0.0, 1.702], 1.0, 0.7, +1))
     found.append(case([0, 0], [0.298, 0.0], 1.0, 0.7, +1))
-    found.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))  # 3 micrometres outside, inside
+    # 3 micrometres outside; then inside
+    found.append(case([0, 0], [1.7 * (1 + 2e-6), 0], 1.0, 0.7, +1))
     found.append(case([0, 0], [0, 1.7 * (1 - 2e-6)], 1.0, 0.7, +1))
-    found.append(case([0, 0], [1.7 * (1 + 1e-7), 0], 1.0, 0.7, +1))  # less than one outside
+    # within a micrometre of the rim
+    found.append(case([0, 0], [1.7 * (1 + 1e-7), 0], 1.0, 0.7, +1))
     found.append(case([0, 0], [1.7e-3 * (1 + 1e-7), 0], 1e-3, 0.7e-3, +1))  # a small arm
     found.append(case([0, 0], [0.1, 0.1], 0.7, 1.0, +1))  # too near, the second link longer
     found.append((np.array([0, 0]), np.array([1, 1]), 1, 1.2, -1))  # whole numbers
@@ -146,7 +150,7 @@ def same(a: Place, b: Place) -> bool:
     return not a.found or not a.exists or bool(near)
 
 
-# --- What wrong lines use -------------------------------------------------------------------------
+# --- Helpers for the wrong lines ------------------------------------------------------------------
 
 
 def polar(length: float, direction: float) -> Floats:
@@ -154,19 +158,19 @@ def polar(length: float, direction: float) -> Floats:
 
 
 def strict_root(h2: float) -> float:
-    """It raises an error below 0."""
+    """The square root, which raises an error below 0."""
     return math.sqrt(h2)
 
 
 def close(h2: float, d: float, l1: float, l2: float) -> float:
-    """The root, with np.isclose for the rim."""
+    """The square root, with np.isclose for the rim."""
     if np.isclose(d, l1 + l2) or np.isclose(d, abs(l1 - l2)):
         return 0.0
     return float(np.sqrt(max(h2, 0))) if abs(l1 - l2) <= d <= l1 + l2 else math.nan
 
 
 def like(base: Any, elbow: Floats) -> Any:
-    """Written into an array made like the base."""
+    """The elbow, written into an array with the type of the base."""
     made = np.zeros_like(base)
     made[:] = elbow
     return made

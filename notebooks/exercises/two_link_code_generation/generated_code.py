@@ -1,4 +1,6 @@
-"""What the right and wrong programs of exercise 3 use; its words stand beside it."""
+"""Helpers for the correct and wrong programs of exercise 3; its text is in the Markdown file beside
+it.
+"""
 
 from math import atan2, cos, hypot, inf, nan, sin, sqrt
 
@@ -8,22 +10,22 @@ from robokin import two_link
 
 
 def over(a: float, b: float) -> float:
-    """As NumPy divides: inf and NaN, no error."""
+    """The quotient as in NumPy: inf or NaN instead of an error."""
     return float(np.divide(a, b))
 
 
 def root(h2: float) -> float:
-    """NaN below 0, no error."""
+    """The square root, NaN below 0 instead of an error."""
     return sqrt(h2) if h2 >= 0 else nan
 
 
 def between(h2: float, way: tuple[float, float], near: float = 0.0, far: float = inf) -> float:
-    """The root, 0 where rounding takes h2 below 0; NaN: the way is shorter or longer than that."""
+    """The square root, 0 if h2 < 0 by rounding; NaN if the length of `way` is out of range."""
     return sqrt(max(h2, 0.0)) if near <= hypot(*way) <= far else nan
 
 
 def halved(a: float, h: float) -> tuple[float, float]:
-    """The place at half of the angle."""
+    """The point (a, h) at half its angle."""
     angle, length = atan2(h, a) / 2, hypot(a, h)
     return length * cos(angle), length * sin(angle)
 

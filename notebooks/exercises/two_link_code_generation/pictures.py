@@ -1,4 +1,4 @@
-"""What opens after the choice, for each prediction of two links and generated code."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 import math
 from typing import Any
@@ -60,7 +60,7 @@ def p3_view() -> str:
 
 
 def expanded(x3: float, y3: float) -> Floats:
-    """As `quadratic`, as SymPy writes it in section 4: not factored under the root."""
+    """As `quadratic`, but as SymPy writes it in section 4: not factored under the root."""
     a, b = 4 * x3**2 + 4 * y3**2, -4 * x3**2 * y3 - 4 * y3**3
     c = -4 * x3**2 + x3**4 + 2 * x3**2 * y3**2 + y3**4
     y2 = (4 * x3**2 * y3 + 4 * y3**3 + math.sqrt(max(-4 * a * c + b**2, 0))) / (2 * a)
@@ -111,7 +111,7 @@ def p8_view() -> Any:
     for distance in distances:
         turns = 0.9 * TURNS  # q1 stays within its limits
         tips = distance * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
-        # on a circle joint 1 alone turns: smooth where ik rounds
+        # on a circle only joint 1 turns, so this is smooth where ik rounds
         first = arm.ik(tips[0])[arm.branch(+1)]
         ours.append(first + np.outer(0.9 * (TURNS - TURNS[0]), [1, 0]))
         made.append(np.where(of.under_root(*tips.T)[:, None] < 0, np.nan, ours[-1]))

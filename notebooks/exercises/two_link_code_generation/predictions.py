@@ -24,12 +24,12 @@ GAP = 1e-3  # p5: m inside the rim
 
 
 def below(value: float, limits: Mapping[str, float]) -> str:
-    """The name of the first limit that a value is below."""
+    """The name of the first limit that is above a value."""
     return next(name for name, limit in limits.items() if value < limit)
 
 
 def crossing() -> tuple[Floats, Floats]:
-    """A tip that runs past the base: times, places."""
+    """A tip that moves past the base: times and positions."""
     t = np.linspace(0, 8, 1601)
     x = np.linspace(-2, 2, len(t))
     return t, np.stack([x, np.full(len(t), 0.2)], axis=-1)
@@ -53,7 +53,7 @@ def p2() -> dict[str, Any]:
 
 
 def quadratic(x3: float, y3: float, k: int = 0) -> Floats:
-    """The elbow by the quadratic formula for equal links of 1 m, coordinate k eliminated."""
+    """The elbow by the quadratic formula for equal links of 1 m, with coordinate k eliminated."""
     u, v = np.float64((x3, y3)[k]), np.float64((x3, y3)[1 - k])
     with np.errstate(all="ignore"):
         d2 = u * u + v * v
@@ -112,7 +112,7 @@ def p6() -> dict[str, Any]:
 
 
 def listing(x3: float, y3: float, length: float, cast: Callable[[float], float]) -> dict[str, Any]:
-    """The program of section 7 and its temporaries, as C computes it."""
+    """The results of the program of section 7 and its temporaries, as C computes them."""
     with np.errstate(all="ignore"):
         t1, t3, t7 = (np.float64(cast(v * v)) for v in (x3, y3, length))
         t5 = np.float64(cast(t1 + t3))
@@ -139,7 +139,7 @@ def under_root(x: Floats, y: Floats) -> Floats:
 
 @cache
 def p8() -> dict[str, Any]:
-    # sums, products and quotients only: cos has another last digit on another machine
+    # only sums, products and quotients: the last digit of cos depends on the machine
     u = np.arange(-360, 361) / 360
     x, y = 1.7 * (1 - u * u) / (1 + u * u), 1.7 * (2 * u) / (1 + u * u)
     h2 = under_root(x, y)

@@ -1,4 +1,4 @@
-"""What several exercises and predictions of this lab use."""
+"""Code that exercises and predictions of this lab share."""
 
 from typing import TypeAlias
 

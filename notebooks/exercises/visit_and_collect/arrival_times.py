@@ -1,4 +1,4 @@
-"""Exercise 2: its cases, its law, and what wrong programs put in for an angle that is free."""
+"""Exercise 2: its cases, its law, and the values that wrong programs use for a free angle."""
 
 from contextlib import suppress
 from typing import Any
@@ -24,14 +24,14 @@ def cases(rng: np.random.Generator) -> list[Case]:
         case([[0, 0, 0], [0.2, 0.4, -0.6]]),
         case([[0.4, 0.2, 0.1], [0.1, 0.5, 0.2]], [0.5, 0.2, 1]),
         case([[0, 0, 0], [1, 0.2, 0.1], [0.5, 0.9, 0.3]], [0.5, 1, 0.25]),
-        case([[0, 0, 0], [0.6, 0.1, 0.2], [0, 0, 0]], [0.2, 0.4, 0.5]),  # there and back
-        case([[0.3, 0.1, 0.2], [0.3, 0.1, 0.2], [0.5, 0.1, 0.2]]),  # a stop where it stands
+        case([[0, 0, 0], [0.6, 0.1, 0.2], [0, 0, 0]], [0.2, 0.4, 0.5]),  # out and back
+        case([[0.3, 0.1, 0.2], [0.3, 0.1, 0.2], [0.5, 0.1, 0.2]]),  # the first stop is the start
         case([[0.8, 0.1, 0.2], [nan, 0.4, 0.2], [-0.4, 0.1, 0.2]]),  # over the axis
         case([[-0.9, 0.2, 0.3], [nan, 0.3, 0.1], [0.3, 0.1, 0.2]], [0.3, 0.5, 0.2]),
         case([[nan, 0.3, 0.2], [1.2, 0.2, 0.1]]),  # begins on the axis
         case([[nan, 0.3, 0.2], [-1.2, 0.5, 0.1], [0.3, 0.2, 0.2]]),
-        case([[0.9, 0.3, 0.2], [nan, 0.1, 0.5]]),  # ends there
-        case([[0.9, 0.3, 0.2], [nan, 0.1, 0.5], [nan, 0.4, 0.1], [-0.6, 0.2, 0.2]]),  # two of them
+        case([[0.9, 0.3, 0.2], [nan, 0.1, 0.5]]),  # ends on the axis
+        case([[0.9, 0.3, 0.2], [nan, 0.1, 0.5], [nan, 0.4, 0.1], [-0.6, 0.2, 0.2]]),  # two there
         case([[nan, 0.3, 0.2], [nan, 0.6, 0.5], [2, 0.4, 0.1], [1, 0.2, 0.2]]),
         case([[0.7, 0.3, 0.2], [nan, 0.1, 0.5], [0.7, 0.2, 0.2], [nan, 0.3, 0.3], [-1, 0.1, 0]]),
         case([[3.1, 0.2, 0.2], [-3.1, 0.2, 0.2]]),  # across the half turn
@@ -78,20 +78,20 @@ def law(case: Case, yours: Floats, wanted: Floats) -> str | None:
 
 
 def same(a: Floats, b: Floats) -> bool:
-    """As the check's own, and quicker where all are numbers: a thousand programs are compared."""
+    """As the default, but faster if all are numbers, since a thousand programs are compared."""
     if a.shape == b.shape and np.isfinite(a).all() and np.isfinite(b).all():
         return bool((abs(a - b) <= 1e-6 * (1 + abs(b))).all())
     return forms.same(a, b)
 
 
 def between(q: Floats) -> Floats:
-    """Of a wrong program: half of the turn before a stop on the axis, half after it."""
+    """For a wrong program: half of the turn before a stop on the axis, half after it."""
     known = np.flatnonzero(~np.isnan(q[:, 0]))
     return np.asarray(np.interp(range(len(q)), known, q[known, 0]))
 
 
 def nearest(q: Floats) -> Floats:
-    """Of another one: the angle known at the nearest stop, before or after."""
+    """For another wrong program: the known angle of the nearest stop, before or after."""
     known = np.flatnonzero(~np.isnan(q[:, 0]))
     away = abs(np.arange(len(q))[:, None] - known)
     return np.asarray(q[known[away.argmin(axis=-1)], 0])

@@ -1,4 +1,4 @@
-"""Exercise 3: a student's numbers, and what does not hold of the traps."""
+"""Exercise 3: a student's numbers, and the faults of the traps."""
 
 from collections.abc import Mapping
 from contextlib import suppress
@@ -21,8 +21,9 @@ APART = 0.3  # m
 LOST = 2  # points
 TASKS = ("visit", "collect", "worth")
 NO_TRAP = "no trap"
-NOBODY = "your name"  # as it stands in the lab
-KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])  # the opening
+NOBODY = "your name"  # the placeholder in the lab
+# the points of the lab's opening
+KNOWN = 4 * np.array([[np.cos(a), np.sin(a), 0.5] for a in (1.0, -1.1, -1.2, -1.3)])
 GIVEN_UP = {
     "visit": "What a point costs depends on where the arm comes from: the opening has such a case, "
     "for other numbers.",
@@ -32,16 +33,17 @@ GIVEN_UP = {
 
 
 def given(who: Any) -> Numbers:
-    """Times, worths, speed and start for traps of one's own. Solvable for everybody: points on the
-    circle through p0 about axis 1 do it, since joint 1 has room for 2.7 rad to both sides.
+    """Times, worths, speed and start for individual traps. Every student's task can be solved:
+    points on the circle through p0 about axis 1 suffice, since joint 1 has room for 2.7 rad to both
+    sides.
     """
     roll = dice("visit_and_collect", who)
     speed = 0.2 + 0.05 * roll.randrange(5)
     budget = 1.2 + 0.05 * roll.randrange(9)  # rad that a joint can turn in the time T
     x, y = 3.5 + 0.25 * roll.randrange(5), -1.5 + 0.25 * roll.randrange(13)
     height = 1.0 + 0.25 * roll.randrange(7)
-    worth = [3 + roll.randrange(3) for _ in range(4)]  # no one is half of another ...
-    worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... but of the dear one
+    worth = [3 + roll.randrange(3) for _ in range(4)]  # none is half of another ...
+    worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... except of the valuable one
     made = {
         "T": (round(budget / speed, 1), "s"),
         "T_collect": (round(3 * budget / speed, 1), "s"),
@@ -55,7 +57,7 @@ def given(who: Any) -> Numbers:
 
 
 def plain(answer: Any) -> Any:
-    """Lists of numbers as arrays, which are told in few digits."""
+    """Convert lists of numbers to arrays, which are shown with few digits."""
     if not isinstance(answer, Mapping):
         return answer
     found = dict(answer)
@@ -91,7 +93,7 @@ def points_form(task: str, answer: Any) -> Floats | None:
 
 
 def both(task: str, points: Floats, numbers: Any) -> tuple[list[int], list[int]]:
-    """What the greedy rule takes, in order, and what is best."""
+    """The choice of the greedy rule, in order, and the best choice."""
     T, kind = (numbers["T"], "visit") if task == "visit" else (numbers["T_collect"], "collect")
     made = Task(L1, L2, T, [numbers["speed"]] * 3, numbers["p0"], points.tolist(), kind)
     if task == "visit":
@@ -132,7 +134,7 @@ def faults(traps: Traps, numbers: Any) -> list[Fault]:
 
 
 def trap_fault(task: str, points: Floats | None, numbers: Any) -> Fault | None:
-    """What does not hold of the answer for one task; None: it is right."""
+    """The fault of the answer for one task; None: it is correct."""
     if points is None:
         says = f'"{task}": there is a trap. {GIVEN_UP.get(task)}'
         return ("given up, where there is a trap", says) if task in GIVEN_UP else None
@@ -164,7 +166,7 @@ def places_fault(task: str, points: Floats, numbers: Any) -> Fault | None:
 
 
 def known(points: Floats) -> bool:
-    """The four points of the opening, in any order, or their mirror images, or nearly so."""
+    """Whether these are nearly the four points of the opening, in any order, or mirror images."""
     both_ways = np.array([KNOWN, KNOWN * [1, -1, 1]])[:, None]
     gaps = np.linalg.norm(points[:, None] - both_ways, axis=-1)  # (2, 4, 4)
     nearest = np.maximum(gaps.min(axis=1).max(axis=-1), gaps.min(axis=2).max(axis=-1))
@@ -172,7 +174,7 @@ def known(points: Floats) -> bool:
 
 
 def not_beaten(task: str, points: Floats, numbers: Any) -> Fault | None:
-    """Why the greedy rule of "visit" or "worth" is not trapped by points that are allowed."""
+    """Why allowed points are not a trap for the greedy rule of "visit" or "worth"."""
     if known(points):
         says = "these are the four points of the opening. Build your own, for your start and time."
         return "the lab's own points", f'"{task}": {says}'

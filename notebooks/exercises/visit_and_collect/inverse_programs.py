@@ -1,4 +1,4 @@
-"""Exercise 1: what right and wrong programs use, and what a refused one did last."""
+"""Exercise 1: helpers for its programs, and the sentence about the last call of a refused one."""
 
 from math import acos, asin, atan2, hypot, pi
 from typing import Any
@@ -14,7 +14,7 @@ LIMITS = np.array([pi, pi / 2, pi / 2])
 
 
 def refusal(inputs: tuple[Any, ...], result: Any) -> str:
-    """Which point a right program was asked last, and what it answered."""
+    """The last point that a correct program was given, and its result."""
     p, q = np.array(inputs[0], dtype=float).reshape(3), np.asarray(result, dtype=float)
     if not workspace(L1, L2, p).all():
         why = f"this point is not in the workspace: it {out_of_workspace(L1, L2, p)[0]}."
@@ -25,7 +25,7 @@ def refusal(inputs: tuple[Any, ...], result: Any) -> str:
 
 
 def point(p: Any) -> Floats:
-    """One point."""
+    """Return one point (3,). ValueError: it is not one."""
     place = np.asarray(p, dtype=float)
     if place.size != 3:
         raise ValueError(f"p: wanted one point (3,) at a time, got shape {place.shape}")
@@ -37,7 +37,7 @@ def clipped(x: float) -> float:
 
 
 def principal(p: Any) -> Floats:
-    """The first right program again, for the others."""
+    """The first correct program again, for use in the others."""
     x, y, z = point(p).tolist()
     rho = hypot(x, y)
     d = max(hypot(rho, z), 1e-12)
@@ -54,12 +54,12 @@ def mirrored(p: Any) -> Floats:
 
 
 def lower(p: Floats) -> Floats:
-    """Every coordinate 0.1 m too small, where the arm reaches that."""
+    """The point with every coordinate 0.1 m smaller, if the arm reaches it."""
     found = np.maximum(p - 0.1, [-np.inf, -np.inf, 0.0])
     return found if L1 - L2 < np.linalg.norm(found) < L1 + L2 else p
 
 
 def short(p: Any, gap: float) -> Floats:
-    """The point nearer to the origin by so many metres."""
+    """The point moved towards the origin by this many metres."""
     place = point(p)
     return np.asarray(place * (1 - gap / max(float(np.linalg.norm(place)), 1.0)))

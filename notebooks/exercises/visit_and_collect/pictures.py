@@ -1,4 +1,4 @@
-"""What opens after the choice, for each prediction of visit and collect."""
+"""Views that open after the guess, for the predictions of this lab."""
 
 from math import pi
 from typing import Any

@@ -28,7 +28,7 @@ def p2() -> dict[str, Any]:
 
 @cache
 def p3() -> Mapping[str, Any]:
-    """How many random points of the workspace have two postures inside the limits."""
+    """The share of random points of the workspace that have two postures inside the limits."""
     box = np.random.default_rng(0).uniform([-9, -9, 0], [9, 9, 9], size=(20000, 3))
     cloud = box[jobs.workspace(L1, L2, box).all(axis=-1)]
     count = within(ARM, ARM.ik(cloud)).all(axis=-1).sum(axis=-1)
@@ -57,14 +57,14 @@ SUBSETS = (np.arange(2**5)[:, None] >> np.arange(5)) & 1  # (32, 5)
 
 
 def beaten_by_subset(task: jobs.Task, values: Floats) -> bool:
-    """Whether some choice is worth more than the cheapest ones that fit."""
+    """Whether some choice is worth more than taking the cheapest objects first."""
     fits = task.T + 1e-9 >= SUBSETS @ costs(task)
     mine = values[list(jobs.collect(task).order)].sum()
     return bool((SUBSETS[fits] @ values).max() > mine + 1e-9)
 
 
 def beaten_by_order(task: jobs.Task) -> bool:
-    """With the container on axis 1: whether some order brings more than the cheapest next."""
+    """With the container on axis 1: whether some order brings more objects than cheapest first."""
     best = 0
     for order in permutations(range(1, 6)):
         q = np.repeat(task.q[:1], 11, axis=0)
@@ -76,7 +76,7 @@ def beaten_by_order(task: jobs.Task) -> bool:
 
 @cache
 def p5() -> Mapping[str, Any]:
-    """Of 30 random tasks: in how many is cheapest (or nearest) first beaten, under each change?"""
+    """In how many of 30 random tasks cheapest (or nearest) first is beaten, for each change."""
     beaten = {"container on axis 1": 0, "prices": 0, "unlike speeds": 0, "emptied at the end": 0}
     for seed in range(30):
         task = drawn(seed, 5, "collect")
@@ -94,7 +94,7 @@ def p5() -> Mapping[str, Any]:
 
 @cache
 def p6() -> Mapping[str, Any]:
-    """Points lost by nearest first in 200 random tasks, against all 5040 orders of each."""
+    """Points that nearest first loses in 200 random tasks, compared with all 5040 orders."""
     lost = []
     for seed in range(200):
         task = drawn(seed)
@@ -144,7 +144,7 @@ SPEEDS = list(range(60, 141, 5))  # mm/s
 
 @cache
 def belt_ways() -> Floats:
-    """How long one way from the bin to each place of the window takes: (161,) in s."""
+    """The time of one way from the bin to each place of the window: (161,) in s."""
     places = np.stack([0 * WINDOW + 600 * mm, WINDOW, 0 * WINDOW + 50 * mm], axis=-1)
     l1, l2 = 500 * mm, 400 * mm
     q = jobs.principal_postures(l1, l2, np.vstack([np.array([150, -450, 250]) * mm, places]))
@@ -152,14 +152,14 @@ def belt_ways() -> Floats:
 
 
 def missed(v: float, spread: float = 0.5, seed: int = 8, first_come: bool = False) -> int:
-    """How many of the objects one arm does not take, at v mm/s."""
+    """How many of the objects one arm misses, at v mm/s."""
     offsets = spaced(COUNT, GAP, spread, seed=seed)
     (trips,) = serve(offsets, v * mm, WINDOW, belt_ways(), first_come=first_come)
     return COUNT - len(trips.objects)
 
 
 def speed(lost: list[int]) -> int:
-    """The speed up to which none is lost."""
+    """The greatest speed up to which no object is lost."""
     return SPEEDS[int(np.flatnonzero(np.cumsum(lost) == 0)[-1])]
 
 

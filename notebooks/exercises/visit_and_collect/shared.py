@@ -1,4 +1,4 @@
-"""What several exercises and predictions of visit and collect use."""
+"""Code that exercises and predictions of this lab share."""
 
 from itertools import permutations
 
@@ -15,7 +15,7 @@ STOPS = np.array([(0, *order) for order in permutations(range(1, 8))])  # the st
 
 
 def filled(q: Floats) -> Floats:
-    """Joint 1 keeps its angle on the axis; at the beginning it has the first angle known."""
+    """Fill in joint 1: on the axis it keeps its angle; at the beginning, the first known one."""
     q = q.copy()
     known = ~np.isnan(q[:, 0])
     source = np.where(known, np.arange(len(q)), known.argmax())
@@ -24,12 +24,12 @@ def filled(q: Floats) -> Floats:
 
 
 def each_needs(q: Floats, speeds: Floats) -> Floats:
-    """What each joint needs for each move: (n, 3)."""
+    """The time that each joint needs for each move: (n, 3)."""
     return np.asarray(abs(np.diff(filled(q), axis=0)) / speeds)
 
 
 def costs(task: Task) -> Floats:
-    """What it takes to bring each object."""
+    """The time that it takes to bring each object."""
     return np.asarray(2 * travel_time(task.q[0], task.q[1:], task.speeds))
 
 

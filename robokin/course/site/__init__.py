@@ -34,11 +34,11 @@ def build(folder: Path, teaching: bool = True) -> str:
     """
     missing = [name for name in ("sphinx", "myst_nb", "furo") if find_spec(name) is None]
     if missing:
-        install = "pip install '.[site]' at the top of a clone of robokin brings it"
-        raise ValueError(f"{', '.join(missing)}: not here; {install}")
+        install = "pip install '.[site]' at the top of a clone of robokin"
+        raise ValueError(f"{', '.join(missing)}: not installed; use {install}")
     labs = Path(robokin.__file__).parents[1] / "notebooks"
     if not any(labs.glob("*.ipynb")):
-        raise ValueError(f"{labs}: no labs; a site is made from a clone of robokin")
+        raise ValueError(f"{labs}: no labs; a site can only be built from a clone of robokin")
     _older(folder)
     with TemporaryDirectory() as scratch:
         source = Path(scratch).resolve() / "source"
@@ -59,7 +59,7 @@ def anchor(title: str) -> str:
     return title.replace(" ", "-")
 
 
-# --- Input of Sphinx ----------------------------------------------------------------------------
+# --- Input for Sphinx ----------------------------------------------------------------------------
 
 
 def _notebooks(labs: Path) -> list[Path]:
@@ -126,8 +126,7 @@ def _write(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-# --- Running Sphinx, and installing its pages
-# ---------------------------------------------------------------
+# --- Running Sphinx, and installing its pages -----------------------------------------------------
 
 
 def _run(source: Path, made: Path) -> str:
@@ -143,7 +142,7 @@ def _run(source: Path, made: Path) -> str:
     )
     complaints = run.stderr.replace(f"{source}{os.sep}", "").strip()
     if run.returncode:
-        raise ValueError(f"Sphinx makes no site: {complaints}")
+        raise ValueError(f"Sphinx failed: {complaints}")
     return complaints
 
 
@@ -165,7 +164,8 @@ def _put(made: Path, folder: Path) -> None:
         if os.path.lexists(folder / name):
             raise ValueError(f"{folder / name}: not the site's; nothing is overwritten")
     folder.mkdir(parents=True, exist_ok=True)
-    _write(folder / MARK, "\n".join(sorted(old | new)))  # known after an interruption
+    # written before the files, so that an interrupted build is recognised
+    _write(folder / MARK, "\n".join(sorted(old | new)))
     for name in sorted(new):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(made / name, folder / f"{MARK}.part")

@@ -77,7 +77,7 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
     raise nodes.SkipNode
 
 
-# --- "[02 §3](02_irb140_kinematics.ipynb)" leads to section 3 of that lab -------------------------
+# --- "[02 §3](02_irb140_kinematics.ipynb)" links to section 3 of that lab -------------------------
 
 
 def _own_name(app: Any, docname: str, source: list[str]) -> None:
@@ -85,7 +85,7 @@ def _own_name(app: Any, docname: str, source: list[str]) -> None:
     source[0] = source[0].replace("](#)", f"]({PurePosixPath(docname).name}.ipynb)")
     up = "../" * docname.count("/")
     source[0] = re.sub(
-        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # a job's module: its package
+        r"\]\((?:\.\./)+(robokin(?:/\w+){1,2})(?:/\w+)?\.py\)",  # a job's module -> its package
         lambda link: f"]({up}api/{link[1].replace('/', '.')}.rst)",
         source[0],
     )
@@ -107,7 +107,7 @@ def _to_the_section(app: Any, doctree: nodes.document, docname: str) -> None:
 
 # --- Docstrings -----------------------------------------------------------------------------------
 
-ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two blanks, its meaning
+ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two or more spaces, its meaning
 
 
 def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:

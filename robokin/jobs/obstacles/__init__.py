@@ -6,9 +6,9 @@ are those of the document:
 
 O, B, A, K    base, two joints and gripper of the arm before the motion; A1, K1 after it
 H             the obstacle, a point; the levers OB, BA, AK have no thickness
-K2, K3        via points for the gripper, on a circle about H
+K2, K3        via points for the gripper, on a circle around H
 path (k, 3)   postures q = (gamma, beta, alpha) in radians; between two of them every joint turns
-              evenly (PTP)
+              at constant speed (PTP)
 S             the sum of the absolute changes of all joint angles along a path, in radians
 
 Points are (2,), or (3,) with z = 0, in metres.

@@ -12,7 +12,7 @@ FARTHEST = 1e9  # rad or m; a larger float is too coarse for an angle or a place
 
 
 def read_angles(value: ArrayLike, name: str, finite: bool = True) -> Floats:
-    """Postures (..., 3)."""
+    """Return `value` as postures (..., 3)."""
     q = floats(value, name, 3, finite)
     if (abs(q) > FARTHEST).any():
         raise ValueError(f"{name}: wanted angles in radians, got {np.nanmax(abs(q)):.6g}")
@@ -22,12 +22,12 @@ def read_angles(value: ArrayLike, name: str, finite: bool = True) -> Floats:
 def read_posture(value: ArrayLike, name: str) -> Floats:
     q = read_angles(value, name)
     if q.ndim != 1:
-        raise ValueError(f"{name}: wanted one single posture (3,), got shape {q.shape}")
+        raise ValueError(f"{name}: wanted a single posture (3,), got shape {q.shape}")
     return q
 
 
 def read_start(arm: ThreeLeverArm, value: ArrayLike, name: str) -> Floats:
-    """A posture inside the limits."""
+    """Return `value` as a posture inside the limits."""
     q = read_posture(value, name)
     if (q < arm.limits[:, 0] - SLACK).any() or (q > arm.limits[:, 1] + SLACK).any():
         raise ValueError(
@@ -44,7 +44,7 @@ def read_path(value: ArrayLike) -> Floats:
 
 
 def read_points(value: ArrayLike, name: str) -> Floats:
-    """x, y of points (..., 2), or (..., 3) in the plane z = 0."""
+    """Return x, y of points (..., 2), or (..., 3) in the plane z = 0."""
     points = floats(value, name)
     flat = points.ndim and (
         points.shape[-1] == 2 or (points.shape[-1] == 3 and not points[..., 2].any())
@@ -58,7 +58,7 @@ def read_points(value: ArrayLike, name: str) -> Floats:
 
 
 def read_obstacles(value: ArrayLike, name: str) -> Floats:
-    """One point (2,) or several (m, 2) as (m, 1, 2)."""
+    """Return one point (2,) or several points (m, 2) as (m, 1, 2)."""
     points = read_points(value, name)
     if points.ndim > 2 or not points.size:
         raise ValueError(f"{name}: wanted one point (2,) or several (m, 2), got {points.shape}")
@@ -66,8 +66,8 @@ def read_obstacles(value: ArrayLike, name: str) -> Floats:
 
 
 def read_point(value: ArrayLike, name: str) -> Floats:
-    """x, y of one single point."""
+    """Return x, y of a single point."""
     point = read_points(value, name)
     if point.ndim != 1:
-        raise ValueError(f"{name}: wanted one single point, got a batch {point.shape[:-1]}")
+        raise ValueError(f"{name}: wanted a single point, got a batch of shape {point.shape[:-1]}")
     return point

@@ -1,4 +1,6 @@
-"""The place of the obstacle, and how near the levers come to it."""
+"""Measures how near the levers come to the obstacle, and where it is; `planner` decides what is
+safe.
+"""
 
 from collections.abc import Callable
 
@@ -12,7 +14,7 @@ from .arguments import read_angles, read_obstacles, read_path, read_point, read_
 
 LEVERS = ("OB", "BA", "AK")
 TOLERANCE = 1e-6  # lever lengths: the accuracy of a clearance
-CLOSE = 1e-9  # lever lengths: `keeps` does not distinguish distances closer than this
+CLOSE = 1e-9  # lever lengths: `keeps` does not distinguish distances that differ by less
 WORK = 1_000_000  # pieces of motions, or postures of a grid, in one call: about 1 s
 PORTION = 50_000  # pieces measured at a time, to limit memory
 
@@ -26,10 +28,10 @@ def in_quadrilateral(
     """Whether H (..., 2) lies in the quadrilaterals between the levers before and after the motion
     from q0 to q1.
 
-    dict: "AK" for A K K1 A1, "BA" for B A A1 B1, each bool (...). The document tests only the first
-    one, and its inequalities hold for its own drawing but fail for most others (errata S3-j, S3-k).
-    So we count the sides that a ray from H crosses. The area that the levers sweep does not have
-    straight sides: see `swept`.
+    Returns a dict: "AK" for A K K1 A1, "BA" for B A A1 B1, each bool (...). The document tests only
+    the first one, and its inequalities are correct for its own drawing but not for most others
+    (errata S3-j, S3-k). So we count the sides that a ray from H crosses. The area that the levers
+    sweep does not have straight sides: see `swept`.
     """
     instance(arm, ThreeLeverArm, "arm")
     q0, q1, H = read_posture(q0, "q0"), read_posture(q1, "q1"), read_points(H, "H")
@@ -55,11 +57,11 @@ def locate(P: ArrayLike, Q: ArrayLike, from_P: float, from_Q: float) -> Floats:
 
     The obstacle is the elbow of a two-link arm (`two_link`) with base P and tip Q whose links have
     these lengths: row 0 is to the right of the line from P to Q, row 1 to the left. A third
-    distance would tell which. ValueError: P and Q coincide.
+    distance would decide between them. ValueError: P and Q coincide.
     """
     P, Q = read_point(P, "P"), read_point(Q, "Q")
     if (P == Q).all():
-        raise ValueError(f"Q: wanted a point apart from P, got both at {P.tolist()}")
+        raise ValueError(f"Q: wanted a point different from P, got both at {P.tolist()}")
     from_P, from_Q = length(from_P, "from_P"), length(from_Q, "from_Q")
     q1 = two_link(from_P, from_Q, P).ik(Q)[:, :1]
     return P + from_P * np.concatenate([np.cos(q1), np.sin(q1)], axis=-1)
@@ -83,8 +85,8 @@ def clearance(arm: ThreeLeverArm, path: ArrayLike, H: ArrayLike) -> Floats:
     """The least distance of each lever from H along a path (k, 3): (k - 1, 3), one row for each
     part. H is one obstacle (2,) or several (m, 2), of which the nearest counts.
 
-    This is a bound and not a sample: the arm never comes nearer, and somewhere it comes as near up
-    to `TOLERANCE` lever lengths. It is 0 where a lever passes over H. The function bisects the
+    This is a bound and not a sample: the arm never comes nearer, and somewhere it comes this near,
+    within `TOLERANCE` lever lengths. It is 0 where a lever passes over H. The function bisects the
     pieces that could still contain a smaller distance. ValueError: a path that needs more than
     `WORK` pieces.
     """
@@ -98,9 +100,9 @@ def keeps(arm: ThreeLeverArm, a: ArrayLike, b: ArrayLike, H: ArrayLike, distance
     """Whether all levers keep this distance (metres) from H, one obstacle (2,) or several (m, 2),
     on the motions from postures a (..., 3) to b (..., 3): bool (...).
 
-    It is as certain as `clearance` and faster, since it gives up a motion at the first piece that
-    is too near. A motion that exceeds the distance by less than 1e-9 of a lever's length may count
-    as too near. ValueError: motions that need more than `WORK` pieces.
+    It is as certain as `clearance` and faster, since it stops measuring a motion at the first piece
+    that is too near. A motion that exceeds the distance by less than 1e-9 of a lever's length may
+    count as too near. ValueError: motions that need more than `WORK` pieces.
     """
     instance(arm, ThreeLeverArm, "arm")
     a, b = read_angles(a, "a"), read_angles(b, "b")
@@ -139,7 +141,7 @@ def motion_clearances(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats) -> Fl
 
 
 def motions_keep(arm: ThreeLeverArm, a: Floats, b: Floats, H: Floats, distance: float) -> Bools:
-    """`keeps` of n motions from postures a (n, 3) to b (n, 3): bool (n,). H as for
+    """`keeps` of n motions from postures a (n, 3) to b (n, 3): bool (n,). H is as for
     `motion_clearances`.
     """
     a, b = np.broadcast_arrays(a, b)
@@ -179,8 +181,8 @@ def _measure(
         if work > WORK:
             turn = abs(b - a).sum()
             raise ValueError(
-                f"motions: wanted some of which at most {WORK} stretches have to be measured, got "
-                f"{len(a)} of {turn:.6g} rad in all, which take {work} and more"
+                f"motions: wanted at most {WORK} pieces to be measured, got {work} or more for "
+                f"{len(a)} motions of {turn:.6g} rad in total"
             )
         now, later = slice(-PORTION, None), slice(None, -PORTION)
         i, s, e = part[now], start[now], end[now]
@@ -234,7 +236,7 @@ def _seen(arm: ThreeLeverArm, q: Floats, H: Floats) -> tuple[Floats, Floats, Flo
     direction[1] -= np.pi
     direction[2] -= 2 * np.pi
     c, s = np.cos(direction), np.sin(direction)
-    x, y = np.empty_like(c), np.empty_like(s)  # of H from the start of each lever
+    x, y = np.empty_like(c), np.empty_like(s)  # H relative to the start of each lever
     x[0], y[0] = H[..., 0], H[..., 1]
     levers = arm.levers
     for i in (1, 2):

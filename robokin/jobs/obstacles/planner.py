@@ -1,5 +1,7 @@
-"""The control system of source 003: it plans the direct motion, a path over two via points, or a
-search.
+"""Decides which plan is safe, with the distances that `collision` measures.
+
+This is the control system of source 003: it plans the direct motion, a path over two via points, or
+a search.
 """
 
 from contextlib import suppress
@@ -17,17 +19,16 @@ from .collision import LEVERS, TOLERANCE, lever_distances, motion_clearances
 from .posture_grid import STEP, way_round
 
 WAYS = ("direct", "via points", "wait", "search", "none")
-# The circles of the via points about H, in lever lengths. With the document's circle, 1/7, the path
-# comes nearer than 1/7 to H; with a larger one it may keep that distance.
+# The circles of the via points around H, in lever lengths. With the document's circle, 1/7, the
+# path comes nearer than 1/7 to H; with a larger one it may keep that distance.
 CIRCLES = (1 / 7, 0.16, 0.18, 0.20, 0.225, 0.25)
 
 
-# --- The document's path around H: two via points for the gripper
-# -------------------------------------
+# --- The document's path around H: two via points for the gripper ---------------------------------
 
 
 def via_points(K: ArrayLike, K1: ArrayLike, H: ArrayLike, radius: float) -> Floats:
-    """The via points K2 and K3, (2, 2): the points of the circle about H on the perpendiculars to
+    """The via points K2 and K3, (2, 2): the points of the circle around H on the perpendiculars to
     KH and K1H, on the side of the base. Source: 003, III.3.2, figure 26.
 
     The printed formulas (40), (41) and table 6 swap two legs: their points lie on the circle, but
@@ -51,7 +52,7 @@ def via_path(
     """The path K - K2 - K3 - K1 with the least movement for each part: (4, 3), NaN from the first
     point that is out of reach. The radius is L/7 by default. Source: 003, IV.
 
-    A path over K2 and K3 guarantees nothing about the motion between them, nor about the levers
+    A path through K2 and K3 guarantees nothing about the motion between them, nor about the levers
     (errata S3-n): see `clearance`.
     """
     instance(arm, ThreeLeverArm, "arm")
@@ -72,14 +73,14 @@ class Plan(Sealed):
 
     way        "direct", "via points", "search", or "none"; "wait" where the obstacle moves
     words      the result in sentences
-    path       (k, 3) postures from the start on; (1, 3) if nothing was found and the arm
-               stays
+    path       (k, 3) postures, beginning with the start; (1, 3) if no path was found and the
+               arm does not move
     clearance  (k - 1, 3) least distance of the levers OB, BA, AK from the obstacle on each part;
-               inf without one
+               inf without an obstacle
     least      S of the direct motion in radians, a lower bound for all paths; NaN if the target is
                out of reach
-    radius     of the circle about the obstacle on which the via points lie, in metres; NaN if it is
-               not by via points that the plan goes
+    radius     radius of the circle around the obstacle on which the via points lie, in metres; NaN
+               for any other way
 
     Arrays are read-only copies. ValueError: parts that do not match.
     """
@@ -97,7 +98,7 @@ class Plan(Sealed):
         path = read_angles(self.path, "path")
         if path.ndim != 2 or not len(path) or (len(path) > 1) != self.found:
             wanted = "two or more postures (k, 3)" if self.found else "the start (1, 3)"
-            raise ValueError(f"path: wanted {wanted} of way {self.way!r}, got shape {path.shape}")
+            raise ValueError(f"path: wanted {wanted} for way {self.way!r}, got shape {path.shape}")
         finite = self.clearance
         with suppress(ValueError):  # inf is a valid distance here, but `floats` refuses it
             finite = np.nan_to_num(finite, nan=np.nan, posinf=0.0)
@@ -108,10 +109,10 @@ class Plan(Sealed):
             )
         least = floats(self.least, "least", finite=False)
         if least.ndim or least < 0:
-            raise ValueError(f"least: wanted one sum of changes, got {short(self.least)}")
+            raise ValueError(f"least: wanted one sum of angle changes, got {short(self.least)}")
         radius = floats(self.radius, "radius", finite=False)
         if radius.ndim or np.isnan(radius) == (self.way == "via points") or radius <= 0:
-            wanted = f"wanted one length with way 'via points' alone, here {self.way!r}"
+            wanted = f"wanted one length for way 'via points', NaN for others, here {self.way!r}"
             raise ValueError(f"radius: {wanted}, got {short(self.radius)}")
         object.__setattr__(self, "radius", float(radius))
         object.__setattr__(self, "path", frozen(path))
@@ -152,9 +153,9 @@ def plan(
 
     All levers keep `distance` (metres; L/7 by default) from the obstacle along the whole path, or
     the plan says that none was found. It tries in this order: the direct motion with the least
-    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, but at least
-    the distance and L/7, and takes the first circle that keeps the distance; a search among
-    postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside.
+    movement; the document's via points K2, K3 on circles of `CIRCLES` lever lengths, with a radius
+    of at least the distance and L/7, of which it takes the first that keeps the distance; a search
+    among postures. Angles stay within 0 to 180 degrees. ValueError: a posture outside these limits.
 
     The path keeps clear of all obstacles (m, 2); the via points lie around the first one that is in
     the way.
@@ -171,7 +172,7 @@ def plan(
     direct = np.stack([start, goal])
     if H is None:
         far = np.full((1, 3), np.inf)
-        return Plan("direct", "The way is direct: no obstacle is given.", direct, far, least)
+        return Plan("direct", "The direct way is clear: no obstacle is given.", direct, far, least)
     too_near = _too_near(arm, start, K1, H, distance)
     if too_near:
         hint = f"No path keeps {in_words(distance)}; a smaller distance may be asked for."
@@ -179,7 +180,7 @@ def plan(
     clear = motion_clearances(arm, start[None], goal[None], H)
     if clear.min() >= distance:
         none = "the obstacle is not" if len(H) == 1 else "no obstacle is"
-        return Plan("direct", f"The way is direct: {none} in it.", direct, clear, least)
+        return Plan("direct", f"The direct way is clear: {none} on it.", direct, clear, least)
     words = f"On the direct way {_nearest(arm, clear, H)}."
     by_points, more = _by_via_points(arm, direct, K1, H, distance)
     words += more
@@ -197,7 +198,7 @@ def plan(
 
 def along(path: ArrayLike, s: ArrayLike) -> Floats:
     """Postures on a path (k, 3) at the fractions s (...) of its S, from 0 to 1: (..., 3), for
-    figures and players. Outside 0 to 1, the ends of the path.
+    figures and players. For s outside 0 to 1 it returns the ends of the path.
     """
     path, s = read_path(path), np.clip(floats(s, "s"), 0, 1)
     S = np.concatenate([[0.0], abs(np.diff(path, axis=0)).sum(axis=-1).cumsum()])
@@ -213,12 +214,12 @@ def no_plan(start: Floats, words: str, least: float = np.nan) -> Plan:
 
 
 def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance: float) -> str:
-    """Say in a sentence why no path can keep the distance; "" if one could."""
+    """Say in a sentence why no path can keep the distance; "" if a path could."""
     O_H, K1_H = np.hypot(*H[:, 0].T), np.hypot(*(K1 - H[:, 0]).T)
     q_H = lever_distances(arm, start, H)[:, 0]  # (m, 3)
     if O_H.min() < distance:
         name = _named(H, int(O_H.argmin())).capitalize()
-        return f"{name} lies on the base or {in_words(O_H.min())} beside it."
+        return f"{name} lies on the base or {in_words(O_H.min())} from it."
     if q_H.min() < distance:
         which, lever = np.unravel_index(q_H.argmin(), q_H.shape)
         return (
@@ -233,8 +234,8 @@ def _too_near(arm: ThreeLeverArm, start: Floats, K1: Floats, H: Floats, distance
 def _by_via_points(
     arm: ThreeLeverArm, direct: Floats, K1: Floats, H: Floats, distance: float
 ) -> tuple[tuple[Floats, Floats, float] | None, str]:
-    """The path over via points on the first circle that keeps the distance: its path, clearance and
-    radius, or None; and the words of the plan about it.
+    """The path through via points on the first circle that keeps the distance, with its clearance
+    and the radius, or None; and what the plan says about it.
     """
     first = _in_the_way(arm, direct, H, distance)
     radii = np.array([each for each in CIRCLES if each * arm.lever > distance]) * arm.lever
@@ -272,7 +273,7 @@ def _nearest(arm: ThreeLeverArm, clear: Floats, H: Floats) -> str:
 
 def _in_the_way(arm: ThreeLeverArm, direct: Floats, H: Floats, distance: float) -> int:
     """The first of several obstacles that is in the way, otherwise the nearest one. It is found by
-    samples and guarantees nothing.
+    sampling, which guarantees nothing.
     """
     near = lever_distances(arm, along(direct, np.linspace(0, 1, 100)), H).min(axis=-1)  # (m, 100)
     first = np.where((near < distance).any(axis=1), (near < distance).argmax(axis=1), near.shape[1])
@@ -285,7 +286,9 @@ def _square(K: Floats, K1: Floats, H: Floats) -> Floats:
     for name, end in (("K", K), ("K1", K1)):
         x, y = end - H
         if np.hypot(x, y) == 0:
-            raise ValueError(f"H: wanted an obstacle apart from {name}, got both at {H.tolist()}")
+            raise ValueError(
+                f"H: wanted an obstacle different from {name}, got both at {H.tolist()}"
+            )
         square = np.array([-y, x]) / np.hypot(x, y)
         directions.append(square * (-1.0 if square @ H > 0 else 1.0))
     return np.stack(directions)

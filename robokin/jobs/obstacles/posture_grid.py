@@ -2,7 +2,7 @@
 search and backtracking.
 
 A search proceeds in ticks. At each tick at most one joint moves, by one step. An array over the
-grid holds the fewest steps in which each posture is reached by that tick. It has one more place
+grid holds the fewest steps in which each posture is reached by that tick. It has one more element
 than the grid at the end of each axis, so that a step past either end leads to a posture that is
 never free.
 """
@@ -27,9 +27,10 @@ STEP = 5 * deg  # step of the grid of postures in `way_round`
 # step of the first joint can move the gripper by 0.26 lever lengths: with a small clearance only
 # the last margin keeps steps from jumping over H.
 MARGINS = (0.005, 0.03, 0.13)
-NEVER = 10_000  # steps: more than on any path through the grid
-INSIDE = (slice(-1),) * 3  # the grid without the extra places
-MOVES = ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1))  # of a tick: joint, steps
+NEVER = 10_000  # more steps than any path through the grid has
+INSIDE = (slice(-1),) * 3  # the grid without the extra elements
+# the possible moves in a tick: joint, steps
+MOVES = ((0, 0), (0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1))
 
 
 def way_round(
@@ -55,8 +56,8 @@ def way_round(
     size = len(H) * np.prod(np.ptp(arm.limits, axis=1) / STEP)
     if size > WORK:
         raise ValueError(
-            f"arm: wanted limits for a grid of {WORK} postures, each beside each of {len(H)} "
-            f"obstacles, got {size:.6g}"
+            f"arm: wanted limits that give at most {WORK} grid postures times obstacles, got "
+            f"{size:.6g} with {len(H)} obstacles"
         )
     axes, start = grid_axes(arm, q0)
     room = grid_room(arm, axes, H[:, 0])
@@ -124,8 +125,8 @@ def grid_postures(axes: list[Floats], nodes: Ints) -> Floats:
 
 
 def blocked(allowed: Bools, size: Sequence[int]) -> Steps:
-    """For a grid of this size: 0 in allowed postures, `NEVER` elsewhere and beyond the ends. The
-    array `allowed` may be smaller than the grid.
+    """An array for a grid of this size: 0 in allowed postures, `NEVER` elsewhere and beyond the
+    ends. The array `allowed` may be smaller than the grid.
     """
     closed = np.full(np.add(size, 1), NEVER, dtype=np.int16)
     closed[tuple(map(slice, allowed.shape))][allowed] = 0
@@ -144,8 +145,8 @@ def spread(steps: Steps, closed: Steps, closed_moves: Sequence[Steps] | None = N
     step.
 
     closed        the postures that are `blocked` then
-    closed_moves  for each joint: the postures from which the step to the next is `blocked`, there
-                  and back; none if not given
+    closed_moves  for each joint: the postures from which the step to the next one is `blocked`, in
+                  both directions; if omitted, no step is blocked
     """
     flat = steps.reshape(-1)
     later, more = flat.copy(), flat + np.int16(1)
@@ -186,8 +187,8 @@ def way_back(steps: Sequence[Steps], node: Node, room: Floats | None = None) -> 
     """The nodes (ticks, 3) of a path with the fewest steps to the node at the last tick. Among
     several, it prefers the one with more clearance at each tick.
 
-    steps  for each tick. If nothing moves, the last array serves for all: a posture that takes more
-           steps than there have been ticks is not reached yet.
+    steps  an array for each tick. If the obstacle does not move, the last array can be used for
+           every tick: a posture that takes more steps than there were ticks is not reached yet.
     """
     back = [node]
     for tick in range(len(steps) - 2, -1, -1):
@@ -202,8 +203,8 @@ def way_back(steps: Sequence[Steps], node: Node, room: Floats | None = None) -> 
 
 
 def arrivals(axes: list[Floats], goals: Floats, steps: Steps) -> tuple[Ints, Ints]:
-    """Nodes that the search reached (m, 3) and a goal (m,) in an adjacent cell of each, by
-    increasing S.
+    """Nodes (m, 3) that the search reached, and the index (m,) of a goal in a cell adjacent to
+    each, by increasing S.
     """
     below = np.stack(
         [
@@ -270,14 +271,15 @@ def _proven_moves(
     arm: ThreeLeverArm, grid: Floats, room: Floats, H: Floats, distance: float, step: float
 ) -> list[Bools]:
     """For each joint: whether its step from each posture to the next one keeps the distance."""
-    # length of the arm beyond a joint: no point moves farther than this times the turn
+    # length of the arm beyond a joint: no point moves farther than this times the rotation
     carried = np.cumsum(arm.levers[::-1])[::-1]
     proven, asked = [], []
     for joint in range(3):
         (here, there), (q0, q1) = (
             (x[:-1], x[1:]) for x in (np.moveaxis(each, joint, 0) for each in (room, grid))
         )
-        proven.append((here + there - carried[joint] * step) / 2 >= distance)  # lab 10, section 4
+        # the bound of lab 10, section 4
+        proven.append((here + there - carried[joint] * step) / 2 >= distance)
         open_ = ~proven[joint] & (here >= distance) & (there >= distance)
         asked.append((open_, q0[open_], q1[open_]))
     q0, q1 = (np.concatenate([each[k] for each in asked]) for k in (1, 2))
@@ -339,7 +341,8 @@ def _shortened(
         good = motions_keep(arm, path[-2], near, H, distance)
         if good.any():
             path[-1] = near[good.argmax()]
-        path = path[cast(list[int], shortcuts(arm, path, H, distance))]  # all parts keep it
+        # not None, since all parts keep the distance
+        path = path[cast(list[int], shortcuts(arm, path, H, distance))]
         if np.array_equal(path, before):
             break
     return path

@@ -1,4 +1,6 @@
-"""Unchecked paths past an obstacle, and the place where the levers come nearest on a path."""
+"""Paths that need not be safe (`planner` decides that), and the place where the levers come
+nearest on a path.
+"""
 
 import numpy as np
 
@@ -11,9 +13,9 @@ from .planner import along, via_path
 def unchecked_path(
     arm: ThreeLeverArm, way: str, q0: Floats, K1: Floats, H: Floats, distance: float
 ) -> Floats:
-    """The path (k, 3) from posture q0 to the target by the way "direct" or "via points", safe or
-    not; q0 alone, (1, 3), if there is none. The via points are `distance` metres from the obstacle
-    H (2,), or L/7 if that is more.
+    """The path (k, 3) from posture q0 to the target for the way "direct" or "via points", safe or
+    not; only q0, (1, 3), if there is none. The via points are `distance` metres from the obstacle H
+    (2,), or L/7 if that is more.
     """
     if way == "direct":
         path = np.stack([q0, arm.least(K1, q0)[0]])

@@ -1,11 +1,11 @@
-"""Stepper motors: the pulses of a move and their times, the windings that they switch, and whether
-the rotor follows.
+"""Stepper motors: the pulses of a move and their times, the windings that they switch on and off,
+and whether the rotor follows.
 
 Example: the motors of the log loader (source 003, paper 1), from the points of a job to the pulses:
 
     arm = loader_arm(1.2, 1.0)
     q = station_postures(arm, points)        # (stations, 3); `out_of_reach` says why one is NaN
-    n = counts(q, per_degree)                # (stations, 3) whole pulses: where the motors stand
+    n = counts(q, per_degree)                # (stations, 3) whole pulses: the motor positions
     move = synchronised(n[0], n[1])          # or unsynchronised, or straight
     q_t = joint_values(move(t), per_degree)  # joint values at the times t, to draw
     move.pulses()                            # for each motor: when, and in which direction

@@ -12,11 +12,11 @@ from ...arms.geometry import FREE, ROUNDING
 from ...units import deg, wrapped
 
 LIMIT = 500.0  # pulses per second, the greatest frequency. Source: 003, paper 1, (8)
-SAMPLES = 1001  # postures along a straight line
-SLACK = 1e-9  # a position within this of a whole pulse is that pulse
+SAMPLES = 1001  # number of postures along a straight line
+SLACK = 1e-9  # a position within this of a whole pulse counts as that pulse
 COUNTED = 2**52  # pulses from zero: a float represents each one exactly
-LISTED = 10_000_000  # pulses that one call lists
-STRETCHES = 100_000  # stretches of a move whose pulses are listed
+LISTED = 10_000_000  # greatest number of pulses that one call lists
+STRETCHES = 100_000  # greatest number of stretches of a move whose pulses are listed
 
 
 # ---- From points to motor positions
@@ -56,7 +56,8 @@ def station_postures(arm: ClosedFormArm, points: ArrayLike) -> Floats:
     for i in np.flatnonzero(~np.isnan(alpha)):
         alpha[i] = before = before if free[i] else float(wrapped(alpha[i], before))
     gamma = np.where(gamma < -90 * deg, gamma + 360 * deg, gamma)
-    return np.stack([alpha, gamma, abs(beta)], axis=-1)  # folded: beta is 0 up to rounding
+    # In a folded arm beta is 0 except for rounding, and could be negative.
+    return np.stack([alpha, gamma, abs(beta)], axis=-1)
 
 
 def shortest_turn(start: ArrayLike, goal: ArrayLike) -> Floats:
@@ -91,7 +92,7 @@ def joint_values(positions: ArrayLike, per_degree: ArrayLike) -> Floats:
         return floats(positions / per_degree * deg, "positions / per_degree")
 
 
-# ---- Moves: when a motor is where
+# ---- Moves: where each motor is at each time
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +112,7 @@ class Move(Sealed):
     def __post_init__(self) -> None:
         t, positions = floats(self.t, "t"), floats(self.positions, "positions")
         if t.ndim != 1 or not t.size or t[0] != 0 or (np.diff(t) <= 0).any():
-            raise ValueError(f"t: wanted times that rise from 0, got {short(t.tolist())}")
+            raise ValueError(f"t: wanted times that increase from 0, got {short(t.tolist())}")
         if positions.ndim != 2 or len(positions) != len(t) or not positions.size:
             raise ValueError(f"positions: wanted ({len(t)}, motors), got {positions.shape}")
         _whole(_counted(positions, "positions")[[0, -1]], "first and last of positions")
@@ -125,7 +126,7 @@ class Move(Sealed):
 
     @property
     def duration(self) -> float:
-        """Seconds."""
+        """The duration of the move in seconds."""
         return float(self.t[-1])
 
     @property
@@ -144,8 +145,8 @@ class Move(Sealed):
         """
         count, stretches = abs(self.positions[1:] - self.positions[:-1]).sum(), len(self.t) - 1
         if count > LISTED or stretches > STRETCHES:
-            wanted = f"wanted a move of at most {LISTED} in {STRETCHES} stretches"
-            raise ValueError(f"pulses: {wanted}, got one of {count:.0f} in {stretches}")
+            wanted = f"wanted a move of at most {LISTED} pulses in {STRETCHES} stretches"
+            raise ValueError(f"pulses: {wanted}, got {count:.0f} in {stretches}")
         return [_train(self.t, column) for column in self.positions.T]
 
 
@@ -155,7 +156,7 @@ def frequencies(pulses: ArrayLike, limit: float = LIMIT) -> Floats:
 
     The motor with the most pulses runs at `limit`; a motor without pulses stands still. Source:
     003, paper 1, (5) to (8), with errata S3-s: its conditions (6) and (7) make the motor with the
-    longest way the slowest. The correct condition is omega1 phi2 = omega2 phi1 for every pair of
+    farthest to go the slowest. The correct condition is omega1 phi2 = omega2 phi1 for every pair of
     motors: omega_i = limit phi_i / max phi.
     """
     pulses, limit = abs(floats(pulses, "pulses")), _limit(limit)
@@ -206,10 +207,10 @@ def straight(
     All motors start and stop together. At any moment the fastest one runs at the greatest
     frequency, so this is the shortest time for the path. The figure is lost, and the text
     distinguishes c from b only by a motor that turns one way and then back. We take them as two
-    pairs of points with one law. c needs more pulses than d between the same points.
+    pairs of points with the same law. c needs more pulses than d between the same points.
 
-    Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line that
-    `out_of_reach` names.
+    Source: 003, paper 1, figure 4 (5 in the text), b and c. ValueError: a point of the line for
+    which `out_of_reach` gives a reason.
     """
     _loader(arm)
     start, goal = _place(start, "start"), _place(goal, "goal")
@@ -220,7 +221,8 @@ def straight(
     for i in (*gaps[:1], 0, -1):
         for reason in out_of_reach(arm, points[i]):
             raise ValueError(
-                f"start and goal: wanted a line inside the workspace, at {s[i]:.0%} of it {reason}"
+                f"start and goal: wanted a line inside the workspace, but at {s[i]:.0%} of it "
+                f"{reason}"
             )
     due = _counted(_pulses(q, per_degree), "per_degree")
     due[[0, -1]] = np.rint(due[[0, -1]])  # motors stop at whole pulses
@@ -243,7 +245,7 @@ def _loader(arm: ClosedFormArm) -> ElbowGeometry:
 def _place(value: ArrayLike, name: str) -> Floats:
     place = floats(value, name, 3)
     if place.ndim != 1:
-        raise ValueError(f"{name}: wanted one single point (3,), got {place.shape}")
+        raise ValueError(f"{name}: wanted a single point (3,), got {place.shape}")
     return place
 
 
@@ -260,7 +262,7 @@ def _limit(value: float) -> float:
 
 
 def _seconds(pulses: Floats, limit: float) -> Floats:
-    """The time of these pulses at the greatest frequency."""
+    """The time that these pulses take at the greatest frequency."""
     with np.errstate(over="ignore"):
         return floats(pulses / _limit(limit), "pulses / limit")
 
@@ -274,7 +276,7 @@ def _pulses(q: Floats, per_degree: ArrayLike) -> Floats:
 
 
 def _counted(positions: Floats, name: str) -> Floats:
-    """Motor positions that a float represents exactly."""
+    """Return the positions. ValueError: more pulses than a float represents exactly."""
     most = abs(positions).max(initial=0)
     if not most <= COUNTED:
         raise ValueError(f"{name}: wanted at most 2**52 pulses from zero, got {most:.6g}")
@@ -288,7 +290,7 @@ def _whole(positions: Floats, name: str) -> None:
 
 
 def _stations(start: ArrayLike, goal: ArrayLike) -> tuple[Floats, Floats]:
-    """Two rows of whole pulses."""
+    """Return start and goal as two rows of whole pulses."""
     start, goal = floats(start, "start"), floats(goal, "goal")
     if start.ndim != 1 or not start.size or start.shape != goal.shape:
         wanted = "wanted one position for each motor"
@@ -303,7 +305,7 @@ def _train(t: Floats, due: Floats) -> tuple[Floats, Ints]:
     times, signs, stands = [np.empty(0)], [np.empty(0, dtype=np.int64)], due[0]
     direction = np.sign(np.diff(due))
     turning = direction.nonzero()[0]
-    # the stretches before which it turns back
+    # the stretches at whose beginning the motor reverses
     turning = turning[1:][direction[turning[1:]] != direction[turning[:-1]]]
     ends = [*turning, len(due) - 1]
     for begin, end in zip([0, *turning], ends, strict=True):

@@ -1,4 +1,4 @@
-"""Phase tables: what each pulse switches in the windings of a stepper motor."""
+"""Phase tables: which windings of a stepper motor each pulse switches on and off."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -30,19 +30,21 @@ def phases(drive: str, motor: str, windings: int | None = None) -> Ints:
     the document's motors, with columns as in `COLUMNS[motor]`.
 
     drive     "wave": one winding at a time; "two-phase": two neighbours, with more torque;
-              "half-step": by turns, half the angle per pulse, so twice the pulses per degree
+              "half-step": one winding and two by turns: half the angle per pulse, so twice the
+              pulses per degree
     motor     "unipolar": one column for each winding, 1 where it carries current. "bipolar": two
-              for each, 1 at its positive end, -1 at its negative end. The document names the
-              columns of both a1, b1, a2, b2 and means other wires (errata S3-t): with table 1's
-              names the first row of table 2 would be two opposite half windings that cancel.
-    windings  phases that are switched: 3 to 6 unipolar (of two the second pulls as much forwards as
-              backwards), 4 if None: two windings with a tap in the middle, four halves. 2 to 6
-              bipolar, 2 if None. Source: 003, II.3.1 ("two to six")
+              columns for each, 1 at its positive end, -1 at its negative end. The document names
+              the columns a1, b1, a2, b2 for both motors but means different wires (errata S3-t):
+              with table 1's names the first row of table 2 would be two opposite half windings
+              that cancel.
+    windings  the number of windings. Unipolar: 3 to 6 (with two, the second would pull as much
+              backwards as forwards), 4 if None, which are the halves of two windings with centre
+              taps. Bipolar: 2 to 6, 2 if None. Source: 003, II.3.1 ("two to six")
 
     The field turns evenly, once in n rows (unipolar) or 2 n rows (bipolar), and in twice as many
-    half steps. Source: 003, II.3.2, tables 1 and 2 (table 2 shows only the +). Its appendices 3 and
-    4, the two-phase drive of the unipolar motor and the half step, are not in the text: we derive
-    these rows from the order of table 1.
+    half steps. Source: 003, II.3.2, tables 1 and 2 (table 2 shows only the plus signs). Its
+    appendices 3 and 4, for the two-phase drive of the unipolar motor and the half step, are not in
+    the text: we derive these rows from the order of table 1.
     """
     choice(drive, "drive", DRIVES)
     n = read_windings(motor, windings)
@@ -63,12 +65,12 @@ def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
     signs (pulses,) -> (pulses + 1, columns).
 
     The first result is row `row` of the table, modulo the number of rows. A positive pulse moves to
-    the next row and a negative one to the row before: the order is the direction. Source: 003,
-    II.3.1. ValueError: signs that are not +1 or -1.
+    the next row and a negative one to the row before: the order of the rows gives the direction.
+    Source: 003, II.3.1. ValueError: signs that are not +1 or -1.
     """
     rows, signs = floats(table, "table"), floats(signs, "signs")
     if rows.ndim != 2 or not len(rows):
-        raise ValueError(f"table: wanted rows as `phases` gives them, got shape {rows.shape}")
+        raise ValueError(f"table: wanted rows as `phases` returns them, got shape {rows.shape}")
     if signs.ndim != 1 or (abs(signs) != 1).any():
         raise ValueError(f"signs: wanted +1 and -1 in an array (pulses,), got {short(signs)}")
     steps = np.concatenate([[0], np.cumsum(signs)]).astype(np.int64)
@@ -76,6 +78,6 @@ def energised(table: ArrayLike, signs: ArrayLike, row: int = 0) -> Ints:
 
 
 def read_windings(motor: str, windings: int | None) -> int:
-    """Return the number of windings of a motor, by default that of the document."""
+    """Return the number of windings of a motor, by default that of the document's motor."""
     fewest = _FEWEST[choice(motor, "motor", tuple(COLUMNS))]
     return whole(_DOCUMENTS[motor] if windings is None else windings, "windings", fewest, 6)

@@ -14,8 +14,8 @@ ROTORS = ("active", "passive")
 SETTLED = 8.0  # time constants after which a rotor is at rest
 NEARLY = 3.0  # time constants until a current is within 5 % of its value
 FINE = (0.1, 0.25)  # integration step, as a fraction of the shortest mechanical time and of `rise`
-INTEGRATED = 100_000  # steps of one run
-FASTEST = 1e9  # rad/s
+INTEGRATED = 100_000  # greatest number of steps of one run
+FASTEST = 1e9  # rad/s: the greatest speed that a load or torque may cause
 SLOWEST = 10  # pulses per second: the search for a start frequency begins here
 
 
@@ -24,19 +24,20 @@ class Stepper(Sealed):
     """A stepper motor modelled as an inertia on a magnetic spring, which each pulse moves forward.
 
     rotor     "active": a permanent magnet of two poles. "passive": soft iron with 2 n + 2 teeth
-              between 2 n poles; it knows no sign of a current, so it is unipolar
-    motor, windings, drive  as for `phases`
-    torque    of one winding at most, N m
-    inertia   of the rotor, kg m^2
-    damping   torque per speed, N m s
-    rise      time constant L/R of a winding's current, s; 0: at once
+              between 2 n poles; the sign of a current has no effect, so the motor is unipolar
+    motor, windings, drive  as in `phases`
+    torque    the greatest torque of one winding, N m
+    inertia   the rotor's moment of inertia, kg m^2
+    damping   braking torque per angular speed, N m s
+    rise      time constant L/R of a winding's current, s; with 0 the current changes at once
 
-    Each winding with the current i (1: full) pulls with torque * i * sin(psi - N theta), where
-    psi is its place in the ring of windings, theta the rotor's angle and N how often this comes
-    round in one turn of the rotor (`periods`): 1, or the number of teeth. A passive rotor has i^2
-    for i. The sum is one sine as well: torque * |pull| * sin(arg(pull) - N theta). ValueError:
-    numbers that are not positive, a passive bipolar motor. Source: 003, II.3.1 (active and passive
-    rotors); the sine is the usual first term, e.g. P. Acarnley, Stepping Motors, 2002, ch. 2 to 5.
+    Each winding with the current i (1: full) pulls with torque * i * sin(psi - N theta), where psi
+    is its place in the ring of windings, theta the rotor's angle and N the number of periods of the
+    pull in one revolution of the rotor (`periods`): 1, or the number of teeth. For a passive rotor,
+    i^2 replaces i. The sum over the windings is a single sine as well: torque * |pull| *
+    sin(arg(pull) - N theta). ValueError: numbers that are not positive, a passive bipolar motor.
+    Source: 003, II.3.1 (active and passive rotors); the sine is the usual first term, e.g. P.
+    Acarnley, Stepping Motors, 2002, ch. 2 to 5.
     """
 
     rotor: str = "active"
@@ -60,7 +61,7 @@ class Stepper(Sealed):
 
     @property
     def periods(self) -> int:
-        """The number of periods of a winding's pull in one turn of the rotor."""
+        """The number of periods of a winding's pull in one revolution of the rotor."""
         return 1 if self.rotor == "active" else 2 * self.windings + 2
 
     @property
@@ -79,7 +80,9 @@ class Stepper(Sealed):
 
     @property
     def pulls(self) -> np.ndarray[tuple[int, ...], np.dtype[np.complex128]]:
-        """(rows,) complex: direction in the ring and strength (1 is one winding) of each row."""
+        """(rows,) complex: the direction in the ring and the strength of each row's pull (1: one
+        winding).
+        """
         turn = (math.pi if self.motor == "bipolar" else 2 * math.pi) / self.windings
         currents = self.currents if self.rotor == "active" else self.currents**2
         pulls: np.ndarray[tuple[int, ...], np.dtype[np.complex128]] = currents @ np.exp(
@@ -94,7 +97,8 @@ class Stepper(Sealed):
 
     @property
     def starting_torque(self) -> float:
-        """The greatest load, N m, that it can still move from every row to the next at low speed.
+        """The greatest load, N m, that the motor can still move from every row to the next at low
+        speed.
 
         A load L deflects row k by asin(L / s_k), with the strength s_k. The next row can take over
         as long as both angles and the step add up to less than half a turn. So L is the distance
@@ -119,7 +123,7 @@ class Stepper(Sealed):
         even `SLOWEST` is too fast. It is found by bisection: a motor with little damping may also
         lose steps far below it, by resonance.
 
-        load, load_inertia  as for `run`. Source of the term: 003, II.3.1.
+        load, load_inertia  as in `run`. Source of the term: 003, II.3.1.
         """
         count = whole(pulses, "pulses", 1, INTEGRATED)
         low, high = SLOWEST - 1, int(LIMIT) + 1
@@ -136,7 +140,8 @@ class Stepper(Sealed):
         """Simulate the rotor: it rests in the table's first row, gets the pulses, and comes to rest
         again.
 
-        times, signs  (pulses,) s, not falling, from 0 on; +1 or -1: as of `Move.pulses`
+        times, signs  (pulses,) as `Move.pulses` returns them: s, from 0 on, never decreasing, and
+                      +1 or -1
         load          N m, like a weight on a drum: it always pulls backwards
         load_inertia  kg m^2, in addition to the rotor's
 
@@ -145,9 +150,10 @@ class Stepper(Sealed):
         """
         t, turns = floats(times, "times"), floats(signs, "signs")
         if t.ndim != 1 or t.shape != turns.shape or (np.diff(t, prepend=0.0) < 0).any():
-            wanted = "wanted times (pulses,) that do not fall, from 0 on, and as many signs"
+            wanted = "wanted times (pulses,) from 0 on that do not decrease, and as many signs"
             raise ValueError(f"times and signs: {wanted}, got {short(t)} and {short(turns)}")
-        rows = energised(np.arange(len(self.currents))[:, None], turns)[:, 0]  # or raises
+        # `energised` raises ValueError for signs other than +1 and -1.
+        rows = energised(np.arange(len(self.currents))[:, None], turns)[:, 0]
         return _rotor_run(self, t, rows, turns, *_loaded(load, load_inertia))
 
 
@@ -157,8 +163,8 @@ class RotorMotion(Sealed):
     been `due` (k,), both in rad. `lost` is the number of steps by which the final angle is short of
     `due`; steps lost from pulses with the sign -1 count as negative.
 
-    At rest it can only stand where the last row holds it. So the number of lost steps is always a
-    multiple of the number of rows of the phase table.
+    At rest the rotor can only be where the last row holds it. So the number of lost steps is always
+    a multiple of the number of rows of the phase table.
     """
 
     t: Floats
@@ -169,8 +175,8 @@ class RotorMotion(Sealed):
 
 def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     """The times (pulses,) in s of pulses whose frequency rises linearly from `start` to `end`
-    within `seconds`, stays there, and falls in the same way. A short move begins to fall before it
-    reaches `end`.
+    within `seconds`, stays there, and falls in the same way. In a short move it begins to fall
+    before it reaches `end`.
 
     Frequencies are in pulses per second; with `seconds` 0 it is `end` from the beginning. Pulse k
     comes when k pulses are due, the last one at the end; with start = end as in `Move.pulses`.
@@ -182,7 +188,7 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
     )
     rise = _not_negative(seconds, "seconds")
     if low > high:
-        raise ValueError(f"start and end: wanted a frequency that rises, got {low:g} to {high:g}")
+        raise ValueError(f"start and end: wanted start <= end, got {low:g} and {high:g}")
     more = (high - low) / rise if rise > 0 else 0.0  # pulses per second squared
     low = low if more else high
     top = min(high, math.sqrt(low**2 + more * count))
@@ -203,7 +209,7 @@ def ramp(pulses: int, start: float, end: float, seconds: float) -> Floats:
 def _not_negative(value: float, name: str) -> float:
     one = number(value, name)
     if one < 0:
-        raise ValueError(f"{name}: wanted no negative number, got {short(value)}")
+        raise ValueError(f"{name}: wanted a number that is not negative, got {short(value)}")
     return one
 
 
@@ -289,7 +295,7 @@ def _integration_steps(
         raise ValueError(f"times: {wanted}, got one of {ends[-1]:.4g} s")
     for name, value in (("load", load), ("torque", torque)):
         if not abs(value) / damping <= FASTEST:
-            wanted = f"wanted one that turns the rotor at {FASTEST:g} rad/s at most"
+            wanted = f"wanted one that turns the rotor at no more than {FASTEST:g} rad/s"
             got = f"got {value:.4g} N m at a damping of {damping:.4g} N m s"
             raise ValueError(f"{name}: {wanted}, {got}")
     return gaps, steps
@@ -297,8 +303,8 @@ def _integration_steps(
 
 def _resting(motor: Stepper, load: float) -> Floats:
     """(rows,) rad: the rest position of the rotor in each row under a load, the first within half a
-    period of 0 and the others after it. If a row cannot hold the load: the position where it pulls
-    most.
+    period of 0 and the others after it. If a row cannot hold the load, it is the position where the
+    row pulls most.
     """
     pulls = motor.pulls
     bent = np.arcsin(np.clip(load / (motor.torque * abs(pulls)), -1, 1))

@@ -11,24 +11,25 @@ from ..._validate import TWO_TURNS, broadcast, floats, length, short, warn_if_de
 from ...arms import spbu_arm, within
 from ...arms.geometry import FREE, ROUNDING
 
-SHORTEST, LONGEST = 1e-6, 1e6  # m; a link outside this range is probably in wrong units
-UNDER = 1e-9  # fraction of the reach: a tool below the floor by no more than this is on it
+SHORTEST, LONGEST = 1e-6, 1e6  # m; a link outside this range is probably in the wrong unit
+UNDER = 1e-9  # fraction of the reach: a tool below the floor by no more than this counts as on it
 
 
 def workspace(l1: float, l2: float, points: ArrayLike) -> Bools:
     """Whether each of the document's four conditions holds: points (..., 3) in metres -> bool (...,
     4).
 
-    They are, in this order: not beyond the stretched arm; not below the floor; not nearer to the
-    origin than l1 - l2 (if l1 > l2); the elbow not below the floor (if l1 < l2). A point past a
-    border by rounding (1e-12 of the reach) is on it (errata S0-l). A point is in the workspace if
-    all four hold; then the principal branch exists, inside the limits. Source: 000, "Определение
-    границ рабочей области"; its condition cos q2 >= 0 follows (errata S0-c, S0-s).
+    In this order: the point is not beyond the stretched arm; it is not below the floor; it is not
+    nearer to the origin than l1 - l2 (if l1 > l2); the elbow is not below the floor (if l1 < l2). A
+    point past a border only by rounding (1e-12 of the reach) counts as on it (errata S0-l). A point
+    is in the workspace if all four hold; then the principal branch exists, inside the limits.
+    Source: 000, "Определение границ рабочей области"; its condition cos q2 >= 0 follows (errata
+    S0-c, S0-s).
     """
     l1, l2 = _links(l1, l2)
     x, y, z = components(floats(points, "points", 3))
     slack = ROUNDING * (l1 + l2)
-    with np.errstate(over="ignore"):  # a point 1e308 m away is too far, without a warning
+    with np.errstate(over="ignore"):  # no warning for a point 1e308 m away
         rho = np.hypot(x, y)
         d = np.hypot(rho, z)
         # The lowest elbow is on the floor behind the axis, l1 away: (rho + l1)^2 + z^2 >= l2^2,
@@ -44,7 +45,7 @@ def out_of_workspace(l1: float, l2: float, point: ArrayLike) -> list[str]:
     l1, l2 = _links(l1, l2)
     p = floats(point, "point", 3)
     if p.ndim != 1:
-        raise ValueError(f"point: wanted one single point (3,), got {p.shape}")
+        raise ValueError(f"point: wanted a single point (3,), got {p.shape}")
     holds = workspace(l1, l2, p)
     return [
         reason for reason, fine in zip(reasons_outside(l1, l2, p), holds, strict=True) if not fine
@@ -62,7 +63,7 @@ def principal_postures(l1: float, l2: float, points: ArrayLike) -> Floats:
     # -0.0 becomes 0: atan2 distinguishes them, a point does not
     p = floats(points, "points", 3) + 0.0
     near = FREE * (l1 + l2)
-    with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`
+    with np.errstate(over="ignore", invalid="ignore"):  # as in `workspace`, without a warning
         q = np.array(spbu_arm(l1, l2).ik(p)[..., 0, :])
         rho = np.hypot(p[..., 0], p[..., 1])
         q[rho <= near, 0] = np.nan
@@ -74,13 +75,13 @@ def misfit(l1: float, l2: float, q: ArrayLike, points: ArrayLike) -> Floats:
     """The distance in m of the tool at q (..., 3) from the points (..., 3) where it should be:
     (...). Infinite if a joint is past its limit, NaN if the posture does not exist.
 
-    This is what the printed program's seven checks intend: they lack the absolute value, and none
-    of them tests joint 1 (errata S0-e).
+    This is what the printed program's seven checks are meant to test: they lack the absolute value,
+    and none of them tests joint 1 (errata S0-e).
     """
     arm = spbu_arm(*_links(l1, l2))
     posture, p = floats(q, "q", 3, finite=False), floats(points, "points", 3)
     broadcast("q and points", posture.shape, p.shape)
-    posture = with_free_joints(posture, 0.0)  # a free joint may have any value, so 0 too
+    posture = with_free_joints(posture, 0.0)  # a free joint may have any value, including 0
     with np.errstate(over="ignore"):
         gap = np.linalg.norm(arm.fk(posture).translation - p, axis=-1)
     return np.where(within(arm, posture).all(axis=-1) | np.isnan(gap), gap, np.inf)
@@ -115,8 +116,8 @@ def lowest(l1: float, l2: float, q_from: ArrayLike, q_to: ArrayLike) -> Floats:
     """The least height of the tool in m on the way from q_from to q_to (..., 3), with every joint
     at constant speed: (...).
 
-    Between two points above the floor it can be negative if l1 > l2 (errata S0-u). The bound is
-    certain and not a sample: the tool is nowhere lower than this minus 1e-9 of the reach. A joint
+    Between two points above the floor it can be negative if l1 > l2 (errata S0-u). This is a proven
+    bound and not a sample: the tool is nowhere lower than this minus 1e-9 of the reach. A joint
     that is NaN at one end is free and stands still. The result is NaN if a posture does not exist.
     ValueError: a joint beyond two turns.
     """
@@ -167,14 +168,14 @@ def lowest_place(l1: float, l2: float, start: Floats, end: Floats, below: float)
 
 
 def reasons_outside(l1: float, l2: float, point: Floats) -> tuple[str, ...]:
-    """The reasons why a point (3,) may be outside, one text for each of the four conditions."""
+    """The reasons why a point (3,) may be outside, one string for each of the four conditions."""
     x, y, z = point.tolist()
     rho, d = math.hypot(x, y), math.hypot(x, y, z)
     return (
         f"is too far: {d - l1 - l2:.4g} m beyond the stretched arm, l1 + l2 = {l1 + l2:.9g} m",
-        f"is under floor: z = {z:.9g} m",
-        f"is too close to origin: |p| = {d:.9g} m is less than l1 - l2 = {l1 - l2:.9g} m",
-        f"is too close to origin: |p|^2 = {d * d:.9g} m^2 is less than "
+        f"is under the floor: z = {z:.9g} m",
+        f"is too close to the origin: |p| = {d:.9g} m is less than l1 - l2 = {l1 - l2:.9g} m",
+        f"is too close to the origin: |p|^2 = {d * d:.9g} m^2 is less than "
         f"l2^2 - l1^2 - 2 l1 rho = {(l2 - l1) * (l2 + l1) - 2 * l1 * rho:.9g} m^2",
     )
 
@@ -191,7 +192,7 @@ def _links(l1: Any, l2: Any) -> tuple[float, float]:
     return l1, l2
 
 
-@np.errstate(invalid="ignore")  # NaN from postures that do not exist
+@np.errstate(invalid="ignore")  # postures that do not exist are NaN
 def _lowest_of_block(l1: float, l2: float, moves: Sequence[Floats], below: float) -> Floats:
     """`lowest_place` for moves: q2 and q3 at the start, q2 and q3 at the end, (n,) each.
 

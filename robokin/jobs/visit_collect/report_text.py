@@ -28,7 +28,11 @@ def report(task: Task, result: Result) -> str:
         in_time = fits(
             ways * joint_travel_time(task.q[0], task.q[1:], task.speeds, False), task.T
         ).any()
-        why = "what is in time dips under the floor" if in_time else "not enough time"
+        why = (
+            "since every move that is in time dips under the floor"
+            if in_time
+            else "not enough time"
+        )
         lines = [f"could not {task.kind} any points, {why} (T = {task.T:.13g} s)"]
     lines += [
         f"{i} {coordinates(task.points[i])} at {time:.13g} s"
@@ -69,7 +73,7 @@ def _oddities(task: Task) -> list[str]:
     found = []
     if task.kind == "collect" and np.isnan(task.q[0]).any() and len(task.points) > 1:
         found.append(
-            "p0 is on axis 1, so the order counts: the cheapest next each time, not always the best"
+            "p0 is on axis 1, so the order matters: taking the cheapest next is not always the best"
         )
     if (task.speeds > TWO_TURNS).any():
         found.append(

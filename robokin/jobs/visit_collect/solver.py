@@ -13,9 +13,9 @@ from .arm import UNDER, joint_travel_time, lowest_place, with_free_joints
 from .task import Task, TaskError
 
 # These limits keep every call below a few seconds:
-EXACT_LIMIT = 16  # points; each further point doubles the time and memory of the exact optimum
+EXACT_LIMIT = 16  # points; each additional point doubles the time and memory of the exact optimum
 NEAREST_LIMIT = 10_000  # points; the repeated search for the nearest compares n^2 / 2 moves
-ABOVE_LIMIT = 1_000  # the same if each of these moves also needs its lowest place
+ABOVE_LIMIT = 1_000  # points, if each of these moves also needs its lowest place
 
 
 @dataclass(frozen=True)
@@ -46,8 +46,8 @@ class Result(Sealed):
 def collect(task: Task, *, short_way: bool = False, above_floor: bool = False) -> Result:
     """Bring as many points as possible to p0, one at a time, within T.
 
-    Each point costs the way there and back. The cheapest points come first, with the lower index on
-    a tie. This is the optimum (errata S0-r), unless p0 is on axis 1: there the cost of a point
+    Each point costs the time there and back. The cheapest points come first, with the lower index
+    on a tie. This is the optimum (errata S0-r), unless p0 is on axis 1: there the cost of a point
     depends on the value that joint 1 has kept, and the cheapest next point may not be the best. A
     time of exactly T counts. `above_floor` refuses points on whose way the tool would dip below the
     floor. Source: 000, "Нахождение времени", task "сбора". TaskError: p0 on axis 1 and more than
@@ -86,13 +86,14 @@ def best_visit(task: Task, *, short_way: bool = False, above_floor: bool = False
     first order. Times that differ only by rounding (1e-12) are equal. It is not in the document.
 
     It is exact, by dynamic programming over the sets of visited points. ValueError: more than
-    EXACT_LIMIT points, since each further point doubles the work. `above_floor` is as in `visit`.
+    EXACT_LIMIT points, since each additional point doubles the work. `above_floor` is as in
+    `visit`.
     """
     n = len(instance(task, Task, "task").points)
     if n > EXACT_LIMIT:
         raise ValueError(
             f"task: wanted at most {EXACT_LIMIT} points for the exact optimum, got {n} (each "
-            f"point more doubles the work); visit() takes up to {NEAREST_LIMIT}"
+            f"additional point doubles the work); visit() takes up to {NEAREST_LIMIT}"
         )
     point, q, lands = _standings(task)
     legs = joint_travel_time(q[:, None], task.q[1:], task.speeds, short_way)  # (postures, n)
@@ -161,7 +162,7 @@ def stops_of(task: Task, result: Result) -> Floats:
     n = len(task.points)
     if sorted((*result.order, *result.left)) != list(range(n)):
         got = f"{len(result.order)} served and {len(result.left)} left"
-        raise ValueError(f"result: wanted one of this task with its {n} points, got {got}")
+        raise ValueError(f"result: wanted a result of this task with {n} points, got {got}")
     stops = [0]
     for i in result.order:
         stops += [i + 1, 0] if task.kind == "collect" else [i + 1]
@@ -170,7 +171,7 @@ def stops_of(task: Task, result: Result) -> Floats:
 
 @np.errstate(over="ignore")
 def fits(times: Floats, T: float) -> Bools:
-    """Which times are within T. A time of exactly T counts, also if it exceeds T by rounding."""
+    """Which times are within T. A time of exactly T counts, even if it exceeds T by rounding."""
     return times - T <= ROUNDING * T
 
 
@@ -191,8 +192,8 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
     order: list[int] = []
     times: list[float] = []
     total, here, p0 = 0.0, task.q[0], task.q[0]
-    # The remaining points and their postures, contiguous for each joint; the last one replaces one
-    # that is served.
+    # The remaining points and their postures, contiguous for each joint; the last point replaces
+    # each one that is served.
     left, q = np.arange(n), np.array(task.q[1:], order="F")
     while len(left):
         costs = joint_travel_time(here, q, task.speeds, short_way)
@@ -203,7 +204,7 @@ def _cheapest_next(task: Task, short_way: bool, above_floor: bool, back: bool) -
         best = np.flatnonzero(_nearly_least(costs, costs.min()) & fits(total + costs, task.T))
         if not len(best):
             break
-        k = best[left[best].argmin()]  # the first of the cheapest
+        k = best[left[best].argmin()]  # of the cheapest points, the one with the lowest index
         total += float(costs[k])
         order.append(int(left[k]))
         times.append(total)
@@ -236,8 +237,8 @@ def _standings(task: Task) -> tuple[Ints, Floats, Ints]:
     for the start; the posture (k, 3); and the index of the posture in which it arrives at every
     point from each of them (k, n).
 
-    A point off axis 1 has one posture; a point on it has one for each value that joint 1 can bring
-    along.
+    A point off axis 1 has one posture; a point on it has one for each value that joint 1 can arrive
+    with.
     """
     point, q = [-1], [task.q[0]]
     lands: list[list[int]] = []

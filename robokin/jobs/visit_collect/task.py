@@ -17,14 +17,14 @@ from .arm import LONGEST, SHORTEST, misfit, principal_postures, reasons_outside,
 
 KEYS = ("L1", "L2", "T", "q'", "p0", "pi", "task")
 # These limits keep every call below a few seconds:
-TASK_LIMIT = 300_000  # points in any task
-FILE_LIMIT = 40_000_000  # bytes
+TASK_LIMIT = 300_000  # greatest number of points in a task
+FILE_LIMIT = 40_000_000  # bytes in a file
 # These limits keep messages readable:
-FAULTS_SHOWN = 10  # faults of one kind
+FAULTS_SHOWN = 10  # faults of one kind that are listed
 
 
 class TaskError(ValueError):
-    """A task cannot be solved; `faults` holds all reasons, one text each."""
+    """A task cannot be solved; `faults` holds all reasons, one string each."""
 
     def __init__(self, faults: Iterable[str]) -> None:
         self.faults = tuple(faults)
@@ -71,7 +71,7 @@ class Task(Sealed):
         if found := faults(data):
             raise TaskError(found)
         if not isinstance(remarks, (list, tuple)):
-            raise ValueError(f"remarks: wanted a list of texts, got {short(remarks)}")
+            raise ValueError(f"remarks: wanted a list of strings, got {short(remarks)}")
         l1, l2, T = (float(data[key]) for key in KEYS[:3])
         # -0.0 becomes 0, as in `principal_postures`
         rows = [frozen(np.array(data[key], dtype=float) + 0.0) for key in KEYS[3:6]]
@@ -101,8 +101,8 @@ def read_task(path: str | os.PathLike[str]) -> Task:
 
 
 def faults(data: Any) -> list[str]:
-    """All faults of a task as its file gives it, a dict with the keys KEYS: a list of texts, empty
-    if there are none.
+    """All faults of a task as read from its file, a dict with the keys KEYS: a list of strings,
+    empty if there are none.
 
     Other keys are ignored. If the points and the lengths are valid, the points are checked against
     the workspace, numbered as in the document: 0 is p0, and 1 is pi[0]. The first ten faults of one
@@ -126,7 +126,7 @@ def faults(data: Any) -> list[str]:
     found += [
         f"pi[{i}]: wanted {RULES['p0'][1]}, got {short(rows[i])}" for i in shapeless[:FAULTS_SHOWN]
     ]
-    if more := and_more(len(shapeless), FAULTS_SHOWN, "and {} points that are no such array"):
+    if more := and_more(len(shapeless), FAULTS_SHOWN, "and {} points that are not such arrays"):
         found.append(more)
     if points and not wrong & {"L1", "L2"}:
         p = np.array(list(points.values()), dtype=float) + 0.0
@@ -135,7 +135,7 @@ def faults(data: Any) -> list[str]:
 
 
 def and_more(count: int, shown: int, template: str) -> str:
-    """Fill the number of items that are not shown into {} of the template; "" if all are shown."""
+    """Insert the number of items not shown into {} of the template; "" if all are shown."""
     return template.format(f"{count - shown} more") if count > shown else ""
 
 
@@ -165,7 +165,8 @@ def _unreachable(l1: float, l2: float, numbers: Sequence[int], p: Floats) -> lis
         for reason, tell in zip(reasons_outside(l1, l2, p[i]), told[i], strict=True)
         if tell
     ]
-    kinds = ("are too far", "are under floor", "are too close to origin", "are too close to origin")
+    near = "are too close to the origin"
+    kinds = ("are too far", "are under the floor", near, near)
     for kind, count in zip(kinds, broken.sum(axis=0).tolist(), strict=True):
         if more := and_more(count, FAULTS_SHOWN, "and {} points " + kind):
             found.append(more)
@@ -223,7 +224,7 @@ def _content(path: Path) -> bytes:
         raise TaskError([f"is not a file but a {'folder' if path.is_dir() else 'device'}"])
     if (size := path.stat().st_size) > FILE_LIMIT:
         raise TaskError(
-            [f"is too big: {size / 1e6:.0f} MB, and {FILE_LIMIT / 1e6:.0f} MB are read"]
+            [f"is too big: {size / 1e6:.0f} MB, wanted at most {FILE_LIMIT / 1e6:.0f} MB"]
         )
     return path.read_bytes()
 
@@ -241,7 +242,7 @@ def _triple(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 3 and all(map(_number, value))
 
 
-RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key: its check, and its name
+RULES: dict[str, tuple[Callable[[Any], bool], str]] = {  # key -> its check, and what is wanted
     **dict.fromkeys(
         ("L1", "L2"),
         (

@@ -1,4 +1,4 @@
-// An arm as a scene shows it: links and joints, its path, its shadow on the floor.
+// An arm as a scene shows it: its links and joints, its path, and its shadow on the floor.
 
 import {movedTo} from "./camera.js";
 import {clear, colors, jointColor, polygon, shape, spot, stroke} from "./canvas.js";
@@ -11,7 +11,7 @@ import {triad} from "./triad.js";
 /** @import {Pen, Shown} from "./scene.js" */
 
 /** @typedef {ReturnType<typeof stood>} Stood  an arm in its place, and the pen that draws it */
-/** @typedef {[from: Point, to: Point, rod: boolean]} Limb  `rod`: of a prismatic joint */
+/** @typedef {[from: Point, to: Point, rod: boolean]} Limb  a piece; `rod`: in a prismatic joint */
 
 /**
  * An arm at its base: a pen with its own coordinates, the data of Shown, its frames and limbs.
@@ -45,13 +45,13 @@ export function stood(pen, arm, base = [0, 0, 0]) {
 
 /**
  * @param {Stood} one
- * @param {number} [from]  a height
+ * @param {number} [from]  the height above which joints are drawn
  */
 export const drawRods = ({g, cam, chain, joints, thick, scene, rods}, from) =>
   drawArm(g, cam, chain, rods, joints, thick, scene.size, from);
 
 /**
- * Draws the arm, and its path in front of it and behind it.
+ * Draws the arm, its whole path below it, and the path so far above it.
  * @param {Stood} one
  */
 export function drawStood(one) {
@@ -142,7 +142,7 @@ function drawFoot({g, cam: {to}, scene, space: {a, b, spatial}}, alpha) {
 }
 
 /**
- * The straight pieces of a posture.
+ * The straight pieces of an arm in a posture.
  * @param {number[][]} all
  * @param {number[][]} joints
  * @param {number[][]} moved
@@ -173,7 +173,7 @@ function raised([p, q, rod]) {
 }
 
 /**
- * Draws links and joints, the farther ones first; joints only above a height.
+ * Draws links and joints, the farther ones first; joints only above the height `from`.
  * @param {Context} g
  * @param {Camera} cam
  * @param {PageLink[]} chain
@@ -240,7 +240,7 @@ function drum(g, cam, p, axis, radius, color) {
   const facing = Math.abs(dot(axis, cam.toward)),
     angle = Math.atan2(dy, dx);
   const half = 0.85 * radius * long,
-    side = dot(axis, cam.toward) > 0 ? 1 : -1; // half its length on the screen
+    side = dot(axis, cam.toward) > 0 ? 1 : -1; // `half`: half its length on the screen
   g.save();
   g.translate(cx, cy);
   g.rotate(angle);

@@ -1,4 +1,4 @@
-// The bench of the motor explorer: its motor, the run of pulses, and the present state of the
+// The bench of the motor explorer: its motor, the run of pulses, and the current state of the
 // rotor. The model is in rotor.js.
 
 import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
@@ -7,7 +7,7 @@ import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
 /** @import {Motor, Run} from "./rotor.js" */
 
 const SLOW = 20; // times slower than real time, for a single pulse or a released rotor
-const SHOWN = 8; // seconds in which a run is shown
+const SHOWN = 8; // seconds that the display of a run takes
 const LONG = 2; // motor seconds: a rotor that does not come to rest is not shown for longer
 
 /** @type {(list: number[]) => number} */
@@ -18,13 +18,13 @@ export class Bench {
   constructor(data) {
     this.data = data;
     this.state = {...data.opening, sign: 1};
-    /** `time` of the run, s. The picture shows the run then, if it is `shown`. */
+    /** `time` of the run, s. If `shown`, the picture shows the run at that time. */
     this.clock = {time: 0, playing: false, shown: false};
     this.motor = this.built();
     this.live = atRest(this.motor, 0);
     this.sent = 0;
     this.held = false;
-    this.since = LONG; // motor seconds since it was touched
+    this.since = LONG; // motor seconds since the reader touched the motor
     this.last = 0; // time of the last picture, ms
     /** @type {?Run} */
     this.found = null;
@@ -42,7 +42,7 @@ export class Bench {
     return this.data.drives[this.state.drive].key;
   }
 
-  /** In SI units. @param {MotorControl["key"]} key */
+  /** The value of a slider in SI units. @param {MotorControl["key"]} key */
   value(key) {
     const {size} = /** @type {MotorControl} */ (this.data.controls.find(each => each.key === key));
     return this.state[key] * size;
@@ -66,7 +66,7 @@ export class Bench {
     return ramp(this.data.pulses, Math.min(this.value("start"), end), end, this.value("ramp"));
   }
 
-  /** The run with the present choice, computed on demand. */
+  /** The run with the current choice, computed on demand. */
   run() {
     this.found ??= run(this.motor, this.times(), this.state.sign);
     return this.found;
@@ -94,7 +94,7 @@ export class Bench {
     return this.motor.load > this.motor.torque * Math.sqrt(x * x + y * y);
   }
 
-  /** The choice has changed; `other`: to another motor, which begins again. */
+  /** Reacts to a changed choice; with `other`, to another motor, which begins again. */
   change(other = false) {
     this.motor = this.built();
     this.found = null;
@@ -108,7 +108,7 @@ export class Bench {
     [this.live, this.sent, this.since] = [atRest(this.motor, 0), 0, LONG];
   }
 
-  /** The reader has touched it: it no longer shows a run, and the rotor moves by itself. */
+  /** Ends the display of a run, since the reader has touched something, and frees the rotor. */
   wake() {
     Object.assign(this.clock, {time: 0, playing: false, shown: false});
     this.since = 0;
@@ -120,14 +120,14 @@ export class Bench {
     this.wake();
   }
 
-  /** Sends pulses to reach a row by the shortest way. @param {number} row */
+  /** Sends the fewest pulses that reach a row. @param {number} row */
   sendTo(row) {
     const count = this.motor.currents.length,
       ahead = (((row - this.sent) % count) + count) % count;
     this.send(ahead > count / 2 ? ahead - count : ahead);
   }
 
-  /** The rotor is taken or released. @param {boolean} on */
+  /** Grabs or releases the rotor. @param {boolean} on */
   hold(on) {
     if (on === this.held) return;
     this.held = on;
@@ -135,7 +135,7 @@ export class Bench {
     this.wake();
   }
 
-  /** Advances to the time of a picture; returns whether it goes on. @param {number} now  ms */
+  /** Advances to the time of a picture; returns whether to draw another. @param {number} now  ms */
   moment(now) {
     const passed = this.since === 0 ? 1 / 60 : Math.min(0.05, (now - this.last) / 1000);
     this.last = now;
@@ -144,7 +144,7 @@ export class Bench {
         i = t.findLastIndex(x => x <= this.clock.time);
       this.live = {theta: angle[i], omega: 0, currents: [...this.motor.currents[0]]};
       this.sent = sent[i];
-      return false; // the clock shows it
+      return false; // the clock advances the run
     }
     if (this.held || this.since >= LONG) return false;
     this.since += passed / SLOW;
@@ -153,7 +153,7 @@ export class Bench {
     return this.since < LONG;
   }
 
-  /** Stops it when the remaining motion is invisible. */
+  /** Stops the rotor when its remaining motion is invisible. */
   settle() {
     const period = (2 * Math.PI) / this.motor.periods,
       rest = resting(this.motor, this.sent),

@@ -1,9 +1,9 @@
-// Fills the blanks of the sentences from verdicts.py and explorers.py with numbers in Python's
+// Fills the blanks of the sentences from verdicts.py and explorer.py with numbers in Python's
 // format.
 
 import {rint} from "./kinematics.js";
 
-/** @typedef {Object<string, string | number>} Facts  what fills the blanks, by their names */
+/** @typedef {Object<string, string | number>} Facts  the values for the blanks, by name */
 
 /**
  * A sentence with its blanks filled.
@@ -21,7 +21,7 @@ export const fill = (sentence, facts) =>
 export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);
 
 /**
- * as `in_words` of units.py
+ * A length in words, as in `in_words` of units.py.
  * @param {number} x  metres
  */
 export const inWords = x => (x < 10 ? `${oneDecimal(x / 1e-3)} mm` : `${oneDecimal(x)} m`);

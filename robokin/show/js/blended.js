@@ -15,9 +15,9 @@ import {record} from "./recorded.js";
 const LAWS = {quintic, trapezoidal, linear};
 
 /**
- * The motion for a question: the findings of `record`, times, joint values, places of the tool, the
- * distance from via; the samples after which its curves break, the pose at a time, and the times at
- * which an acceleration may jump.
+ * The motion for the current settings: the findings of `record`, times, joint values, places of the
+ * tool, the distance from via; the samples after which its curves break, the pose at a time, and
+ * the times at which an acceleration may jump.
  * @param {MotionData} data
  * @param {Asked} state
  */
@@ -61,7 +61,7 @@ export function motionOf(data, state) {
 export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, times}, sampled) {
   if (gaps.size || missing[0]) return null;
   const step = t[1];
-  // free joints may have any value
+  // NaN at a singularity, where free joints may have any value
   /** @type {(x: number) => number[]} */
   const posture = x => {
     const near = q[Math.min(Math.round(x / step), samples - 1)],
@@ -76,7 +76,10 @@ export function topsOf({arm, units, samples}, {t, q, missing, gaps, poseAt, time
   );
 }
 
-/** The greatest value, NaN if there is none. @type {(rows: number[][], j: number) => number} */
+/**
+ * The greatest absolute value of joint j, NaN if there is none.
+ * @type {(rows: number[][], j: number) => number}
+ */
 export const most = (rows, j) =>
   rows.reduce(
     (best, row) => (Number.isNaN(row[j]) || Math.abs(row[j]) <= best ? best : Math.abs(row[j])),
@@ -102,7 +105,7 @@ function passing({unit}, via, poseAt, t, missing) {
     far = places.map(place => apart(place, via.place));
   const steps = far.flatMap((_, i) => (i && !missing[i] && !missing[i - 1] ? [i] : []));
   let least = Math.min(...steps.flatMap(i => [far[i - 1], far[i]]));
-  // only on such long steps can the path come nearer than at the samples
+  // only on steps as long as these can the path come nearer than at the samples
   for (const i of steps.filter(
     k => Math.min(far[k - 1], far[k]) - apart(places[k], places[k - 1]) < least,
   )) {

@@ -23,8 +23,8 @@ const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
- * Which joints can take the posture q within their limits; a revolute one at q or whole turns from
- * it.
+ * Which joints can take the posture q within their limits; a revolute one at q or at any number of
+ * whole turns from it.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
@@ -47,7 +47,7 @@ export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
 /**
- * As `unwrapped`, but inside the limits where such a value exists.
+ * As `unwrapped`, but inside the limits if such a value exists.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near
@@ -61,7 +61,7 @@ const inside = (arm, q, near) =>
   });
 
 /**
- * The joint values to show to people: inside the limits and nearest to q, otherwise those that
+ * The joint values to show to readers: inside the limits and nearest to q, otherwise those that
  * exceed the limits least.
  * @param {ArmData} arm
  * @param {number[]} q
@@ -104,7 +104,7 @@ function start(arm, track) {
       arm,
       q,
       q.map((value, j) => value + j),
-    ); // no two shifts cancel
+    ); // different shifts, so that no two cancel
     return chosen.every((value, j) => Math.abs(value - q[j]) <= 1e-12);
   });
   const q = choose(arm, first, later || first).map(value => (Number.isNaN(value) ? 0 : value));

@@ -7,12 +7,12 @@ import {dot, plus} from "./kinematics.js";
 
 /**
  * @typedef {object} Camera  a parallel projection
- * @property {number} scale  pixels to a metre
+ * @property {number} scale  pixels per metre
  * @property {Point} toward  the direction to the camera
- * @property {(p: Point) => Pixel} to  where a point is on the canvas
- * @property {(v: Point) => Pixel} along  the same of a direction
- * @property {(dx: number, dy: number) => Point} across  the way in space, across the line of sight,
- *   of pixels
+ * @property {(p: Point) => Pixel} to  the place of a point on the canvas
+ * @property {(v: Point) => Pixel} along  the direction of a vector on the canvas
+ * @property {(dx: number, dy: number) => Point} across  the displacement in space, perpendicular to
+ *   the line of sight, for a displacement in pixels
  */
 
 /**

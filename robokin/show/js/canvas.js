@@ -1,14 +1,16 @@
-// Lines, shapes and words on a canvas, in the colours of the page; numbers for people.
+// Lines, shapes and words on a canvas, in the colours of the page; formatted numbers.
 
-/** @typedef {[number, number]} Pixel  CSS pixels from the left upper corner of a canvas */
+/** @typedef {[number, number]} Pixel  CSS pixels from the upper left corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */
 /** @typedef {[number, number, number, number]} Box  left, top, width, height in CSS pixels */
-/** @typedef {[color: string, width: number, dash?: number[]]} Look  of a line */
-/** @typedef {[fill: string, edge?: string, width?: number]} Filling  and the edge, if any */
+/** @typedef {[color: string, width: number, dash?: number[]]} Look  the look of a line */
+/**
+ * @typedef {[fill: string, edge?: string, width?: number]} Filling  the fill and edge of a shape
+ */
 /** @typedef {CanvasRenderingContext2D} Context */
 /** @typedef {keyof typeof colors} Color */
 
-/** The colours of palette.py by their names, six digits each; `readColors` fills them in. */
+/** The colours of palette.py by name, six hexadecimal digits each; `readColors` fills them in. */
 export const colors = {
   paper: "",
   ink: "",
@@ -51,7 +53,7 @@ export const colors = {
 
 let family = "sans-serif"; // the font of words; `readColors` reads it, too
 
-/** Reads the present colours of an element in .rk from the style sheet. @param {Element} place */
+/** Reads the current colours of an element in .rk from the style sheet. @param {Element} place */
 export function readColors(place) {
   const style = getComputedStyle(place);
   family = style.getPropertyValue("--rk-font").trim();
@@ -78,8 +80,8 @@ export const clear = (color, share) =>
 
 /**
  * The cleared context of a canvas, sized for its place on the page at the screen's resolution (at
- * most two by two device pixels per CSS pixel); null if the canvas has no size now, and then it
- * keeps its picture.
+ * most two by two device pixels per CSS pixel); null if the canvas currently has no size, and then
+ * it keeps its picture.
  * @param {HTMLCanvasElement} canvas
  * @returns {?[Context, number, number]} context, width and height
  */
@@ -208,7 +210,7 @@ export function write(g, text, x, y, color = colors.ink, size = 12, align = "lef
 }
 
 /**
- * A number with these decimals, a real minus sign and no negative zero.
+ * A number with this many decimals, a real minus sign and no negative zero.
  * @param {number} x
  * @param {number} decimals
  */
@@ -227,7 +229,7 @@ export const hit = ([x, y, w, h], boxes) =>
   boxes.some(([ox, oy, ow, oh]) => x < ox + ow && ox < x + w && y < oy + oh && oy < y + h);
 
 /**
- * The number of columns and rows of several arms in a width.
+ * The numbers of columns and rows into which `count` pictures are arranged in this width.
  * @param {number} count
  * @param {number} width
  * @returns {[number, number]}

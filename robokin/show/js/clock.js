@@ -1,4 +1,4 @@
-// The clock of a motion: a button, a time slider, a menu of playing speeds, and the Space key.
+// The clock of a motion: a button, a time slider, a menu of playback speeds, and the Space key.
 
 import {number} from "./canvas.js";
 import {choice, control, element, range} from "./elements.js";
@@ -15,7 +15,7 @@ const TICKS = 400,
 /** @typedef {ReturnType<typeof runningClock>} Clock */
 
 /**
- * @param {?{play: string, pause: string}} [names]  what the button says; none: it has a sign
+ * @param {?{play: string, pause: string}} [names]  what the button says; by default it has an icon
  */
 export function clockRow(names = null) {
   const icon = element("span"),
@@ -43,13 +43,13 @@ export function clockRow(names = null) {
 }
 
 /**
- * pass(now): time goes on; set(time): it stops there; tell(): time and slider show it.
+ * pass(now): advances the time; set(time): stops at a time; tell(): shows the time on the page.
  * @param {ClockParts} parts
- * @param {HTMLElement} frame  in which the Space key plays
+ * @param {HTMLElement} frame  the element in which the Space key plays and pauses
  * @param {{time: number, playing: boolean}} state
  * @param {() => [number, number]} span  first and last time
- * @param {() => void} ask  to be drawn
- * @param {() => number} [pace]  seconds of `state.time` in a second
+ * @param {() => void} ask  requests a new picture
+ * @param {() => number} [pace]  seconds of `state.time` per second
  */
 export function runningClock(parts, frame, state, span, ask, pace = () => 1) {
   let before = 0;

@@ -1,4 +1,4 @@
-// Around the canvases: turning the view by dragging, and when to draw again.
+// Canvases: turning the view by dragging, and when to draw again.
 
 import {colors, readColors} from "./canvas.js";
 import {control} from "./elements.js";
@@ -21,7 +21,8 @@ export const sceneCanvas = (scene, alt) =>
 const KEYS = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
 /**
- * Dragging, arrow keys, Home and a double click turn state.view; `ask` requests a new picture.
+ * Lets dragging and arrow keys turn state.view, and Home and a double click reset it; `ask`
+ * requests a new picture.
  * @param {HTMLCanvasElement} canvas
  * @param {Pick<PageScene, "flat" | "view">} scene
  * @param {{view: number[]}} state  azimuth and elevation
@@ -58,7 +59,7 @@ export function orbit(canvas, scene, state, ask) {
 }
 
 /**
- * Calls `take` for pressing and dragging on a canvas, with `first` at the press.
+ * Calls `take` when the pointer is pressed or dragged on a canvas; `first` is true for the press.
  * @param {HTMLCanvasElement} canvas
  * @param {(event: PointerEvent, first: boolean) => void} take
  */
@@ -78,8 +79,8 @@ export function scrubbing(canvas, take) {
  * the page.
  * @param {HTMLElement} root
  * @param {HTMLCanvasElement[]} canvases
- * @param {(now: number) => boolean|void} draw  false: there was no room. It is called again as soon
- *   as there is
+ * @param {(now: number) => boolean|void} draw  returns false if there was no room; it is called
+ *   again as soon as there is
  * @returns {() => void} ask
  */
 export function pictures(root, canvases, draw) {
@@ -89,7 +90,7 @@ export function pictures(root, canvases, draw) {
       asked = requestAnimationFrame(now => {
         asked = 0;
         if (!root.isConnected) return;
-        if (!colors.ink) readColors(canvases[0]); // asked before any canvas has a size
+        if (!colors.ink) readColors(canvases[0]); // asked before any canvas had a size
         if (draw(now) === false) watch();
       });
   };
@@ -99,15 +100,15 @@ export function pictures(root, canvases, draw) {
   const turned = () => {
     look();
     if (root.isConnected) draw(performance.now());
-  }; // printing does not wait
+  }; // draws at once, since printing does not wait
   function look() {
     if (root.isConnected) {
-      readColors(canvases[0]); // inside .rk, which defines them
+      readColors(canvases[0]); // inside .rk, which defines the colours
       theme.observe(document.body, {attributeFilter: ["data-jp-theme-light"]});
       for (const one of media) one.addEventListener("change", turned);
       ask();
     } else {
-      // removed; if it is inserted again, its canvases get a size again
+      // `root` is removed; if it is inserted again, its canvases get a size again
       theme.disconnect();
       for (const one of media) one.removeEventListener("change", turned);
     }

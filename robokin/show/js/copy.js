@@ -3,7 +3,8 @@
 import {control} from "./elements.js";
 
 /**
- * @param {Record<string, string>} words  what the button says: `copy`, and once it has: `copied`
+ * @param {Record<string, string>} words  what the button says: `copy`, and `copied` once it has
+ *   copied
  * @param {() => string} text
  */
 export function copyButton(words, text) {
@@ -13,7 +14,8 @@ export function copyButton(words, text) {
     try {
       await navigator.clipboard.writeText(text());
     } catch {
-      // a page from a file may not: use the old way or, if that is forbidden too, by hand
+      // a page from a file may not write to the clipboard: copy in the old way or, if that is
+      // forbidden too, let the reader copy
       area.value = text();
       button.after(area);
       area.select();

@@ -7,7 +7,7 @@ import {dashes, drawPanel} from "./panel.js";
 /** @import {Scale} from "./page.js" */
 /** @import {Panel, Place, Times} from "./panel.js" */
 
-/** @typedef {{title: string, panels: Panel[]}} Column  of panels over one time axis */
+/** @typedef {{title: string, panels: Panel[]}} Column  a column of panels with one time axis */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
 /** @typedef {{g: Context, patterns: number[][], times: Times, ticks: Scale, now: number}} Shown */
 /** @typedef {[left: number, width: number, t0: number, t1: number, x: number, y: number]} Span */
@@ -15,10 +15,9 @@ import {dashes, drawPanel} from "./panel.js";
 /**
  * Draws columns of panels.
  *
- * draw(columns, times, ticks, now)  one picture
- * timeAt(x, y, held)                the time of a place on the canvas, in the column under it or,
- *                                   with `held`, in that column whatever the place; and the number
- *                                   of the column
+ * draw(columns, times, ticks, now)  draws one picture
+ * timeAt(x, y, held)                the time at a place on the canvas, in the column there or, if
+ *                                   given, in the column `held`; and the number of the column
  *
  * @param {HTMLCanvasElement} canvas
  * @param {number[][]} patterns  the dashes of the joints' lines
@@ -100,7 +99,7 @@ function drawColumn({g, patterns, times, ticks, now}, column, box, titled) {
 }
 
 /**
- * Writes the numbers below a column; the last one has the unit.
+ * Writes the times below a column; the last one has the unit.
  * @param {Context} g
  * @param {Scale} ticks
  * @param {[first: number, last: number]} span

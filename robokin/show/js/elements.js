@@ -31,7 +31,8 @@ export function element(tag, attributes = {}, ...children) {
 }
 
 /**
- * JupyterLab handles arrow keys and Space itself unless the focused element forbids it.
+ * An input element. JupyterLab handles arrow keys and Space itself unless the focused element
+ * forbids it.
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
  * @param {Attributes} attributes

@@ -1,5 +1,5 @@
-// The inverse kinematics and the singularities of every geometry (three levers: levers.js). As
-// arms/elbow.py, spherical_wrist.py, scara.py and two_link.py, which are the reference.
+// The inverse kinematics and the singularities of every geometry (for three levers see levers.js),
+// as in arms/elbow.py, spherical_wrist.py, scara.py and two_link.py, which are the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations, so that both
 // agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not used.
@@ -16,11 +16,11 @@ import {SIGNS, twoLevers, worst} from "./two_levers.js";
 /** @import {ArmOf, ClosedFormArm, ScaraPose, TransformPose} from "./kinematics.js" */
 
 /** @typedef {[number, number]} Pair  cosine and sine of one angle */
-/** @typedef {Object<string, boolean>} Held  which singularities hold */
+/** @typedef {Object<string, boolean>} Held  at which singularities a posture is */
 /** @typedef {{q: number[], plane: Pair, ahead: Pair}} ElbowRow */
 /**
- * What is known of one geometry: the rows of `ik`, the singularities that hold at q, q with joints
- * that are free there as they were before, and why a row is missing.
+ * The functions of one geometry: the rows of `ik`; at which singularities q is; q with the joints
+ * that are free there as in the previous posture; and why a row is missing.
  * @template {Inverse} G
  * @typedef {{
  *   ik(arm: ArmOf<G>, pose: PagePose): number[][],
@@ -31,7 +31,7 @@ import {SIGNS, twoLevers, worst} from "./two_levers.js";
  */
 
 /**
- * The pair (cosine, sine) of an angle, turned on by that of a constant angle.
+ * The pair (cosine, sine) of the sum of an angle and a constant angle.
  * @param {Pair} angle
  * @param {Pair} constant
  * @returns {Pair}
@@ -40,7 +40,7 @@ const onward = ([cosine, sine], [c, s]) =>
   s === 0 && c === 1 ? [cosine, sine] : [cosine * c - sine * s, sine * c + cosine * s];
 
 /**
- * Half a turn on, so that it stays within half a turn.
+ * The angle opposite to q, within half a turn.
  * @param {number} q
  */
 const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
@@ -48,8 +48,8 @@ const opposite = q => (q < 0 || Object.is(q, -0) ? q + Math.PI : q - Math.PI);
 // --- Three joints that place a point: `Elbow` ----------------------------------------------------
 
 /**
- * For front/back and elbow, as Elbow.solve: {q, plane, ahead} or null, with the joints and the
- * directions (cosine, sine) of the arm's plane and of the forearm above the horizon.
+ * For front/back and elbow, as in Elbow.solve: null, or {q, plane, ahead} with the joint values and
+ * the directions (cosine, sine) of the arm's plane and of the forearm's elevation.
  * @param {ArmOf<ElbowInverse | WristInverse>} arm
  * @param {number[]} place
  * @returns {(?ElbowRow)[]}
@@ -306,7 +306,7 @@ const GEOMETRIES = {elbow, wrist, scara, two_link: twoLink};
 const UNKNOWN = {held: () => ({}), choose: (arm, q) => q};
 
 /**
- * The functions of an arm's geometry; one without an inverse has only `held` and `choose`.
+ * The functions of an arm's geometry; a geometry without an inverse has only `held` and `choose`.
  * @param {ArmData} arm
  */
 export const geometryOf = arm =>
@@ -321,7 +321,7 @@ export const geometryOf = arm =>
 export const ik = (arm, pose) => geometryOf(arm).ik(arm, pose);
 
 /**
- * Which singularities hold at q.
+ * At which singularities the posture q is.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {Held}

@@ -1,15 +1,15 @@
-// The page's part of saving guesses (guesses.py): the model of a widget without a view, one for
+// The page's part in saving guesses (guesses.py): the model of a widget without a view, one for
 // each kernel. A page may show several notebooks; each guess goes to the kernel of its notebook.
 
-/** @typedef {[string, string, string]} Made  a prediction, a choice, when it was made */
+/** @typedef {[string, string, string]} Made  a prediction, the choice, and its time */
 /**
- * What a question sends as the event "robokin-guess", canceled by the hub that takes it. `path`: of
- * its notebook, "" or null where the page does not say it. `tell` is called once: with nothing, or
- * with what stood in the way.
+ * What a question sends with the event "robokin-guess", which the hub that takes it cancels.
+ * `path`: that of the notebook, "" or null if the page does not contain it. `tell` is called once:
+ * without an argument, or with the reason for a failure.
  * @typedef {{path: ?string, guesses: Made[], tell: (error?: string) => void}} Offer
  */
 /**
- * JupyterLab's, of a notebook. Elsewhere there is none.
+ * JupyterLab's context of a notebook. Other front ends have none.
  * @typedef {{path: string, localPath: string, isDisposed: boolean}} Context
  */
 /** @typedef {{n: number, error?: string}} Told */
@@ -25,7 +25,8 @@
 const hubs = (Object(globalThis).robokinHubs ??= new Set());
 
 /**
- * The hub of the notebook at `path`; where the page or the hub does not know a path, the only one.
+ * The hub of the notebook at `path`; if the page or the hub does not know a path, the only hub
+ * there is.
  * @param {?string} path
  */
 function hubOf(path) {

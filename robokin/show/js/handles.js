@@ -8,47 +8,48 @@ import {element, control} from "./elements.js";
 /** @import {Color, Pixel, Point} from "./canvas.js" */
 /** @import {Camera} from "./camera.js" */
 
-const NEAR = 12; // px: least distance of a handle from the edge of the scene
+const NEAR = 12; // px: smallest distance of a handle from the edge of the scene
 
 /**
- * The distance in metres of arrows and arcs from the thing that they move, for a camera, so that it
- * is the same on every screen.
+ * The distance in metres between a thing and the arrows and arcs that move it, for a camera. In
+ * pixels it is the same at every scale.
  * @param {Camera} camera
  */
 export const reachOf = camera => (matchMedia("(pointer: coarse)").matches ? 84 : 60) / camera.scale;
 
-/** @typedef {(dx: number, dy: number) => void} Drag  told how far a pointer has gone, in px */
+/** @typedef {(dx: number, dy: number) => void} Drag  called with the motion of a pointer in px */
 /**
  * @typedef {object} Handle
  * @property {string} id
  * @property {string} name  what a screen reader says: "target along x"
  * @property {string} look  the class of the button: rk-free, rk-arrow, rk-arc or rk-joint
  * @property {string} [mark]  a letter on it
- * @property {Color} [color]  a name of palette.py
- * @property {(camera: Camera) => Point} at  where it is
- * @property {() => string} value  what it stands at, in words
- * @property {(camera: Camera) => Drag} grab  called when it is taken; what it returns is told how
- *   far the pointer is from where it was taken
- * @property {(right: number, up: number, big: boolean) => void} step  an arrow key
- * @property {() => void} home  where it began
+ * @property {Color} [color]  a colour name of palette.py
+ * @property {(camera: Camera) => Point} at  its place
+ * @property {() => string} value  its current value, in words
+ * @property {(camera: Camera) => Drag} grab  called when it is grabbed; returns a function that is
+ *   called with the displacement of the pointer since then
+ * @property {(right: number, up: number, big: boolean) => void} step  reacts to an arrow key
+ * @property {() => void} home  moves it back to where it began
  */
 /** @typedef {ReturnType<typeof handleLayer>} HandleLayer */
 
-/** @typedef {Handle & {node: HTMLElement, shift: Pixel}} Shown  `shift`: to make room */
+/** @typedef {Handle & {node: HTMLElement, shift: Pixel}} Shown  `shift`: its offset */
 /**
  * The callbacks of the buttons in a layer.
  * @typedef {object} Hand
- * @property {() => Camera} camera  of the last picture
- * @property {(id: ?string) => void} hold  which handle is taken; null: it is let go
- * @property {() => void} changed  something has moved
+ * @property {() => Camera} camera  the camera of the last picture
+ * @property {(id: ?string) => void} hold  called with the id of the grabbed handle; or with null
+ *   when it is released
+ * @property {() => void} changed  called when something has moved
  */
 
 /**
  * A layer of handles over a canvas.
  * @param {HTMLElement} canvas
  * @param {() => Camera} camera  the camera of the last picture
- * @param {(held: boolean) => void} hold  told when a handle is taken, and when it is let go
- * @param {() => void} changed  something has moved
+ * @param {(held: boolean) => void} hold  called when a handle is grabbed, and when it is released
+ * @param {() => void} changed  called when something has moved
  */
 export function handleLayer(canvas, camera, hold, changed) {
   const layer = element("div", {class: "rk-handles"});
@@ -73,11 +74,12 @@ export function handleLayer(canvas, camera, hold, changed) {
       handles = next.map(handle => ({...handle, node: button(handle, hand), shift: [0, 0]}));
       layer.replaceChildren(...handles.map(handle => handle.node));
     },
-    /** Call it after every picture. */
+    /** Puts the handles in their places; to be called after every picture. */
     place() {
       /** @type {Pixel[]} */
       const taken = [];
-      // The held one keeps its offset, so that it stays under the pointer; the others make room.
+      // The grabbed handle keeps its offset, so that it stays under the pointer; the others make
+      // room.
       const first = [...handles].sort((a, b) => Number(b.id === held) - Number(a.id === held));
       for (const handle of first)
         taken.push(placed(handle, camera(), handle.id === held ? null : taken, canvas));
@@ -136,7 +138,7 @@ function button(handle, {camera, hold, changed}) {
  * still be dragged.
  * @param {Shown} handle
  * @param {Camera} camera
- * @param {?Pixel[]} taken  the places to keep away from; null: it is held
+ * @param {?Pixel[]} taken  the places to keep away from; null if it is held
  * @param {HTMLElement} canvas
  */
 function placed(handle, camera, taken, canvas) {
@@ -183,18 +185,18 @@ function apart([x, y], taken, room) {
  * motion along the curve's direction on the screen, updated as the handle moves.
  * @param {Camera} camera
  * @param {(value: number) => Point} place  where the handle is at a value
- * @param {number} value  at the start
+ * @param {number} value  its value at the start
  * @param {number} step  a small change of the value
- * @returns {(dx: number, dy: number) => number}  the value for a pointer that far away
+ * @returns {(dx: number, dy: number) => number}  the value after this displacement of the pointer
  */
 export function alongCurve(camera, place, value, step) {
   const start = camera.to(place(value));
   let now = value;
   return (dx, dy) => {
     const wanted = [start[0] + dx, start[1] + dy];
-    // Newton's steps to the point of the curve nearest to the pointer; none where the curve points
-    // at the eye. They need the curvature: without it a pointer far outside a ring would make it
-    // oscillate.
+    // Newton steps to the point of the curve nearest to the pointer, but none where the curve
+    // points at the camera. They need the curvature: without it a pointer far outside a ring would
+    // make them oscillate.
     for (let i = 0; i < 40; i++) {
       const [before, here, after] = [-step, 0, step].map(x => camera.to(place(now + x)));
       const along = [0, 1].map(k => (after[k] - before[k]) / (2 * step));
@@ -210,12 +212,13 @@ export function alongCurve(camera, place, value, step) {
     return now;
   };
 }
-const MOVES = 0.02; // m of screen per unit of the value: smaller movements are unintended
+// m on the screen per unit of the value: below this, the curve points at the camera
+const MOVES = 0.02;
 
 /**
  * A drag that moves a point freely in the plane of the screen.
  * @param {Camera} camera
- * @param {Point} place  at the start
+ * @param {Point} place  its place at the start
  * @returns {(dx: number, dy: number) => Point}
  */
 export const inScreen = (camera, place) => (dx, dy) => plus(place, camera.across(dx, dy));
@@ -261,7 +264,7 @@ export function gripOf(chain, q, i, camera) {
       sunk = dot(way, turned(joints[i], chain[i].axis));
     if (Math.sqrt(dot(way, way) - sunk * sunk) > reach)
       return plus(from, plus(bend, from, -1), share);
-    // on the next link: its own joint has its ring at 0.6
+    // nearer to the start of the next link, whose own joint has its ring at 0.6
     if (dot(way, way) > 1e-12) [from, share] = [bend, 0.3];
   }
   return plus(here, turned(moved[i], squareTo(chain[i].axis)[0]), reach * [0.6, 0.9, 1.2][i % 3]);

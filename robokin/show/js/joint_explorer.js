@@ -1,5 +1,5 @@
-// The joint explorer: the reader drags joints. All words and all numbers of the arm come from
-// Python (page.py: JointPage).
+// The joint explorer: the reader drags joints. All words and the data of the arm come from Python
+// (page.py: JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -20,7 +20,7 @@ import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 /** @typedef {JointPage} JointExplorer */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {JointExplorer} data
  */
@@ -30,7 +30,7 @@ export const explore = (id, data) =>
 /** @typedef {{q: number[]}} State */
 
 /**
- * A slider for each joint and a handle on it.
+ * Builds a slider and a handle for each joint.
  * @param {Stage} stage
  * @param {JointExplorer} data
  */
@@ -82,7 +82,7 @@ function jointExplorer(stage, data) {
 const limited = ([low, high], value) => Math.min(Math.max(value, low), high);
 
 /**
- * A ring on joint j.
+ * The handle of joint j, a ring.
  * @param {JointExplorer} data
  * @param {State} state
  * @param {number} j

@@ -3,16 +3,19 @@
 // arms/arm.py and arms/dexterity.py.
 //
 // A pose is {rotation, place} (target "Transform"), {place, angle} ("ScaraPose") or {place}
-// ("point"). An arm is the result of `arm_data` in twin.py; scripts contain no numbers of arms.
+// ("point"). An arm is the result of `arm_data` in twin.py; the scripts contain no data of arms.
 
 /** @import {ArmData, Inverse, PageLink, PagePose, With} from "./page.js" */
 
 /**
- * An arm of one geometry.
+ * An arm with this geometry.
  * @template {Inverse} G
  * @typedef {ArmData & {geometry: G}} ArmOf
  */
-/** @typedef {With<ArmData, "branches" | "carried" | "sentences">} ClosedFormArm  one with `ik` */
+/**
+ * An arm with `ik`.
+ * @typedef {With<ArmData, "branches" | "carried" | "sentences">} ClosedFormArm
+ */
 /** @typedef {With<PagePose, "rotation">} TransformPose */
 /** @typedef {With<PagePose, "angle">} ScaraPose */
 
@@ -20,7 +23,7 @@ export const TURN = 2 * Math.PI;
 export const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 /**
- * First b, then a.
+ * The composition of two transforms: first b, then a.
  * @param {number[]} a  12 numbers
  * @param {number[]} b  12 numbers
  * @returns {number[]}  12 numbers
@@ -80,8 +83,8 @@ export function frames(chain, q, joints = [], moved = []) {
 }
 
 /**
- * The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange. As arm_points of
- * camera.py.
+ * The polyline of the links: base, joint 1, end of link 1, joint 2, ..., flange, as in arm_points
+ * of camera.py.
  * @param {PageLink[]} chain
  * @param {number[]} q
  * @returns {number[][]}
@@ -95,7 +98,7 @@ export function polyline(chain, q) {
 
 /** @param {number[]} m  12 numbers @returns {number[]} */
 export const origin = m => [m[3], m[7], m[11]];
-/** v turned by m. @param {number[]} m @param {number[]} v @returns {number[]} */
+/** v rotated by m. @param {number[]} m @param {number[]} v @returns {number[]} */
 export const turned = (m, [x, y, z]) => [
   m[0] * x + m[1] * y + m[2] * z,
   m[4] * x + m[5] * y + m[6] * z,
@@ -207,7 +210,7 @@ export function quaternion([xx, xy, xz, , yx, yy, yz, , zx, zy, zz]) {
 }
 
 /**
- * From a (s = 0) to b (s = 1) along the shorter arc, at constant angular velocity.
+ * Interpolates from a (s = 0) to b (s = 1) along the shorter arc, at constant angular velocity.
  * @param {number[]} a
  * @param {number[]} b
  * @param {number} s

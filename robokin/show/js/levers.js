@@ -1,4 +1,4 @@
-// Three levers: a family of postures for one point. As planar.py, which is the reference.
+// Three levers: a family of postures for one point, as in planar.py, which is the reference.
 //
 // Only + - * / and sqrt decide whether a row exists, in Python's order of operations, so that both
 // agree to the last bit. Math.hypot, ** and Math.round differ from NumPy and are not used.
@@ -11,7 +11,7 @@ import {clamp, distance2, leastTravel, nowhere} from "./rows.js";
 /** @typedef {ArmOf<ThreeLeverInverse>} ThreeLeverArm */
 
 /**
- * How much longer two sides are than the third, rounded in the same way for every angle.
+ * By how much the sum of two sides exceeds the third, rounded in the same way for every angle.
  * @param {number} a
  * @param {number} b
  * @param {number} c
@@ -35,7 +35,7 @@ function angleOf(a, b, c, {ROUNDING}) {
 }
 
 /**
- * The third side of a triangle with the sides a and b around an angle.
+ * The third side of a triangle with the sides a and b and the angle between them.
  * @param {number} a
  * @param {number} b
  * @param {number} angle
@@ -193,7 +193,7 @@ export const family = (arm, point, alpha) => leverPosture(arm, ...polar(arm, poi
  * respect to alpha, up to a positive factor: see planar.py.
  * @param {ThreeLeverArm} arm
  * @param {number} KO
- * @param {number} each  alpha
+ * @param {number} each  the value of alpha
  */
 function slopes(arm, KO, each) {
   const [a, b, c] = arm.geometry.levers,
@@ -209,8 +209,9 @@ function slopes(arm, KO, each) {
 }
 
 /**
- * Six alphas: the first and the last at which each of these sums is stationary. (For equal levers
- * only the first sum has a minimum; planar.py finds it in another way, to half of the digits.)
+ * Six alphas: the first and the last at which each of the three sums of `slopes` is stationary.
+ * (For equal levers only the first sum has a minimum; planar.py finds it in another way, accurate
+ * to half the digits.)
  * @param {ThreeLeverArm} arm
  * @param {number} KO
  * @param {number} low

@@ -1,6 +1,6 @@
-// The explorer of an arm that reaches a point in a family of postures. The reader drags the point,
-// chooses the free angle on the curve of its cost, and sets the lengths of levers with sliders. All
-// words and all numbers of the arm come from Python (page.py: LeversPage).
+// The explorer of an arm that reaches a point with a family of postures. The reader drags the
+// point, chooses the free angle on the curve of its cost, and sets the lengths of levers with
+// sliders. All words and the data of the arm come from Python (page.py: LeversPage).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";
@@ -22,7 +22,8 @@ import {point} from "./mark.js";
 
 /** @typedef {LeversPage & {arm: ThreeLeverArm}} LeversExplorer */
 /**
- * The cost of the free angle alpha: its range, its value, the best one, and the cost `at` any.
+ * The cost of the free angle alpha: its range, its value, the best value, and the cost `at` any
+ * value.
  * @typedef {object} Costs
  * @property {number} low
  * @property {number} high
@@ -32,7 +33,7 @@ import {point} from "./mark.js";
  */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {LeversExplorer} data
  */
@@ -252,7 +253,7 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs
- * @returns {?{alphaAt: (px: number) => number}}  which angle a place stands for
+ * @returns {?{alphaAt: (px: number) => number}}  the angle at a horizontal place
  */
 function drawCosts(canvas, says, costs) {
   const ready = prepared(canvas);

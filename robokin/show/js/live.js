@@ -4,37 +4,40 @@
 import {element} from "./elements.js";
 
 /**
- * The replacement of an array in an answer: its index among the buffers, or its data in base64.
+ * What replaces an array in an answer: its index among the buffers, or its data in base64.
  * @typedef {{array: number | string, type: keyof typeof TYPES, shape: number[]}} StoredArray
  */
 /**
- * The array after reading.
+ * An array that has been read.
  * @typedef {{values: InstanceType<typeof TYPES[keyof typeof TYPES]>, shape: number[]}} Values
  */
-/** @typedef {(n: number, question: unknown) => void} Port  to the kernel */
+/** @typedef {(n: number, question: unknown) => void} Port  sends a question to the kernel */
 /** @typedef {{n: number, answer: {error?: string}, buffers: DataView<ArrayBuffer>[]}} Arrived */
 
 const PATIENCE = 4000; // ms without an answer, after which the view says so
 // Up to two questions may be under way: the second carries the acknowledgement without which the
 // first answer is delayed by 40 ms (Nagle's algorithm with delayed acknowledgements).
 const UNDER_WAY = 2;
-// ms from question to answer: if it is longer, a second question would only wait and become stale
+// ms from question to answer: if it takes longer, a second question would only wait and become
+// stale
 const SLOW = 100;
 
 /**
  * The connection from a view to its kernel.
  *
- * ask(question)  whatever JSON can hold. The newest question is always answered in the end, by the
- *                next kernel if this one leaves; older ones may be skipped while it is at work.
+ * ask(question)  asks anything that JSON can represent. The newest question is always answered in
+ *                the end, by the next kernel if this one ends; older ones may be skipped while the
+ *                kernel is busy.
  *
- * While asleep, controls and handles do not take a hand, and one sentence says why. `root.dataset`
- * tells: `awake`, the numbers of the last question `asked` and the last one `answered`.
+ * While the view is asleep, its controls and handles are disabled, and a sentence says why.
+ * `root.dataset` contains `awake`, and the numbers of the last question `asked` and the last one
+ * `answered`.
  *
  * @template Question
  * @template Answer
- * @param {HTMLElement} root  in which the view has been built
- * @param {string} id  of the output
- * @param {Record<string, string>} words  asleep, waiting, failed
+ * @param {HTMLElement} root  the element in which the view has been built
+ * @param {string} id  the id of the output
+ * @param {Record<string, string>} words  the sentences `asleep`, `waiting` and `failed`
  * @param {(answer: Answer, question: Question) => void} hear
  * @returns {{ask: (question: Question) => void}}
  */
@@ -95,7 +98,7 @@ class Questions {
     this.says.hidden = !sentence;
   }
 
-  /** Takes back unanswered questions, and asks the newest of them again. */
+  /** Takes back the unanswered questions, of which the newest is asked again. */
   takeBack() {
     clearTimeout(this.timer);
     this.wanted ??= [...this.underWay.values()].at(-1)?.question ?? null;
@@ -153,8 +156,8 @@ class Questions {
 const TYPES = {uint8: Uint8Array, uint16: Uint16Array, int16: Int16Array, float32: Float32Array};
 
 /**
- * An answer with its arrays: live.py sends {"array": its number, or base64, "type", "shape"} in
- * their place.
+ * An answer with its arrays: live.py sends {"array": its number or its data in base64, "type",
+ * "shape"} in their place.
  * @param {unknown} answer
  * @param {DataView<ArrayBuffer>[]} [buffers]
  * @returns {unknown}  Values in the place of each array

@@ -8,8 +8,8 @@ const scripts = (Object(globalThis).robokinScripts ??= new Map());
 
 /**
  * @template T
- * @param {string} id  of the view
- * @param {string} key  of its script
+ * @param {string} id  the id of the view
+ * @param {string} key  the key of its script
  * @param {string} deflated  the script, compressed by zlib, in base64
  * @param {(module: T) => void} show
  */
@@ -69,7 +69,7 @@ function run(text, nonce) {
 }
 
 /**
- * The still of the view stays; its last line says why.
+ * Keeps the still of the view, and gives the reason in its last line.
  * @param {string} id
  * @param {unknown} error
  */

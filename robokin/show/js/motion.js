@@ -1,4 +1,4 @@
-// Paths, time laws, derivatives, as in motion/paths.py, laws.py, derivatives.py, maximum.py.
+// Paths, time laws and derivatives, as in motion/paths.py, laws.py, derivatives.py, maximum.py.
 
 import {slerp} from "./kinematics.js";
 
@@ -52,7 +52,7 @@ export const ptp = (q0, q1, s) => q0.map((value, j) => value + clipped(s) * (q1[
  * @param {PagePose} start
  * @param {PagePose} via
  * @param {PagePose} goal
- * @param {number} fraction  in [0, 0.5]
+ * @param {number} fraction  a number in [0, 0.5]
  * @param {number} s
  * @param {"parabola"|"quintic"} [corner]
  * @returns {PagePose}
@@ -80,7 +80,7 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
 }
 
 /**
- * Two consecutive straight motions, at `via` for s = 1/2.
+ * Two consecutive straight motions, which meet at `via` for s = 1/2.
  * @param {PagePose} start
  * @param {PagePose} via
  * @param {PagePose} goal
@@ -90,7 +90,7 @@ export function blend(start, via, goal, fraction, s, corner = "parabola") {
 export const lin_lin = (start, via, goal, s) => blend(start, via, goal, 0, s);
 
 /**
- * s(t) over `duration` seconds from `progress`, which maps t / duration to s.
+ * The law s(t) over `duration` seconds from `progress`, which maps t / duration to s.
  * @param {number} duration
  * @param {(x: number) => number} progress
  * @returns {(t: number) => number}
@@ -99,16 +99,16 @@ const timeLaw = (duration, progress) => t =>
   clipped(progress(Math.min(Math.max(t, 0), duration) / duration));
 
 /**
- * Constant speed.
+ * The law of constant speed.
  * @param {number} duration  seconds
  * @returns {function(number): number}  s at t
  */
 export const linear = duration => timeLaw(duration, x => x);
 
 /**
- * Constant acceleration, constant speed, constant deceleration.
+ * The law of constant acceleration, constant speed and constant deceleration.
  * @param {number} duration  seconds
- * @param {number} [ramp]  the share of each ramp, at most 0.5
+ * @param {number} [ramp]  the share of each ramp in the duration, at most 0.5
  * @returns {function(number): number}  s at t
  */
 export const trapezoidal = (duration, ramp = 0.25) =>
@@ -120,7 +120,7 @@ export const trapezoidal = (duration, ramp = 0.25) =>
   });
 
 /**
- * Speed and acceleration are zero at both ends.
+ * The law whose speed and acceleration are zero at both ends.
  * @param {number} duration  seconds
  * @returns {function(number): number}  s at t
  */
@@ -130,7 +130,7 @@ export const quintic = duration => timeLaw(duration, x => x * x * x * (10 + x * 
  * The derivative of samples by central differences, one-sided at both ends. A missing sample (NaN)
  * spreads to its neighbours.
  * @param {number[][]} values  at least three rows of n
- * @param {number[]} t  seconds, rising
+ * @param {number[]} t  seconds, increasing
  * @param {number} [order]
  * @returns {number[][]}
  */
@@ -155,13 +155,13 @@ export function differentiate(values, t, order = 1) {
 }
 
 /**
- * The greatest value between low and high, to be shown with these decimals, as Python's
- * `refined_maximum`. `quantity` is NaN where it has no value.
+ * The greatest value of `quantity` between low and high, accurate enough to be shown with this many
+ * decimals, as in Python's `refined_maximum`. `quantity` is NaN where it has no value.
  * @param {(x: number) => number} quantity
  * @param {number} low
  * @param {number} high
  * @param {number} decimals
- * @returns {number}  NaN where there is no value, or none that stands
+ * @returns {number}  NaN if there is no value, or the search does not converge
  */
 export function refinedMaximum(quantity, low, high, decimals) {
   const fine = 0.5 * 10 ** -(decimals + 2);

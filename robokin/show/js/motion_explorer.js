@@ -1,4 +1,4 @@
-// The motion explorer: a blended motion with stations to drag. All words and all numbers of the arm
+// The motion explorer: a blended motion with stations to drag. All words and the data of the arm
 // come from Python (page.py: MotionPage).
 
 import {fill} from "./blanks.js";
@@ -26,7 +26,7 @@ import {frame} from "./target.js";
 
 /** @typedef {MotionPage} MotionData */
 /** @typedef {Record<(typeof STATIONS)[number], PagePose>} Stations */
-/** @typedef {Stations & StartValues & {time: number}} Asked  `time`: as a share of the duration */
+/** @typedef {Stations & StartValues & {time: number}} Asked  `time`: a share of the duration */
 /**
  * The greatest speeds and accelerations of a motion, including those between the samples if they
  * are `sure`.
@@ -34,7 +34,7 @@ import {frame} from "./target.js";
  */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {MotionData} data
  */
@@ -134,8 +134,8 @@ function inputsOf(stage, {words, unit, controls, laws, corners, branches}, state
 }
 
 /**
- * Whether the reader holds something: then only the samples count, since values between them take
- * too long.
+ * Returns a function that says whether the reader is dragging something. Then only the samples
+ * count, since values between them take too long to compute.
  * @param {Stage} stage
  */
 function holding(stage) {
@@ -157,7 +157,7 @@ function holding(stage) {
 }
 
 /**
- * now(): the motion for the present question, computed again if that has changed; tops(held): its
+ * now(): the motion for the current settings, computed again if they have changed; tops(held): its
  * greatest speeds and accelerations.
  * @param {MotionData} data
  * @param {Asked} state
@@ -223,7 +223,7 @@ const poseOf = ({rotation, angle = 0, place}) =>
   matrix(rotation || [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)], place);
 
 /**
- * The arm at sample i; without a posture, the last one before it, faded.
+ * The arm at sample i; if there is no posture, the last one before it, faded.
  * @param {MotionData} data
  * @param {Motion} motion
  * @param {number} i

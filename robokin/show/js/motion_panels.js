@@ -55,7 +55,7 @@ export function panelOf({arm, panels, units}, {gaps, jumps}, rows, order) {
   };
 }
 
-/** The least and the greatest of some curves. @param {Float64Array[]} curves */
+/** The least and greatest value of some curves. @param {Float64Array[]} curves */
 function ends(curves) {
   let [low, high] = [Infinity, -Infinity];
   for (const curve of curves)

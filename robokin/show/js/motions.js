@@ -10,7 +10,7 @@ import {recording, thingsAt} from "./recordings.js";
 /** @import {Recording} from "./recordings.js" */
 
 /** @typedef {ReturnType<typeof armIn>} Track  an arm in one motion */
-/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the way to the next */
+/** @typedef {{i: number, share: number}} Moment  a sample, and the share of the step to the next */
 
 /**
  * choose(motion): everything that changes with slider and switch; things(motion, sample, share):
@@ -70,7 +70,7 @@ export const broken = (places, gaps) => places.flatMap((p, i) => (gaps.has(i) ? 
 
 /**
  * @param {Page} data
- * @param {number} k  which arm
+ * @param {number} k  the index of the arm
  * @param {number} order  0: joint values, 1: speeds, 2: accelerations
  * @param {number} motion
  * @param {Recording} recorded

@@ -20,7 +20,7 @@ import {degrees, radians} from "./turns.js";
 /** @typedef {ReturnType<typeof motorStage>} Stage */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {PageMotors} data
  */
@@ -82,7 +82,7 @@ function motorStage(root, data, bench) {
       bench.hold(false);
       stage.changed();
     };
-  // the keyboard moves it, too
+  // the keyboard moves the rotor, too
   layer.addEventListener("keyup", letGo);
   layer.addEventListener("focusout", letGo);
   return stage;
@@ -147,7 +147,8 @@ function runWatch(stage, bench, says) {
 }
 
 /**
- * Below the picture: single pulses, the clock of a run, and the state of the rotor.
+ * Puts below the picture: buttons for single pulses, the clock of a run, and the state of the
+ * rotor.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {HTMLElement} clock
@@ -177,7 +178,7 @@ function pulseRow(stage, bench, clock, says) {
 }
 
 /**
- * The choices beside the picture.
+ * The inputs beside the picture.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors} data
@@ -270,7 +271,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
 }
 
 /**
- * The phase table, made again for another motor. Choosing a row switches it on.
+ * The phase table, made again for another motor. Choosing a row switches its windings on.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says

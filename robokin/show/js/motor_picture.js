@@ -13,13 +13,13 @@ import {degrees} from "./turns.js";
 /** @import {Motor} from "./rotor.js" */
 /** @import {Picture} from "./stage.js" */
 
-/** @typedef {(angle: number, r: number) => Pixel} Round  a place around the shaft */
+/** @typedef {(angle: number, r: number) => Pixel} Round  from polar coordinates to pixels */
 /** @typedef {{g: Context, at: Round}} Pen */
 
 /**
  * @param {PageMotors} data
  * @param {Bench} bench
- * @param {() => void} changed  told when the rotor is taken, and when it is let go
+ * @param {() => void} changed  called when the rotor is grabbed, and when it is released
  * @returns {Picture<Bench>}
  */
 export function motorPicture(data, bench, changed) {
@@ -43,7 +43,10 @@ export function motorPicture(data, bench, changed) {
   };
 }
 
-/** The radius of the rotor's handle: at its N, or at its teeth. @param {Bench} bench */
+/**
+ * The distance of the handle from the shaft: at the rotor's N, or at its teeth.
+ * @param {Bench} bench
+ */
 export const gripRadius = bench => (bench.page().teeth ? 0.52 : 0.46);
 
 /**
@@ -146,7 +149,7 @@ function drawMagnet({g, at}, theta) {
   ]) {
     const half = arc(at, turn - Math.PI / 2, turn + Math.PI / 2, 0.57);
     polygon(g, half, color, colors.edge, 1.2);
-    // on the screen the ring of the handle covers the N
+    // on the screen the handle covers this N
     plainWords(g, name, at(turn, 0.46), colors.edge, true);
   }
 }
@@ -160,7 +163,7 @@ function drawWeight({g, at}, motor) {
   spot(g, at(to, 0.15), 1.5, colors.near, colors.near, 1);
 }
 
-/** Draws the field. @type {(pen: Pen, angle: number, long: number) => void} */
+/** Draws the field as an arrow. @type {(pen: Pen, angle: number, long: number) => void} */
 function drawArrow({g, at}, angle, long) {
   const tip = at(angle, long),
     neck = at(angle, long - 0.07),
@@ -177,7 +180,7 @@ function drawArrow({g, at}, angle, long) {
 }
 
 /**
- * Writes words on a coloured ground that is light in both themes.
+ * Writes words on a coloured background that is light in both themes.
  * @param {Context} g
  * @param {string} text
  * @param {Pixel} place

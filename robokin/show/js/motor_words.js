@@ -10,7 +10,7 @@ import {degrees, plain} from "./turns.js";
 /** @import {Bench} from "./bench.js" */
 
 /**
- * The abilities of the motor, in words.
+ * The table of the properties of the motor.
  * @param {Bench} bench
  * @param {PageMotors} data
  */
@@ -26,7 +26,7 @@ export function factTable(bench, {words: says, pulses, rules}) {
   const torque = x => fill(says.torques, {value: number(1000 * x, 1)});
   /** @type {?Bench["motor"]} */
   let told = null;
-  /** @type {Map<string, number>} what takes long to find */
+  /** @type {Map<string, number>} results that take a long time to compute */
   const starts = new Map();
   return {
     node: rows.node,
@@ -76,7 +76,7 @@ export function outcome(bench, {words: says, pulses}) {
 }
 
 /**
- * The present state of the rotor, in words.
+ * The current state of the rotor, in words.
  * @param {Bench} bench
  * @param {PageMotors["words"]} says
  */

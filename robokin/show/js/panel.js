@@ -20,22 +20,23 @@ import {panelWords, shade} from "./panel_words.js";
  * @typedef {object} Panel
  * @property {string} label
  * @property {{unit: string, scale: Scale, joints: number[]}[]} axes
- * @property {Float64Array[]} curves  of each joint, over the times
+ * @property {Float64Array[]} curves  one for each joint, over the times
  * @property {Set<number>} gaps  samples after which the lines break
- * @property {?number[][]} limits  [low, high], of each joint
- * @property {number[][]} near  [joint, 0 low or 1 high]: the limits to show
+ * @property {?number[][]} limits  [low, high], each with a number for every joint
+ * @property {number[][]} near  the limits to show: [joint, 0 for low or 1 for high]
  * @property {Mark[]} marks
- * @property {number[]} now  of each joint
- * @property {string} [where]  in what size and theme it was when places for its words were found
+ * @property {number[]} now  the current value of each joint
+ * @property {string} [where]  the size and theme for which its words were placed
  * @property {Note[]} [words]
  */
-/** @typedef {{time: number, text: string}} Mark  a broken line; a text is written beside it */
+/** @typedef {{time: number, text: string}} Mark  a dashed line with a text beside it */
 /** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
-/** @typedef {ArrayLike<number>} Times  in s, rising */
-/** @typedef {(value: number) => number} Place  of a time or a value, on the canvas */
+/** @typedef {ArrayLike<number>} Times  increasing times in s */
+/** @typedef {(value: number) => number} Place  where a time or a value is on the canvas */
 /** @typedef {[left: number, right: number, top: number, bottom: number]} Sides */
 /**
- * The ground of a panel: the places of its times, the dashes of the joints' lines, its sides.
+ * What a panel is drawn on: the canvas, the dashes of the joints' lines, the times and their
+ * places, and the sides of the panel.
  * @typedef {{g: Context, patterns: number[][], times: Times, x: Place, sides: Sides}} Ground
  */
 
@@ -45,7 +46,7 @@ export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(
 /**
  * @param {Ground} ground
  * @param {Panel} panel
- * @param {Scale} ticks  of the time
+ * @param {Scale} ticks  the scale of the time axis
  * @param {number} now
  */
 export function drawPanel(ground, panel, ticks, now) {
@@ -115,7 +116,7 @@ function drawGrid({g, x, sides: [left, right, top, bottom]}, [low, step, count],
 }
 
 /**
- * Writes the numbers of the scales: of the first on the left, of another on the right.
+ * Writes the numbers of the scales: the first scale on the left, a second one on the right.
  * @param {Ground} ground
  * @param {Panel} panel
  * @param {Place[]} scales
@@ -134,7 +135,7 @@ function drawScales({g, sides: [left, right, top]}, {axes}, scales) {
   });
 }
 
-/** Draws two tips at the ends of a mark's line. @type {(ground: Ground, x: number) => void} */
+/** Draws a triangle at each end of a mark's line. @type {(ground: Ground, x: number) => void} */
 function drawMark({g, sides: [, , top, bottom]}, x) {
   for (const [y, tip] of [
     [top, top + 7],

@@ -1,4 +1,4 @@
-// Words on a panel of curves for its marks and limits, placed where they cover least.
+// Words on a panel of curves for its marks and limits, placed where they cover the curves least.
 
 import {colors, font, hit, jointColor, number} from "./canvas.js";
 
@@ -9,10 +9,10 @@ import {colors, font, hit, jointColor, number} from "./canvas.js";
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
- * The words of a panel, placed once for a size and a theme and not in every picture.
+ * The words of a panel, placed once for each size and theme, and not in every picture.
  * @param {Context} g
  * @param {Panel} panel
- * @param {Place[]} ys  of each joint
+ * @param {Place[]} ys  the height of a value, for each joint
  * @param {Times} times
  * @param {Place} x
  * @param {Sides} sides
@@ -57,11 +57,11 @@ function noted(g, marks, x, [left, right, top]) {
 }
 
 /**
- * The words of the limits: beside their lines, away from other words and almost away from the
- * curves. At most three; without such a place only the band is shown.
+ * The words of the limits: beside their lines, clear of other words and almost clear of the curves.
+ * At most three are shown; a limit for which there is no such place has only its band.
  * @param {Context} g
  * @param {Panel} panel
- * @param {Place[]} ys  of each joint
+ * @param {Place[]} ys  the height of a value, for each joint
  * @param {Times} times
  * @param {Place} x
  * @param {Sides} sides

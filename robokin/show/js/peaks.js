@@ -4,13 +4,13 @@ import {refinedMaximum} from "./motion.js";
 
 const NODES = [-2, -1, 0, 1, 2],
   FINE = 2e-4, // node spacing, as a fraction of the whole motion
-  SHARE = 200; // and of a stretch: at most this fraction
+  SHARE = 200; // the spacing is also at most 1 / SHARE of a stretch
 
-/** @type {(x: number) => number} behind the point: no more than rounding leaves */
+/** The number of decimals that rounding errors do not affect. @type {(x: number) => number} */
 export const decimalsOf = x => (Math.abs(x) < 1e4 ? 1 : 0);
 
 /**
- * The time at which an increasing law passes s.
+ * The time at which an increasing law reaches s.
  * @param {(t: number) => number} law
  * @param {number} duration
  * @param {number} s
@@ -26,14 +26,15 @@ export function timeOf(law, duration, s) {
 }
 
 /**
- * The greatest absolute speed and acceleration of each joint in its unit, accurate to two digits
- * more than `decimalsOf`.
- * @param {(t: number) => number[]} posture  NaN: there is none, or it is not sure
- * @param {number[]} ends  of the stretches, rising: at each an acceleration, or speed, may jump
- * @param {number[]} sizes  of the units
- * @param {number[][]} near  speeds and accelerations of the same size
- * @returns {?number[][]}  speeds, accelerations; null where one of them does not stand, or a
- *   posture is not sure
+ * The greatest absolute speed and acceleration of each joint in its unit, accurate to two more
+ * digits than `decimalsOf` returns.
+ * @param {(t: number) => number[]} posture  NaN if there is none, or it is uncertain
+ * @param {number[]} ends  the ends of the stretches, increasing: an acceleration or a speed may
+ *   jump there
+ * @param {number[]} sizes  the sizes of the units
+ * @param {number[][]} near  speeds and accelerations of about the same size
+ * @returns {?number[][]}  speeds, accelerations; null if the search for one of them does not
+ *   converge, or a posture is uncertain
  */
 export function peaks(posture, ends, sizes, near) {
   const last = /** @type {number} */ (ends.at(-1)),
@@ -74,7 +75,7 @@ export function peaks(posture, ends, sizes, near) {
  * @param {number} t
  * @param {number} low
  * @param {number} high
- * @param {number} h  from posture to posture
+ * @param {number} h  the time from posture to posture
  */
 function slopes(posture, t, low, high, h) {
   const middle = Math.min(Math.max(t, low), high),
@@ -85,7 +86,7 @@ function slopes(posture, t, low, high, h) {
   for (let j = 0; j < c.length; j++) {
     const [odd, wide] = [d[j] - b[j], e[j] - a[j]],
       [even, far] = [d[j] - 2 * c[j] + b[j], e[j] - 2 * c[j] + a[j]];
-    // of the polynomial in u
+    // the coefficients of the polynomial in u
     const p1 = (8 * odd - wide) / 12,
       p2 = (16 * even - far) / 24,
       p3 = (wide - 2 * odd) / 12,

@@ -13,10 +13,10 @@ import {control} from "./elements.js";
 /** @typedef {{depth: number, draw: () => void}} Thing */
 /** @typedef {{g: Context, cam: Camera, put: (at: Point, draw: () => void) => void}} Pen */
 
-const SEEN = {flat: null, view: [-1.05, 0.38]}; // from where
+const SEEN = {flat: null, view: [-1.05, 0.38]}; // the view on opening
 
 /**
- * @param {string} name  for a screen reader
+ * @param {string} name  its name for a screen reader
  * @param {() => void} ask
  */
 export function cubeView(name, ask) {
@@ -33,7 +33,7 @@ export function cubeView(name, ask) {
   let about = null;
   return {
     canvas,
-    /** Draws it only if something has changed. @type {(now: Now, q: number[]) => void} */
+    /** Draws the cube only if something has changed. @type {(now: Now, q: number[]) => void} */
     draw({shown, wave, moment}, q) {
       const [steps, k] = [Math.floor(wave), Math.round(moment)],
         {clientWidth, clientHeight} = canvas;
@@ -117,7 +117,7 @@ function drawCube(canvas, view, shown, steps, q) {
     pen.put(way[k], () => stroke(g, [to(way[k - 1]), to(way[k])], color, 3));
   putTargets(pen, shown.curve.map(unit));
   things.sort((a, b) => a.depth - b.depth).forEach(thing => thing.draw());
-  stroke(g, way.map(to), clear(color, 0.5), 1, [3, 3]); // also those behind the body
+  stroke(g, way.map(to), clear(color, 0.5), 1, [3, 3]); // including the parts behind the body
   spot(g, to(unit(q)), 5, colors.path);
   tellAngles(pen);
 }

@@ -24,7 +24,7 @@ import {point} from "./mark.js";
 
 /** @typedef {With<PlanPage, "question" | "first"> & {arm: ThreeLeverArm}} PlanExplorer */
 /**
- * The question; `way`: the index in `branches`; `sides`: whether to show quadrilaterals, too.
+ * A question. `way`: the index in `branches`; `sides`: whether to show the quadrilaterals, too.
  * @typedef {object} Question
  * @property {number[]} posture
  * @property {number[]} target  x, y
@@ -34,7 +34,7 @@ import {point} from "./mark.js";
  * @property {boolean} sides
  */
 /**
- * The answer of Python: see `_answer` in plan_explorer.py.
+ * Python's answer: see `_answer` in plan_explorer.py.
  * @typedef {object} Answer
  * @property {string} verdict
  * @property {string} words
@@ -56,14 +56,14 @@ import {point} from "./mark.js";
  * @property {number} wave
  * @property {number} moment
  * @property {boolean} playing
- * @property {number} before  ms
+ * @property {number} before  time of the last step, ms
  */
 
 const STEPS = 9,
   MOMENTS = 16; // steps of search and motion per second
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {PlanExplorer} data
  */
@@ -159,7 +159,7 @@ function pass(now) {
 }
 
 /**
- * The choices beside the scene.
+ * The inputs beside the scene.
  * @param {Stage} stage
  * @param {PlanExplorer} data
  * @param {State} state
@@ -295,7 +295,7 @@ function marks({arm, words: says, unit}, state) {
         state[key] = p;
       },
     );
-  // the start follows within the arm's reach, with the least movement
+  // within the arm's reach, the start follows with the least movement
   /** @param {Point} place */
   const follow = place => {
     const q = least(arm, {place}, state.q);
@@ -309,7 +309,7 @@ function marks({arm, words: says, unit}, state) {
 }
 
 /**
- * An answer with everything that is drawn of it.
+ * An answer, with all the data needed to draw it.
  * @param {PlanExplorer} data
  * @param {Answer} answer
  * @param {Question} about

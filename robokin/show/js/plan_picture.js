@@ -10,7 +10,7 @@ import {polyline} from "./kinematics.js";
 /** @import {Draw} from "./scene.js" */
 
 /**
- * The arm at the present moment of the motion, with the drawings below and above it.
+ * The arm at the current moment of the motion, with the drawings below and above it.
  * @param {ThreeLeverArm} arm
  * @param {State} state
  * @param {Now} now
@@ -73,7 +73,7 @@ const drawBelow =
 const mean = (points, k) => points.reduce((sum, p) => sum + p[k], 0) / points.length;
 
 /**
- * Draws the obstacle, the via points, and the nearest distance of the levers.
+ * Draws the obstacle, the via points, and the smallest distance of the levers from the obstacle.
  * @type {(shown: Shown, state: State) => Draw}
  */
 const drawAbove =
@@ -94,7 +94,7 @@ const drawAbove =
       );
     if (far > 3) stroke(g, [[x, y], p], colors.near, 2);
     spot(g, p, 3.5, colors.near);
-    // to the left of the swept area, since the tool's frame points to the right
+    // the text is on the left, since the tool's frame points to the right
     const left = p[0] <= x + 1;
     write(
       g,

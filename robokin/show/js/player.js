@@ -15,14 +15,14 @@ import {choice, element, range, waiting} from "./elements.js";
 /** @typedef {ReturnType<typeof furniture>} Parts */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {Page} data
  */
 export const play = (id, data) => waiting(id).forEach(root => start(root, data));
 
 /**
- * A player in `root`.
+ * Starts a player in `root`.
  * @param {HTMLElement} root
  * @param {Page} data
  */
@@ -107,7 +107,8 @@ function furniture(data) {
     value: element("span", {class: "rk-value"}),
     menu: menu && choice(menu.label, menu.values),
   };
-  // above the pictures, so that a small screen shows the slider and the arm together
+  // the controls are above the pictures, so that a small screen shows the slider and the arm
+  // together
   const rows = [parts.row];
   if (slider || menu) rows.unshift(element("div", {class: "rk-row"}));
   if (slider && parts.slider)
@@ -131,11 +132,12 @@ function furniture(data) {
 }
 
 /**
- * Sets the height of a canvas with the whole width to what its arms fill.
+ * Sets the height of the curves and, if the scene has the whole width, its height to what its arms
+ * fill.
  * @param {Pick<Parts, "scene" | "curves">} parts
  * @param {Pick<ReturnType<typeof sceneView>, "height">} inSpace
- * @param {number} arms  so many have curves
- * @param {number} count  so many pictures are there
+ * @param {number} arms  the number of arms with curves
+ * @param {number} count  the number of pictures in the scene
  */
 function sized({scene, curves}, inSpace, arms, count) {
   const [, rows] = tiled(arms, curves.clientWidth),
@@ -156,7 +158,7 @@ function sized({scene, curves}, inSpace, arms, count) {
  * @param {Parts} parts
  * @param {Page} data
  * @param {{arms: Track[], motion: number}} shown
- * @param {number} value  of the slider
+ * @param {number} value  the index of the slider value
  */
 function tell(parts, data, {arms, motion}, value) {
   const {slider} = data;
@@ -234,7 +236,7 @@ function momentAt(times, time) {
 }
 
 /**
- * The arm for the scene; without a posture, the last one before it, faded.
+ * The arm for the scene; if there is no posture, the last one before it, faded.
  * @param {Track} arm
  * @param {Moment} moment
  */

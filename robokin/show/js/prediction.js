@@ -10,13 +10,13 @@ const COPY = {copy: "Copy my guesses for the report", copied: "Copied"};
 const LETTERS = "abcdef";
 
 /**
- * Fills every waiting place with this id.
+ * Shows the question in every place that waits for this id.
  * @param {string} id
  * @param {PageQuestion} data
  */
 export const ask = (id, data) => waiting(id).forEach(root => new Prediction(root, data));
 
-/** A question in `root`. */
+/** A question that is shown in `root`. */
 class Prediction {
   /**
    * @param {HTMLElement} root
@@ -148,13 +148,13 @@ class Prediction {
     );
   }
 
-  /** No kernel saves it. @type {(before: string, why: string) => void} */
+  /** Says that no kernel saves the guess. @type {(before: string, why: string) => void} */
   alone(before, why) {
     const {memory} = this,
       where = memory.lasts() ? "in this browser" : "on this page";
     this.kept.textContent = `${before}Kept ${where} only${why}`;
     const others = (memory.panel ?? document).querySelectorAll(".rk-copy");
-    for (const each of others) each.remove(); // one per page
+    for (const each of others) each.remove(); // one copy button per page
     this.asking.append(this.copy);
   }
 
@@ -163,7 +163,7 @@ class Prediction {
     const {data, memory} = this;
     this.open(choice);
     const {name} = data.unit === null ? data.options[judged(data, choice)] : {};
-    const made = name ? `${choice}: ${name}` : choice; // the name stays valid
+    const made = name ? `${choice}: ${name}` : choice; // the name survives reordering
     memory.write([...memory.read(), [data.name, made, new Date().toISOString()]]);
     this.offer();
     this.again.focus();
@@ -173,7 +173,7 @@ class Prediction {
   recall(times = 50) {
     const {data, memory} = this;
     if (memory.path() === "" && times) {
-      setTimeout(() => this.recall(times - 1), 100); // until JupyterLab knows the name
+      setTimeout(() => this.recall(times - 1), 100); // until JupyterLab knows the notebook's name
       return;
     }
     const [, before] = memory.read().findLast(([name]) => name === data.name) ?? [];
@@ -211,8 +211,8 @@ const valid = (data, choice) =>
     : choice !== "" && choice.length < 31 && Number.isFinite(+choice);
 
 /**
- * The index of the chosen answer; for a typed number the answer near to it, the right one first; -1
- * if there is none.
+ * The index of the chosen answer; for a typed number an answer near it, preferably the right one;
+ * -1 if there is none.
  * @param {PageQuestion} data
  * @param {string} choice
  */
@@ -229,7 +229,7 @@ function judged(data, choice) {
 
 /**
  * @param {PageQuestion} data
- * @param {number} at  which answer was meant
+ * @param {number} at  the index of the chosen answer
  * @param {PageAnswer} right
  */
 function told(data, at, right) {
@@ -275,7 +275,7 @@ function line(made, own) {
 const view = html => element("div", {}, document.createRange().createContextualFragment(html));
 
 /** @type {Record<string, string>} */
-const page = (Object(globalThis).robokinGuesses ??= {}); // what is kept where no storage is
+const page = (Object(globalThis).robokinGuesses ??= {}); // the guesses, if there is no storage
 
 /** The browser's storage, unless it is forbidden or, as in VS Code, shared by all notebooks. */
 function storage() {

@@ -1,4 +1,4 @@
-// The recording of a motion: its speeds and accelerations, and the jumps of position and speed, as
+// The recording of a motion: its speeds and accelerations, and the jumps in position and speed, as
 // in motion/recording.py.
 
 import {differentiate} from "./motion.js";
@@ -7,9 +7,9 @@ import {differentiate} from "./motion.js";
 
 /**
  * The speeds v and accelerations a of joint values q (samples, n), for each unbroken piece; the
- * missing samples, the breaks, and the jumps of the speed.
+ * missing samples, the breaks, and the jumps in speed.
  * @param {number[][]} q  NaN where there is no posture
- * @param {number[]} t  seconds, rising
+ * @param {number[]} t  seconds, increasing
  * @param {boolean[]} prismatic
  * @param {JumpRules} rules
  */
@@ -46,8 +46,8 @@ function derivatives(q, t, gaps) {
 }
 
 /**
- * The jumps of the speeds between samples: changes far greater than the changes beside them. For
- * each: the samples, the time, and the joints.
+ * The jumps in the speeds between samples: changes far greater than the changes beside them. For
+ * each jump: the samples, the time, and the joints.
  * @param {number[][]} speeds  (samples - 1, n)
  * @param {number[]} t
  */
@@ -69,7 +69,7 @@ function speedJumps(speeds, t) {
     if (groups.length && i - groups[groups.length - 1][1] <= 2) groups[groups.length - 1][1] = i;
     else groups.push([i, i]);
   return groups.map(([low, high]) => {
-    // a corner between two samples shows in two changes, in one of them perhaps only faintly
+    // a corner between two samples shows in two changes, perhaps only faintly in one of them
     const first = low - Number(stands(low - 1, 3, 0).includes(true)),
       last = high + Number(stands(high + 1, 3, 0).includes(true));
     const rows = change.slice(first, last + 1).map((_, k) => stands(first + k, 3, 0));
@@ -85,7 +85,7 @@ function speedJumps(speeds, t) {
 /**
  * Which joints jump in position between each sample and the next, by the rule of `record`.
  * @param {number[][]} q  (samples, n), NaN where there is no posture
- * @param {number[]} t  seconds, rising
+ * @param {number[]} t  seconds, increasing
  * @param {boolean[]} prismatic
  * @param {JumpRules} rules
  * @returns {boolean[][]}  (samples - 1, n)
@@ -115,7 +115,7 @@ export function leaps(q, t, prismatic, {least, few}) {
 
 /**
  * How far a speed is outside the range of the `left` speeds before and the `right` speeds after it;
- * 0 where it may be a quick motion.
+ * 0 if it may be a quick motion.
  * @param {number[]} speeds
  * @param {number} i
  * @param {number} left

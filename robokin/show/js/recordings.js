@@ -10,7 +10,7 @@ import {number} from "./canvas.js";
  * @typedef {V extends PageReading ? string : V extends PageWay ? number[] : V} NowValue
  */
 /**
- * A thing at a moment: its ways are numbers, its readings are text.
+ * A thing at a moment: each PageWay is replaced by numbers, each PageReading by text.
  * @template T
  * @typedef {{[K in keyof T]: NowValue<T[K]>}} Now
  */
@@ -29,11 +29,11 @@ import {number} from "./canvas.js";
  * @param {Packed} packed
  * @param {number} motions
  * @param {number} samples
- * @param {number} nothing  the whole number for no value
+ * @param {number} nothing  the integer that means "no value"
  */
 function unpacked({steps, data}, motions, samples, nothing) {
   const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0)),
-    values = new Float64Array(bytes.filter(byte => byte < 128).length), // the last byte of each
+    values = new Float64Array(bytes.filter(byte => byte < 128).length), // each number's last byte
     columns = values.length / motions / samples;
   let at = 0,
     to = 0;
@@ -59,8 +59,8 @@ function unpacked({steps, data}, motions, samples, nothing) {
 }
 
 /**
- * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in shown
- * units, for each joint an array over the samples; q(motion, sample, share): joint values in
+ * One arm's motions. quantity(k, motion): joint values (k = 0), speeds, accelerations in the units
+ * shown, for each joint an array over the samples; q(motion, sample, share): joint values in
  * radians and metres between two samples.
  * @param {Pick<PageArm, "chain" | "motion">} arm
  * @param {number} motions
@@ -83,9 +83,10 @@ export function recording(arm, motions, samples, {unit, nothing}) {
 }
 
 /**
- * From things that may move to a function (motion, sample, share) -> the things that exist then.
+ * For things that may move, a function (motion, sample, share) -> the things that exist at that
+ * moment.
  * @param {PageThing[]} things
- * @param {number} nothing  the whole number for no value
+ * @param {number} nothing  the integer that means "no value"
  * @returns {AtMoment<Now<PageThing>[]>}
  */
 export function thingsAt(things, nothing) {
@@ -103,8 +104,8 @@ export function thingsAt(things, nothing) {
 }
 
 /**
- * A value of a thing. A way is interpolated between two samples; a reading is constant until the
- * next one.
+ * A value of a thing. A PageWay is interpolated between two samples; a PageReading is constant
+ * until the next sample.
  * @param {unknown} value
  * @param {number} nothing
  * @returns {AtMoment<unknown>}
@@ -127,7 +128,7 @@ function valueAt(value, nothing) {
 }
 
 /**
- * A NaN next to an existing sample has no effect at exactly that sample.
+ * A value between samples i and i + 1. Exactly at sample i, a NaN at the next one has no effect.
  * @param {Float64Array} values
  * @param {number} i
  * @param {number} share

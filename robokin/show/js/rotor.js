@@ -4,11 +4,11 @@
 /** @import {MotorNumbers, MotorRules, PageMotor} from "./page.js" */
 
 /**
- * One of `kinds` of PageMotors with one of its drives.
+ * A motor of PageMotors with one of its drives.
  *
- * turn      rad, from winding to winding in the ring
- * periods   how often a pull comes round in one turn of the rotor
- * sharp     1: a current pulls by its value, 2: by its square
+ * turn      the angle between neighbouring windings, rad
+ * periods   periods of the pull in one revolution of the rotor
+ * sharp     1 if a pull is proportional to the current, 2 if to its square
  * currents  the rows of the phase table
  * load      N m, always backwards
  *
@@ -60,7 +60,7 @@ const pulls = motor => motor.currents.map(row => pull(motor, row));
 
 /** The greatest load that every row can hold. @param {Motor} motor */
 export const holdingTorque = motor => motor.torque * Math.min(...pulls(motor).map(strength));
-/** The greatest load that still moves from every row to the next. @param {Motor} motor */
+/** The greatest load that the motor moves from every row to the next. @param {Motor} motor */
 export function startingTorque(motor) {
   const all = pulls(motor);
   return (
@@ -130,13 +130,13 @@ const rowOf = ({currents}, sent) =>
   currents[((sent % currents.length) + currents.length) % currents.length];
 
 /**
- * Advances the rotor by some seconds with fourth-order Runge-Kutta; `state` is changed.
+ * Advances the rotor by some seconds with fourth-order Runge-Kutta, and changes `state`.
  * @param {Motor} motor
  * @param {State} state
- * @param {number} sent  pulses: the row that is on
+ * @param {number} sent  the pulses, which determine the row that is on
  * @param {number} seconds
- * @param {?(elapsed: number) => void} [each]  told after each step
- * @param {number} [longest]  step, s
+ * @param {?(elapsed: number) => void} [each]  called after each step
+ * @param {number} [longest]  the longest step, s
  */
 export function advance(motor, state, sent, seconds, each = null, longest = rhythm(motor).longest) {
   const goal = rowOf(motor, sent),
@@ -179,7 +179,7 @@ export function advance(motor, state, sent, seconds, each = null, longest = rhyt
 }
 
 /**
- * A run from rest in row 0: pulses of one sign at these times, and then until rest.
+ * A run from rest in row 0: with pulses of one sign at these times, until the rotor rests again.
  * @param {Motor} motor
  * @param {number[]} times
  * @param {number} sign
@@ -199,7 +199,7 @@ export function run(motor, times, sign) {
  * @param {Motor} motor
  * @param {number[]} times
  * @param {number} [sign]
- * @param {?(time: number, state: State, sent: number) => void} [each]  told after each step
+ * @param {?(time: number, state: State, sent: number) => void} [each]  called after each step
  */
 function lostOf(motor, times, sign = 1, each = null) {
   const state = atRest(motor, 0),
@@ -229,11 +229,11 @@ export const behind = (motor, state, sent) =>
   rounded((resting(motor, sent) - state.theta) / stepOf(motor));
 
 /**
- * The times of pulses, as `ramp`.
+ * The times of pulses, as in Python's `ramp`.
  * @param {number} count
  * @param {number} start  pulses per second
  * @param {number} end  pulses per second
- * @param {number} seconds  of the way from one to the other
+ * @param {number} seconds  the time from one frequency to the other
  */
 export function ramp(count, start, end, seconds) {
   const more = seconds > 0 ? (end - start) / seconds : 0,
@@ -254,7 +254,8 @@ export function ramp(count, start, end, seconds) {
 }
 
 /**
- * As `Stepper.start_frequency`.
+ * The maximum start frequency in pulses per second, as in `Stepper.start_frequency`; 0 if there is
+ * none.
  * @param {Motor} motor
  * @param {number} count
  */
@@ -270,5 +271,5 @@ export function startFrequency(motor, count) {
   return low < slowest ? 0 : low;
 }
 
-/** Without a negative zero. @type {(x: number) => number} */
+/** The nearest integer, without a negative zero. @type {(x: number) => number} */
 const rounded = x => Math.round(x) || 0;

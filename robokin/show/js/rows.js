@@ -3,7 +3,7 @@
 /** Whether a row of joint values exists. @param {number[]} q @returns {boolean} */
 export const exists = q => !q.some(Number.isNaN);
 
-/** A row that does not exist. @param {number} n its joints @returns {number[]} */
+/** A row that does not exist. @param {number} n  the number of joints @returns {number[]} */
 export const nowhere = n => new Array(n).fill(NaN);
 
 /** @param {number} x @param {number} low @param {number} high @returns {number} */

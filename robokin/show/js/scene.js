@@ -15,7 +15,7 @@ import {compass} from "./triad.js";
 /** @import {Now} from "./recordings.js" */
 
 /**
- * A scene at the moment of a picture, and the unit of the page.
+ * A scene as it is at the moment of a picture, and the unit of the page.
  * @typedef {Omit<PageScene, "things"> & {things: Now<PageThing>[], unit: Unit}} Scene
  */
 /** @typedef {(g: Context, cam: Camera) => void} Draw */
@@ -24,26 +24,32 @@ import {compass} from "./triad.js";
  * @property {string} name
  * @property {PageLink[]} chain
  * @property {number[]} q  radians and metres
- * @property {(?Point)[]} [trace]  places of the tool, null where they break; `tail`: those behind
- *   it
+ * @property {(?Point)[]} [trace]  the tool's places, null at breaks; `tail`: those already passed
  * @property {(?Point)[]} [tail]
- * @property {boolean} [faded]  there is no solution here
- * @property {?{place: Point, text: string}} [near]  where the path passes "via"
- * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, faint; broken lines where
- *   `past` a limit
- * @property {boolean} [framed]  show the frame of every link
- * @property {Draw} [under]  draws what else there is, below the arm
- * @property {Draw} [over]  the same above it
+ * @property {boolean} [faded]  whether there is no solution here
+ * @property {?{place: Point, text: string}} [near]  the point of the path nearest to "via"
+ * @property {{q: number[], past: boolean}[]} [ghosts]  other postures, drawn faintly; with dashed
+ *   lines if `past` (a limit)
+ * @property {boolean} [framed]  whether to show the frame of every link
+ * @property {Draw} [under]  draws additional things below the arm
+ * @property {Draw} [over]  draws additional things above the arm
  */
-/** @typedef {ReturnType<typeof surroundings>} Space  what stands still */
-/** @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen  on what, how seen, what */
-/** @typedef {{labels: Label[], taken: Pixel[]}} Labels  to write, and what they keep off */
+/** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
 /**
- * How a kind of thing is drawn. T is its data on the page; a script gets all of its kind together.
+ * What a picture is drawn with: canvas, camera, scene and surroundings.
+ * @typedef {{g: Context, cam: Camera, scene: Scene, space: Space}} Pen
+ */
+/**
+ * The labels to write, and the pixels that they should not cover.
+ * @typedef {{labels: Label[], taken: Pixel[]}} Labels
+ */
+/**
+ * How one kind of thing is drawn. T is its page data; `below` and `above` get all things of the
+ * kind at once.
  *
- * seen   points that a scene which grows has to hold
- * below  draws what lies below the arms
- * above  draws what lies above them, and adds labels
+ * seen   points that a growing scene must show
+ * below  draws the parts below the arms
+ * above  draws the parts above the arms, and adds labels
  *
  * @template T
  * @typedef {{
@@ -57,7 +63,7 @@ import {compass} from "./triad.js";
 const KINDS = kinds;
 
 /**
- * The scene of a page, still without things.
+ * The scene of a page, as yet without things.
  * @param {{scene: PageScene, unit: Unit}} page
  * @returns {Scene}
  */
@@ -66,17 +72,16 @@ export const sceneOf = ({scene, unit}) => ({...scene, things: [], unit});
 /**
  * Draws arms in space.
  *
- * draw(view, arms, clock)   one picture: view [azimuth, elevation], arms Shown[], words for the
- *                           right upper corner.
- *                           Returns whether there was room for one
- * cameras()                 those of the last picture, one for each arm, or one for all where they
- *                           stand together in one: `to` projects a point to CSS pixels
- * hold(on)                  while on, the cameras of the last picture stay: for as long as
- *                           something is dragged
- * height(count, width)      how high a canvas of this width is well filled by so many arms
+ * draw(view, arms, clock)   draws one picture: view [azimuth, elevation], arms Shown[], words for
+ *                           the upper right corner. Returns whether there was room for it
+ * cameras()                 the cameras of the last picture: one for each arm, or one if all arms
+ *                           are in one picture; `to` projects a point to CSS pixels
+ * hold(on)                  while on, the cameras of the last picture are kept, since something is
+ *                           being dragged
+ * height(count, width)      the height of a canvas that this many arms fill at this width
  *
  * @param {HTMLCanvasElement} canvas
- * @param {Scene} scene  `things` may be exchanged between two pictures
+ * @param {Scene} scene  `things` may be replaced between two pictures
  */
 export function sceneView(canvas, scene) {
   const space = surroundings(scene);
@@ -128,15 +133,16 @@ export function sceneView(canvas, scene) {
 }
 
 /**
- * Room for words at the edges: names above, the scale below.
+ * The part of a cell without the room for words at its edges: names above, the scale below.
  * @param {Box} cell
  * @returns {Box}
  */
 const inside = ([x, y, w, h]) => [x + 20, y + 28, Math.max(1, w - 40), Math.max(1, h - 54)];
 
 /**
- * The fixed surroundings: the axes of the grid, a point of the floor, and the points that the
- * camera must see: everything and its shadow. The rest of the floor may leave the picture.
+ * The fixed surroundings: the coordinate axes of the grid, a function that returns a point of the
+ * floor, and the points that the camera must see, which are everything and its shadow. The rest of
+ * the floor may leave the picture.
  * @param {Scene} scene
  */
 function surroundings({flat, floor: [low], seen}) {
@@ -155,7 +161,7 @@ function surroundings({flat, floor: [low], seen}) {
 }
 
 /**
- * The additional points that a growing scene must hold.
+ * The additional points that a growing scene must show.
  * @param {Scene} scene
  * @param {Shown} arm
  */
@@ -170,7 +176,7 @@ function reached(scene, arm) {
 }
 
 /**
- * Draws a picture inside its cell, with a line to the cell on its left.
+ * Draws a picture inside its cell, and a line between it and the cell on its left.
  * @param {Pen} pen
  * @param {Shown[]} arms
  * @param {Box} cell
@@ -239,7 +245,7 @@ function drawSpace(pen, arms, [x, y, w, h], named) {
 }
 
 /**
- * Draws the floor's grid; `over`: above what is already drawn.
+ * Draws the floor's grid; with `over`, a translucent floor on top of what is already drawn.
  * @param {Pen} pen
  * @param {boolean} [over]
  */

@@ -14,19 +14,19 @@ import {handleLayer} from "./handles.js";
 
 /**
  * An arm of an explorer; the first one shows the axes of its joints and the semi-axes of the
- * ellipsoid of tool velocities, where it has them.
+ * ellipsoid of tool velocities, if it has them.
  * @typedef {Shown & {axes?: boolean, ellipsoid?: false | number[][]}} Explored
  */
 /** @typedef {ReturnType<typeof stageOf>} Stage */
-/** @typedef {string | {text: string, past: boolean}} Cell  of a table; `past` a limit */
+/** @typedef {string | {text: string, past: boolean}} Cell  a table cell; `past`: past a limit */
 /**
  * How a frame draws the state `seen`.
  * @template Seen
  * @typedef {object} Picture
  * @property {HTMLCanvasElement} canvas
- * @property {(seen: Seen) => boolean} draw  whether there was room
- * @property {() => Camera} camera  of the last picture
- * @property {(on: boolean) => void} hold  told when a handle is taken, and when it is let go
+ * @property {(seen: Seen) => boolean} draw  returns whether there was room
+ * @property {() => Camera} camera  the camera of the last picture
+ * @property {(on: boolean) => void} hold  called when a handle is grabbed, and when it is released
  */
 
 /**
@@ -60,10 +60,10 @@ export function stageOf(root, data) {
  * The frame of an explorer: a picture with handles over it, a column of controls beside it, and
  * room below.
  *
- * run(answer)  from now on `answer(now)` is asked for what is to be drawn, once for every picture
- *              in which something has changed
- * changed()    something has changed
- * ask()        the same is to be drawn again
+ * run(answer)  from now on, calls `answer(now)` for the state to draw, once for every picture after
+ *              a change
+ * changed()    reports a change
+ * ask()        asks for the same state to be drawn again
  *
  * @template Seen
  * @param {HTMLElement} root
@@ -97,13 +97,13 @@ export function frameOf(root, data, picture) {
     },
     /**
      * @param {(now: number) => Seen} answer
-     * @param {HTMLCanvasElement[]} [canvases]  others, drawn at the same time
+     * @param {HTMLCanvasElement[]} [canvases]  other canvases, drawn at the same time
      * @param {() => void} [draw]  draws them
      */
     run(answer, canvases = [], draw = () => {}) {
       drawn = pictures(root, [canvas, ...canvases], now => {
         if (stale) {
-          stale = false; // set first, since a running animation has changed it again by then
+          stale = false; // set first, since a running animation sets it again in `answer`
           seen = answer(now);
         }
         draw();
@@ -119,7 +119,7 @@ export function frameOf(root, data, picture) {
  * The elements of a frame.
  * @param {{kind: string, title: string, meant: string}} data
  * @param {HTMLCanvasElement} canvas
- * @param {HTMLElement} layer  of handles
+ * @param {HTMLElement} layer  the layer of handles
  */
 function partsOf({kind, title: text, meant}, canvas, layer) {
   const title = element("div", {class: "rk-title"}, text),
@@ -227,7 +227,7 @@ export function slider({name, unit, low, high, step, decimals}, take) {
     element("span", {}, unit),
   );
   range.addEventListener("input", () => take(+range.value));
-  let typing = false; // does not overwrite typing; shows the accepted value afterwards
+  let typing = false; // while true, `set` does not overwrite what is being typed
   exact.addEventListener("input", () => {
     typing = true;
   });
@@ -238,7 +238,7 @@ export function slider({name, unit, low, high, step, decimals}, take) {
   exact.addEventListener("change", taken);
   exact.addEventListener("keydown", event => {
     if (event.key === "Enter") taken();
-  }); // JupyterLab does not pass it to the field
+  }); // in JupyterLab, Enter does not cause a change event
   return {
     row,
     /** @param {number} most */
@@ -257,7 +257,7 @@ export function slider({name, unit, low, high, step, decimals}, take) {
 }
 
 /**
- * A menu of texts.
+ * A menu with one option for each text.
  * @param {string} name
  * @param {string[]} texts
  * @param {(k: number) => void} take
@@ -282,7 +282,7 @@ export function menu(name, texts, take) {
  * A check box.
  * @param {string} name
  * @param {() => void} take
- * @param {boolean} [on]  ticked at first
+ * @param {boolean} [on]  whether it is ticked at first
  */
 export function tick(name, take, on = false) {
   const box = control("input", {type: "checkbox"});
@@ -293,10 +293,10 @@ export function tick(name, take, on = false) {
 
 /**
  * A table whose cells are updated without being created again.
- * @param {string[]} names  of the rows
- * @param {string[]} heads  of the columns; none: no head
- * @param {number[]} widths  how many cells a row has, or one for each column
- * @param {(row: number) => void} [take]  told which row was chosen: its name is a button then
+ * @param {string[]} names  the names of the rows
+ * @param {string[]} heads  the headings of the columns; if empty, there are none
+ * @param {number[]} widths  one entry per column or, without heads, the cells in each row
+ * @param {(row: number) => void} [take]  called with a chosen row; makes row names buttons
  */
 export function table(names, heads, widths, take) {
   /** @type {(k: number) => number} */
@@ -328,7 +328,7 @@ export function table(names, heads, widths, take) {
     /**
      * @param {Cell[][]} rows
      * @param {number} [chosen]
-     * @param {?boolean[]} [exists]  whether there is what a row tells of; none: all of it
+     * @param {?boolean[]} [exists]  whether what a row describes exists; by default all do
      */
     set(rows, chosen = -1, exists = null) {
       rows.forEach((texts, k) => {

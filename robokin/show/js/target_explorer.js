@@ -1,5 +1,5 @@
-// The target explorer: a target to drag, and all branches that reach it. All words and all numbers
-// of the arm come from Python (page.py: TargetPage).
+// The target explorer: a target to drag, and all branches that reach it. All words and the data of
+// the arm come from Python (page.py: TargetPage).
 
 import {distance_from_singularity, matrix, wrapped} from "./kinematics.js";
 import {ik, singularities} from "./geometries.js";
@@ -21,17 +21,18 @@ import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
 
 /** @typedef {TargetPage & {arm: ClosedFormArm}} TargetExplorer */
 /**
- * A target: `rotation` and its `turns` (roll, pitch, yaw) of a transform, `angle` of a ScaraPose.
+ * A target. `rotation` and its `turns` (roll, pitch, yaw) belong to a transform, `angle` belongs to
+ * a ScaraPose.
  * @typedef {{place: Point, turns: number[], rotation?: number[], angle?: number}} Target
  */
 /**
- * The present target, the posture of the arm, the branch that the reader wants (-1: the nearest
+ * The current target, the posture of the arm, the branch that the reader wants (-1: the nearest
  * one) and the branch shown.
  * @typedef {Target & {q: number[], wanted: number, chosen: number}} State
  */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {TargetExplorer} data
  */
@@ -39,7 +40,7 @@ export const explore = (id, data) =>
   waiting(id).forEach(root => targetExplorer(stageOf(root, data), data));
 
 /**
- * The handles of the target, and a row in a table for every branch that reaches it.
+ * Builds the handles of the target, and a table with a row for every branch.
  * @param {Stage} stage
  * @param {TargetExplorer} data
  */
@@ -177,7 +178,7 @@ function markTarget({scene}, {rotation, place}, name) {
  * @param {ArmData} arm
  * @param {Record<string, string>} words
  * @param {number[]} q
- * @param {boolean[]} inside  for each joint its limits
+ * @param {boolean[]} inside  for each joint, whether it is inside its limits
  * @param {boolean} exists
  */
 function verdict(arm, words, q, inside, exists) {
@@ -188,7 +189,7 @@ function verdict(arm, words, q, inside, exists) {
 }
 
 /**
- * Whether an exercise's task is fulfilled, in words.
+ * Says whether the task of an exercise is solved.
  * @param {?BranchTask} task
  * @param {number[][]} rows
  * @param {boolean[]} exists

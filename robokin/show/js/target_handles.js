@@ -1,4 +1,4 @@
-// The handles of a target: its position, freely or along its axes, and its rotation about them.
+// The handles of a target, which move it freely or along its axes, and rotate it about them.
 
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
@@ -40,14 +40,17 @@ export function targetHandles(stage, state, home, data) {
   ];
 }
 
-/** The target's axis k, or the base's. @type {(state: State, k: number) => number[]} */
+/**
+ * Axis k of the target or, if it has no rotation, of the base.
+ * @type {(state: State, k: number) => number[]}
+ */
 const axisOf = ({rotation}, k) => {
   const axes = rotation ? matrix(rotation) : null;
   return [0, 1, 2].map(i => (axes ? axes[4 * i + k] : Number(i === k)));
 };
 
 /**
- * A place on a ring about the target.
+ * A place on a ring around the target.
  * @type {(state: State, camera: Camera, x: number, a: number[], b: number[]) => Point}
  */
 const rim = ({place}, camera, x, a, b) =>

@@ -5,11 +5,11 @@
 const PARTS = 4,
   STEPS = [0.1, 0.2, 0.25, 0.5, 1, 2, 2.5, 5, 10, 20];
 
-/** Six digits; noise is nothing. @type {(x: number) => number} */
+/** Rounds to six digits, and noise to zero. @type {(x: number) => number} */
 const digits = x => (Math.abs(x) > 1e-6 ? Number(x.toPrecision(6)) : 0);
 
 /**
- * The scale for values from low to high, the outermost ticks at or beyond them.
+ * The scale for values from low to high, with the outermost ticks at or beyond them.
  * @param {number} low
  * @param {number} high
  * @returns {Scale}
@@ -42,8 +42,8 @@ export function scale(low, high) {
 /**
  * A number of steps, rounded so that noise does not move it past an integer.
  * @param {number} x
- * @param {number} offset  in steps: the larger, the more noise
- * @param {(x: number) => number} round  down or up
+ * @param {number} offset  the offset in steps: the larger, the more noise
+ * @param {(x: number) => number} round  rounds down or up
  */
 function whole(x, offset, round) {
   const noise = offset
@@ -53,7 +53,10 @@ function whole(x, offset, round) {
   return Math.abs(x - near) < noise ? near : round(x);
 }
 
-/** With the decimals to write them. @type {(low: number, step: number, count: number) => Scale} */
+/**
+ * Adds the decimals that the ticks need.
+ * @type {(low: number, step: number, count: number) => Scale}
+ */
 function named(low, step, count) {
   let decimals = 0;
   while (Math.abs(step - Number(step.toFixed(decimals))) >= 1e-9 * step) decimals++;

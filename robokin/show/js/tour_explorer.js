@@ -24,7 +24,7 @@ import {point} from "./mark.js";
 /** @typedef {With<TourPage, "question" | "first">} TourExplorer */
 /** @typedef {"greedy" | "best"} TourName */
 /**
- * The question: a task; `held`: whether the reader is still dragging.
+ * A question: a task, and whether the reader is still dragging (`held`).
  * @typedef {object} Question
  * @property {number} l1
  * @property {number} l2
@@ -41,10 +41,10 @@ import {point} from "./mark.js";
  * @property {Values} q
  * @property {number[]} order
  * @property {number[]} times
- * @property {string[]} cells  of the table
+ * @property {string[]} cells  its row of the table
  */
 /**
- * The answer of Python: see `answered` in tour_explorer.py.
+ * Python's answer: see `answered` in tour_explorer.py.
  * @typedef {object} Answer
  * @property {PageLink[]} chain
  * @property {boolean} start
@@ -56,12 +56,12 @@ import {point} from "./mark.js";
  */
 /** @typedef {{answer: Answer, question: Question, tours: (?Tour)[], cells: string[][]}} Heard */
 /**
- * `touched`: the last point that was taken; `chosen`: the row of the table.
+ * `touched`: the point that was grabbed last; `chosen`: the chosen row of the table.
  * @typedef {Question & {touched: number, chosen: number, time: number, playing: boolean}} State
  */
 
 /**
- * Fills every waiting place with this id.
+ * Builds the view in every place that waits for this id.
  * @param {string} id
  * @param {TourExplorer} data
  */
@@ -86,7 +86,7 @@ function tourExplorer(root, id, stage, data) {
     notes = element("ul", {class: "rk-notes"});
   beside(stage.side, stage.says, notes);
   stage.below.append(rows.node);
-  // below the scene: it works while the rest is asleep
+  // the clock is below the scene: it works while the rest is asleep
   const parts = clockRow();
   beside(stage.space, parts.row);
   const end = () => heard.question.T;
@@ -106,7 +106,7 @@ function tourExplorer(root, id, stage, data) {
     tell();
   });
 
-  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // one exists at first
+  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // at first there is a tour
   stage.run(() => {
     clock.pass(performance.now());
     clock.tell();
@@ -126,7 +126,7 @@ function tourExplorer(root, id, stage, data) {
 }
 
 /**
- * Links, time and kind of task; buttons to add and remove points.
+ * The inputs for links, time and kind of task, and the buttons that add and remove points.
  * @param {Stage} stage
  * @param {TourExplorer} data
  * @param {State} state
@@ -189,7 +189,7 @@ function tourTable(stage, says, names, state) {
 }
 
 /**
- * Records in the state whether the reader holds something.
+ * Records in the state whether the reader is dragging something.
  * @param {Stage} stage
  * @param {State} state
  */
@@ -207,7 +207,7 @@ function holding(stage, state) {
 }
 
 /**
- * The start and every point.
+ * The handles of the start and of every point.
  * @param {Stage} stage
  * @param {TourExplorer} data
  * @param {State} state
@@ -266,7 +266,7 @@ const opened = (home, names) => ({
 const question = ({l1, l2, T, kind, p0, points, held}) => ({l1, l2, T, kind, p0, points, held});
 
 /**
- * An answer with the tours and the table that are shown of it.
+ * An answer, with its tours and its table in the form in which they are shown.
  * @param {TourName[]} names
  * @param {Answer} answer
  * @param {Question} question

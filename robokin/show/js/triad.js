@@ -10,7 +10,7 @@ import {dot, origin, plus} from "./kinematics.js";
 export const AXES = /** @type {const} */ (["x", "y", "z"]);
 
 /**
- * The axes of a frame.
+ * Draws the axes of a frame.
  * @param {Context} g
  * @param {Camera} cam
  * @param {number[]} pose  12 numbers

@@ -26,7 +26,7 @@ export const aboutAxis = ([x, y, z], angle) => {
 };
 
 /**
- * A quaternion of length 1.
+ * A quaternion scaled to length 1.
  * @param {number[]} q
  */
 export const normal = q => {
@@ -35,7 +35,7 @@ export const normal = q => {
 };
 
 /**
- * As Quaternion.from_roll_pitch_yaw.
+ * The rotation with these angles, as Quaternion.from_roll_pitch_yaw returns it.
  * @param {number[]} turns  roll, pitch, yaw
  */
 export const rotationOf = ([roll, pitch, yaw]) =>
@@ -45,7 +45,8 @@ export const rotationOf = ([roll, pitch, yaw]) =>
   );
 
 /**
- * As Quaternion.as_roll_pitch_yaw: at a pitch of a quarter turn, roll is set to zero.
+ * The angles of a transform, as Quaternion.as_roll_pitch_yaw returns them: at a pitch of a quarter
+ * turn, roll is set to zero.
  * @param {number[]} m  12 numbers
  */
 export function rollPitchYaw(m) {
@@ -56,14 +57,14 @@ export function rollPitchYaw(m) {
 }
 
 /**
- * A number in code.
+ * A number as Python code.
  * @param {number} x
  * @param {number} decimals
  */
 export const plain = (x, decimals) => String(+x.toFixed(decimals));
 
 /**
- * Joint values in code: "90.0 * deg, ...".
+ * Joint values as Python code: "90.0 * deg, ...".
  * @param {PageUnit[]} units
  * @param {number[]} q
  */
@@ -71,7 +72,7 @@ export const inUnits = (units, q) =>
   q.map((x, j) => `${plain(x / units[j].size, 3)} * ${units[j].code}`).join(", ");
 
 /**
- * A place in code, to a thousandth of a millimetre.
+ * A place as Python code, to a thousandth of a millimetre.
  * @param {number[]} place
  * @param {Pick<Unit, "size">} unit
  */

@@ -2,12 +2,12 @@
 
 /** @import {Tolerances} from "./page.js" */
 
-/** @typedef {{kind: string, metres: number}} Gap  which border is passed, and how far */
+/** @typedef {{kind: string, metres: number}} Gap  which border is crossed, and by how much */
 
 export const SIGNS = [1, -1];
 
 /**
- * The triangle of two links whose ends are d apart, by half angles: see `two_levers`. null: there
+ * The triangle of two links whose ends are d apart, by half angles: see `two_levers`. null if there
  * is none.
  * @param {number} upper
  * @param {number} fore
@@ -30,7 +30,7 @@ export function twoLevers(upper, fore, d, {ROUNDING}) {
 }
 
 /**
- * The border with the largest excess, from name -> metres beyond it.
+ * The border that is exceeded most; `borders` maps names to the metres beyond them.
  * @param {Object<string, number>} borders
  * @returns {Gap}
  */

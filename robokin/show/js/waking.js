@@ -1,11 +1,12 @@
 // The page's part of the widget that wakes a view (live.py): a model without a view of its own. It
-// finds its view whichever of the two comes first, also if the view is shown twice.
+// finds its view whichever of the two comes first, even if the view is shown twice.
 
 /** @import {Arrived} from "./live.js" */
 
 /**
  * @typedef {object} Model
- * @property {(content: {to: number, n: number, question: unknown}) => void} send  `to`: a place
+ * @property {(content: {to: number, n: number, question: unknown}) => void} send  `to`: index in
+ *   `roots`
  * @property {Hear} on
  */
 /**

@@ -1,6 +1,6 @@
 """The things in a scene besides arms: one module and one script (js/) for each kind.
 
-CONTRIBUTING has the recipe for a new kind.
+CONTRIBUTING.md describes how to add a kind.
 """
 
 from typing import TypeAlias

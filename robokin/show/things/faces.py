@@ -1,4 +1,4 @@
-"""Polygons behind the arms, such as a belt."""
+"""Polygons behind the arms, such as a conveyor belt."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ class PageFaces(TypedDict):
 
 @dataclass(frozen=True, init=False, eq=False)
 class Faces(Thing):
-    """Polygons, each with 3 to 100 corners (k, 3) in metres. They stand still."""
+    """Polygons, each with 3 to 100 corners (k, 3) in metres. They do not move."""
 
     corners: tuple[Floats, ...]
 

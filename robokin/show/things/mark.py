@@ -25,8 +25,8 @@ class PageMark(TypedDict):
 
 @dataclass(frozen=True, init=False, eq=False)
 class Mark(Thing):
-    """A point, or with a radius (m) a ball. A reading (samples,), or with the leading axes of the
-    motion, is written after its name.
+    """A point, or a ball if it has a radius (m). A reading of shape (samples,), or with the leading
+    axes of the motion, is written after the name.
     """
 
     at: Way

@@ -1,4 +1,4 @@
-"""Frames: the poses that an arm is asked to reach."""
+"""Target frames: the poses that an arm should reach."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypedDict
@@ -25,9 +25,9 @@ class PageTarget(TypedDict):
 
 @dataclass(frozen=True, init=False, eq=False)
 class Target(Thing):
-    """A named pose; one that moves has the shape (samples,), or the leading axes of the motion
+    """A named pose. The shape of a moving one is (samples,), or has the leading axes of the motion
     before the samples. A page draws the straight route between targets called start, via and goal,
-    and how near the path passes via.
+    and shows how near the path passes to via.
     """
 
     name: str

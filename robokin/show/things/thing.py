@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 
 class PageWay(Packed):
-    """Numbers in k columns that change: for each motion or one for all, for each sample or one for
-    all. A thing with a NaN in one of its ways is not drawn at that moment.
+    """Numbers in k columns that may change; `motions` or `samples` is 1 if the same numbers serve
+    all motions or all samples. A thing is not drawn at a moment at which one of its numbers is NaN.
     """
 
     motions: int
@@ -41,7 +41,8 @@ class Way(Sealed):
 
     rows   (motions or 1, samples or 1, k); NaN where the thing is missing
     shape  the leading axes of the argument: () for constant numbers
-    name   the name of the numbers in error messages; `last` is the axis that these add to the shape
+    name   the name of the numbers in error messages
+    last   the last axis of the argument, which error messages add to the shape
     """
 
     rows: Floats
@@ -55,11 +56,13 @@ class Way(Sealed):
         return one
 
     def page(self, kept: Ints | None) -> list[float] | PageWay:
-        """The data of the page; `kept` are its samples."""
+        """Return the page data; `kept` are the samples that the page gets."""
         return self._packed(kept) if self.shape else rounded(self.rows)
 
     def fit(self, lead: tuple[int, ...], count: int) -> None:
-        """ValueError: the shape does not fit motions of the shape `lead` with `count` samples."""
+        """Check the shape. ValueError: it does not fit motions of shape `lead` with `count`
+        samples.
+        """
         wanted = dict.fromkeys([(count,), (*lead, count), (*lead, 1)])
         if self.shape and self.shape not in wanted:
             shapes = " or ".join(str((*one, *self.last)) for one in wanted)
@@ -75,7 +78,7 @@ class Reading(Way):
     """Numbers to show after a name, one at a time."""
 
     def named(self, name: str, kept: Ints | None) -> PageReading:
-        """The data of the page for a thing with this name."""
+        """Return the page data of a thing with this name."""
         return {**self._packed(kept), "name": name, "decimals": fewest(self.rows)}
 
     def after(self, name: str, sample: int | None) -> str:
@@ -89,18 +92,22 @@ class Thing(ABC):
 
     @abstractmethod
     def page(self, kept: Ints | None) -> "PageThing":
-        """The data of the page; `kept` are its samples of moving values."""
+        """Return the page data; `kept` are the samples of moving values that the page gets."""
 
     @abstractmethod
     def seen(self, axis: float) -> Floats:
-        """Points (k, 3) that the camera must see; NaN is ignored. `axis` is the length (m) of the
-        axes of frames.
+        """Points (k, 3) of the whole motion, which place the camera; NaN is ignored. `axis` is the
+        length (m) of the axes of frames. (`seen` in a script gives the points of one moment; only
+        scenes that grow ask for them.)
         """
 
     @abstractmethod
     def draw(self, scene: "Scene", sample: int | None) -> None:
-        """Draw the thing into a figure at a sample of the first motion; with None, draw what does
-        not change.
+        """Draw the thing into a figure; draw nothing if its place is NaN. (A page leaves out such
+        a thing before it calls the script.)
+
+        sample  an index into the samples of the first motion: -1 in the still picture; in a film,
+                that of the frame, or None for a thing that does not move
         """
 
     @property
@@ -109,7 +116,9 @@ class Thing(ABC):
         return any(way.shape for way in self._ways() if not isinstance(way, Reading))
 
     def fit(self, lead: tuple[int, ...], count: int) -> None:
-        """ValueError: it does not fit motions of the shape `lead` with `count` samples."""
+        """Check the shapes. ValueError: one does not fit motions of shape `lead` with `count`
+        samples.
+        """
         for way in self._ways():
             way.fit(lead, count)
 
@@ -137,7 +146,7 @@ def as_place(value: ArrayLike | Way, name: str) -> Way:
 
 
 def as_reading(value: ArrayLike | Reading, name: str) -> Reading:
-    """Return numbers (...) to write as a `Reading`. ValueError: numbers that are too large."""
+    """Return numbers (...) to be shown as a `Reading`. ValueError: numbers that are too large."""
     if isinstance(value, Reading):
         return value
     given = np.atleast_1d(floats(value, name, finite=False))
@@ -152,5 +161,5 @@ def moving(given: Floats, name: str, last: tuple[int, ...] = ()) -> Way:
 
 
 def _flat(given: Floats) -> Floats:
-    """Numbers (..., samples, k) with all motions in one row."""
+    """Numbers (..., samples, k) with all motions along one axis."""
     return frozen(given.reshape(math.prod(given.shape[:-2]), *given.shape[-2:]))
