@@ -172,6 +172,7 @@ def test_programs_match_their_names():
         "NaN in the singularity",
         "NaN for the free angle",
         "theta beyond half a turn",
+        "a better root alone",
     }
 
 
@@ -249,16 +250,32 @@ def test_code_in_hints_can_be_run():
         compile("def f():\n" + "\n".join(code), name, "exec")
 
 
-def test_test_may_refuse_with_an_assertion():
+def from_a_chain(h):
+    """The same rotation, rounded as a product rounds it."""
+    back = turned(0.8, np.array([2, -1, 2]) / 3).as_matrix()
+    return back.T @ (back @ h)
+
+
+def _by_assertion(make):
     def test(program):
         for theta in (0, 1e-9, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi):
             for phi, psi in [(np.pi / 4, 0.3), (2, -0.5), (-2, 3), (1, 1)]:
-                for wrist in (1, -1):
-                    found = program(zyz(phi, theta, psi), wrist)
-                    assert abs(rebuilt(*found) - zyz(phi, theta, psi)).max() < 1e-11
+                for h, wrist in itertools.product(make(zyz(phi, theta, psi)), (1, -1)):
+                    found = program(h, wrist)
+                    assert abs(rebuilt(*found) - h).max() < 1e-11
                     assert -1e-11 < wrist * found[1] < np.pi + 1e-11
 
-    assert check("spherical_wrist.2", test).holds
+    return test
+
+
+def test_test_may_refuse_with_an_assertion():
+    assert check("spherical_wrist.2", _by_assertion(lambda h: (h, from_a_chain(h)))).holds
+
+
+def test_test_without_matrices_of_a_chain_is_named():
+    verdict = check("spherical_wrist.2", _by_assertion(lambda h: (h,)))
+    assert verdict.mistake == "accepts: a better root alone"
+    assert any("matrices of a chain" in line for line in verdict.says)
 
 
 # --- 3 --------------------------------------------------------------------------------------------

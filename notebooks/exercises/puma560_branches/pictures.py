@@ -111,7 +111,12 @@ def p6_view() -> Any:
 
 
 def p7_view() -> str:
-    lines = [f"Of {of.p7()['lines']} random lines that at least one row can serve, a rule misses:"]
+    lines = [
+        f"{of.PAIRS} lines join random poses: the wrist centre spread evenly over the box about",
+        "what the stretched arm reaches, the orientation over all rotations.",
+        f"On {of.p7()['lines']} of the lines all eight rows exist and at least one serves.",
+        "Of these a rule misses:",
+    ]
     lines += [f"{name}: {of.p7()[f'rule{k}']:.0f} %" for k, name in enumerate(of.RULES)]
     return "\n".join(lines)
 

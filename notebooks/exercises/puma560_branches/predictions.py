@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from robokin import PUMA560, Quaternion, Transform, blend, deg, differentiate, lin, mm, quintic
+from robokin.motion import refined_maximum
 
 from .shared import D3, FORE, REST, UPPER, Floats, X, Y, Z, excess, near, serves, tracks, usable
 
@@ -131,14 +132,25 @@ LINES: dict[str, tuple[int, Callable[[float], Transform], Floats, bool]] = {
 
 
 def price(name: str, m: float) -> tuple[float, float]:
-    """The greatest joint speed on a line, rad/s, and the smallest distance from singularity."""
+    """The greatest joint speed on a line, rad/s, refined until it stands, and the smallest distance
+    from singularity.
+    """
     row, middle, direction, goes_on = LINES[name]
-    u = 200 * mm * np.linspace(-1, 1 if goes_on else 0, 201) ** 3
-    pose = middle(m)
-    q = PUMA560.ik(Transform(pose.rotation, pose.translation + u[:, None] * direction))[:, row]
+    pose, end = middle(m), 1 if goes_on else 0
     twist = np.append(SPEED * direction, np.zeros(3))
-    rates = np.linalg.solve(PUMA560.jacobian(q), np.tile(twist, (len(u), 1))[..., None])
-    return float(abs(rates).max()), float(near(q).min())
+
+    def joints(x: Floats) -> Floats:
+        u = 200 * mm * x**3  # dense near the singularity
+        poses = Transform(pose.rotation, pose.translation + u[:, None] * direction)
+        return np.asarray(PUMA560.ik(poses)[:, row])
+
+    def fastest(x: Floats) -> Floats:
+        twists = np.tile(twist, (len(x), 1))[..., None]
+        rates = np.linalg.solve(PUMA560.jacobian(joints(x)), twists)[..., 0]
+        return np.asarray(abs(rates).max(axis=-1) / deg)
+
+    distance = float(near(joints(np.linspace(-1, end, 201))).min())
+    return refined_maximum(fastest, -1, end, 1).value * deg, distance
 
 
 @cache
@@ -151,8 +163,10 @@ def p6() -> dict[str, Any]:
         ("worst", "the worst direction"): SPEED / PUMA560.reach / distance,
     }
     right = nearest(0, {name: np.log(x / past) for (_, name), x in guesses.items()})
+    plane = np.arccos(D3 / (D3 + 1 * mm)) / deg  # between the arm's plane and the tangent
     facts = {fact: x / deg for (fact, _), x in guesses.items()}
-    return facts | {"right": right, "near": distance, "ceiling": 2 * SPEED / D3 / deg}
+    facts |= {"near": distance, "plane": plane, "ceiling": 2 * SPEED / D3 / deg}
+    return facts | {"right": right}
 
 
 RULES: dict[str, Callable[[Floats], Floats]] = {
@@ -162,10 +176,13 @@ RULES: dict[str, Callable[[Floats], Floats]] = {
 }
 
 
+PAIRS = 3000  # of random poses, the ends of lines
+
+
 @cache
 def p7() -> dict[str, Any]:
     rng = np.random.default_rng(7)
-    ends = random_poses(rng, (2, 3000))
+    ends = random_poses(rng, (2, PAIRS))
     ends = ends[:, np.isfinite(PUMA560.ik(ends)).all(axis=(0, 2, 3))]
     rows = PUMA560.ik(lin(ends[0][:, None], ends[1][:, None], np.linspace(0, 1, 81)))
     rows = rows[np.isfinite(rows).all(axis=(1, 2, 3))]  # (lines, 81, 8, 6)
@@ -178,6 +195,9 @@ def p7() -> dict[str, Any]:
         missed = ~served[np.arange(len(rows)), pick][can]
         facts[f"rule{k}"] = 100 * missed.mean()
     guesses = {"none": 0, "a few": 5, "four in ten": 40, "nearly all": 85}
+    facts["tens"] = 10 * round(facts["rule0"] / 10)
+    share = facts["rule0"] / 100
+    facts["scatter"] = 100 * np.sqrt(share * (1 - share) / facts["lines"])  # standard deviation
     return facts | {"right": nearest(facts["rule0"], guesses)}
 
 

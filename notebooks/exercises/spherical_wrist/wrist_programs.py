@@ -18,6 +18,17 @@ def regular(h: Floats, wrist: int) -> Floats:
     return mended(h, wrist) if singular(h) else textbook(h, wrist)
 
 
+def theta_alone(h: Floats, wrist: int) -> Floats:
+    """The better root for theta, phi and psi by the regular formulas: `better_root` of the lab, and
+    the singular formulas at sin theta = 0 exactly.
+    """
+    right = mended(h, wrist)
+    if singular(h):
+        return right
+    phi, _, psi = textbook(h, wrist)
+    return np.array([phi, right[1], psi])
+
+
 def coarse(h: Floats, wrist: int) -> Floats:
     """Treats every theta below 1e-3 rad as singular."""
     if np.hypot(h[0, 2], h[1, 2]) > 1e-3:
