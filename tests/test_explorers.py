@@ -296,7 +296,7 @@ def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
     shown.type("q2", "")
     assert shown.look().rows == before.rows
     motion = opened(motion_explorer(IRB140, START, VIA, GOAL), IRB140)
-    for name, value, taken in (("time", 99, 5), ("duration", 0, 0.5), ("blend", 9, 0.5)):
+    for name, value, taken in (("duration", 0, 0.5), ("blend", 9, 0.5)):
         motion.type(name, value)
         assert motion.look().boxes[name] == taken
 
@@ -664,7 +664,7 @@ def test_motion_passes_the_via_point_in_the_boxes(opened, arm):
 
 def test_unreachable_via_point_leaves_a_gap_with_a_message(opened):
     shown = opened(motion_explorer(IRB140, START, VIA, GOAL), IRB140)
-    shown.slide("time", 2.5)
+    shown.slide("time", 200)  # of 400 steps
     assert "no solution here" not in shown.look().words[0]
     shown.type("via x", 1250)
     there = shows_the_motion(shown)
@@ -699,13 +699,27 @@ def test_click_on_a_curve_sets_the_clock(opened):
     for share in (0.3, 0.6, 0.9):
         canvas.click(position={"x": share * box["width"], "y": 100})
         seen = shown.look()
-        times.append(seen.boxes["time"])
+        times.append(float(seen.told["time"].removesuffix(" s")))
         pixels.add(seen.pixels[0])
         assert seen.rows == before.rows and seen.code == before.code, "more than the clock changes"
     assert np.diff(times) == pytest.approx(times[1] - times[0], abs=0.02)
     assert 1 < times[0] < times[2] < 5 and len(pixels) == 3
     canvas.click(position={"x": box["width"] - 1, "y": 100})
-    assert shown.look().boxes["time"] == 5
+    assert shown.look().told["time"] == "5.00 s"
+
+
+def test_motion_plays_to_its_end_and_keeps_its_numbers(opened):
+    shown = opened(motion_explorer(IRB140, START, VIA, GOAL, law="linear", duration=0.5), IRB140)
+    before = shown.look()
+    assert before.boxes["duration"] == 0.5 and before.menus["time law"] == 2
+    assert "robokin.linear(0.5)" in before.code
+    shown.rk.get_by_role("button", name="play").click()
+    until(lambda: shown.look().told["time"] == "0.50 s", "it does not play", shown.page)
+    after = shown.look()
+    assert after.rows == before.rows and after.code == before.code
+    assert after.pixels[0] != before.pixels[0]
+    shown.type("duration", 4)  # the clock keeps its share of the motion
+    assert shown.look().told["time"] == "4.00 s"
 
 
 # --- Dragging -------------------------------------------------------------------------------------
@@ -1006,7 +1020,7 @@ def test_touch_moves_a_handle_or_scrolls_the_page(browser, opened):
 def test_keyboard_reaches_and_moves_every_handle(opened, kind):
     shown = opened(KINDS[kind](), IRB140)
     page, start = shown.page, shown.look()
-    controls = shown.rk.locator("button:visible, input, select, .rk-scene")
+    controls = shown.rk.locator("button:visible, input, select, summary, .rk-scene")
     count, names = controls.count(), []
     for control in controls.all():
         assert control.get_attribute("data-lm-suppress-shortcuts") == "true"
@@ -1019,7 +1033,15 @@ def test_keyboard_reaches_and_moves_every_handle(opened, kind):
     assert reached - {-1} == set(range(count)) and count > 12
     session = page.context.new_cdp_session(page)
     tree = session.send("Accessibility.getFullAXTree")["nodes"]
-    roles = {"button", "slider", "spinbutton", "combobox", "checkbox", "image"}
+    roles = {
+        "button",
+        "slider",
+        "spinbutton",
+        "combobox",
+        "checkbox",
+        "image",
+        "DisclosureTriangle",
+    }
     for node in tree:
         if not node["ignored"] and node.get("role", {}).get("value") in roles:
             names.append((node["role"]["value"], node["name"]["value"]))
@@ -1066,8 +1088,8 @@ def test_sliders_and_menus_have_names_and_value_texts(opened):
         ("target", ["x, mm", "y, mm", "z, mm", "roll, °", "pitch, °", "yaw, °"], ["branch"]),
         (
             "motion",
-            ["via x, mm", "via y, mm", "via z, mm", "blend", "duration, s", "time, s"],
-            ["time law", "corner", "branch"],
+            ["via x, mm", "via y, mm", "via z, mm", "blend", "duration, s", "time"],
+            ["time law", "corner", "branch", "large panel"],
         ),
     ):
         shown = opened(KINDS[kind](), IRB140)
@@ -1299,6 +1321,9 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
         (lambda: motion_explorer(IRB140, START, VIA, (1, 2, 3)), TypeError, "goal: wanted"),
         (lambda: motion_explorer(IRB140, START, two, GOAL), ValueError, "via: wanted a single"),
         (lambda: motion_explorer(IRB140, START, VIA, GOAL, 8), ValueError, "row: wanted"),
+        (lambda: motion_explorer(IRB140, START, VIA, GOAL, law="cubic"), ValueError, "law: wanted"),
+        (lambda: motion_explorer(IRB140, START, VIA, GOAL, duration=0), ValueError, "duration: "),
+        (lambda: motion_explorer(IRB140, START, VIA, GOAL, duration=21), ValueError, "at most 20"),
     ):
         with pytest.raises(kind, match=words):
             call()

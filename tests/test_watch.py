@@ -8,7 +8,14 @@ from conftest import awake
 from test_player import FRACTIONS, GOAL, ROW, SCARA, START, VIA, T, chain, ink, kept, unpacked
 
 from robokin import IRB140, PUMA560, deg, follow, lin, mm, ptp, quintic, three_lever
-from robokin.show import animate, motion_explorer
+from robokin import SCARA as WITH_ROWS
+from robokin.show import (
+    animate,
+    joint_explorer,
+    motion_explorer,
+    motor_explorer,
+    target_explorer,
+)
 from robokin.show.joiner import script
 
 CLOCK = np.linspace(0, 6, 601)
@@ -43,12 +50,12 @@ def page(browser):
     assert said == []
 
 
-def opened(page, view, tmp_path):
+def opened(page, view, tmp_path, curves=True):
     view.save(tmp_path / "view.html")
     page.goto((tmp_path / "view.html").as_uri())
     page.add_style_tag(content="body { margin: 0; max-width: none; padding: 0 }")
     awake(page)
-    return anew(page)
+    return anew(page) if curves else None
 
 
 def anew(page):
@@ -76,6 +83,22 @@ VIEWS = {
     "one space": (in_one_space, 640),
     "motion explorer": (lambda _: motion_explorer(IRB140, START, VIA, GOAL), 560),
 }
+
+
+EXPLORERS = {
+    "joints": lambda: joint_explorer(IRB140),
+    "target of eight rows": lambda: target_explorer(IRB140),
+    "target of two rows": lambda: target_explorer(WITH_ROWS),
+    "three levers": lambda: target_explorer(three_lever((0.3, 0.2, 0.4))),
+    "motor": motor_explorer,
+}
+
+
+@pytest.mark.parametrize("view", EXPLORERS)
+def test_explorer_fits_on_the_screen(page, tmp_path, view):
+    opened(page, EXPLORERS[view](), tmp_path, curves=False)
+    box = page.locator(".rk").bounding_box()
+    assert box["width"] > 880 and box["height"] <= 560
 
 
 @pytest.mark.parametrize("view", VIEWS)
