@@ -177,7 +177,7 @@ export const flag = {
     for (const {foot, label} of flags) {
       const [x, y] = cam.to(foot);
       const corners = [0, 1, 2, 3].map(k => [x + 12 * (k > 1 ? 1 : -1), y + 12 * (k % 3 ? 1 : -1)]);
-      polygon(g, corners.map(([u, v]) => [u, v]), colors.alarm, colors.alarm, 1);
+      polygon(g, corners.map(([u, v]) => [u, v]), colors.chosen, colors.alarm, 1);
       labels.push({text: label, at: [x, y + 40], color: colors.ink});
     }
   },
@@ -196,7 +196,7 @@ animate(IRB140, T, TURNED, things=things).save(sys.argv[1])
 RED = """() => {
     const canvas = document.querySelector(".rk-scene"), {width, height} = canvas;
     const data = canvas.getContext("2d").getImageData(0, 0, width, height).data;
-    const [r, g, b] = getComputedStyle(canvas).getPropertyValue("--rk-alarm").trim()
+    const [r, g, b] = getComputedStyle(canvas).getPropertyValue("--rk-chosen").trim()
         .match(/[0-9a-f]{2}/gi).map(x => parseInt(x, 16));
     let count = 0;
     for (let i = 0; i < data.length; i += 4)

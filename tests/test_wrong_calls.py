@@ -319,6 +319,9 @@ CALLS = {
             faces=[[(0, 0, 0), (1, 0, 0), (0, 1, 0)]],
             readings={"p": TIMES},
             things=[things.Mark((0.1, 0.2, 0.3), "mark")],
+            watch="v",
+            joints=[1, 3],
+            quantities={"distance, mm": TIMES},
         ),
     ),
     "animate (controls)": (

@@ -8,7 +8,8 @@ import {number} from "./canvas.js";
 import {copyButton} from "./copy.js";
 import {element, waiting} from "./elements.js";
 import {alongCurve, gripOf} from "./handles.js";
-import {slider, stageOf, table, tick} from "./stage.js";
+import {slider, stageOf, tick} from "./stage.js";
+import {table} from "./table.js";
 import {ellipsoidOf, degrees, inUnits, rollPitchYaw} from "./turns.js";
 
 /** @import {JointPage} from "./page.js" */

@@ -11,7 +11,8 @@ import {element, waiting} from "./elements.js";
 import {drawCurve} from "./motor_curve.js";
 import {gripRadius, motorPicture} from "./motor_picture.js";
 import {factTable, inCode, outcome, standing} from "./motor_words.js";
-import {beside, frameOf, menu, slider, table, tick, wordButton} from "./stage.js";
+import {beside, frameOf, menu, slider, tick, wordButton} from "./stage.js";
+import {table} from "./table.js";
 import {degrees, radians} from "./turns.js";
 
 /** @import {PageMotors} from "./page.js" */

@@ -3,7 +3,7 @@
 import {fill} from "./blanks.js";
 import {number} from "./canvas.js";
 import {behind, holdingTorque, startFrequency, startingTorque, stepOf} from "./rotor.js";
-import {table} from "./stage.js";
+import {table} from "./table.js";
 import {degrees, plain} from "./turns.js";
 
 /** @import {MotorControl, PageMotors} from "./page.js" */

@@ -53,7 +53,7 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
 
 export const FAINT = 0.28; // opacity of a curve that is not to be watched
 const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no words inside
-const PAST = 1e-3; // a value past a limit by no more than this is rounding
+const PAST = 0.002; // a value past a limit by no more than this is rounding
 
 /** The width of the lines of an arm. @type {(arm: number) => number} */
 export const strength = arm => (arm ? 1.1 : 2.2);
@@ -61,7 +61,7 @@ export const strength = arm => (arm ? 1.1 : 2.2);
 /** @type {(patterns: number[][], j: number, width: number) => number[]} */
 export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
 
-/** Whether a line is past one of its limits at a value. @type {(line: Line, v: number) => boolean} */
+/** Whether a value is past a limit of its line. @type {(line: Line, v: number) => boolean} */
 export const isPast = ({limits}, value) =>
   !!limits && (value < limits[0] - PAST || value > limits[1] + PAST);
 
