@@ -220,9 +220,11 @@ def turns() -> dict[str, Any]:
 
 
 def p10() -> dict[str, Any]:
-    dice, equal, least = (float(each.mean()) for each in turns().values())
+    each = turns()
+    fewer = int((each["random choice"] < each["least movement"] - 1e-9).sum())
+    dice, equal, least = (float(run.mean()) for run in each.values())
     percent = 100 * (dice / least - 1)
     facts = {"tasks": RACED, "least": least, "added": dice - least, "percent": percent}
-    facts |= {"times": dice / least, "equal": 100 * (equal / least - 1)}
+    facts |= {"times": dice / least, "equal": 100 * (equal / least - 1), "fewer": fewer}
     limits = {"hardly more": 5, "less than twice": 100, "three times": 500, "five times": np.inf}
     return facts | {"right": below(percent, limits)}

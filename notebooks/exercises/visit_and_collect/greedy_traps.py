@@ -40,13 +40,14 @@ def given(who: Any) -> Numbers:
     roll = dice("visit_and_collect", who)
     speed = 0.2 + 0.05 * roll.randrange(5)
     budget = 1.2 + 0.05 * roll.randrange(9)  # rad that a joint can turn in the time T
+    T = round(budget / speed, 1)
     x, y = 3.5 + 0.25 * roll.randrange(5), -1.5 + 0.25 * roll.randrange(13)
     height = 1.0 + 0.25 * roll.randrange(7)
     worth = [3 + roll.randrange(3) for _ in range(4)]  # none is half of another ...
     worth[roll.randrange(4)] = 11 + roll.randrange(5)  # ... except of the valuable one
     made = {
-        "T": (round(budget / speed, 1), "s"),
-        "T_collect": (round(3 * budget / speed, 1), "s"),
+        "T": (T, "s"),
+        "T_collect": (round(3 * T, 1), "s"),
         "worth": (worth, "(of object 0, 1, 2, 3)"),
         "speed": (round(speed, 2), "rad/s, of every joint"),
         "p0": ([x, y, height], "m"),

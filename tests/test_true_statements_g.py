@@ -1,0 +1,488 @@
+"""Statements of labs 08 and 09 that a fourth reader refuted or doubted, computed again: inverses,
+times, queues and races of this file's own, from the definitions in the labs.
+"""
+
+import cmath
+import contextlib
+import io
+import math
+import re
+from itertools import pairwise, permutations
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+from test_true_statements_b import ARM, cells
+from test_true_statements_b import run as run_cells
+from test_true_statements_c import flat, numbers
+from test_true_statements_f import one_line, option, says
+
+from robokin import deg, dh_links, elbow_arm, spbu_arm
+from robokin.course import book, check, variant
+
+TRAPS = book.find("visit_and_collect.3", "exercises")
+LEVERS = book.find("three_levers.1", "exercises")
+
+
+def quietly(lab, *names):
+    with contextlib.redirect_stdout(io.StringIO()):
+        return run_cells(lab, *names)
+
+
+# --- 08 -------------------------------------------------------------------------------------------
+
+
+def joints_of(p, l1=5.0, l2=4.0):
+    """(q1, q2, q3) at a point by the elbow as the upper meeting point of two circles; q1 is NaN on
+    axis 1, all are NaN if the circles do not meet.
+    """
+    out, up = math.hypot(p[0], p[1]), p[2]
+    d = math.hypot(out, up)
+    along = (d**2 + l1**2 - l2**2) / (2 * d)
+    if abs(along) > l1 * (1 + 1e-12):
+        return np.full(3, np.nan)
+    off = math.sqrt(max(0.0, l1**2 - along**2))
+    elbow = complex(out, up) / d * complex(along, off)
+    tool = complex(out, up)
+    lean = math.pi / 2 - cmath.phase(elbow)
+    bend = cmath.phase(elbow / 1j) - cmath.phase((tool - elbow) / 1j)
+    q3 = math.remainder(bend - math.pi / 2, 2 * math.pi)
+    return np.array([math.atan2(p[1], p[0]) if out > 1e-12 else np.nan, lean, q3])
+
+
+def place_of(q, l1=5.0, l2=4.0):
+    """The place by turning one lever after the other."""
+    link = 1j * cmath.exp(-1j * q[1])
+    tool = l1 * link + l2 * link * cmath.exp(-1j * (math.pi / 2 + q[2]))
+    return np.array([tool.real * math.cos(q[0]), tool.real * math.sin(q[0]), tool.imag])
+
+
+def needs(q, other, speed):
+    return max(abs(a - b) for a, b in zip(q, other, strict=True)) / speed
+
+
+def test_this_files_inverse_is_right():
+    for q in np.random.default_rng(1).uniform([-3, 0, -1.5], [3, 1.5, 0.9], (200, 3)):
+        place = place_of(q)
+        assert spbu_arm(5, 4).fk(q).translation == pytest.approx(place)
+        if math.hypot(place[0], place[1]) > 0.1 and place[:2] @ [np.cos(q[0]), np.sin(q[0])] > 0:
+            assert joints_of(place) == pytest.approx(q)
+
+
+def bin_on_the_axis(order, places, home, speed=0.2):
+    """The time of bringing the objects to a bin on axis 1, where joint 1 stays."""
+    stand, spent = joints_of(home), 0.0
+    for k in order:
+        there = joints_of(places[k])
+        if np.isnan(stand[0]):
+            stand[0] = there[0]
+        spent += needs(stand, there, speed)
+        stand = np.array([there[0], *joints_of(home)[1:]])
+        spent += needs(there, stand, speed)
+    return spent
+
+
+def test_order_of_the_angles_turns_joint_1_least():
+    second = one_line(option("visit_and_collect.p5", "container on axis 1").second)
+    assert second.endswith(
+        "Four objects round the axis: joint 1 turns least in the order of their angles, from one "
+        "side of its stop round to the other."
+    )
+    for angles in np.random.default_rng(4).uniform(-np.pi, np.pi, (200, 4)):
+        turned = {o: abs(np.diff(angles[list(o)])).sum() for o in permutations(range(4))}
+        least = min(turned.values())
+        best = {o for o, turn in turned.items() if turn < least + 1e-9}
+        rising = tuple(np.argsort(angles).tolist())
+        assert best == {rising, rising[::-1]}
+    places, home = [[2, 0, 4], [0, 2, 4], [-2, 0, 4], [0, -2, 4]], [0, 0, 6.5]
+    assert f"round_it = {places}" in cells("08")["deeper-axis-code"]
+    took = {o: bin_on_the_axis(o, places, home) for o in permutations(range(4))}
+    angles = [math.atan2(y, x) for x, y, _ in places]
+    rising = tuple(np.argsort(angles).tolist())
+    assert {o for o, t in took.items() if t < min(took.values()) + 1e-9} == {rising, rising[::-1]}
+    assert round(took[rising], 2) == 38.16
+    # "whoever goes round in order" was not the quickest, nor were others slower:
+    assert round(took[0, 1, 2, 3], 2) == 53.87 and round(took[0, 3, 1, 2], 2) == 46.02
+
+
+def round_trip(legs, order, T):
+    """How many objects are in the bag when the arm has to be back by T; legs[i][j]: 0 is home."""
+    spent, here, count = 0.0, 0, 0
+    for stop in order:
+        spent, here = spent + legs[here][stop], stop
+        if spent + legs[here][0] > T + 1e-9:
+            break
+        count += 1
+    return count
+
+
+def nearest(legs, cost):
+    """The order in which the cheapest next stop comes first."""
+    order, here = [], 0
+    while rest := set(range(1, len(legs))) - set(order):
+        here = min(rest, key=lambda stop: cost(here, stop))
+        order.append(here)
+    return order
+
+
+def table(places, speed=0.2):
+    q = [joints_of(p) for p in places]
+    return [[needs(a, b, speed) for b in q] for a in q]
+
+
+def test_round_with_a_way_home_beats_nearest_first_as_stated():
+    reason = one_line(option("visit_and_collect.p5", "emptied at the end").reason)
+    assert "this is visiting with a way home. At" in reason
+    told = r"At (\d+) s nearest first brings (\d) of the opening's points, another order (\d)\."
+    T, few, many = numbers(told, reason)
+    azimuth = [0, 1.0, -1.1, -1.2, -1.3]
+    assert f"azimuth = np.array({azimuth})" in cells("08")["opening"]
+    legs = table([[4 * math.cos(a), 4 * math.sin(a), 2] for a in azimuth])
+    rules = (
+        lambda here, stop: legs[here][stop],
+        lambda here, stop: legs[here][stop] + legs[stop][0] - legs[here][0],  # what it adds
+    )
+    orders = [*permutations(range(1, 5))]
+    for rule in rules:
+        assert round_trip(legs, nearest(legs, rule), T) == few == 1
+        assert round_trip(legs, nearest(legs, rule), 7.5) == 0  # the opening's T: neither brings
+    assert max(round_trip(legs, order, T) for order in orders) == many == 3
+    assert max(round_trip(legs, order, 7.5) for order in orders) == 0
+
+
+def test_fact_behind_the_bag_is_that_of_a_round():
+    module = book.lab("visit_and_collect").module("predictions")
+    shared = book.lab("visit_and_collect").module("shared")
+    beaten = 0
+    for seed in range(30):
+        task = shared["drawn"](seed, 5, "collect")
+        legs = table([task.p0, *task.points])
+        first = round_trip(
+            legs, nearest(legs, lambda here, stop, legs=legs: legs[here][stop]), task.T
+        )
+        beaten += first < max(round_trip(legs, o, task.T) for o in permutations(range(1, 6)))
+    assert module["p5"]()["emptied at the end"] == beaten > 0
+
+
+def test_time_to_collect_is_three_times_the_time_to_visit():
+    assert "# worth: T_collect is 3 T; the cheap one costs T, the dear one 2.4 T" in TRAPS.solution
+    assert "there and back: T of the 3 T), the dear one at −1.2 B (2.4 T)" in one_line(
+        TRAPS.hints[2]
+    )
+    assert "there is time for 1.5 B there and back" in one_line(TRAPS.hints[1])
+    for k in range(60):
+        who = f"name {k}"
+        given = variant("visit_and_collect", who)
+        T, speed = given["T"], given["speed"]
+        assert given["T_collect"] == pytest.approx(3 * T, abs=1e-9)
+        assert given["T_collect"] == pytest.approx(2 * 1.5 * speed * T / speed, abs=1e-9)
+        made = {}
+        exec(TRAPS.solution.replace('"your name"', repr(who)), made)
+        start = joints_of(given["p0"])
+        costs = [2 * needs(start, joints_of(p), speed) for p in made["my_traps"]["worth"]]
+        dear = max(range(4), key=lambda i, given=given: given["worth"][i])
+        assert min(costs) == pytest.approx(T) and costs[dear] == pytest.approx(2.4 * T)
+        assert sum(costs) - min(costs) - costs[dear] > 2 * 2.4 * T
+        if k < 5:
+            assert check("visit_and_collect.3", made["my_traps"], who=who).holds
+
+
+def test_differences_are_negative_for_the_stated_shares():
+    words = flat("08", "check-look")
+    told = r"for a share of (\S+) or more and below (\S+) every difference is negative"
+    low, high = numbers(told, words)
+    (least,) = numbers(r"\(Below (\S+) the arm would aim at less than 1 m from its base", words)
+    aim = np.array([2.0, 3, 2])
+    assert np.linalg.norm(aim * least) == pytest.approx(1, abs=0.002) and least < low < high == 1
+    for share in (*np.linspace(low, high, 60)[:-1], high - 1e-6):
+        assert (place_of(joints_of(share * aim)) - aim < 0).all()
+    assert not (place_of(joints_of(high * aim)) - aim < -1e-12).any()
+    made = quietly("08", "opening", "setup", "chain-code", "inverse-code", "check-code")
+    for share in np.linspace(0.01, least - 0.001, 20):  # "a share below 1" was false here
+        assert np.isnan(joints_of(share * aim)).all()
+        assert not made["careless"](made["my_ik"](share * aim, 5, 4), aim)
+    assert made["careless"](made["my_ik"](low * aim, 5, 4), aim)
+    assert (
+        min(
+            float(each)
+            for each in re.findall(r"try (.*)", cells("08")["check-code"])[0].split(", ")
+        )
+        > low
+    )
+
+
+def belt_stream(spread, seed):
+    steps = np.random.default_rng(seed).permutation(np.linspace(-1, 1, 200))
+    return np.cumsum(0.15 * (1 + spread * steps))
+
+
+def belt_ways():
+    """One way from the bin to each place of the window, in s."""
+    stand = joints_of([0.15, -0.45, 0.25], 0.5, 0.4)
+    window = np.linspace(-0.4, 0.4, 161)
+    return [15 / 8 * needs(stand, joints_of([0.6, y, 0.05], 0.5, 0.4), 2.0) for y in window]
+
+
+WAYS = np.array(belt_ways())
+
+
+def one_arm(arrivals, v):
+    """One arm that is back soonest: the times when it is back, and the arrivals that it misses."""
+    left, free, backs = [*arrivals], 0.0, []
+    delays = np.linspace(0, 0.8, 161) / v
+    while True:
+        left_now = np.array(left)
+        soon = left_now[(left_now > free - 10) & (left_now < free + 20)]
+        best = None
+        for arrival in soon:
+            in_time = np.flatnonzero(arrival + delays >= free + WAYS)
+            if len(in_time):
+                back = arrival + delays[in_time[0]] + WAYS[in_time[0]]
+                if best is None or back < best[0]:
+                    best = back, arrival
+        if best is None:
+            late = left_now[left_now >= free + 20]
+            if not len(late):
+                return backs, left
+            free = float(late[0]) - 5  # it waits
+            continue
+        free = float(best[0])
+        backs.append(free)
+        left.remove(best[1])
+
+
+def arms_needed(v, spread, seed):
+    left, count = belt_stream(spread, seed) / v, 0
+    while len(left):
+        _, left = one_arm(left, v)
+        left, count = np.array(left), count + 1
+    return count
+
+
+def test_belt_table_is_of_one_stream_and_others_need_an_arm_more():
+    words = flat("08", "belt-look")
+    assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
+    assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
+    assert (
+        "With each of the next four orders, 9 to 12, spread 1 needs a fourth arm at 200 mm/s and "
+        "a fifth at 300 mm/s." in words
+    )
+    speeds = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)
+    rounded_up = [math.ceil(2 * WAYS.min() * v / 0.15) for v in speeds]
+    few = [
+        [arms_needed(v, s, 8) - n for v, n in zip(speeds, rounded_up, strict=True)]
+        for s in (0, 0.5, 1)
+    ]
+    assert few[0] == [0] * 6 and sorted(few[1]) == [0] * 3 + [1] * 3
+    assert sorted(few[2]) == [0] + [1] * 5
+    assert (arms_needed(0.2, 1, 8), arms_needed(0.3, 1, 8)) == (3, 4)
+    for seed in range(9, 13):
+        assert (arms_needed(0.2, 1, seed), arms_needed(0.3, 1, seed)) == (4, 5)
+
+
+def test_player_at_the_belt_shows_the_streams_of_the_table():
+    assert "six seconds of the table's streams at 200 mm/s" in flat("08", "belt-look")
+    made = quietly("08", "opening", "setup", "chain-code", "belt-code", "belt-motion")
+    head = cells("08")["belt-player"].split("\nedge, side")[0]
+    exec(compile(head, "belt-player", "exec"), made)
+    clock = made["belt_clock"]
+    assert clock[-1] - clock[0] == 6 and made["v_row"] == 0.2
+    busy = []
+    for k, spread in enumerate(made["player_spreads"]):
+        left = belt_stream(spread, 8) / 0.2
+        for arm in range(3):
+            backs, left = one_arm(np.array(left) + (arm > 0) * 5.0, 0.2)  # 1 m farther on
+            wanted = [sum(back <= now for back in backs) for now in clock]
+            assert made["in_bin"][arm][k].tolist() == wanted
+        assert not left  # three arms are enough, as the table says
+        busy.append(wanted[-1] - wanted[0])
+    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]  # arm 3 has work at 0.5 and 1
+
+
+def test_plus_90_of_alpha_alone_mirrors_the_arm_in_the_floor():
+    words = flat("08", "deeper-more")
+    assert "Turn the −90 of `alpha` into +90: on which side of the floor is the tool now?" in words
+    (made,) = re.findall(r"`(elbow_arm\(.*?\.limits\))`", words)
+    assert made.count("-90") == 2  # so "the −90" alone did not say which
+    space = {"np": np, "deg": deg, "dh_links": dh_links, "elbow_arm": elbow_arm}
+    space["arm"] = spbu_arm(5, 4)
+    changed = [made, made.replace("alpha=np.array([-90", "alpha=np.array([90")]
+    changed.append(made.replace("theta=np.array([0, -90", "theta=np.array([0, 90"))
+    own, alpha, theta = (eval(each, space) for each in changed)
+    for q in np.random.default_rng(5).uniform(-1.5, 1.5, (50, 3)):
+        x, y, z = place_of(q)
+        assert own.fk(q).translation == pytest.approx([x, y, z])
+        assert alpha.fk(q).translation == pytest.approx([x, y, -z])
+        assert theta.fk(q).translation == pytest.approx([-x, -y, -z])
+
+
+# --- 09 -------------------------------------------------------------------------------------------
+
+
+def gripper(q, bend=-1, lengths=(1, 1, 1)):
+    """K as a complex number; bend -1: the chain turns clockwise, +1: the other way."""
+    place, way = 0j, cmath.exp(1j * q[0])
+    for length, inner in zip(lengths, [*q[1:], math.pi], strict=True):
+        place += length * way
+        way *= cmath.exp(1j * bend * (math.pi - inner))
+    return place
+
+
+def family(K, alpha, bend=-1):
+    """The posture at K by the meeting points of two circles: B left of OK if the chain turns
+    clockwise, right of it if the other way.
+    """
+    KB, KO = 2 * math.sin(alpha / 2), abs(K)
+    along = (KO**2 + 1 - KB**2) / (2 * KO)
+    off = math.sqrt(max(0.0, 1 - along**2))
+    B = K / KO * complex(along, -bend * off)
+    A = B + (K - B) / KB * cmath.exp(-1j * bend * (math.pi - alpha) / 2)
+    return np.array([cmath.phase(B), abs(cmath.phase((A - B) / -B)), alpha])
+
+
+def least_from(K, before):
+    """The least sum of turns by a fine sweep and a search beside its best row: S and posture."""
+    low = math.acos((5 - abs(K) ** 2) / 4)
+
+    def turned(alpha):
+        q = family(K, alpha)
+        inside = -1e-9 <= q[0] <= math.pi + 1e-9
+        return float(abs(q - before).sum()) if inside else 99.0
+
+    at = np.linspace(low, math.pi, 241)
+    found = np.array([turned(alpha) for alpha in at])
+    best = found.min(), float(at[found.argmin()])
+    for k in np.flatnonzero(found < found.min() + 0.05):
+        ends = at[max(k - 1, 0)], at[min(k + 1, 240)]
+        near = minimize_scalar(turned, bounds=ends, method="bounded", options={"xatol": 1e-10})
+        best = min(best, (near.fun, float(near.x)))
+    return best[0], family(K, best[1])
+
+
+def test_this_files_family_is_right():
+    rng = np.random.default_rng(2)
+    for _ in range(200):
+        K = rng.uniform(1.1, 2.9) * cmath.exp(1j * rng.uniform(0, 2))
+        alpha = rng.uniform(math.acos((5 - abs(K) ** 2) / 4), math.pi)
+        for bend in (-1, 1):
+            assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
+
+
+def test_dice_turn_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
+    found = option("three_levers.p10", "hardly more")
+    reason = one_line(found.reason)
+    assert (
+        "Chance evens out where it errs to both sides alike. From the posture in which the dice "
+        "arm stands, a throw never turns less than the least, and nearly always more" in reason
+    )
+    told = r"In (\d+) of these (\d+) tasks the dice arm happens to stand better .* turns less, but"
+    fewer, tasks = numbers(told, reason)
+    assert "one day of ten, on average, and loses time on the other nine" in one_line(found.second)
+    assert "In one task, begun in the same posture, no rule can undercut" in flat("09", "race-look")
+    drawn = np.random.default_rng(4).uniform(0, np.pi, (300, 3))
+    places = [gripper(q) for q in drawn]
+    places = [K for K in places if np.isfinite(ARM.alpha_range([K.real, K.imag])[0])][:100]
+    assert len(places) == tasks
+    throws = np.random.default_rng(0)
+    saver = dicer = np.array([60, 120, 120]) * deg
+    turns = []
+    for K in places:
+        low, high = ARM.alpha_range([K.real, K.imag])
+        there = family(K, low + (high - low) * throws.random())
+        could, _ = least_from(K, dicer)
+        thrown, dicer = abs(there - dicer).sum(), there
+        least, saver = least_from(K, saver)
+        turns.append((thrown, least, could))
+    thrown, least, could = np.array(turns).T / deg
+    assert (thrown > could - 1e-4).all()  # from one posture never less ...
+    assert (thrown > could + 0.1).sum() > 95  # ... and nearly always more
+    assert abs(thrown - least).min() > 0.01 and (thrown < least).sum() == fewer == 14
+    assert (least - thrown).max() == pytest.approx(65.9, abs=0.05)  # "never quicker" was false
+    assert thrown.sum() > 1.4 * least.sum()  # "but not in the sum"
+
+
+def width(KO):
+    """How many degrees alpha may go through, by the triangle of 2 L, L and KO."""
+    return 180 - math.degrees(math.acos((5 - KO**2) / 4))
+
+
+def test_narrower_range_is_the_one_in_inverse_proportion():
+    found = option("three_levers.p2", "in proportion")
+    (said,) = numbers(r"^Narrower, (\S+)°: in inverse proportion to the distance\.$", found.text)
+    assert said == round(width(1.5) * 1.5 / 2.8, 1)
+    assert said != round(min(180, width(1.5) * 2.8 / 1.5), 1)
+    assert "but not in inverse proportion: an arccosine falls steeply near its end." in one_line(
+        found.reason
+    )
+    second = one_line(found.second)
+    (far,) = numbers(r"In inverse proportion the arm could still choose at (\S+) m, where", second)
+    assert width(1.5) * 1.5 / far > 1 and far > 3
+    falls = [(width(a) - width(b)) / (b - a) for a, b in pairwise([2.0, 2.5, 2.9, 2.99, 3.0])]
+    assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # steeper and steeper
+
+
+def test_other_bend_serves_places_behind_the_base_by_the_recipe():
+    words = flat("09", "deeper-more")
+    assert (
+        "Mirror K in the x axis, solve with `posture` of section 3, mirror back, and look at the "
+        r"limit of $\gamma$ only then: which targets behind the base does that arm serve?" in words
+    )
+    made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
+    mirrored = 2 * np.array([np.cos(150 * deg), -np.sin(150 * deg)])
+    assert np.isnan(ARM.alpha_range(mirrored)).all()  # "solve" with these gives nothing
+    assert np.isnan(ARM.least(mirrored, np.array([60, 120, 120]) * deg)[1])
+    shares = {}
+    for phi in np.arange(92.5, 180, 5):
+        for KO in (1.2, 2.0, 2.8):
+            K = KO * cmath.exp(1j * phi * deg)
+            kept = []
+            for alpha in np.linspace(math.acos((5 - KO**2) / 4), math.pi, 41)[1:]:
+                there = made["posture"]((K.real, -K.imag), alpha)
+                back = there * [-1, 1, 1]
+                assert gripper(back, bend=+1) == pytest.approx(K, abs=1e-7)
+                other = family(K, alpha, bend=+1)
+                assert math.remainder(back[0] - other[0], 2 * math.pi) == pytest.approx(0, abs=1e-6)
+                inside = 0 <= back[0] % (2 * math.pi) <= math.pi
+                assert inside == (other[0] >= 0)
+                kept.append(inside)
+            shares[phi, KO] = np.mean(kept)
+    assert min(shares.values()) > 0 and shares[147.5, 2.0] == 1
+
+
+def test_arctan2_serves_x_equal_to_0():
+    words = flat("09", "atan-look")
+    assert "`arctan2` looks at both signs, and $x = 0$ is no trouble to it." in words
+    assert "which knows the quadrant and serves $p_1 = 0$, too." in flat("000", "inverse")
+    made = quietly("09", "imports", "opening", "chain-code", "range-code", "angles-code")
+    assert math.atan2(2, 0) == math.pi / 2 and math.atan2(-2, 0) == -math.pi / 2
+    assert gripper(made["posture"]((0.0, 2.0), 150 * deg)) == pytest.approx(2j)
+    with pytest.raises(ZeroDivisionError):
+        math.atan(2.0 / 0.0)
+
+
+def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
+    words = says("three_levers", "clipped where there is no triangle")
+    assert words.endswith(
+        "Clipped, the arm stretches or folds, does not reach K, and nobody is told."
+    )
+    condition, space = "abs(a - KB) <= KO <= a + KB", {}
+    assert LEVERS.solution.count(condition) == 1
+    exec(LEVERS.solution.replace(condition, "True"), space)
+    clipped = space["posture_of"]
+    assert words in " ".join(map(one_line, check("three_levers.1", clipped).says))
+    rng = np.random.default_rng(3)
+    seen = {"stretches": 0, "folds": 0}
+    for _ in range(600):
+        lengths, alpha = rng.uniform(0.3, 1.5, 3), rng.uniform(0.2, 3)
+        K = rng.uniform(0.05, 4) * cmath.exp(1j * rng.uniform(-3, 3))
+        a, b, c = lengths
+        KB = abs(b - c * cmath.exp(1j * alpha))
+        if abs(a - KB) <= abs(K) <= a + KB:
+            continue
+        q = clipped(np.array([K.real, K.imag]), alpha, lengths)
+        place = gripper(q, lengths=lengths)
+        assert np.isfinite(q).all() and abs(place - K) > 1e-6
+        far = abs(K) > a + KB
+        assert abs(place) == pytest.approx(a + KB if far else abs(a - KB))
+        seen["stretches" if far else "folds"] += 1
+    assert min(seen.values()) > 50
