@@ -494,12 +494,12 @@ def test_row_is_chosen_by_click_or_key(opened):
 def test_click_on_a_row_or_its_button_chooses_it_once(browser):
     tab = browser.new_page()
     click = """const taken = [];
-      const {node} = $stage.table(["a", "b"], ["", "x"], [1], k => taken.push(k));
+      const {node} = $table.table(["a", "b"], ["", "x"], [1], k => taken.push(k));
       document.body.append(node);
       node.querySelectorAll("button")[1].click();
       node.querySelector("td").click();
       return taken;"""
-    assert tab.evaluate(f"() => {{ {script('stage')}\n{click} }}") == [1, 0]
+    assert tab.evaluate(f"() => {{ {script('table')}\n{click} }}") == [1, 0]
     tab.close()
 
 
