@@ -310,7 +310,7 @@ def test_keyboard_reaches_every_control(page, saved):
     page.goto(saved.as_uri())
     awake(page)
     controls = page.locator(PLAYER).locator("button, input, select, .rk-scene")
-    assert controls.count() == 6  # view, play, time, speed, slider, switch
+    assert controls.count() == 8  # view, play, time, speed, panel, numbers, slider, switch
     reached = set()
     for _ in range(controls.count() + 1):
         page.keyboard.press("Tab")
@@ -320,7 +320,7 @@ def test_keyboard_reaches_every_control(page, saved):
             if control.evaluate("element => element === document.activeElement")
         }
     assert len(reached) == controls.count()
-    for name in ("play", "time", "playing speed", "share", "law"):
+    for name in ("play", "time", "playing speed", "large panel", "numbers", "share", "law"):
         assert page.get_by_label(name, exact=True).count() == 1, f"no control is called {name}"
 
 
