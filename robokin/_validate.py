@@ -71,7 +71,7 @@ def whole(value: Any, name: str, low: int, high: int | None = None) -> int:
     """Return `value` as an int. ValueError: it is not a whole number from `low` to `high`. True is
     not a number.
     """
-    good = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    good = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
     if not (good and low <= value and (high is None or value <= high)):
         wanted = f"from {low} to {high}" if high is not None else f"of at least {low}"
         raise ValueError(f"{name}: wanted a whole number {wanted}, got {short(value)}")

@@ -276,7 +276,7 @@ def test_marks_belong_to_one_arm(page):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"watch": "speed"}, "watch: wanted one of q, v, a, got 'speed'"),
+        ({"watch": "speed"}, r"watch: wanted one of \('q', 'v', 'a'\), got 'speed'"),
         ({"watch": 1}, "watch: wanted one of"),
         ({"joints": [0]}, "joints: wanted a whole number from 1 to 6"),
         ({"joints": 3}, "joints: wanted numbers"),

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .._arrays import Floats
-from .._validate import floats, instance, length, short, whole
+from .._validate import choice, floats, instance, length, short, whole
 from ..arms.arm import Arm
 from ..motion.derivatives import rising
 from ..motion.recording import Jump, Recording, record
@@ -192,8 +192,7 @@ def watch(panel: Any, joints: Any, names: list[str], arms: Sequence[Arm]) -> Wat
     """Return the panel and the joints to watch as page data."""
     kinds = ["q", "v", "a", *names]
     panel = (names or kinds)[0] if panel is None else panel
-    if panel not in kinds:
-        raise ValueError(f"watch: wanted one of {', '.join(kinds)}, got {short(panel)}")
+    panel = choice(panel, "watch", kinds)
     chosen = None
     if joints is not None:
         most = max(len(arm.links) for arm in arms)

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from .._arrays import Floats
-from .._validate import instance, positive, short, whole
+from .._validate import choice, instance, positive, short, whole
 from ..arms.arm import Arm, ClosedFormArm
 from ..arms.branches import follow, unwrapped
 from ..arms.scara import ScaraPose
@@ -75,8 +75,7 @@ def motion_explorer(
         if instance(pose, kind, name).shape:
             raise ValueError(f"{name}: wanted a single pose, got a batch of shape {pose.shape}")
     unit, size = length_unit(extent(arm))
-    if law not in LAWS:
-        raise ValueError(f"law: wanted one of {', '.join(LAWS)}, got {short(law)}")
+    choice(law, "law", list(LAWS))
     seconds = positive(duration, "duration", f"at most {LONGEST:g} s")
     if seconds > LONGEST:
         raise ValueError(f"duration: wanted at most {LONGEST:g} s, got {short(duration)}")
