@@ -516,6 +516,8 @@ def test_invalid_page_data_are_refused(change):
             "things": [{"kind": "mark", "name": "a", "radius": 0, "at": [0, 0.5, 1]}],
         },
         "panels": [],
+        "quantities": [],
+        "watch": {"panel": 0, "joints": None},
         "decimals": [1],
         "sampled": "",
         "arms": [],

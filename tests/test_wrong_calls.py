@@ -361,6 +361,8 @@ CALLS = {
             via=ScaraPose((0.2, 0.2, 0.1)),
             goal=ScaraPose((0.1, 0.3, 0.1)),
             row=1,
+            law="linear",
+            duration=4.0,
         ),
     ),
     "plan_explorer": (
