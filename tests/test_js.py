@@ -88,7 +88,7 @@ TWINS = {
     ("STEPS", 64): "test_page_refines_the_same_maxima",
     ("MOST", 200): "test_page_refines_the_same_maxima",
 }
-PLAIN = {*range(-1, 101), 0.5, 200, 400}  # values that may be equal by chance
+PLAIN = {*range(-1, 101), 0.002, 0.5, 200, 400}  # values that may be equal by chance
 
 
 def numbers_of(path):

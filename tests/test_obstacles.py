@@ -636,7 +636,7 @@ def test_direct_plan_has_no_via_postures():
         )
         assert answer.cost == pytest.approx(answer.least) == pytest.approx(18.300924618454935 * deg)
     assert np.isinf(free.clearance).all() and beside.clearance.min() > 2
-    assert "no obstacle is given" in free.words and "not in it" in beside.words
+    assert "no obstacle is given" in free.words and "not on it" in beside.words
 
 
 def test_via_points_of_the_document_keep_only_smaller_distances():
