@@ -270,7 +270,13 @@ def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
     changed = [("stops = [140, 150]", f"stops = {list(stops)}"), ("fine = 2.0", "fine = 4.0")]
     with contextlib.redirect_stdout(told):
         made = run_cells(
-            "04", "setup", "chain-code", "zone-code", "deeper-area-code", changed=changed
+            "04",
+            "setup",
+            "chain-code",
+            "zone-code",
+            "zone-pieces",
+            "deeper-area-code",
+            changed=changed,
         )
     last = told.getvalue().splitlines()[-1]
     exact = zone_area(*np.array(stops) * deg)
