@@ -177,7 +177,7 @@ export const flag = {
     for (const {foot, label} of flags) {
       const [x, y] = cam.to(foot);
       const corners = [0, 1, 2, 3].map(k => [x + 12 * (k > 1 ? 1 : -1), y + 12 * (k % 3 ? 1 : -1)]);
-      polygon(g, corners.map(([u, v]) => [u, v]), colors.chosen, colors.alarm, 1);
+      polygon(g, corners.map(([u, v]) => [u, v]), colors.chosen, colors.chosen, 1);
       labels.push({text: label, at: [x, y + 40], color: colors.ink});
     }
   },
