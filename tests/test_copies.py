@@ -997,10 +997,14 @@ def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupy
     page = browser.new_page()
     jupyter.open(page, "student/00_start_here.ipynb")
     page.locator("div.robokin-player").first.wait_for()
-    awake(page)
     players = page.locator("div.robokin-player")
     player = players.filter(has=page.get_by_label("playing speed")).first
-    player.locator("canvas").first.wait_for()
+
+    def started():
+        awake(page)  # again and again: JupyterLab renders the cells below later
+        return player.count() and player.locator("canvas").first.is_visible()
+
+    until(started, "no player has started", page)
     button = player.get_by_role("button", name=re.compile("play", re.I)).first
     canvases = "e => [...e.querySelectorAll('canvas')].map(c => c.toDataURL()).join()"
     still = player.evaluate(canvases)
