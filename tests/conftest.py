@@ -191,7 +191,8 @@ class JupyterLab:
         try:
             with urllib.request.urlopen(request, timeout=5) as answer:
                 return json.loads(answer.read() or b"{}")
-        except OSError:
+        except OSError as error:
+            getattr(error, "close", int)()  # an HTTPError holds its connection
             self._ended()
             return None
 
