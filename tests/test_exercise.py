@@ -68,7 +68,7 @@ def same(a, b):
 form = law = same
 
 
-# --- Made in a cell -------------------------------------------------------------------------------
+# --- Exercises made in a cell ---------------------------------------------------------------------
 
 
 def test_exercise_needs_only_a_solution_and_cases():

@@ -1323,7 +1323,7 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
         (lambda: motion_explorer(IRB140, START, VIA, GOAL, 8), ValueError, "row: wanted"),
         (lambda: motion_explorer(IRB140, START, VIA, GOAL, law="cubic"), ValueError, "law: wanted"),
         (lambda: motion_explorer(IRB140, START, VIA, GOAL, duration=0), ValueError, "duration: "),
-        (lambda: motion_explorer(IRB140, START, VIA, GOAL, duration=21), ValueError, "at most 20"),
+        (lambda: motion_explorer(IRB140, START, VIA, GOAL, duration=21), ValueError, "to 20 s"),
     ):
         with pytest.raises(kind, match=words):
             call()

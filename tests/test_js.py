@@ -165,7 +165,7 @@ def test_no_declaration_is_untyped(path):
     assert not re.findall(r"@ts-\w+", text), "correct the fault instead of hiding it"
 
 
-def test_page_types_equal_those_of_python():
+def test_page_types_match_those_of_python():
     for path, text in written().items():
         stored = path.read_text(encoding="utf-8")
         assert stored == text, f"{path.name}: run .venv/bin/python tests/javascript.py types"

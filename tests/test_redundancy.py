@@ -180,7 +180,7 @@ def test_batch_equals_single_tasks(arm):
 def test_a_race_starts_each_task_where_the_last_one_ended():
     arm = ARMS["equal"]
     K, before = tasks(arm, 25)
-    K[7] = (3.0, 0.2)  # out of reach, so the arm stays with every method
+    K[7] = (3.0, 0.2)  # out of reach, so no method moves the arm
     runs = race(methods(H, 0), arm, K, before[0])
     assert list(runs) == NAMES
     again, failures = methods(H, 0), 0

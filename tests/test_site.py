@@ -405,7 +405,7 @@ def test_newer_site_replaces_an_older_one(tmp_path):
     assert read(folder) == read(newer) | {"CNAME": "mine", "labs/mine.txt": "mine"}
     before = read(folder)
     laid(folder, labs__gone_html="mine")
-    with pytest.raises(ValueError, match=r"gone.html: not the site's"):
+    with pytest.raises(ValueError, match=r"gone.html: not a file of the site"):
         making._put(older, folder)
     assert read(folder) == before | {"labs/gone.html": "mine"}
 

@@ -421,7 +421,7 @@ def test_stated_distances_from_singularities_are_correct():
     assert "{} to {}".format(*said["4"]) in reply
 
 
-def test_a_step_aside_and_one_ahead_lead_sqrt_2_m_away():
+def test_a_step_sideways_and_one_forward_end_sqrt_2_m_away():
     (reply,) = [x.second for x in options("spherical_wrist.p2")[1] if "aside" in x.second]
     assert number(r"lead (\S+) m away", reply) == round(np.hypot(1, 1), 2) and "knight" not in reply
 

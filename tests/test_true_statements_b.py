@@ -499,7 +499,7 @@ def test_areas_outside_the_quadrilateral_are_as_stated():
     (A, K), (A1, K_1) = ARM.points(np.stack([start, end]))[:, 2:]
     path = pytest.importorskip("matplotlib.path").Path
     quad = path([A, K, K_1, A1])
-    points = np.stack(np.meshgrid(np.arange(-0.9, 1.92, 0.031), np.arange(0.28, 2.02, 0.031)), -1)
+    points = np.stack(np.meshgrid(np.arange(-0.9, 1.92, 0.0071), np.arange(0.28, 2.02, 0.0071)), -1)
     points = points.reshape(-1, 2)
     levers = ARM.points(start + np.linspace(0, 1, 401)[:, None] * (end - start))[:, 2:]
     strips = (path([a, b, d, c]) for (a, b), (c, d) in pairwise(levers))
@@ -507,10 +507,10 @@ def test_areas_outside_the_quadrilateral_are_as_stated():
     missed = over & ~quad.contains_points(points)
     told = re.match(r"(\d+) %: (\S+) of (\S+) m².* quadrilateral (\S+) m²", options[right].reason)
     share, out, area, false = map(float, told.groups())
-    cell = 0.031**2
-    assert 100 * missed.sum() / over.sum() == pytest.approx(share, abs=1)
+    cell = 0.0071**2
+    assert 100 * missed.sum() / over.sum() == pytest.approx(share, abs=0.6)
     own = [missed.sum(), over.sum(), (quad.contains_points(points) & ~over).sum()]
-    assert np.array(own) * cell == pytest.approx([out, area, false], abs=0.015)
+    assert np.array(own) * cell == pytest.approx([out, area, false], abs=0.0065)
 
 
 def test_seven_samples_miss_the_minimum():

@@ -486,3 +486,33 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
         assert abs(place) == pytest.approx(a + KB if far else abs(a - KB))
         seen["stretches" if far else "folds"] += 1
     assert min(seen.values()) > 50
+
+
+# --- 10 -------------------------------------------------------------------------------------------
+
+
+def test_levers_80_mm_wide_lose_no_plan_but_need_a_larger_circle():
+    claim = "levers 80 mm wide lose no plan, but past (1.6, 1.3) m they need a larger circle"
+    assert any(claim in text for text in cells("10").values())
+    answers = []
+    for width in (0, 0.08):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            run_cells(
+                "10",
+                "setup",
+                "drawing-tools",
+                "whole-code",
+                "control-code",
+                "deeper-width",
+                changed=[("width = 0.08", f"width = {width}")],
+            )
+        answers.append([line.split("wide: ")[1] for line in said.getvalue().splitlines()[-6:]])
+    thin, wide = answers
+    assert len(thin) == 6 and [a.startswith("no") for a in thin] == [
+        b.startswith("no") for b in wide
+    ]
+    (changed,) = [k for k in range(6) if thin[k] != wide[k]]
+    assert f"({2.0 - 0.4 * changed:.1f}, 1.3)" == "(1.6, 1.3)"
+    circles = [int(re.search(r"r = (\d+) mm", each[changed])[1]) for each in answers]
+    assert circles[0] < circles[1]

@@ -98,7 +98,10 @@ EXPLORERS = {
 def test_explorer_fits_on_the_screen(page, tmp_path, view):
     opened(page, EXPLORERS[view](), tmp_path, curves=False)
     box = page.locator(".rk").bounding_box()
-    assert box["width"] > 880 and box["height"] <= 560
+    assert box["width"] > 880 and 440 < box["height"] <= 560
+    canvas = page.locator(".rk canvas").first
+    assert canvas.bounding_box()["height"] >= 220
+    assert len(canvas.evaluate("canvas => canvas.toDataURL()")) > 9000, "the picture is empty"
 
 
 @pytest.mark.parametrize("view", VIEWS)
@@ -159,7 +162,8 @@ def panels_of(page, player, value, choice=0):
           const {panels} = $motions.motionsOf(data).choose(value, choice);
           return panels.map(({label, axes, lines, near, marks}) => ({label, axes, near, marks,
             lines: lines.map(line => ({...line, gaps: [...line.gaps], values: [...line.values],
-              opening: line.opening && [...line.opening]}))})); }""",
+              opening: line.opening &&
+                [[...line.opening.values], [...line.opening.gaps]]}))})); }""",
         [script("player"), player.data, value, choice],
     )
 
@@ -181,7 +185,19 @@ def test_scales_stay_and_the_opening_curve_is_a_ghost(page, motions):
         for panel, begun in zip(panels_of(page, player, value), first, strict=True):
             assert panel["axes"] == begun["axes"]
             for line, old in zip(panel["lines"], begun["lines"], strict=True):
-                assert line["opening"] == old["values"] != line["values"]
+                assert line["opening"] == [old["values"], old["gaps"]]
+                assert old["values"] != line["values"]
+
+
+def test_ghost_breaks_where_the_opening_motion_breaks(page):
+    torn = TURNING.copy()
+    torn[300:, 3] += 1
+    player = animate(IRB140, CLOCK, np.stack([torn, TURNING]), slider=("x", [0, 1]))
+    for panel in panels_of(page, player, 1):
+        for line in panel["lines"]:
+            (gap,) = line["opening"][1]
+            assert line["gaps"] == []
+            assert player.data["times"][gap] < 3 <= player.data["times"][gap + 1]
 
 
 def test_quantity_is_a_panel(page, motions, tmp_path):
@@ -202,7 +218,7 @@ def test_quantity_is_a_panel(page, motions, tmp_path):
         assert np.allclose(line["values"], away[0, kept(one)], atol=0.5)
 
 
-# --- The arm tells --------------------------------------------------------------------------------
+# --- What the arm shows -----------------------------------------------------------------------
 
 
 def test_arm_shows_the_joints_past_a_limit(page, tmp_path):
@@ -267,6 +283,10 @@ def test_marks_belong_to_one_arm(page):
     for panel in panels:
         assert [line["arm"] for line in panel["lines"]] == [0] * 6 + [1] * 6
         assert [line["joint"] for line in panel["lines"]] == [*range(6)] * 2
+    widths = page.evaluate(
+        "code => [0, 1, 2].map(new Function(code + 'return $panel')().strength)", script("player")
+    )
+    assert widths[0] > 1.5 * widths[1] > 2.5 * widths[2] > 0, "arms cannot be told apart"
     words = [mark["text"] for panel in panels for mark in panel["marks"] if mark["text"]]
     assert words and all(text.startswith("torn: ") for text in words)
     both = animate([IRB140] * 2, CLOCK, [HALVES, HALVES], names=["A", "B"])

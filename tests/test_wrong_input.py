@@ -190,7 +190,10 @@ WRONG = {
         lambda: spherical_wrist(3, IRB140.links, LIMITS),
         "name: wanted a string, got 3",
     ),
-    "no rows": (lambda: nearest(IRB140, np.zeros((0, 6)), np.zeros(6)), r"with rows.*\(0, 6\)"),
+    "no rows": (
+        lambda: nearest(IRB140, np.zeros((0, 6)), np.zeros(6)),
+        r"at least one row.*\(0, 6\)",
+    ),
     "True as a row": (lambda: explain(IRB140, A, True), "True"),
     "True as a row to follow": (lambda: follow(IRB140, np.zeros((3, 8, 6)), True), "True"),
     "lerp of unfit places": (

@@ -151,7 +151,7 @@ def _rows(arm: Arm, rows: ArrayLike) -> Floats:
     options = floats(rows, "rows", n, finite=False)
     if options.ndim < 2 or options.shape[-2] == 0:
         got = options.shape
-        raise ValueError(f"rows: wanted shape (..., rows, {n}) with rows, got {got}")
+        raise ValueError(f"rows: wanted shape (..., rows, {n}) with at least one row, got {got}")
     return options
 
 

@@ -59,7 +59,7 @@ def check(name: str | Exercise, answer: Any = None, who: Any = None) -> Verdict:
     except Exception as error:
         told = f"{error}" if isinstance(error, BadFile) else f"{type(error).__name__}: {error}"
         verdict = Verdict(called, says=(f"This cannot be judged: {told}",))
-    if isinstance(name, Exercise):  # not an exercise of a lab
+    if isinstance(name, Exercise):  # not a lab exercise
         return verdict
     before = _verdicts.get(verdict.exercise)
     if before is None or not before.holds:  # a verdict that holds is kept

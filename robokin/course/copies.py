@@ -372,7 +372,7 @@ def _sign(notebooks: Iterable[Any]) -> str | None:
                 notary.sign(notebook)
         finally:
             notary.store.close()
-    except Exception as error:  # errors of files, of SQLite, of Jupyter's settings
+    except Exception as error:  # errors from files, SQLite and Jupyter's settings
         return short(f"{error}")
     return None
 

@@ -162,7 +162,7 @@ def _notebook(path: Path) -> Any:
     except RecursionError:
         raise ValueError("not a notebook: nested too deeply") from None
     except MemoryError:
-        raise ValueError("not a notebook: too large for the memory") from None
+        raise ValueError("not a notebook: too large to fit in memory") from None
     except ValueError as error:
         raise ValueError(f"not a notebook: {str(error)[:300]}") from None
     return nbformat.from_dict(

@@ -201,7 +201,7 @@ def file_as_picture(address: str, folder: Path) -> str | None:
         if kind is None or not path.is_relative_to(folder.resolve()) or not path.is_file():
             return None
         return f"data:image/{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
-    except (OSError, ValueError):  # an impossible file name
+    except (OSError, ValueError):  # an invalid file name
         return None
 
 

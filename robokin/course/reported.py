@@ -49,7 +49,7 @@ def validated(data: Any) -> dict[str, Any]:
     later guesses. ValueError: they are not the data of a report.
     """
     if not isinstance(data, dict) or data.get("report") not in (1, 2):
-        raise ValueError("its data are not those of a report that this version of robokin knows")
+        raise ValueError("its data are not in a format that this version of robokin knows")
     old, slug = data["report"] == 1, data.get("lab")
     if slug is not None and not (isinstance(slug, str) and slug in labs()):
         raise ValueError(f"lab: wanted a known one, got {short(slug)}. {MORE}")

@@ -203,7 +203,7 @@ def _read(path: Path, inside: Path) -> Entry | str:
     """
     size = path.stat().st_size
     if size > LARGE:
-        raise ValueError(f"too large: {size / 1e6:.0f} MB, and at most {LARGE / 1e6:.0f} are read")
+        raise ValueError(f"too large: {size / 1e6:.0f} MB; at most {LARGE / 1e6:.0f} MB are read")
     if path.suffix.lower() == ".html":
         data = report_data(path.read_text(encoding="utf-8", errors="replace"))
         if data is None:

@@ -45,7 +45,7 @@ LAWS: Mapping[Law, Callable[[float], TimeLaw]] = {
     "trapezoidal": trapezoidal,
     "linear": linear,
 }
-LONGEST = 20.0  # s
+SHORTEST, LONGEST = 0.5, 20.0  # s
 CORNERS: Sequence[Corner] = ("parabola", "quintic")
 
 
@@ -76,9 +76,10 @@ def motion_explorer(
             raise ValueError(f"{name}: wanted a single pose, got a batch of shape {pose.shape}")
     unit, size = length_unit(extent(arm))
     choice(law, "law", list(LAWS))
-    seconds = positive(duration, "duration", f"at most {LONGEST:g} s")
-    if seconds > LONGEST:
-        raise ValueError(f"duration: wanted at most {LONGEST:g} s, got {short(duration)}")
+    wanted = f"from {SHORTEST:g} to {LONGEST:g} s"
+    seconds = positive(duration, "duration", wanted)
+    if not SHORTEST <= seconds <= LONGEST:
+        raise ValueError(f"duration: wanted {wanted}, got {short(duration)}")
     progress = LAWS[law](seconds)
     t = np.linspace(0, seconds, SAMPLES)
     rows = arm.ik(blend(start, via, goal, 0.1, progress(t)))
@@ -89,7 +90,7 @@ def motion_explorer(
     step = 1 if size == mm else 0.001
     controls = [control(f"via {letter}", unit, -most, most, step) for letter in "xyz"]
     controls.append(control("blend", "", 0, 0.5, 0.01, 3))
-    controls.append(control("duration", "s", 0.5, LONGEST, 0.5, 2))
+    controls.append(control("duration", "s", SHORTEST, LONGEST, 0.5, 2))
     posed = {name: as_transform(pose) for name, pose in stations.items()}
     through = motions[row][np.isfinite(motions[row]).all(axis=-1)][::40]
     speed, j, of = _fastest(

@@ -61,7 +61,7 @@ def swept_by_last(start: Floats, end: Floats, points: Floats) -> NDArray[np.bool
 
 
 FAR = np.array([150, 120, 120]) * deg
-FINE_STEP = 0.02  # m: the grid on which areas are counted
+FINE_STEP = 0.005  # m: the grid on which areas are counted; fine enough for two digits
 
 
 @cache

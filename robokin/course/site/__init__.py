@@ -162,7 +162,7 @@ def _put(made: Path, folder: Path) -> None:
     new = {p.relative_to(made).as_posix() for p in made.rglob("*") if p.is_file()}
     for name in sorted(new - old):
         if os.path.lexists(folder / name):
-            raise ValueError(f"{folder / name}: not the site's; nothing is overwritten")
+            raise ValueError(f"{folder / name}: not a file of the site; nothing was overwritten")
     folder.mkdir(parents=True, exist_ok=True)
     # written before the files, so that an interrupted build is recognised
     _write(folder / MARK, "\n".join(sorted(old | new)))

@@ -198,7 +198,7 @@ def _parsed(path: str | os.PathLike[str]) -> tuple[Any, Counter[str]]:
 
     try:
         raw = _content(Path(path))
-    except (OSError, ValueError) as error:  # ValueError: an impossible file name
+    except (OSError, ValueError) as error:  # ValueError: an invalid file name
         if isinstance(error, TaskError):
             raise
         raise TaskError([f"cannot be read: {getattr(error, 'strerror', None) or error}"]) from None

@@ -22,7 +22,7 @@ export const mark = {
       spot(g, [x, y], r, shade, colors.ballEdge, 1.2);
     }
   },
-  /** Draws the points, and the names of both. */
+  /** Draws the points, and the names of points and balls. */
   above({g, cam}, marks, {labels}) {
     for (const {name, at, radius} of marks) {
       const place = cam.to(at);

@@ -98,11 +98,12 @@ function jointPanel(data, order, motion, opening, recordings) {
     const first = lines.length,
       values = recordings[k].quantity(order, motion),
       before = motion === opening ? null : recordings[k].quantity(order, opening),
-      gaps = new Set(arm.gaps[motion]);
+      gaps = new Set(arm.gaps[motion]),
+      gapsBefore = new Set(arm.gaps[opening]);
     arm.chain.forEach((link, joint) =>
       lines.push({
         values: values[joint],
-        opening: before && before[joint],
+        opening: before && {values: before[joint], gaps: gapsBefore},
         joint,
         arm: k,
         axis: kinds.indexOf(link.prismatic ? "shift" : "turn"),
@@ -169,7 +170,10 @@ function quantityPanel(data, k, motion, opening, of) {
   const {label, scale} = data.quantities[k];
   const lines = of.map((values, arm) => ({
     values: values(motion),
-    opening: motion === opening ? null : values(opening),
+    opening:
+      motion === opening
+        ? null
+        : {values: values(opening), gaps: new Set(data.arms[arm].gaps[opening])},
     joint: -1,
     arm,
     axis: 0,

@@ -19,7 +19,8 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
 /**
  * @typedef {object} Line  one curve
  * @property {Float64Array} values  over the times
- * @property {?Float64Array} opening  the curve of the opening motion, if this is another motion
+ * @property {?{values: Float64Array, gaps: Set<number>}} opening  the curve of the opening motion,
+ *   if this is another motion
  * @property {number} joint  from 0; -1: of a quantity that belongs to no joint
  * @property {number} arm  from 0
  * @property {number} axis  of the panel
@@ -56,7 +57,7 @@ const SMALL = 60; // px: a lower panel shows only the ends of its scale, and no 
 const PAST = 0.002; // a value past a limit by no more than this is rounding
 
 /** The width of the lines of an arm. @type {(arm: number) => number} */
-export const strength = arm => (arm ? 1.1 : 2.2);
+export const strength = arm => [2.6, 1.4, 0.7][Math.min(arm, 2)];
 
 /** @type {(patterns: number[][], j: number, width: number) => number[]} */
 export const dashes = (patterns, j, width) => patterns[j % patterns.length].map(x => x * width);
@@ -119,7 +120,9 @@ export function drawPanel(ground, panel, ticks, now) {
  */
 function drawLines(ground, lines, ys) {
   lines.forEach((line, k) => {
-    if (line.opening && !line.faint) opening(ground, line, line.opening, ys[k]);
+    if (!line.opening || line.faint) return;
+    const points = placed(ground, line.opening, ys[k]);
+    stroke(ground.g, points, clear(lineColor(line), FAINT), 1.2);
   });
   for (const faint of [true, false])
     lines.forEach((line, k) => {
@@ -215,13 +218,12 @@ function band(g, at, side, left, right, color) {
 }
 
 /**
- * The places of a line's values, null where it breaks.
+ * The places of values, null where the line breaks.
  * @param {Ground} ground
- * @param {Line} line
- * @param {Float64Array} values
+ * @param {Pick<Line, "values" | "gaps">} line
  * @param {Place} y
  */
-function placed({times, x}, {gaps}, values, y) {
+function placed({times, x}, {values, gaps}, y) {
   /** @type {(?Pixel)[]} */
   const points = [];
   values.forEach((value, i) => {
@@ -234,27 +236,16 @@ function placed({times, x}, {gaps}, values, y) {
 /**
  * @param {Ground} ground
  * @param {Line} line
- * @param {Float64Array} values
- * @param {Place} y
- */
-function opening(ground, line, values, y) {
-  const points = placed(ground, {...line, gaps: new Set()}, values, y);
-  stroke(ground.g, points, clear(lineColor(line), FAINT), 1.2);
-}
-
-/**
- * @param {Ground} ground
- * @param {Line} line
  * @param {Place} y
  */
 function curve(ground, line, y) {
   const {g, patterns, several} = ground,
-    points = placed(ground, line, line.values, y),
+    points = placed(ground, line, y),
     width = several ? strength(line.arm) : 2;
   if (!line.faint && line.limits) {
     const past = line.values.map(value => (isPast(line, value) ? value : NaN));
     if (past.some(Number.isFinite))
-      stroke(g, placed(ground, line, past, y), clear(colors.alarm, 0.4), 8);
+      stroke(g, placed(ground, {values: past, gaps: line.gaps}, y), clear(colors.alarm, 0.4), 8);
   }
   g.lineCap = "butt";
   const color = line.faint ? clear(lineColor(line), FAINT) : lineColor(line);

@@ -95,7 +95,7 @@ function furniture(data) {
       role: "img",
       "aria-label":
         `Curves over time of ${arms.map(arm => arm.name).join(" and ")}: ` +
-        `${labelsOf(data).join(", ")}. The greatest values are in the table.`,
+        `${labelsOf(data).join(", ")}. The button "numbers" shows the greatest values.`,
     }),
     ...clockRow(),
     watch: choice("large panel", labelsOf(data)),

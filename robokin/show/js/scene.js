@@ -15,7 +15,7 @@ import {compass} from "./triad.js";
 /** @import {Now} from "./recordings.js" */
 
 /**
- * A scene as it is at the moment of a picture, and the unit of the page.
+ * A scene at the moment of one picture, and the unit of lengths on the page.
  * @typedef {Omit<PageScene, "things"> & {things: Now<PageThing>[], unit: Unit}} Scene
  */
 /** @typedef {(g: Context, cam: Camera) => void} Draw */
@@ -147,7 +147,7 @@ function arranged(scene, space, count, width, height) {
   /** @type {[number, number]} */
   let best = [1, count],
     most = 0;
-  for (let columns = 1; columns <= count; columns++) {
+  for (let columns = 1; count > 1 && columns <= count; columns++) {
     const rows = Math.ceil(count / columns),
       box = inside([0, 0, width / columns, height / rows]);
     const {scale} = camera(scene.view, space.corners, box);
