@@ -3,7 +3,6 @@ are validated, and the script comes from this version of robokin. A script in a 
 copied.
 """
 
-import base64
 import hashlib
 import html
 import json
@@ -26,7 +25,7 @@ from typing import (
 from markupsafe import Markup
 
 from ..show.motors import PageMotors
-from ..show.page import Page, PageExplorer, inert, output, still_image
+from ..show.page import Page, PageExplorer, figure_image, inert, output, still_image
 from .book import find
 from .exercises import Verdict
 from .harmless import png
@@ -45,9 +44,10 @@ KINDS: dict[str, Any] = {
 }
 CALL = re.compile(r'^\$(\w+\.\w+)\("[0-9a-f]{12}", (.*)\);$', re.M)
 STILL = re.compile(r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})"')
-FIGURE = re.compile(
-    r'<img alt="([^"<>]*)" width="(\d{1,5})" height="(\d{1,5})" '
-    r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})">\s*'
+FIGURE = re.compile(  # older notebooks have the image alone
+    r'(?:<div class="robokin-figure">)?<img alt="([^"<>]*)" width="(\d{1,5})" height="(\d{1,5})" '
+    r'(?:style="[^"<>]*min-width:(\d{1,5})px[^"<>]*" )?'
+    r'src="data:image/png;base64,([A-Za-z0-9+/]+={0,2})">(?:</div>\s*<style>[^<]*</style>)?\s*'
 )
 VERDICT = re.compile(
     r'<div role="status" style="[^"]*"><b>(\w+\.\w+): '
@@ -141,14 +141,13 @@ def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
     return table
 
 
-def _figure(alt: str, width: str, height: str, data: str) -> Markup:
+def _figure(alt: str, width: str, height: str, least: str | None, data: str) -> Markup:
     try:
-        image = base64.b64encode(png(data)).decode()
+        image = png(data)
     except ValueError:
         return LEFT_OUT
-    return Markup('<img alt="{}" width="{}" height="{}" src="data:image/png;base64,{}">').format(
-        visible(html.unescape(alt)), width, height, image
-    )
+    alt = visible(html.unescape(alt))
+    return Markup(figure_image(image, alt, int(width), int(height), int(least or width)))
 
 
 def _verdict(name: str, word: str, lines: str) -> Markup:

@@ -9,7 +9,7 @@ from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 from .joiner import compressed, script, style
 from .numbers import Packed, Scale
-from .palette import css
+from .palette import css, figure_css
 from .things import PageThing
 from .twin import ArmData, PageLink
 
@@ -396,6 +396,19 @@ def still_image(png: bytes, alt: str) -> str:
     return (
         f'<img alt="{html.escape(alt)}" style="max-width:100%" '
         f'src="data:image/png;base64,{image}"><p>{STILL}</p>'
+    )
+
+
+def figure_image(png: bytes, alt: str, width: int, height: int, least: int) -> str:
+    """Return a figure of `width` x `height` pixels that follows the theme and the width of the
+    page. It is never narrower than `least` pixels: then it scrolls.
+    """
+    image = base64.b64encode(png).decode()
+    return (
+        f'<div class="robokin-figure"><img alt="{html.escape(alt)}" width="{width}" '
+        f'height="{height}" style="max-width:min(100%,{width}px);min-width:{least}px;height:auto" '
+        f'src="data:image/png;base64,{image}"></div>\n'
+        f"<style>{figure_css()}{style('elements')}\n</style>\n"
     )
 
 

@@ -82,17 +82,34 @@ PAGE: Mapping[str, tuple[str, str]] = MappingProxyType(
 )
 
 
+# How a still picture, drawn on white, is shown in a light and in a dark page. Inverting turns red
+# to cyan, and half a turn of the hue turns it back.
+STILL = {
+    "still": ("none", "invert(1) hue-rotate(180deg)"),
+    "blend": ("multiply", "screen"),  # so that white is the colour of the page
+    "shade": ("#0005", "#fff5"),  # at an edge beyond which a figure goes on
+}
+
+
 def css() -> str:
     """Return the palette and the font as CSS: light by default; dark if JupyterLab or a page
     exported from it says so, otherwise if the reader's system does; always light in print.
     """
+    return _themes(":is(.robokin-player,.rk)", f"--rk-font:{FONT};", {**PAGE, **STILL})
+
+
+def figure_css() -> str:
+    """Return the colours of a still picture as CSS, by the same rule."""
+    return _themes(".robokin-figure", "", {"paper": PAGE["paper"], **STILL})
+
+
+def _themes(roots: str, font: str, colors: Mapping[str, tuple[str, str]]) -> str:
     light, dark = (
-        ";".join(f"--rk-{name}:{pair[k]}" for name, pair in PAGE.items()) for k in (0, 1)
+        ";".join(f"--rk-{name}:{pair[k]}" for name, pair in colors.items()) for k in (0, 1)
     )
     dark = f"{dark};color-scheme:dark"
-    roots = ":is(.robokin-player,.rk)"
     return (
-        f"{roots}{{--rk-font:{FONT};{light};color-scheme:light}}\n"
+        f"{roots}{{{font}{light};color-scheme:light}}\n"
         f"@media screen{{[data-jp-theme-light=false] {roots}{{{dark}}}}}\n"
         "@media screen and (prefers-color-scheme:dark)"
         f"{{body:not([data-jp-theme-light]) {roots}{{{dark}}}}}\n"

@@ -5,8 +5,6 @@ pyplot, so no figure is drawn twice or kept in memory. Figures show degrees and 
 for arms larger than 2 m).
 """
 
-import base64
-import html
 import io
 import textwrap
 from collections.abc import Iterable, Sequence
@@ -17,6 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as MatplotlibFigure
+from matplotlib.text import Text
 from PIL import Image
 
 from .._arrays import ArrayLike, Floats, sealed
@@ -29,6 +28,7 @@ from . import layers
 from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
 from .checks import in_sight, plain, several
+from .page import figure_image
 from .palette import FAINT, INK, JOINT_STYLES, SCALE, SOFT
 from .panels import draw_panel, lay_out, without_spikes
 from .scene import Scene, number
@@ -44,6 +44,7 @@ __all__ = [
 ]
 
 DPI = 100
+SMALLEST = 10 * 72 / DPI  # points: text of 10 pixels, which stays readable
 INCHES = "a positive number of inches"
 
 
@@ -59,16 +60,19 @@ class Figure(MatplotlibFigure):
         # JupyterLab 4.6 and the "lab" template of nbconvert 7.17 both ignore {"alt": ...} in the
         # metadata of an image/png output. Both keep <img alt> in text/html, even in an untrusted
         # notebook, and show it once.
-        data = base64.b64encode(palette_png(self)).decode()
         width, height = np.round(self.get_size_inches() * DPI).astype(int)
-        image = (
-            f'<img alt="{html.escape(self.alt)}" width="{width}" height="{height}" '
-            f'src="data:image/png;base64,{data}">'
-        )
+        written: list[Any] = self.findobj(_is_written)
+        smallest = min((text.get_fontsize() for text in written), default=SMALLEST)
+        least = min(width, int(np.ceil(width * SMALLEST / smallest)))
+        image = figure_image(palette_png(self), self.alt, width, height, least)
         return {"text/html": image, "text/plain": self.alt}
 
     def __repr__(self) -> str:
         return self.alt
+
+
+def _is_written(artist: Any) -> bool:
+    return isinstance(artist, Text) and artist.get_visible() and bool(artist.get_text().strip())
 
 
 def figure(alt: str, width: float = 9, height: float = 4) -> Figure:
