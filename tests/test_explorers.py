@@ -49,7 +49,7 @@ from robokin import (
 from robokin.show import animate, joint_explorer, motion_explorer, target_explorer
 from robokin.show.camera import arm_points, project
 from robokin.show.joiner import script
-from robokin.show.page import STILL
+from robokin.show.markup import STILL
 from robokin.show.palette import PAGE
 
 page = test_browser.page

@@ -17,7 +17,7 @@ from conftest import ROOT, until
 from robokin import deg, three_lever
 from robokin.course.export import export
 from robokin.jobs.obstacles import distances, keeps, plan, via_path
-from robokin.show import live, page, plan_explorer
+from robokin.show import joiner, live, markup, plan_explorer
 from robokin.show.plan_explorer import AWAY, FORBIDDEN, STEP
 
 quiet = test_browser.page  # records errors and requests to other hosts
@@ -157,9 +157,9 @@ def test_arrays_reach_the_page_unchanged_by_message_and_by_file(browser):
         {"words": "ä", "list": [1, None, arrays["thin"]], **arrays}
     )
     text = [live.stored({"array": k}, buffers)["array"] for k in range(len(buffers))]
-    assert page.inert(live.stored(content, buffers))
+    assert markup.inert(live.stored(content, buffers))
     tab = browser.new_page()
-    tab.evaluate(f"() => {{ {page.script('live')}; window.$live = $live; }}")
+    tab.evaluate(f"() => {{ {joiner.script('live')}; window.$live = $live; }}")
     for sent in ([live.stored(content, buffers), None], [content, text]):
         got = tab.evaluate(UNPACK, sent)
         assert got["words"] == "ä" and got["list"][:2] == [1, None]

@@ -12,7 +12,7 @@ import pytest
 from conftest import NODE, ROOT
 from test_player import unpacked
 
-from robokin.show import JOINT_STYLES, joiner, page, palette
+from robokin.show import JOINT_STYLES, joiner, markup, page, palette
 from robokin.show.numbers import packed
 
 FOLDER = ROOT / "robokin" / "show" / "js"
@@ -157,7 +157,7 @@ def test_a_compressed_script_adds_its_sheets_and_returns_its_module(modules):
 
 
 def test_views_of_one_kind_share_a_script(browser):
-    pages = [page.output("prediction.ask", k * 12, "0", "<p>words</p>") for k in "ab"]
+    pages = [markup.output("prediction.ask", k * 12, "0", "<p>words</p>") for k in "ab"]
     called = "globalThis.called = [];"
     pages = [
         re.sub(r"\$prediction\.ask\((.*)\);", r"called.push([\1, $prediction]);", one)
@@ -175,7 +175,7 @@ def test_views_of_one_kind_share_a_script(browser):
 @pytest.mark.parametrize(
     ("call", "still"),
     [
-        ("player.play", page.still_image(b"", "an arm")),
+        ("player.play", markup.still_image(b"", "an arm")),
         ("prediction.ask", "<p>Which joint is the fastest?</p><p>a) joint 1</p><p>Run this.</p>"),
     ],
 )
@@ -183,7 +183,7 @@ def test_old_browser_shows_the_still_and_a_reason(browser, call, still):
     tab = browser.new_page()
     tab.set_content(
         "<script>delete globalThis.DecompressionStream</script>"
-        + page.output(call, "a" * 12, "{}", still)
+        + markup.output(call, "a" * 12, "{}", still)
     )
     tab.get_by_text("This view needs a browser from 2023 or later.").wait_for()
     place = tab.locator(".robokin-player")

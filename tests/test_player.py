@@ -34,7 +34,7 @@ from robokin import (
 from robokin.show import animate, joint_explorer, motor_explorer, plot_joints
 from robokin.show.camera import arm_points, project
 from robokin.show.joiner import script
-from robokin.show.page import STILL
+from robokin.show.markup import STILL
 from robokin.show.palette import css
 
 X, Y, Z = np.eye(3)
@@ -742,8 +742,8 @@ def test_mime_bundle_has_html_and_text(blended):
     assert set(bundle) == {"text/html", "text/plain"}
     farthest = blended.data["arms"][0]["via"][3][0]
     assert bundle["text/plain"] == (
-        "Player of IRB-140: 20 s, blend 0 to 0.5 in 4 values, greatest speed 31.2 °/s "
-        f"(joint 3), smallest distance from the via point 0 to {farthest:g} mm."
+        "Player of IRB-140: 20 s, blend 0 to 0.5 in 4 values, greatest speed of 2001 samples "
+        f"31.2 °/s (joint 3), smallest distance from the via point 0 to {farthest:g} mm."
     )
     picture = (
         r'<img alt="IRB-140 in the first and the last posture[^"]*" '

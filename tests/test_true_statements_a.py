@@ -462,12 +462,10 @@ def test_table_figure_player_and_prediction_agree_on_the_speed_of_joint_4():
         shown = text.replace("animate(", "shown = animate(") if cell != "sweep-drawing" else text
         exec(shown, numbers)
         if cell == "opening":
-            assert (
-                f"greatest speed {exact[2]:.1f} °/s (joint 4)" in numbers["shown"].data["summary"]
-            )
+            assert f"samples {exact[2]:.1f} °/s (joint 4)" in numbers["shown"].data["summary"]
         if cell == "sweep":
             slower = exact[1] / 20
-            assert f"greatest speed {slower:.1f} °/s (joint 4)" in numbers["shown"].data["summary"]
+            assert f"samples {slower:.1f} °/s (joint 4)" in numbers["shown"].data["summary"]
     figure = numbers["draw_sweep"]([2, 1])
     titles = [ax.get_title() for ax in figure.axes]
     assert titles == [f"{m} mm beside: joint 4 up to {exact[m]:.0f}°/s" for m in (2, 1)]

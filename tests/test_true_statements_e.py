@@ -421,7 +421,9 @@ def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
     law = 10 * u**3 - 15 * u**4 + 6 * u**5
     assert np.diff(law).max() * 20000 == pytest.approx(15 / 8, abs=1e-6)
     assert "the mean speed of joint 1," in flat("08", "time-look")
-    (most,) = numbers(r"greatest speed (\S+) °/s \(joint 1\)", shown("08", "time-player"))
+    (most,) = numbers(
+        r"greatest speed of \d+ samples (\S+) °/s \(joint 1\)", shown("08", "time-player")
+    )
     assert most == pytest.approx(0.2 / deg * 15 / 8, abs=0.05)
     assert "for its distance from the axis, with a sign (m)" in flat("08", "chain-formula")
     q2 = -60 * deg

@@ -536,7 +536,7 @@ def test_player_shows_the_greatest_speed_of_the_line():
     source = cells("07")["cross-player"]
     head, _, tail = source.rpartition("\nanimate(")
     exec(compile(f"{head}\nplayer = animate({tail}", "player", "exec"), made)
-    (said,) = numbers(r"greatest speed (\S+) °/s \(joint 6\)", repr(made["player"]))
+    (said,) = numbers(r"greatest speed of \d+ samples (\S+) °/s \(joint 6\)", repr(made["player"]))
     assert said == round(peak(made, "wrist", 2 * mm, 6), 1) == 2244.5
 
 

@@ -24,8 +24,9 @@ from typing import (
 
 from markupsafe import Markup
 
+from ..show.markup import figure_image, inert, output, still_image
 from ..show.motors import PageMotors
-from ..show.page import Page, PageExplorer, figure_image, inert, output, still_image
+from ..show.page import Page, PageCurves, PageExplorer
 from .book import find
 from .exercises import Verdict
 from .harmless import png
@@ -39,6 +40,7 @@ ASK = "prediction.ask"
 EXPLORERS = ("joint", "target", "motion", "levers", "plan", "tour")
 KINDS: dict[str, Any] = {
     "player.play": Page,
+    "joint_curves.show": PageCurves,
     "motor_explorer.explore": PageMotors,
     **{f"{kind}_explorer.explore": PageExplorer for kind in EXPLORERS},
 }

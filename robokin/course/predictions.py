@@ -99,7 +99,7 @@ class Asked:
 
     def _in_page(self, nonce: str = "") -> str:
         """The HTML for a page whose policy permits only scripts with this nonce."""
-        from ..show.page import inert, output
+        from ..show.markup import inert, output
 
         data = self.data | {"view": shown(self.view(), nonce)}
         words = "".join(map(paragraph, repr(self).split("\n")[1:]))

@@ -17,7 +17,7 @@ import jinja2
 from markupsafe import Markup
 
 from .. import __version__
-from ..show.page import inert
+from ..show.markup import inert
 from ..show.palette import ALARM, AXIS_COLORS, PAGE
 from ..show.saving import write_page
 from .book import find, lab

@@ -4,12 +4,13 @@ try:
     from .ellipsoid import plot_velocity_ellipsoid
     from .explorer import Explorer
     from .explorers import joint_explorer, target_explorer
+    from .joint_plot import plot_joints
     from .motion_explorer import motion_explorer
     from .motors import motor_explorer
     from .palette import JOINT_STYLES
     from .plan_explorer import plan_explorer
     from .player import Player, animate
-    from .plots import figure, plot_frames, plot_joints, plot_postures
+    from .plots import figure, plot_frames, plot_postures
     from .sketch import Sketch
     from .tour_explorer import tour_explorer
 except ModuleNotFoundError as error:

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import Floats
-from .._validate import short, text
+from .._arrays import ArrayLike, Floats
+from .._validate import floats, instance, short, text
+from ..arms.arm import Arm
 
 HORIZON = 1e9  # metres: nothing in a picture is farther away
 LONGEST = 2000  # maximum number of characters in a title or a name
@@ -49,3 +50,26 @@ def plain(value: Any, name: str) -> str:
     if len(text(value, name)) > LONGEST:
         raise ValueError(f"{name}: wanted at most {LONGEST} characters, got {len(value)}")
     return str(value).encode("utf-16", "surrogatepass").decode("utf-16", "replace")
+
+
+def if_given(value: str | None, name: str) -> str | None:
+    """A title or an alternative text, or None."""
+    return None if value is None else plain(value, name)
+
+
+def sentence(title: str | None) -> list[str]:
+    """A title as the first sentence of an alternative text."""
+    return [title.rstrip(".") + "."] if title else []
+
+
+def samples(
+    arm: Arm, values: ArrayLike | None, name: str = "q", count: int | None = None
+) -> Floats:
+    """Values (samples, n) for an arm of n joints. ValueError: another shape, or another count."""
+    found = floats(values, name, len(instance(arm, Arm, "arm").links), finite=False)
+    if found.ndim == 1:
+        found = found[None]
+    if found.ndim != 2 or not len(found) or count not in (None, len(found)):
+        wanted = count or "samples"
+        raise ValueError(f"{name}: wanted shape ({wanted}, {len(arm.links)}), got {found.shape}")
+    return found

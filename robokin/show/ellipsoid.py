@@ -12,8 +12,9 @@ from ..arms.dexterity import velocity_ellipsoid
 from ..units import length_unit
 from . import layers
 from .camera import arm_points, extent, flange, is_flat
+from .checks import if_given, samples, sentence
 from .palette import ALARM, INK, TRACE
-from .plots import Figure, _samples, _sentence, _words
+from .plots import Figure
 from .scene import Scene, number
 
 MOST = 3  # maximum number of postures side by side
@@ -35,11 +36,11 @@ def plot_velocity_ellipsoid(
 
     ValueError: more than three postures, or a posture with NaN.
     """
-    q = _samples(arm, q)
+    q = samples(arm, q)
     if len(q) > MOST or not np.isfinite(q).all():
         raise ValueError(f"q: wanted one to {MOST} postures without NaN, got {len(q)} rows")
     warn_if_degrees(q[..., ~arm.prismatic], "q")
-    title, alt = _words(title, "title"), _words(alt, "alt")
+    title, alt = if_given(title, "title"), if_given(alt, "alt")
     axes, tool = velocity_ellipsoid(arm, q), flange(arm, q).translation
     lengths = np.linalg.norm(axes, axis=-2)
     size, flat = extent(arm), is_flat(arm, q)
@@ -130,7 +131,7 @@ def _ellipsoid(scene: Scene, centre: Floats, axes: Floats) -> None:
 
 
 def _alt(arm: Arm, title: str | None, words: list[list[str]]) -> str:
-    facts = _sentence(title)
+    facts = sentence(title)
     facts.append(
         f"{arm.name} with the velocity ellipsoid of its tool, for joint speeds of 1 rad/s."
     )

@@ -16,8 +16,8 @@ from ..units import deg, length_unit, mm
 from . import plots
 from .camera import VIEW, arm_points, common_plane, extent, scene_data
 from .numbers import tidy
+from .output import Output
 from .page import ArmPage, Control, PagePose, PageScene, PageUnit
-from .player import Output
 from .scene import Scene
 from .things import Target
 from .twin import KINDS, arm_data

@@ -31,7 +31,7 @@ NEEDS_BLANK = re.compile(r"[\w$]{2}|[-+/<!]{2}|\d\.")  # without a space the two
 @cache  # since a lab has about twenty outputs
 def script(name: str) -> str:
     """Return the module `name` of the folder js and all its imports, each once and in its own
-    scope, as one script in which `$name` holds its exports. `call` in `player.Output` and
+    scope, as one script in which `$name` holds its exports. `call` in `output.Output` and
     `explorer.Explorer` names the module of an output. Comments and unnecessary whitespace are
     removed, and the lines are long, because every additional line costs ten bytes in a notebook. A
     line ends only after `;`, `,` or a brace, so every statement of a module must end with `;` or a

@@ -16,7 +16,7 @@ import numpy as np
 from . import plots
 from .explorer import Explorer
 from .joiner import script
-from .page import inert
+from .markup import inert
 
 Question: TypeAlias = dict[str, Any]
 Answer: TypeAlias = dict[str, Any]

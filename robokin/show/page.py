@@ -1,23 +1,12 @@
-"""The data of a page, and the HTML with the script that draws it. `twin` has the data of an
-explorer's arm, `things` the data of other things in a scene; `saving` writes pages to files.
+"""The data of a page. `twin` has the data of an explorer's arm, and `things` the data of other
+things in a scene.
 """
 
-import base64
-import html
-import json
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
-from .joiner import compressed, script, style
 from .numbers import Packed, Scale
-from .palette import css, figure_css
 from .things import PageThing
 from .twin import ArmData, PageLink
-
-STILL = (
-    "A still picture. To see it move: run all cells (Run > Run All Cells), or trust the notebook "
-    "(Ctrl+Shift+C, then Trust Notebook)."
-)
-
 
 # --- The data -------------------------------------------------------------------------------------
 #
@@ -167,6 +156,35 @@ class Page(TypedDict):
     decimals: list[int]
     sampled: str
     arms: list[PageArm]
+
+
+class CurvePanel(PagePanel):
+    """A panel of `PageCurves`: the values of all joints, the [lower, upper] limit of each, and the
+    [time, words] to mark.
+    """
+
+    values: Packed
+    limits: list[list[float]] | None
+    marks: list[tuple[float, str]]
+
+
+class PageCurves(TypedDict):
+    """The joint curves of one motion: `prismatic` for each joint, the samples after which the
+    curves break, and sentences about them, each with True if it reports a violation. The other keys
+    are those of `Page`.
+    """
+
+    title: str
+    summary: str
+    alt: str
+    nothing: int
+    times: list[float]
+    ticks: Scale
+    dashes: list[list[float]]
+    prismatic: list[bool]
+    gaps: list[int]
+    panels: list[CurvePanel]
+    notes: list[tuple[str, bool]]
 
 
 class Control(TypedDict):
@@ -375,55 +393,3 @@ class PageQuestion(TypedDict):
     within: float
     choice: str | None
     view: str
-
-
-# --- HTML -----------------------------------------------------------------------------------------
-
-
-def inert(data: Any) -> str:
-    """Return `data` as JSON that is safe inside a script. ValueError: JSON cannot represent it."""
-    try:
-        text = json.dumps(data, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-        text.encode()
-    except (TypeError, ValueError, RecursionError) as error:
-        raise ValueError(f"data: wanted values that JSON can represent ({error})") from None
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-
-
-def still_image(png: bytes, alt: str) -> str:
-    """Return the still picture that is shown until a player or an explorer starts."""
-    image = base64.b64encode(png).decode()
-    return (
-        f'<img alt="{html.escape(alt)}" style="max-width:100%" '
-        f'src="data:image/png;base64,{image}"><p>{STILL}</p>'
-    )
-
-
-def figure_image(png: bytes, alt: str, width: int, height: int, least: int) -> str:
-    """Return a figure of `width` x `height` pixels that follows the theme and the width of the
-    page. It is never narrower than `least` pixels: then it scrolls.
-    """
-    image = base64.b64encode(png).decode()
-    return (
-        f'<div class="robokin-figure"><img alt="{html.escape(alt)}" width="{width}" '
-        f'height="{height}" style="max-width:min(100%,{width}px);min-width:{least}px;height:auto" '
-        f'src="data:image/png;base64,{image}"></div>\n'
-        f"<style>{figure_css()}{style('elements')}\n</style>\n"
-    )
-
-
-def output(call: str, name: str, text: str, still: str, nonce: str = "") -> str:
-    """Return a piece of HTML: `still`, and the script that replaces it. `text` is a `Page`,
-    `PageExplorer` or `PageQuestion` as JSON. `call` names the module and its function, such as
-    "player.play". `nonce` is the nonce of a page whose policy forbids scripts without it.
-    """
-    module, _ = call.split(".")
-    key, bytes_of_script = compressed(module)
-    tag = f"script nonce={nonce}" if nonce else "script"
-    return (
-        f'<div class="robokin-player" data-player="{name}">{still}</div>\n'
-        f"<style>{css()}{style('elements')}\n</style>\n"
-        f"<{tag}>(() => {{\n{script('loader')}\n"
-        f'$loader.start("{name}", "{key}", "{bytes_of_script}", ${module} => {{\n'
-        f'${call}("{name}", {text});\n}});\n}})();</script>\n'
-    )

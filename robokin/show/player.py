@@ -5,17 +5,15 @@ joint values, speeds and accelerations of about a hundred samples, and the table
 for every slider value. `js/player.js` draws them; `page` describes the data.
 """
 
-import hashlib
 import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from .._arrays import ArrayLike, Floats, Ints
-from .._validate import instance, short
+from .._arrays import ArrayLike, Floats
+from .._validate import instance
 from ..arms.arm import Arm
 from ..motion.recording import Recording
 from ..transform import Transform
@@ -25,32 +23,24 @@ from .arguments import Targets
 from .camera import chain, extent, flange, scene_data, standing
 from .checks import plain, yes
 from .film import Film
-from .numbers import NOTHING, decimals, packed, rounded, scale, scales, thin, tidy
+from .numbers import NOTHING, decimals, packed, rounded, scale, thin, tidy
+from .output import Output
 from .page import (
-    Axis,
     Page,
     PageArm,
-    PagePanel,
-    PageQuantity,
     PageScene,
     Slider,
     Switch,
     Unit,
     Watch,
-    inert,
-    output,
-    still_image,
 )
+from .page_panels import FINEST, joint_panel, quantity_panel
 from .palette import DASHES, INK
-from .panels import near_limits
-from .saving import save, write
+from .saving import write
 from .scene import Scene
 from .things import Target, Thing
 
 SAMPLES, SAMPLES_UNDER_SLIDER = 241, 121  # samples per motion in the page, including both ends
-# The number of steps in the greatest joint value, speed and acceleration. Joint values have finer
-# steps since they also determine the posture drawn.
-FINEST = (32000, 16000, 8000)
 NO_READINGS: Mapping[str, ArrayLike] = MappingProxyType({})
 
 
@@ -137,52 +127,6 @@ def animate(
     return Player(data, still, film)
 
 
-class Output:
-    """A piece of a page that a script in the browser animates. It displays itself in a notebook;
-    `save` writes it as a page.
-
-    data    the data of the page, ready for JSON
-    still   the figure that is shown until the script runs, in print, and in an untrusted
-            notebook
-    call    the module in js/ that shows it, and its function
-    """
-
-    call = "player.play"
-
-    def __init__(self, data: Any, still: plots.Figure) -> None:
-        if not isinstance(data, dict):
-            raise ValueError(f"data: wanted a dict, got {short(data)}")
-        self.data, self.still = data, instance(still, plots.Figure, "still")
-        self.text = inert(data)
-        # The name is a hash of the data and not of the picture, because another zlib may compress
-        # the same pixels to different bytes. Floats are rounded, because processors differ in the
-        # last bits.
-        agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
-        self.id = hashlib.sha256(agreed.encode()).hexdigest()[:12]
-
-    @property
-    def html(self) -> str:
-        """The HTML of the player: the still picture, and the script that replaces it."""
-        return self._in_page()
-
-    def _in_page(self, nonce: str = "") -> str:
-        """The HTML for a page whose policy permits only scripts with this nonce."""
-        still = still_image(plots.palette_png(self.still), self.data["alt"])
-        return output(self.call, self.id, self.text, still, nonce)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one self-contained page, completely or not at all. ValueError: not a .html file, or
-        an existing file that is not a saved player.
-        """
-        save(path, self.data["title"], self.html)
-
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        return {"text/html": self.html, "text/plain": repr(self)}
-
-    def __repr__(self) -> str:
-        return str(self.data["summary"])
-
-
 class Player(Output):
     """An arm and its curves, animated in the browser: see `animate`. `data` is a `page.Page`."""
 
@@ -265,70 +209,12 @@ def page_data(
         "unit": unit,
         "dashes": DASHES,
         "scene": scene,
-        "panels": [_panel(arms, [c[k] for c in curves], unit, k, watch) for k in range(3)],
-        "quantities": [_quantity(name, x, kept) for name, x in quantities.items()],
+        "panels": [joint_panel(arms, [c[k] for c in curves], unit, k, watch) for k in range(3)],
+        "quantities": [quantity_panel(name, x, kept) for name, x in quantities.items()],
         "watch": watch,
         "decimals": digits,
         "sampled": findings.sampled(t),
         "arms": drawn,
-    }
-
-
-def _panel(
-    arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int, watch: Watch
-) -> PagePanel:
-    """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
-
-    All motions share one scale, and the panel shows the limits that any motion comes near to, so
-    that both stay while a slider moves. Limits of joints that are not to be watched are not shown.
-    """
-    per = ("", "/s", "/s²")[order]
-    # two arrays (motions, n) for each arm
-    ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]
-    ranges = {}
-    for key in ("turn", "shift"):
-        least, greatest = (
-            [x[:, arm.prismatic == (key == "shift")] for arm, x in zip(arms, both, strict=True)]
-            for both in zip(*ends, strict=True)
-        )
-        if sum(x.shape[1] for x in least):
-            ranges[key] = (
-                float(np.nan_to_num(np.fmin.reduce(np.concatenate(least, axis=1), axis=None))),
-                float(np.nan_to_num(np.fmax.reduce(np.concatenate(greatest, axis=1), axis=None))),
-            )
-    axes: dict[str, Axis] = {}
-    seen = {}  # lowest and highest tick
-    for key, chosen in zip(ranges, scales(list(ranges.values())), strict=True):
-        axes[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scale": chosen}
-        low, step, count, _ = chosen
-        seen[key] = low, low + step * (count - 1)
-    near = []
-    for arm, pair in zip(arms, ends, strict=True):
-        limits = arm.limits if order == 0 else arm.speed_limits if order == 1 else None
-        shown = np.zeros((len(arm.links), 2), dtype=bool)
-        if limits is not None:
-            limits = limits if order == 0 else limits[:, None] * [-1, 1]
-            limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
-            ticks = np.array([seen["shift" if x else "turn"] for x in arm.prismatic])
-            shown = np.any(near_limits(limits, *pair, ticks[:, 0], ticks[:, 1]), axis=0)
-        if watch["joints"] is not None:
-            shown[[j for j in range(len(shown)) if j not in watch["joints"]]] = False
-        near.append(np.argwhere(shown).tolist())
-    word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
-    return {
-        "label": f"{word}, {next(iter(axes.values()))['unit']}",
-        "near": near,
-        "axes": axes,
-    }
-
-
-def _quantity(name: str, values: Floats, kept: Ints) -> PageQuantity:
-    """The panel of a quantity (arms, motions, samples)."""
-    finite = values[np.isfinite(values)]
-    return {
-        "label": name,
-        "scale": scale(*((finite.min(), finite.max()) if len(finite) else (0, 1))),
-        "values": [packed(one[:, kept, None], FINEST[0]) for one in values],
     }
 
 

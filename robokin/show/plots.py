@@ -8,7 +8,6 @@ for arms larger than 2 m).
 import io
 import textwrap
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,19 +17,17 @@ from matplotlib.figure import Figure as MatplotlibFigure
 from matplotlib.text import Text
 from PIL import Image
 
-from .._arrays import ArrayLike, Floats, sealed
-from .._validate import floats, instance, length, positive, short, warn_if_degrees
+from .._arrays import ArrayLike, Floats
+from .._validate import instance, length, positive, short, warn_if_degrees
 from ..arms.arm import Arm
-from ..motion.recording import Recording, record
 from ..transform import Transform
-from ..units import deg, length_unit, mm
+from ..units import length_unit, mm
 from . import layers
 from .arguments import Targets, named_targets
 from .camera import arm_points, extent, flange, is_flat
-from .checks import in_sight, plain, several
-from .page import figure_image
+from .checks import if_given, in_sight, plain, samples, sentence, several
+from .markup import figure_image
 from .palette import FAINT, INK, JOINT_STYLES, SCALE, SOFT
-from .panels import draw_panel, lay_out, without_spikes
 from .scene import Scene, number
 
 __all__ = [
@@ -39,7 +36,6 @@ __all__ = [
     "figure",
     "palette_png",
     "plot_frames",
-    "plot_joints",
     "plot_postures",
 ]
 
@@ -125,10 +121,10 @@ def plot_postures(
              name -> Transform
     alt      the alternative text, if the numbers alone do not say enough
     """
-    q, targets = _samples(arm, q), named_targets(targets)
+    q, targets = samples(arm, q), named_targets(targets)
     turning = q[..., ~arm.prismatic]
     warn_if_degrees(turning if len(q) > 1 else turning[0], "q", posture=1)
-    title, alt = _words(title, "title"), _words(alt, "alt")
+    title, alt = if_given(title, "title"), if_given(alt, "alt")
     exists = np.flatnonzero(np.all(np.isfinite(q), axis=-1))
     if not len(exists):
         raise ValueError("q: wanted at least one posture, got only NaN rows")
@@ -177,7 +173,7 @@ def plot_frames(
     chain   join the origins in order, starting at the base, like the links of an arm
     """
     frames = _frames(frames)
-    title, alt = _words(title, "title"), _words(alt, "alt")
+    title, alt = if_given(title, "title"), if_given(alt, "alt")
     origins = in_sight(np.stack([frame.translation for frame in frames]), "frames")
     if names is None:
         names = [""] * len(frames)
@@ -210,82 +206,6 @@ def plot_frames(
     return fig
 
 
-def plot_joints(
-    arm: Arm | Recording,
-    t: ArrayLike | None = None,
-    q: ArrayLike | None = None,
-    v: ArrayLike | None = None,
-    a: ArrayLike | None = None,
-    *,
-    title: str | None = None,
-    alt: str | None = None,
-) -> Figure:
-    """Plot joint values over time and, if given, speeds and accelerations: one panel each, with a
-    common time axis.
-
-        plot_joints(arm, t, q), plot_joints(arm, t, q, v), plot_joints(arm, t, q, v, a)
-        plot_joints(record(arm, t, q))      all three, with the recording's own speeds and
-                                            accelerations
-
-    t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
-    gap, a jump by a whole turn is a jump. Prismatic joints have panels of their own, in mm.
-    A limit is shaded if its joint comes near it; samples past it are marked and counted. Samples
-    are compared with the limits as drawn; q + 360 degrees may still be inside (see `within`). Jumps
-    are those that `record` finds. A lone spike, which a jump leaves in v or a when it is
-    differentiated, does not set the scale: it extends beyond the panel, and its heading says so.
-    """
-    title, alt = _words(title, "title"), _words(alt, "alt")
-    given = {kind: values for kind, values in (("v", v), ("a", a)) if values is not None}
-    if isinstance(arm, Recording):
-        if t is not None or q is not None:
-            raise ValueError("t and q: wanted neither with a recording, which has its own")
-        if arm.shape:
-            raise ValueError(f"recording: wanted a single motion, got shape {arm.shape}")
-        recording, kinds = arm, ["q", "v", "a"]
-    else:
-        q = _samples(arm, q)
-        recording, kinds = record(arm, floats(t, "t"), q), ["q", *given]
-    arm = recording.arm
-    drawn = {"q": recording.q, "v": recording.v, "a": recording.a}
-    drawn |= {k: _samples(arm, values, k, len(recording.t)) for k, values in given.items()}
-    judged: dict[str, Any] = {k: sealed(without_spikes(recording, k, drawn[k])) for k in given}
-    recording = replace(recording, **judged)
-    groups = [
-        (np.flatnonzero(arm.prismatic == shifts), unit, size)
-        for shifts, unit, size in ((False, "°", deg), (True, "mm", mm))
-        if (arm.prismatic == shifts).any()
-    ]
-    fig = Figure("", figsize=(9, (0.45 if title else 0.1) + 0.45 + 2.05 * len(kinds)))
-    grid = fig.subplots(
-        len(kinds),
-        len(groups),
-        sharex=True,
-        squeeze=False,
-        width_ratios=[1.7, 1] if len(groups) > 1 else None,
-    )
-    panels = [
-        draw_panel(ax, recording, drawn[kind], kind, joints, unit, size)
-        for kind, line in zip(kinds, grid, strict=True)
-        for (joints, unit, size), ax in zip(groups, line, strict=True)
-    ]
-    for ax in grid[-1]:
-        ax.set_xlabel("t, s", labelpad=2)
-    lay_out(fig, panels, title)
-    duration = number(recording.t[-1] - recording.t[0])
-    facts = [f"{arm.name}, joint curves over {duration} s."]
-    facts += [fact for panel in panels for fact in panel.facts]
-    fig.alt = alt or " ".join([*_sentence(title), *facts])
-    return fig
-
-
-def _words(value: str | None, name: str) -> str | None:
-    return None if value is None else plain(value, name)
-
-
-def _sentence(title: str | None) -> list[str]:
-    return [title.rstrip(".") + "."] if title else []
-
-
 def _canvas(fig: Figure, title: str | None) -> Axes:
     """Return axes over the whole figure, below the title."""
     fig.set_size_inches(9, 6)
@@ -301,18 +221,6 @@ def _canvas(fig: Figure, title: str | None) -> Axes:
             parse_math=False,
         )
     return fig.add_axes((0, 0, 1, 0.93 if title else 1))
-
-
-def _samples(
-    arm: Arm, values: ArrayLike | None, name: str = "q", count: int | None = None
-) -> Floats:
-    values = floats(values, name, len(instance(arm, Arm, "arm").links), finite=False)
-    if values.ndim == 1:
-        values = values[None]
-    if values.ndim != 2 or not len(values) or count not in (None, len(values)):
-        wanted = count or "samples"
-        raise ValueError(f"{name}: wanted shape ({wanted}, {len(arm.links)}), got {values.shape}")
-    return values
 
 
 def _frames(frames: Transform | Iterable[Transform]) -> list[Transform]:
@@ -351,7 +259,7 @@ def _postures_alt(
     size: float,
 ) -> str:
     name, unit = length_unit(size)
-    words = _sentence(title)
+    words = sentence(title)
     start, end = (_place(tool.translation[i], unit) for i in (0, -1))
     if _moves(tool):
         words.append(f"{arm.name} along a path. The flange moves from {start} to {end} {name}.")
@@ -375,7 +283,7 @@ def _frames_alt(
     unit: float,
     unit_name: str,
 ) -> str:
-    words = _sentence(title)
+    words = sentence(title)
     parts = [
         f"{name or f'frame {i + 1}'} at {_place(frame.translation, unit)} {unit_name}"
         for i, (frame, name) in enumerate(zip(frames, names, strict=True))

@@ -72,13 +72,15 @@ export function curvesView(canvas, patterns) {
 
 /**
  * [index, height of the plot] of the panels for which there is room: always the large one, which
- * gets at least half, and as many of the others as fit, the first ones first.
+ * gets at least half, and as many of the others as fit, the first ones first. Without a large one
+ * (-1) all are alike.
  * @param {number} count
  * @param {number} large
  * @param {number} room
  * @returns {[number, number][]}
  */
 export function heights(count, large, room) {
+  if (large < 0) return Array.from({length: count}, (_, k) => [k, room / count - HEAD]);
   const others = Array.from({length: count}, (_, k) => k).filter(k => k !== large),
     fit = Math.max(0, Math.floor((room - HEAD - LARGE) / (HEAD + LEAST))),
     small = others.slice(0, fit);

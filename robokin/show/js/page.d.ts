@@ -178,6 +178,29 @@ export interface Page {
   arms: PageArm[];
 }
 
+export interface CurvePanel {
+  label: string;
+  near: number[][][];
+  axes: Record<string, Axis>;
+  values: Packed;
+  limits: number[][] | null;
+  marks: [number, string][];
+}
+
+export interface PageCurves {
+  title: string;
+  summary: string;
+  alt: string;
+  nothing: number;
+  times: number[];
+  ticks: Scale;
+  dashes: number[][];
+  prismatic: boolean[];
+  gaps: number[];
+  panels: CurvePanel[];
+  notes: [string, boolean][];
+}
+
 export interface Control {
   name: string;
   unit: string;

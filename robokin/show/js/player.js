@@ -4,7 +4,8 @@ import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
 import {curvesView} from "./curves.js";
 import {broken, motionsOf, pastNow, tipOf} from "./motions.js";
-import {orbit, pictures, sceneCanvas, scrubbing} from "./controls.js";
+import {orbit, sceneCanvas, scrubbing} from "./controls.js";
+import {pictures} from "./pictures.js";
 import {clockRow, runningClock} from "./clock.js";
 import {choice, control, element, range, waiting} from "./elements.js";
 import {numberTable} from "./player_table.js";
@@ -199,7 +200,7 @@ function tell(parts, data, {arms, motion}, value) {
   );
   parts.says.replaceChildren(
     ...near.map(text => element("div", {}, text)),
-    element("ul", {class: "rk-notes"}, ...notes),
+    element("ul", {class: "rk-notes rk-alarm"}, ...notes),
   );
   parts.table.replaceChildren(numberTable(data, whose, motion));
   if (!slider) return;

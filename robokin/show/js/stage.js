@@ -3,7 +3,8 @@
 import {frames, origin, plus, turned} from "./kinematics.js";
 import {clear, colors, jointColor, number, replaceStill, stroke} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
-import {orbit, pictures, sceneCanvas} from "./controls.js";
+import {orbit, sceneCanvas} from "./controls.js";
+import {pictures} from "./pictures.js";
 import {control, element} from "./elements.js";
 import {handleLayer} from "./handles.js";
 

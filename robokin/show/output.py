@@ -1,0 +1,57 @@
+"""A piece of a page with a script: a view that a browser animates."""
+
+import hashlib
+import os
+import re
+from typing import Any
+
+from .._validate import instance, short
+from . import plots
+from .markup import inert, output, still_image
+from .saving import save
+
+
+class Output:
+    """A piece of a page that a script in the browser animates. It displays itself in a notebook;
+    `save` writes it as a page.
+
+    data    the data of the page, ready for JSON
+    still   the figure that is shown until the script runs, in print, and in an untrusted
+            notebook
+    call    the module in js/ that shows it, and its function
+    """
+
+    call = "player.play"
+
+    def __init__(self, data: Any, still: plots.Figure) -> None:
+        if not isinstance(data, dict):
+            raise ValueError(f"data: wanted a dict, got {short(data)}")
+        self.data, self.still = data, instance(still, plots.Figure, "still")
+        self.text = inert(data)
+        # The name is a hash of the data and not of the picture, because another zlib may compress
+        # the same pixels to different bytes. Floats are rounded, because processors differ in the
+        # last bits.
+        agreed = re.sub(r"-?\d+\.\d{10,}(e-?\d+)?", lambda x: f"{float(x[0]):.9f}", self.text)
+        self.id = hashlib.sha256(agreed.encode()).hexdigest()[:12]
+
+    @property
+    def html(self) -> str:
+        """The HTML of the player: the still picture, and the script that replaces it."""
+        return self._in_page()
+
+    def _in_page(self, nonce: str = "") -> str:
+        """The HTML for a page whose policy permits only scripts with this nonce."""
+        still = still_image(plots.palette_png(self.still), self.data["alt"])
+        return output(self.call, self.id, self.text, still, nonce)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write one self-contained page, completely or not at all. ValueError: not a .html file, or
+        an existing file that is not a saved player.
+        """
+        save(path, self.data["title"], self.html)
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        return {"text/html": self.html, "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        return str(self.data["summary"])

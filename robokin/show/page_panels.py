@@ -1,0 +1,74 @@
+"""The panels of curves in a page: their scales and the limits that they show."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .._arrays import Floats, Ints
+from ..arms.arm import Arm
+from ..units import deg
+from .numbers import packed, scale, scales
+from .page import Axis, PagePanel, PageQuantity, Unit, Watch
+from .panels import near_limits
+
+# The number of steps in the greatest joint value, speed and acceleration. Joint values have finer
+# steps since they also determine the posture drawn.
+FINEST = (32000, 16000, 8000)
+
+
+def joint_panel(
+    arms: Sequence[Arm], curves: Sequence[Floats], unit: Unit, order: int, watch: Watch
+) -> PagePanel:
+    """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
+
+    All motions share one scale, and the panel shows the limits that any motion comes near to, so
+    that both stay while a slider moves. Limits of joints that are not to be watched are not shown.
+    """
+    per = ("", "/s", "/s²")[order]
+    # two arrays (motions, n) for each arm
+    ends = [(np.fmin.reduce(c, axis=1), np.fmax.reduce(c, axis=1)) for c in curves]
+    ranges = {}
+    for key in ("turn", "shift"):
+        least, greatest = (
+            [x[:, arm.prismatic == (key == "shift")] for arm, x in zip(arms, both, strict=True)]
+            for both in zip(*ends, strict=True)
+        )
+        if sum(x.shape[1] for x in least):
+            ranges[key] = (
+                float(np.nan_to_num(np.fmin.reduce(np.concatenate(least, axis=1), axis=None))),
+                float(np.nan_to_num(np.fmax.reduce(np.concatenate(greatest, axis=1), axis=None))),
+            )
+    axes: dict[str, Axis] = {}
+    seen = {}  # lowest and highest tick
+    for key, chosen in zip(ranges, scales(list(ranges.values())), strict=True):
+        axes[key] = {"unit": ("°" if key == "turn" else unit["name"]) + per, "scale": chosen}
+        low, step, count, _ = chosen
+        seen[key] = low, low + step * (count - 1)
+    near = []
+    for arm, pair in zip(arms, ends, strict=True):
+        limits = arm.limits if order == 0 else arm.speed_limits if order == 1 else None
+        shown = np.zeros((len(arm.links), 2), dtype=bool)
+        if limits is not None:
+            limits = limits if order == 0 else limits[:, None] * [-1, 1]
+            limits = limits / np.where(arm.prismatic, unit["size"], deg)[:, None]
+            ticks = np.array([seen["shift" if x else "turn"] for x in arm.prismatic])
+            shown = np.any(near_limits(limits, *pair, ticks[:, 0], ticks[:, 1]), axis=0)
+        if watch["joints"] is not None:
+            shown[[j for j in range(len(shown)) if j not in watch["joints"]]] = False
+        near.append(np.argwhere(shown).tolist())
+    word = ("angle" if "turn" in ranges else "position", "speed", "acceleration")[order]
+    return {
+        "label": f"{word}, {next(iter(axes.values()))['unit']}",
+        "near": near,
+        "axes": axes,
+    }
+
+
+def quantity_panel(name: str, values: Floats, kept: Ints) -> PageQuantity:
+    """The panel of a quantity (arms, motions, samples)."""
+    finite = values[np.isfinite(values)]
+    return {
+        "label": name,
+        "scale": scale(*((finite.min(), finite.max()) if len(finite) else (0, 1))),
+        "values": [packed(one[:, kept, None], FINEST[0]) for one in values],
+    }
