@@ -18,8 +18,8 @@ from .told import floats, one_number
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two results are equal: numbers to 1e-6, or to a millionth if they are large; NaN
-    equals NaN.
+    """Whether two results are equal: numbers within 1e-6, or within a millionth if they are large;
+    NaN equals NaN.
     """
     if isinstance(a, Mapping) and isinstance(b, Mapping):
         return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)

@@ -9,9 +9,9 @@ Edit = tuple[str, str]  # a piece of the solution, which must occur once, and it
 
 
 class Wrong(NamedTuple):
-    """A mistake: its name, a sentence, and one or more wrong programs, each as edits of the
-    solution or as a complete text. It is also used for a correct program of a test, which has no
-    edits.
+    """A mistake: its name, a sentence, and one or more wrong programs, each as edits to the
+    solution or as a complete text. Also used for the correct programs of an exercise in writing a
+    test.
     """
 
     name: str
@@ -28,7 +28,7 @@ class BadFile(ValueError):
 
 
 class Text(NamedTuple):
-    """An exercise as written. `parts` are the other sections, by heading: line and text."""
+    """An exercise as written. `parts`: heading -> (line, text) of each other section."""
 
     file: str
     number: str
