@@ -94,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """The crossings of the sides, where neither end point of a side counts."""
+    """Counts the crossings of the sides, but none at an end point of a side."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
@@ -219,7 +219,7 @@ def test_test_of_first_and_last_postures_is_not_enough():
     assert verdict.mistake == "accepts: the postures only", verdict
 
 
-def test_distances_in_the_checks_equal_those_of_the_package():
+def test_distances_in_the_checks_match_those_of_the_package():
     from robokin.jobs.obstacles import distances
 
     q = np.random.default_rng(1).uniform(0, np.pi, (50, 3))
