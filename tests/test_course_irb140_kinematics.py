@@ -60,13 +60,13 @@ def by_parts(q, length, turn):
 
 
 @pytest.mark.parametrize("right", [by_chain, by_joint_6, by_matrices, by_parts])
-def test_correct_tips_pass(right):
+def test_correct_tip_poses_pass(right):
     verdict = check(TIP, right)
     assert verdict.holds, verdict
 
 
 @pytest.mark.parametrize("mistake", LAB.exercises["1"].own, ids=lambda m: m.name)
-def test_mistakes_in_tips_are_refused_and_named(mistake):
+def test_mistakes_in_tip_poses_are_refused_and_named(mistake):
     verdict = check(TIP, LAB.exercises["1"].steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name and mistake.says in verdict.says
     assert "should" in verdict.case
@@ -87,7 +87,7 @@ GENERAL = {
 
 
 @pytest.mark.parametrize("name", GENERAL)
-def test_common_slips_in_tips_are_named(name):
+def test_common_slips_in_tip_poses_are_named(name):
     assert check(TIP, GENERAL[name]).mistake == name
 
 

@@ -89,8 +89,8 @@ host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
 
 def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
     """Run `answer` on every case, up to the first one that does not end in time. A case has
-    `SECONDS` of CPU time, and `WALL` seconds if it waits or computes elsewhere; all together have
-    `TOTAL`.
+    `SECONDS` of CPU time, and `WALL` seconds if it waits or computes elsewhere; all cases together
+    have `TOTAL`.
 
     The answer runs in its own thread, so that `TimeUp`, which can arrive between any two steps of
     Python, cannot reach the calling thread. Python in a web page has no threads; the page sets

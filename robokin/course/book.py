@@ -216,7 +216,7 @@ def titled(name: str) -> str:
 
 
 def find(name: Any, what: str) -> Any:
-    """Find an exercise or a prediction by id; an exercise is returned as it is. `what` is
+    """Find an exercise or a prediction by id; an exercise is returned unchanged. `what` is
     "exercises" or "predictions". ValueError: there is none, or it cannot be read.
     """
     if isinstance(name, Exercise):

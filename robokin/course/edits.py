@@ -192,7 +192,7 @@ def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, 
 
 
 def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
-    """Slips in calls of functions."""
+    """Slips in function calls: name, the piece that is replaced, its replacement."""
     match node:
         case ast.Call(func=ast.Attribute(value=a, attr="inverse"), args=[]):
             yield "inverse left out", node, said(a)

@@ -109,7 +109,7 @@ def numbers(value: Any) -> Any:
 
 
 def in_words(value: Any) -> str:
-    """Return a value as one short line."""
+    """Describe a value in one short line."""
     if isinstance(value, Transform) and not value.shape:
         angle, axis = value.rotation.as_angle_axis()
         place = ", ".join(f"{x / mm:.1f}" for x in value.translation + 0.0)

@@ -235,7 +235,7 @@ def _stored(file: Path) -> dict[str, Kept]:
     try:
         data = json.loads(content)
         if data["guesses"] != 1:
-            raise ValueError(f"version {short(data['guesses'])}")
+            raise ValueError(f"guesses: wanted version 1, got {short(data['guesses'])}")
         return {
             str(notebook): {_id(name): _sorted(made) for name, made in kept.items()}
             for notebook, kept in data["notebooks"].items()

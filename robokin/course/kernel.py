@@ -21,7 +21,7 @@ SAID = 10_000  # maximum number of characters that a cell may print; a report sh
 
 
 def main(memory: int) -> None:
-    """Run as the kernel until it is told to end. memory: bytes; 0: no limit."""
+    """Run as the kernel until it is asked to end. memory: bytes; 0: no limit."""
     for each in labs().values():
         each.read()  # the judging code is loaded before the first cell
     kernel = IPKernelApp.instance(outstream_class=f"{__name__}.Stream")
@@ -85,7 +85,7 @@ class Stream(OutStream):
         if cell != self.cell:
             self.cell, self.said = cell, 0
         if self.said <= SAID:
-            # a lone surrogate cannot be sent, and stops the message that the cell has ended
+            # a lone surrogate cannot be sent, and would block the message that the cell has ended
             text = string[:SAID].encode(errors="replace").decode()
             super().write(text)
         self.said += len(string)

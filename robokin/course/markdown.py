@@ -79,7 +79,7 @@ def read(file: Path) -> str:
 
 
 def why(error: Exception) -> str:
-    """The text of an error without its place, which is reported separately."""
+    """The text of an error without its location, which is reported separately."""
     return f"{type(error).__name__}: {getattr(error, 'msg', error)}"
 
 
@@ -89,7 +89,7 @@ def one_line(text: str) -> str:
 
 
 def exercise(file: str, text: str) -> Text:
-    """Parse an exercise. BadFile: its head is invalid."""
+    """Parse an exercise. BadFile: its header is invalid."""
     places = [found.start() for found in re.finditer("^## ", _blank(text), re.M)]
     head, rest = text[: places[0] if places else None], {}
     for a, b in pairwise([*places, len(text)]):

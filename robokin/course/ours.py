@@ -152,7 +152,7 @@ def _figure(alt: str, width: str, height: str, data: str) -> Markup:
 
 
 def _verdict(name: str, word: str, lines: str) -> Markup:
-    """Render a stored verdict: its own text, in the colour for its first words."""
+    """Render a stored verdict with its own text and the colour of its state."""
     says = [
         ("  " if indent == "2" else "") + visible(html.unescape(line))
         for indent, line in LINE.findall(lines)

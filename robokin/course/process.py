@@ -147,7 +147,7 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
         startup_timeout=START,
         iopub_timeout=LAST,
         allow_errors=True,
-        coalesce_streams=False,  # `Client` does it, since nbclient can take hours for a long line
+        coalesce_streams=False,  # `Client` joins them: nbclient can take hours for a long line
         record_timing=False,
         log=_silent(),
     )
@@ -181,7 +181,7 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
 
 async def _end_marked(mark: str) -> None:
     """End the processes with this mark, even in other sessions. A process that restarts
-    itself can be missed, so we search until there is none twice in a row.
+    itself can be missed, so we search until two searches in a row find none.
     """
     none, last = 0, time.monotonic() + 2 * GRACE
     while none < 2 and time.monotonic() < last:

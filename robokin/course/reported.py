@@ -106,7 +106,8 @@ def _exercise(each: dict[str, Any]) -> dict[str, Any]:
 def _prediction(each: dict[str, Any], old: bool) -> dict[str, Any]:
     choice, right = _text_or_none(each, "choice"), _one_of(each, "right", (None, True, False))
     if (choice is None) != (right is None):
-        raise ValueError(f"right: got {right} for the choice {short(choice)}")
+        wanted = "None if there is no choice, otherwise True or False"
+        raise ValueError(f"right: wanted {wanted}, got {right} for the choice {short(choice)}")
     return {
         "id": each["id"],
         "choice": choice,

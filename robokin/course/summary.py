@@ -94,7 +94,7 @@ class LeftOut:
 
 @dataclass
 class Summary:
-    """The entries, by lab and name, and the files that were left out."""
+    """The entries, sorted by lab and name, and the files that were left out."""
 
     entries: list[Entry] = field(default_factory=list)
     left_out: list[LeftOut] = field(default_factory=list)

@@ -32,7 +32,7 @@ from .variants import normalised
 
 FIRST = ["who", "lab", "file", "date"]  # columns that identify our tables
 BEGIN = "<title>What was handed in</title>"  # identifies our overview pages
-SHEET = '<meta name="generator" content="robokin summary: one student">'  # on student pages
+SHEET = '<meta name="generator" content="robokin summary: one student">'  # marks student pages
 PAGES = "summary_pages"
 INK, SOFT, RULE = (PAGE[name][0] for name in ("ink", "soft", "line"))
 STYLE = f"""\
@@ -139,7 +139,7 @@ def csv_of(made: Summary, points: bool = True) -> str:
 
 
 def harmless(text: str) -> str:
-    """Put the text of a cell on one line that no spreadsheet takes for a formula, even one whose
+    """Put the text of a cell on one line that no spreadsheet takes for a formula, even if its
     separator is not the comma.
     """
     return FORMULA.sub(r"\1'", " ".join(text.split()))
