@@ -240,7 +240,7 @@ def test_uneven_spacing_loses_objects():
         (dict(first_come="no"), "first_come: wanted True or False, got 'no'"),
     ],
 )
-def test_invalid_lines_are_refused(change, message):
+def test_invalid_conveyor_lines_are_refused(change, message):
     with pytest.raises(ValueError, match=message):
         serve(**dict(offsets=[0.1, 0.2], v=0.1, window=WINDOW, ways=WAYS) | change)
 

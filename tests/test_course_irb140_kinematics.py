@@ -185,12 +185,12 @@ def design(who, factor=1.1, height=None):
 
 
 @pytest.mark.parametrize("k", range(50))
-def test_variants_can_be_solved(k):
+def test_individual_tasks_can_be_solved(k):
     verdict = check(DESIGN, design(k), who=k)
     assert verdict.holds, verdict
 
 
-def test_variants_differ():
+def test_individual_tasks_differ():
     assert len({repr(variant("irb140_kinematics", k)) for k in range(50)}) > 45
 
 

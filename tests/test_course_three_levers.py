@@ -241,7 +241,7 @@ def test_individual_task_can_be_solved_but_not_greedily(who):
         ({"first": 2.4, "second": np.pi}, "gamma past its limit at the second target"),
     ],
 )
-def test_failing_plans_get_the_reason(answer, mistake):
+def test_reasons_for_failing_plans_are_reported(answer, mistake):
     verdict = check("three_levers.3", answer, who="Ada")
     assert not verdict.holds and verdict.mistake == mistake and verdict.says
 

@@ -208,7 +208,7 @@ def test_border_is_reachable(l1, l2, point):
 
 
 @pytest.mark.parametrize("l1, l2", LENGTHS[:4])
-def test_points_beyond_the_border_are_nan(l1, l2):
+def test_solutions_beyond_the_border_are_nan(l1, l2):
     for direction in ((1, 0, 0), (0.6, 0, 0.8), (0, 0, 1)):
         beyond = np.multiply(direction, (l1 + l2) * (1 + 1e-9))
         assert workspace(l1, l2, beyond).tolist() == [False, True, True, True]

@@ -635,7 +635,7 @@ def shows_the_motion(shown, exact=True, held=False):
 
 
 @named(POSES)
-def test_motion_passes_the_via_point_in_the_boxes(opened, arm):
+def test_motion_passes_through_the_via_point_in_the_boxes(opened, arm):
     shown = opened(motion_explorer(arm, *POSES[arm]), arm)
     looks = [shows_the_motion(shown)]
     cells = [cell.split(" ")[0] for cell in looks[0].seen.rows[0][1:]]

@@ -114,7 +114,7 @@ def test_rows_and_configurations_correspond(arm):
             arm.branch(*wrong)
 
 
-def test_arm_without_closed_form_has_another_type():
+def test_arm_without_closed_form_has_a_different_type():
     arm = three_lever(0.4)
     assert isinstance(arm, Arm) and arm.target is np.ndarray
     assert not any(hasattr(arm, name) for name in ("ik", "branches", "branch"))

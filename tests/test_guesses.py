@@ -250,7 +250,7 @@ def test_line_of_guesses_is_parsed_or_refused():
             parse_line(wrong)
 
 
-def test_saved_guesses_precede_the_line_and_the_cell(tmp_path):
+def test_saved_guesses_take_precedence_over_the_line_and_the_cell(tmp_path):
     asked, typed = predict(P1), predict(TYPED)
     right = "abcd"[asked.right]
     wrong = "abcd"[(asked.right + 1) % 4]

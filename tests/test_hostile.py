@@ -447,7 +447,7 @@ def test_own_outputs_are_unchanged():
         assert re.sub("[0-9a-f]{12}", "", same) == re.sub("[0-9a-f]{12}", "", made.html)
 
 
-def test_verdict_has_the_colour_of_its_first_word():
+def test_verdict_has_the_colour_of_its_state():
     says = ("one & two", "  a = <b>")
     made = [Verdict("irb140_motion.1", False, says=says), Verdict("irb140_motion.1", holds=True)]
     made.append(Verdict("irb140_motion.1", mistake="a\u202emistake", case="x\ny"))
