@@ -14,7 +14,7 @@ POSE = {"rotation", "translation", "inverse", "lerp", "as_matrix", "shape"}
 ARRAY = {"shape", "T", "max", "reshape"}
 ARM = {"fk", "frames", "jacobian", "limits", "name"}
 
-# the text before the dot -> names that must be offered, and names that must not
+# the text before the dot -> (names that must be offered, names that must not be offered)
 OFFERED = {
     "lin(T, T, .5)": (POSE, ARRAY - {"shape"}),
     "blend(T, T, T, .1, .5)": (POSE, ARRAY - {"shape"}),

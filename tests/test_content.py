@@ -1,5 +1,5 @@
 """Laws for all content in notebooks/exercises and in the folders of ROBOKIN_EXERCISES, including
-laws that are too slow for every check.
+laws that are too slow to test on every check.
 """
 
 import contextlib
@@ -60,7 +60,7 @@ def test_mistakes_have_unique_names_and_sentences(name):
 
 
 def outcomes(exercise, variant):
-    """The results of a wrong program for all cases."""
+    """The outcomes of a wrong program in all cases."""
     [made] = run(lambda: _outcomes(exercise, variant), [()])
     if unended(made):
         pytest.fail(f"{variant.name!r} does not end", pytrace=False)

@@ -41,7 +41,7 @@ def line(request):
     return offsets, v * mm, pitch, trips, first_come
 
 
-# --- The objects ----------------------------------------------------------------------------------
+# --- Positions of the objects ---------------------------------------------------------------------
 
 
 def test_zero_spread_gives_equal_gaps():
@@ -68,7 +68,7 @@ def test_different_seeds_give_different_orders():
     assert spaced(1, GAP, 1.0) == pytest.approx([GAP])
 
 
-# --- The trips ------------------------------------------------------------------------------------
+# --- Trips of the arms ----------------------------------------------------------------------------
 
 
 def posture(point):
@@ -91,7 +91,7 @@ def seconds(point):
 def test_objects_are_picked_inside_the_window_of_their_arm(line):
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips):
-        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # where the belt has carried them
+        y = WINDOW[0] - offsets[one.objects] + v * one.meets  # the belt has carried them here
         assert (y >= WINDOW[0] + k * pitch - 1e-9).all()
         assert (y <= WINDOW[-1] + k * pitch + 1e-9).all()
         assert np.allclose(y - k * pitch, WINDOW[one.places], rtol=0, atol=1e-9)
@@ -119,7 +119,7 @@ def test_each_object_is_picked_once_or_missed_by_all(line):
         assert (one.objects == same.objects).all() and (one.meets == same.meets).all()
 
 
-def test_next_arm_picks_what_the_previous_one_left(line):
+def test_next_arm_picks_objects_left_by_the_previous_arm(line):
     """Three arms once shared one clock, and arm 2 took object 4 while it was still at arm 1."""
     offsets, v, pitch, trips, _ = line
     for k, one in enumerate(trips[1:], 1):
@@ -137,7 +137,7 @@ def test_larger_pitch_only_delays_picks(line):
         assert np.allclose(later.meets - one.meets, k * 0.6 / v, rtol=0, atol=1e-9)
 
 
-def test_greedy_rule_equals_a_simple_program(line):
+def test_greedy_rule_matches_a_simple_program(line):
     """Try every remaining object and every place for every trip."""
     offsets, v, pitch, trips, first_come = line
     left = list(range(COUNT))
@@ -159,7 +159,7 @@ def test_greedy_rule_equals_a_simple_program(line):
         assert (last < free).all()  # the arm stops only when it can reach none of the rest
 
 
-def test_one_place_picks_every_kth_of_evenly_spaced_objects():
+def test_arm_with_one_place_picks_every_kth_evenly_spaced_object():
     """Without a window that gives it time, an arm with the cycle time c takes every
     ceil(c v / g)-th object.
     """
@@ -172,8 +172,10 @@ def test_one_place_picks_every_kth_of_evenly_spaced_objects():
 
 @pytest.mark.parametrize("spread", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("first_come", [False, True])
-def test_unlimited_window_picks_one_object_per_cycle(spread, first_come):
-    """If every place is w s away, v / g objects come per second and at most 1 / (2 w) are taken."""
+def test_unlimited_window_allows_one_pick_per_cycle(spread, first_come):
+    """If every place is w seconds away, v / g objects per second come and at most 1 / (2 w) are
+    taken.
+    """
     way, v = 0.6, 0.4
     assert v / GAP > 1 / (2 * way)  # more objects than the arm can take
     window = np.linspace(0, 100, 500)
@@ -189,7 +191,7 @@ def test_unlimited_window_picks_one_object_per_cycle(spread, first_come):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_one_place_with_uneven_objects_equals_a_simple_loop(seed):
+def test_one_place_with_uneven_gaps_matches_a_simple_loop(seed):
     """Objects that come while the arm is away are missed."""
     offsets, v, way = spaced(COUNT, GAP, 1.0, seed=seed), 0.2, 0.5
     (one,) = serve(offsets, v, [0.0], [way])
@@ -238,7 +240,7 @@ def test_uneven_spacing_loses_objects():
         (dict(first_come="no"), "first_come: wanted True or False, got 'no'"),
     ],
 )
-def test_invalid_lines_are_refused(change, message):
+def test_invalid_conveyor_lines_are_refused(change, message):
     with pytest.raises(ValueError, match=message):
         serve(**dict(offsets=[0.1, 0.2], v=0.1, window=WINDOW, ways=WAYS) | change)
 

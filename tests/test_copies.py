@@ -39,11 +39,11 @@ def _own_trust(tmp_path, monkeypatch):
     monkeypatch.setenv("JUPYTER_CONFIG_DIR", str(tmp_path / "jupyter"))
 
 
-# --- Notebooks ------------------------------------------------------------------------------------
+# --- Making and reading small labs ----------------------------------------------------------------
 
 
 def notebook(text, shown="still"):
-    """A small lab that says `text`; `shown` is what its player shows."""
+    """A small lab that says `text`; `shown` is the output of its player."""
     html = {"text/html": [f"<script>{shown}</script>"], "text/plain": ["player"]}
     output = {"output_type": "display_data", "data": html, "metadata": {}}
     cells = [
@@ -96,12 +96,12 @@ def laid(content):
     return data
 
 
-# --- Faults at any write ---------------------------------------------------------------
+# --- Simulated faults in file operations ----------------------------------------------------------
 
 
 class Writes:
-    """Replaces `os` and `open` in `copies`, counts file operations, and raises `error` at the
-    operation with the number `end`: before or after the operation takes effect, or in the middle of
+    """Replaces `os` and `open` in `copies`, counts file operations, and raises `error` at
+    operation number `end`: before or after the operation takes effect, or in the middle of
     a write. With `dead`, all later operations fail, too, as in a killed process. `at` maps a number
     to an action just before that operation. With a path `near`, the count begins when this path is
     moved or written.
@@ -163,7 +163,7 @@ class Writes:
         self.stack.close()
 
 
-# --- A history ------------------------------------------------------------------------------------
+# --- Histories of a student's folder --------------------------------------------------------------
 
 
 class History:
@@ -205,7 +205,7 @@ class History:
         assert not [o for o in copy(self.folder, self.source) if o.what in ("new", "replaced")]
         assert self.files(hidden=True) == before, "a copy without newer labs changed something"
 
-    # What the teacher does
+    # Actions of the teacher
 
     def newer(self):
         self._lab(self.random.choice(self.labs()))
@@ -235,7 +235,7 @@ class History:
             self.versions.setdefault(new, []).append((self.source / path).read_bytes())
             os.replace(self.source / path, self.source / new)
 
-    # What the student does
+    # Actions of the student
 
     def edit(self):
         path = self._pick(".ipynb")
@@ -285,7 +285,7 @@ class History:
             self.save(f"my {self.token()}{Path(path).suffix}", self._read(path))
 
     def accept(self):
-        """The student replaces a lab with the newer one that lies beside it."""
+        """The student replaces a lab with the newer one next to it."""
         path = self._pick(".new.ipynb")
         place = path and path.replace(".new.", ".")
         if path and self._plain(place):
@@ -375,13 +375,13 @@ class History:
             same = laid_before[path] == {says}
             here = after.get(path)
             sides = self._sides(path, after)
-            if path in self.untouched:  # even if an interrupted copy had moved it
+            if path in self.untouched:  # even one that an interrupted copy has moved
                 assert here and said(path, here) == says, f"{path}: unchanged, but not the newest"
                 if self.outputs.get(path) not in (None, newest):
                     assert path.endswith(".json") or json.loads(here) == laid(newest)
             elif path in mine or self._strange(path):
                 beside = [said(path, after[side]) for side in sides]
-                assert says in beside or not newer, f"{path}: no newer lab beside it"
+                assert says in beside or not newer, f"{path}: no newer lab next to it"
             elif not os.path.lexists(self.folder / path):
                 assert not newer and path not in before, f"{path} does not come back"
             elif path not in before:
@@ -495,7 +495,7 @@ class History:
                 if self._plain(place) and not mine and said(path, files[place]) == says:
                     self.untouched.add(place)
 
-    # What must always be true
+    # Conditions that must always be true
 
     def look(self):
         """Assert that none of the student's work is lost and that no valid notebook is broken."""
@@ -642,7 +642,7 @@ def test_no_work_is_lost_on_a_file_system_without_links(seed, tmp_path, monkeypa
     History(seed, tmp_path).run(steps=25)
 
 
-# --- Single cases ---------------------------------------------------------------------------------
+# --- Tests of single cases ------------------------------------------------------------------------
 
 
 class Class:
@@ -660,7 +660,7 @@ class Class:
         place.write_bytes(written(notebook(f"{name} {says}") if "ipynb" in name else says))
 
     def copy(self):
-        """Path -> the outcome of a copy, for the files to which anything happened."""
+        """Copy the labs; return path -> outcome for all files that were not left as they were."""
         return {o.path: o.what for o in copy(self.folder, self.labs) if o.what != "same"}
 
     def says(self, name):
@@ -729,7 +729,7 @@ def test_outcomes_match_the_files(school, capsys):
     ]
     assert school.says("one.ipynb") == "# mine" and school.says("tasks/task.json") == "first"
     assert school.says("one.new.ipynb") == "# one.ipynb second"
-    # a newer lab beside it is the student's, too, once changed; unchanged, it is replaced
+    # once changed, a newer lab next to it belongs to the student, too; otherwise it is replaced
     for says, beside in (("third", "one.new.ipynb"), ("fourth", "one.new2.ipynb")):
         school.newer("one.ipynb", says)
         assert school.copy() == {"one.ipynb": "kept", "tasks/task.json": "gone"}
@@ -828,7 +828,7 @@ def test_full_disk_is_reported_and_recovered_from(school, capsys):
     assert all(school.says(n) == f"# {n} second" for n in ("one.ipynb", "two.ipynb", "new.ipynb"))
 
 
-def test_disk_that_fills_up_reports_written_files(school, monkeypatch):
+def test_files_written_before_the_disk_is_full_are_reported(school, monkeypatch):
     """Whichever file is the last that fits on the disk, exactly the reported files exist."""
     write, names = copies.write, ("new.ipynb", "one.ipynb", "two.ipynb")
     for name in names:
@@ -969,14 +969,14 @@ def test_simultaneous_copies_do_no_harm(school):
     assert school.copy() == {}
 
 
-# --- The labs -------------------------------------------------------------------------------------
+# --- Copies of the real labs ----------------------------------------------------------------------
 
 
 def test_copied_labs_are_valid_and_trusted(tmp_path):
     outcomes = copy(tmp_path / "student")
     given = {p.relative_to(NOTEBOOKS).as_posix() for p in NOTEBOOKS.rglob("*") if p.is_file()}
     given = {p for p in given if not any(part.startswith(".") for part in p.split("/"))}
-    given = {p for p in given if not p.startswith("exercises/")}  # they contain the solutions
+    given = {p for p in given if not p.startswith("exercises/")}  # exercises contain solutions
     wanted = sorted(p for p in given - {"documents/teaching.ipynb"} if not p.endswith(".log"))
     assert [o.path for o in outcomes] == wanted and {o.what for o in outcomes} == {"new"}
     for path in wanted:
@@ -1001,7 +1001,7 @@ def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupy
     player = players.filter(has=page.get_by_label("playing speed")).first
 
     def started():
-        awake(page)  # again and again: JupyterLab renders the cells below later
+        awake(page)  # repeatedly, since JupyterLab renders the lower cells later
         return player.count() and player.locator("canvas").first.is_visible()
 
     until(started, "no player has started", page)
@@ -1011,7 +1011,7 @@ def test_copied_lab_works_when_opened_and_is_not_marked_as_changed(browser, jupy
     button.click()
     until(lambda: player.evaluate(canvases) != still, "the player does not play", page)
     page.get_by_text("| Idle").first.wait_for()
-    page.wait_for_timeout(1500)  # the status of the language comes later
+    page.wait_for_timeout(1500)  # the language status appears later
     tab = page.locator(".lm-TabBar-tab.lm-mod-current[data-type='document-title']")
     assert tab.count() == 1 and "jp-mod-dirty" not in tab.get_attribute("class")
     page.close()

@@ -265,7 +265,7 @@ TROUBLE = {
 
 
 @pytest.mark.parametrize("name", TROUBLE)
-def test_errors_of_an_answer_are_named(name, capsys):
+def test_errors_in_an_answer_are_named(name, capsys):
     answer, words = TROUBLE[name]
     verdict = check("made.1", answer)
     assert verdict.mistake == name and not verdict.holds and words in repr(verdict)
@@ -281,7 +281,7 @@ def test_endless_loop_is_reported_when_its_cpu_time_is_up(answer, monkeypatch):
     verdict = check("made.1", answer)
     assert 0.4 < time.process_time() - begin < 2
     assert verdict.mistake == "never ends" and not verdict.holds
-    assert check("made.1", right).holds  # the caller continues
+    assert check("made.1", right).holds  # the caller is not affected
 
 
 @pytest.fixture
@@ -293,7 +293,7 @@ def _interrupts():
 
 
 @pytest.mark.usefixtures("_interrupts")
-def test_interrupt_by_the_reader_is_passed_on():
+def test_interrupt_by_the_user_is_passed_on():
     before = _thread._count()
 
     def interrupted(height, angle):
@@ -301,7 +301,7 @@ def test_interrupt_by_the_reader_is_passed_on():
         while True:
             height += 1
 
-    for _ in range(30):  # wherever the caller is at that moment
+    for _ in range(30):  # wherever the interrupt reaches the caller
         with pytest.raises(KeyboardInterrupt):
             check("made.1", interrupted)
         until(lambda: _thread._count() == before, "a thread is left")
@@ -313,7 +313,7 @@ def test_interrupt_by_the_reader_is_passed_on():
 
 
 def test_time_limit_stops_the_answer_and_not_the_caller(monkeypatch):
-    """This is true even if the machine is so busy that the time is up before the caller goes on."""
+    """This is true even if a busy machine uses up the time before the caller continues."""
     monkeypatch.setattr(answers, "SECONDS", 0.01)
     start = _thread.start_new_thread
 
@@ -331,7 +331,7 @@ def test_time_limit_stops_the_answer_and_not_the_caller(monkeypatch):
     assert _thread._count() == before
 
 
-def test_waiting_answer_is_stopped_by_wall_clock_time(monkeypatch):
+def test_waiting_answer_is_stopped_by_the_wall_clock_limit(monkeypatch):
     monkeypatch.setattr(answers, "WALL", 0.1)
 
     def waits(height, angle):
@@ -431,10 +431,10 @@ def test_one_changed_input_among_several_is_reported():
     assert outcome.name == "changes its input"
 
 
-# --- The name of a mistake ------------------------------------------------------------------------
+# --- Names of mistakes ----------------------------------------------------------------------------
 
 
-def test_wrong_answer_is_named_by_the_mistake_it_equals_in_all_cases():
+def test_wrong_answer_gets_the_name_of_the_mistake_that_it_matches_in_all_cases():
     verdict = check("made.1", lambda h, a: right(h, a) @ TIP.inverse())
     assert verdict.mistake == "no tip" and "The tip is left out." in verdict.says
     assert "height = 0.5, angle = 1" in verdict.case and "should be at" in verdict.case
@@ -471,7 +471,7 @@ def inside(lab, mistakes=""):
     lab.exercises["4"] = function(program, lambda rng: cases, mistakes)
 
 
-def test_program_that_is_almost_always_true_uses_its_inputs(lab):
+def test_inputs_of_an_almost_always_true_program_count_as_used(lab):
     """With only one case, most wrong programs would seem to use no input."""
     inside(lab)
     assert check("made.4", lambda x, low: low <= x <= 3).holds
@@ -490,7 +490,7 @@ LOW_AND_HIGH = """\
 """
 
 
-def test_pairs_of_mistakes_are_not_named_for_boolean_answers(lab):
+def test_two_mistakes_in_a_boolean_answer_are_named_with_caution(lab):
     inside(lab, LOW_AND_HIGH)
     assert check("made.4", lambda x, low: low - 1 <= x <= 3).mistake == "too low"
     verdict = check("made.4", lambda x, low: low - 1 <= x <= 4)
@@ -576,7 +576,7 @@ def integers(rng):
     return [(float(a), float(b)) for a in range(-2, 3) for b in range(-2, 3)]
 
 
-# slip -> the result of a correct program, its cases, and a student's wrong version
+# slip -> (the result of a correct program, its cases, a student's wrong version)
 WRITTEN = {
     "element-wise product": ("a @ b", matrices, lambda a, b: a * b),
     "order of a product": ("a @ b", matrices, lambda a, b: b @ a),
@@ -650,7 +650,7 @@ def test_all_common_slips_are_tried():
     assert any("`a`" in says for says in signs) and any("`b`" in says for says in signs)
 
 
-# --- Values, and tests that catch -----------------------------------------------------------------
+# --- Exercises that ask for a value or a test -----------------------------------------------------
 
 
 def test_value_is_judged_with_the_students_numbers():
@@ -662,7 +662,7 @@ def test_value_is_judged_with_the_students_numbers():
     assert check("made.2", "long", who="Ada").mistake == "another kind or shape"
 
 
-def test_answer_to_a_test_exercise_must_accept_and_refuse():
+def test_submitted_test_must_accept_correct_and_refuse_wrong_programs():
     def good(program):
         return program(3) == 6 and program(2) == 4
 
@@ -730,7 +730,7 @@ def test_error_in_the_test_itself_is_reported():
 
 
 def test_test_that_counts_its_calls_does_not_pass(monkeypatch):
-    """Such a test is right only by chance, so it is tried repeatedly."""
+    """Such a test is correct only by chance, so it is tried repeatedly."""
     held, told = 0, set()
     for seed in range(200):
         dice = random.Random(seed)
@@ -812,7 +812,7 @@ def test_progress_lists_solved_exercises():
     assert progress().splitlines() == lines, "an exercise that was solved once counts as practised"
 
 
-def test_numbers_do_not_depend_on_case_and_spaces_of_a_name(lab):
+def test_individual_numbers_ignore_case_and_spaces_in_a_name(lab):
     from robokin.course.variants import Numbers, dice
 
     lab.given = lambda who: Numbers({"x": dice("made", who).randrange(10**6)}, {"x": ("mm", 1)})
@@ -827,7 +827,7 @@ def test_numbers_do_not_depend_on_case_and_spaces_of_a_name(lab):
     assert repr(variant("made", "Ada")).endswith("mm")
 
 
-def test_numbers_are_equal_in_another_process():
+def test_individual_numbers_are_the_same_in_another_process():
     code = "from robokin.course.variants import dice; print(dice('made', 'Ada').randrange(10**9))"
     made = {
         subprocess.run(

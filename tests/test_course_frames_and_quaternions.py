@@ -14,7 +14,7 @@ LAB = book.lab("frames_and_quaternions")
 invert = np.linalg.inv
 
 
-# --- 1: seen from the flange ----------------------------------------------------------------------
+# --- Exercise 1: a part seen from the flange ------------------------------------------------------
 
 
 def closed(q, d, a, alpha):
@@ -86,7 +86,7 @@ def test_mistakes_in_views_from_the_flange_are_named(name, answer):
     assert not verdict.holds and verdict.mistake == name, verdict
 
 
-# --- 2: a camera ----------------------------------------------------------------------------------
+# --- Exercise 2: a camera that looks at a part ----------------------------------------------------
 
 
 def places(who):
@@ -131,7 +131,7 @@ def test_camera_can_look_at_the_part_for_every_name():
             assert not verdict.holds and verdict.mistake == name, (who, name, verdict)
 
 
-# --- 3: a test for slerp --------------------------------------------------------------------------
+# --- Exercise 3: a test for slerp -----------------------------------------------------------------
 
 
 def unit(row):
@@ -139,7 +139,7 @@ def unit(row):
 
 
 def by_its_properties(lead):
-    """A test of unit length, equal steps and the whole rotation, without a reference program."""
+    """A test that checks unit length, equal steps and the whole rotation, without a reference."""
     rng = np.random.default_rng(0)
     for turn in (0, 0.1, 0.4, 1, 2, 3):
         a = unit(rng.normal(size=4))
@@ -156,7 +156,7 @@ def by_its_properties(lead):
     return True
 
 
-def test_property_test_passes_and_naive_test_reports_what_it_accepts():
+def test_property_test_passes_and_program_accepted_by_a_naive_test_is_named():
     assert check("frames_and_quaternions.3", by_its_properties).holds
     a, b = (Quaternion.from_angle_axis(x * deg, Z).wxyz for x in (10, 130))
 
@@ -170,7 +170,7 @@ def test_property_test_passes_and_naive_test_reports_what_it_accepts():
 
 
 def compared(turns, shares=(0, 0.1, 0.25, 0.5, 0.9, 1), given=np.array):
-    """A test that compares with robokin's slerp, for rotations by these angles."""
+    """A test that compares programs with robokin's slerp for rotations by these angles."""
     rng = np.random.default_rng(5)
     pairs = []
     for turn in turns:

@@ -18,7 +18,7 @@ TARGET, FACTS = LAB.module("own_target"), LAB.module("predictions")
 FOUR = Transform(turned(180 * deg, Y), np.array([720, 0, 287]) * mm)
 
 
-# --- 1: the tip -----------------------------------------------------------------------------------
+# --- Exercise 1: the tip of a gripper -------------------------------------------------------------
 
 
 def by_chain(q, length, turn):
@@ -60,13 +60,13 @@ def by_parts(q, length, turn):
 
 
 @pytest.mark.parametrize("right", [by_chain, by_joint_6, by_matrices, by_parts])
-def test_correct_tips_pass(right):
+def test_correct_tip_poses_pass(right):
     verdict = check(TIP, right)
     assert verdict.holds, verdict
 
 
 @pytest.mark.parametrize("mistake", LAB.exercises["1"].own, ids=lambda m: m.name)
-def test_mistakes_in_tips_are_refused_and_named(mistake):
+def test_mistakes_in_tip_poses_are_refused_and_named(mistake):
     verdict = check(TIP, LAB.exercises["1"].steps.program(mistake))
     assert not verdict.holds and verdict.mistake == mistake.name and mistake.says in verdict.says
     assert "should" in verdict.case
@@ -87,11 +87,11 @@ GENERAL = {
 
 
 @pytest.mark.parametrize("name", GENERAL)
-def test_common_slips_in_tips_are_named(name):
+def test_common_slips_in_tip_poses_are_named(name):
     assert check(TIP, GENERAL[name]).mistake == name
 
 
-# --- 2: four solutions ----------------------------------------------------------------------------
+# --- Exercise 2: a pose with four solutions -------------------------------------------------------
 
 
 @pytest.mark.parametrize("side", (-40, 0, 100))
@@ -144,7 +144,7 @@ def test_pose_explorer_knows_the_goal():
     assert task["wanted"] == 4 and "{count}" in task["open"]
 
 
-def test_pose_explorer_reports_when_the_task_is_fulfilled(browser, tmp_path):
+def test_pose_explorer_reports_a_solved_task(browser, tmp_path):
     path = tmp_path / "pose.html"
     pose_explorer(POSE).save(path)
     page = browser.new_page(viewport={"width": 900, "height": 800})
@@ -163,11 +163,11 @@ def test_pose_explorer_reports_when_the_task_is_fulfilled(browser, tmp_path):
     page.close()
 
 
-# --- 3: an individual target ----------------------------------------------------------------------
+# --- Exercise 3: an individual target -------------------------------------------------------------
 
 
 def design(who, factor=1.1, height=None):
-    "A correct design, found by another method than in the solution: the fastest of a few heights."
+    "A correct design, found by a method other than the solution's: the fastest of a few heights."
     numbers = variant("irb140_kinematics", who)
     p, best = np.linspace(0, 1, 801), []
     for z in (0.65, 0.7, 0.75, 0.8) if height is None else (height,):
@@ -185,12 +185,12 @@ def design(who, factor=1.1, height=None):
 
 
 @pytest.mark.parametrize("k", range(50))
-def test_variants_can_be_solved(k):
+def test_individual_tasks_can_be_solved(k):
     verdict = check(DESIGN, design(k), who=k)
     assert verdict.holds, verdict
 
 
-def test_variants_differ():
+def test_individual_tasks_differ():
     assert len({repr(variant("irb140_kinematics", k)) for k in range(50)}) > 45
 
 
@@ -240,12 +240,12 @@ def test_mistakes_in_designs_are_named():
     assert check(DESIGN, lists, who="anna").holds
 
 
-def test_fault_reports_time_joint_and_excess():
+def test_message_about_a_limit_contains_time_joint_and_excess():
     says = " ".join(check(DESIGN, design("anna") | {"flags": (1, 1, 1)}, who="anna").says)
     assert re.search(r"Joint 1 is past its limit of −?-?180° by \d+\.\d° at t = \d\.\d\d s", says)
 
 
-# --- Predictions ----------------------------------------------------------------------------------
+# --- Keys of the predictions ----------------------------------------------------------------------
 
 
 def key(name):
@@ -253,7 +253,7 @@ def key(name):
 
 
 def jacobian(q, k, point=(0, 0, 0)):
-    "The speed of a flange point when joint k turns, computed from its axis instead of differences."
+    "The speed of a flange point when joint k turns, computed from its axis, not by differences."
     frame = IRB140.frames(q)[k + 1]
     axis = frame.rotation @ IRB140.links[k].axis if k < 5 else IRB140.fk(q).rotation @ Z
     return np.linalg.norm(np.cross(axis, IRB140.fk(q) @ point - frame.translation))
@@ -322,11 +322,11 @@ def test_p9_agrees_with_the_law_of_cosines():
     a, b, d = 0.38, 0.35, 0.1
     angle = np.arccos((b**2 + d**2 - a**2) / (2 * b * d))
     assert angle > np.pi / 2 and key("p9") == 3
-    chord = 2 * b * np.sin(angle - np.pi / 2)  # the elbow moves on a circle of the upper arm ...
+    chord = 2 * b * np.sin(angle - np.pi / 2)  # the elbow moves on a circle about the shoulder
     facts = LAB.predictions["p9"].facts()
     assert facts["obtuse"] == pytest.approx(angle / deg)
     assert facts["acute"] == pytest.approx(180 - angle / deg)
-    # ... with the whole triangle: the wrist centre, d away, moves along its own chord
+    # the whole triangle turns, so the chord of the wrist centre, d from the shoulder, is d / b long
     assert facts["miss"] == pytest.approx(chord * d / b / mm)
 
 

@@ -22,7 +22,7 @@ START, VIA, GOAL, LEFT, RIGHT, ROW = (
 NAN = float("nan")
 
 
-# --- 1 --------------------------------------------------------------------------------------------
+# --- Exercise 1: the blend for a distance ---------------------------------------------------------
 
 
 def _by_table(distance, corner):
@@ -80,7 +80,7 @@ def test_blends_found_by_other_methods_pass(answer):
     assert verdict.holds, verdict
 
 
-def test_blend_in_the_task_equals_that_of_the_document():
+def test_blend_in_the_task_matches_that_of_the_document():
     exercise = LAB.exercises["1"]
     wanted = exercise.right(0.05, "parabola")
     assert _gap(wanted, "parabola") == pytest.approx(50 * mm)
@@ -90,7 +90,7 @@ def test_blend_in_the_task_equals_that_of_the_document():
     )
 
 
-# --- 2 --------------------------------------------------------------------------------------------
+# --- Exercise 2: PTP the short way ----------------------------------------------------------------
 
 
 def _by_nearest(q0, q1, s):
@@ -193,7 +193,7 @@ def test_correct_motion_satisfies_its_laws():
         assert np.allclose(motion, ptp(q0, end[1], s), rtol=0, atol=1e-12)
 
 
-# --- 1 and 2 --------------------------------------------------------------------------------------
+# --- Mistakes in exercises 1 and 2 ----------------------------------------------------------------
 
 
 @pytest.mark.parametrize("number", FUNCTIONS)
@@ -234,12 +234,12 @@ def test_unknown_mistake_is_refused_without_a_name(number):
         ("1", lambda d, corner: 0.123, "one answer to everything"),
     ],
 )
-def test_answers_of_another_kind_are_named(number, answer, name):
+def test_answers_of_the_wrong_type_are_named(number, answer, name):
     verdict = check(f"irb140_motion.{number}", answer)
     assert not verdict.holds and verdict.mistake == name, verdict
 
 
-# --- 3 --------------------------------------------------------------------------------------------
+# --- Exercise 3: a test for speeds ----------------------------------------------------------------
 
 
 def _wrapped(q):
@@ -284,7 +284,7 @@ def _by_several_motions(speeds):
 
 
 def _by_summing_up(speeds):
-    """A test that integrates the speeds and looks at single samples."""
+    """A test that integrates the speeds and checks single samples."""
     t = 1 + np.cumsum(np.tile([0.01, 0.01, 0.005], 300))
     phase = np.linspace(0, 3, 6)
     q = 3 * np.sin(1.2 * t[:, None] + phase) + 1
@@ -363,7 +363,7 @@ def test_differentiate_is_correct_only_after_unwrapping():
     assert re.search("unwrap", LAB.exercises["3"].rights[0][0])
 
 
-# --- The predictions ------------------------------------------------------------------------------
+# --- Keys of the predictions ----------------------------------------------------------------------
 
 NOTEBOOK = json.loads((NOTEBOOKS / "03_irb140_motion.ipynb").read_text(encoding="utf-8"))
 CELLS = {cell["id"]: cell for cell in NOTEBOOK["cells"]}
@@ -375,7 +375,7 @@ def _right(name):
 
 
 def _line_speeds(a, b, x, seconds):
-    """Joint speeds at progress x of the line from a to b, by the Jacobian."""
+    """Joint speeds at progress x of the line from a to b, from the Jacobian."""
     angle, axis = (b.rotation @ a.rotation.inverse()).as_angle_axis()
     twist = np.concatenate([b.translation - a.translation, angle * axis]) / seconds
     return np.linalg.solve(IRB140.jacobian(IRB140.ik(a.lerp(b, x))[ROW]), twist)
@@ -447,7 +447,7 @@ def test_nothing_outside_the_predictions_reveals_an_answer():
     assert not re.search(r"quicker|no joint keeps|doubles whenever|after the first NaN", seen)
 
 
-def test_poses_equal_those_of_the_lab():
+def test_poses_match_those_of_the_lab():
     space = {}
     exec("".join(CELLS["setup"]["source"]).split("row =")[0], space)
     for name in ("start", "via", "goal", "left", "right"):

@@ -26,7 +26,7 @@ KINDS = {e: type(book.find(e, "exercises")) for e in EXERCISES}
 FUNCTIONS = [e for e in EXERCISES if KINDS[e] is Function]
 CATCHES = [e for e in EXERCISES if KINDS[e] is Catch]
 every_lab = pytest.mark.parametrize("lab", book.labs())
-SMALL = "start_here"  # ten minutes: one exercise and one prediction
+SMALL = "start_here"  # a lab of ten minutes, with one exercise and one prediction
 
 
 def cells(lab):
@@ -85,7 +85,7 @@ def test_last_cell_of_your_turn_makes_the_report(lab):
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_untouched_lab_is_not_answered_yet(name):
+def test_untouched_exercise_is_not_answered_yet(name):
     lab, _, number = name.partition(".")
     kept = [
         "".join(c["outputs"][0]["data"]["text/plain"])
@@ -155,7 +155,7 @@ def of_the_solution(name):
 
 @pytest.mark.parametrize("name", CATCHES)
 def test_no_test_passes_by_a_trick(name, monkeypatch):
-    """The tricks: to count the calls, ignore errors, return nothing, or answer only sometimes."""
+    """The tricks are counting calls, ignoring errors, returning nothing and saying only yes."""
     right = of_the_solution(name)
     exercise = book.find(name, "exercises")
     many = len(exercise.rights) + len(exercise.wrongs) + 1

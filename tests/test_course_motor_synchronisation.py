@@ -132,7 +132,7 @@ def test_mistakes_in_drives_are_named():
         assert check("motor_synchronisation.2", drive, who="Ada").mistake == name
 
 
-def test_test_of_one_direction_or_one_table_reports_what_it_misses():
+def test_programs_missed_by_a_partial_test_are_named():
     space = {}
     exec(solution("motor_synchronisation.3"), space)
     whole = space["windings_are_right"]
@@ -194,7 +194,7 @@ def test_test_must_look_at_every_row(rows, name):
     assert not verdict.holds and verdict.mistake.startswith("accepts: ")
 
 
-def test_drive_faults_report_different_numbers_and_not_the_answer():
+def test_messages_about_drives_show_different_numbers_and_not_the_answer():
     own, q, gear = move("Ada")
     n = pulses(q, [gear] * 3)
     high = {"gears": [9 * gear] * 3, "frequencies": frequencies(n, own["most"])}
@@ -212,7 +212,7 @@ def test_drive_faults_report_different_numbers_and_not_the_answer():
 
 
 def test_lost_steps_come_in_fours_with_another_integrator():
-    # p10, with SciPy and without the windings' time constant, which does not affect the answer
+    # p10 is computed with SciPy, without the windings' time constant, which does not change it
     def lost(frequency):
         theta, omega, since, ends = (
             0.0,

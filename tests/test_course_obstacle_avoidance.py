@@ -94,7 +94,7 @@ def _open_upward(c, H):
 
 
 def _by_products(c, H):
-    """The crossings of the sides, where neither end point of a side counts."""
+    """Counts the crossings of the sides, but none at an end point of a side."""
     count = 0
     for P, Q in _sides(c):
         if (P[1] - H[1]) * (Q[1] - H[1]) < 0:
@@ -121,7 +121,7 @@ def test_mistakes_in_inside_tests_are_named(wrong, named):
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas"])
-def test_paths_known_from_the_lab_do_not_pass_the_bar(who):
+def test_paths_known_from_the_lab_do_not_get_past_the_bar(who):
     task = variant("obstacle_avoidance", who)
     start = np.array(task["start"]) * deg
     end = arm.least(task["target"], start)[0]
@@ -145,7 +145,7 @@ def test_paths_known_from_the_lab_do_not_pass_the_bar(who):
 
 
 @pytest.mark.parametrize("who", ["Ada", "Jonas", "your name"])
-def test_paths_around_dense_points_pass_the_bar(who):
+def test_paths_around_dense_points_get_past_the_bar(who):
     """The hint about points at a distance h from each other is true, too."""
     task = variant("obstacle_avoidance", who)
     start, (first, last) = np.array(task["start"]) * deg, np.array(task["bar"])
@@ -219,7 +219,7 @@ def test_test_of_first_and_last_postures_is_not_enough():
     assert verdict.mistake == "accepts: the postures only", verdict
 
 
-def test_distances_in_the_checks_equal_those_of_the_package():
+def test_distances_in_the_checks_match_those_of_the_package():
     from robokin.jobs.obstacles import distances
 
     q = np.random.default_rng(1).uniform(0, np.pi, (50, 3))

@@ -46,7 +46,7 @@ def by_row(turn_back, order):
 
 
 @pytest.mark.parametrize("answer", [by_flags, by_row(True, 1), by_row(True, np.inf)])
-def test_correct_names_pass(answer):
+def test_correct_configuration_names_pass(answer):
     verdict = check("puma560_branches.1", answer)
     assert verdict.holds, verdict
 
@@ -68,7 +68,7 @@ def test_correct_names_pass(answer):
         ),
     ],
 )
-def test_mistakes_in_names_are_named(answer, mistake):
+def test_mistakes_in_configuration_names_are_reported(answer, mistake):
     verdict = check("puma560_branches.1", answer)
     assert not verdict.holds and verdict.mistake == mistake, verdict
 
@@ -148,7 +148,7 @@ def test_peak_speed_of_ptp_is_not_that_of_a_line():
 
 
 @pytest.mark.parametrize("factor", [0.5, 0.9, 1.06, 1.08, 1.3, 3])
-def test_line_faults_do_not_reveal_the_answer(factor):
+def test_messages_about_lines_do_not_reveal_the_answer(factor):
     for who in ("Ada", "Bo", "Chen", "Dora", "Emil"):
         numbers = lab.given(who)
         least = judged_line(numbers).least(numbers["fastest"])

@@ -16,7 +16,7 @@ LAB = book.lab("scara_kinematics")
 CIRCLE, FACTS = LAB.module("own_circle"), LAB.module("predictions")
 
 
-# --- 1 --------------------------------------------------------------------------------------------
+# --- Exercise 1: the other elbow ------------------------------------------------------------------
 
 
 def _by_direction(q):
@@ -81,7 +81,7 @@ def test_unknown_mistake_is_refused_without_a_name():
     assert not verdict.holds and verdict.mistake is None
 
 
-# --- 2 --------------------------------------------------------------------------------------------
+# --- Exercise 2: an individual circle -------------------------------------------------------------
 
 
 def _every_task():
@@ -136,7 +136,7 @@ def test_mistakes_in_circles_are_named(change, name):
     assert name is None or verdict.mistake == name, verdict
 
 
-def test_task_is_the_one_that_the_lab_draws():
+def test_task_matches_the_circle_in_the_lab():
     numbers = variant("scara_kinematics", "Ada")
     targets = CIRCLE["own_circle"](numbers, 0.3, 0.5)
     centre = 0.3 * np.array([np.cos(numbers["bearing"]), np.sin(numbers["bearing"])])
@@ -145,7 +145,7 @@ def test_task_is_the_one_that_the_lab_draws():
     assert np.isclose(np.ptp(targets.angle), 4 * np.pi)
 
 
-# --- 3 --------------------------------------------------------------------------------------------
+# --- Exercise 3: a test for limits ----------------------------------------------------------------
 
 
 def test_correct_and_wrong_programs_match_their_names():
@@ -163,7 +163,7 @@ def test_correct_and_wrong_programs_match_their_names():
                 assert not program(spoiled, limits)
 
 
-def test_weak_limit_test_reports_what_it_accepts():
+def test_programs_accepted_by_weak_limit_tests_are_named():
     def one_sided(inside):
         good = np.tile(SCARA.limits.mean(axis=1), (25, 1))
         bad = good.copy()
@@ -237,7 +237,7 @@ def test_whole_turns_pass_and_small_errors_are_called_nearly_right():
     assert place != is_at
 
 
-# --- Predictions by another method ----------------------------------------------------------------
+# --- Keys of the predictions, by other methods ----------------------------------------------------
 
 
 def _right(name):

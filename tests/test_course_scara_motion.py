@@ -14,7 +14,7 @@ TURN = 2 * np.pi
 LOW, HIGH = SCARA.limits.T
 
 
-# --- 1: the least rotation of the tool ------------------------------------------------------------
+# --- Exercise 1: the least rotation of the tool ---------------------------------------------------
 
 
 def _by_list(q0, position, angle):
@@ -284,7 +284,7 @@ def test_mistakes_in_the_rotation_are_named(answer, word):
     assert verdict.mistake and word in verdict.mistake, verdict
 
 
-# --- 2: a limit test ------------------------------------------------------------------------------
+# --- Exercise 2: a limit test ---------------------------------------------------------------------
 
 
 def _loops(q):
@@ -385,7 +385,7 @@ def _limited(low=LOW, high=HIGH):
         (lambda q: _limited()(np.round(q / [deg, deg, deg, 1e-9]) * [deg, deg, deg, 1e-9]), None),
     ],
 )
-def test_similar_program_does_not_get_the_name_of_another(answer, name):
+def test_similar_program_does_not_get_the_name_of_another_mistake(answer, name):
     assert check("scara_motion.2", answer).mistake == name
 
 
@@ -405,7 +405,7 @@ def test_case_of_the_limit_test_reports_the_excess():
     assert "joint 1 at 2.4434609 rad, its limit is 2.4434610 rad" in law((bad,), False, True)
 
 
-# --- 3: an individual blend -----------------------------------------------------------------------
+# --- Exercise 3: an individual blend --------------------------------------------------------------
 
 
 def _least(mine):
@@ -420,14 +420,14 @@ def test_every_name_has_a_feasible_blend(more):
         b, both = _least(mine)
         assert 0.05 < b < 0.45
         needed = np.sqrt(both / (more * b * mine["acceleration"]))
-        assert needed > 5  # so that rounding up to a tenth of a second adds less than 2 %
+        assert needed > 5  # rounding it up to a tenth of a second adds less than 2 %
         for duration in (needed, needed * 1.019, np.ceil(10 * needed) / 10):
             design = {"blend": more * b, "duration": duration}
             assert check("scara_motion.3", design, who=who).holds, (who, mine)
         for factor, name in ((0.99, "too fast"), (1.021, "slower than needed")):
             design = {"blend": more * b, "duration": needed * factor}
             assert check("scara_motion.3", design, who=who).mistake == name
-        # heights above the table instead of above via are noticed for every name
+        # the use of heights above the table instead of above via is detected for every name
         over_table = mine["start_z"] + mine["goal_z"]
         assert np.sqrt(over_table / both) > 1.025
 
@@ -462,7 +462,7 @@ def test_mistakes_in_the_design_are_named():
     assert told(1.05 * b, -1) == "no such duration"
 
 
-# --- The predictions ------------------------------------------------------------------------------
+# --- Keys of the predictions ----------------------------------------------------------------------
 
 
 def test_prediction_keys_agree_with_other_calculations():

@@ -22,7 +22,7 @@ RIGHTS = [WRIST.program(text) for _, text in WRIST.rights]
 WRONGS = {name: WRIST.program(text) for name, _, text in WRIST.wrongs}
 
 
-# --- 1 --------------------------------------------------------------------------------------------
+# --- Exercise 1: the axes of a table --------------------------------------------------------------
 
 
 def _with_the_package(a, alpha, d, offset, q):
@@ -129,7 +129,7 @@ def test_verdict_shows_the_returned_arrays():
     assert len(shown) < 140
 
 
-# --- 2 --------------------------------------------------------------------------------------------
+# --- Exercise 2: a test for wrist programs --------------------------------------------------------
 
 
 def rebuilt(phi, theta, psi):
@@ -204,7 +204,7 @@ def test_programs_match_their_names():
         ),
     ],
 )
-def test_weak_tests_report_what_they_accept(test, mistake):
+def test_programs_accepted_by_weak_tests_are_named(test, mistake):
     assert check("spherical_wrist.2", test).mistake == mistake
 
 
@@ -251,7 +251,7 @@ def test_code_in_hints_can_be_run():
 
 
 def from_a_chain(h):
-    """The same rotation, rounded as a product rounds it."""
+    """The same rotation, with the rounding errors of a product."""
     back = turned(0.8, np.array([2, -1, 2]) / 3).as_matrix()
     return back.T @ (back @ h)
 
@@ -278,7 +278,7 @@ def test_test_without_matrices_of_a_chain_is_named():
     assert any("matrices of a chain" in line for line in verdict.says)
 
 
-# --- 3 --------------------------------------------------------------------------------------------
+# --- Exercise 3: an individual line ---------------------------------------------------------------
 
 
 @pytest.mark.parametrize("who", ["Ada", "Bo", "Žydrė", "student 17", 4711])
@@ -314,7 +314,7 @@ def test_every_line_is_feasible_but_not_with_a_level_tool(who):
     for share, askew in itertools.product((0.5, 0.7, 0.9, 1), (-60, -30, 0, 30, 60)):
         c, s = share * np.cos(askew * deg), share * np.sin(askew * deg)
         least, _ = passage(n, -c * up - s * side, -c * side + s * up)
-        assert not least >= n["least_distance"]  # NaN: out of reach
+        assert not least >= n["least_distance"]  # NaN means out of reach
     tilt = 0.99 * n["most_tilt"]
     along = [(e * tilt * np.sin(n["slope"]), e * tilt * np.cos(n["slope"])) for e in (1, -1)]
     for up, side in along:
@@ -324,7 +324,7 @@ def test_every_line_is_feasible_but_not_with_a_level_tool(who):
     assert not check("spherical_wrist.3", {"up": 0}, who=who).holds
 
 
-# --- The keys of the predictions, by another method -----------------------------------------------
+# --- Keys of the predictions, by other methods ----------------------------------------------------
 
 
 def right(name):
@@ -364,7 +364,7 @@ def test_test_must_look_at_the_middle_angle():
     whole = _judges([0, 1e-8, 1e-4, 1, 2, np.pi - 1e-4, np.pi - 1e-8, np.pi], 1e-10)
 
     def first_and_last(program):
-        """A test that takes a matching theta and ignores that of the program."""
+        """A test that computes a matching theta and ignores the program's theta."""
 
         def mended(h, wrist):
             phi, _, psi = program(h, wrist)

@@ -75,7 +75,7 @@ def angle_between(a, b, c):
 
 
 def of_the_lab(K, alpha, lengths):
-    """The lab's formulas, including its clip, with OB for L."""
+    """The lab's formulas, including its clip, with OB in place of L."""
     L, KO = lengths[0], np.hypot(*K)
     KB = 2 * L * np.sin(alpha / 2)
     gamma = angle_between(KO, L, KB) + np.arctan2(K[1], K[0])
@@ -241,7 +241,7 @@ def test_individual_task_can_be_solved_but_not_greedily(who):
         ({"first": 2.4, "second": np.pi}, "gamma past its limit at the second target"),
     ],
 )
-def test_failing_plans_get_the_reason(answer, mistake):
+def test_reasons_for_failing_plans_are_reported(answer, mistake):
     verdict = check("three_levers.3", answer, who="Ada")
     assert not verdict.holds and verdict.mistake == mistake and verdict.says
 
@@ -275,7 +275,7 @@ def first_and_last_angle(program):
 
 
 def test_test_must_start_from_different_postures():
-    """The second check gives the same verdict: programs with a memory are made anew for each."""
+    """The second check gives the same verdict: programs that keep state are made again for each."""
     arm, rng = three_lever(1.0), np.random.default_rng(5)
     places = rng.uniform(1.2, 2.8, 100)[:, None] * [np.cos(0.8), np.sin(0.8)]
 

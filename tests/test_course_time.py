@@ -40,7 +40,7 @@ def by_brentq(distance, corner):
 
 
 @pytest.mark.parametrize("answer", [by_bisection, by_brentq])
-def test_searches_over_blend_pass(answer):
+def test_answers_that_search_for_the_blend_pass(answer):
     assert check("irb140_motion.1", answer).holds
 
 

@@ -59,7 +59,7 @@ FUNCTIONS = [
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_strings_for_numbers_are_another_kind_of_answer(name):
+def test_strings_instead_of_numbers_are_reported_as_another_kind(name):
     exercise = book.find(name, "exercises")
 
     def right(*case):
@@ -92,6 +92,6 @@ def test_strings_for_numbers_are_another_kind_of_answer(name):
         ("motor_synchronisation.2", {"gears": ["9", "9", "9"], "frequencies": [1, 2, 3]}),
     ],
 )
-def test_string_for_a_number_of_a_design_is_another_kind(name, answer):
+def test_string_instead_of_a_number_in_a_design_is_reported_as_another_kind(name, answer):
     verdict = check(name, answer, who="Ada")
     assert verdict.mistake == "another kind or shape" and verdict.answered

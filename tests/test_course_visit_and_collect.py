@@ -17,7 +17,7 @@ TRAPS, FACTS, SHARED = (LAB.module(name) for name in ("greedy_traps", "predictio
 ARM = spbu_arm(5, 4)
 BOX = np.random.default_rng(5).uniform([-9, -9, 0], [9, 9, 9], size=(200, 3))
 POINTS = BOX[workspace(5, 4, BOX).all(axis=-1)]
-AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0], [0, -9.0, 0]])  # the last one on the border
+AXIS = np.array([[0, 0, 6.0], [0, 0, 3.0], [0, -9.0, 0]])  # the last point is on the border
 
 
 def inside(q):
@@ -111,7 +111,7 @@ def test_correct_tests_pass(answer):
         ),
     ],
 )
-def test_weak_tests_report_the_program_they_accept(answer, mistake):
+def test_program_accepted_by_a_weak_test_is_named(answer, mistake):
     verdict = check("visit_and_collect.1", answer)
     assert not verdict.holds and verdict.mistake == mistake
 
@@ -298,11 +298,11 @@ def test_no_set_of_points_beats_cheapest_first():
 
 
 def test_numbers_behind_the_predictions_are_correct():
-    assert FACTS["p7"]()["height"] == 3.0  # 3-4-5
+    assert FACTS["p7"]()["height"] == 3.0  # from a 3-4-5 triangle
     assert -1.017 < FACTS["p8"]()["low"] < -1.016
     facts = FACTS["p9"]()
     assert (facts["even"], facts["uneven"]) == (120, 90) and facts["rule"] > facts["even"]
-    assert (facts["least"], facts["greatest"]) == (80, 90)  # other orders of the same gaps
+    assert (facts["least"], facts["greatest"]) == (80, 90)  # for other orders of the same gaps
     assert facts["first"] == 95
     changes = FACTS["p5"]()
     beaten = ("container on axis 1", "prices", "unlike speeds", "emptied at the end")

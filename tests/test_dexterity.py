@@ -79,9 +79,9 @@ def test_singular_values_bound_the_tool_step_of_small_joint_steps(machine):
 
 def test_distance_is_zero_at_singularities_and_nan_for_nan():
     for arm, q in (
-        (IRB140, np.zeros(6)),  # the wrist
-        (PUMA560, [0.3, -0.4, -np.pi / 2 + np.arctan2(20.3, 431.8), 0.2, 0.7, 0]),  # stretched
-        (SCARA, [0.2, np.pi, 0.1, 0.05]),  # folded
+        (IRB140, np.zeros(6)),  # wrist singularity
+        (PUMA560, [0.3, -0.4, -np.pi / 2 + np.arctan2(20.3, 431.8), 0.2, 0.7, 0]),  # stretched arm
+        (SCARA, [0.2, np.pi, 0.1, 0.05]),  # folded arm
         (three_lever(0.4), [0.5, np.pi, np.pi]),
     ):
         assert distance_from_singularity(arm, q) < 1e-10

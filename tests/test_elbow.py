@@ -20,7 +20,7 @@ lengths = pytest.mark.parametrize("l1, l2", LENGTHS)
 
 
 def matrices(l1, l2, q):
-    """The product of the document's matrices, alpha1 = -90 degrees."""
+    """The product of the document's matrices, with alpha1 = -90 degrees."""
     return dh(q, (0, l1, l2), (-RIGHT, 0, 0), (0, 0, 0), (0, -RIGHT, RIGHT))
 
 
@@ -65,7 +65,7 @@ def test_principal_branch_is_row_0(case):
 
 
 @cases
-def test_workspace_verdicts_equal_the_reference(case):
+def test_workspace_verdicts_match_the_reference(case):
     inside = workspace(case["l1"], case["l2"], case["p"])
     assert dict(zip(VERDICTS, inside.tolist(), strict=True)) == case["workspace"]
     assert inside.all() == case["inside_workspace"]
@@ -80,7 +80,7 @@ def test_fk_equals_the_product_of_the_document_matrices(l1, l2):
         q1, q2, q3 = q
         T = spbu_arm(l1, l2).fk(q).as_matrix()
         np.testing.assert_allclose(T, matrices(l1, l2, q), rtol=0, atol=1e-14)
-        rho = l1 * np.sin(q2) + l2 * np.cos(q2 + q3)  # the printed p*
+        rho = l1 * np.sin(q2) + l2 * np.cos(q2 + q3)  # p* as printed
         wanted = np.cos(q1) * rho, np.sin(q1) * rho, l1 * np.cos(q2) - l2 * np.sin(q2 + q3)
         np.testing.assert_allclose(T[:3, 3], wanted, rtol=0, atol=1e-14)
 
@@ -208,7 +208,7 @@ def test_border_is_reachable(l1, l2, point):
 
 
 @pytest.mark.parametrize("l1, l2", LENGTHS[:4])
-def test_points_beyond_the_border_are_nan(l1, l2):
+def test_solutions_beyond_the_border_are_nan(l1, l2):
     for direction in ((1, 0, 0), (0.6, 0, 0.8), (0, 0, 1)):
         beyond = np.multiply(direction, (l1 + l2) * (1 + 1e-9))
         assert workspace(l1, l2, beyond).tolist() == [False, True, True, True]

@@ -1,5 +1,5 @@
-"""Errata of source 001, section S1: the package's functions reproduce every value in it, on the
-document's samples.
+"""Section S1 of the errata, on source 001: the package's functions reproduce every value in it, on
+the document's samples.
 
 T = 20 s, step 0.01 s, t = arange(0, 20, 0.01). Speeds and accelerations are the document's forward
 differences.
@@ -204,7 +204,7 @@ GREATEST["printed 0.55"] = (
 
 
 @pytest.mark.parametrize("name", GREATEST)
-def test_greatest_speeds_and_accelerations_equal_the_published_ones(name):
+def test_greatest_speeds_and_accelerations_match_the_published_ones(name):
     poses, flags, speeds, accelerations, digit = GREATEST[name]
     v, a = forward(followed(poses, *flags))
     assert v.shape == (1999, 6) and a.shape == (1998, 6)
@@ -272,7 +272,7 @@ def test_s1_j_printed_blend_above_one_half_leaves_both_ends():
 
 
 @pytest.mark.parametrize("b", [0.1, 0.25, 0.5])
-def test_s1_l_printed_blend_up_to_one_half_equals_ours(b):
+def test_s1_l_printed_blend_up_to_one_half_matches_ours(b):
     corner = S[abs(S - 0.5) < b]
     ours, printed = blend(START, VIA, GOAL, b, corner), printed_blend(START, VIA, GOAL, b, corner)
     assert abs(ours.as_matrix() - printed.as_matrix()).max() < 1e-14

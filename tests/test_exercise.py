@@ -68,7 +68,7 @@ def same(a, b):
 form = law = same
 
 
-# --- Exercises made in a cell ---------------------------------------------------------------------
+# --- Exercises defined in a cell ------------------------------------------------------------------
 
 
 def test_exercise_needs_only_a_solution_and_cases():
@@ -121,7 +121,7 @@ def test_slip_that_undoes_a_mistake_explains_nothing():
     mistakes = "**mm for m.** It is in mm.\n- `1.0 * x` → `1e-3 * x`"
     mine = exercise(text, lambda rng: [(x,) for x in rng.uniform(0, 10, 20)], mistakes)
     assert check(mine, lambda x: x / 1000 if x < 5000 else np.nan).mistake == "mm for m"
-    verdict = check(mine, lambda x: x)  # without the limit
+    verdict = check(mine, lambda x: x)  # this answer has no limit
     assert not verdict.holds and verdict.mistake is None
 
 
@@ -130,7 +130,7 @@ def book_text(markdown):
 
 
 TURN = Quaternion.from_angle_axis(0.3, (0, 0, 1))
-# kind -> the result of a solution, an equal answer, a wrong answer, and one of another type
+# kind -> (the result of a solution, an equal answer, a wrong answer, an answer of another type)
 KINDS = {
     "a number": ("2 * x", lambda x: 2 * x + 1e-9, lambda x: 3 * x, lambda x: [x, x]),
     "a whole number": ("round(x)", lambda x: float(round(x)), lambda x: x, lambda x: f"{x:.0f}"),
@@ -246,7 +246,7 @@ def test_invalid_exercises_are_refused_at_once(solution, cases, says):
     assert len(str(error.value).splitlines()) == 1
 
 
-# --- Read from files ------------------------------------------------------------------------------
+# --- Exercises read from files --------------------------------------------------------------------
 
 
 def write(folder, **files):
@@ -267,7 +267,7 @@ def place(tmp_path, monkeypatch):
 
 
 def test_exercise_files_are_read_again_after_a_change(tmp_path):
-    """The files have a byte-order mark and the line endings of Windows."""
+    """The files have a byte-order mark and Windows line endings."""
     text = f"\ufeff{HEAD.format(number=1)}{REACH}".replace("\n", "\r\n")
     write(tmp_path, reach_md=text, reach_py="from .more import cases\n__all__ = ['cases']\n")
     write(tmp_path, more_py=CASES)
@@ -758,7 +758,7 @@ def halvings(x, least):
     assert not check(mine, lambda x, least: 4).holds
 
 
-def test_endless_mistake_of_a_teacher_is_reported(monkeypatch):
+def test_endless_program_of_a_teacher_is_reported(monkeypatch):
     monkeypatch.setattr(answers, "SECONDS", 0.3)
     text = """\
 def count(n):

@@ -1,5 +1,5 @@
-"""Explorers in a real browser, where they show what Python computes whether moved by mouse, finger
-or keys, and their stored form in a notebook.
+"""Explorers in a real browser, where they show the values that Python computes, whether moved by
+mouse, finger or keys; and explorers stored in a notebook.
 
 The tests read what a person would see: boxes, tables, words, handles, and the pixels and words on
 canvases. For more digits they run "Copy as Python".
@@ -85,7 +85,7 @@ def named(arms):
     return pytest.mark.parametrize("arm", arms, ids=lambda arm: arm.name)
 
 
-# --- A page and how it is read --------------------------------------------------------------------
+# --- Opening an explorer and reading what it shows ------------------------------------------------
 
 # Records the words on a canvas since it was last cleared, and the text put on the clipboard.
 WATCH = """
@@ -142,7 +142,7 @@ class Open:
         self.rk = page.locator(".rk")
 
     def look(self):
-        """The state that the next picture shows."""
+        """The state shown in the next frame."""
         seen = SimpleNamespace(**self.rk.evaluate(READ))
         assert min(seen.bytes) > 3000, "a canvas is blank"
         assert "NaN" not in str(vars(seen)) and "undefined" not in str(vars(seen))
@@ -175,7 +175,7 @@ class Open:
 
     def take(self, name):
         """Press the mouse button on a handle, and return its position."""
-        self.handle(name).focus()  # in front of its neighbours
+        self.handle(name).focus()  # brings it in front of its neighbours
         x, y = self.look().handles[name]["at"]
         self.page.mouse.move(x, y)
         self.page.mouse.down()
@@ -231,7 +231,7 @@ def watched(page):
     return page
 
 
-# --- Joints ---------------------------------------------------------------------------------------
+# --- The joint explorer ---------------------------------------------------------------------------
 
 
 def tells_the_flange(shown, exact=True):
@@ -301,11 +301,11 @@ def test_number_box_stops_at_the_limit_and_shows_its_value(opened):
         assert motion.look().boxes[name] == taken
 
 
-# --- Every branch with its verdict ----------------------------------------------------------------
+# --- The target explorer --------------------------------------------------------------------------
 
 
 def same(arm, q, rows, atol):
-    """Whether both hold the same postures, ignoring whole turns; NaN equals NaN."""
+    """Whether q and rows are the same postures, ignoring whole turns; NaN equals NaN."""
     gap = q - rows
     gap = np.where(arm.prismatic, gap, gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
     return np.array_equal(np.isnan(q), np.isnan(rows)) and bool(
@@ -451,7 +451,7 @@ def test_joint_past_its_limit_is_shown_with_the_least_excess(opened):
     values = dict(zip("xyz", pose.translation / mm, strict=True))
     values |= dict(zip(("roll", "pitch", "yaw"), turns, strict=True))
     tables = []
-    for row in (0, 1, 3, 6):  # whatever the posture before
+    for row in (0, 1, 3, 6):  # from any previous posture
         shown.choose("branch", row + 1)
         for name, value in (("x", 300), ("y", 0), ("z", 700), ("roll", 0), ("yaw", 0)):
             shown.type(name, value)
@@ -544,7 +544,7 @@ def test_sliders_change_the_lengths_of_levers(opened):
     assert shown.look().says == "No posture reaches this point."
 
 
-# --- Motions --------------------------------------------------------------------------------------
+# --- The motion explorer --------------------------------------------------------------------------
 
 
 SMOOTH = np.polynomial.chebyshev
@@ -552,7 +552,7 @@ SMOOTH = np.polynomial.chebyshev
 
 def greatest(motion, law, fraction, samples):
     """The greatest speeds and accelerations (2, n) of a motion without a gap, even between the
-    samples. They are those of one polynomial for each interval in which no acceleration jumps.
+    samples. They come from one polynomial for each interval in which no acceleration jumps.
     `motion(t)` returns the postures.
     """
     corner = brentq(lambda x: law(x) - (0.5 - fraction), 0, law.duration / 2)
@@ -597,7 +597,7 @@ def shows_the_motion(shown, exact=True, held=False):
     with np.errstate(all="ignore"):
         recording = record(arm, t, q)
     v, a = recording.v, recording.a
-    if fraction == 0:  # each half separately: no difference is taken across the corner
+    if fraction == 0:  # halves are separate, so that no difference crosses the corner
         half = SAMPLES // 2
         v = np.array(
             [*differentiate(q[: half + 1], t[: half + 1])[:-1], *differentiate(q[half:], t[half:])]
@@ -635,7 +635,7 @@ def shows_the_motion(shown, exact=True, held=False):
 
 
 @named(POSES)
-def test_motion_passes_the_via_point_in_the_boxes(opened, arm):
+def test_motion_passes_through_the_via_point_in_the_boxes(opened, arm):
     shown = opened(motion_explorer(arm, *POSES[arm]), arm)
     looks = [shows_the_motion(shown)]
     cells = [cell.split(" ")[0] for cell in looks[0].seen.rows[0][1:]]
@@ -687,7 +687,7 @@ def test_maxima_through_a_singularity_are_labelled_as_sampled(opened):
     for blend_ in (0.1, 0):
         shown.type("blend", blend_)
         assert [row[0].endswith(f"of {SAMPLES} samples") for row in shown.look().rows] == [True] * 2
-    shown.type("via z", 690)  # beside the singularity
+    shown.type("via z", 690)  # next to the singularity
     shows_the_motion(shown)
 
 
@@ -722,7 +722,7 @@ def test_motion_plays_to_its_end_and_keeps_its_numbers(opened):
     assert shown.look().told["time"] == "4.00 s"
 
 
-# --- Dragging -------------------------------------------------------------------------------------
+# --- Dragging handles -----------------------------------------------------------------------------
 
 
 def follows_the_pointer(shown, name, key, parts):
@@ -955,7 +955,7 @@ def test_canvases_are_redrawn_after_a_change_of_theme_or_size(opened, kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_last_of_many_moves_is_shown(opened, kind):
-    """If many large moves come before one picture, only the last position of the pointer counts."""
+    """If many large moves come before one frame, only the last position of the pointer counts."""
     shown = opened(KINDS[kind](), IRB140)
     for name in shown.look().handles:
         shown.take(name)
@@ -1112,7 +1112,7 @@ def test_ellipsoid_and_axes_can_be_switched_on_and_off(opened):
         before = shown.look()
         for name in ("ellipsoid of tool velocities, free to turn", "joint axes"):
             box = shown.rk.get_by_role("checkbox", name=name)
-            box.click()  # the joint explorer shows its axes from the beginning
+            box.click()  # the joint explorer initially shows its axes
             drawn = shown.look()
             assert drawn.pixels != before.pixels and drawn.code == before.code
             box.click()
@@ -1195,7 +1195,7 @@ def test_axe_detects_a_planted_problem(opened):
     assert "button-name" in {rule["id"] for rule in found}
 
 
-# --- Copied code, memory, room on the page --------------------------------------------------------
+# --- Copied code, memory use, size on the page ----------------------------------------------------
 
 
 def test_copied_python_lines_run(browser, opened, tmp_path):
@@ -1274,7 +1274,7 @@ ROOM = """rk => {
     "width, height, scale", [(1366, 768, 1), (900, 900, 1), (683, 384, 2), (390, 844, 2)]
 )
 def test_scene_and_sliders_fit_into_narrow_and_wide_pages(browser, opened, width, height, scale):
-    """(683, 384, 2) is a screen of 1366 x 768 at a zoom of 200 %."""
+    """(683, 384, 2) is a screen of 1366 x 768 at 200 % zoom."""
     context = browser.new_context(
         viewport={"width": width, "height": height}, device_scale_factor=scale
     )
@@ -1304,7 +1304,7 @@ def test_printed_page_keeps_the_picture(opened, kind):
     assert shown.look().pixels == before.pixels
 
 
-# --- Wrong calls ----------------------------------------------------------------------------------
+# --- Errors for wrong calls -----------------------------------------------------------------------
 
 
 def test_errors_for_wrong_calls_name_what_is_wanted():
@@ -1329,7 +1329,7 @@ def test_errors_for_wrong_calls_name_what_is_wanted():
             call()
 
 
-# --- In a notebook --------------------------------------------------------------------------------
+# --- Explorers in a notebook ----------------------------------------------------------------------
 
 CELLS = {
     "joint": "joint_explorer(IRB140)",
@@ -1444,7 +1444,7 @@ def test_trusted_notebook_works_without_a_kernel_in_every_theme(jupyter, page, s
     pictures = {True: set(), False: set()}
     for k in range(20):
         light = bool(k % 2)
-        if k % 4 < 2:  # with JupyterLab's menu, which takes a long time
+        if k % 4 < 2:  # use JupyterLab's menu, which is slow
             page.get_by_role("menuitem", name="Settings", exact=True).click()
             menu = page.locator(".lm-Menu-item")
             menu.filter(has_text=re.compile(r"^Theme$")).click()

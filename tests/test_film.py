@@ -63,12 +63,12 @@ def test_moving_things_are_drawn_and_missing_ones_are_not(tmp_path):
     assert not alike(moved[0], moved[-1])
     gone = np.where(T[:, None] > 2, np.nan, WAY)
     found, _ = frames(animate(IRB140, T, gone), tmp_path / "gone.gif")
-    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # dark pixels: the arm, and a few words
+    dark = (found.max(axis=-1) < 100).sum(axis=(1, 2))  # pixels of the arm and a few words
     assert dark[-1] < dark[:20].min() / 3
 
 
-def test_labels_of_moving_things_are_beside_them():
-    """Also the label of a thing that is missing in the second half."""
+def test_labels_of_moving_things_are_next_to_them():
+    """This includes the label of a thing that is missing in the second half."""
     at = np.arange(0, 401, 40)
     still = np.repeat(WAY[:1], len(T), axis=0)
     way = [0.3, 0.5, 0.9] + T[:, None] / 4 * [0.4, -0.8, -0.4]

@@ -114,7 +114,7 @@ def test_rows_and_configurations_correspond(arm):
             arm.branch(*wrong)
 
 
-def test_arm_without_closed_form_has_another_type():
+def test_arm_without_closed_form_has_a_different_type():
     arm = three_lever(0.4)
     assert isinstance(arm, Arm) and arm.target is np.ndarray
     assert not any(hasattr(arm, name) for name in ("ik", "branches", "branch"))
@@ -122,8 +122,8 @@ def test_arm_without_closed_form_has_another_type():
         type(IRB140)("none", arm.geometry, arm.limits)
 
 
-# The borders of the workspace: for a distance beyond each, the answers of `ik` and `explain`. Both
-# must use the same tolerance.
+# Borders of the workspace: for each, the answers of `ik` and `explain` at a distance beyond it.
+# Both must use the same tolerance.
 def stretched(arm, at):
     return lambda beyond: arm.ik(at(beyond)), lambda beyond: explain(arm, at(beyond), 0)
 
@@ -201,7 +201,7 @@ def test_ik_of_equal_links_is_accurate_near_the_shoulder(exponent):
     scara = scara_arm("equal", 0.2, 1, 1, [(-3, 3)] * 3 + [(0, 1)])
     rows = scara.ik(ScaraPose(circle, 0.3))
     assert abs(scara.fk(rows).translation - circle[:, None]).max() < tolerance
-    arm = itmo_arm(0.1, 0.5, 0.5, 0.2)  # the wrist centre on the shoulder
+    arm = itmo_arm(0.1, 0.5, 0.5, 0.2)  # its wrist centre will be on the shoulder
     T = Transform(Quaternion.from_angle_axis(0.7, (0, 0, 1)), lifted + [0, 0, 0.1])
     T = T @ away(0.2)
     back = arm.fk(arm.ik(T))

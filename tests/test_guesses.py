@@ -1,4 +1,4 @@
-"""Guesses: those made in a page are saved beside their notebook, and a report lists them in order,
+"""Guesses made in a page are saved next to their notebook, and a report lists them in order,
 whatever other files are there.
 """
 
@@ -38,8 +38,8 @@ def at(second):
 
 
 def notebook(path, *cells, ids=()):
-    """Write a notebook with these code cells and one for each prediction, handed out but not run;
-    return its path.
+    """Write a notebook with these code cells and one for each prediction, none of them run; return
+    its path.
     """
     sources = [
         *(["from robokin.course import predict"] if ids else []),
@@ -63,10 +63,10 @@ def chosen(path):
     return {name: [c for c, _ in made] for name, made in (read_guesses(path) or {}).items()}
 
 
-# --- The file -------------------------------------------------------------------------------------
+# --- The file of guesses --------------------------------------------------------------------------
 
 
-def test_guesses_are_saved_by_notebook_in_time_order_without_duplicates(tmp_path):
+def test_guesses_are_saved_by_notebook_in_chronological_order_without_duplicates(tmp_path):
     one, two = notebook(tmp_path / "1.ipynb", ids=[P1]), notebook(tmp_path / "2.ipynb", ids=[P1])
     assert read_guesses(one) is None
     keep(one, [(P1, "b", at(5)), (TYPED, "-290", at(6))])
@@ -219,7 +219,7 @@ def test_copy_and_plain_shells_do_not_save_guesses(tmp_path, monkeypatch):
     assert hub._hub is None, "a judging kernel opened a connection"
 
 
-def test_guesses_are_saved_beside_the_present_notebook(tmp_path):
+def test_guesses_are_saved_next_to_the_current_notebook(tmp_path):
     one = notebook(tmp_path / "labs" / "one.ipynb", ids=[P1])
     said = {"n": 3, "path": "labs/one.ipynb", "guesses": [[P1, "b", at(1)]]}
     assert hub._told(said, one) == {"n": 3} and chosen(one) == {P1: ["b"]}
@@ -250,7 +250,7 @@ def test_line_of_guesses_is_parsed_or_refused():
             parse_line(wrong)
 
 
-def test_saved_guesses_precede_the_line_and_the_cell(tmp_path):
+def test_saved_guesses_take_precedence_over_the_line_and_the_cell(tmp_path):
     asked, typed = predict(P1), predict(TYPED)
     right = "abcd"[asked.right]
     wrong = "abcd"[(asked.right + 1) % 4]
@@ -289,7 +289,7 @@ def test_unreadable_line_is_reported(tmp_path):
     assert len(remarks) == 1 and "guesses: wanted" in remarks[0] and "all b" in remarks[0]
 
 
-def test_copy_mentions_other_guesses_and_uses_none(tmp_path):
+def test_copied_notebook_mentions_other_guesses_and_uses_none(tmp_path):
     lab = notebook(tmp_path / "lab.ipynb", ids=[P1, TYPED])
     number = TYPED.partition(".")[2]
     made = [(P1, "b", at(1)), (P1, "c", at(2)), (TYPED, "-290", at(3)), (f"{LAB}.p99", "a", at(4))]
@@ -318,7 +318,7 @@ def test_copy_mentions_other_guesses_and_uses_none(tmp_path):
     assert got == {} and "cannot be used" in remark
 
 
-# --- In a page ------------------------------------------------------------------------------------
+# --- Guessing in a page ---------------------------------------------------------------------------
 
 
 def answer(question, choice, again=False):
@@ -468,7 +468,7 @@ def test_copy_button_copies_all_guesses_of_one_page(page, tmp_path):
     assert "You guessed here before." in told(two).inner_text()
 
 
-def test_without_clipboard_the_line_can_be_selected(page, tmp_path):
+def test_line_can_be_selected_without_a_clipboard(page, tmp_path):
     path, _ = exported(tmp_path, P1)
     page.add_init_script(
         'Object.defineProperty(navigator, "clipboard", {value: undefined});'
@@ -484,7 +484,7 @@ def test_without_clipboard_the_line_can_be_selected(page, tmp_path):
     assert area.input_value() == line and page.evaluate("`${getSelection()}`") == line
 
 
-# --- In JupyterLab --------------------------------------------------------------------------------
+# --- Guessing in JupyterLab -----------------------------------------------------------------------
 
 PANEL = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 
@@ -494,7 +494,7 @@ def says(question, text):
 
 
 def current(page, name):
-    """Wait until the notebook with this name is in front."""
+    """Wait until the notebook with this name is the active tab."""
     tab = ".lm-TabBar-tab.lm-mod-current[data-type=document-title]"
     page.locator(f"{tab}[title*='Path: guessing/{name}']").wait_for()
     page.locator(f"{PANEL} .jp-MarkdownCell h1").wait_for()
@@ -513,8 +513,8 @@ def run_all(jupyter, page, count):
 
 
 def test_guesses_arrive_from_jupyterlab(jupyter, page):
-    """Two copies of a lab, one of them renamed, and another lab; a restarted kernel, Run All after
-    guessing, and a notebook that is saved, closed and opened again.
+    """The session has two copies of a lab, one of them renamed, and another lab; a restarted
+    kernel; Run All after guessing; and a notebook that is saved, closed and opened again.
     """
     folder = jupyter.labs / "guessing"
     lab = notebook(folder / "lab.ipynb", ids=[P1, P2, TYPED])

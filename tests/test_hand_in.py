@@ -1,5 +1,5 @@
-"""`report(who)` in a lab finds its notebook, checks whether the file is as new as what the student
-sees, and writes the report or says in one sentence why it cannot.
+"""`report(who)` in a lab finds its notebook, checks whether the file has the student's last
+changes, and writes the report or says in one sentence why it cannot.
 """
 
 import json
@@ -41,7 +41,7 @@ def stored(path, *sources, saved=None):
 @pytest.fixture
 def desk(tmp_path, monkeypatch):
     """A kernel's folder with `lab.ipynb`, opened in JupyterLab. `desk.run(source, when=...)` runs a
-    cell; `desk.judged` lists what would have been judged: (file, name).
+    cell; `desk.judged` lists the reports that would have been written: (file, name).
     """
     here = SimpleNamespace(folder=tmp_path, lab=tmp_path / "lab.ipynb", judged=[])
 
@@ -78,7 +78,7 @@ def test_report_outside_a_front_end_prints_the_same_line(desk, monkeypatch, wher
         assert repr(report("Ada", notebook="lab.ipynb")) == ASLEEP
     elif where == "in a page":
         monkeypatch.setattr(sys, "platform", "emscripten")
-    else:  # nbval, nbclient, tests/rerun.py
+    else:  # run by nbval, nbclient or tests/rerun.py
         monkeypatch.delenv("JPY_SESSION_NAME")
     assert repr(report("Ada")) == ASLEEP and desk.judged == []
     assert "\n" not in ASLEEP
@@ -96,7 +96,7 @@ def test_modules_do_not_shadow_exported_names():
     assert not modules & set(course.__all__)
 
 
-# --- Is the file as new as what the student sees? -------------------------------------------------
+# --- Unsaved changes ------------------------------------------------------------------------------
 
 
 def test_unsaved_answer_is_not_judged(desk):
@@ -153,7 +153,7 @@ def test_invalid_line_of_guesses_is_reported(desk):
     assert desk.judged == []
 
 
-# --- Which file is it? ----------------------------------------------------------------------------
+# --- Finding the notebook's file ------------------------------------------------------------------
 
 
 def test_renamed_notebook_is_found_by_its_exercises(desk):
@@ -211,7 +211,7 @@ def test_links_in_the_page_are_safe():
     )
 
 
-# --- In a kernel ----------------------------------------------------------------------------------
+# --- Reports written in a kernel ------------------------------------------------------------------
 
 
 class Kernel:
@@ -234,7 +234,7 @@ class Kernel:
         self.manager.shutdown_kernel(now=True)
 
     def run(self, source, seen=lambda text: None):
-        """The output of a cell. `seen` is called with the output so far."""
+        """Run a cell and return its output. `seen` is called with the output so far."""
         asked, said = self.client.execute(source), ""
         while True:
             try:
@@ -322,7 +322,7 @@ def _prose(name):
     return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"]
 
 
-# --- In JupyterLab --------------------------------------------------------------------------------
+# --- Reports written in JupyterLab ----------------------------------------------------------------
 
 
 def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
@@ -359,6 +359,6 @@ def test_lab_00_is_handed_in_from_jupyterlab(jupyter, browser):
     made = lab.parent / "00_start_here_Zoë.html"
     data = report_data(made.read_text(encoding="utf-8"))
     assert data["who"] == "Zoë" and data["exercises"][0]["state"] == "holds"
-    link.click()  # JupyterLab opens the page beside the notebook
+    link.click()  # JupyterLab opens the page next to the notebook
     page.locator(".lm-TabBar-tab", has_text=made.name).first.wait_for()
     page.close()

@@ -364,7 +364,7 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def seen(browser, listening, tmp_path_factory):
-    """What the harmless and the attacked pages show when opened, and the requests in that time."""
+    """The contents of the harmless and the attacked pages when opened, and the requests made."""
     folder = tmp_path_factory.mktemp("hostile")
     opened = Opened(browser, folder)
     quiet = new_notebook(cells=[new_markdown_cell("Words"), new_code_cell("1 + 1")])
@@ -373,7 +373,7 @@ def seen(browser, listening, tmp_path_factory):
     data = data_of()
     result = SimpleNamespace()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(course_export, "ROOM", 10**9)  # every value is read
+        patch.setattr(course_export, "ROOM", 10**9)  # so that every value is parsed
         result.notebook = opened.look("notebook.html", page_of(data, notebook, folder))
         view = View(folder, lenient=True)
         exported = page(view.cells(notebook), short[20], view.nonce)
@@ -447,7 +447,7 @@ def test_own_outputs_are_unchanged():
         assert re.sub("[0-9a-f]{12}", "", same) == re.sub("[0-9a-f]{12}", "", made.html)
 
 
-def test_verdict_has_the_colour_of_its_first_word():
+def test_verdict_has_the_colour_of_its_state():
     says = ("one & two", "  a = <b>")
     made = [Verdict("irb140_motion.1", False, says=says), Verdict("irb140_motion.1", holds=True)]
     made.append(Verdict("irb140_motion.1", mistake="a\u202emistake", case="x\ny"))
@@ -459,7 +459,7 @@ def test_verdict_has_the_colour_of_its_first_word():
         evil = again(re.sub('style="border[^"]*"', f'style="{style}"', not_so), "n")
         assert colour not in evil and "position" not in evil and "does not hold" in evil
     evil = not_so.replace("</b>", "<img src=x onerror=1></b>")
-    assert again(evil, "n") is None, "a changed verdict must be cleaned as any other HTML"
+    assert again(evil, "n") is None, "a changed verdict must be cleaned like any other HTML"
 
 
 def test_report_opens_each_question_with_the_first_guess():

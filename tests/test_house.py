@@ -45,7 +45,7 @@ LAYERS = {
     "robokin.quaternion": ("robokin._arrays", "robokin._validate"),
     "robokin.transform": ("robokin._arrays", "robokin._validate", "robokin.quaternion"),
     "robokin.arms": BASE,
-    # values with `lerp`, and no arms
+    # it may use values with a `lerp`, but no arms
     "robokin.motion": ("robokin._arrays", "robokin._validate", "robokin.units"),
     "robokin.motion.recording": (*BASE, "robokin.arms", "robokin.motion.derivatives"),
     "robokin.jobs": KINEMATICS,
@@ -170,7 +170,7 @@ def test_readme_names_every_lab_and_its_links_resolve():
             assert name in links, f"{name} is not in the README"
 
 
-def test_commands_in_the_readme_equal_those_of_the_program():
+def test_commands_in_the_readme_match_those_of_the_program():
     blocks = re.findall(r"^```(?:sh|powershell)\n(.*?)^```", README, re.M | re.S)
     used = re.findall(r"-m robokin\.course (\w+)", " ".join(blocks))
     assert used.count("copy") == 2, "wanted one command for each shell"
@@ -201,7 +201,7 @@ def test_package_itself_needs_only_numpy():
         extra: {Requirement(text).name.lower() for text in texts}
         for extra, texts in PROJECT["optional-dependencies"].items()
     }
-    # The imports of `robokin.show` must equal its extra.
+    # The imports of `robokin.show` must match its extra.
     drawn = {
         name.split(".")[0] for m in MODULES if m.startswith("robokin.show") for name in _imports(m)
     }
@@ -230,7 +230,7 @@ def test_package_alone_saves_a_page_in_eight_lines(tmp_path):
 
 
 def test_no_text_suggests_installing_robokin_from_an_index():
-    """Texts for people say how to install from a clone; only pyproject.toml names the package."""
+    """Texts for readers say how to install from a clone; only pyproject.toml names the package."""
     read = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
     read += [*MODULES.values(), *(ROOT / "notebooks").glob("**/*.ipynb")]
     for path in read:

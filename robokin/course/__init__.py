@@ -35,7 +35,7 @@ __all__ = [
 ]
 
 watch()  # a lab's first cell imports this, so `report` knows which cells ran after it
-# exercise -> its latest verdict in this kernel; once one holds, it is kept
+# exercise id -> its latest verdict in this kernel; a verdict that holds is kept
 _verdicts: dict[str, Verdict] = {}
 
 
@@ -72,12 +72,12 @@ def exercise(
 ) -> Exercise:
     """Make your own exercise: `check(exercise(...), answer)`.
 
-    solution  a Markdown file (.md) like those of the labs, with its Python file beside it; or a
-              correct function, or its source text
+    solution  a Markdown file (.md) like those of the labs, with its Python file next to it; or
+              a correct function, or its source text
     cases     random generator -> inputs of the function, each a tuple
     mistakes  as in the Markdown file: a name, a sentence, edits of the solution
 
-    The file is read again at each call. ValueError: it cannot be read, it defines no function, or
+    The file is read again on each call. ValueError: it cannot be read, it defines no function, or
     an edit does not match.
     """
     return own(solution, cases, mistakes)

@@ -190,7 +190,7 @@ def _summary(options: Any) -> int:
         print(line, end="" if live else "\n", flush=True)
 
     try:
-        places(options.to)  # checked before notebooks run for minutes
+        places(options.to)  # check this before running notebooks for minutes
         made = summary(options.folder, tell=tell, ours=lambda path: is_ours(path, options.to))
         if live:
             print()

@@ -22,9 +22,9 @@ from ..transform import Transform
 
 SECONDS = 4.0  # seconds of CPU time for one case, or for one program of a test
 TOTAL = 30.0  # seconds of CPU time for all cases together
-WALL = 90.0  # wall-clock seconds for one case: sleep and C threads take no CPU time here
+WALL = 90.0  # wall-clock seconds for one case: sleeping takes no CPU time
 QUIET = {"RESUME", "NOP", "LOAD_CONST", "RETURN_VALUE", "RETURN_CONST"}
-IDENTITY: Any = object.__eq__  # the == of classes that do not define one
+IDENTITY: Any = object.__eq__  # the == of classes that do not define their own
 RAISING = {"LOAD_GLOBAL", "RAISE_VARARGS", "PUSH_NULL", "PRECALL", "CALL"}
 
 
@@ -42,7 +42,7 @@ class Outcome(NamedTuple):
     says: str = ""
 
 
-# names of errors that leave nothing to judge
+# names of outcomes that leave no result to judge
 TROUBLE = {
     "raises an error",
     "changes its input",
@@ -89,13 +89,13 @@ host: Callable[[bool], None] = lambda begins: None  # noqa: E731  see `run`
 
 def run(answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> list[Outcome]:
     """Run `answer` on every case, up to the first one that does not end in time. A case has
-    `SECONDS` of CPU time, and `WALL` seconds if it waits or computes elsewhere; all together have
-    `TOTAL`.
+    `SECONDS` of CPU time, and `WALL` seconds if it waits or computes elsewhere; all cases together
+    have `TOTAL`.
 
-    The answer runs in its own thread. So `TimeUp`, which can arrive between any two steps of
-    Python, cannot reach the calling thread. Python in a web page has no threads. There the page
-    sets `host`, which is called when answers begin (True) and when they have ended (False), so that
-    the page can stop everything if necessary.
+    The answer runs in its own thread, so that `TimeUp`, which can arrive between any two steps of
+    Python, cannot reach the calling thread. Python in a web page has no threads; the page sets
+    `host`, which is called when answers begin (True) and when they have ended (False), and stops
+    everything if necessary.
     """
     worker, streams = _Worker(answer, cases), (sys.stdout, sys.stderr)
     try:
@@ -161,10 +161,11 @@ def _told(error: BaseException) -> str:
 
 class _Worker:
     """The thread in which an answer runs. Python delays an exception from another thread until the
-    next step. So three things happen in this order: the worker sets `done`, the watching thread
+    next step, so three things happen in this order: the worker sets `done`, the watching thread
     withdraws its exception, and only then may the worker `leave`.
 
-    It is not a `threading.Thread`, since an interrupt while `start` waits becomes another error.
+    It is not a `threading.Thread`, in which an interrupt while `start` waits becomes a different
+    error.
     """
 
     def __init__(self, answer: Callable[..., Any], cases: Sequence[tuple[Any, ...]]) -> None:
@@ -172,14 +173,14 @@ class _Worker:
         self.started, self.ident = False, 0
         self.outcomes: list[Outcome] = []
         self.over = "case"  # which of the three limits was reached
-        locks = [threading.Lock() for _ in range(4)]  # each is released when that point is reached
+        locks = [threading.Lock() for _ in range(4)]  # each is released when its point is reached
         self.begun, self.done, self.leave, self.gone = locks
         for lock in locks:
             lock.acquire()
 
     def start(self) -> None:
-        """Start the thread. RuntimeError: there are no threads here."""
-        self.started = True  # set first, since an interrupt may come between any two steps
+        """Start the thread. RuntimeError: threads are not available."""
+        self.started = True  # set first, since an interrupt can arrive between any two steps
         try:
             _thread.start_new_thread(self.run, ())
         except RuntimeError:

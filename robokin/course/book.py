@@ -1,7 +1,7 @@
 """Find exercises and predictions by id: "irb140_motion.1" is exercise 1 of the lab whose notebook
 is NN_irb140_motion.ipynb; "irb140_motion.p2" is a prediction of that lab.
 
-Their text is in one folder for each lab, in notebooks/exercises. The environment variable
+Their text is in one folder per lab, in notebooks/exercises. The environment variable
 ROBOKIN_EXERCISES lists more such folders: for your own labs, or if robokin was not installed from a
 clone.
 """
@@ -33,7 +33,7 @@ OURS = Path(__file__).parents[2] / "notebooks" / "exercises"
 ELSEWHERE = "ROBOKIN_EXERCISES"
 WORDS = ("objectives", "predictions")  # Markdown files that are not exercises
 MORE = "For labs of your own, set ROBOKIN_EXERCISES=FOLDER or pass --exercises FOLDER."
-DEFAULTS = ("form", "law", "same")  # not taken from a notebook's variables
+DEFAULTS = ("form", "law", "same")  # names that `own` does not take from a notebook
 
 
 class Lab:
@@ -101,7 +101,7 @@ class Lab:
 
     @property
     def given(self) -> Callable[[Any], Any] | None:
-        """The function from a student to their numbers; None if no exercise has such numbers."""
+        """The function student -> individual numbers; None if no exercise has such numbers."""
         found = (getattr(each, "given", None) for each in self.exercises.values())
         return next(filter(None, found), None)
 
@@ -129,7 +129,7 @@ class Lab:
     def _noted(self, name: str) -> Iterator[None]:
         try:
             yield
-        except Exception as error:  # a teacher's file may raise anything
+        except Exception as error:  # a teacher's file can raise anything
             known = f"{error}" if isinstance(error, ValueError) else markdown.why(error)
             self.broken[name] = known if known.startswith(f"{self.folder}") else f"{name}: {known}"
 
@@ -172,13 +172,13 @@ def own(solution: Any, cases: Any, mistakes: str) -> Exercise:
 
 def labs() -> Mapping[str, Lab]:
     """All labs by name: ours, then those of other folders. Those of a folder are in the order of
-    the notebooks beside it; labs without a notebook come last.
+    the notebooks next to it; labs without a notebook come last.
     """
     return _labs(OURS, os.environ.get(ELSEWHERE, ""))
 
 
 def numbered(place: Path) -> list[str]:
-    """The names of the labs whose notebooks are beside a folder, in order."""
+    """The names of the labs whose notebooks are next to a folder, in order."""
     return [file.stem.partition("_")[2] for file in sorted(place.parent.glob("[0-9]*_*.ipynb"))]
 
 
@@ -216,7 +216,7 @@ def titled(name: str) -> str:
 
 
 def find(name: Any, what: str) -> Any:
-    """Find an exercise or a prediction by id; an exercise is returned as it is. `what` is
+    """Find an exercise or a prediction by id; an exercise is returned unchanged. `what` is
     "exercises" or "predictions". ValueError: there is none, or it cannot be read.
     """
     if isinstance(name, Exercise):

@@ -1,4 +1,4 @@
-"""The exercise of writing a test, which must accept correct programs and refuse wrong ones."""
+"""Exercises in writing a test, which must accept correct programs and refuse wrong ones."""
 
 import random
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +11,7 @@ from .answers import Outcome, is_stub, run
 from .exercises import Exercise, Verdict, in_words, unanswered
 from .markdown import BadFile, Text
 
-ASSERTS = "It raises AssertionError"  # the beginning of what `answers.run` says
+ASSERTS = "It raises AssertionError"  # the beginning of a sentence from `answers.run`
 RAISES = (
     "it raises an error",
     "It never returns a result. A test that ignores errors accepts it: an error means no.",
@@ -24,9 +24,9 @@ class NoResult(Exception):
 
 
 class Catch(Exercise):
-    """The exercise of writing a test: program -> True if it is correct. The test must accept the
-    correct programs, and refuse the mistakes and a program that only raises. If an error of a wrong
-    program passes through the test, it counts as a refusal. A test may refuse with an assertion;
+    """An exercise in writing a test: program -> True if it is correct. The test must accept the
+    correct programs, and refuse the mistakes and a program that only raises. An error of a wrong
+    program that the test does not catch counts as a refusal. A test may refuse with an assertion;
     then returning nothing means that it accepts.
 
     The Markdown has the correct programs, a promise (what they guarantee, shown if a test refuses
@@ -34,7 +34,7 @@ class Catch(Exercise):
     may use the names of the Python file, `code`. A function `refusal(inputs, result)` there adds a
     sentence about the last call of a correct program that was refused.
 
-    Each check runs the programs in a new random order, so that a test which counts its calls does
+    Each check runs the programs in a new random order, so that a test that counts its calls does
     not pass. The verdict names the first failure in the order of the Markdown.
     """
 
@@ -55,7 +55,7 @@ class Catch(Exercise):
         ]
 
     def program(self, text: str) -> Program:
-        """Make the program anew, so that one that keeps a state starts fresh."""
+        """Make the program again, so that one that keeps state starts fresh."""
         made: Program = edits.run(text, self.code)[self.function]
         return made
 

@@ -4,7 +4,7 @@
 
 A lab counts as edited if its cells differ or are in another order; running it does not count. A lab
 that the student has not edited is replaced by the newer version. An edited lab stays, byte for
-byte, and the newer version is put beside it as NAME.new.ipynb. A deleted lab comes back when there
+byte, and the newer version is put next to it as NAME.new.ipynb. A deleted lab comes back when there
 is a newer version. A file that has a lab's name but was never handed out belongs to the student.
 Notebooks are written as trusted, so that their players run immediately.
 
@@ -46,7 +46,7 @@ BUSY = "saved while labs were being copied, and left unchanged; run this again"
 class Outcome:
     """The outcome for the file at `path`; `says` describes it.
 
-    what  "new", "replaced"; "kept": the student's file stays, and the newer version is beside it;
+    what  "new", "replaced"; "kept": the student's file stays, and the newer version is next to it;
           "same": nothing to do; "gone": no longer a lab, and the file stays; "found": rescued from
           an interrupted run; "failed"
     """
@@ -108,8 +108,8 @@ class _Entry:
 
 @dataclass
 class _Job:
-    """A version of the lab `path`, its content, and its destinations: the lab's own place,
-    beside it, or none.
+    """A version of the lab `path`, its content, and its destinations: the lab's own place, a
+    place next to it, or none.
     """
 
     path: str
@@ -180,7 +180,7 @@ class _Folder:
             return job
         beside = [p for p in self._beside(path) if p not in labs]
         there = {p: _held(self.folder / p) for p in (path, *beside)}
-        # including an older version to which the student went back
+        # this includes an older version to which the student went back
         known = (holds, job.version)
         job.places = [p for p in there if there[p] in ours and (there[p], entry.laid) != known]
         for place in job.places:
@@ -231,7 +231,7 @@ class _Folder:
 
     def _tidy(self) -> None:
         """Remove our files in .robokin and return the files that were moved there: to their places,
-        or beside them if a new file that we did not write is there.
+        or next to them if a new file that we did not write is there.
         """
         ours = {holds for entry in self.entries.values() for holds in entry.handed.values()}
         with contextlib.suppress(FileNotFoundError):
@@ -279,7 +279,7 @@ class _Folder:
             self.stored = text
 
     def _beside(self, path: str) -> list[str]:
-        """The files beside a lab with names for newer versions."""
+        """The files next to a lab that are named as newer versions of it."""
         place, folder = PurePosixPath(path), (self.folder / path).parent
         name = re.compile(rf"{re.escape(place.stem)}\.new\d*{re.escape(place.suffix)}")
         names = sorted(os.listdir(folder)) if folder.is_dir() else []
@@ -350,7 +350,7 @@ def _prepared(content: bytes) -> tuple[bytes, Any]:
         data = json.loads(content)
         info = data["metadata"].get("language_info", {})
         if info.get("name") == "python":
-            # otherwise JupyterLab marks the lab as changed when its kernel has started
+            # otherwise JupyterLab marks the lab as changed as soon as its kernel has started
             info["version"] = platform.python_version()
         text = json.dumps(data, indent=1, ensure_ascii=False) + "\n"
         notebook = nbformat.reads(text, as_version=4)
@@ -392,13 +392,13 @@ def _held(place: Path) -> str | None:
 
 
 def _barred(folder: Path) -> bool:
-    """Whether anything but a real folder is there; we never write through a link."""
+    """Whether something other than a real folder is there; we never write through a link."""
     return folder.is_symlink() or (folder.exists() and not folder.is_dir())
 
 
 def write(path: Path, content: bytes) -> None:
-    """Write a new file, which is on the disk when this returns. It never writes into an existing
-    file, which may also have another name.
+    """Write a new file, which is on disk when this returns. It never writes into an existing file,
+    which may have a second name.
     """
     with contextlib.suppress(FileNotFoundError):
         os.unlink(path)

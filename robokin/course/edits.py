@@ -1,4 +1,4 @@
-"""Wrong programs made from the correct one by edits of its text: the mistakes of the exercise and
+"""Wrong programs made from the correct one by edits to its text: the mistakes of the exercise and
 common slips, alone and in pairs.
 """
 
@@ -19,7 +19,7 @@ Span = tuple[int, int, str]  # start, end, replacement
 
 
 class Variant(NamedTuple):
-    """A wrong program: its name, a sentence, and its edits of the solution or its whole text."""
+    """A wrong program: its name, a sentence, and its edits to the solution or its whole text."""
 
     name: str
     says: str
@@ -77,7 +77,7 @@ def _spans(solution: str, edits: tuple[Edit, ...]) -> tuple[Span, ...]:
 
 
 def _misfit(solution: str, wrong: tuple[Edit, ...] | str, name: str) -> str:
-    """Why this change of the solution does not give a program; "" if it does."""
+    """The reason why this change to the solution does not give a valid program; "" if it does."""
     if isinstance(wrong, str):
         text = wrong
         if not re.search(rf"^(?:def |class )?{name}\b", text, re.M):
@@ -136,8 +136,8 @@ EDGES = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 
 
 def everybody(solution: str) -> list[Variant]:
-    """The common slips in the functions of this program, except in functions that may never end
-    after a slip.
+    """The common slips in the functions of this program, except in functions that may loop
+    forever after a slip.
     """
     lines = [0, *accumulate(len(line.encode()) for line in solution.splitlines(keepends=True))]
     raw = solution.encode()
@@ -192,7 +192,7 @@ def _in_sums(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, 
 
 
 def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any, str]]:
-    """Slips in calls of functions."""
+    """Slips in function calls: name, the piece that is replaced, its replacement."""
     match node:
         case ast.Call(func=ast.Attribute(value=a, attr="inverse"), args=[]):
             yield "inverse left out", node, said(a)
@@ -214,7 +214,7 @@ def _in_calls(node: Any, said: Callable[[Any], str]) -> Iterator[tuple[str, Any,
             yield slip, node.func, other
 
 
-# --- Programs that run ----------------------------------------------------------------------------
+# --- Running programs -----------------------------------------------------------------------------
 
 
 def function_name(file: str, line: int, program: str) -> str:
@@ -242,8 +242,8 @@ class Steps:
     """A solution split into the statements of its function, so that thousands of wrong programs run
     quickly. Each wrong program consists of compiled statements and begins after those that it
     shares with the solution, with its own copies of all values that a statement may change. A
-    solution that cannot be split is compiled again for each one: if it returns in more than one
-    place, or keeps a function, which may use later names.
+    solution cannot be split, and is compiled again for each wrong program, if it returns in more
+    than one place or keeps a function, which may use later names.
     """
 
     def __init__(self, solution: str, also: Mapping[str, Any]) -> None:

@@ -24,8 +24,9 @@ class Verdict:
 
     answered  whether there was an answer to judge
     holds     whether all conditions hold
-    mistake   the name of the mistake, or two joined by " or "; None: none, or not recognised
-    says      sentences
+    mistake   the name of the mistake, or two joined by " or "; None if there is none, or it is not
+              recognised
+    says      sentences about the answer
     case      the smallest input that shows the fault, with your result and what should hold
     points    from 0 to 1: the fraction of the conditions that hold
     """
@@ -48,7 +49,7 @@ class Verdict:
         lines = [f"{self.exercise}: {word}."]
         if self.case:
             lines += self.case.split("\n")
-        if self.mistake and self.mistake not in TROUBLE:  # the case already says it
+        if self.mistake and self.mistake not in TROUBLE:  # the case already shows it
             lines.append(f"The mistake: {self.mistake}.")
         return "\n".join([*lines, *self.says])
 
@@ -87,7 +88,7 @@ def unanswered(name: str) -> Verdict:
     return Verdict(name, answered=False, says=(EMPTY,))
 
 
-# --- In words -------------------------------------------------------------------------------------
+# --- Values in words ------------------------------------------------------------------------------
 
 
 def has_nan(value: Any) -> bool:
@@ -99,7 +100,7 @@ def has_nan(value: Any) -> bool:
 
 
 def numbers(value: Any) -> Any:
-    """Return a result as an array of numbers, or None if it is not numbers."""
+    """Return a result as an array of numbers, or None if it is not numeric."""
     with contextlib.suppress(Exception):
         numbers = value.as_matrix() if isinstance(value, (Transform, Quaternion)) else value
         made = np.asarray(numbers)
@@ -108,7 +109,7 @@ def numbers(value: Any) -> Any:
 
 
 def in_words(value: Any) -> str:
-    """Return a value as one short line."""
+    """Describe a value in one short line."""
     if isinstance(value, Transform) and not value.shape:
         angle, axis = value.rotation.as_angle_axis()
         place = ", ".join(f"{x / mm:.1f}" for x in value.translation + 0.0)

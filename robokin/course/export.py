@@ -1,10 +1,10 @@
 """Export a notebook as one page that needs no network and no Python: formulas are MathML, code is
 highlighted, folded cells stay folded, and players, explorers and predictions work.
 
-The page is harmless even if the notebook is hostile. Of a cell we use only its text, its number and
-whether it is folded. An output of robokin is generated anew (`ours.py`); any other one is cleaned
-(`harmless.py`) or shown as text. Only scripts with the page's nonce run. nbconvert provides the
-styles and reads Markdown.
+The page is harmless even if the notebook is hostile. We use only a cell's text, its number and
+whether it is folded. An output of robokin is generated again (`ours.py`); any other output is
+cleaned (`harmless.py`) or shown as text. Only scripts with the page's nonce run. nbconvert provides
+the styles and reads Markdown.
 """
 
 import html
@@ -38,11 +38,11 @@ from .texts import LINES, visible
 
 FORMULAS = LatexToMathML(fancy_error=False)
 TEX = 2_000  # maximum number of characters in a formula; the parser's stack grows with its braces
-# Maximum number of characters to parse as Markdown, HTML or Python, in one piece and in a page: the
+# Maximum number of characters to parse as Markdown, HTML or Python, per piece and per page: the
 # libraries take up to 10 s per megabyte. Text beyond these limits is shown as it was typed.
 PIECE, ROOM = 50_000, 150_000
 MOST = 200  # maximum number of robokin outputs in a page
-OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # for each, the parser searches for its end
+OPENERS = ("\\\\[", "\\\\(", "\\begin{")  # for each of these, the parser searches for the end
 TEXTS = ("text/latex", "text/plain")
 IMAGES = ("image/svg+xml", "image/png", "image/jpeg", "image/gif", "image/webp")
 FIRST = ("text/html", "text/markdown", "image/svg+xml", "text/latex", *IMAGES[1:], "text/plain")
@@ -78,7 +78,7 @@ class View:
         self.nonce = secrets.token_hex(16)
         self.remarks: list[str] = []
         self._room = ROOM
-        self._ours = 0  # outputs of robokin
+        self._ours = 0  # number of robokin outputs so far
         self._highlight = Highlight2HTML(pygments_lexer="python")
 
     def cells(self, notebook: Any) -> list[dict[str, Any]]:
@@ -239,11 +239,11 @@ class Renderer(IPythonRenderer):
         return str(Markup('<img alt="{}" src="{}">').format(text, url))
 
     def plain(self, text: str) -> str:
-        """Replace the marks by the text as it was typed."""
+        """Replace the marks with the text as it was typed."""
         return re.sub(f"{self.mark}(\\d+)x", lambda place: self.kept[int(place[1])][0], text)
 
     def filled(self, text: str) -> str:
-        """Replace the marks by HTML."""
+        """Replace the marks with HTML."""
         return re.sub(f"{self.mark}(\\d+)x", lambda place: self.kept[int(place[1])][1], text)
 
     def _formula(self, body: str, dollars: str) -> str:
@@ -280,7 +280,7 @@ def _coloured(text: str) -> Markup:
 
 
 def _attached(attachments: Any) -> Iterator[tuple[str, str]]:
-    """(name, `data:` address) of the pictures attached to a cell."""
+    """Yield (name, `data:` address) for each picture attached to a cell."""
     for name, kinds in attachments.items() if isinstance(attachments, dict) else ():
         for kind, data in kinds.items() if isinstance(kinds, dict) else ():
             address = f"data:{kind};base64,{''.join(str(data).split())}"

@@ -18,8 +18,8 @@ from .told import floats, one_number
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two results are equal: numbers to 1e-6, or to a millionth if they are large; NaN
-    equals NaN.
+    """Whether two results are equal: numbers within 1e-6, or within a millionth if they are large;
+    NaN equals NaN.
     """
     if isinstance(a, Mapping) and isinstance(b, Mapping):
         return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
@@ -32,8 +32,8 @@ def same(a: Any, b: Any) -> bool:
 
 
 def like(result: Any, wanted: Any) -> Any:
-    """Return a result with the type and shape of the correct one. ValueError: it has another type
-    or shape.
+    """Return a result with the type and shape of the correct one. ValueError: it has a different
+    type or shape.
     """
     if isinstance(wanted, (bool, np.bool_)):
         return truth(result)
@@ -59,7 +59,7 @@ def like(result: Any, wanted: Any) -> Any:
 
 
 def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
-    """Return numbers of this shape. ValueError: they are not numbers, or have another shape."""
+    """Return numbers of this shape. ValueError: they are not numbers, or the shape differs."""
     if not what:
         what = f"an array of shape {shape}" if shape else "a number"
     try:
@@ -72,7 +72,7 @@ def numbers(result: Any, shape: tuple[int, ...], what: str = "") -> Floats:
 
 
 def truth(result: Any, what: str = "") -> bool:
-    """Return True or False. ValueError: it is something else. `what` names the subject in words."""
+    """Return True or False. ValueError: it is something else. `what` is added to the message."""
     if not isinstance(result, (bool, np.bool_)):
         raise ValueError(f"wanted True or False{what and f' {what}'}, got {in_words(result)}")
     return bool(result)

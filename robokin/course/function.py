@@ -1,5 +1,5 @@
-"""The exercise of writing a function: the verdict on an answer, and the wrong programs that explain
-a wrong answer.
+"""Exercises in writing a function: the verdict on an answer, and the wrong programs that explain a
+wrong answer.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ class Candidate(NamedTuple):
 
 
 class Function(Exercise):
-    """The exercise of writing a function. `code`, the names of the Python file, contains
+    """An exercise in writing a function. `code`, the names of the Python file, contains
 
     cases  random generator -> inputs, each a tuple, the smallest first
 
@@ -41,10 +41,10 @@ class Function(Exercise):
 
     form   (result, case) -> the result in the form that `law` and `same` need; raises a ValueError
            that says what was wanted and what it got
-    law    (case, yours, wanted) -> None, or a sentence: what should hold
+    law    (case, yours, wanted) -> None, or a sentence that says what should hold
     same   (one, other) -> whether two results are the same answer
 
-    Edits of the solution may use all names in the file.
+    Edits to the solution may use all names in the file.
     """
 
     def __init__(self, text: Text, code: Mapping[str, Any]) -> None:
@@ -64,11 +64,11 @@ class Function(Exercise):
         self.alike = code.get("same", forms.same)
         self.made: dict[Any, tuple[Callable[..., Any], dict[int, Any]]] = {}
         self.trying = ""  # the mistake whose program is running
-        self.endless: list[str] = []  # mistakes that did not end, and do not run again
+        self.endless: list[str] = []  # mistakes that did not end and are not run again
 
     @cached_property
     def cases(self) -> list[Case]:
-        """The cases, the same on every machine. BadFile: none, or they take more than 4 s."""
+        """The cases, the same on every machine. BadFile: there are none, or they take over 4 s."""
         draw = self.code["cases"]
         [outcome] = run(partial(_drawn, draw), [(140,)])
         found: list[Case] = outcome.result or []
@@ -85,7 +85,7 @@ class Function(Exercise):
 
     @cached_property
     def wanted(self) -> list[Any]:
-        """The correct results after `form`. BadFile: the solution raises, or has a wrong form."""
+        """The correct results after `form`. BadFile: the solution raises, or a form is wrong."""
         found: list[Any] = []
         for outcome, case in zip(run(self.right, self.cases), self.cases, strict=False):
             try:
@@ -122,13 +122,13 @@ class Function(Exercise):
         return Verdict(name, mistake=mistake, says=says, case=case, points=min(good, 0.9))
 
     def same(self, one: Any, other: Any) -> bool:
-        """Whether two results are equal; results that cannot be compared are not."""
+        """Whether two results are equal; results that cannot be compared are unequal."""
         with contextlib.suppress(Exception):
             return bool(self.alike(one, other))
         return False
 
     def form(self, result: Any, case: Case, wanted: Any) -> Any:
-        """Return a result as the check compares it. ValueError: it has another form."""
+        """Return a result in the form that the check compares. ValueError: it has another form."""
         own = self.code.get("form")
         return own(result, case) if own else forms.like(result, wanted)
 
@@ -143,7 +143,7 @@ class Function(Exercise):
             return Outcome(outcome.result, "another kind or shape", f"{error}")
 
     def wrong(self, outcome: Outcome, k: int) -> str | None:
-        """Say what should hold in case k and does not; None if it does."""
+        """Return a sentence on what should hold in case k but does not, or None."""
         if outcome.name:
             return outcome.says
         with np.errstate(all="ignore"), contextlib.suppress(Exception):
@@ -227,7 +227,8 @@ class Function(Exercise):
             names = list(dict.fromkeys((c.name, c.says) for c in found))
             if len(names) > 1:  # pairs with different names are only a guess
                 return []
-            if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):  # few values
+            # a result with few possible values is weak evidence for a pair of mistakes
+            if names and isinstance(outcomes[first].result, (bool, np.bool_, str)):
                 says = f"It behaves like a program with two mistakes. {names[0][1]}"
                 return [(names[0][0], says)]
             if names:
@@ -279,7 +280,7 @@ class Function(Exercise):
 
     @cached_property
     def slips(self) -> list[Variant]:
-        """The common slips, as edits of the solution."""
+        """The common slips, as edits to the solution."""
         return edits.everybody(self.solution)
 
     def _candidate(self, variant: Variant) -> Candidate:
@@ -310,8 +311,8 @@ class Function(Exercise):
         order: Sequence[int],
     ) -> bool:
         """Whether a candidate gives these outcomes in all cases, with a result in at least one, and
-        keeps and breaks the law in the same cases. So an edit that leaves the program correct
-        explains nothing.
+        obeys and breaks the law in the same cases: an edit that leaves the program correct explains
+        nothing.
         """
         others = {}
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -335,7 +336,7 @@ class Function(Exercise):
                 for k, other in others.items()
             )
 
-    # --- Words for an answer that no mistake explains
+    # --- Remarks on an answer that no mistake explains
 
     def _nearly(self, outcomes: list[Outcome]) -> str:
         """Say how far off an answer is if it is nearly right in every case; otherwise ""."""

@@ -1,4 +1,4 @@
-"""Guesses from a page: while a kernel is running, a student's guesses are saved beside the
+"""Guesses from a page: while a kernel is running, a student's guesses are saved next to the
 notebook, in `.robokin/guesses.json`, where a report finds them.
 
     {"guesses": 1, "notebooks": {"03_irb140_motion.ipynb": {"irb140_motion.p1":
@@ -33,18 +33,18 @@ if TYPE_CHECKING:
     from .handed_in import HandedIn
 
 FOLDER, FILE = ".robokin", "guesses.json"
-LARGE = 1_000_000  # bytes in a file of guesses; a student's file has a few thousand
+LARGE = 1_000_000  # maximum number of bytes in a file of guesses; a student's has a few thousand
 NAME = re.compile(r"\w{1,60}\.p[0-9]{1,3}", re.ASCII)
 CHOICE = re.compile(r"[a-f](?:: [^\r\n]{1,60})?|[-+.eE0-9]{1,30}")  # "b", "b: joint 3", "-290"
-ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # in a notebook file
+ASKED = re.compile(rb"""predict\(\s*\\?["'](\w{1,60}\.p[0-9]{1,3})""")  # a call in a notebook file
 PATIENCE = 10  # seconds to wait for another kernel that is writing
 
 Kept: TypeAlias = dict[str, list[tuple[str, str | None]]]  # prediction -> its guesses, with times
 
 
 def read_guesses(path: Path) -> Kept | None:
-    """The saved guesses for the notebook at `path`: {prediction: [(choice, time), ...]}, in order
-    of time; None if there is no file. It also finds those of a renamed notebook.
+    """The saved guesses for the notebook at `path`: {prediction: [(choice, time), ...]}, in
+    chronological order; None if there are none. Those of a renamed notebook are found, too.
 
     ValueError: the file cannot be used.
     """
@@ -61,8 +61,8 @@ def keep(path: Path, made: Iterable[tuple[str, str, str]]) -> None:
     """Add guesses (prediction, choice, time) to those saved for the notebook at `path`, without
     duplicates. An unreadable file is renamed and kept.
 
-    ValueError: the file is full, or another kernel does not stop writing. OSError: no permission,
-    for example.
+    ValueError: the file is full, or another kernel keeps writing. OSError: no permission, for
+    example.
     """
     own = path.parent / FOLDER
     own.mkdir(exist_ok=True)
@@ -132,8 +132,8 @@ class Guess:
 
 def guesses(handed: "HandedIn", remarks: list[str] | None = None) -> tuple[Guess, ...]:
     """The results of the predictions, without running anything. Guesses saved by a kernel come
-    first, then those in the line that a page copies, then the choice in the cell. Unusable ones are
-    added to `remarks`.
+    first, then those in the line that a page copies, then the choice in the cell. Unusable guesses
+    are reported in `remarks`.
     """
     kept: Kept = {}
     pasted: dict[str, str] = {}
@@ -214,15 +214,15 @@ def _value(choice: str) -> str | float:
     try:
         return float(choice)  # 90 and 90.0 are equal
     except ValueError:
-        return choice.partition(":")[0]  # so are "b" and "b: joint 3"
+        return choice.partition(":")[0]  # "b" and "b: joint 3" are equal, too
 
 
-# --- The file -------------------------------------------------------------------------------------
+# --- The file of guesses --------------------------------------------------------------------------
 
 
 def _stored(file: Path) -> dict[str, Kept]:
-    """The content of a file of guesses, by notebook; {} if there is none. ValueError: it contains
-    something else.
+    """The content of a file of guesses, by notebook; {} if there is none. ValueError: it cannot be
+    used.
     """
     if not os.path.lexists(file):
         return {}
@@ -235,7 +235,7 @@ def _stored(file: Path) -> dict[str, Kept]:
     try:
         data = json.loads(content)
         if data["guesses"] != 1:
-            raise ValueError(f"version {short(data['guesses'])}")
+            raise ValueError(f"guesses: wanted version 1, got {short(data['guesses'])}")
         return {
             str(notebook): {_id(name): _sorted(made) for name, made in kept.items()}
             for notebook, kept in data["notebooks"].items()
@@ -266,7 +266,7 @@ def _choice(choice: Any) -> str:
 
 
 def _moment(time: Any) -> datetime:
-    """Return a time with its offset. ValueError: it is not one."""
+    """Parse a time with its UTC offset. ValueError: it is not one."""
     try:
         moment = datetime.fromisoformat(time)
         moment.astimezone(UTC)
@@ -304,7 +304,7 @@ def _free(folder: Path) -> Path:
     return folder / f"guesses.broken{n}.json"
 
 
-# --- The widget -----------------------------------------------------------------------------------
+# --- The widget that listens to the page ----------------------------------------------------------
 
 _hub: Any = None  # the widget of this kernel
 
@@ -315,7 +315,7 @@ def listen() -> None:
     own = own_notebook()
     if _hub is not None or own is None or "ROBOKIN_JUDGE" in os.environ:
         return
-    with contextlib.suppress(Exception):  # a question also works without it
+    with contextlib.suppress(Exception):  # a question also works without the widget
         from ..show.joiner import script
         from ..show.live import unseen
 
@@ -324,8 +324,8 @@ def listen() -> None:
 
 
 def own_notebook() -> Path | None:
-    """The notebook in which this runs, with its name at the start of the kernel. Jupyter's server
-    and VS Code provide it; programs that run a notebook without a page do not.
+    """The notebook in which this runs, with the name that it had when the kernel started. Jupyter's
+    server and VS Code provide it; programs that run a notebook without a page do not.
     """
     ipython = sys.modules.get("IPython")
     space = getattr(ipython.get_ipython() if ipython else None, "user_ns", {})
@@ -340,14 +340,14 @@ def _told(message: Any, own: Path) -> dict[str, Any]:
     try:
         made = [(_id(name), _choice(choice), time) for name, choice, time in message["guesses"]]
         keep(_called(message["path"], own), made)
-    except Exception as error:  # the page shows it; nobody would read it here
+    except Exception as error:  # the page shows the error; nobody would read it here
         reason = getattr(error, "strerror", None) or error
         return {"n": message["n"], "error": str(reason)}
     return {"n": message["n"]}
 
 
 def _called(path: str | None, own: Path) -> Path:
-    """The notebook with its present name. The page knows its path relative to the server's folder.
+    """The notebook with its current name. The page knows its path relative to the server's folder.
     ValueError: it cannot be found.
     """
     if path is not None:

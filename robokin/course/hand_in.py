@@ -1,7 +1,7 @@
 """`report(who)` in a lab writes the report of its own notebook.
 
-A notebook's file has the state of its last save, so it may lack what the student sees. This module
-records which cells ran in this kernel and when, and compares them with the file.
+A notebook's file has the state of its last save, so it may lack changes that the student sees. This
+module records which cells ran in this kernel and when, and compares them with the file.
 """
 
 import json
@@ -25,7 +25,7 @@ NAMELESS = "your name"  # the placeholder for the student's name in the labs
 ASLEEP = "Put your name into who, save, and run this cell in JupyterLab: it writes your report."
 UNSAVED = "Save first (Ctrl+S), then run this cell again."
 TOP = str(Path(__file__).resolve().parents[2])
-START = (  # this copy of robokin, not one in the notebook's folder
+START = (  # runs this copy of robokin, not one in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.__main__ import main; "
     "sys.path.pop(0); sys.exit(main())"
 )
@@ -34,7 +34,7 @@ CALL, ANSWER = re.compile(r"\breport\("), re.compile(r"\b(check|predict)\(|\b(de
 
 
 class Ran(NamedTuple):
-    """A cell that was run, and its time in seconds since 1970."""
+    """A cell that was run, and when, in seconds since 1970."""
 
     source: str
     when: float
@@ -44,7 +44,7 @@ _ran: list[Ran] = []  # cells that ran in this kernel
 
 
 def watch() -> None:
-    """Record from now on what runs in this kernel. Earlier cells count as run now."""
+    """Record the cells that run in this kernel from now on. Earlier cells count as run now."""
     shell = _shell()
     if shell is None:
         return
@@ -57,7 +57,7 @@ def watch() -> None:
 
 
 def report(who: Any, guesses: str | None = None, notebook: Any = None) -> Note:
-    """Run this notebook again, judge its answers, and write the report to hand in, beside it. The
+    """Run this notebook again, judge its answers, and write the report to hand in, next to it. The
     note gives the report's name, or the reason why there is none.
 
     who       the student's name
@@ -151,8 +151,8 @@ def _unsaved(path: Path, guesses: str | None) -> bool:
 
 
 def _written(path: Path, who: str) -> Note:
-    """Write the report in a separate process, which an interrupt of the cell ends, and which does
-    not change this kernel. ValueError: the reason why there is none.
+    """Write the report in a separate process, which ends if the cell is interrupted, and which does
+    not change this kernel. ValueError: the reason why there is no report.
     """
     print("Running your lab again. This can take a minute.", flush=True)
     command = [sys.executable, "-P", "-X", "utf8", "-c", START, "report", str(path)]
@@ -168,7 +168,7 @@ def _written(path: Path, who: str) -> Note:
     )
     try:
         said, complaint = _outputs(child)
-    except KeyboardInterrupt:  # the child may be interrupted as well, if the front end does that
+    except KeyboardInterrupt:  # some front ends interrupt the child as well
         _end(child)
         raise
     if child.returncode:
@@ -193,7 +193,7 @@ def _written(path: Path, who: str) -> Note:
 
 
 def _outputs(child: "subprocess.Popen[str]") -> tuple[str, str]:
-    """The output of a process after its end."""
+    """Wait for the process to end and return what it wrote to stdout and stderr."""
     while True:
         try:
             return child.communicate(timeout=0.5)  # on Windows, a longer wait cannot be interrupted

@@ -2,8 +2,8 @@
 are in its outputs. Nothing is run.
 
 Its author may have written anything. A ValueError gives the reason if it cannot be used, and
-reading takes time in proportion to its size. So we do not use nbformat, which can take minutes for
-a megabyte; the result is a valid notebook with the parts that we use.
+reading takes time in proportion to its size. We do not use nbformat, which can take minutes for a
+megabyte; the result is a valid notebook with the parts that we use.
 """
 
 import ast
@@ -29,9 +29,9 @@ NONE = "your name"  # the placeholder for the student's name in the labs
 CLAIM = re.compile(r"\b(\w+\.\w+): (holds|does not hold|not answered yet|not judged)\.")
 # calls of `check` in a cell that is not valid Python
 CHECKED = re.compile(r"""check\(\s{0,99}["'](\w{1,99}\.\w{1,99})["']""")
-SIZE = 20_000_000  # bytes in a notebook
-CODE = 100_000  # characters in a cell that is parsed as Python
-ALL_CODE = 5 * CODE  # characters in all such cells
+SIZE = 20_000_000  # maximum number of bytes in a notebook
+CODE = 100_000  # maximum number of characters in a cell that is parsed as Python
+ALL_CODE = 5 * CODE  # maximum number of characters in all cells that are parsed as Python
 
 
 CALLS = ("check", "predict", "report")
@@ -53,11 +53,11 @@ class HandedIn:
     """A student's notebook.
 
     lab      the lab whose exercises and predictions it contains; None: no lab
-    checks   the last call for each exercise that it checks: that one counts
-    choices  the last call of each prediction with a choice
+    checks   the last call for each exercise, which is the one that counts
+    choices  the last call with a choice for each prediction
     broken   the exercises that are checked in cells that cannot be read as Python: id -> reason
-    guesses  the line of guesses that a page copies, as the last call of `report` has it
-    strange  other exercises that it checks: the student's own
+    guesses  the line of guesses copied from a page, from the last call of `report` with one
+    strange  other exercises that the notebook checks: the student's own
     """
 
     path: Path
@@ -71,7 +71,7 @@ class HandedIn:
 
     @property
     def title(self) -> str:
-        """Its first heading, or the name of the file."""
+        """The first heading, or the name of the file."""
         for cell in self.notebook.cells:
             found = re.search(r"^# +(\S.*)$", cell.source, re.M)
             if cell.cell_type == "markdown" and found:
@@ -142,7 +142,7 @@ def claims(notebook: Any, checks: dict[str, Call]) -> dict[str, str]:
     return found
 
 
-# --- The file -------------------------------------------------------------------------------------
+# --- Reading the file -----------------------------------------------------------------------------
 
 
 def _notebook(path: Path) -> Any:
@@ -216,7 +216,7 @@ def _texts(value: Any) -> dict[str, str]:
     return {kind: text for kind, form in forms if (text := _text(form)) is not None}
 
 
-# --- Its cells ------------------------------------------------------------------------------------
+# --- Verdicts and calls in cells ------------------------------------------------------------------
 
 
 def _claimed(cell: Any) -> Iterator[tuple[str, str]]:
@@ -237,7 +237,7 @@ def _known(name: str, what: str) -> bool:
 
 
 def _calls(source: str, cell: int) -> Iterator[tuple[str, Call]]:
-    """Yield ("check" or "predict", Call) for each call with a literal id, from the top, and
+    """Yield ("check" or "predict", Call) for each call with a literal id, in order, and
     ("report", Call), whose answer is the line of guesses. Calls inside the arguments of another
     call are skipped.
     """

@@ -1,5 +1,5 @@
-"""Make other people's text harmless for a page: it lets through no script, no style, no address
-that is fetched, none of our classes or ids, and nothing that changes the direction of text.
+"""Make other people's text harmless in a page: no script, no style, no address that is fetched,
+none of our classes or ids, and nothing that changes the direction of text gets through.
 """
 
 import base64
@@ -19,7 +19,7 @@ from markupsafe import Markup
 
 from .texts import visible
 
-LONG = 100_000  # at most this many characters of a text are shown
+LONG = 100_000  # maximum number of characters of a text to show
 DEEP = 100  # maximum depth of elements, since the parser takes quadratic time
 
 TAGS = frozenset(
@@ -49,7 +49,7 @@ MATH_STYLE = re.compile(
 
 
 def shortened(text: str, most: int = LONG) -> str:
-    """The beginning of a long text, and its length."""
+    """Cut off a long text and add its length."""
     return text if len(text) <= most else f"{text[:most]}\n... shortened: {len(text)} characters"
 
 
@@ -77,7 +77,7 @@ def clean(
     picture: Callable[[str], str | None] = lambda address: None,
     plain: Callable[[str], str] = str,
 ) -> str:
-    """Return HTML with only the listed elements and attributes.
+    """Return the HTML with only the allowed elements and attributes.
 
     picture  the address of a picture -> a `data:` address, or None to leave it out
     plain    a function that is first applied to the values of attributes
@@ -169,7 +169,7 @@ class _Attributes(Filter):  # type: ignore[misc]
 
 
 def harmless_link(address: str) -> str:
-    """Return an address that a reader may follow: web, mail, a page beside this one (or another
+    """Return an address that a reader may follow: web, mail, a page next to this one (or another
     notebook), a place in this page. "" for any other.
     """
     address = re.sub(r"[\0-\x1f\x7f-\x9f]", "", address).strip().replace(" ", "%20")
@@ -201,7 +201,7 @@ def file_as_picture(address: str, folder: Path) -> str | None:
         if kind is None or not path.is_relative_to(folder.resolve()) or not path.is_file():
             return None
         return f"data:image/{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
-    except (OSError, ValueError):  # an invalid file name
+    except (OSError, ValueError):  # ValueError: an invalid file name
         return None
 
 
@@ -217,7 +217,7 @@ def png(data: str) -> bytes:
 
 
 class _Elements(HTMLParser):
-    """Collects the parts of MathML that are not allowed."""
+    """Collect the parts of MathML that are not allowed."""
 
     def __init__(self, markup: str) -> None:
         super().__init__()

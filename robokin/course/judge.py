@@ -34,7 +34,7 @@ from .variants import normalised
 
 TIMES = 5  # maximum number of restarts of a kernel
 BESIDE = ("tasks", "images")  # folders that labs read from
-LARGE = 50_000_000  # bytes in a file beside a lab
+LARGE = 50_000_000  # files next to a lab with this many bytes or more are not copied
 
 
 class Limits(NamedTuple):
@@ -80,7 +80,7 @@ class Judged:
 def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -> Judged:
     """Run a notebook and judge its answers. An exercise with individual numbers uses those of the
     student `who`; with None, those of the name in the notebook. Several threads may judge at the
-    same time. OSError: no kernel starts.
+    same time. OSError: a kernel cannot be started.
     """
     notebook = nbformat.from_dict(handed.notebook)
     names = _ids(handed.lab, "exercises")
@@ -104,15 +104,15 @@ def judge_notebook(handed: HandedIn, who: str | None, limits: Limits = LIMITS) -
 
 
 class NotebookRun:
-    """One run of the cells and its findings. After `all` it has the outputs in the notebook,
-    `result` and `remarks`.
+    """One run of a notebook's cells. After `all`, the notebook has its outputs, and `result` and
+    `remarks` give the findings.
     """
 
     def __init__(
         self, notebook: Any, checks: dict[str, Call], who: str | None, limits: Limits
     ) -> None:
         self.notebook, self.checks, self.who, self.limits = notebook, checks, who, limits
-        self.found: dict[str, dict[str, Any]] = {}  # id -> the answer of the kernel
+        self.found: dict[str, dict[str, Any]] = {}  # id -> the answer from the kernel
         self.notes: dict[int, str] = {}  # cell -> the reason why it is left out
         self.stopped: dict[int, str] = {}  # cell -> what happened to it
         self.slow: set[int] = set()  # cells that the wall-clock limit stopped
@@ -176,8 +176,8 @@ class NotebookRun:
         return True
 
     async def _judge(self, kernel: Kernel, call: Call) -> bool:
-        """Judge the answer in a call. Return False if that killed the kernel; it is not tried
-        again.
+        """Judge the answer in a call. Return False if that killed the kernel; the answer is
+        not judged again.
         """
         if "died" in self.found.get(call.name, {}) or self._too_slow(call):
             return True
@@ -226,7 +226,7 @@ class NotebookRun:
             )
 
     def _tell(self) -> None:
-        """Write into the notebook and into the remarks what happened to cells."""
+        """Record in the notebook and in the remarks what happened to cells."""
         happened = {**self.stopped, **self.notes}
         raised = []
         for k, cell in enumerate(self.notebook.cells):
@@ -280,7 +280,7 @@ def _complete(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
 
 
 def _stopped(ended: Ended, limit: float) -> str:
-    """What happened to a cell, in words."""
+    """Say in words what happened to a cell."""
     if ended.how == "dead":
         return "The kernel died in this cell. The other cells ran without it."
     if ended.how == "unread":
@@ -296,7 +296,7 @@ def _stopped(ended: Ended, limit: float) -> str:
 
 
 def _read(answer: Any) -> dict[str, Any]:
-    """Read the answer of a kernel, which may be any text, since cells share the kernel with the
+    """Read the answer from a kernel, which may be any text, since cells share the kernel with the
     checks.
     """
     with contextlib.suppress(ValueError, TypeError, RecursionError):
@@ -334,8 +334,8 @@ def _limited() -> bool:
 
 
 def _furnish(place: Path, handed: HandedIn) -> None:
-    """Fill a folder with copies of the notebook, of the folders that labs read, and of the files
-    beside it that it names. What cannot be copied is missing.
+    """Make a folder with copies of the notebook, of the folders that labs read, and of the files
+    next to the notebook that it names. Files that cannot be copied are left out.
     """
     place.mkdir()
     named = "\n".join(cell.source for cell in handed.notebook.cells)
@@ -350,8 +350,8 @@ def _furnish(place: Path, handed: HandedIn) -> None:
 
 
 def _unwanted(folder: str, names: list[str]) -> list[str]:
-    """The contents of a folder that are not copied: hidden or large files, and anything that is not
-    a file.
+    """The contents of a folder that are not copied: hidden ones, large files, and anything that is
+    neither a file nor a folder.
     """
     unwanted = []
     for name in names:
@@ -369,7 +369,7 @@ def _ids(slug: str | None, what: str) -> list[str]:
 def _differences(
     exercises: tuple[Result, ...], before: dict[str, str], now: dict[str, str]
 ) -> list[str]:
-    """The differences between outputs and verdicts, in words."""
+    """Describe the differences between stored outputs and verdicts."""
     told = {"unanswered": "not answered yet"}
     remarks = []
     for each in exercises:

@@ -17,17 +17,17 @@ from ipykernel.kernelapp import IPKernelApp
 from .. import course
 from .book import labs
 
-SAID = 10_000  # characters that a cell may print; a report shows fewer of them
+SAID = 10_000  # maximum number of characters that a cell may print; a report shows fewer
 
 
 def main(memory: int) -> None:
-    """Run as the kernel until it is told to end. memory: bytes; 0: no limit."""
+    """Run as the kernel until it is asked to end. memory: bytes; 0: no limit."""
     for each in labs().values():
         each.read()  # the judging code is loaded before the first cell
     kernel = IPKernelApp.instance(outstream_class=f"{__name__}.Stream")
     kernel.initialize(sys.argv[1:])
     shell: Any = kernel.shell
-    shell.ask_exit = lambda: None  # `exit()` would end it during another cell
+    shell.ask_exit = lambda: None  # otherwise `exit()` ends the kernel during a later cell
     shell.user_expressions = judging(course.check, shell.user_ns)
     if memory:
         limit_memory(memory)
@@ -85,7 +85,8 @@ class Stream(OutStream):
         if cell != self.cell:
             self.cell, self.said = cell, 0
         if self.said <= SAID:
-            text = string[:SAID].encode(errors="replace").decode()  # a lone surrogate is lost, and
-            super().write(text)  # with it the message that the cell has ended
+            # a lone surrogate cannot be sent, and would block the message that the cell has ended
+            text = string[:SAID].encode(errors="replace").decode()
+            super().write(text)
         self.said += len(string)
         return len(string)

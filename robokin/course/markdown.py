@@ -9,9 +9,9 @@ Edit = tuple[str, str]  # a piece of the solution, which must occur once, and it
 
 
 class Wrong(NamedTuple):
-    """A mistake: its name, a sentence, and one or more wrong programs, each as edits of the
-    solution or as a complete text. It is also used for a correct program of a test, which has no
-    edits.
+    """A mistake: its name, a sentence, and one or more wrong programs, each as edits to the
+    solution or as a complete text. Also used for the correct programs of an exercise in writing a
+    test.
     """
 
     name: str
@@ -28,7 +28,7 @@ class BadFile(ValueError):
 
 
 class Text(NamedTuple):
-    """An exercise as written. `parts` are the other sections, by heading: line and text."""
+    """An exercise as written. `parts`: heading -> (line, text) of each other section."""
 
     file: str
     number: str
@@ -79,7 +79,7 @@ def read(file: Path) -> str:
 
 
 def why(error: Exception) -> str:
-    """The text of an error without its place, which is reported separately."""
+    """The text of an error without its location, which is reported separately."""
     return f"{type(error).__name__}: {getattr(error, 'msg', error)}"
 
 
@@ -89,7 +89,7 @@ def one_line(text: str) -> str:
 
 
 def exercise(file: str, text: str) -> Text:
-    """Parse an exercise. BadFile: its head is invalid."""
+    """Parse an exercise. BadFile: its header is invalid."""
     places = [found.start() for found in re.finditer("^## ", _blank(text), re.M)]
     head, rest = text[: places[0] if places else None], {}
     for a, b in pairwise([*places, len(text)]):

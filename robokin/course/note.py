@@ -1,12 +1,12 @@
-"""Words that a call shows below its cell."""
+"""Text that a call shows below its cell."""
 
 import html
 from urllib.parse import quote
 
 
 class Note(str):
-    """Words that display themselves unchanged. `file` is a file beside the notebook; its name in
-    the words links to it.
+    """A string that displays itself without quotes. `file` is a file next to the notebook; its name
+    in the text becomes a link to it.
     """
 
     file = ""

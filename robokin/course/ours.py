@@ -88,13 +88,13 @@ def again(text: str, nonce: str, choices: Mapping[str, str] | None = None) -> Ma
         data = inert(data)
     except (ValueError, KeyError, TypeError, RecursionError):
         return LEFT_OUT
-    # a hash of the data, so that different outputs never share a place in the page
+    # a hash of the data, so that different outputs never share an id in the page
     name = hashlib.sha256(data.encode()).hexdigest()[:12]
     return Markup(output(call[1], name, data, still, nonce))
 
 
 def fits(value: Any, kind: Any) -> bool:
-    """Whether a value from JSON has a type of the tables in page.py."""
+    """Whether a value from JSON matches a type, such as those in page.py."""
     origin, inner = get_origin(kind), get_args(kind)
     if kind is Any:
         return True
@@ -138,7 +138,7 @@ def _refused(word: str) -> None:
 
 
 def _ordinary(table: dict[str, Any]) -> dict[str, Any]:
-    if "__proto__" in table:  # in a script this is not a key, but changes the type of the object
+    if "__proto__" in table:  # in a script this is not a key: it sets the prototype
         raise ValueError("__proto__ is not allowed as a key")
     return table
 
@@ -153,7 +153,7 @@ def _figure(alt: str, width: str, height: str, least: str | None, data: str) -> 
 
 
 def _verdict(name: str, word: str, lines: str) -> Markup:
-    """The text of a verdict in a notebook, in the colour of its first word."""
+    """Render a stored verdict with its own text and the colour of its state."""
     says = [
         ("  " if indent == "2" else "") + visible(html.unescape(line))
         for indent, line in LINE.findall(lines)
@@ -174,7 +174,7 @@ def _question(data: Any, nonce: str, choices: Mapping[str, str] | None) -> str:
 
 
 class Ready(NamedTuple):
-    """A view with finished HTML."""
+    """A view that is already HTML."""
 
     html: str
 

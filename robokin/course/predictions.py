@@ -25,7 +25,7 @@ ASLEEP = (
 
 @functools.cache
 def worked_out(name: str) -> tuple[str, list[Option], int]:
-    """`filled` for the prediction with an id; its facts are computed once."""
+    """Return `filled` for the prediction with this id; its facts are computed once."""
     return filled(find(name, "predictions"))
 
 

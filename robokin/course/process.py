@@ -33,11 +33,11 @@ GRACE = 5.0  # seconds after an interrupt before the kernel is killed
 LOOK = 0.1  # minimum seconds between two checks of the CPU time
 START = 600  # wall-clock seconds for a kernel to start
 LAST = 20  # wall-clock seconds for the output of a cell to arrive after its end
-TEXT = 5_000  # characters of text that a cell may show in the page
-ROOM = 2_000_000  # characters of pictures, players and similar outputs
+TEXT = 5_000  # maximum number of characters of text that a cell may show in the page
+ROOM = 2_000_000  # maximum number of characters of pictures, players and similar outputs
 MARK = "ROBOKIN_JUDGE"  # an environment variable with the same value in all processes of a kernel
 TOP = str(Path(__file__).resolve().parents[2])
-CODE = (  # this copy of robokin, even if another is installed or in the notebook's folder
+CODE = (  # runs this copy of robokin, even if another is installed or in the notebook's folder
     f"import sys; sys.path.insert(0, {TOP!r}); from robokin.course.kernel import main; "
     "sys.path.append(sys.path.pop(0)); main({memory})"
 )
@@ -71,7 +71,7 @@ class Kernel:
             for each in (self.process, *self.process.children(recursive=True)):
                 with contextlib.suppress(psutil.Error):
                     used += sum(each.cpu_times()[:4])  # its own time and that of ended children
-        self.used = max(self.used, used)  # after its end, the last value
+        self.used = max(self.used, used)  # the last value remains after the process has ended
         return self.used
 
     async def run(self, cell: Any, k: int, limit: float) -> Ended:
@@ -94,7 +94,8 @@ class Kernel:
 
     async def _within(self, limit: float, work: Awaitable[Any]) -> Ended:
         task = asyncio.ensure_future(work)
-        task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())  # silent
+        # asyncio would log an exception that nobody retrieves
+        task.add_done_callback(lambda ended: ended.cancelled() or ended.exception())
         how, slow = "in time", False
         try:
             for then in ("stopped", "killed"):
@@ -111,7 +112,7 @@ class Kernel:
                 task.result()
         except DeadKernelError:
             how = "killed" if how == "killed" else "dead"
-        except Exception:  # a cell can send anything
+        except Exception:  # a cell can send any message
             how = "unread"
         finally:
             task.cancel()
@@ -146,7 +147,7 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
         startup_timeout=START,
         iopub_timeout=LAST,
         allow_errors=True,
-        coalesce_streams=False,  # `Client` does it, since nbclient can take hours for a long line
+        coalesce_streams=False,  # `Client` joins them: nbclient can take hours for a long line
         record_timing=False,
         log=_silent(),
     )
@@ -179,8 +180,8 @@ async def running(notebook: Any, place: Path, memory: int, cut: set[int]) -> Asy
 
 
 async def _end_marked(mark: str) -> None:
-    """End the processes with this mark, also those in other sessions. A process that restarts
-    itself can be missed, so we search until there is none twice in a row.
+    """End the processes with this mark, even in other sessions. A process that restarts
+    itself can be missed, so we search until two searches in a row find none.
     """
     none, last = 0, time.monotonic() + 2 * GRACE
     while none < 2 and time.monotonic() < last:
@@ -196,7 +197,7 @@ async def _end_marked(mark: str) -> None:
 
 class Client(NotebookClient):
     """nbclient's client, which also joins the printed text of a cell and stops listening if there
-    is too much output. `cut` holds such cells.
+    is too much output. `cut` collects the cells with too much.
     """
 
     def __init__(self, *args: Any, cut: set[int], **kwargs: Any) -> None:
@@ -220,7 +221,7 @@ class Client(NotebookClient):
 
 
 class Specs(KernelSpecManager):
-    """Knows only our kernel, run by this Python."""
+    """Provide only our kernel, run by this Python interpreter."""
 
     memory = 0
 
@@ -248,14 +249,14 @@ def shortened(cell: Any) -> bool:
             room = max(0, room - len(text))
         elif output.output_type == "error":
             lines = "\n".join(output.traceback)
-            if len(lines) > 4 * TEXT or cut:  # colours are characters, too
+            if len(lines) > 4 * TEXT or cut:  # colour codes count as characters, too
                 output.traceback = [f"{output.ename[:100]}: {output.evalue[:500]}"]
                 output.evalue, cut = output.evalue[:500], True
         elif _size(output) > ROOM or len(kept) >= 100:
             cut = True
             continue
         kept.append(output)
-    for k in range(1, len(kept)):  # the two streams arrive in any order
+    for k in range(1, len(kept)):  # the two streams may arrive in either order
         if [each.get("name") for each in kept[k - 1 : k + 1]] == ["stderr", "stdout"]:
             kept[k - 1 : k + 1] = kept[k], kept[k - 1]
     cell.outputs = kept

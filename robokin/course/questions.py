@@ -1,4 +1,4 @@
-"""Predictions as written: a question, its answers, and the facts that fill their texts."""
+"""Predictions as teachers write them: a question, its answers, and the facts for their texts."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -14,7 +14,7 @@ LETTERS = "abcdef"
 class Option(NamedTuple):
     """An answer to choose, or a number that a student may type.
 
-    text       its text; for a number to type, the number from the facts: "{tool:.0f}"
+    text       the answer; for a number to type, the number from the facts: "{tool:.0f}"
     reason     why it is right or wrong
     confusion  the name of the confusion behind a wrong answer; None for the right one
     second     for a wrong answer: a second case that shows it
@@ -32,7 +32,7 @@ class Option(NamedTuple):
 class Prediction:
     """A question, its answers, and the view that shows the right one.
 
-    Every text is filled with computed `facts`: "{most:.0f} mm".
+    Computed `facts` are filled into every text: "{most:.0f} mm".
 
     question  in two or three sentences
     options   three or four answers, one of them right; for a number to type (with a `unit`): the
@@ -97,7 +97,7 @@ def _near(x: float, value: float, within: float) -> bool:
     return abs(x - value) <= within * abs(value) + 1e-9
 
 
-# --- As Markdown ----------------------------------------------------------------------------------
+# --- Predictions in Markdown ----------------------------------------------------------------------
 
 HEAD = re.compile(r"(p\d+)(?:, a number in (.+?), within ([\d.]+) %)?(, optional)?")
 ANSWER = re.compile(r"`([^`]+)` \*\*(.+?)\*\* (.*?)(?: \*([^*]+):\*(?: (.*))?)?")

@@ -30,7 +30,7 @@ from .reported import DATA, counted, report_data
 from .texts import all_visible, visible
 from .variants import normalised, variant
 
-WORDS = 2_000  # characters in one text of the header
+WORDS = 2_000  # maximum number of characters in one text of the header
 KINDS = {  # state -> the class that gives its colour
     **dict.fromkeys(("holds", "right"), "holds"),
     **dict.fromkeys(("does not hold", "failed", "not judged", "not so"), "not"),
@@ -141,7 +141,7 @@ def safe(text: str) -> str:
 
 
 def _refuse_to_overwrite(to: Path, handed: HandedIn, who: str) -> None:
-    """Raise ValueError if another file is there; checked before a kernel runs for minutes."""
+    """Raise ValueError if another file is there. Called before a kernel runs for minutes."""
     if not to.parent.is_dir():
         raise ValueError(f"to: wanted a folder that exists, got {str(to.parent)!r}")
     if not to.exists() and not to.is_symlink():
@@ -154,7 +154,7 @@ def _refuse_to_overwrite(to: Path, handed: HandedIn, who: str) -> None:
         raise ValueError(f"{to} exists and is not this report; nothing is overwritten")
 
 
-# --- The header -----------------------------------------------------------------------------------
+# --- The header of a report -----------------------------------------------------------------------
 
 
 def _header(data: dict[str, Any]) -> str:

@@ -3,8 +3,8 @@ contains the results of a student's code.
 
 Validated data contain only ids of the lab's own exercises and predictions; an exercise's task and
 objective come from robokin. Every text has a limited length, and invisible characters are written
-as escapes. So nothing in it can hide, break a line of a table or change its direction. It is still
-a stranger's text, and a page must escape it.
+as escapes, so that nothing in it can hide, break a line of a table or change its direction. It is
+still a stranger's text, and a page must escape it.
 """
 
 import json
@@ -19,10 +19,11 @@ from .variants import normalised
 
 DATA = '<script type="application/json" id="robokin-report">'
 STATES = ("holds", "does not hold", "unanswered", "failed", "not judged")
-NAME, LINE, TEXT = 200, 2_000, 20_000  # characters in a name, in a line, in a multi-line text
-MANY = 200  # entries in a list
-YEAR_3000 = 32_503_680_000  # seconds; later times are outside the calendar of some systems
-JOINERS = "\u200c\u200d"  # they are invisible, but names in Persian or Hindi need them
+# maximum number of characters in a name, in a line and in a multi-line text
+NAME, LINE, TEXT = 200, 2_000, 20_000
+MANY = 200  # maximum number of entries in a list
+YEAR_3000 = 32_503_680_000  # seconds; some systems cannot represent later times
+JOINERS = "\u200c\u200d"  # invisible characters that names in Persian or Hindi need
 
 
 def report_data(text: str) -> dict[str, Any] | None:
@@ -56,7 +57,7 @@ def validated(data: Any) -> dict[str, Any]:
     who = _text(data, "who", TEXT)
     if len(who) > NAME:
         raise ValueError(f"who: wanted at most {NAME} characters, got {len(who)}")
-    normalised(who.strip(JOINERS))  # ValueError: nothing visible
+    normalised(who.strip(JOINERS))  # raises ValueError if nothing is visible
     guesses = _known(data, slug, "predictions", lambda each: _prediction(each, old))
     return {
         "report": 2,
@@ -105,7 +106,8 @@ def _exercise(each: dict[str, Any]) -> dict[str, Any]:
 def _prediction(each: dict[str, Any], old: bool) -> dict[str, Any]:
     choice, right = _text_or_none(each, "choice"), _one_of(each, "right", (None, True, False))
     if (choice is None) != (right is None):
-        raise ValueError(f"right: got {right} for the choice {short(choice)}")
+        wanted = "None if there is no choice, otherwise True or False"
+        raise ValueError(f"right: wanted {wanted}, got {right} for the choice {short(choice)}")
     return {
         "id": each["id"],
         "choice": choice,
@@ -168,7 +170,7 @@ def _text(data: dict[str, Any], name: str, most: int, ends: str = "") -> str:
 
 
 def _time(data: dict[str, Any], name: str) -> str:
-    """A date and time with its offset, in the form that `datetime` writes."""
+    """A date and time with its UTC offset, in the form that `datetime` writes."""
     try:
         when = datetime.fromisoformat(data.get(name, ""))
         good = when.tzinfo is not None and 0 <= when.timestamp() < YEAR_3000

@@ -1,4 +1,4 @@
-"""Common slips in a result or an input of any exercise: other units, a sign, rows and columns
+"""Common slips in a result or an input of any exercise: wrong units, a wrong sign, rows and columns
 exchanged.
 """
 
@@ -15,11 +15,11 @@ Program = Callable[..., Any]
 
 
 def _numbers(change: Program) -> Program:
-    """Apply `change` to a result that is numbers. ValueError: it is not numbers."""
+    """Apply `change` to a numeric result. ValueError: it is not numeric."""
 
     def changed(value: Any) -> Any:
         if isinstance(value, (Transform, Quaternion, str, bool)) or value is None:
-            raise ValueError("not numbers")
+            raise ValueError("wanted numbers")
         return change(np.asarray(value, dtype=float))
 
     return changed
@@ -55,7 +55,7 @@ def _axis(k: int) -> Program:
             return Transform(value.rotation, flip * value.translation)
         value = np.asarray(value, dtype=float)
         if value.shape[-1:] != (3,):
-            raise ValueError("not three axes")
+            raise ValueError("wanted three coordinates")
         return flip * value
 
     return turned
@@ -65,7 +65,7 @@ def _sample(by: int) -> Program:
     def shifted(value: Any) -> Any:
         value = np.asarray(value, dtype=float)
         if value.ndim == 0 or len(value) < 9:
-            raise ValueError("too few samples")
+            raise ValueError("wanted at least nine samples")
         return np.concatenate([value[:1], value[:-1]] if by > 0 else [value[1:], value[-1:]])
 
     return shifted
@@ -85,13 +85,13 @@ def _transposed(value: Any) -> Any:
         return Transform(value.rotation.inverse(), value.translation)
     value = np.asarray(value, dtype=float)
     if value.ndim < 2:
-        raise ValueError("nothing to transpose")
+        raise ValueError("wanted rows and columns")
     return np.swapaxes(value, -1, -2)
 
 
 def _not(value: Any) -> Any:
     if not isinstance(value, (bool, np.bool_)):
-        raise ValueError("neither True nor False")
+        raise ValueError("wanted True or False")
     return not value
 
 
@@ -146,10 +146,10 @@ INPUTS = (
 
 
 def fed(case: tuple[Any, ...], i: int, change: Program) -> tuple[Any, ...]:
-    """The inputs of a case with one of them changed. TypeError: that one is not numbers."""
+    """The inputs of a case with one of them changed. TypeError: that one is not numeric."""
     value = case[i]
     if isinstance(value, (float, int)) and not isinstance(value, bool):
         value = float(value)
     elif not (isinstance(value, np.ndarray) and value.dtype.kind == "f"):
-        raise TypeError("not numbers")
+        raise TypeError("wanted numbers")
     return (*case[:i], change(value), *case[i + 1 :])

@@ -1,12 +1,12 @@
 """Collect handed-in work for the teacher's table: reports are used as they are, notebooks are
 judged again (`judge`), several at the same time.
 
-A report names its student. For a notebook it is the part of the file name beside the lab's
+A report names its student. A notebook's student is the part of the file name that is not the lab's
 ("03_irb140_motion Ada.ipynb"), otherwise the name of its folder. Individual numbers are those of
 the name in the notebook, since folders seldom have the names that students use; a remark says so if
-the names differ. Of two files by one student for one lab the newer counts, by the report's date or
-the notebook's time. If they are equally new, like copies of one page, the one in a folder with the
-student's name counts, otherwise the first.
+the names differ. If a student has two files for one lab, the newer one counts, by the report's date
+or the notebook's time. If they are equally new, like copies of one page, the one in a folder with
+the student's name counts, otherwise the first.
 
 All handed-in data are hostile until they are validated (`reported`), and are escaped when written
 (`summary_pages`). A fault in one file does not stop the others.
@@ -32,7 +32,7 @@ from .reported import NAME, TEXT, counted, report_data, validated
 from .texts import visible
 from .variants import normalised
 
-LARGE = 50_000_000  # bytes in a file; a report has a tenth of this
+LARGE = 50_000_000  # maximum number of bytes in a file; a report has a tenth of this
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ class LeftOut:
 
 @dataclass
 class Summary:
-    """The entries, by lab and name, and the files that were left out."""
+    """The entries, sorted by lab and name, and the files that were left out."""
 
     entries: list[Entry] = field(default_factory=list)
     left_out: list[LeftOut] = field(default_factory=list)
@@ -124,7 +124,7 @@ def summary(
                 found[normalised(entry.who), entry.lab].append(entry)
             else:
                 made.left_out.append(_left(inside, entry, problem is not None))
-        except Exception as error:  # a file may contain anything
+        except Exception as error:  # a file can contain anything
             made.left_out.append(_left(inside, _reason(error), True))
     kernels = side_by_side(limits.memory)
     if notebooks := sum(any(each.handed for each in several) for several in found.values()):
@@ -140,7 +140,7 @@ def summary(
                 line = f"{newest.file}: {newest.who}, {newest.lab}, {newest.held} hold"
                 tell(done, len(jobs), line)
     finally:
-        pool.shutdown(cancel_futures=True)  # Ctrl+C: waiting work does not start
+        pool.shutdown(cancel_futures=True)  # after Ctrl+C, waiting jobs do not start
     made.entries.sort(key=lambda each: (list(labs()).index(each.lab), normalised(each.who)))
     made.left_out.sort(key=lambda each: (each.file, each.reason))
     return made
@@ -155,8 +155,8 @@ def side_by_side(memory: int) -> int:
 
 
 def who_of(inside: Path) -> str:
-    """The student of a file, from its path below the folder: the part of its name beside a lab's,
-    otherwise the nearest folder that is not named after a lab, otherwise its name.
+    """The student of a file, from its path below the folder: the part of its name that is not a
+    lab's, otherwise the nearest folder that is not named after a lab, otherwise its name.
     """
     for k, part in enumerate((inside.stem, *reversed(inside.parent.parts))):
         slug = re.search("|".join(labs()), part, re.I)
@@ -198,8 +198,8 @@ def _files(folder: Path) -> Iterator[tuple[Path, str | None]]:
 
 
 def _read(path: Path, inside: Path) -> Entry | str:
-    """Return an entry, for a notebook still without data, or the reason why it does not belong in
-    the table.
+    """Return an entry, which has no data yet if it is a notebook, or the reason why the file does
+    not belong in the table.
     """
     size = path.stat().st_size
     if size > LARGE:
@@ -234,7 +234,7 @@ def _newest(several: list[Entry], limits: Limits) -> tuple[Entry | None, list[Le
                     told(entry.handed, entry.who, judge_notebook(entry.handed, None, limits))
                 )
                 entry = replace(entry, data=data, handed=None, judged=True)
-        except Exception as error:  # a student's code may return anything
+        except Exception as error:  # a student's code can return anything
             left_out.append(LeftOut(entry.file, entry.who, _reason(error), True))
             continue
         for each in several:

@@ -1,6 +1,6 @@
 """The teacher's table as files: summary.csv, summary.html and a page for each row.
 
-The pages come from templates that escape all words. They have no script: their policy forbids
+The pages come from templates that escape all text. They have no scripts: their policy forbids
 scripts and requests and permits only one style.
 """
 
@@ -32,7 +32,7 @@ from .variants import normalised
 
 FIRST = ["who", "lab", "file", "date"]  # columns that identify our tables
 BEGIN = "<title>What was handed in</title>"  # identifies our overview pages
-SHEET = '<meta name="generator" content="robokin summary: one student">'  # our pages of students
+SHEET = '<meta name="generator" content="robokin summary: one student">'  # marks student pages
 PAGES = "summary_pages"
 INK, SOFT, RULE = (PAGE[name][0] for name in ("ink", "soft", "line"))
 STYLE = f"""\
@@ -67,7 +67,7 @@ FORMULA = re.compile("(^|[;,|\"'] ?)(?=[=+@\uff1d\uff0b\uff0d\uff20-])")
 
 
 def mistakes(made: Summary) -> list[tuple[str, str, list[str]]]:
-    """(exercise, mistake, who made it), in each exercise the most frequent first."""
+    """(exercise, mistake, who made it), for each exercise the most frequent first."""
     found: dict[tuple[str, str], list[str]] = defaultdict(list)
     for entry in made.entries:
         for each in entry.data["exercises"]:
@@ -139,16 +139,16 @@ def csv_of(made: Summary, points: bool = True) -> str:
 
 
 def harmless(text: str) -> str:
-    """A cell on one line that no spreadsheet takes for a formula, even one whose separator is not
-    the comma.
+    """Put the text of a cell on one line that no spreadsheet takes for a formula, even if its
+    separator is not the comma.
     """
     return FORMULA.sub(r"\1'", " ".join(text.split()))
 
 
 def page_of(made: Summary, links: list[str], points: bool = True) -> str:
-    """The page: how many exercises hold, a row for each student, a column for each lab; for each
-    lab how many hold each exercise, and a row for each student; mistakes and predictions; what was
-    left out. `links`: where the entries' own pages are.
+    """The overview page: how many exercises hold, with a row for each student and a column for each
+    lab; for each lab, how many students pass each exercise, and a row for each student; mistakes
+    and predictions; files that were left out. `links`: the links to the entries' own pages.
     """
     rows = list(zip(made.entries, links, strict=True))
     students: dict[str, dict[str, tuple[Entry, str]]] = defaultdict(dict)
@@ -234,7 +234,7 @@ def _number(each: dict[str, Any]) -> str:
     return str(each["id"]).partition(".")[2]
 
 
-# --- Files ----------------------------------------------------------------------------------------
+# --- Output files ---------------------------------------------------------------------------------
 
 
 def places(folder: Path) -> tuple[Path, Path, Path]:
@@ -253,7 +253,7 @@ def places(folder: Path) -> tuple[Path, Path, Path]:
 
 
 def write(made: Summary, folder: Path, points: bool = True) -> tuple[Path, Path]:
-    """Write summary.csv and summary.html into `folder`, and beside them the students' pages, which
+    """Write summary.csv and summary.html into `folder`, and next to them the students' pages, which
     replace those of an earlier summary. ValueError: as in `places`.
     """
     table, page, pages = places(folder)
@@ -282,7 +282,7 @@ def is_ours(path: Path, folder: Path) -> bool:
 
 
 def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
-    """A path for a page that neither a foreign file nor another student's page has."""
+    """A path for a page that is not taken by a foreign file or another student's page."""
     path, k = pages / f"{name}.html", 1
     while path.name.casefold() in taken or (os.path.lexists(path) and not _begins(path, SHEET)):
         k += 1
@@ -291,7 +291,7 @@ def _free(pages: Path, name: str, taken: Collection[str]) -> Path:
 
 
 def _begins(path: Path, begin: str) -> bool:
-    """Whether a regular file, not a link, has these words in its first lines."""
+    """Whether a path is a regular file, not a link, with this text near its beginning."""
     if path.is_symlink() or not path.is_file():
         return False
     with path.open("rb") as file:

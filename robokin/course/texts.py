@@ -28,7 +28,7 @@ def visible(text: str, kept: str = LINES, most: int | None = None) -> str:
 
 
 def all_visible(value: Any, kept: str = LINES, depth: int = 0) -> Any:
-    """A copy of a JSON value with all its texts visible. ValueError: it is nested too deeply."""
+    """Apply `visible` to all strings of a JSON value. ValueError: it is nested too deeply."""
     if isinstance(value, str):
         return visible(value, kept)
     if not isinstance(value, (dict, list, tuple)):

@@ -1,4 +1,4 @@
-"""Numbers: reading them from answers, and writing them into sentences."""
+"""Read numbers from answers, and write them into sentences."""
 
 from typing import Any
 
@@ -29,8 +29,8 @@ def floats(value: Any) -> Floats:
 
 
 def one_number(value: Any) -> float:
-    """Return one number, also from an array with one element. TypeError or ValueError: it is not
-    one.
+    """Return a single number, even from an array with one element. TypeError or ValueError: it is
+    not a single number.
     """
     made = floats(value)
     if made.size != 1:

@@ -1,4 +1,4 @@
-"""The exercise of giving a value that has many correct answers: numbers for an individual task, a
+"""Exercises that ask for a value and have many correct answers: numbers for an individual task, a
 pose, a program.
 """
 
@@ -11,7 +11,7 @@ from .markdown import BadFile, Text
 
 
 class Value(Exercise):
-    """The exercise of giving a value. `code`, the names of the Python file, contains
+    """An exercise that asks for a value. `code`, the names of the Python file, contains
 
     form    (answer, given) -> the answer in the form that `faults` needs; raises a ValueError that
             says what was wanted
@@ -22,7 +22,7 @@ class Value(Exercise):
     and may contain
 
     given   who -> this student's numbers; without it all students have the same task
-    GOAL    for a pose taken from an explorer: what the page itself checks (page.PageExplorer)
+    GOAL    for a pose taken from an explorer: the task that the page checks (page.PageExplorer)
     plain   answer -> the answer as the case shows it
     holds   (answer, given) -> additional sentences for an answer that passes
     """

@@ -9,7 +9,7 @@ from .book import lab as _lab
 
 
 def normalised(who: Any) -> str:
-    """Return a name without irrelevant differences: case, ways to type an accent, spaces.
+    """Return a name without differences in case, in spaces or in the way to type an accent.
     ValueError: nothing is left.
     """
     text = unicodedata.normalize("NFKC", str(who)).casefold()

@@ -21,7 +21,7 @@ import robokin
 
 HERE = Path(__file__).parent
 TEACHING = "teaching.ipynb"
-NOTES = "documents/teaching"  # in the line of index.md that is removed with them
+NOTES = "documents/teaching"  # the link in the line of index.md that is removed with the notes
 MARK = ".robokin-site"  # a file in the site's folder with the names of all files written there
 
 
@@ -46,7 +46,7 @@ def build(folder: Path, teaching: bool = True) -> str:
         notebooks = [path for path in _notebooks(labs) if teaching or path.name != TEACHING]
         _gather(labs, notebooks, source)
         complaints = _run(source, made)
-        for notebook in notebooks:  # the notebook to download, beside its page
+        for notebook in notebooks:  # the notebook to download, next to its page
             shutil.copyfile(notebook, made / notebook.relative_to(labs))
         unwanted = shutil.ignore_patterns("__pycache__")
         shutil.copytree(labs / "exercises", made / "exercises", ignore=unwanted)
@@ -67,9 +67,9 @@ def _notebooks(labs: Path) -> list[Path]:
 
 
 def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
-    """Gather the files beside this one, the notebooks, a list of the labs, an arm for the first
-    page, and a page for each module. Without the notes for teachers, the first page does not
-    mention them.
+    """Gather the files next to this one, the notebooks, a list of the labs, an arm for the first
+    page, and a page for each module. If the notes for teachers are left out, the first page does
+    not mention them.
     """
     from ...show import target_explorer
 
@@ -92,7 +92,7 @@ def _gather(labs: Path, notebooks: list[Path], source: Path) -> None:
 
 
 def _entry(lab: Path) -> str:
-    """A lab in the list of labs: its title and its claim."""
+    """The entry for a lab in the list of labs: its title and its claim."""
     try:
         first = "".join(json.loads(lab.read_text(encoding="utf-8"))["cells"][0]["source"])
     except (KeyError, ValueError) as error:
@@ -116,7 +116,7 @@ def _modules() -> list[str]:
 
 
 def _described(name: str) -> str:
-    """A module in the list of modules, with the first sentence of its docstring."""
+    """The entry for a module in the list of modules, with the first sentence of its docstring."""
     words = " ".join((importlib.import_module(name).__doc__ or "").split())
     return f"- [`{name}`]({name}.rst)\\\n  {re.split(r'(?<=[.])(?: |$)', words)[0]}"
 

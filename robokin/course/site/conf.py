@@ -77,7 +77,7 @@ def _formula(translator: Any, node: nodes.Element, block: bool) -> None:
     raise nodes.SkipNode
 
 
-# --- "[02 §3](02_irb140_kinematics.ipynb)" links to section 3 of that lab -------------------------
+# --- Links to sections: "[02 §3](02_irb140_kinematics.ipynb)" -------------------------------------
 
 
 def _own_name(app: Any, docname: str, source: list[str]) -> None:
@@ -111,7 +111,7 @@ ENTRY = r"(\S+(?: \S+)*) {2,}(\S.*(?:\n {2,}.*)*)"  # a name, two or more spaces
 
 
 def _not_ours(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
-    """Skip members that a class inherits from a library or from tuple."""
+    """Skip members that a class inherits from a library or a tuple."""
     home = getattr(thing, "__module__", None) or "robokin"
     foreign = isinstance(home, str) and not home.startswith("robokin")
     return True if foreign or str(thing.__doc__).startswith("Alias for field") else None
