@@ -285,7 +285,7 @@ def until(true, complaint, page=None):
         page.wait_for_timeout(100) if page else time.sleep(0.1)
 
 
-# The slowest files run first: one that began late would still run when all others have finished.
+# The slowest files run first: one that started late would still be running after all others.
 LONGEST = (
     "test_explorers.py",
     "test_rerun.py",

@@ -39,7 +39,7 @@ NAMES = re.compile(
     r"(?: \d\b(?:,| and| to| or)?)+"
     r"|[A-Za-zα-ωΑ-Ω]_?\{?\d\}?(?!\d)|[A-Za-zα-ω]+\d\b"
 )  # q1, C2, K1, z_0, l2
-# Types whose values never change; nor do those of robokin.
+# Types whose values never change. Values of robokin's own types do not change either.
 FIXED = (types.ModuleType, types.FunctionType, type, str, float, int, tuple)
 SETS = (ast.Assign, ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef, ast.Expr)
 ASKED = re.compile(r"^(predict|check|progress|hint|solution|variant)\(")

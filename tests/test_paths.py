@@ -106,9 +106,9 @@ def test_zero_blend_is_lin_lin(corner):
 
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
-def test_distance_of_the_path_from_via_is_as_in_the_errata(corner, b):
+def test_distance_of_the_path_from_via_matches_the_errata(corner, b):
     """Errata S1-l: the middle of the parabola is |a - 2 b + c| / 4 from via, half of the distance
-    to the chord; the middle of the quintic is at 3/4 of that.
+    to the chord; the middle of the quintic is at 3/4 of that distance.
     """
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
     chord = np.linalg.norm((first + last) / 2 - VIA.translation)
@@ -238,7 +238,7 @@ def test_fractions_broadcast_with_s(corner):
 
 
 @corners
-def test_poses_may_be_batches(corner):
+def test_poses_can_be_batches(corner):
     starts = Transform(START.rotation, START.translation + np.arange(3)[:, None] * 0.05)
     s = np.linspace(0, 1, 11)
     T = blend(starts[:, None], VIA, GOAL, 0.2, s, corner)
@@ -261,7 +261,7 @@ def test_anything_with_lerp_can_be_blended(corner):
 
 
 @corners
-def test_start_may_equal_goal(corner):
+def test_start_can_equal_goal(corner):
     s = np.linspace(0, 1, 21)
     for T in (
         lin(START, START, s),

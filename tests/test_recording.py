@@ -425,7 +425,7 @@ def test_long_stroke_is_not_a_jump_but_half_a_turn_is():
     assert record(SCARA, t, q).leaps == ()
 
 
-def test_jump_next_to_a_gap_has_the_value_of_the_only_sample_before_it():
+def test_jump_next_to_a_gap_starts_from_the_only_sample_before_it():
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[:, 0] = t
@@ -558,7 +558,7 @@ def test_a_single_recording_has_no_parts(motions):
             call()
 
 
-# --- What a recording is --------------------------------------------------------------------------
+# --- Recordings as objects ------------------------------------------------------------------------
 
 
 def test_recordings_are_read_only(motions):

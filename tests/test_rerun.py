@@ -58,7 +58,8 @@ def test_failing_values_and_hard_coded_numbers_are_detected(tmp_path):
     assert faults("a = 1  # try 0", "if a:\n    a = 2", "print(1 / a)")[1]
     assert faults("a = 1  # try 0", "def f():\n    return 1 / a", "b = 2", "print(f() + b)")[1]
     assert faults("a = [1]\nb = 1  # try 0", "a[0] = b", "a.append(2)", "print(1 / a[0])")[1]
-    # changes by one value are undone: the next value starts from what the cells above left
+    # changes made with one value are undone: the next value starts from the state after the cells
+    # above
     assert faults("x = [1]", "a = 1  # try 2, 3\nx.append(a)", "assert len(x) == 2")[1] == []
 
 

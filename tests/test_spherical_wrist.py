@@ -91,7 +91,7 @@ def flags(machine, q):
 
 
 @machines
-def test_20000_random_poses_have_exactly_their_rows(machine):
+def test_20000_random_poses_have_exactly_the_expected_rows(machine):
     arm = machine.arm
     q = random_joints(arm, np.random.default_rng(4), (20_000,))
     T = arm.fk(q)
@@ -420,7 +420,7 @@ def test_rows_equal_the_reference_case(arm, case, unit):
     compare(arm, case, unit)
 
 
-# Which arms have a spherical wrist
+# Chains with and without a spherical wrist
 # -------------------------------------------------------------------------------------------------
 
 

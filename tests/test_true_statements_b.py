@@ -80,7 +80,7 @@ def asked(name):
     return filled(find(name, "predictions"))
 
 
-# --- 07 -------------------------------------------------------------------------------------------
+# --- Lab 07 ---------------------------------------------------------------------------------------
 
 
 def wrist_speeds(q_deg):
@@ -152,7 +152,7 @@ def test_three_of_eight_rows_are_usable_at_six_seconds():
     assert ["none", "one", "two", "three", "four"][inside.sum()] == many
 
 
-# --- 08 -------------------------------------------------------------------------------------------
+# --- Lab 08 ---------------------------------------------------------------------------------------
 
 
 def test_first_come_wins_at_the_stated_belt_speed():
@@ -216,7 +216,7 @@ def test_nearest_first_loses_as_often_as_stated():
     assert away == pytest.approx([1.96] * 2, abs=0.2)
 
 
-# --- 09 -------------------------------------------------------------------------------------------
+# --- Lab 09 ---------------------------------------------------------------------------------------
 
 
 def race_of_the_cell(count):
@@ -306,7 +306,7 @@ def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
     assert ARM.family((0, RING), SAMPLE)[:2] == pytest.approx([(90 + gamma_1) * deg, beta])
 
 
-# --- 10 -------------------------------------------------------------------------------------------
+# --- Lab 10 ---------------------------------------------------------------------------------------
 
 
 def lever_distance(q, H, lever=slice(None)):
@@ -536,7 +536,7 @@ def test_task_states_which_of_its_angles_are_in_radians():
         path_form(np.zeros((int(most) + 1, 3)), given)
 
 
-# --- 11 -------------------------------------------------------------------------------------------
+# --- Lab 11 ---------------------------------------------------------------------------------------
 
 
 def test_rounded_positions_stay_within_half_a_pulse():
@@ -607,7 +607,7 @@ def test_every_cycle_to_try_drifts():
         assert np.rint(ways).sum(axis=0).any(), f"nothing drifts with {stakes}"
 
 
-# --- 12 -------------------------------------------------------------------------------------------
+# --- Lab 12 ---------------------------------------------------------------------------------------
 
 
 def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():

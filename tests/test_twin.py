@@ -345,12 +345,12 @@ def test_page_computes_the_same_rows(twin, name):
         )
 
 
-# --- Choosing ------------------------------------------------------------------------------------
+# --- Choice of rows ------------------------------------------------------------------------------
 
 
 def half_turns(arm, rng, *shape):
-    """Rows whose joint values differ by quarter turns: half turns are exactly between two values,
-    and many rows are equally near. Some rows are missing.
+    """Rows whose joint values differ by quarter turns: a half turn is exactly between two
+    values, and many rows are equally near. Some rows are missing.
     """
     q = rng.integers(-8, 9, (*shape, len(arm.links))) * (np.pi / 2)
     q[..., arm.prismatic] = rng.integers(-4, 5, q[..., arm.prismatic].shape) * 0.05
@@ -759,7 +759,7 @@ def test_page_chooses_the_same_scales(twin):
     close(got, np.array([scale(*pair) for pair in ends.tolist()]), 1e-12)
 
 
-# --- In words ------------------------------------------------------------------------------------
+# --- Explanations in words -----------------------------------------------------------------------
 
 EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
   [explain(arm, posed(pose), row), Object.entries(singularities(arm, ik(arm, posed(pose))[row]))
