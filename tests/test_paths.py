@@ -195,7 +195,7 @@ def test_derivative_is_continuous_at_the_ends_of_the_corner(what, corner, order,
         for h in (4e-4, 2e-4, 1e-4):
             p = f(end + h * np.arange(-4, 5))
             d = np.diff(p, n=order, axis=0) / h**order
-            jumps.append(abs(d[-3 + order] - d[2]).max())  # just after the end, just before it
+            jumps.append(abs(d[-3 + order] - d[2]).max())  # just after the end minus just before it
         assert jumps[0] / jumps[1] > 1.75 and jumps[1] / jumps[2] > 1.75, jumps
         assert jump(f, end, 1e-3, order) < 0.02 * max(
             abs(np.diff(f(np.linspace(0, 1, 101)), n=order, axis=0)).max() * 100**order, 1
@@ -249,7 +249,7 @@ def test_poses_can_be_batches(corner):
 
 @corners
 def test_anything_with_lerp_can_be_blended(corner):
-    """A SCARA's target does not wrap its angle: half a turn has a direction (errata S1-t)."""
+    """The angle of a SCARA target is not wrapped, so half a turn has a direction (errata S1-t)."""
     a, b, c = (
         ScaraPose((0.1, 0, 0), 0.0),
         ScaraPose((0.2, 0, 0), np.pi),

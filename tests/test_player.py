@@ -444,7 +444,7 @@ def test_everything_drawn_is_in_view(blended, motions):
     """
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
-    flange = IRB140.fk(motions[:, ::20])  # with its axes, as long as the page draws them
+    flange = IRB140.fk(motions[:, ::20])  # with its axes, at the length that the page draws
     tips = [
         (flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation
         for axis in (X, Y, Z)
@@ -1002,7 +1002,7 @@ def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
     assert time.input_value() == "0"
     page.wait_for_timeout(200)
     assert time.input_value() == "0"  # no autoplay
-    for _ in range(7):  # slider, button, time, playback, panel, numbers, the scene
+    for _ in range(7):  # the tab order: slider, button, time, playback, panel, numbers, scene
         page.keyboard.press("Tab")
     assert page.evaluate("document.activeElement.className") == "rk-scene"
     before = ink(page, ".rk-scene")

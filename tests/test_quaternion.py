@@ -135,8 +135,8 @@ def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
 
 
 def test_slerp_of_half_a_turn_depends_on_the_signs():
-    """Both arcs are equally long: the signs of the two quaternions decide, and rounding noise does
-    not.
+    """Both arcs are equally long: the signs of the two quaternions decide between them, and
+    rounding noise does not.
     """
     one = Quaternion.identity()
     for noise in (-4e-16, 0, 4e-16):

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:Deprecati
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_cells_run_again_with_other_values(path):
     """No cell shows a different output when it runs again, and no value breaks a cell or makes its
-    words false.
+    text false.
     """
     _, tried, again = rerun.faults(path, sample=True)
     assert tried == [] and again == []

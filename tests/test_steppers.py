@@ -521,7 +521,7 @@ def test_the_field_of_any_number_of_windings_turns_evenly(motor):
 def test_the_step_follows_from_windings_poles_and_teeth(motor):
     step = motor.step / deg
     halves = 2 if motor.drive == "half-step" else 1
-    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees and more
+    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees or more
         poles = 2 if motor.motor == "bipolar" else 1
         assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
     else:
@@ -661,7 +661,7 @@ def test_four_times_the_inertia_halves_the_frequency():
         assert two.t == pytest.approx(2 * one.t) and two.lost == one.lost
         assert two.angle == pytest.approx(one.angle, abs=1e-6)
     assert one.lost
-    assert one in [one] and one != replace(one)  # comparing arrays would raise
+    assert one in [one] and one != replace(one)  # comparing arrays would raise an error
 
 
 def test_reverse_run_is_the_mirror_image():

@@ -107,7 +107,7 @@ def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
         assert own[2] / own[0] < 0.1, "one axis is nearly gone"
 
 
-def test_speeds_ten_times_nearer_grow_by_the_stated_factors():
+def test_speeds_grow_by_the_stated_factors_ten_times_nearer_to_a_singularity():
     told = said(
         "07",
         "cross-look",
@@ -248,7 +248,7 @@ def test_noise_in_the_last_bit_does_not_change_the_race(monkeypatch):
         assert exact[noise] == pytest.approx(exact[None], abs=1e-6)
 
 
-def test_dice_turn_more_by_the_stated_factor():
+def test_random_choice_turns_more_by_the_stated_factor():
     question, options, right = asked("three_levers.p10")
     places, _, seed = race_of_the_cell(100)
     assert question.startswith("100 targets") and "evenly from 0° to 180°" in question
@@ -293,12 +293,12 @@ def test_dice_turn_more_by_the_stated_factor():
     assert [round(x / 100) for x in own] == [int(x) for x in told.groups()]
 
 
-def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
+def test_the_arm_with_arctan2_stays_within_its_limits_and_the_other_does_not():
     question, _, _ = asked("three_levers.p4")
     first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
     facts = content("three_levers").module("predictions")
     RING, SAMPLE = facts["RING"], facts["SAMPLE"]
-    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus an angle that does not change
+    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus a constant angle
     gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
     beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2
     assert 0 < first + gamma_1 and last + gamma_1 < 180 and 0 < beta < np.pi

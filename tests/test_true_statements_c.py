@@ -215,7 +215,7 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
 # --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
-def test_notch_and_the_tool_behind_joint_1_begin_where_stated():
+def test_notch_begins_and_tool_passes_joint_1_where_stated():
     hole, notch = numbers(
         r"between (\d+) mm and 450 .* from (\d+) mm on", shown("04", "zone-figure")
     )

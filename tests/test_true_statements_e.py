@@ -248,7 +248,7 @@ def test_paths_need_only_a_lerp_method():
     assert (bare.jacobian(q) == SCARA.jacobian(q)).all()
 
 
-def test_two_of_the_four_row_pairs_coincide_in_the_hit():
+def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     assert "In the hit two of the four such pairs become one:" in flat("06", "drag-target-look")
     made = run_cells("06", "setup")
     arm = made["ITMO6R"]
@@ -299,7 +299,7 @@ def test_followed_angles_matter_only_for_joint_6():
             kinds.add(bool(some != kept))
 
 
-def test_rows_4_to_6_end_with_a_wound_joint():
+def test_rows_4_to_6_end_with_a_joint_wound_past_its_limit():
     words = flat("07", "choose-look")
     assert "pass a limit in between. Rows 4 to 6 end with a joint wound past it" in words
     assert "(speeds in steps of 0.01 s)" in words

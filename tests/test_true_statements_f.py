@@ -25,7 +25,7 @@ def one_line(text):
 
 
 def option(name, short):
-    """One answer of a prediction, by its short name in the file."""
+    """One option of a prediction, by its short name in the file."""
     lab, number = name.split(".")
     text = (NOTEBOOKS / "exercises" / lab / "predictions.md").read_text(encoding="utf-8")
     section = text.split(f"## {number}")[1].split("\n## ")[0]
@@ -39,7 +39,7 @@ def says(lab, name):
 
 
 def about(axis, angle):
-    """A rotation by SciPy."""
+    """A rotation about an axis, made by SciPy."""
     return Rotation.from_rotvec(angle * np.array(axis) / np.linalg.norm(axis)).as_matrix()
 
 
@@ -198,7 +198,7 @@ def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
             for each in ([A, via, C], [*inside, *outside])
         ]
         assert peaks[1] / peaks[0] == pytest.approx(factor, rel=1e-3)
-    made = run_cells("03", "setup")  # a joint may need less: joint 3 at blend 0.4
+    made = run_cells("03", "setup")  # a single joint can need less: joint 3 at blend 0.4
     s = np.linspace(0, 1, 4001)
     third = []
     for kind in ("parabola", "quintic"):
@@ -217,7 +217,7 @@ def test_joint_4_can_have_two_values_inside_its_limits():
     for low, high in IRB140.limits / deg:
         most.append(((low - 1e-9 <= given) & (given <= high + 1e-9)).sum(axis=1))
     assert [counts.max() for counts in most] == [2, 1, 1, 2, 1, 3]
-    assert (most[0] == 2).sum() == 1 and given[most[0] == 2, 4] == -180  # joint 1: at ±180 only
+    assert (most[0] == 2).sum() == 1 and given[most[0] == 2, 4] == -180  # joint 1: only ±180
     assert (most[3] == 2).sum() > 50 and most[5].min() == 2
     cases = book.find("irb140_motion.2", "exercises").cases
     low, high = IRB140.limits.T
@@ -295,7 +295,7 @@ def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
 # --- Lab 05 ---------------------------------------------------------------------------------------
 
 
-def test_only_a_turn_about_the_tools_axis_keeps_the_wrist_centre():
+def test_only_a_rotation_about_the_tools_axis_keeps_the_wrist_centre():
     found = option("scara_motion.p1", "q1+q2+q3+q4")
     assert "a tilt moves the wrist centre, which joints 1 to 3 carry." in one_line(found.reason)
     assert (
@@ -377,7 +377,7 @@ def test_hint_and_solution_reject_a_better_root_alone():
         for chain in (rounded, made["wrists"](theta)):
             assert abs(chain @ chain.swapaxes(1, 2) - np.eye(3)).max() < 3e-15
             assert off(better, chain).max() > least and off(right, chain).max() < 1e-14
-        assert off(better, exact).max() < 1e-14  # zyz alone does not show it
+        assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show it
     one, _, three = (one_line(hint) for hint in WRIST.hints)
     told = "make some matrices as my_chain makes them: `wrists(theta)` of section 6."
     assert f"{told} zyz writes small entries with all their digits; a chain does not." in one

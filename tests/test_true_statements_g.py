@@ -372,7 +372,7 @@ def test_family_in_this_file_is_correct():
             assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
 
 
-def test_dice_turn_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
+def test_random_choice_turns_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
@@ -425,7 +425,7 @@ def test_narrower_range_is_the_one_in_inverse_proportion():
     assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # steeper and steeper
 
 
-def test_other_bend_serves_places_behind_the_base_by_the_recipe():
+def test_other_bend_reaches_targets_behind_the_base_by_the_recipe():
     words = flat("09", "deeper-more")
     assert (
         "Mirror K in the x axis, solve with `posture` of section 3, mirror back, and look at the "
