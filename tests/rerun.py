@@ -39,7 +39,7 @@ NAMES = re.compile(
     r"(?: \d\b(?:,| and| to| or)?)+"
     r"|[A-Za-zα-ωΑ-Ω]_?\{?\d\}?(?!\d)|[A-Za-zα-ω]+\d\b"
 )  # q1, C2, K1, z_0, l2
-# Types whose values never change; nor do those of robokin.
+# Types whose values never change. Values of robokin's own types do not change either.
 FIXED = (types.ModuleType, types.FunctionType, type, str, float, int, tuple)
 SETS = (ast.Assign, ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef, ast.Expr)
 ASKED = re.compile(r"^(predict|check|progress|hint|solution|variant)\(")
@@ -51,7 +51,7 @@ class Cell:
     def __init__(self, source: str) -> None:
         self.source = source
         tree = ast.parse(source)
-        self.reads: set[str] = set()  # before the cell sets them itself
+        self.reads: set[str] = set()  # names read before the cell sets them
         self.writes: set[str] = set()
         self.changed: set[str] = set()  # in place: values[3] = 1, names.append("C")
         sure: set[str] = set()
@@ -151,8 +151,8 @@ class Run:
 
 
 class Shown:
-    """What a cell shows: its printed text and the text of its result; for a figure or a player also
-    the words in it and what is drawn.
+    """The output of a cell: its printed text and the text of its result; for a figure or a player
+    also the words in it and what is drawn.
     """
 
     def __init__(self, printed: str, value) -> None:

@@ -34,7 +34,9 @@ def test_scripts_contain_no_colours(path):
 def test_style_sheets_contain_no_colours(path):
     text = path.read_text(encoding="utf-8")
     assert not re.findall(COLOUR, text) and not re.findall(r"\b(?:white|black)\b(?!-)", text)
-    assert "font-family" not in text and path.with_suffix(".js").is_file(), "no script of this name"
+    assert "font-family" not in text and path.with_suffix(".js").is_file(), (
+        "no script with this name"
+    )
 
 
 def test_figures_take_their_colours_from_the_palette():
@@ -96,7 +98,7 @@ def modules(tmp_path, monkeypatch):
 
 
 def run(script, ending):
-    """The value of the expression `ending` after the script, in Node."""
+    """Run the script in Node and return the value of the expression `ending` at its end."""
     code = f"{script}\nconsole.log(JSON.stringify({ending}));"
     done = subprocess.run([NODE, "-e", code], text=True, capture_output=True, check=True)
     return done.stdout.strip()
@@ -236,7 +238,7 @@ def test_style_sheet_follows_those_of_imported_modules(modules):
 
 
 def test_joined_style_sheets_equal_the_files_in_a_browser(browser):
-    """All rules of all style sheets, as Chromium serialises them."""
+    """The test compares all rules of all style sheets, as Chromium serialises them."""
     tab = browser.new_page()
     tab.set_content("<style id=sheet></style>")
     rules = """text => {
@@ -270,7 +272,7 @@ def test_player_contains_only_used_modules_and_no_comments():
     assert sorted(map(len, script.splitlines()))[-10] < 400, "lines too long to read"
 
 
-# --- Numbers --------------------------------------------------------------------------------------
+# --- Packed numbers -------------------------------------------------------------------------------
 
 
 def test_packed_numbers_are_accurate_to_half_a_step():

@@ -106,9 +106,9 @@ def test_zero_blend_is_lin_lin(corner):
 
 @corners
 @pytest.mark.parametrize("b", [0.05, 0.1, 0.5])
-def test_distance_of_the_path_from_via_is_as_in_the_errata(corner, b):
+def test_distance_of_the_path_from_via_matches_the_errata(corner, b):
     """Errata S1-l: the middle of the parabola is |a - 2 b + c| / 4 from via, half of the distance
-    to the chord; the middle of the quintic is at 3/4 of that.
+    to the chord; the middle of the quintic is at 3/4 of that distance.
     """
     first, last = lin(START, VIA, 1 - 2 * b).translation, lin(VIA, GOAL, 2 * b).translation
     chord = np.linalg.norm((first + last) / 2 - VIA.translation)
@@ -195,7 +195,7 @@ def test_derivative_is_continuous_at_the_ends_of_the_corner(what, corner, order,
         for h in (4e-4, 2e-4, 1e-4):
             p = f(end + h * np.arange(-4, 5))
             d = np.diff(p, n=order, axis=0) / h**order
-            jumps.append(abs(d[-3 + order] - d[2]).max())  # just after the end, just before it
+            jumps.append(abs(d[-3 + order] - d[2]).max())  # just after the end minus just before it
         assert jumps[0] / jumps[1] > 1.75 and jumps[1] / jumps[2] > 1.75, jumps
         assert jump(f, end, 1e-3, order) < 0.02 * max(
             abs(np.diff(f(np.linspace(0, 1, 101)), n=order, axis=0)).max() * 100**order, 1
@@ -238,7 +238,7 @@ def test_fractions_broadcast_with_s(corner):
 
 
 @corners
-def test_poses_may_be_batches(corner):
+def test_poses_can_be_batches(corner):
     starts = Transform(START.rotation, START.translation + np.arange(3)[:, None] * 0.05)
     s = np.linspace(0, 1, 11)
     T = blend(starts[:, None], VIA, GOAL, 0.2, s, corner)
@@ -249,7 +249,7 @@ def test_poses_may_be_batches(corner):
 
 @corners
 def test_anything_with_lerp_can_be_blended(corner):
-    """A SCARA's target does not wrap its angle: half a turn has a direction (errata S1-t)."""
+    """The angle of a SCARA target is not wrapped, so half a turn has a direction (errata S1-t)."""
     a, b, c = (
         ScaraPose((0.1, 0, 0), 0.0),
         ScaraPose((0.2, 0, 0), np.pi),
@@ -261,7 +261,7 @@ def test_anything_with_lerp_can_be_blended(corner):
 
 
 @corners
-def test_start_may_equal_goal(corner):
+def test_start_can_equal_goal(corner):
     s = np.linspace(0, 1, 21)
     for T in (
         lin(START, START, s),

@@ -211,7 +211,7 @@ def test_table_equals_table_3_of_the_document():
     K, step = (1.5, 1.0), 0.01 * deg
     rows = ARM.table(K, step, limited=False)
     assert rows[0, 2] / deg == pytest.approx(64.055520228, abs=1e-9)  # errata S3-e, row 1
-    # row 2: the step is outside the arccos
+    # row 2: the step is added outside the arccos
     assert rows[1, 2] / deg == pytest.approx(64.065520228, abs=1e-9)
     assert 180 - 0.01 < rows[-1, 2] / deg <= 180 and len(rows) == 11595
     # errata S3-d
@@ -221,7 +221,7 @@ def test_table_equals_table_3_of_the_document():
     # errata S3-g: nearly every row has gamma > 180 degrees
     K = 2 * np.array([np.cos(150 * deg), np.sin(150 * deg)])
     share = len(ARM.table(K)) / len(ARM.table(K, limited=False))
-    assert share == pytest.approx(0.0105, abs=5e-4)  # errata: 1.05 %, from coarser rows
+    assert share == pytest.approx(0.0105, abs=5e-4)  # the errata say 1.05 %, from coarser rows
     K = 2 * np.array([np.cos(170 * deg), np.sin(170 * deg)])
     assert len(ARM.table(K)) == 0 and "gamma outside" in ARM.out_of_reach(K)
 
@@ -232,7 +232,7 @@ def test_a_redundant_arm_has_no_ik():
         explain(ARM, (1.5, 1, 0), 0)
 
 
-def test_follow_takes_the_family_as_rows():
+def test_follow_accepts_the_family_as_rows():
     """`follow` takes, at each sample of a path, the posture with the least movement among those
     offered.
     """
@@ -270,7 +270,7 @@ def test_points_off_the_plane_are_out_of_reach():
 
 
 @pytest.mark.parametrize("way", [(0.0, 0, 1), (1.0, 0, 0)], ids=["height", "distance"])
-def test_out_of_reach_words_agree_with_the_postures(way):
+def test_out_of_reach_reason_agrees_with_the_postures(way):
     """The last reachable point upwards or outwards is found by bisection."""
 
     def at(far):
@@ -393,7 +393,7 @@ def ring(rng, lengths, n):
     return np.stack([KO * np.cos(phi), KO * np.sin(phi)], axis=-1)
 
 
-def test_equal_levers_may_be_given_as_one_length():
+def test_equal_levers_can_be_given_as_one_length():
     one, three = three_lever(0.3), three_lever((0.3, 0.3, 0.3))
     rng = np.random.default_rng(32)
     K, before = random_points(rng, 500, 0.3), rng.uniform(0, np.pi, (500, 3))
@@ -404,7 +404,7 @@ def test_equal_levers_may_be_given_as_one_length():
 
 
 @unequal
-def test_unequal_levers_reach_their_points(lengths):
+def test_unequal_levers_reach_their_targets(lengths):
     arm, rng = three_lever(lengths), np.random.default_rng(33)
     K = ring(rng, lengths, 300)
     low, high = arm.alpha_range(K, limited=False)
@@ -483,14 +483,14 @@ def test_no_posture_of_unequal_levers_moves_less_than_the_least(lengths):
         np.testing.assert_allclose(abs(q - before).sum(axis=-1), S, rtol=0, atol=1e-13)
 
 
-def test_minimum_that_equal_levers_do_not_have_is_found():
-    """gamma - beta + alpha is least inside this family, and all three angles change there."""
+def test_minimum_that_only_unequal_levers_have_is_found():
+    """gamma - beta + alpha has its minimum inside this family, where all three angles change."""
     arm, K = three_lever((1.313, 0.534, 0.247)), np.array([1.057, 0.0])
     low, high = arm.alpha_range(K, limited=False)
     rows = arm.family(K, np.linspace(low, high, 20_001))
     level = (rows @ [1, -1, 1]).argmin()
     assert 100 < level < 19_900
-    before = rows[level] + [-0.2, 0.2, -0.2]  # so that near here S is that sum minus a constant
+    before = rows[level] + [-0.2, 0.2, -0.2]  # so that S is that sum minus a constant near this row
     q, S = arm.least(K, before, limited=False)
     sums = abs(rows - before).sum(axis=-1)
     assert abs(q - before).min() > 1e-3 and sums.min() - 1e-7 < S <= sums.min()

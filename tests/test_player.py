@@ -137,7 +137,7 @@ def unpacked(packed, columns, samples):
 
 
 def decoded(player, arm=0):
-    """Joint values, speeds and accelerations (motions, samples, n) in the shown units."""
+    """Joint values, speeds and accelerations (motions, samples, n) in the units shown."""
     data = player.data["arms"][arm]
     size = len(data["chain"]), len(player.data["times"])
     return [unpacked(packed, *size) for packed in data["motion"]]
@@ -158,7 +158,7 @@ def kept(player, t=T):
 # --- The data of the page -------------------------------------------------------------------------
 
 
-def test_page_stores_the_motion_within_its_step(blended, motions):
+def test_page_stores_the_motion_to_within_its_rounding_step(blended, motions):
     q, v, a = decoded(blended)
     steps = steps_of(blended)
     at = kept(blended)
@@ -174,12 +174,12 @@ def test_page_stores_the_motion_within_its_step(blended, motions):
     assert set(at[np.isnan(a[0]).any(axis=-1)]) <= {999, 1000, 1001} and np.isnan(a[0]).any()
 
 
-def test_steps_belong_to_the_series_1_2_5(blended):
+def test_rounding_steps_belong_to_the_series_1_2_5(blended):
     for steps in steps_of(blended):
         assert all(re.fullmatch(r"[125]e[-+]\d\d", f"{step:.0e}") for step in steps.flat)
 
 
-def test_greatest_speeds_and_accelerations_equal_the_errata(blended):
+def test_greatest_speeds_and_accelerations_match_the_errata(blended):
     arm = blended.data["arms"][0]
     for fraction, wanted in GREATEST_SPEED.items():
         got = arm["speed"][FRACTIONS.tolist().index(fraction)]
@@ -259,7 +259,7 @@ def test_recording_is_animated_like_its_arrays(blended, motions):
     assert made.text == given.text
 
 
-def test_joint_values_may_be_lists():
+def test_joint_values_can_be_lists():
     t, q = [0, 1, 2], np.linspace(0, 0.2, 18).reshape(3, 6)
     assert animate(IRB140, t, q.tolist()).text == animate(IRB140, t, q).text
     both = np.stack([q, 2 * q])
@@ -387,7 +387,7 @@ def test_limits_are_shown_for_joints_near_them():
     q[2, :, 2] = np.linspace(0, 60, 2001) * deg  # past the limit of 50 degrees
     slow, fast = (
         animate(IRB140, t, q, slider=("x", [0, 1, 2])).data["panels"]
-        # joint 1 turns at 195 of at most 200 degrees/s
+        # joint 1 turns at 195 degrees/s; its limit is 200 degrees/s
         for t in (T, np.linspace(0, 130 / 195, 2001))
     )
     assert [panel["near"] for panel in slow] == [[[[1, 0], [2, 1]]], [[]], [[]]]
@@ -444,7 +444,7 @@ def test_everything_drawn_is_in_view(blended, motions):
     """
     seen = np.array(blended.data["scene"]["seen"])
     points = IRB140.frames(motions[:, ::20]).translation.reshape(-1, 3)
-    flange = IRB140.fk(motions[:, ::20])  # with its axes, as long as the page draws them
+    flange = IRB140.fk(motions[:, ::20])  # with its axes, at the length that the page draws
     tips = [
         (flange.rotation @ axis) * 0.13 * blended.data["scene"]["size"] + flange.translation
         for axis in (X, Y, Z)
@@ -485,7 +485,7 @@ def test_still_picture_has_the_view_and_scale_of_the_scene(motions):
                 line.shape == wanted.shape and np.allclose(line, wanted, atol=1e-3)
                 for line in drawn
             )
-        assert max(map(len, drawn)) > 500  # the path, from more samples than the page gets
+        assert max(map(len, drawn)) > 500  # the path, from more samples than the page contains
         ends.append([*ax.get_xlim(), *ax.get_ylim()])
     assert np.allclose(*ends)
 
@@ -525,7 +525,7 @@ def moved(player, kind, columns):
     return values
 
 
-def test_a_point_may_move_with_time(motions):
+def test_a_point_can_move_with_time(motions):
     path = CIRCLING.copy()
     path[1500:] = np.nan
     player = animate(IRB140, T, motions[1], points={"ball": path})
@@ -542,7 +542,7 @@ def test_a_point_may_move_with_time(motions):
     assert len(player.data["scene"]["things"][0]["at"]["data"]) < 1100  # about one byte per value
 
 
-def test_marks_may_move_with_slider_and_switch(motions):
+def test_marks_can_move_with_slider_and_switch(motions):
     q = np.stack([motions[:2], motions[2:]])
     words = {"slider": ("x", [1, 2]), "switch": ("y", ["a", "b"])}
     at = np.arange(12.0).reshape(2, 2, 1, 3) / 20
@@ -558,7 +558,7 @@ def test_marks_may_move_with_slider_and_switch(motions):
     assert moved(player, "mark", 3).shape[0] == 1
 
 
-def test_a_target_may_move(motions):
+def test_a_target_can_move(motions):
     carried = IRB140.fk(motions[1])
     for given, motion in ((carried, motions[1]), (IRB140.fk(motions[1:3]), motions[1:3])):
         extra = {"slider": ("x", [1, 2])} if motion.ndim == 3 else {}
@@ -820,7 +820,7 @@ ODD = 'a $\\frac{ b$ \ud800 <b> & "c"'
 
 
 def test_titles_and_names_are_plain_text(motions):
-    """No formulas and no markup; a lone surrogate becomes the replacement character."""
+    """Titles are not read as formulas or markup; lone surrogates become replacement characters."""
     player = animate(
         [IRB140, IRB140],
         T,
@@ -1002,7 +1002,7 @@ def test_play_pause_and_scrub_by_keyboard_alone(page, blended, tmp_path):
     assert time.input_value() == "0"
     page.wait_for_timeout(200)
     assert time.input_value() == "0"  # no autoplay
-    for _ in range(7):  # slider, button, time, playback, panel, numbers, the scene
+    for _ in range(7):  # the tab order: slider, button, time, playback, panel, numbers, scene
         page.keyboard.press("Tab")
     assert page.evaluate("document.activeElement.className") == "rk-scene"
     before = ink(page, ".rk-scene")
@@ -1215,8 +1215,8 @@ PAINTED = """selector => {
     return data.filter((value, i) => i % 4 === 3 && value).length; }"""
 
 
-def test_picture_returns_after_a_moment_without_size(page, blended, tmp_path):
-    """As during a theme change in JupyterLab: a picture is requested while the player is hidden;
+def test_picture_is_drawn_again_after_the_player_was_hidden(page, blended, tmp_path):
+    """As during a theme change in JupyterLab, a picture is requested while the player is hidden;
     afterwards the player has its old size again, so that no resize is reported.
     """
     canvases = (".rk-scene", ".rk-curves")
@@ -1237,7 +1237,7 @@ def test_picture_returns_after_a_moment_without_size(page, blended, tmp_path):
         requestAnimationFrame(() => {{ root.style.display = ''; }}); }}""")
     until(
         lambda: [ink(page, canvas) for canvas in canvases] == moved,
-        "the player still shows the picture of before it was hidden",
+        "the player still shows the picture from before it was hidden",
         page,
     )
 
@@ -1334,7 +1334,7 @@ def test_scene_projects_points_and_can_be_held(page, blended):
     assert held == first and after[1:3] != first[1:3] and hidden is False
 
 
-def test_solid_floor_hides_what_is_below(page):
+def test_solid_floor_hides_objects_below_it(page):
     """The tool goes below its base: the floor is below the tool, or at height 0 with `floor`. A
     floor at height 0 hides parts of the arm below it and leaves the arm above it unchanged.
     """
@@ -1372,7 +1372,7 @@ def test_solid_floor_hides_what_is_below(page):
     assert above == same > 300 and 0 < hidden < 0.8 * bare
 
 
-def test_first_picture_after_an_early_request_has_its_colours(page, blended):
+def test_picture_requested_early_is_drawn_in_colour(page, blended):
     """A picture is requested in the same task that creates the player, before any canvas has a
     size.
     """

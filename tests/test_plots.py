@@ -1,5 +1,5 @@
-"""What the figures draw, read back from their lines, and what reaches a notebook: the alt text and
-a small picture.
+"""The content of the figures, read back from their lines, and their output in a notebook: the alt
+text and a small picture.
 """
 
 import io
@@ -262,12 +262,12 @@ def test_given_values_replace_those_of_the_recording(corner):
     assert "spike at 10 s: speed jump / step" in words(fig.axes[2])
     drawn = {line.get_label(): line.get_ydata() for line in fig.axes[2].lines}
     np.testing.assert_allclose(drawn["q3"], a[:, 2] / deg, rtol=1e-12, atol=1e-12)
-    assert (
-        "Greatest speed 31.2 °/s (q3)." in fig.alt
-    )  # speeds that are not given are the recording's
+    # speeds that are not given come from the recording
+    assert "Greatest speed 31.2 °/s (q3)." in fig.alt
     slow = plot_joints(found, v=found.v / 2)
     assert "Greatest speed 15.6 °/s (q3)." in slow.alt and "None at 10 s" in slow.alt
-    exact = np.where(np.isnan(found.a), 0.1, found.a)  # a caller who knows the acceleration there
+    # from a caller who knows the acceleration there
+    exact = np.where(np.isnan(found.a), 0.1, found.a)
     calm = plot_joints(IRB140, T, corner, found.v, exact).alt
     assert "spike" not in calm.lower() and "None at" not in calm
 
@@ -335,7 +335,7 @@ def test_whole_turn_is_drawn_and_reported():
     raw = IRB140.ik(lin_lin(START, VIA, GOAL, linear(20.0)(T)))[:, IRB140.branch(1, 1, 1)]
     fig = plot_joints(IRB140, T, raw, differentiate(raw, T))
     at = T[1:][abs(np.diff(raw[:, 3])) > 6]
-    assert len(at) == 1  # errata S1-e: at 12.50
+    assert len(at) == 1  # errata S1-e: at 12.50 s
     assert f"q4 jumps by 360° at {at[0]:.1f} s" in words(fig.axes[0])
     np.testing.assert_array_equal(curves(fig.axes[0])["q4"][:, 1], raw[:, 3] / deg)
     assert "angle jump / step" in words(fig.axes[1])
@@ -538,7 +538,7 @@ def test_targets_have_names():
     assert len(named_targets([START] * 5)) == 5
 
 
-# --- In a notebook --------------------------------------------------------------------------------
+# --- Output in a notebook -------------------------------------------------------------------------
 
 
 class Images(HTMLParser):
@@ -669,7 +669,7 @@ ODD = "a $\\frac{ b$ \ud800 _c_ & <d>"
 
 
 def test_titles_and_names_are_plain_text(rounded):
-    """No formulas unless requested; a lone surrogate is shown as the replacement character."""
+    """Titles are not read as formulas unless requested; lone surrogates are replaced."""
     shown = ODD.replace("\ud800", "\ufffd")
     figs = [
         plot_joints(IRB140, T, rounded, title=ODD, alt=ODD),

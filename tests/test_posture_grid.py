@@ -114,7 +114,7 @@ def test_search_can_leave_a_blocked_start():
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_free_postures_may_change_with_time(seed):
+def test_free_postures_can_change_with_time(seed):
     """The fewest steps by tick t equal the least cost in a graph whose nodes are postures at ticks,
     where waiting costs nothing.
     """

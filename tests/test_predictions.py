@@ -1,4 +1,4 @@
-"""Predictions: what a page says before and after each choice; choices are made by mouse and by
+"""Predictions: the text of a page before and after each choice; choices are made by mouse and by
 keyboard, typed, remembered, and printed in the notebook.
 """
 
@@ -187,7 +187,7 @@ def test_forbidden_storage_does_no_harm(opened, browser):
     assert REASON in seen(page) and "Kept on this page only." in seen(page)
 
 
-def test_question_may_occur_twice_in_a_page(opened):
+def test_question_can_occur_twice_in_a_page(opened):
     """As in JupyterLab's "New View for Cell Output": the script runs a second time."""
     asked = Asked("made.p1", words(), None)
     page = opened(asked)
@@ -216,7 +216,7 @@ def test_choice_in_the_notebook_opens_the_view_at_once(opened):
     assert repr(right).endswith(f"Right. {REASON}")
 
 
-def test_a_view_may_be_a_figure_or_a_player(opened):
+def test_a_view_can_be_a_figure_or_a_player(opened):
     t = np.linspace(0, 2, 41)
     q = t[:, None] * deg * np.array([45, 30, -30, 20, 10, 5])
     fig = figure("An empty figure with a long alternative text for the reader.", 6, 2)
@@ -264,7 +264,7 @@ NEIGHBOURS = """cell => [cell.previousElementSibling, cell, cell.nextElementSibl
 
 
 def test_question_in_jupyterlab_works_and_keeps_its_keys(jupyter, page):
-    """The notebook is trusted and was never run: the question works by keyboard, and none of its
+    """The notebook is trusted and has never run: the question works by keyboard, and none of its
     keys is a command of the notebook.
     """
     name = test_browser._variant(jupyter, "asked.ipynb")

@@ -135,8 +135,8 @@ def test_slerp_turns_at_constant_speed_and_nlerp_does_not():
 
 
 def test_slerp_of_half_a_turn_depends_on_the_signs():
-    """Both arcs are equally long: the signs of the two quaternions decide, and rounding noise does
-    not.
+    """Both arcs are equally long: the signs of the two quaternions decide between them, and
+    rounding noise does not.
     """
     one = Quaternion.identity()
     for noise in (-4e-16, 0, 4e-16):
@@ -172,7 +172,7 @@ def test_slerp_continues_beyond_its_ends():
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1))
-def test_rotations_are_a_group_that_keeps_lengths_and_handedness(seed):
+def test_rotations_form_a_group_that_preserves_lengths_and_handedness(seed):
     rng = np.random.default_rng(seed)
     a, b, c = random((), rng), random((), rng), random((), rng)
     u, v = rng.normal(size=(2, 3)) * 10.0 ** rng.integers(-8, 8)

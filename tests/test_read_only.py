@@ -2,7 +2,7 @@
 
 Assignments that a student might make are tried on everything reachable from the robots and from the
 values of a lesson, in a separate process before anything is computed there: each assignment raises
-or changes nothing, and `ik` is correct afterwards.
+an error or changes nothing, and `ik` is correct afterwards.
 """
 
 import copy

@@ -1,5 +1,5 @@
-"""The content of a recording: the derivatives of `differentiate`, and the places where they have no
-meaning.
+"""The content of a recording: the derivatives of `differentiate`, and the samples where they are
+undefined.
 """
 
 import pickle
@@ -421,11 +421,11 @@ def test_long_stroke_is_not_a_jump_but_half_a_turn_is():
     q[:, 2] = 3.2 * t / 1  # every step is more than half a turn
     assert len(record(SCARA, t, q).leaps) == 10
     q = np.zeros((11, 4))
-    q[:, 3] = 3.2 * t  # metres
+    q[:, 3] = 3.2 * t  # in metres
     assert record(SCARA, t, q).leaps == ()
 
 
-def test_jump_next_to_a_gap_has_the_value_of_the_only_sample_before_it():
+def test_jump_next_to_a_gap_starts_from_the_only_sample_before_it():
     t = np.linspace(0, 1, 101)
     q = np.zeros((101, 6))
     q[:, 0] = t
@@ -558,7 +558,7 @@ def test_a_single_recording_has_no_parts(motions):
             call()
 
 
-# --- What a recording is --------------------------------------------------------------------------
+# --- Recordings as objects ------------------------------------------------------------------------
 
 
 def test_recordings_are_read_only(motions):
@@ -609,7 +609,7 @@ def test_continuous_turning_causes_no_warning(recwarn):
     q = np.linspace(np.zeros(6), [0, 0, 0, 0, 0, 30], 500)
     q[:20] = np.nan
     record(IRB140, t, q)
-    record(SCARA, t, np.full((500, 4), 20.0) * [0, 0, 0, 1])  # metres
+    record(SCARA, t, np.full((500, 4), 20.0) * [0, 0, 0, 1])  # in metres
     assert not recwarn.list
 
 

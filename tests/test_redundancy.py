@@ -141,7 +141,7 @@ def test_the_distance_rule_stops_the_lever_that_comes_near(arm):
         if not comes.any() or np.isnan(step).any() or np.linalg.cond(arm.jacobian(q)[:2]) > 5:
             continue
         if (abs(closer) < 1e-7).any() or (abs(share - 0.5) < 0.01).any():
-            continue  # rounding decides
+            continue  # rounding errors decide here
         lever = np.where(comes, d, np.inf).argmin()
         alone = distances(arm, q + step * (np.arange(3) == lever), H)[lever] - d[lever]
         if share[lever] < 0.99 / 7:

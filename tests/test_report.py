@@ -214,7 +214,7 @@ def test_other_files_are_not_overwritten(tmp_path, monkeypatch, capsys):
     page.unlink()
     assert (
         main(["report", str(lab), "--name", "Ada"]) == 0
-    )  # not one of our labs, so without exercises
+    )  # not one of our labs, so it has no exercises
     said = capsys.readouterr()
     assert "my_lab_Ada.html" in said.out and said.err == ""
     text = page.read_text(encoding="utf-8")

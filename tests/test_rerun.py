@@ -20,7 +20,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:Deprecati
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_cells_run_again_with_other_values(path):
     """No cell shows a different output when it runs again, and no value breaks a cell or makes its
-    words false.
+    text false.
     """
     _, tried, again = rerun.faults(path, sample=True)
     assert tried == [] and again == []
@@ -58,7 +58,8 @@ def test_failing_values_and_hard_coded_numbers_are_detected(tmp_path):
     assert faults("a = 1  # try 0", "if a:\n    a = 2", "print(1 / a)")[1]
     assert faults("a = 1  # try 0", "def f():\n    return 1 / a", "b = 2", "print(f() + b)")[1]
     assert faults("a = [1]\nb = 1  # try 0", "a[0] = b", "a.append(2)", "print(1 / a[0])")[1]
-    # changes by one value are undone: the next value starts from what the cells above left
+    # changes made with one value are undone: the next value starts from the state after the cells
+    # above
     assert faults("x = [1]", "a = 1  # try 2, 3\nx.append(a)", "assert len(x) == 2")[1] == []
 
 

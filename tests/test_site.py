@@ -193,7 +193,7 @@ def _of_robokin(one):
     return inspect.isfunction(one) and one.__module__.startswith("robokin")
 
 
-# --- In the browser -------------------------------------------------------------------------------
+# --- Pages in a browser ---------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -214,8 +214,8 @@ def address(site):
 
 @pytest.fixture(scope="module")
 def page(browser, address):
-    """One page for all tests. It records `errors`, those of the console, and `outside`, the
-    requests to other hosts.
+    """One page for all tests. It records console errors in `errors` and requests to other hosts in
+    `outside`.
     """
     context = browser.new_context(viewport={"width": 1366, "height": 900}, color_scheme="light")
     page = context.new_page()
@@ -246,7 +246,7 @@ def test_a_page_fits_three_widths_without_errors(page, address, name):
         for (const node of copy.querySelectorAll("pre, code, script, style, math")) node.remove();
         return copy.textContent; }""")
     raw = re.search(r"\$[^$]*\$|\\\(|\\[a-zA-Z]{2,}|\\begin", words)
-    assert not raw, f"TeX as it was typed: {raw[0]}"
+    assert not raw, f"TeX that is not rendered: {raw[0]}"
     assert page.outside == [] and page.errors == []
 
 

@@ -91,7 +91,7 @@ def flags(machine, q):
 
 
 @machines
-def test_20000_random_poses_have_exactly_their_rows(machine):
+def test_20000_random_poses_have_exactly_the_expected_rows(machine):
     arm = machine.arm
     q = random_joints(arm, np.random.default_rng(4), (20_000,))
     T = arm.fk(q)
@@ -99,7 +99,7 @@ def test_20000_random_poses_have_exactly_their_rows(machine):
     assert rows.shape == (20_000, len(arm.branches), len(arm.links))
     exists = solved(arm, T, rows)
     drawn = gap(arm, rows, q[:, None]).max(axis=-1)
-    # near a singularity a joint value has fewer digits
+    # near a singularity a joint value is less accurate
     assert np.nanmin(drawn, axis=1).max() < 1e-7
     assert np.median(np.nanmin(drawn, axis=1)) < 1e-14
     if machine.wrist:
@@ -225,7 +225,7 @@ def test_stretched_and_folded_postures_are_reachable(machine, folded):
     rows = arm.ik(T)
     exists = solved(arm, T, rows)
     drawn = gap(arm, rows, q[:, None]).max(axis=-1)
-    # The PUMA's links differ by half a millimetre, so when folded its joint 2 has few digits.
+    # The PUMA's links differ by half a millimetre, so joint 2 is inaccurate when the arm is folded.
     atol = 1e-6 if abs(machine.wrist["upper"] - machine.wrist["fore"]) > 0.01 else 0.01
     assert np.nanmin(drawn, axis=1).max() < atol
     own = np.nanargmin(drawn, axis=1)
@@ -288,7 +288,7 @@ def test_below_148_mm_the_printed_inverse_is_wrong_and_ours_is_right():
 @pytest.mark.parametrize("machine", [m for m in SIX if not m.wrist["lateral"]], ids=repr)
 def test_joint_1_is_free_at_shoulder_singular_poses(machine):
     """The arm has no lateral offset, and the wrist centre is on axis 1: joint 1 is 0 in the front
-    rows and pi in the rows behind.
+    rows and pi in the back rows.
     """
     arm, w = machine.arm, machine.wrist
     rng = np.random.default_rng(12)
@@ -400,7 +400,7 @@ def compare(arm, case, unit=1.0):
         assert sorted(places) == np.flatnonzero(exists).tolist()
         for place, q in zip(places, wanted, strict=True):
             assert turns(rows[place], q).max() < atol
-    else:  # coinciding rows are in all of their places
+    else:  # coinciding rows occur in each of their places
         for shoulder, elbow, _ in {tuple(arm.branches[i]) for i in np.flatnonzero(exists)}:
             assert exists[[arm.branch(shoulder, elbow, 1), arm.branch(shoulder, elbow, -1)]].all()
     return rows
@@ -420,7 +420,7 @@ def test_rows_equal_the_reference_case(arm, case, unit):
     compare(arm, case, unit)
 
 
-# Which arms have a spherical wrist
+# Chains with and without a spherical wrist
 # -------------------------------------------------------------------------------------------------
 
 
@@ -524,7 +524,7 @@ def _unit(v):
 
 
 def test_each_singularity_depends_on_its_own_joints():
-    """Joint 5 alone for the wrist, joint 3 for the elbow, joints 2 and 3 for the shoulder."""
+    """The wrist depends on joint 5 alone, the elbow on joint 3, the shoulder on joints 2 and 3."""
     stretched = -90 * deg  # the forearm of the IRB-140 points straight up
     for q, wanted in (
         ([0.3, 0.2, 0.4, 0.5, 0.0, 0.7], {"wrist"}),

@@ -86,7 +86,7 @@ def test_no_rounding_adds_up_over_10_000_moves():
     assert np.diff(counts(steps, 10.0), axis=0).sum() == 3700
 
 
-def test_counts_and_joint_values_are_inverse():
+def test_counts_and_joint_values_are_inverses():
     n = np.random.default_rng(2).integers(-7000, 7000, (50, 3))
     assert (counts(joint_values(n, PER_DEGREE), PER_DEGREE) == n).all()
     assert counts([90 * deg], 10.0).tolist() == [900]
@@ -170,12 +170,14 @@ def test_pulses_add_up_to_the_move(kind, move):
 
 
 @every_move
-def test_the_frequency_limit_is_kept(kind, move):
+def test_the_frequency_limit_is_respected(kind, move):
     for times, _ in move.pulses():
         assert (np.diff(times) >= (1 - 1e-6) / LIMIT).all()
-        assert (times >= (1 - 1e-6) / LIMIT).all()  # the limit is also kept from move to move
+        # the limit also applies from one move to the next
+        assert (times >= (1 - 1e-6) / LIMIT).all()
     if len(move.t) > 1:
-        assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)  # and reached
+        # and the limit is reached
+        assert abs(move.frequencies).max(axis=-1) == pytest.approx(LIMIT)
 
 
 @every_move
@@ -450,7 +452,7 @@ def test_the_field_advances_by_equal_angles(motor, drive, angle, windings):
     )
 
 
-def test_table_2_with_the_names_of_table_1_would_cancel():
+def test_fields_cancel_in_table_2_with_the_names_of_table_1():
     places = np.exp(1j * np.array([0, 90, 180, 270]) * deg)
     field = printed("+.+. .++. .+.+ +..+") @ places
     # in rows 1 and 3, a1 cancels a2 or b1 cancels b2
@@ -519,7 +521,7 @@ def test_the_field_of_any_number_of_windings_turns_evenly(motor):
 def test_the_step_follows_from_windings_poles_and_teeth(motor):
     step = motor.step / deg
     halves = 2 if motor.drive == "half-step" else 1
-    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees and more
+    if motor.rotor == "active":  # a magnet with two poles; 003, II.3.1: 10 degrees or more
         poles = 2 if motor.motor == "bipolar" else 1
         assert step == pytest.approx(360 / (motor.windings * poles * halves)) and step >= 10
     else:
@@ -541,7 +543,7 @@ def test_two_windings_hold_sqrt_2_times_the_torque_of_one(motor, strong):
 
 
 @every_motor
-def test_motor_holds_exactly_up_to_its_holding_torque(motor):
+def test_motor_holds_its_position_exactly_up_to_its_holding_torque(motor):
     below, above = (motor.run([], [], load=k * motor.holding_torque) for k in (0.99, 1.01))
     assert abs(np.diff(below.angle)).max() < 1e-9 and below.lost == 0
     # the load has pulled the rotor back almost to the maximum of the sine
@@ -659,7 +661,7 @@ def test_four_times_the_inertia_halves_the_frequency():
         assert two.t == pytest.approx(2 * one.t) and two.lost == one.lost
         assert two.angle == pytest.approx(one.angle, abs=1e-6)
     assert one.lost
-    assert one in [one] and one != replace(one)  # comparing arrays would raise
+    assert one in [one] and one != replace(one)  # comparing arrays would raise an error
 
 
 def test_reverse_run_is_the_mirror_image():

@@ -1,5 +1,5 @@
-"""The explorer of tours: Python's answers (laws over random tasks), and what the page shows, in
-JupyterLab with a kernel and asleep in a file.
+"""The tour explorer: Python's answers, tested with random tasks, and the page, in JupyterLab with a
+kernel and asleep in a file.
 """
 
 import itertools
@@ -26,11 +26,11 @@ def asked(**changes):
 
 
 def some(rng, count):
-    """Random points around an arm of 9 m, some of them out of its reach."""
+    """Random points around an arm with a reach of 9 m, some of them out of reach."""
     return rng.uniform([-8, -8, -1], [8, 8, 6], size=(count, 3))
 
 
-# --- What Python answers --------------------------------------------------------------------------
+# --- Answers from Python --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", ["visit", "collect"])
@@ -72,7 +72,7 @@ def test_random_tasks_with_unreachable_points_are_answered(kind):
     assert (lost > 3) == (kind == "visit"), "cheapest first is optimal, nearest first is not"
 
 
-def test_tours_equal_those_of_the_package_for_the_points_in_reach():
+def test_tours_match_those_of_the_package_for_the_points_in_reach():
     points = [[2, 3, 2], [20, 0, 0], [1, 3, 3], [-4, 1, 3], [0, 5, -1], [4, -3, 1]]
     question, kept = asked(points=points, T=40), [0, 2, 3, 5]
     for kind, rules in {"visit": (visit, best_visit), "collect": (collect, collect)}.items():
@@ -148,7 +148,7 @@ def test_explorer_opens_with_any_task(task):
     assert len(explorer.html) < 57_000
 
 
-# --- What the page shows --------------------------------------------------------------------------
+# --- The explorer in a page -----------------------------------------------------------------------
 
 FRAMES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 COPIES = """
@@ -312,7 +312,7 @@ def test_late_answer_does_not_undo_changes(slow):
 
 @pytest.mark.parametrize("between", ["sleeps", "wakes twice"])
 def test_questions_that_no_kernel_answered_are_repeated(slow, between):
-    """Otherwise the tours would belong to other points than those shown, until the next move."""
+    """Otherwise the tours would belong to points other than those shown, until the next move."""
     page, root, asked, answer = slow
     typed(page, "T, s, exactly", "29")
     (lost,) = asked()
@@ -324,7 +324,7 @@ def test_questions_that_no_kernel_answered_are_repeated(slow, between):
     answer(again[0])
     assert cells(page) == told(shown_task(page), visit, best_visit)
     root.evaluate(WAKE)
-    assert len(asked()) == 2, "what was answered is not asked again"
+    assert len(asked()) == 2, "answered questions are not asked again"
 
 
 def settled(page, root):

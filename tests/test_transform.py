@@ -115,7 +115,7 @@ def test_repr_has_no_negative_zero():
     assert "-0" not in text and "1." in text
 
 
-def test_a_matrix_may_be_a_list():
+def test_a_matrix_can_be_a_list():
     rows = [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]
     T = Transform.from_matrix(rows)
     assert T.translation.tolist() == [1, 2, 3]

@@ -84,7 +84,7 @@ def options(name):
     return filled(find(name, "predictions"))
 
 
-# --- 01 -------------------------------------------------------------------------------------------
+# --- Lab 01 ---------------------------------------------------------------------------------------
 
 
 def test_transposing_inverts_the_rotation_alone():
@@ -110,7 +110,7 @@ def test_trace_formula_loses_its_digits_near_half_a_turn():
     assert 4 * np.cos(179.999999 * deg / 2) ** 2 == pytest.approx(left * 1e-16, rel=0.02)
 
 
-# --- 02 -------------------------------------------------------------------------------------------
+# --- Lab 02 ---------------------------------------------------------------------------------------
 
 
 def test_the_check_accepts_what_hint_2_approves_and_names_a_motion_with_a_jump():
@@ -244,7 +244,7 @@ def test_distances_from_public_models_are_as_stated():
     assert f"here {ours[2]} and {ours[3]}" in lab
 
 
-# --- 03 -------------------------------------------------------------------------------------------
+# --- Lab 03 ---------------------------------------------------------------------------------------
 
 
 def _peaks(law, duration=1.0):
@@ -324,7 +324,7 @@ def test_the_explorer_shows_the_values_of_the_table():
     assert quarter == (20 / seconds) ** 2 and middle**2 == pytest.approx(law, abs=5e-3)
 
 
-# --- 04 and 05 ------------------------------------------------------------------------------------
+# --- Labs 04 and 05 -------------------------------------------------------------------------------
 
 
 def _fits(arm, radius):
@@ -401,7 +401,7 @@ def test_the_jump_depends_on_the_total_time():
     assert np.allclose(jumps, jumps[0], atol=1e-3) and abs(jumps[0]).min() > 0.1
 
 
-# --- 06 -------------------------------------------------------------------------------------------
+# --- Lab 06 ---------------------------------------------------------------------------------------
 
 
 def test_stated_distances_from_singularities_are_correct():

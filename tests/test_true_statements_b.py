@@ -80,7 +80,7 @@ def asked(name):
     return filled(find(name, "predictions"))
 
 
-# --- 07 -------------------------------------------------------------------------------------------
+# --- Lab 07 ---------------------------------------------------------------------------------------
 
 
 def wrist_speeds(q_deg):
@@ -107,7 +107,7 @@ def test_joint_5_keeps_the_ellipsoid_in_the_explorer_and_joint_3_flattens_it():
         assert own[2] / own[0] < 0.1, "one axis is nearly gone"
 
 
-def test_speeds_ten_times_nearer_grow_by_the_stated_factors():
+def test_speeds_grow_by_the_stated_factors_ten_times_nearer_to_a_singularity():
     told = said(
         "07",
         "cross-look",
@@ -152,7 +152,7 @@ def test_three_of_eight_rows_are_usable_at_six_seconds():
     assert ["none", "one", "two", "three", "four"][inside.sum()] == many
 
 
-# --- 08 -------------------------------------------------------------------------------------------
+# --- Lab 08 ---------------------------------------------------------------------------------------
 
 
 def test_first_come_wins_at_the_stated_belt_speed():
@@ -216,7 +216,7 @@ def test_nearest_first_loses_as_often_as_stated():
     assert away == pytest.approx([1.96] * 2, abs=0.2)
 
 
-# --- 09 -------------------------------------------------------------------------------------------
+# --- Lab 09 ---------------------------------------------------------------------------------------
 
 
 def race_of_the_cell(count):
@@ -248,7 +248,7 @@ def test_noise_in_the_last_bit_does_not_change_the_race(monkeypatch):
         assert exact[noise] == pytest.approx(exact[None], abs=1e-6)
 
 
-def test_dice_turn_more_by_the_stated_factor():
+def test_random_choice_turns_more_by_the_stated_factor():
     question, options, right = asked("three_levers.p10")
     places, _, seed = race_of_the_cell(100)
     assert question.startswith("100 targets") and "evenly from 0° to 180°" in question
@@ -293,12 +293,12 @@ def test_dice_turn_more_by_the_stated_factor():
     assert [round(x / 100) for x in own] == [int(x) for x in told.groups()]
 
 
-def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
+def test_the_arm_with_arctan2_stays_within_its_limits_and_the_other_does_not():
     question, _, _ = asked("three_levers.p4")
     first, last = map(int, re.search(r"from the direction (\d+)° to (\d+)°", question).groups())
     facts = content("three_levers").module("predictions")
     RING, SAMPLE = facts["RING"], facts["SAMPLE"]
-    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus an angle that does not change
+    KB = 2 * np.sin(SAMPLE / 2)  # gamma is the direction plus a constant angle
     gamma_1 = np.arccos((RING**2 + 1 - KB**2) / (2 * RING)) / deg
     beta = np.arccos((KB**2 + 1 - RING**2) / (2 * KB)) + (np.pi - SAMPLE) / 2
     assert 0 < first + gamma_1 and last + gamma_1 < 180 and 0 < beta < np.pi
@@ -306,7 +306,7 @@ def test_the_arm_with_arctan2_keeps_its_limits_and_the_other_does_not():
     assert ARM.family((0, RING), SAMPLE)[:2] == pytest.approx([(90 + gamma_1) * deg, beta])
 
 
-# --- 10 -------------------------------------------------------------------------------------------
+# --- Lab 10 ---------------------------------------------------------------------------------------
 
 
 def lever_distance(q, H, lever=slice(None)):
@@ -536,7 +536,7 @@ def test_task_states_which_of_its_angles_are_in_radians():
         path_form(np.zeros((int(most) + 1, 3)), given)
 
 
-# --- 11 -------------------------------------------------------------------------------------------
+# --- Lab 11 ---------------------------------------------------------------------------------------
 
 
 def test_rounded_positions_stay_within_half_a_pulse():
@@ -607,7 +607,7 @@ def test_every_cycle_to_try_drifts():
         assert np.rint(ways).sum(axis=0).any(), f"nothing drifts with {stakes}"
 
 
-# --- 12 -------------------------------------------------------------------------------------------
+# --- Lab 12 ---------------------------------------------------------------------------------------
 
 
 def test_elbow_formula_is_exact_at_every_point_but_one_and_jumps_there():

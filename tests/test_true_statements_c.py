@@ -80,10 +80,10 @@ def find_exercises(lab):
     return [find(f"{lab}.{n}", "exercises") for n in (1, 2, 3)]
 
 
-# --- 01 -------------------------------------------------------------------------------------------
+# --- Lab 01 ---------------------------------------------------------------------------------------
 
 
-def test_no_3_by_3_matrix_shifts_and_the_turn_leaves_only_the_z_axis():
+def test_no_3_by_3_matrix_moves_the_origin_and_the_rotation_fixes_only_the_z_axis():
     assert "no 3 × 3 matrix shifts: each sends 0 to 0" in flat("01", "matrices")
     rng = np.random.default_rng(1)
     assert not (rng.normal(size=(50, 3, 3)) @ np.zeros(3)).any()
@@ -114,7 +114,7 @@ def test_average_of_two_rotations_shrinks_by_the_stated_factor():
         assert sizes == pytest.approx([1, *[np.cos(theta / 2 * deg)] * 2])
 
 
-# --- 02 and 03 ------------------------------------------------------------------------------------
+# --- Labs 02 and 03 -------------------------------------------------------------------------------
 
 
 def test_the_arm_reaches_the_pose_of_the_first_picture_in_eight_ways():
@@ -212,10 +212,10 @@ def test_speeds_of_joint_1_and_the_change_in_speed_at_via_are_as_stated():
     assert round(abs(before[0] - 2 * before[1] + after[0]) / 0.01, 3) == change
 
 
-# --- 04 to 06 -------------------------------------------------------------------------------------
+# --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
-def test_notch_and_the_tool_behind_joint_1_begin_where_stated():
+def test_notch_begins_and_tool_passes_joint_1_where_stated():
     hole, notch = numbers(
         r"between (\d+) mm and 450 .* from (\d+) mm on", shown("04", "zone-figure")
     )
@@ -236,7 +236,8 @@ def test_both_ways_to_one_orientation_have_the_stated_greatest_speed():
     slow, fast = numbers(
         r"speed (\S+) °/s \(joint 5\).* (\S+) °/s \(joint 4\)", shown("06", "twins")
     )
-    assert "trapezoidal(duration=1)" in cells("06")["twins"]  # a quarter up, a quarter down
+    # a quarter of the time speeding up, a quarter slowing down
+    assert "trapezoidal(duration=1)" in cells("06")["twins"]
     assert [135 / (1 - 0.25), (45 + 180) / (1 - 0.25)] == pytest.approx([slow, fast])
 
 
@@ -260,7 +261,7 @@ def test_errors_after_the_cure_are_as_stated_and_equal_shares_turn_least():
     assert shares[np.maximum(abs(shares), abs(1 - shares)).argmin()] == pytest.approx(0.5)
 
 
-# --- 07 to 09 -------------------------------------------------------------------------------------
+# --- Labs 07 to 09 --------------------------------------------------------------------------------
 
 
 def test_the_corner_is_a_share_of_the_progress_and_only_joint_values_jump():
@@ -386,7 +387,7 @@ def one_posture(place, gamma):
     way = K - B
     d = np.hypot(*way)
     with np.errstate(invalid="ignore"):
-        bend = np.arccos(d / 2)  # both levers are 1 m
+        bend = np.arccos(d / 2)  # both levers are 1 m long
     first = np.arctan2(way[1], way[0]) + bend  # clockwise from B on: A lies to the left
     A = B + [np.cos(first), np.sin(first)]
     last = np.arctan2(*(K - A)[::-1])

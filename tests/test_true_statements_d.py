@@ -29,7 +29,7 @@ sampled_tasks = LAB_10.module("predictions")["sampled_tasks"]
 LOADER, PER_DEGREE, LIMIT = loader_arm(450 * mm, 300 * mm), np.array([10, 40, 40]), 500
 
 
-# --- 03 -------------------------------------------------------------------------------------------
+# --- Lab 03 ---------------------------------------------------------------------------------------
 
 
 def test_correct_programs_keep_their_promise_about_speeds():
@@ -49,7 +49,7 @@ def test_correct_programs_keep_their_promise_about_speeds():
                 assert (error < 0.1).all() and (error[1:-1] < 0.001).all(), name
 
 
-# --- 10 -------------------------------------------------------------------------------------------
+# --- Lab 10 ---------------------------------------------------------------------------------------
 
 
 def test_a_grid_of_15_degrees_has_a_path_that_this_wave_does_not_find():
@@ -171,7 +171,7 @@ def test_search_keeps_its_distance_and_sampled_obstacles_lie_on_lever_ak():
         assert path is None or least_distance(path, H, 301) >= DISTANCE
 
 
-# --- 11 -------------------------------------------------------------------------------------------
+# --- Lab 11 ---------------------------------------------------------------------------------------
 
 
 def test_more_pulses_do_not_always_take_more_time(capsys):
@@ -273,7 +273,7 @@ def test_lost_steps_with_and_without_a_ramp_are_as_stated():
     assert re.search(r"maximum start frequency: \d+ pulses/s", shown("11", "missed-code"))
 
 
-# --- 12 -------------------------------------------------------------------------------------------
+# --- Lab 12 ---------------------------------------------------------------------------------------
 
 
 def test_elbows_are_exchanged_on_the_stated_side():

@@ -53,7 +53,7 @@ def apart(R, S):
     return np.arccos(np.clip((np.trace(R.T @ S) - 1) / 2, -1, 1))
 
 
-# --- 00 to 03 -------------------------------------------------------------------------------------
+# --- Labs 00 to 03 --------------------------------------------------------------------------------
 
 
 def test_every_lab_marks_values_to_change_with_try():
@@ -62,7 +62,7 @@ def test_every_lab_marks_values_to_change_with_try():
         assert any("# try" in text for text in cells(f"{lab:02}").values()), lab
 
 
-def test_angles_may_be_interpolated_if_only_one_of_them_changes():
+def test_angles_can_be_interpolated_if_only_one_of_them_changes():
     says = "where one alone changes, by less than half a turn, that is right."
     assert says in written("frames_and_quaternions")
     rng = np.random.default_rng(1)
@@ -157,7 +157,7 @@ def test_shorter_intervals_do_not_show_smaller_changes():
     assert peaks[1] == pytest.approx(1.5 * peaks[0])
 
 
-# --- 04 to 06 -------------------------------------------------------------------------------------
+# --- Labs 04 to 06 --------------------------------------------------------------------------------
 
 
 def test_in_front_only_the_length_limits_the_reach():
@@ -248,7 +248,7 @@ def test_paths_need_only_a_lerp_method():
     assert (bare.jacobian(q) == SCARA.jacobian(q)).all()
 
 
-def test_two_of_the_four_row_pairs_coincide_in_the_hit():
+def test_two_of_the_four_row_pairs_coincide_at_the_singular_pose():
     assert "In the hit two of the four such pairs become one:" in flat("06", "drag-target-look")
     made = run_cells("06", "setup")
     arm = made["ITMO6R"]
@@ -278,7 +278,7 @@ def test_a_mirror_is_orthogonal_and_phi_loses_digits_as_stated():
     assert "in the line from joint 2 to the wrist centre" in flat("06", "position-look")
 
 
-# --- 07 -------------------------------------------------------------------------------------------
+# --- Lab 07 ---------------------------------------------------------------------------------------
 
 
 def test_followed_angles_matter_only_for_joint_6():
@@ -299,7 +299,7 @@ def test_followed_angles_matter_only_for_joint_6():
             kinds.add(bool(some != kept))
 
 
-def test_rows_4_to_6_end_with_a_wound_joint():
+def test_rows_4_to_6_end_with_a_joint_wound_past_its_limit():
     words = flat("07", "choose-look")
     assert "pass a limit in between. Rows 4 to 6 end with a joint wound past it" in words
     assert "(speeds in steps of 0.01 s)" in words
@@ -412,7 +412,7 @@ def test_most_short_lines_keep_their_row():
     assert len(stay) > 60 and 0.9 < stay.mean()
 
 
-# --- 08 and 09 ------------------------------------------------------------------------------------
+# --- Labs 08 and 09 -------------------------------------------------------------------------------
 
 
 def test_motion_starts_gently_and_the_slider_sets_the_mean_speed():
@@ -497,7 +497,7 @@ def test_least_movement_per_task_is_the_same_in_both_replies():
     assert "ask for no search at all, only for a formula." in text
 
 
-# --- 10 -------------------------------------------------------------------------------------------
+# --- Lab 10 ---------------------------------------------------------------------------------------
 
 
 def test_areas_and_curves_are_as_stated():
@@ -545,7 +545,7 @@ def test_plan_tries_more_circles_than_control():
     assert "a coarser search finds a way" in flat("10", "able")
 
 
-# --- 11 and 12 ------------------------------------------------------------------------------------
+# --- Labs 11 and 12 -------------------------------------------------------------------------------
 
 
 def test_motors_turn_back_in_the_last_third_of_the_straight_line():

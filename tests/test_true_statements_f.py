@@ -25,7 +25,7 @@ def one_line(text):
 
 
 def option(name, short):
-    """One answer of a prediction, by its short name in the file."""
+    """One option of a prediction, by its short name in the file."""
     lab, number = name.split(".")
     text = (NOTEBOOKS / "exercises" / lab / "predictions.md").read_text(encoding="utf-8")
     section = text.split(f"## {number}")[1].split("\n## ")[0]
@@ -39,11 +39,11 @@ def says(lab, name):
 
 
 def about(axis, angle):
-    """A rotation by SciPy."""
+    """A rotation about an axis, made by SciPy."""
     return Rotation.from_rotvec(angle * np.array(axis) / np.linalg.norm(axis)).as_matrix()
 
 
-# --- 01 -------------------------------------------------------------------------------------------
+# --- Lab 01 ---------------------------------------------------------------------------------------
 
 
 def test_lerp_between_rotations_is_not_a_rotation():
@@ -80,7 +80,7 @@ def test_last_hint_for_slerp_catches_every_mistake():
     wrongs = [(name, exercise.program(text)) for name, _, text in exercise.wrongs]
 
     def is_right(lead, pairs):
-        """The hint's test; SciPy's slerp in place of ours."""
+        """The hint's test, with SciPy's slerp in place of ours."""
         for a, b in pairs:
             one, two = (Rotation.from_quat(q, scalar_first=True) for q in (a, b))
             way = (one.inv() * two).as_rotvec()
@@ -111,7 +111,7 @@ def test_last_hint_for_slerp_catches_every_mistake():
             missed = [name for name, lead in wrongs if is_right(lead, pairs + more)]
             assert not missed, (seed, missed)
             old = dict(wrongs)["nlerp of what is not near"]
-            without += is_right(old, pairs + more[:2])  # the hint as it was
+            without += is_right(old, pairs + more[:2])  # with the earlier hint
     assert without
 
 
@@ -128,15 +128,16 @@ def test_skew_axes_with_directions_determine_a_link():
 
     for q, d, a, alpha in np.random.default_rng(4).uniform(0.2, 1.3, (10, 4)):
         (R, p), (S, r) = link(q, d, a, alpha), link(q + np.pi, d, -a, -alpha)
-        assert np.allclose(R[:, 2], S[:, 2]) and np.allclose(p, r)  # the same next axis
-        assert np.allclose(R[:, 0], -S[:, 0])  # its x points the other way
+        # both lead to the same next axis
+        assert np.allclose(R[:, 2], S[:, 2]) and np.allclose(p, r)
+        assert np.allclose(R[:, 0], -S[:, 0])  # the x axes are opposite
         # with x and z given, each number can be read from the frame
         read = np.arctan2(R[1, 0], R[0, 0]), p[2], p @ R[:, 0], np.arctan2(R[2, 1], R[2, 2])
         assert np.allclose(read, (q, d, a, alpha))
         assert np.allclose(np.cross(link(q, d, a, np.pi)[0][:, 2], [0, 0, 1]), 0)
 
 
-# --- 03 -------------------------------------------------------------------------------------------
+# --- Lab 03 ---------------------------------------------------------------------------------------
 
 
 def test_joint_1_is_fastest_in_the_middle_of_the_line():
@@ -163,7 +164,7 @@ def test_trapezoid_brakes_at_full_strength_to_the_end():
     assert bell.endswith("a triangle needs twice the mean height, this bell needs less.")
     law = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
     slope, brake = law.deriv(), law.deriv(2)
-    ramp = 0.25  # of the time: the peak is 1 / (1 - ramp) = 4/3
+    ramp = 0.25  # share of the time; the peak is 1 / (1 - ramp) = 4/3
     assert float(option("irb140_motion.p4", "trapezoidal").text) == pytest.approx(133.3)
     steady = 1 / (ramp * (1 - ramp))
     x = np.linspace(0, 1, 100001)
@@ -182,7 +183,7 @@ def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
     x = np.linspace(0, 1, 1001)[:, None]
 
     def curve(controls):
-        """De Casteljau."""
+        """A Bezier curve, by de Casteljau's algorithm."""
         rows = [np.broadcast_to(each, (len(x), 3)) for each in controls]
         while len(rows) > 1:
             rows = [(1 - x) * a + x * b for a, b in zip(rows[:-1], rows[1:], strict=True)]
@@ -197,7 +198,7 @@ def test_quintic_corner_raises_the_tools_peak_by_the_stated_factor():
             for each in ([A, via, C], [*inside, *outside])
         ]
         assert peaks[1] / peaks[0] == pytest.approx(factor, rel=1e-3)
-    made = run_cells("03", "setup")  # a joint may need less: joint 3 at blend 0.4
+    made = run_cells("03", "setup")  # a single joint can need less: joint 3 at blend 0.4
     s = np.linspace(0, 1, 4001)
     third = []
     for kind in ("parabola", "quintic"):
@@ -216,7 +217,7 @@ def test_joint_4_can_have_two_values_inside_its_limits():
     for low, high in IRB140.limits / deg:
         most.append(((low - 1e-9 <= given) & (given <= high + 1e-9)).sum(axis=1))
     assert [counts.max() for counts in most] == [2, 1, 1, 2, 1, 3]
-    assert (most[0] == 2).sum() == 1 and given[most[0] == 2, 4] == -180  # joint 1: at ±180 only
+    assert (most[0] == 2).sum() == 1 and given[most[0] == 2, 4] == -180  # joint 1: only ±180
     assert (most[3] == 2).sum() > 50 and most[5].min() == 2
     cases = book.find("irb140_motion.2", "exercises").cases
     low, high = IRB140.limits.T
@@ -224,11 +225,11 @@ def test_joint_4_can_have_two_values_inside_its_limits():
         assert any(not low[k] <= q1[k] <= high[k] for _, q1, _ in cases), k + 1
 
 
-# --- 04 -------------------------------------------------------------------------------------------
+# --- Lab 04 ---------------------------------------------------------------------------------------
 
 
 def zone_area(a, m, l1=0.2, l2=0.25):
-    """The floor that either elbow reaches, m²: circle by circle, the share of its directions."""
+    """The area of the floor that either elbow reaches, in m², integrated over circles."""
 
     def served(r):
         q2 = np.arccos(np.clip((r * r - l1**2 - l2**2) / (2 * l1 * l2), -1, 1))
@@ -253,8 +254,8 @@ def zone_area(a, m, l1=0.2, l2=0.25):
         ((140, 120), None),
         ((120, 120), None),
         ((180, 150), None),
-        ((100, 120), 2),  # 0.39 % low
-        ((90, 120), 2),  # 1.65 % low
+        ((100, 120), 2),  # the formula gives 0.39 % too little
+        ((90, 120), 2),  # the formula gives 1.65 % too little
         ((60, 150), 2),
         ((90, 150), 1),  # a gap in front
         ((45, 170), 1),
@@ -291,10 +292,10 @@ def test_area_formula_holds_or_the_cell_says_that_it_does_not(stops, stop):
         assert last.startswith(stopped)
 
 
-# --- 05 -------------------------------------------------------------------------------------------
+# --- Lab 05 ---------------------------------------------------------------------------------------
 
 
-def test_only_a_turn_about_the_tools_axis_keeps_the_wrist_centre():
+def test_only_a_rotation_about_the_tools_axis_keeps_the_wrist_centre():
     found = option("scara_motion.p1", "q1+q2+q3+q4")
     assert "a tilt moves the wrist centre, which joints 1 to 3 carry." in one_line(found.reason)
     assert (
@@ -323,11 +324,11 @@ def test_only_a_turn_about_the_tools_axis_keeps_the_wrist_centre():
             assert centre > 0.01 and joints[:3].any()
 
 
-# --- 06 -------------------------------------------------------------------------------------------
+# --- Lab 06 ---------------------------------------------------------------------------------------
 
 
 def by_hand(phi, theta, psi):
-    """Rot(z, phi) Rot(y, theta) Rot(z, psi), entry by entry: small ones keep their digits."""
+    """Rot(z, phi) Rot(y, theta) Rot(z, psi), entry by entry: small entries keep their digits."""
     (a, b, c), (x, y, z) = np.cos([phi, theta, psi]), np.sin([phi, theta, psi])
     return np.array(
         [
@@ -344,7 +345,7 @@ def off(program, h):
 
 
 def kinds(theta, count=60):
-    """Matrices by zyz and the same ones as a product with two rotations rounds them."""
+    """Matrices made by `by_hand`, and the same ones rounded by a product with two rotations."""
     rng = np.random.default_rng(8)
     exact = np.array([by_hand(f, theta, s) for f, s in rng.uniform(-3, 3, (count, 2))])
     back = Rotation.random(count, random_state=rng).as_matrix()
@@ -358,7 +359,7 @@ def lab_06():
 
 
 def singular_too(program, right):
-    """The program, and a right one at sin theta = 0."""
+    """The program, but with correct results at sin theta = 0."""
 
     def found(h, wrist):
         with np.errstate(invalid="ignore"):
@@ -376,7 +377,7 @@ def test_hint_and_solution_reject_a_better_root_alone():
         for chain in (rounded, made["wrists"](theta)):
             assert abs(chain @ chain.swapaxes(1, 2) - np.eye(3)).max() < 3e-15
             assert off(better, chain).max() > least and off(right, chain).max() < 1e-14
-        assert off(better, exact).max() < 1e-14  # zyz alone does not show it
+        assert off(better, exact).max() < 1e-14  # matrices made by zyz do not show it
     one, _, three = (one_line(hint) for hint in WRIST.hints)
     told = "make some matrices as my_chain makes them: `wrists(theta)` of section 6."
     assert f"{told} zyz writes small entries with all their digits; a chain does not." in one
@@ -442,11 +443,11 @@ def test_regular_formulas_lose_digits_at_the_stated_angle():
     assert (off(book_way, exact) < 1e-10).all()  # "within 1e-6 rad" was false here
     far = kinds(2e-6, 400)[1]
     found = np.array([book_way(h, +1) for h in far])
-    assert np.nanmax(off(book_way, far)) > 1e-10  # and "there only" here
+    assert np.nanmax(off(book_way, far)) > 1e-10  # and "there only" was false here
     assert np.isfinite(found).all()
 
 
-# --- 07 -------------------------------------------------------------------------------------------
+# --- Lab 07 ---------------------------------------------------------------------------------------
 
 
 def test_these_lines_do_not_tell_which_rule_is_better():
@@ -462,7 +463,7 @@ def test_these_lines_do_not_tell_which_rule_is_better():
     assert "which of the first two rules is better, these lines do not tell." in reason
     assert "the orientation over all rotations" in view("puma560_branches.p7")
     (low, high), rest = PUMA560.limits.T, np.array([0, 90, -90, 0, 0, 0]) * deg
-    rng = np.random.default_rng(2107)  # another draw, drawn in another way
+    rng = np.random.default_rng(2107)  # another sample, drawn in another way
     far = np.hypot(431.8 + np.hypot(431.8, 20.3), 150.05) * mm
     wxyz = Rotation.random(6000, random_state=rng).as_quat(scalar_first=True).reshape(2, 3000, 4)
     place = [0, 0, 671.83 * mm] + rng.uniform(-far, far, (2, 3000, 3))
@@ -475,7 +476,7 @@ def test_these_lines_do_not_tell_which_rule_is_better():
             continue
         q = np.unwrap(rows, axis=0)[..., None] + turns  # (101, 8, 6, 5)
         inside = (q > low[:, None] - 1e-9) & (q < high[:, None] + 1e-9)
-        begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first that is inside
+        begins = inside[0].argmax(axis=-1)[None, ..., None]  # the first value inside
         serves = np.take_along_axis(inside.all(axis=0)[None], begins, -1)[0, ..., 0].all(axis=-1)
         if not serves.any():
             continue
@@ -504,7 +505,7 @@ def peak(made, name, m, joint):
         turned = np.sin((q[1] - q[0]) / 2)[joint - 1] * 2
         return -abs(turned) / (2 * step) * 0.1 / deg
 
-    at = np.linspace(-1.5, 1.5, 61) * m  # the peak is a quarter of m beside the middle
+    at = np.linspace(-1.5, 1.5, 61) * m  # the peak is a quarter of m from the middle
     k = int(np.argmin([minus(u) for u in at]))
     best = minimize_scalar(
         minus, bounds=(at[max(k - 1, 0)], at[k + 1]), method="bounded", options={"xatol": 1e-6 * m}

@@ -1,5 +1,5 @@
-"""Statements of labs 08 and 09 that a fourth reader refuted or doubted, computed again: inverses,
-times, queues and races of this file's own, from the definitions in the labs.
+"""Statements of labs 08 and 09 that a fourth reader refuted or doubted, computed again with
+inverses, times, queues and races written here from the definitions in the labs.
 """
 
 import cmath
@@ -29,12 +29,12 @@ def quietly(lab, *names):
         return run_cells(lab, *names)
 
 
-# --- 08 -------------------------------------------------------------------------------------------
+# --- Lab 08 ---------------------------------------------------------------------------------------
 
 
 def joints_of(p, l1=5.0, l2=4.0):
-    """(q1, q2, q3) at a point by the elbow as the upper meeting point of two circles; q1 is NaN on
-    axis 1, all are NaN if the circles do not meet.
+    """(q1, q2, q3) at a point; the elbow is the upper intersection of two circles. q1 is NaN on
+    axis 1; all are NaN if the circles do not meet.
     """
     out, up = math.hypot(p[0], p[1]), p[2]
     d = math.hypot(out, up)
@@ -51,7 +51,7 @@ def joints_of(p, l1=5.0, l2=4.0):
 
 
 def place_of(q, l1=5.0, l2=4.0):
-    """The place by turning one lever after the other."""
+    """The tool's position, found by turning one lever after the other."""
     link = 1j * cmath.exp(-1j * q[1])
     tool = l1 * link + l2 * link * cmath.exp(-1j * (math.pi / 2 + q[2]))
     return np.array([tool.real * math.cos(q[0]), tool.real * math.sin(q[0]), tool.imag])
@@ -61,7 +61,7 @@ def needs(q, other, speed):
     return max(abs(a - b) for a, b in zip(q, other, strict=True)) / speed
 
 
-def test_this_files_inverse_is_right():
+def test_inverse_in_this_file_is_correct():
     for q in np.random.default_rng(1).uniform([-3, 0, -1.5], [3, 1.5, 0.9], (200, 3)):
         place = place_of(q)
         assert spbu_arm(5, 4).fk(q).translation == pytest.approx(place)
@@ -70,7 +70,7 @@ def test_this_files_inverse_is_right():
 
 
 def bin_on_the_axis(order, places, home, speed=0.2):
-    """The time of bringing the objects to a bin on axis 1, where joint 1 stays."""
+    """The time to bring the objects to a bin on axis 1, where joint 1 keeps its value."""
     stand, spent = joints_of(home), 0.0
     for k in order:
         there = joints_of(places[k])
@@ -106,7 +106,7 @@ def test_order_of_the_angles_turns_joint_1_least():
 
 
 def round_trip(legs, order, T):
-    """How many objects are in the bag when the arm has to be back by T; legs[i][j]: 0 is home."""
+    """How many objects the arm brings home by T; index 0 of `legs` is home."""
     spent, here, count = 0.0, 0, 0
     for stop in order:
         spent, here = spent + legs[here][stop], stop
@@ -117,7 +117,7 @@ def round_trip(legs, order, T):
 
 
 def nearest(legs, cost):
-    """The order in which the cheapest next stop comes first."""
+    """The order that always takes the cheapest next stop."""
     order, here = [], 0
     while rest := set(range(1, len(legs))) - set(order):
         here = min(rest, key=lambda stop: cost(here, stop))
@@ -140,17 +140,19 @@ def test_round_with_a_way_home_beats_nearest_first_as_stated():
     legs = table([[4 * math.cos(a), 4 * math.sin(a), 2] for a in azimuth])
     rules = (
         lambda here, stop: legs[here][stop],
-        lambda here, stop: legs[here][stop] + legs[stop][0] - legs[here][0],  # what it adds
+        # the time that the stop adds
+        lambda here, stop: legs[here][stop] + legs[stop][0] - legs[here][0],
     )
     orders = [*permutations(range(1, 5))]
     for rule in rules:
         assert round_trip(legs, nearest(legs, rule), T) == few == 1
-        assert round_trip(legs, nearest(legs, rule), 7.5) == 0  # the opening's T: neither brings
+        # with the opening's T, neither rule brings any
+        assert round_trip(legs, nearest(legs, rule), 7.5) == 0
     assert max(round_trip(legs, order, T) for order in orders) == many == 3
     assert max(round_trip(legs, order, 7.5) for order in orders) == 0
 
 
-def test_fact_behind_the_bag_is_that_of_a_round():
+def test_bag_emptied_at_the_end_is_judged_by_round_trips():
     module = book.lab("visit_and_collect").module("predictions")
     shared = book.lab("visit_and_collect").module("shared")
     beaten = 0
@@ -217,7 +219,7 @@ def belt_stream(spread, seed):
 
 
 def belt_ways():
-    """One way from the bin to each place of the window, in s."""
+    """The time from the bin to each place in the window, one way, in s."""
     stand = joints_of([0.15, -0.45, 0.25], 0.5, 0.4)
     window = np.linspace(-0.4, 0.4, 161)
     return [15 / 8 * needs(stand, joints_of([0.6, y, 0.05], 0.5, 0.4), 2.0) for y in window]
@@ -227,7 +229,9 @@ WAYS = np.array(belt_ways())
 
 
 def one_arm(arrivals, v):
-    """One arm that is back soonest: the times when it is back, and the arrivals that it misses."""
+    """One arm that always takes the object with which it is back soonest: the times when it is
+    back, and the arrivals that it misses.
+    """
     left, free, backs = [*arrivals], 0.0, []
     delays = np.linspace(0, 0.8, 161) / v
     while True:
@@ -244,7 +248,7 @@ def one_arm(arrivals, v):
             late = left_now[left_now >= free + 20]
             if not len(late):
                 return backs, left
-            free = float(late[0]) - 5  # it waits
+            free = float(late[0]) - 5  # the arm waits
             continue
         free = float(best[0])
         backs.append(free)
@@ -259,7 +263,7 @@ def arms_needed(v, spread, seed):
     return count
 
 
-def test_belt_table_is_of_one_stream_and_others_need_an_arm_more():
+def test_belt_table_shows_one_stream_and_others_need_one_more_arm():
     words = flat("08", "belt-look")
     assert "at all six speeds. At spread 0.5 it is one arm too few at three of them, at" in words
     assert "at spread 1 at five. These are the streams of one order of the gaps, `seed=8`." in words
@@ -296,10 +300,10 @@ def test_player_at_the_belt_shows_the_streams_of_the_table():
             assert made["in_bin"][arm][k].tolist() == wanted
         assert not left  # three arms are enough, as the table says
         busy.append(wanted[-1] - wanted[0])
-    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]  # arm 3 has work at 0.5 and 1
+    assert busy[0] == 0 and busy[1] > 0 and busy[2] > busy[1]  # arm 3 has work at spreads 0.5 and 1
 
 
-def test_plus_90_of_alpha_alone_mirrors_the_arm_in_the_floor():
+def test_changing_only_alpha_to_plus_90_mirrors_the_arm_in_the_floor():
     words = flat("08", "deeper-more")
     assert "Turn the −90 of `alpha` into +90: on which side of the floor is the tool now?" in words
     (made,) = re.findall(r"`(elbow_arm\(.*?\.limits\))`", words)
@@ -316,7 +320,7 @@ def test_plus_90_of_alpha_alone_mirrors_the_arm_in_the_floor():
         assert theta.fk(q).translation == pytest.approx([-x, -y, -z])
 
 
-# --- 09 -------------------------------------------------------------------------------------------
+# --- Lab 09 ---------------------------------------------------------------------------------------
 
 
 def gripper(q, bend=-1, lengths=(1, 1, 1)):
@@ -329,7 +333,7 @@ def gripper(q, bend=-1, lengths=(1, 1, 1)):
 
 
 def family(K, alpha, bend=-1):
-    """The posture at K by the meeting points of two circles: B left of OK if the chain turns
+    """The posture at K, from the intersections of two circles: B left of OK if the chain turns
     clockwise, right of it if the other way.
     """
     KB, KO = 2 * math.sin(alpha / 2), abs(K)
@@ -341,7 +345,7 @@ def family(K, alpha, bend=-1):
 
 
 def least_from(K, before):
-    """The least sum of turns by a fine sweep and a search beside its best row: S and posture."""
+    """The least sum of turns S and its posture, by a fine sweep and a search near its best row."""
     low = math.acos((5 - abs(K) ** 2) / 4)
 
     def turned(alpha):
@@ -359,7 +363,7 @@ def least_from(K, before):
     return best[0], family(K, best[1])
 
 
-def test_this_files_family_is_right():
+def test_family_in_this_file_is_correct():
     rng = np.random.default_rng(2)
     for _ in range(200):
         K = rng.uniform(1.1, 2.9) * cmath.exp(1j * rng.uniform(0, 2))
@@ -368,7 +372,7 @@ def test_this_files_family_is_right():
             assert gripper(family(K, alpha, bend), bend) == pytest.approx(K)
 
 
-def test_dice_turn_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
+def test_random_choice_turns_less_in_the_stated_number_of_tasks_but_never_from_one_posture():
     found = option("three_levers.p10", "hardly more")
     reason = one_line(found.reason)
     assert (
@@ -402,7 +406,7 @@ def test_dice_turn_less_in_the_stated_number_of_tasks_but_never_from_one_posture
 
 
 def width(KO):
-    """How many degrees alpha may go through, by the triangle of 2 L, L and KO."""
+    """The width of the range of alpha in degrees, from the triangle with sides 2 L, L and KO."""
     return 180 - math.degrees(math.acos((5 - KO**2) / 4))
 
 
@@ -421,7 +425,7 @@ def test_narrower_range_is_the_one_in_inverse_proportion():
     assert sorted(falls) == falls and falls[-1] > 10 * falls[0]  # steeper and steeper
 
 
-def test_other_bend_serves_places_behind_the_base_by_the_recipe():
+def test_other_bend_reaches_targets_behind_the_base_by_the_recipe():
     words = flat("09", "deeper-more")
     assert (
         "Mirror K in the x axis, solve with `posture` of section 3, mirror back, and look at the "
@@ -449,7 +453,7 @@ def test_other_bend_serves_places_behind_the_base_by_the_recipe():
     assert min(shares.values()) > 0 and shares[147.5, 2.0] == 1
 
 
-def test_arctan2_serves_x_equal_to_0():
+def test_arctan2_works_at_x_equal_to_0():
     words = flat("09", "atan-look")
     assert "`arctan2` looks at both signs, and $x = 0$ is no trouble to it." in words
     assert "which knows the quadrant and serves $p_1 = 0$, too." in flat("000", "inverse")
@@ -488,7 +492,7 @@ def test_clipped_arm_stretches_or_folds_and_does_not_reach_k():
     assert min(seen.values()) > 50
 
 
-# --- 10 -------------------------------------------------------------------------------------------
+# --- Lab 10 ---------------------------------------------------------------------------------------
 
 
 def test_levers_80_mm_wide_lose_no_plan_but_need_a_larger_circle():

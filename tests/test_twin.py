@@ -345,12 +345,12 @@ def test_page_computes_the_same_rows(twin, name):
         )
 
 
-# --- Choosing ------------------------------------------------------------------------------------
+# --- Choice of rows ------------------------------------------------------------------------------
 
 
 def half_turns(arm, rng, *shape):
-    """Rows whose joint values differ by quarter turns: half turns are exactly between two values,
-    and many rows are equally near. Some rows are missing.
+    """Rows whose joint values differ by quarter turns: a half turn is exactly between two
+    values, and many rows are equally near. Some rows are missing.
     """
     q = rng.integers(-8, 9, (*shape, len(arm.links))) * (np.pi / 2)
     q[..., arm.prismatic] = rng.integers(-4, 5, q[..., arm.prismatic].shape) * 0.05
@@ -499,8 +499,8 @@ def test_page_computes_the_same_motions(twin, name):
 
 
 def test_page_computes_the_same_rotations(twin):
-    """Products, matrices there and back, and slerp, also of equal, nearly equal and opposite
-    rotations.
+    """Products, conversions to matrices and back, and slerp, also of equal, nearly equal and
+    opposite rotations.
     """
     rng = np.random.default_rng(8)
     n = 2000
@@ -709,8 +709,8 @@ def test_page_computes_the_same_recordings(twin):
         t = np.cumsum(rng.uniform(0.5 + 0.5 * (k % 2), 1.5 - 0.5 * (k % 2), 90)) * 0.02
         q = rng.normal(size=4) * np.sin(rng.uniform(0, 4, 4) * t[:, None])
         for _ in range(k % 4):
-            at = rng.uniform(t[8], t[-8])  # on a sample, and between two
-            at = t[rng.integers(8, 82)] if k % 3 else at
+            at = rng.uniform(t[8], t[-8])  # between two samples
+            at = t[rng.integers(8, 82)] if k % 3 else at  # on a sample
             q += rng.normal(size=4) * (rng.random(4) < 0.5) * np.maximum(t - at, 0)[:, None]
         if k % 5 == 0:
             q[rng.integers(90) :, 1] += 0.8
@@ -759,7 +759,7 @@ def test_page_chooses_the_same_scales(twin):
     close(got, np.array([scale(*pair) for pair in ends.tolist()]), 1e-12)
 
 
-# --- In words ------------------------------------------------------------------------------------
+# --- Explanations in words -----------------------------------------------------------------------
 
 EXPLAIN = """([arm, list]) => list.map(([pose, row]) =>
   [explain(arm, posed(pose), row), Object.entries(singularities(arm, ik(arm, posed(pose))[row]))

@@ -150,7 +150,7 @@ def test_wrong_arguments_are_refused():
             call()
 
 
-# ---- the document's formula (2), and what is wrong with it
+# ---- the document's formula (2) and its errors
 
 
 def printed(x3, y3, l):  # noqa: E741  (the document's letter)
@@ -220,7 +220,7 @@ def operations(expressions):
     )
 
 
-def test_the_operation_counts_equal_the_errata():
+def test_the_operation_counts_match_the_errata():
     _, x2, four = document()  # errata S2-f
     assert operations(x2) == (28, 19)
     assert operations(four) == (108, 33)

@@ -4,8 +4,8 @@
 
 The page opens in Chromium, 390 px wide, with the processor slowed down by a factor of four. The
 total blocking time is the time by which each long task exceeds 50 ms, summed over the first 5 s.
-The page and the same page without its scripts take turns, five times each. The script prints the
-medians and their difference. Aim: a difference of at most 300 ms.
+The page with its scripts and the page without them are opened in turn, five times each.
+The script prints the medians and their difference. Aim: a difference of at most 300 ms.
 """
 
 import re

@@ -31,7 +31,7 @@ for _library in ("OMP", "OPENBLAS", "MKL"):  # before NumPy starts its threads
 
 import numpy as np
 
-import robokin as rk  # of the edition in PYTHONPATH
+import robokin as rk  # the edition in PYTHONPATH
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 OLD = "2461cda"
@@ -41,7 +41,7 @@ BATCHES = 3  # measurements, of which the fastest counts
 MANY, SAMPLES = 10_000, 2001
 
 
-# ---- In the process of one edition
+# ---- The process of one edition
 
 
 def serve():
@@ -50,7 +50,7 @@ def serve():
     for part in (kinematics, motions, jobs, figures):
         try:
             found |= part()
-        except (ImportError, AttributeError) as error:  # an incomplete edition, while it is built
+        except (ImportError, AttributeError) as error:  # an edition that is still being built
             print(f"{part.__name__} left out: {error}", file=sys.stderr)
     print(*found, sep="\n", end="\n\n", flush=True)
     for line in sys.stdin:

@@ -109,7 +109,7 @@ def describe_processor():
     return 512 if wide else 256
 
 
-# ---- the cases: what is called, and whether the answers agree ------------------------------------
+# ---- the cases -----------------------------------------------------------------------------------
 
 
 def ik_case(arm, here):
@@ -204,7 +204,7 @@ def fk_case(arm, here):
     }
 
 
-# ---- how the peers are called --------------------------------------------------------------------
+# ---- calls to the peers --------------------------------------------------------------------------
 
 
 def opw_robot(arm, here):
@@ -281,7 +281,7 @@ def disagreement(ours, theirs):
     for i in range(6):
         difference = ours[:, :, None, i] - theirs[:, None, :, i]
         away = np.maximum(away, abs(difference - 2 * np.pi * np.round(difference / (2 * np.pi))))
-    same = away < 1e-6  # NaN is not
+    same = away < 1e-6  # NaN is never the same
     return (exist(theirs) & ~same.any(axis=1)).sum(), (exist(ours) & ~same.any(axis=2)).sum()
 
 

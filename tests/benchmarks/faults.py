@@ -107,7 +107,7 @@ def hunt(repo, sound, faulted, fault):
             test, how = run(faulted, tests, left_out)
             if test is None:
                 break
-            # A cell needs the cells before it; a file that was not collected is only collected.
+            # A cell needs the cells before it; a file that failed at collection is only collected.
             again = test.partition("::")[0] if ".ipynb" in test else test
             if how != "failed" or not run(sound, [again], ["--co"] * ("::" not in test))[0]:
                 return True, test, how

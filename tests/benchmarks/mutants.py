@@ -583,7 +583,7 @@ def _baseline(base, modules):
     seconds = Counter()
     for line in path.read_text().splitlines():
         span, test = line.split(" ", 1)
-        seconds[test] += float(span)  # set-up, call and end
+        seconds[test] += float(span)  # set-up, call and teardown
     for test in sorted(test for test, span in seconds.items() if span == float("inf")):
         print(f"  fails without a fault, left out: {test}")
     for name in ("seen", "log"):
