@@ -93,7 +93,7 @@ def animate(
              has a menu
     points   places to mark: a list or a dict of name -> (x, y, z); circles the same with (centre,
              radius): spheres, or discs if the arm is planar. In metres and base coordinates.
-    floor    the floor is at height 0 and hides what is below it; by default it is under everything
+    floor    the floor is at height 0 and hides what is below it; by default it is below everything
     bases    the places of several arms in one picture: (arms, 2), x and y in m; targets,
              points, circles and faces are then in coordinates of the floor. Named points
              can label the arms
@@ -103,15 +103,15 @@ def animate(
     things   anything else to draw, of the kinds in `robokin.show.things` or of your own kinds
     watch    the panel that is large: "q", "v", "a", or the name of a quantity; None: the first
              quantity or, without one, q. The reader can choose another one
-    joints   the joints to watch, counted from one; the curves of the others are faint. None: all
+    joints   the joints to watch, counted from one; others have faint curves. None: all joints
     quantities  numbers with a panel of their own, such as a distance: a dict "name, unit" ->
              (samples,), or with the leading axes of q; for several arms a list with one for each
 
     Points, centres of circles and targets may move: a place is then (samples, 3), or with the
     leading axes of q (..., samples, 3) or, if it depends on slider and switch only, (..., 1, 3); a
-    target is a Transform with such a shape without the 3. NaN means that it is missing. No distance
-    from "via" is shown if it moves with time, or with `bases`. Several arms side by side share
-    targets, points, circles and faces.
+    target is a Transform with one of these shapes without the 3. NaN means that it is missing. No
+    distance from "via" is shown if it moves with time, or with `bases`. Several arms side by side
+    share targets, points, circles and faces.
 
     ValueError: shapes that do not match, fewer than three samples, times that do not increase,
     infinite numbers. TypeError: an arm or a target of another type.
@@ -144,7 +144,7 @@ class Output:
     data    the data of the page, ready for JSON
     still   the figure that is shown until the script runs, in print, and in an untrusted
             notebook
-    call    the module in js/ that shows it, and its function
+    call    the module in js/ and its function that show the piece
     """
 
     call = "player.play"
@@ -203,7 +203,7 @@ class Player(Output):
             super().save(path)
 
 
-# --- What the page gets ---------------------------------------------------------------------------
+# --- Page data ------------------------------------------------------------------------------------
 
 
 def page_data(
@@ -280,7 +280,8 @@ def _panel(
     """The scales of one panel, for revolute and prismatic joints, and the limits that it shows.
 
     All motions share one scale, and the panel shows the limits that any motion comes near to, so
-    that both stay while a slider moves. Limits of joints that are not to be watched are not shown.
+    that neither changes while a slider moves. The limits of joints that are not watched are not
+    shown.
     """
     per = ("", "/s", "/s²")[order]
     # two arrays (motions, n) for each arm

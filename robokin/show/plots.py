@@ -116,7 +116,7 @@ def plot_postures(
     q        (samples, n): the whole path, as finely as it is known. The tool's path is drawn
              through all samples, the first and last posture boldly and up to seven between them
              faintly. NaN rows are left out. If the flange does not move (as in the rows of `ik`),
-             up to nine postures are drawn alike.
+             up to nine postures are drawn in the same style.
     targets  list of Transforms (one: target; two: start, goal; three: start, via, goal) or dict of
              name -> Transform
     alt      the alternative text, if the numbers alone do not say enough
@@ -139,8 +139,8 @@ def plot_postures(
     if moves:
         scene.trace(tool.translation)
         scene.triad(tool[first], length=0.07 * size, width=2.4)
-        # The names "first" and "last" are where the two postures differ most, on the half next to
-        # the base, since the tool has names of its own.
+        # The names "first" and "last" are where the two postures differ most, on the half of the
+        # arm next to the base, since the tool has labels of its own.
         half = slice(1, len(arm.links) + 1)
         ends = arm_points(arm, q[[first, last]])[:, half]
         where = np.linalg.norm(ends[1] - ends[0], axis=-1).argmax()
@@ -224,17 +224,18 @@ def plot_joints(
                                             accelerations
 
     t (samples,) in seconds; q, v, a (samples, n) in radians and metres, drawn as they are: NaN is a
-    gap, a jump by a whole turn is a jump. Prismatic joints have panels of their own, in mm.
-    A limit is shaded if its joint comes near it; samples past it are marked and counted. Samples
-    are compared with the limits as drawn; q + 360 degrees may still be inside (see `within`). Jumps
-    are those that `record` finds. A lone spike, which a jump leaves in v or a when it is
-    differentiated, does not set the scale: it extends beyond the panel, and its heading says so.
+    gap, a jump by a whole turn is drawn as a jump. Prismatic joints have panels of their own, in
+    mm. A limit is shaded if its joint comes near it; samples past it are marked and counted.
+    Samples are compared with the limits as drawn; q + 360 degrees may still be inside (see
+    `within`). Jumps are those that `record` finds. A lone spike, which a jump leaves in v or a when
+    it is differentiated, does not set the scale: it extends beyond the panel, and its heading says
+    so.
     """
     title, alt = _words(title, "title"), _words(alt, "alt")
     given = {kind: values for kind, values in (("v", v), ("a", a)) if values is not None}
     if isinstance(arm, Recording):
         if t is not None or q is not None:
-            raise ValueError("t and q: wanted neither with a recording, which has its own")
+            raise ValueError("t and q: not wanted with a recording, which has its own")
         if arm.shape:
             raise ValueError(f"recording: wanted a single motion, got shape {arm.shape}")
         recording, kinds = arm, ["q", "v", "a"]

@@ -23,8 +23,8 @@ const choose = (arm, q, previous) => geometryOf(arm).choose(arm, q, previous);
 const room = ({limits, tolerances: {SLACK}}, j) => [limits[j][0] - SLACK, limits[j][1] + SLACK];
 
 /**
- * Which joints can take the posture q within their limits; a revolute one at q or at any number of
- * whole turns from it.
+ * Which joints of the posture q are within their limits; a revolute joint may be at q or any number
+ * of whole turns away from it.
  * @param {ArmData} arm
  * @param {number[]} q
  * @returns {boolean[]}
@@ -47,7 +47,7 @@ export const unwrapped = (arm, q, near) =>
   q.map((value, j) => (arm.prismatic[j] ? value : wrapped(value, near[j])));
 
 /**
- * As `unwrapped`, but inside the limits if such a value exists.
+ * Like `unwrapped`, but inside the limits if such a value exists.
  * @param {ArmData} arm
  * @param {number[]} q
  * @param {number[]} near

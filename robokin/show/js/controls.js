@@ -1,4 +1,4 @@
-// Canvases: turning the view by dragging, and when to draw again.
+// Canvases: turning the view by dragging, and scheduling redraws.
 
 import {colors, readColors} from "./canvas.js";
 import {control} from "./elements.js";
@@ -80,7 +80,7 @@ export function scrubbing(canvas, take) {
  * @param {HTMLElement} root
  * @param {HTMLCanvasElement[]} canvases
  * @param {(now: number) => boolean|void} draw  returns false if there was no room; it is called
- *   again as soon as there is
+ *   again as soon as there is room
  * @returns {() => void} ask
  */
 export function pictures(root, canvases, draw) {
@@ -90,7 +90,7 @@ export function pictures(root, canvases, draw) {
       asked = requestAnimationFrame(now => {
         asked = 0;
         if (!root.isConnected) return;
-        if (!colors.ink) readColors(canvases[0]); // asked before any canvas had a size
+        if (!colors.ink) readColors(canvases[0]); // `ask` was called before any canvas had a size
         if (draw(now) === false) watch();
       });
   };

@@ -8,16 +8,16 @@ import {dashes, drawPanel, FAINT, strength} from "./panel.js";
 /** @import {Panel, Place, Times} from "./panel.js" */
 
 /**
- * Panels over one time axis. `large`: the index of the one to watch; `names`: of the arms, if there
- * are several.
+ * Panels over one time axis. `large`: the index of the one to watch; `names`: the names of the
+ * arms, if there are several.
  * @typedef {{panels: Panel[], large: number, names: string[]}} Curves
  */
 /** @typedef {ReturnType<typeof curvesView>} CurvesView */
 /** @typedef {{text: string, color: string, width: number, dash: number[]}} Entry  of a legend */
 
 const HEAD = 22, // px above a plot, for the name of its panel
-  LEAST = 34, // px of a small plot
-  LARGE = 182; // px of the large plot
+  LEAST = 34, // px: the height of a small plot
+  LARGE = 182; // px: the height of the large plot
 
 /**
  * Draws panels.
@@ -121,7 +121,7 @@ function widest(g, panels) {
 }
 
 /**
- * The joints, and the arms if there are several.
+ * The legend of the joints, and of the arms if there are several.
  * @param {number[][]} patterns
  * @param {Panel[]} panels
  * @param {string[]} names

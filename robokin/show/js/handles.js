@@ -184,7 +184,7 @@ function apart([x, y], taken, room) {
  * A drag that changes one number whose handle moves along a curve: the component of the pointer's
  * motion along the curve's direction on the screen, updated as the handle moves.
  * @param {Camera} camera
- * @param {(value: number) => Point} place  where the handle is at a value
+ * @param {(value: number) => Point} place  the place of the handle for a value
  * @param {number} value  its value at the start
  * @param {number} step  a small change of the value
  * @returns {(dx: number, dy: number) => number}  the value after this displacement of the pointer

@@ -21,7 +21,7 @@ export function placeLabels(g, labels, taken, [left, top, width, height]) {
     const w = g.measureText(label.text).width + 4,
       h = 16,
       [px, py] = label.at;
-    let best = [NaN, NaN, NaN]; // its cost, left and top
+    let best = [NaN, NaN, NaN]; // the lowest cost, and its left and top
     for (const gap of [5, 14, 26, 40])
       for (let k = 0; k < 12; k++) {
         const c = Math.cos((k * Math.PI) / 6),

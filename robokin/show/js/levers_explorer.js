@@ -33,7 +33,7 @@ import {point} from "./mark.js";
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {LeversExplorer} data
  */
@@ -108,7 +108,7 @@ function leversExplorer(stage, data) {
 }
 
 /**
- * The sliders of the point, of alpha and, for unequal levers, of their lengths.
+ * The sliders for the point, for alpha and, if the levers are unequal, for their lengths.
  * @param {Stage} stage
  * @param {LeversExplorer} data
  * @param {State} state
@@ -253,7 +253,7 @@ const pythonOf = ({code, unit}, {place, alpha, arm}) =>
  * @param {HTMLCanvasElement} canvas
  * @param {Record<string, string>} says
  * @param {?Costs} costs
- * @returns {?{alphaAt: (px: number) => number}}  the angle at a horizontal place
+ * @returns {?{alphaAt: (px: number) => number}}  the angle at a horizontal position
  */
 function drawCosts(canvas, says, costs) {
   const ready = prepared(canvas);

@@ -31,13 +31,12 @@ import {frame} from "./target.js";
 /** @typedef {Stations & StartValues} Asked */
 /** @typedef {Asked & {time: number, playing: boolean}} State  `time` in seconds */
 /**
- * The greatest speeds and accelerations of a motion, including those between the samples if they
- * are `sure`.
+ * The greatest speeds and accelerations of a motion, including those between the samples if `sure`.
  * @typedef {{sure: boolean, values: number[][]}} Tops
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {MotionData} data
  */

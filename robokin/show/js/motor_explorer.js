@@ -21,7 +21,7 @@ import {degrees, radians} from "./turns.js";
 /** @typedef {ReturnType<typeof motorStage>} Stage */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {PageMotors} data
  */
@@ -272,7 +272,7 @@ function menusOf(bench, {words: says, kinds, drives}, changed) {
 }
 
 /**
- * The phase table, made again for another motor. Choosing a row switches its windings on.
+ * The phase table, which is rebuilt for another motor. Choosing a row switches its windings on.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors["words"]} says

@@ -8,11 +8,11 @@ import {colors, font, hit, jointColor, number} from "./canvas.js";
 /** The colour of a line. @type {(line: Line) => string} */
 export const lineColor = ({joint}) => (joint < 0 ? colors.ink : jointColor(joint));
 
-/** Joint colours that are readable as text. @type {(color: string) => string} */
+/** A joint's colour, changed so that text in it is readable. @type {(color: string) => string} */
 export const shade = color => `color-mix(in srgb, ${color} 60%, ${colors.ink})`;
 
 /**
- * The words of a panel, placed once for each size and theme, and not in every picture.
+ * The words of a panel, placed once for each size and theme, not again in every picture.
  * @param {Context} g
  * @param {Panel} panel
  * @param {Place[]} ys  the height of a value, for each line

@@ -63,7 +63,7 @@ const STEPS = 9,
   MOMENTS = 16; // steps of search and motion per second
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {PlanExplorer} data
  */

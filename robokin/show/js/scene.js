@@ -33,7 +33,7 @@ import {compass} from "./triad.js";
  * @property {boolean} [framed]  show the frame of every link
  * @property {number[]} [past]  the joints that are past a limit
  * @property {string} [row]  the row of `ik` to which the posture belongs
- * @property {Draw} [under]  draws what else there is, below the arm
+ * @property {Draw} [under]  draws anything else below the arm
  * @property {Draw} [over]  the same above it
  */
 /** @typedef {ReturnType<typeof surroundings>} Space  the fixed surroundings of a scene */
@@ -65,7 +65,7 @@ import {compass} from "./triad.js";
 const KINDS = kinds;
 
 /**
- * The scene of a page, as yet without things.
+ * The scene of a page, still without things.
  * @param {{scene: PageScene, unit: Unit}} page
  * @returns {Scene}
  */
@@ -135,7 +135,7 @@ export function sceneView(canvas, scene) {
 }
 
 /**
- * The numbers of columns and rows in which so many pictures are largest.
+ * The numbers of columns and rows in which `count` pictures are largest.
  * @param {Scene} scene
  * @param {Space} space
  * @param {number} count

@@ -288,7 +288,7 @@ export function menu(name, texts, take) {
  * A check box.
  * @param {string} name
  * @param {() => void} take
- * @param {boolean} [on]  whether it is ticked at first
+ * @param {boolean} [on]  whether it is initially ticked
  */
 export function tick(name, take, on = false) {
   const box = control("input", {type: "checkbox"});

@@ -33,7 +33,7 @@ import {degrees, ellipsoidOf, inCode, radians, rotationOf} from "./turns.js";
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {TargetExplorer} data
  */

@@ -62,7 +62,7 @@ import {point} from "./mark.js";
  */
 
 /**
- * Builds the view in every place that waits for this id.
+ * Builds the view in every element that waits for this id.
  * @param {string} id
  * @param {TourExplorer} data
  */
@@ -107,7 +107,7 @@ function tourExplorer(root, id, stage, data) {
     tell();
   });
 
-  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // at first there is a tour
+  let last = /** @type {Tour} */ (heard.tours.find(Boolean)).at(0); // the first answer has a tour
   stage.run(() => {
     clock.pass(performance.now());
     clock.tell();
