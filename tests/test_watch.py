@@ -31,7 +31,7 @@ def motions():
 
 @pytest.fixture
 def page(browser):
-    """A page as wide as a JupyterLab output next to its file browser, on a screen of 1366 pixels."""
+    """A page as wide as a JupyterLab output next to its file browser, on a screen 1366 px wide."""
     page = browser.new_page(viewport={"width": 914, "height": 647})
     said = []
     page.on("pageerror", lambda error: said.append(str(error)))

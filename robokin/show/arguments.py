@@ -128,7 +128,7 @@ def _pair(value: Any, name: str, what: str) -> tuple[str, Any]:
 
 
 def slider(value: Any) -> Slider | None:
-    """Return (name, values) as page data."""
+    """Return a slider (name, values) as page data."""
     if value is None:
         return None
     label, given = _pair(value, "slider", "values")
@@ -144,7 +144,7 @@ def slider(value: Any) -> Slider | None:
 
 
 def switch(value: Any) -> Switch | None:
-    """Return (name, words) as page data."""
+    """Return a switch (name, words) as page data."""
     if value is None:
         return None
     label, values = _pair(value, "switch", "words")

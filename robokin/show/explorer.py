@@ -1,4 +1,4 @@
-"""The common parts of all explorers of an arm: page data, words, code, still picture."""
+"""The common parts of all explorers of an arm: page data, text, code, still picture."""
 
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias

@@ -3,7 +3,7 @@
 In `joint_explorer` the reader turns joints; in `target_explorer` the reader moves a target and sees
 every branch of `ik` with its verdict. The page computes with the scripts in `js/`; `twin.py`
 prepares the data of the arm. The reasons why a row of `ik` does not exist or cannot be used are in
-`arms/verdicts.py`, all other words in `explorer.WORDS`.
+`arms/verdicts.py`, all other text is in `explorer.WORDS`.
 """
 
 import numpy as np

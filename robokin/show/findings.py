@@ -1,4 +1,4 @@
-"""Findings in recorded motions, for the words beside their curves: greatest values, the distance to
+"""Findings in recorded motions, for the text next to their curves: greatest values, the distance to
 a via point, jumps and gaps, and a summary in one sentence.
 """
 

@@ -2,7 +2,7 @@
 rotor without a kernel.
 
 The page computes with `js/rotor.js`, which implements `jobs.steppers.Stepper`. The phase tables,
-the positions of the poles and all words come from this module.
+the positions of the poles and all text come from this module.
 """
 
 from collections.abc import Sequence
@@ -202,7 +202,7 @@ class PageMotors(TypedDict):
 
 def motor_explorer(motor: Stepper | None = None) -> Explorer:
     """Show a stepper motor along its shaft: windings coloured by their currents, the field, and a
-    rotor to turn; beside it the phase table with the current row. Pulses come one by one or as a
+    rotor to turn; next to it the phase table with the current row. Pulses come one by one or as a
     run at a frequency, with a load and a ramp; lost steps are counted and drawn over time. Menus
     choose rotor, feed, windings and drive.
 

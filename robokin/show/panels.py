@@ -39,8 +39,8 @@ WORDS = {"q": ("angle", "position"), "v": ("speed", "speed"), "a": ("acceleratio
 class Panel:
     """One panel of a figure.
 
-    heading  the words above it, wrapped when its width is known
-    labels   [(words, limit, 1 for above it or -1 for below it)] of the limits that it shows;
+    heading  the text above it, wrapped once its width is known
+    labels   [(text, limit, 1 for above it or -1 for below it)] of the limits that it shows;
              they are placed later
     facts    its sentences in the alt text
     """
@@ -53,7 +53,7 @@ class Panel:
 
 def without_spikes(recording: Recording, kind: str, values: Floats) -> Floats:
     """Return the caller's speeds or accelerations (samples, n) with NaN in place of the spikes that
-    a differentiated jump leaves: values beside a jump that exceed all others by more than half.
+    a differentiated jump leaves: values next to a jump that exceed all others by more than half.
     """
     beside = np.zeros(values.shape, dtype=bool)
     for jump in _jumps(recording, kind):
@@ -245,7 +245,7 @@ def _jumps(recording: Recording, kind: str) -> list[Jump]:
 
 
 def _write_limits(panel: Panel) -> None:
-    """Write the words beside each limit line, inside or beyond it, where it covers the curves
+    """Write the text next to each limit line, inside or beyond it, where it covers the curves
     least.
     """
     ax = panel.ax

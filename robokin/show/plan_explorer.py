@@ -1,6 +1,6 @@
 """The explorer of plans: an arm of three levers with a target and an obstacle to drag.
 
-The page draws, and a kernel plans: see `live`. Beside the plane is the cube of all postures. It
+The page draws, and a kernel plans: see `live`. Next to the plane is the cube of all postures. It
 shows the body of forbidden postures, and a breadth-first search past it to the curve of the
 postures that reach the target. The cube has steps of `STEP`, for display only;
 `robokin.jobs.obstacles.plan` searches in finer steps.
@@ -221,7 +221,7 @@ def _page(arm: ThreeLeverArm, first: Question, known: Plan, summary: str) -> Pla
 
 
 def _picture(arm: ThreeLeverArm, first: Question, answer: Answer, alt: str) -> plots.Figure:
-    """Draw the plane, and the cube beside it."""
+    """Draw the plane, and the cube next to it."""
     fig = plots.figure(alt, width=4.4, height=2.1)
     blue, orange, green = (style["color"] for style in JOINT_STYLES[:3])
     plane, cube = fig.add_axes((0, 0, 0.58, 0.9)), fig.add_axes((0.6, 0, 0.4, 0.9))

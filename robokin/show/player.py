@@ -1,4 +1,4 @@
-"""The player: an arm that moves beside its curves, in any browser, without a kernel or a network.
+"""The player: an arm that moves next to its curves, in any browser, without a kernel or a network.
 
 `animate` computes everything once, at full resolution, and stores compact numbers in the page:
 joint values, speeds and accelerations of about a hundred samples, and the table of greatest values

@@ -65,7 +65,7 @@ class Scene:
         self.ground = 0.0 if self.flat or "floor" not in like else like["floor"][0][2]
         # points below which the floor must extend
         self.corners: list[Floats] = [np.zeros((1, 3))]
-        # for each label: its words, place, colour and size
+        # for each label: its text, place, colour and size
         self.labels: list[tuple[str, Floats, str, float]] = []
         # centre and half the size, in pixels, of each placed label, in the order of `labels`
         self.boxes: list[tuple[Floats, Floats]] = []
@@ -228,7 +228,7 @@ class Scene:
             )
 
     def label(self, words: str, point: Floats, color: str = INK, size: float = 9.5) -> None:
-        """Add words beside a point (3,); `place_labels` finds a free place for them."""
+        """Add text next to a point (3,); `place_labels` finds a free place for it."""
         where = self.project(point)
         if not any(
             words == other and np.allclose(where, there, rtol=0, atol=1e-6)
@@ -320,7 +320,7 @@ class Scene:
     def _fit(
         self, x0: float, x1: float, y0: float, y1: float, fit: tuple[float, float] | None
     ) -> None:
-        """Set limits that fill the axes with this range (metres) and leave room for words at the
+        """Set limits that fill the axes with this range (metres) and leave room for text at the
         edges (pixels).
         """
         figure: Any = self.ax.figure

@@ -6,7 +6,7 @@ import {advance, atRest, pull, ramp, resting, run} from "./rotor.js";
 /** @import {MotorControl, PageMotors} from "./page.js" */
 /** @import {Motor, Run} from "./rotor.js" */
 
-const SLOW = 20; // how many times slower than real time a pulse or a released rotor is shown
+const SLOW = 20; // slow-motion factor for a single pulse or a released rotor
 const SHOWN = 8; // seconds that the display of a run takes
 const LONG = 2; // motor seconds: a rotor that does not come to rest is not shown for longer
 

@@ -21,7 +21,7 @@ export const fill = (sentence, facts) =>
 export const oneDecimal = x => ((4 * x) % 1 === 0 ? rint(10 * x) / 10 : x).toFixed(1);
 
 /**
- * A length in words, as `in_words` in units.py returns it.
+ * A length as text, as `in_words` in units.py returns it.
  * @param {number} x  metres
  */
 export const inWords = x => (x < 10 ? `${oneDecimal(x / 1e-3)} mm` : `${oneDecimal(x)} m`);

@@ -1,4 +1,4 @@
-// A blended motion, with all its curves and words.
+// A blended motion, with the data of its curves and sentences.
 
 import {follow, onward} from "./branches.js";
 import {ik, singularities} from "./geometries.js";

@@ -1,4 +1,4 @@
-// The choice among the rows of `ik`, and the words about them, as in branches.py and verdicts.py.
+// The choice among the rows of `ik`, and sentences about them, as in branches.py and verdicts.py.
 
 import {TURN, wrapped} from "./kinematics.js";
 import {exists, leastTravel} from "./rows.js";
@@ -146,7 +146,7 @@ export function follow(arm, samples, row) {
 }
 
 /**
- * By how much joint j is past its limit, in words.
+ * By how much joint j is past its limit, as text.
  * @param {ClosedFormArm} arm
  * @param {number[]} q
  * @param {number} j

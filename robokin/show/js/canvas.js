@@ -1,4 +1,4 @@
-// Lines, shapes and words on a canvas, in the colours of the page; formatted numbers.
+// Lines, shapes and text on a canvas, in the colours of the page; formatted numbers.
 
 /** @typedef {[number, number]} Pixel  CSS pixels from the upper left corner of a canvas */
 /** @typedef {number[]} Point  x, y, z in metres, base coordinates */
@@ -51,7 +51,7 @@ export const colors = {
   joint6: "",
 };
 
-let family = "sans-serif"; // the font of words; `readColors` sets it, too
+let family = "sans-serif"; // the font of text; `readColors` sets it, too
 
 /** Reads the current colours of an element in .rk from the style sheet. @param {Element} place */
 export function readColors(place) {
@@ -61,7 +61,7 @@ export function readColors(place) {
     colors[name] = style.getPropertyValue(`--rk-${name}`).trim();
 }
 
-/** A font for words on a canvas. @type {(size: number, weight?: string | number) => string} */
+/** A font for text on a canvas. @type {(size: number, weight?: string | number) => string} */
 export const font = (size, weight = "") => `${weight} ${size}px ${family}`;
 
 /** The colour of a joint. @param {number} j from 0 */
@@ -189,7 +189,7 @@ export const spot = (g, [x, y], radius, fill, edge = colors.paper, width = 1.5) 
   shape(g, () => g.arc(x, y, radius, 0, 2 * Math.PI), fill, edge, width);
 
 /**
- * Writes words with an outline, readable over lines.
+ * Writes text with an outline, so that it is readable over lines.
  * @param {Context} g
  * @param {string} text
  * @param {number} x

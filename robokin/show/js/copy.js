@@ -3,7 +3,7 @@
 import {control} from "./elements.js";
 
 /**
- * @param {Record<string, string>} words  what the button says: `copy`, and `copied` once it has
+ * @param {Record<string, string>} words  the text of the button: `copy`, and `copied` once it has
  *   copied
  * @param {() => string} text
  */

@@ -72,7 +72,7 @@ export function curvesView(canvas, patterns) {
 
 /**
  * [index, height of the plot] of the panels for which there is room: always the large one, which
- * gets at least half, and as many of the others as fit, the first ones first.
+ * gets at least half, and as many of the others as fit, from the first one on.
  * @param {number} count
  * @param {number} large
  * @param {number} room
@@ -107,7 +107,7 @@ function tellTimes(g, [first, step, count, decimals], [t0, t1], x, y) {
 }
 
 /**
- * The width of the numbers beside the panels.
+ * The width of the numbers next to the panels.
  * @param {Context} g
  * @param {Panel[]} panels
  */

@@ -1,5 +1,5 @@
-// The joint explorer: the reader drags joints. All words and the data of the arm come from Python
-// (page.py: JointPage).
+// The joint explorer: the reader drags joints. All text and the arm data come from Python (page.py:
+// JointPage).
 
 import {distance_from_singularity, fk, origin, quaternion} from "./kinematics.js";
 import {singularities} from "./geometries.js";
@@ -145,7 +145,7 @@ function cells({arm, unit, rows}, q) {
 }
 
 /**
- * The singularities of the posture, in words.
+ * The singularities of the posture, as text.
  * @param {JointExplorer} data
  * @param {number[]} q
  */

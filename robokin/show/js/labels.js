@@ -1,4 +1,4 @@
-// Labels beside their points.
+// Labels next to their points.
 
 import {font, hit, write} from "./canvas.js";
 
@@ -7,7 +7,7 @@ import {font, hit, write} from "./canvas.js";
 /** @typedef {{text: string, at: Pixel, color: string, weight?: string}} Label */
 
 /**
- * Writes each label beside its point, where it covers other labels, lines and the edge least.
+ * Writes each label next to its point, where it covers other labels, lines and the edge least.
  * @param {Context} g
  * @param {Label[]} labels
  * @param {Pixel[]} taken

@@ -1,6 +1,6 @@
 // The explorer of an arm that reaches a point with a family of postures. The reader drags the
 // point, chooses the free angle on the curve of its cost, and sets the lengths of levers with
-// sliders. All words and the data of the arm come from Python (page.py: LeversPage).
+// sliders. All text and the arm data come from Python (page.py: LeversPage).
 
 import {plus} from "./kinematics.js";
 import {alpha_range, family, least, withLevers} from "./levers.js";

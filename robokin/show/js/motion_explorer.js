@@ -1,5 +1,5 @@
-// The motion explorer: a blended motion with stations to drag. All words and the data of the arm
-// come from Python (page.py: MotionPage).
+// The motion explorer: a blended motion with stations to drag. All text and the arm data come from
+// Python (page.py: MotionPage).
 
 import {fill} from "./blanks.js";
 import {most, motionOf, nearDecimals, topsOf} from "./blended.js";
@@ -250,7 +250,7 @@ const nearWords = ({words, unit}, distance) =>
     : "";
 
 /**
- * The flaws of the motion, in words.
+ * The flaws of the motion, as sentences.
  * @param {MotionData} data
  * @param {Motion} motion
  */

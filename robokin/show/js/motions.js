@@ -65,7 +65,7 @@ function armIn(motion, {name, chain, gaps, via, rows}, recorded, samples, unit) 
     gaps: breaks,
     places: trace,
     trace: broken(trace, breaks),
-    /** The row of `ik` at a sample, in words. @type {(i: number) => string} */
+    /** The row of `ik` at a sample, as text. @type {(i: number) => string} */
     row: i => rows?.[motion]?.findLast(([first]) => first <= i)?.[1] ?? "",
     /** @type {(i: number, share: number) => number[]} */
     q: (i, share) => recorded.q(motion, i, share),
@@ -143,7 +143,7 @@ function limitsOf({limits: [low, high], speedLimits}, order, joint) {
 }
 
 /**
- * The marks of an arm's jumps in position and speed. The words of each jump are in only one panel.
+ * The marks of an arm's jumps in position and speed. The text of each jump is in only one panel.
  * @param {Page} data
  * @param {PageArm} arm
  * @param {number} order

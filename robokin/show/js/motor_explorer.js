@@ -1,5 +1,5 @@
 // The motor explorer: a stepper motor seen along its shaft, its phase table, and the response of
-// its rotor to pulses. Words, tables and poles come from Python (motors.py), the model is in
+// its rotor to pulses. Text, tables and poles come from Python (motors.py), the model is in
 // rotor.js.
 
 import {Bench} from "./bench.js";
@@ -179,7 +179,7 @@ function pulseRow(stage, bench, clock, says) {
 }
 
 /**
- * The inputs beside the picture.
+ * The inputs next to the picture.
  * @param {Stage} stage
  * @param {Bench} bench
  * @param {PageMotors} data

@@ -36,10 +36,10 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  * @property {Line[]} lines
  * @property {[line: number, side: number][]} near  the limits to show, side 0 low or 1 high
  * @property {Mark[]} marks
- * @property {string} [where]  the size and theme for which the places of its words were found
+ * @property {string} [where]  the size and theme for which its text was placed
  * @property {Note[]} [words]
  */
-/** @typedef {{time: number, text: string}} Mark  a dashed vertical line with a text beside it */
+/** @typedef {{time: number, text: string}} Mark  a dashed vertical line with text next to it */
 /** @typedef {[text: string, place: Box, color: string, size: number, weight?: string]} Note */
 /** @typedef {ArrayLike<number>} Times  increasing times in s */
 /** @typedef {(value: number) => number} Place  maps a time or a value to a place on the canvas */
@@ -53,7 +53,7 @@ import {lineColor, panelWords, shade} from "./panel_words.js";
  */
 
 export const FAINT = 0.28; // opacity of a curve that is not to be watched
-const SMALL = 60; // px: a panel of less height shows only the ends of its scale, and no words
+const SMALL = 60; // px: a panel of less height shows only the ends of its scale, and no text
 const PAST = 0.002; // an excess over a limit by no more than this is rounding
 
 /** The width of the lines of an arm. @type {(arm: number) => number} */

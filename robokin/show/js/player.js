@@ -1,4 +1,4 @@
-// The player: recorded motions of arms in space beside their curves. page.py has its data.
+// The player: recorded motions of arms in space next to their curves. page.py has its data.
 
 import {number, replaceStill} from "./canvas.js";
 import {sceneOf, sceneView} from "./scene.js";
@@ -130,7 +130,7 @@ function furniture(data) {
 const labelsOf = ({panels, quantities}) => [...panels, ...quantities].map(({label}) => label);
 
 /**
- * A button that shows and hides a part of the page; on paper the part is always shown.
+ * A button that shows and hides a part of the page; in print the part is always shown.
  * @param {string} name
  * @param {HTMLElement} part
  */

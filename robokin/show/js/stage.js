@@ -56,7 +56,7 @@ export function stageOf(root, data) {
 }
 
 /**
- * The frame of an explorer: a picture with handles over it, a column of controls beside it, and
+ * The frame of an explorer: a picture with handles over it, a column of controls next to it, and
  * room below.
  *
  * run(answer)  from now on, calls `answer(now)` for the state to draw, once for every picture after

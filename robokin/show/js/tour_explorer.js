@@ -1,5 +1,5 @@
 // The explorer of tours: points to drag, the tours that a kernel computes (live.js), and a clock
-// that moves the arm along them and needs no kernel. The words come from Python (tour_explorer.py).
+// that moves the arm along them and needs no kernel. The text comes from Python (tour_explorer.py).
 
 import {number} from "./canvas.js";
 import {clockRow, runningClock} from "./clock.js";
